@@ -22,7 +22,7 @@ export PATH := $(CURDIR)/$(BIN):$(PATH)
 
 PRINTED := tests/cli/test_printed_commands.py
 
-.PHONY: demo build test test-deep lint rust-test python-test wheel-test bench docs clean
+.PHONY: demo build test test-deep lint rust-test python-test wheel-test studio-test bench docs clean
 
 demo: build
 	$(BIN)/linkwright run machines/roller_two_carts.toml --out out/roller_two_carts
@@ -51,7 +51,7 @@ $(TOOLS): $(BUILT)
 
 # Two at a time: one waits for a compiler or for the network while the other computes.
 test:
-	$(MAKE) --no-print-directory -j2 --output-sync=target lint rust-test python-test wheel-test
+	$(MAKE) --no-print-directory -j2 --output-sync=target lint rust-test python-test wheel-test studio-test
 
 lint: $(TOOLS)
 	cargo fmt --all --check
@@ -77,6 +77,18 @@ wheel-test: $(TOOLS)
 	$(BIN)/python -c 'import site; print(site.getsitepackages()[0])' > \
 	  $$($(WHEEL)/env/bin/python -c 'import site; print(site.getsitepackages()[0])')/borrowed.pth
 	cd $(WHEEL) && LINKWRIGHT_WHEEL=1 env/bin/python -m pytest -n 2 -p no:cacheprovider $(CURDIR)/$(PRINTED)
+
+# The studio's page: types, pieces, and the whole of it in a browser. Node serves these tests alone; the page needs none.
+CHROMIUM ?= $(or $(shell command -v chromium),/usr/bin/chromium)
+
+studio-test: $(TOOLS)
+	@command -v node npm > /dev/null || { echo "The tests of the studio need Node.js 20 or newer with npm (https://nodejs.org); the studio itself needs none."; exit 1; }
+	@test -x $(CHROMIUM) || apt-get install -qq -y chromium > /dev/null || { echo "The tests of the studio need Chromium: apt-get install chromium, or make test CHROMIUM=/path/to/it."; exit 1; }
+	npm ci --silent --no-audit --no-fund
+	node tests/studio/vendor.mjs --check
+	node_modules/.bin/tsc -p tests/studio/tsconfig.json
+	node --test tests/studio/client/
+	CHROMIUM=$(CHROMIUM) node --test tests/studio/browser/
 
 MINUTES ?= 60
 

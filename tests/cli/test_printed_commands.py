@@ -27,6 +27,8 @@ PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 _FENCED = re.compile(r"^```(\w+)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
 # Of a clone, or of what a reader has at hand.
 _ELSEWHERE = ("train.toml", "study.toml")
+# Serves until it is interrupted; `tests/studio` opens it.
+_ENDLESS = "linkwright studio"
 # Commands whose machine cannot do it, as the page says.
 _FINDINGS = ("check press.toml --set mechanism.cranks.A.radius=",)
 
@@ -35,7 +37,7 @@ def commands(page: Path) -> list[str]:
     """Commands of a page, in order."""
     blocks = _FENCED.findall(page.read_text(encoding="utf-8"))
     lines = [line.removeprefix("$ ") for _, text in blocks for line in text.splitlines()]
-    printed = [line for line in lines if line.startswith("linkwright ")]
+    printed = [line for line in lines if line.startswith("linkwright ") and not line.startswith(_ENDLESS)]
     return [each for each in printed if not any(word in each for word in _ELSEWHERE)]
 
 

@@ -30,6 +30,11 @@ SILENT = {
     ("app/report/scene.py", "_closes"): "the same, and a mechanism that does not move is not drawn",
     ("cam/scene.py", "_contacts"): "a cam without room for its second follower is reported by the study",
     ("torsion/figures/captions.py", "_manoeuvre"): "a record too short for orders has no waterfall",
+    (
+        "studio/controls.py",
+        "_number",
+    ): "a text that is no quantity is a problem of the file, which stands beside it",
+    ("studio/drawing.py", "thumbnail"): "a machine that cannot be drawn has no picture; opening it says why",
     ("sizing/flywheel.py", "_unevenness"): "no steady motion is an answer there: δ counts as infinite",
     ("studies/engine.py", "_solve"): "rows that a batch cannot hold are solved one by one, and say why",
     ("studies/sweep.py", "_try"): "what a machine cannot do as it is, its variants may, and each row says so",
@@ -80,14 +85,15 @@ def test_no_handler_forgets_an_error_of_ours() -> None:
 
 
 def test_a_study_has_one_collector_of_findings() -> None:
-    # A second collector is one whose findings nobody asks for; a check is a study of its own.
+    # A second collector is one whose findings nobody asks for; a check is a study of its own, and so is what
+    # the studio computes while a slider is held.
     made = [
         file
         for file, tree in trees()
         for node in ast.walk(tree)
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "Findings"
     ]
-    assert sorted(made) == ["app/soundness.py", "app/study.py", "kernel/findings.py"]
+    assert sorted(made) == ["app/soundness.py", "app/study.py", "kernel/findings.py", "studio/analyses.py"]
 
 
 def test_nothing_is_suppressed_by_contextlib() -> None:

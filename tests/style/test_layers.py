@@ -36,6 +36,7 @@ HOUSE = {
     "studies.commands": COMMANDS,
     "papers": PAPERS,
     "app": APP,
+    "studio": APP,
     "__main__": APP,
 }
 
@@ -192,7 +193,7 @@ def test_imports_point_down_and_keep_to_their_room() -> None:
 
 def test_every_room_is_listed() -> None:
     rooms = {path.name for path in ROOT.iterdir() if (path / "__init__.py").exists()}
-    assert rooms == {*SUBJECTS, "kernel", "machine", "studies", "papers", "app"}
+    assert rooms == {*SUBJECTS, "kernel", "machine", "studies", "papers", "app", "studio"}
 
 
 def test_every_room_has_its_map() -> None:

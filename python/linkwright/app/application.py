@@ -52,6 +52,7 @@ COMMANDS = {
     "new": Place("Write a machine file to start from.", "app.commands.new:new"),
     "schema": Place("Print the JSON Schema of machine files.", "app.commands.schema:schema"),
     "glossary": Place("Define the terms of tables, messages and reports.", "app.commands.glossary:glossary"),
+    "studio": Place("Work on a machine in the browser.", "studio.command:studio"),
 }
 
 GROUPS = {

@@ -152,12 +152,25 @@ def motion(
 def _path(position: Floats, each: Any, rates: Floats) -> Path:
     """The chain rule."""
     _, w, a, j = rates
-    return Path(
-        position,
-        each.d1 * w,
-        each.d2 * w**2 + each.d1 * a,
-        each.d3 * w**3 + 3 * each.d2 * w * a + each.d1 * j,
-    )
+    return Path(position, *rates_of(each, w, a), each.d3 * w**3 + 3 * each.d2 * w * a + each.d1 * j)
+
+
+def rates_of(each: Any, speed: Floats, acceleration: Floats) -> tuple[Floats, Floats]:
+    """Velocity and acceleration of a point, a link or a slide under a motion of the crank.
+
+    Parameters
+    ----------
+    each : PointMotion, LinkMotion or SlideMotion
+        Its transfer functions.
+    speed, acceleration : ndarray, shape (n,) or (n, 1)
+        Of the crank at the same angles [rad/s, rad/s²]; in a column for a point.
+
+    Returns
+    -------
+    tuple of ndarray
+        [m/s, m/s²], of a link [rad/s, rad/s²].
+    """
+    return each.d1 * speed, each.d2 * speed**2 + each.d1 * acceleration
 
 
 def _require_within(compiled: Compiled, machine: Machine, law: Law, times: Floats) -> None:

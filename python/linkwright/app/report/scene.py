@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.app.study import Study
+from linkwright.drive.steady_state import SteadyState
 from linkwright.kernel.errors import AssemblyError
 from linkwright.linkages.closure import Closure, closure
 from linkwright.linkages.kinematics import Kinematics, kinematics
@@ -51,37 +52,68 @@ def scene(study: Study) -> Scene | None:
     Returns
     -------
     dict or None
-        ``angles`` [rad], ``times`` [s], ``speeds`` [rad/s], ``points``, x and y [m] by name, ``headings``,
-        angles of links [rad] by name, all at the same instants; ``parts`` to draw; ``box``, minimum
-        and maximum x and y; ``swings``, whether the motion goes back and forth; ``true_speed``, whether the
-        times are those of steady motion. None if the mechanism closes nowhere, or nothing moves.
+        As of `moving_scene`, in lists without more digits than can be seen; without the motion.
     """
-    machine = study.machine
+    found = moving_scene(study.machine, study.steady_state)
+    if found is None:
+        return None
+    box = found["box"]
+    fineness = _FINENESS * max(box[2] - box[0], box[3] - box[1])
+    times, speeds = found["times"], found["speeds"]
+    return {
+        "angles": _rounded(found["angles"], 1e-5),
+        "times": _rounded(times, 1e-6 * float(times[-1])),
+        "speeds": _rounded(speeds, 1e-5 * float(np.max(np.abs(speeds)))),
+        "points": {
+            name: [_rounded(xy[:, 0], fineness), _rounded(xy[:, 1], fineness)]
+            for name, xy in found["points"].items()
+        },
+        "headings": {name: _rounded(angle, _FINENESS) for name, angle in found["headings"].items()},
+        **{key: found[key] for key in ("parts", "box", "swings", "true_speed")},
+    }
+
+
+def moving_scene(machine: Machine, steady: SteadyState | None) -> Scene | None:
+    """All that is drawn of a mechanism in motion.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    steady : SteadyState or None
+        Its steady motion, if that is known.
+
+    Returns
+    -------
+    dict or None
+        ``angles`` [rad], ``times`` [s], ``speeds`` [rad/s], ``points``, x and y [m] by name, ``headings``,
+        angles of links [rad] by name, all arrays at the same instants; ``parts`` to draw; ``box``, minimum
+        and maximum x and y; ``swings``, whether the motion goes back and forth; ``true_speed``, whether the
+        times are those of steady motion; ``motion``, the `Kinematics`. None if the mechanism closes nowhere,
+        or nothing moves.
+    """
     if not _closes(machine):
         return None
     found = closure(machine)
     motion = kinematics(machine, _angles(found))
     drawn = _points(machine, motion)
     listed = list(parts(machine, motion))
-    box = _box(machine, drawn, listed, motion)
-    fineness = _FINENESS * max(box[2] - box[0], box[3] - box[1])
-    times, speeds = _times(study, motion.angles)
+    times, speeds = _times(machine, steady, motion.angles)
     headings = {name: link.angle for name, link in motion.links.items()} | _cam_headings(
         machine, motion.angles
     )
     turning = {part["link"] for part in listed if part.get("link")}
     return {
-        "angles": _rounded(motion.angles, 1e-5),
-        "times": _rounded(times, 1e-6 * float(times[-1])),
-        "speeds": _rounded(speeds, 1e-5 * float(np.max(np.abs(speeds)))),
-        "points": {
-            name: [_rounded(xy[:, 0], fineness), _rounded(xy[:, 1], fineness)] for name, xy in drawn.items()
-        },
-        "headings": {name: _rounded(headings[name], _FINENESS) for name in sorted(turning)},
+        "angles": motion.angles,
+        "times": times,
+        "speeds": speeds,
+        "points": drawn,
+        "headings": {name: headings[name] for name in sorted(turning)},
         "parts": listed,
-        "box": box,
+        "box": _box(machine, drawn, listed, motion),
         "swings": not found.turns_fully,
-        "true_speed": study.steady_state is not None,
+        "true_speed": steady is not None,
+        "motion": motion,
     }
 
 
@@ -159,16 +191,15 @@ def _box(machine: Machine, drawn: dict[str, Floats], listed: list[Scene], motion
     return [float(value) for value in (*together.min(axis=0), *together.max(axis=0))]
 
 
-def _times(study: Study, angles: Floats) -> tuple[Floats, Floats]:
+def _times(machine: Machine, steady: SteadyState | None, angles: Floats) -> tuple[Floats, Floats]:
     """Time and speed at each angle."""
-    steady = study.steady_state
     if steady is not None:
         # The last angle of a revolution is not the first of the next, which would be back at its time zero.
         turn = np.ceil(angles / (2 * np.pi) - 1e-9) - 1
         within = angles - 2 * np.pi * turn
         time = turn * steady.period + np.interp(within, steady.crank_angle, steady.time)
         return time - time[0], np.interp(within, steady.crank_angle, steady.speed)
-    drive = study.machine.drive
+    drive = machine.drive
     even = np.linspace(0.0, 1.0, len(angles))
     span = float(angles[-1] - angles[0])
     speed = drive.speed if drive and drive.speed else span / _DURATION

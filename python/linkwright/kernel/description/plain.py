@@ -7,14 +7,16 @@ checked even where its tables could not be turned into models. Both are read thr
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from functools import cache
 from typing import Any
 
 import numpy as np
 from pydantic import BaseModel
 
 
+@cache
 def field_names(model: type[BaseModel]) -> dict[str, str]:
-    """Key in a file → name of the field; they differ only where the key is a word of Python."""
+    """Key in a file → name of the field; they differ where a key is a word of Python. Shared: read only."""
     return {field.alias or name: name for name, field in model.model_fields.items()}
 
 

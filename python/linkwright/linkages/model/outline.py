@@ -29,6 +29,7 @@ from graphlib import CycleError, TopologicalSorter
 from types import MappingProxyType
 from typing import Literal, NamedTuple
 
+from pydantic import BaseModel
 from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import fault, suggestion
@@ -147,6 +148,11 @@ class Element:
         return tuple(self.name + ending for ending in endings)
 
 
+# Outlines of the mechanisms looked at last, which an analysis asks for a dozen times.
+_KNOWN_MAX = 8
+_known: dict[int, tuple[object, Outline]] = {}
+
+
 @dataclass(frozen=True, slots=True)
 class Outline:
     """All elements of a mechanism in the order of the file."""
@@ -162,7 +168,16 @@ class Outline:
         mechanism : object
             A `Mechanism`, or the table of a file; entries that are no tables are passed over.
         """
-        return cls([each for kind in KINDS for each in _elements(kind, look(mechanism, kind.table))])
+        known = _known.get(id(mechanism))
+        if known is not None and known[0] is mechanism:
+            return known[1]
+        found = cls([each for kind in KINDS for each in _elements(kind, look(mechanism, kind.table))])
+        if isinstance(mechanism, BaseModel):
+            # A checked mechanism is frozen: the same object has the same outline.
+            if len(_known) >= _KNOWN_MAX:
+                _known.pop(next(iter(_known)), None)
+            _known[id(mechanism)] = (mechanism, found)
+        return found
 
     def names(self, *tables: str) -> list[str]:
         """Names of the elements in some tables."""

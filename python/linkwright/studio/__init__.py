@@ -1,0 +1,24 @@
+"""The studio: a machine in the browser, moving, with every entry at hand and every answer beside it.
+
+No mechanics is computed here: the studio asks the rooms of the subjects, and the page draws what it is sent.
+
+    page ──► guards ──► session ──► document ──► machine ──► analyses ──► shown, drawing ──► wire ──► page
+
+| module | |
+| --- | --- |
+| `command` | ``linkwright studio [FILE]`` |
+| `server` | The page, its modules, a socket for each tab |
+| `guards` | Who may ask: hosts, origins, token, headers, sizes |
+| `wire` | Messages: a number, words, arrays |
+| `session` | One tab: the newest machine at once, slow analyses beside, files |
+| `worker` | The process of slow analyses |
+| `analyses` | What can be computed, and what stands in its way |
+| `shown` | Results for the page, from declared quantities |
+| `drawing` | The drawing with rates, forces and handles |
+| `handles` | Points that can be dragged, and the entries that follow |
+| `drag` | Which lengths bring a point to a place, and where the linkage no longer closes |
+| `controls` | Controls of all entries, from the descriptions |
+| `document` | The text of the file: changes that keep comments |
+| `files` | Files below the folder, library, templates |
+| `static/` | The page: plain modules, styles, vendored libraries |
+"""

@@ -1,0 +1,264 @@
+"""What can be computed of a machine, what stands in its way, and what mends that.
+
+Fast analyses follow every change at once; slow ones run beside them, in a process of their own.
+
+| analysis | runs | needs |
+| --- | --- | --- |
+| motion | at once | a mechanism that closes somewhere |
+| steady motion | at once | a motor, and a mechanism that closes over the whole revolution |
+| forces | at once | bodies or loads, steady motion |
+| study | beside | – ; everything that `linkwright run` computes |
+| torsion | beside | a train, or a driveline with a stiffness |
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+
+from linkwright.app.study import Study, study
+from linkwright.drive.model.motor import ConstantSpeedMotor
+from linkwright.drive.steady_state import SteadyState, steady_state
+from linkwright.drive.study import has_motor
+from linkwright.kernel.errors import LinkwrightError
+from linkwright.kernel.figure.captioned import Captioned
+from linkwright.kernel.findings import Findings
+from linkwright.kernel.result import Result
+from linkwright.kinetostatics.forces import forces
+from linkwright.kinetostatics.motion import Motion
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.drive_line import drive_inertia
+from linkwright.studio.drawing import drawing
+from linkwright.studio.shown import shown
+
+# Intervals of the revolution of steady motion that the drawing and its plots follow, and of the forces while
+# a slider is held: no line shows more.
+_INTERVALS = 360
+_EVERY = 3
+
+# Entries that make a machine move at all, until its motor is chosen.
+_MOTOR = {"drive.motor": {"kind": "constant_speed", "speed": "10 rad/s"}}
+_BRAKE = {"drive.brake": {"torque": "100 N m"}}
+
+
+@dataclass(frozen=True)
+class Obstacle:
+    """What stands in the way of an analysis.
+
+    Attributes
+    ----------
+    words : str
+        What is missing.
+    mend : str
+        Words of the button that mends it; empty if nothing simple does.
+    entries : dict
+        Entries that the button sets.
+    """
+
+    words: str
+    mend: str = ""
+    entries: dict[str, Any] | None = None
+
+
+def chips(machine: Machine) -> list[dict[str, Any]]:
+    """The analyses of a machine, and what stands in their way.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+
+    Returns
+    -------
+    list of dict
+        ``name``, ``word``, ``lane`` (``fast``, ``study`` or ``torsion``) and, where it is not ready,
+        ``obstacle`` with ``mend`` and ``entries``.
+    """
+    return [
+        {"name": name, "word": word, "lane": lane, **_told(obstacle)}
+        for name, word, lane, obstacle in _chips(machine)
+    ]
+
+
+def _told(obstacle: Obstacle | None) -> dict[str, Any]:
+    if obstacle is None:
+        return {}
+    return {"obstacle": obstacle.words, "mend": obstacle.mend, "entries": obstacle.entries or {}}
+
+
+def _chips(machine: Machine) -> Iterator[tuple[str, str, str, Obstacle | None]]:
+    if machine.has_crank:
+        yield "motion", "Motion", "fast", None
+        no_motor = (
+            None if has_motor(machine) else Obstacle("The machine has no motor.", "Add a motor", _MOTOR)
+        )
+        no_mass = None if _is_loaded(machine) else Obstacle("No masses and no loads: add a body or a load.")
+        yield "steady_state", "Steady motion", "fast", no_motor
+        yield "forces", "Forces", "fast", no_motor or no_mass
+        yield "linkage", "Extreme positions", "study", None
+        yield "reduction", "Reduced inertia", "study", no_mass
+        yield "run_up", "Run-up", "study", no_motor or _no_run_up(machine)
+        yield "run_down", "Run-down", "study", no_motor or _no_brake(machine)
+    tables = (
+        ("cam", "Cams", bool(machine.mechanism.cams)),
+        ("pumping_unit", "Pumping unit", machine.pumping_unit is not None),
+        ("topper", "Topper", machine.topper is not None),
+        ("turning_moment", "Turning moments", machine.turning_moment is not None),
+    )
+    yield from ((name, word, "study", None) for name, word, there in tables if there)
+    if has_train(machine):
+        yield "torsion", "Torsional vibration", "torsion", None
+
+
+def _is_loaded(machine: Machine) -> bool:
+    inertia = 0.0 if machine.drive is None else drive_inertia(machine.drive)
+    return bool(machine.bodies or machine.loads or inertia)
+
+
+def _no_run_up(machine: Machine) -> Obstacle | None:
+    if machine.drive is not None and isinstance(machine.drive.motor, ConstantSpeedMotor):
+        return Obstacle("The motor keeps its speed from the start.")
+    return None
+
+
+def _no_brake(machine: Machine) -> Obstacle | None:
+    if machine.drive is None or machine.drive.brake is None:
+        return Obstacle("The driveline has no brake.", "Add a brake", _BRAKE)
+    return None
+
+
+def has_train(machine: Machine) -> bool:
+    """Whether the machine has shafts that twist."""
+    return machine.train is not None or (machine.drive is not None and machine.drive.twists)
+
+
+@dataclass(frozen=True)
+class Answers:
+    """What one lane has found.
+
+    Attributes
+    ----------
+    results : list of dict
+        Of `shown`.
+    findings, warnings : tuple of str
+        In sentences.
+    scene : dict or None
+        Of `drawing`, of the fast lane.
+    figures : list of dict
+        Diagrams that are no curves, as SVG: ``name``, ``title``, ``caption``, ``svg``.
+    """
+
+    results: list[dict[str, Any]]
+    findings: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
+    scene: dict[str, Any] | None = None
+    figures: tuple[dict[str, str], ...] = ()
+
+    def body(self) -> dict[str, Any]:
+        """All of it for a message."""
+        return {each.name: getattr(self, each.name) for each in fields(self)}
+
+
+def fast(machine: Machine, *, held: bool) -> Answers:
+    """What follows every change.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    held : bool
+        Whether a slider or a joint is held: forces are then computed at fewer angles.
+
+    Returns
+    -------
+    Answers
+        Scene, steady motion, forces.
+    """
+    if not machine.has_crank:
+        return Answers([])
+    found = Findings()
+    steady = found.of(steady_state, machine, n=_INTERVALS) if has_motor(machine) else None
+    acting = None
+    if steady is not None and _is_loaded(machine):
+        acting = found.beside_of(_forces, machine, steady, _EVERY if held else 1)
+    scene = found.of(drawing, machine, steady, acting)
+    results: dict[str, Result | None] = {"steady_state": steady, "forces": acting}
+    known = [shown(name, result) for name, result in results.items() if result is not None]
+    return Answers(known, found.findings, found.warnings, scene)
+
+
+def _forces(machine: Machine, steady: SteadyState, every: int) -> Any:
+    """Forces along the steady motion, at some of its angles."""
+    some = slice(None, None, every)
+    curves = (steady.crank_angle, steady.speed, steady.acceleration, steady.time)
+    return forces(machine, Motion(*(np.ascontiguousarray(curve[some]) for curve in curves)))
+
+
+def beside(machine: Machine, lane: str) -> Answers:
+    """What runs beside.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    lane : str
+        ``"study"`` or ``"torsion"``.
+
+    Returns
+    -------
+    Answers
+        Results with the figures of the report that are more than curves.
+    """
+    return _LANES[lane](machine)
+
+
+def lanes(machine: Machine) -> list[str]:
+    """The lanes beside that a machine has, in their order."""
+    return [*([] if machine.is_train_alone else ["study"]), *(["torsion"] if has_train(machine) else [])]
+
+
+def _study(machine: Machine) -> Answers:
+    from linkwright.app.report.figures import figures
+
+    found = study(machine)
+    known = [shown(name, result) for name, result in _new_results(found)]
+    drawn = [each for each in figures(found) if each.name not in _CURVES]
+    return Answers(known, found.findings, found.warnings, figures=tuple(map(_svg, drawn)))
+
+
+# Figures of the report that plots of the studio show in more detail.
+_CURVES = {"speed", "torque", "time", "reduction", "run_up"}
+
+
+def _new_results(found: Study) -> Iterator[tuple[str, Result]]:
+    """What the fast lane has not shown."""
+    known = ("steady_state", "forces")
+    yield from ((name, each) for name, each in found.results().items() if name not in known)
+
+
+def _torsion(machine: Machine) -> Answers:
+    from linkwright.torsion.figures.captions import torsion_figures
+    from linkwright.torsion.study import torsion_study
+
+    found = torsion_study(machine)
+    parts = {each.name: getattr(found, each.name) for each in fields(found)}
+    known = [shown(name, part) for name, part in parts.items() if isinstance(part, Result)]
+    return Answers(known, figures=tuple(map(_svg, torsion_figures(found))))
+
+
+def _svg(drawn: Captioned) -> dict[str, str]:
+    from linkwright.kernel.figure.svg import svg
+
+    text = svg(drawn.figure, transparent=True)
+    return {"name": drawn.name, "title": drawn.title, "caption": drawn.caption, "svg": text}
+
+
+_LANES: dict[str, Callable[[Machine], Answers]] = {"study": _study, "torsion": _torsion}
+
+
+def failed(error: LinkwrightError) -> Answers:
+    """The answer of a lane that an error ended."""
+    return Answers([], (str(error),))

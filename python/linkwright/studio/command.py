@@ -1,0 +1,60 @@
+"""``linkwright studio [FILE]``: see a machine move, drag a length, watch every answer change."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+from urllib.parse import quote
+
+import click
+
+from linkwright.kernel.command.parameter import Argument, Option
+from linkwright.kernel.errors import InputError
+
+File = Annotated[
+    str | None,
+    Argument("[FILE]", "A machine file below the present folder, or a machine of the library."),
+]
+NoBrowser = Annotated[bool, Option("--no-browser", help="Print the address alone.")]
+Port = Annotated[int, Option("--port", metavar="N", help="Port on this computer; 0 for a free one.", min=0)]
+
+
+def studio(file: File = None, no_browser: NoBrowser = False, port: Port = 0) -> None:
+    """Work on a machine in the browser.
+
+    The page is served on this computer alone, and its address opens once. Files are opened and saved below
+    the present folder. The studio ends with Ctrl+C.
+    """
+    try:
+        from linkwright.studio.server import Studio
+    except ImportError as error:
+        raise InputError(
+            f"the studio needs {error.name}; install it with: pip install 'linkwright[studio]'"
+        ) from None
+    try:
+        opened = Studio(Path.cwd(), port)
+    except (OSError, OverflowError) as error:
+        raise InputError(f"--port {port}: {error}; leave it out for a free one") from None
+    address = opened.address(_fragment(file) if file else "")
+    click.echo(f"Linkwright studio: {address}")
+    click.echo(f"Files below {opened.folder.root}; end with Ctrl+C.")
+    if not no_browser:
+        import webbrowser
+
+        webbrowser.open(address)
+    opened.run()
+
+
+def _fragment(file: str) -> str:
+    """What the page should open."""
+    from linkwright.kernel.files.library import library
+    from linkwright.studio.files import Folder
+
+    if file in library() and not Path(file).exists():
+        return f"open=library/{quote(file)}"
+    folder = Folder.of(Path.cwd())
+    name = Path(file).resolve()
+    if not name.is_relative_to(folder.root):
+        raise InputError(f"{file} lies outside the present folder; change to its folder first")
+    folder.read(str(name.relative_to(folder.root)))
+    return f"open=folder/{quote(str(name.relative_to(folder.root)))}"

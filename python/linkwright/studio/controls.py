@@ -1,0 +1,158 @@
+"""Controls of a machine: one for every entry of its file, made from the descriptions' declared quantities.
+
+A control knows its address, its words, what it holds and within which bounds; the page draws it. Entries that
+are not given are listed with what holds without them, so that they can be added.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any, Literal, get_args, get_origin
+
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
+from pydantic_core import PydanticUndefined
+
+from linkwright.kernel.description.plain import field_names
+from linkwright.kernel.description.schema_walk import annotation_at, kinds_at, mark_of, model_of, words_of
+from linkwright.kernel.description.text import join
+from linkwright.kernel.errors import UnitError
+from linkwright.kernel.units import Quantity, QuantityList, parse
+from linkwright.machine.machine import Machine
+
+Control = dict[str, Any]
+
+
+def controls(raw: Mapping[str, Any]) -> Control:
+    """The controls of a file.
+
+    Parameters
+    ----------
+    raw : Mapping
+        Its tables, sound or not.
+
+    Returns
+    -------
+    dict
+        A group: ``address``, ``key``, ``about``, ``entries``, ``groups`` and ``missing``.
+    """
+    return _group((), "machine", "", Machine, raw, raw)
+
+
+def _group(
+    place: tuple[str, ...], key: str, about: str, model: type[BaseModel] | None, node: Any, raw: Any
+) -> Control:
+    """A table with its entries and the tables in it."""
+    entries: list[Control] = []
+    groups: list[Control] = []
+    for name, value in _items(node):
+        at = (*place, name)
+        annotation = annotation_at(Machine, at, raw)
+        field = _field(model, name)
+        words = field.description or "" if field else ""
+        if _is_table(value):
+            groups.append(_group(at, name, words, model_of(annotation, value), value, raw))
+        else:
+            entries.append(_entry(at, name, words, annotation, value))
+    return {
+        "address": join(place) if place else "",
+        "key": key,
+        "about": about,
+        "entries": entries,
+        "groups": groups,
+        "missing": list(_missing(place, model, node, raw)) if model else [],
+    }
+
+
+def _items(node: Any) -> Iterator[tuple[str, Any]]:
+    """Keys and values of a table, or places and values of a list of tables."""
+    if isinstance(node, Mapping):
+        yield from node.items()
+    else:
+        yield from ((str(n), value) for n, value in enumerate(node))
+
+
+def _is_table(value: Any) -> bool:
+    """Whether a value is a table, or a list of tables."""
+    if isinstance(value, list):
+        return bool(value) and all(isinstance(each, Mapping) for each in value)
+    return isinstance(value, Mapping)
+
+
+def _field(model: type[BaseModel] | None, key: str) -> FieldInfo | None:
+    """The declaration of an entry."""
+    name = field_names(model).get(key) if model else None
+    return model.model_fields[name] if model and name else None
+
+
+def _entry(place: tuple[str, ...], key: str, about: str, annotation: Any, value: Any) -> Control:
+    """The control of one entry."""
+    control = {"address": join(place), "key": key, "about": about, "written": value}
+    return control | _holds(annotation, value)
+
+
+def _holds(annotation: Any, value: Any) -> Control:
+    """What an entry holds: a quantity with its unit and bounds, a choice, a switch, or a text."""
+    mark = mark_of(annotation)
+    if isinstance(mark, Quantity):
+        return {"holds": "quantity", "unit": mark.kind.unit, "bounds": _bounds(mark)} | _number(value, mark)
+    if isinstance(mark, QuantityList):
+        return {"holds": "list", "unit": mark.kind.unit, "expected": words_of(annotation)}
+    choices = list(_choices(annotation))
+    if choices:
+        return {"holds": "choice", "choices": choices}
+    if isinstance(value, bool):
+        return {"holds": "switch"}
+    if isinstance(value, int) and not isinstance(value, bool):
+        return {"holds": "count"}
+    return {"holds": "text" if isinstance(value, str) else "data", "expected": words_of(annotation)}
+
+
+def _number(value: Any, mark: Quantity) -> Control:
+    """The SI value of what is written; none if it is no such quantity."""
+    try:
+        return {"si": parse(value, mark.kind)}
+    except UnitError:
+        return {"si": None}
+
+
+def _bounds(mark: Quantity) -> dict[str, float]:
+    """Bounds of a quantity in the words of JSON Schema, and its largest size."""
+    return {**mark.bound.schema, "most": mark.kind.most}
+
+
+def _choices(annotation: Any) -> Iterator[str]:
+    """The words that an entry may have."""
+    for each in (annotation, *get_args(annotation)):
+        if get_origin(each) is Literal:
+            yield from (str(choice) for choice in get_args(each) if isinstance(choice, str))
+
+
+def _missing(place: tuple[str, ...], model: type[BaseModel], node: Any, raw: Any) -> Iterator[Control]:
+    """Entries that could be given; a table of named parts is one that elements can be added to."""
+    for key, name in field_names(model).items():
+        if isinstance(node, Mapping) and key in node:
+            continue
+        field = model.model_fields[name]
+        annotation = annotation_at(Machine, (*place, key), raw)
+        mark = mark_of(annotation)
+        control = {
+            "address": join((*place, key)),
+            "key": key,
+            "about": field.description or "",
+            "expected": words_of(annotation),
+            "usual": _usual(field),
+            "kinds": kinds_at(annotation),
+        }
+        if mark is not None:
+            yield control | {"unit": mark.kind.unit}
+        else:
+            yield control | {"choices": list(_choices(annotation))}
+
+
+def _usual(field: FieldInfo) -> Any:
+    """What holds without an entry; None where nothing does, or where it is no single value."""
+    default = field.default
+    if default is PydanticUndefined or not isinstance(default, str | int | float | bool):
+        return None
+    return default

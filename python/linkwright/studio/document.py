@@ -1,0 +1,157 @@
+"""The text of a machine file and changes to it: comments, order and units stay as they were written."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Mapping
+from typing import Any
+
+import tomlkit
+from tomlkit.exceptions import TOMLKitError
+from tomlkit.items import InlineTable, Item, Table
+
+from linkwright.kernel.description.schema_walk import annotation_at, mark_of
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.units import Quantity, to_text
+from linkwright.kernel.units.spellings import factor_of
+from linkwright.machine.address import resolve
+from linkwright.machine.machine import Machine
+
+# A number and what stands behind it.
+_WRITTEN = re.compile(r"\s*[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?\s*(.*)", re.DOTALL)
+
+# Digits of a number that a slider or a drag gives: far below any tolerance, and short to read.
+_DIGITS = 7
+
+
+def changed(text: str, entries: Mapping[str, Any]) -> str:
+    """A text with entries exchanged, added or, with None, removed.
+
+    Parameters
+    ----------
+    text : str
+        A machine file that is sound TOML.
+    entries : Mapping
+        Address → SI number, written in the unit that stands there; or text, table or None.
+
+    Returns
+    -------
+    str
+        The new text.
+
+    Raises
+    ------
+    InputError
+        The text is no TOML, or an address leads nowhere.
+    """
+    try:
+        document = tomlkit.parse(text)
+        raw = tomllib.loads(text)
+    except (TOMLKitError, ValueError, RecursionError) as error:
+        raise InputError(f"the file is no TOML: {error}") from None
+    for address, value in entries.items():
+        place = resolve(raw, address)
+        if value is None:
+            _remove(document, place)
+        else:
+            _put(document, place, written(raw, place, value))
+    return tomlkit.dumps(document)
+
+
+def written(raw: Mapping[str, Any], place: tuple[str, ...], value: Any) -> Any:
+    """A new value as the file writes it: a number in the unit of the old one.
+
+    Parameters
+    ----------
+    raw : Mapping
+        Tables of the file.
+    place : tuple of str
+        Keys of the entry.
+    value : object
+        SI number, or what is written as it is.
+    """
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return value
+    mark = mark_of(annotation_at(Machine, place, raw))
+    if not isinstance(mark, Quantity):
+        return value
+    old = _at(raw, place)
+    if isinstance(old, str) and (match := _WRITTEN.fullmatch(old)):
+        known = factor_of(match[1].strip())
+        if known is not None:
+            return f"{short(value / known[0])} {match[1].strip()}".strip()
+    if isinstance(old, int | float) or not mark.kind.unit:
+        return float(short(value))
+    return to_text(float(short(value)), mark.kind)
+
+
+def short(value: float) -> str:
+    """A number with as many digits as a file needs.
+
+    Parameters
+    ----------
+    value : float
+        Any finite number.
+    """
+    return f"{value:.{_DIGITS}g}"
+
+
+def _at(raw: Any, place: tuple[str, ...]) -> Any:
+    """What the file has at a place; None if nothing."""
+    for key in place:
+        if isinstance(raw, list):
+            raw = raw[int(key)] if key.isdecimal() and int(key) < len(raw) else None
+        else:
+            raw = raw.get(key) if isinstance(raw, Mapping) else None
+    return raw
+
+
+def _below(node: Any, key: str) -> Any:
+    """What stands under a key of a table or a list of the document."""
+    if isinstance(node, list):
+        if not key.isdecimal() or int(key) >= len(node):
+            raise InputError(f"{key}: no such place in the list")
+        return node[int(key)]
+    if not isinstance(node, dict):
+        raise InputError(f"{key}: expected a table")
+    if key not in node:
+        node[key] = tomlkit.inline_table() if isinstance(node, InlineTable) else tomlkit.table()
+    return node[key]
+
+
+def _put(document: Any, place: tuple[str, ...], value: Any) -> None:
+    """Write one value, with the comment of the old one."""
+    node = document
+    for key in place[:-1]:
+        node = _below(node, key)
+    key = place[-1]
+    item = tomlkit.item(value)
+    if isinstance(node, list):
+        if not key.isdecimal() or int(key) >= len(node):
+            raise InputError(f"{key}: no such place in the list")
+        node[int(key)] = item
+        return
+    if not isinstance(node, dict):
+        raise InputError(f"{'.'.join(place)}: expected a table above it")
+    if isinstance(node, Table) and key in node and isinstance(node[key], Item):
+        item.trivia.comment_ws = node[key].trivia.comment_ws
+        item.trivia.comment = node[key].trivia.comment
+        item.trivia.trail = node[key].trivia.trail
+    node[key] = item
+
+
+def _remove(document: Any, place: tuple[str, ...]) -> None:
+    """Remove an entry, if it is there."""
+    node = document
+    for key in place[:-1]:
+        if isinstance(node, list) and key.isdecimal() and int(key) < len(node):
+            node = node[int(key)]
+        elif isinstance(node, dict) and key in node:
+            node = node[key]
+        else:
+            return
+    if isinstance(node, dict) and place[-1] in node:
+        del node[place[-1]]
+    elif isinstance(node, list) and place[-1].isdecimal() and int(place[-1]) < len(node):
+        del node[int(place[-1])]

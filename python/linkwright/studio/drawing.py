@@ -1,0 +1,105 @@
+"""The drawing of a machine: what the report's sketch draws, with rates of its points, forces and handles."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.app.report.scene import moving_scene
+from linkwright.drive.steady_state import SteadyState
+from linkwright.kernel.errors import LinkwrightError
+from linkwright.kinetostatics.result import Forces
+from linkwright.linkages.model.structure import structure
+from linkwright.linkages.motion import rates_of
+from linkwright.machine.machine import Machine
+from linkwright.machine.read import loads
+from linkwright.studio.files import Folder, base, opened
+from linkwright.studio.handles import handles
+
+Floats = NDArray[np.float64]
+
+
+def drawing(machine: Machine, steady: SteadyState | None, acting: Forces | None) -> dict[str, Any] | None:
+    """All that the page draws of a mechanism.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    steady : SteadyState or None
+        Its steady motion.
+    acting : Forces or None
+        Forces along it.
+
+    Returns
+    -------
+    dict or None
+        As of `moving_scene`; ``velocities`` and ``accelerations`` of moving points, (n, 2) each; ``forces``
+        with the point where they act; ``handles``, points that can be dragged with the entries that follow.
+        None where nothing moves.
+    """
+    scene = moving_scene(machine, steady)
+    if scene is None:
+        return None
+    motion, speeds = scene.pop("motion"), scene["speeds"]
+    accelerations = np.zeros_like(speeds) if steady is None else _along(scene, steady)
+    rates = {
+        name: rates_of(motion.points[name], speeds[:, None], accelerations[:, None])
+        for name in machine.linkage.moving_points()
+        if name in motion.points
+    }
+    return scene | {
+        "velocities": {name: velocity for name, (velocity, _) in rates.items()},
+        "accelerations": {name: acceleration for name, (_, acceleration) in rates.items()},
+        "forces": _acting(machine, scene, acting) if acting is not None else [],
+        "handles": handles(machine),
+    }
+
+
+def thumbnail(folder: Folder, place: str, name: str) -> dict[str, Any] | None:
+    """The drawing of a machine of the gallery, at constant speed.
+
+    Parameters
+    ----------
+    folder : Folder
+        Of the studio.
+    place, name : str
+        As for `opened`.
+
+    Returns
+    -------
+    dict or None
+        As of `moving_scene`; None where nothing moves, or the file is none.
+    """
+    try:
+        machine = loads(opened(folder, place, name), path=base(folder, place, name))
+        scene = moving_scene(machine, None) if machine.has_crank else None
+    except LinkwrightError:
+        return None
+    if scene is not None:
+        del scene["motion"]
+    return scene
+
+
+def _along(scene: dict[str, Any], steady: SteadyState) -> Floats:
+    """Angular acceleration of the crank at the angles of the scene [rad/s²]."""
+    within = np.mod(scene["angles"], 2 * np.pi)
+    found: Floats = np.interp(within, steady.crank_angle, steady.acceleration)
+    return found
+
+
+def _acting(machine: Machine, scene: dict[str, Any], acting: Forces) -> list[dict[str, Any]]:
+    """Forces of pins at their points, over the angles of the scene."""
+    points = {name: pair.point for name, pair in structure(machine.linkage).pairs.items()}
+    within = np.mod(scene["angles"], 2 * np.pi)
+    found = []
+    for name, pair in acting.pairs.items():
+        if pair.kind in ("pin", "guide") and points.get(name) in scene["points"]:
+            force = np.stack(
+                [np.interp(within, acting.crank_angle, pair.force[:, k]) for k in (0, 1)], axis=-1
+            )
+            if np.isfinite(force).all():
+                found.append({"name": name, "point": points[name], "force": force})
+    return found

@@ -1,0 +1,220 @@
+"""Files of the studio: machine files below the folder that it was started in, the library, the templates."""
+
+from __future__ import annotations
+
+import os
+import stat
+import tempfile
+import tomllib
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.files.library import library, library_path
+from linkwright.kernel.files.templates import template, templates
+from linkwright.kernel.files.text_file import TextError, text_of
+from linkwright.kernel.limits import FILE_BYTES
+
+# How deep below the folder machine files are looked for, and how many folders and files are listed.
+_DEPTH = 4
+_FOLDERS = 2000
+_FILES = 500
+
+
+@dataclass(frozen=True)
+class Folder:
+    """The folder that the studio was started in.
+
+    Attributes
+    ----------
+    root : Path
+        Its real path.
+    """
+
+    root: Path
+
+    @classmethod
+    def of(cls, path: Path) -> Folder:
+        """The folder at a path, links followed."""
+        return cls(path.resolve())
+
+    def inside(self, name: str) -> Path:
+        """The real path of a machine file of the folder.
+
+        Parameters
+        ----------
+        name : str
+            Relative to the folder, with strokes between its parts.
+
+        Returns
+        -------
+        Path
+            Below the folder, wherever links on the way lead.
+
+        Raises
+        ------
+        InputError
+            It is no machine file below the folder.
+        """
+        if not name.isprintable() or not name.endswith(".toml") or Path(name).is_absolute():
+            raise InputError(f"{name!r}: expected the name of a .toml file below the folder of the studio")
+        try:
+            path = (self.root / name).resolve()
+        except OSError as error:
+            raise InputError(f"{name!r}: {error.strerror}") from None
+        if not path.is_relative_to(self.root) or path.suffix != ".toml":
+            raise InputError(f"{name!r} lies outside the folder of the studio, {self.root}")
+        return path
+
+    def read(self, name: str) -> str:
+        """The text of a machine file of the folder.
+
+        Parameters
+        ----------
+        name : str
+            As for `inside`.
+
+        Raises
+        ------
+        InputError
+            It cannot be read.
+        """
+        path = self.inside(name)
+        try:
+            if path.exists() and not stat.S_ISREG(path.stat().st_mode):
+                raise InputError(f"{name!r}: expected a file")
+            return text_of(path, FILE_BYTES)
+        except TextError as error:
+            raise InputError(
+                f"{name}: found {error.found}; {error.remedy or 'choose another file'}"
+            ) from None
+        except OSError as error:
+            raise InputError(f"{name}: {error.strerror}") from None
+
+    def write(self, name: str, text: str, *, replace: bool) -> None:
+        """Write a machine file of the folder, whole or not at all.
+
+        Parameters
+        ----------
+        name : str
+            As for `inside`.
+        text : str
+            What it holds.
+        replace : bool
+            Whether it may be there already.
+
+        Raises
+        ------
+        InputError
+            It cannot be written, or is there.
+        """
+        path = self.inside(name)
+        if path.exists() and not (replace and path.is_file()):
+            raise InputError(f"{name} is there already; choose another name")
+        try:
+            handle, made = tempfile.mkstemp(dir=path.parent, prefix=".linkwright-", suffix=".tmp")
+        except OSError as error:
+            raise InputError(f"{name}: {error.strerror}") from None
+        try:
+            with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:
+                file.write(text)
+            mode = path.stat().st_mode if path.exists() else 0o644
+            Path(made).chmod(stat.S_IMODE(mode))
+            Path(made).replace(path)
+        except OSError as error:
+            Path(made).unlink(missing_ok=True)
+            raise InputError(f"{name}: {error.strerror}") from None
+
+    def machines(self) -> Iterator[dict[str, str]]:
+        """Machine files of the folder: those that say their format."""
+        for n, path in enumerate(self._files()):
+            if n >= _FILES:
+                return
+            name = str(path.relative_to(self.root))
+            if title := _title(path):
+                yield {"place": "folder", "name": name, "title": title}
+
+    def _files(self) -> Iterator[Path]:
+        """TOML files from the top down, hidden folders and links left out."""
+        for n, (at, folders, names) in enumerate(os.walk(self.root)):
+            deep = len(Path(at).relative_to(self.root).parts)
+            folders[:] = sorted(each for each in folders if each[0] not in "._" and each not in _NOT_OURS)
+            if deep >= _DEPTH or n >= _FOLDERS:
+                folders.clear()
+            for name in sorted(names):
+                path = Path(at) / name
+                if name.endswith(".toml") and name[0] != "." and not path.is_symlink():
+                    yield path
+
+
+# Folders that hold no machine files of a user.
+_NOT_OURS = frozenset({"node_modules", "target", "site", "build", "dist"})
+
+
+def _title(path: Path) -> str:
+    """Name of the machine of a file; empty if it is no machine file."""
+    try:
+        tables = tomllib.loads(text_of(path, FILE_BYTES))
+    except (TextError, OSError, ValueError, RecursionError):
+        return ""
+    name = tables.get("name")
+    is_machine = tables.get("format") == 1 and isinstance(name, str)
+    return str(name) if is_machine else ""
+
+
+def gallery(folder: Folder) -> list[dict[str, str]]:
+    """All machines that can be opened.
+
+    Parameters
+    ----------
+    folder : Folder
+        Of the studio.
+
+    Returns
+    -------
+    list of dict
+        ``place``, ``name`` and ``title`` of each: of the library, of the templates, of the folder.
+    """
+    kept = [{"place": "library", "name": name, "title": _title(library_path(name))} for name in library()]
+    begun = [{"place": "template", "name": name, "title": title} for name, title in templates().items()]
+    return [*begun, *kept, *folder.machines()]
+
+
+def opened(folder: Folder, place: str, name: str) -> str:
+    """The text of a machine of the gallery.
+
+    Parameters
+    ----------
+    folder : Folder
+        Of the studio.
+    place : str
+        ``"library"``, ``"template"`` or ``"folder"``.
+    name : str
+        Its name there.
+
+    Raises
+    ------
+    InputError
+        There is no such machine.
+    """
+    if place == "library":
+        return text_of(library_path(name), FILE_BYTES)
+    if place == "template":
+        return template(name)
+    if place == "folder":
+        return folder.read(name)
+    raise InputError(f"{place!r}: expected library, template or folder")
+
+
+def base(folder: Folder, place: str, name: str) -> str:
+    """Path that a machine's further files, such as a table of points, are looked for beside.
+
+    Parameters
+    ----------
+    folder, place, name
+        As for `opened`.
+    """
+    if place == "library":
+        return str(library_path(name))
+    return str(folder.inside(name) if place == "folder" and name else folder.root / "unnamed.toml")

@@ -1,0 +1,257 @@
+"""One tab of the studio: a machine file as it is being edited, and one socket.
+
+Only the newest request to compute is answered; older ones that wait are dropped. Slow analyses start when
+nothing has changed for a moment, and what they find is sent if it is still that machine's. Everything else,
+opening and saving, is answered in its order.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import time
+import tomllib
+import traceback
+from collections.abc import Callable
+from typing import Any
+
+from anyio import to_thread
+
+from linkwright.kernel.errors import LinkwrightError, MachineError, Problem
+from linkwright.machine.machine import Machine
+from linkwright.machine.read import loads
+from linkwright.studio.analyses import chips, failed, fast, lanes
+from linkwright.studio.controls import controls
+from linkwright.studio.document import changed
+from linkwright.studio.drag import drag
+from linkwright.studio.drawing import thumbnail
+from linkwright.studio.files import Folder, base, gallery, opened
+from linkwright.studio.wire import WireError, packed, unpacked
+from linkwright.studio.worker import Worker
+
+# Seconds without a change after which slow analyses start, and how long one of an older machine may go on.
+_QUIET = 0.12
+_GRACE = 0.5
+
+# Requests to open, save and list that may wait.
+_WAITING = 32
+
+Body = dict[str, Any]
+
+
+class Session:
+    """What one tab knows.
+
+    Parameters
+    ----------
+    folder : Folder
+        Of the studio.
+    send : callable
+        Sends one message.
+    """
+
+    def __init__(self, folder: Folder, send: Callable[[bytes], Any]) -> None:
+        self.folder, self.send = folder, send
+        self.text, self.place, self.name = "", "", ""
+        self.newest: tuple[int, Body] | None = None
+        self.others: asyncio.Queue[tuple[int, Body]] = asyncio.Queue(_WAITING)
+        self.changed, self.quiet = asyncio.Event(), asyncio.Event()
+        # Number and text that slow analyses are due for, and which of them the user stopped.
+        self.due: tuple[int, str, list[str]] | None = None
+        self.worker, self.running, self.stopped = Worker(), "", False
+
+    async def run(self) -> None:
+        """Answer until cancelled."""
+        try:
+            async with asyncio.TaskGroup() as tasks:
+                for lane in (self._compute, self._answer, self._beside):
+                    tasks.create_task(lane())
+        finally:
+            await self.worker.end()
+
+    def take(self, message: bytes) -> None:
+        """Take one message of the page.
+
+        Parameters
+        ----------
+        message : bytes
+            As `wire` packs it.
+
+        Raises
+        ------
+        WireError
+            It is none, or more wait than a page ever sends.
+        """
+        number, body = unpacked(message)
+        if body["ask"] == "compute":
+            self.newest = (number, body)
+            self.changed.set()
+        elif body["ask"] == "stop":
+            asyncio.ensure_future(self._stop())  # noqa: RUF006 (it ends a process, and is not waited for)
+        else:
+            try:
+                self.others.put_nowait((number, body))
+            except asyncio.QueueFull:
+                raise WireError("too many requests at once") from None
+
+    # -- the newest machine ----------------------------------------------------------------------------------
+
+    async def _compute(self) -> None:
+        """Answer the newest request to compute."""
+        while True:
+            await self.changed.wait()
+            self.changed.clear()
+            if self.newest is None:
+                continue
+            (number, body), self.newest = self.newest, None
+            try:
+                message, due = await to_thread.run_sync(self._computed, number, body)
+            except Exception as error:
+                message, due = _internal(number, error), None
+            await self.send(message)
+            if due is not None:
+                self.due = due
+                self.quiet.set()
+
+    def _computed(self, number: int, body: Body) -> tuple[bytes, tuple[int, str, list[str]] | None]:
+        """The answer to one request to compute, and what slow analyses are due."""
+        begun = time.perf_counter()
+        held = bool(body.get("held"))
+        if isinstance(text := body.get("text"), str):
+            self.text = text
+            self.place, self.name = str(body.get("place", "")), str(body.get("name", ""))
+        entries = dict(body["set"]) if isinstance(body.get("set"), dict) else {}
+        answer: Body = {"of": "machine", "set": entries}
+        machine: Machine | None = None
+        try:
+            if isinstance(pull := body.get("drag"), dict):
+                answer |= self._dragged(pull, entries)
+            if not held and entries:
+                self.text, entries = changed(self.text, entries), {}
+                answer["text"] = self.text
+            machine = loads(self.text, entries, path=base(self.folder, self.place, self.name))
+            answer |= fast(machine, held=held).body() | {"machine": machine.name}
+        except LinkwrightError as error:
+            answer |= {"problems": _problems(error)} if machine is None else failed(error).body()
+        if not held:
+            answer |= self._around(machine)
+        answer["seconds"] = time.perf_counter() - begun
+        due = (number, self.text, lanes(machine)) if machine is not None and not held else None
+        return packed(number, answer), due
+
+    def _dragged(self, pull: Body, entries: dict[str, Any]) -> Body:
+        """The entries that follow a joint; they are put to the others."""
+        start = loads(self.text, path=base(self.folder, self.place, self.name))
+        place = (float(pull["x"]), float(pull["y"]))
+        locked = frozenset(map(str, pull.get("locked", ())))
+        found = drag(start, str(pull["point"]), place, float(pull["angle"]), locked)
+        entries |= found.entries
+        return {"reason": found.reason}
+
+    def _around(self, machine: Machine | None) -> Body:
+        """Controls, chips and lanes of a machine that is not being pulled at."""
+        try:
+            raw = tomllib.loads(self.text)
+        except (ValueError, RecursionError):
+            raw = None
+        return {
+            "controls": None if raw is None else controls(raw),
+            "chips": [] if machine is None else chips(machine),
+            "lanes": [] if machine is None else lanes(machine),
+        }
+
+    # -- slow analyses ---------------------------------------------------------------------------------------
+
+    async def _beside(self) -> None:
+        """Run slow analyses of the newest machine, once nothing changes any more."""
+        while True:
+            await self.quiet.wait()
+            self.quiet.clear()
+            await asyncio.sleep(_QUIET)
+            due = self.due
+            if self.quiet.is_set() or due is None:
+                continue
+            self.stopped = False
+            for lane in due[2]:
+                if self.due is due:
+                    await self._job(due, lane)
+            if self.due is due:
+                self.due = None
+
+    async def _job(self, due: tuple[int, str, list[str]], lane: str) -> None:
+        """One slow analysis; its process is ended if the machine changes while it goes on for long."""
+        number, text, _ = due
+        path = base(self.folder, self.place, self.name)
+        if self.stopped:
+            await self.send(packed(number, {"of": "stopped", "lane": lane}))
+            return
+        self.running = lane
+        job = {"number": number, "lane": lane, "text": text, "path": path}
+        task = asyncio.create_task(self.worker.run(job))
+        stale = 0.0
+        while not task.done():
+            await asyncio.wait({task}, timeout=0.05)
+            stale = stale + 0.05 if self.due is not due else 0.0
+            if stale > _GRACE:
+                await self.worker.end()
+        self.running = ""
+        message = task.result()
+        if self.due is due:
+            stopped = packed(number, {"of": "stopped", "lane": lane})
+            await self.send(message if message is not None else stopped)
+
+    async def _stop(self) -> None:
+        """End what runs beside, or is about to."""
+        due, self.stopped = self.due, True
+        if self.running:
+            await self.worker.end()
+        elif due is not None:
+            self.due = None
+            for lane in due[2]:
+                await self.send(packed(due[0], {"of": "stopped", "lane": lane}))
+
+    # -- files -----------------------------------------------------------------------------------------------
+
+    async def _answer(self) -> None:
+        """Answer requests for files, in their order."""
+        while True:
+            number, body = await self.others.get()
+            try:
+                answer = await to_thread.run_sync(self._asked, body)
+                message = packed(number, answer)
+            except LinkwrightError as error:
+                message = packed(number, {"of": "refused", "words": str(error)})
+            except Exception as error:
+                message = _internal(number, error)
+            await self.send(message)
+
+    def _asked(self, body: Body) -> Body:
+        """The answer to a request for files."""
+        ask = body["ask"]
+        if ask == "gallery":
+            return {"of": "gallery", "machines": gallery(self.folder), "folder": str(self.folder.root)}
+        place, name = str(body.get("place", "folder")), str(body.get("name", ""))
+        if ask == "open":
+            text = opened(self.folder, place, name)
+            self.place, self.name = place, name
+            return {"of": "file", "place": place, "name": name, "text": text}
+        if ask == "thumbnail":
+            return {"of": "thumbnail", "scene": thumbnail(self.folder, place, name)}
+        if ask == "save":
+            self.folder.write(name, str(body.get("text", "")), replace=bool(body.get("replace")))
+            self.place, self.name = "folder", name
+            return {"of": "saved", "name": name}
+        return {"of": "refused", "words": f"{ask!r}: no such request"}
+
+
+def _internal(number: int, error: Exception) -> bytes:
+    """A fault of the studio, or a request of a page that is none of ours: it is said, and the tab goes on."""
+    traceback.print_exception(error)
+    words = f"internal error, {type(error).__name__}: {error}; the terminal has the details"
+    return packed(number, {"of": "refused", "words": words})
+
+
+def _problems(error: LinkwrightError) -> list[Body]:
+    """What is wrong with a file, each with its place."""
+    listed = error.problems if isinstance(error, MachineError) else [Problem(found=str(error))]
+    names = ("key", "found", "expected", "remedy", "line")
+    return [{name: getattr(each, name) for name in names} for each in listed[:100]]

@@ -1,0 +1,128 @@
+"""Results for the page: scalars with their words, curves grouped into plots, all from declared quantities."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator
+from functools import cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.quantities import DeclaredQuantity, quantities_of
+from linkwright.kernel.result import Result
+
+Floats = NDArray[np.float64]
+
+# A column of a result's part, "A1_x [N]".
+_COLUMN = re.compile(r"(.*) \[(.*)\]")
+
+
+def shown(name: str, result: Result) -> dict[str, Any]:
+    """A result as the page shows it.
+
+    Parameters
+    ----------
+    name : str
+        Of the analysis, as in ``--json``.
+    result : Result
+        The result.
+
+    Returns
+    -------
+    dict
+        ``name``; ``scalars`` with name, words, symbol, unit and SI value; ``plots``, each with an abscissa
+        and the curves that have one unit.
+    """
+    declared = [each._replace(unit=result.unit_of(each.name)) for each in _declared_of(result)]
+    return {
+        "name": name,
+        "scalars": list(_scalars(result, declared)),
+        "plots": [*_plots(name, result, declared), *_of_columns(name, result)],
+    }
+
+
+def _declared_of(result: Result) -> tuple[DeclaredQuantity, ...]:
+    """What the class of a result declares."""
+    owner: type = type(result)
+    return _declared(owner)
+
+
+@cache
+def _declared(owner: type) -> tuple[DeclaredQuantity, ...]:
+    """What a class of results declares, once for all changes."""
+    return tuple(quantities_of(owner))
+
+
+def _scalars(result: Result, declared: list[DeclaredQuantity]) -> Iterator[dict[str, Any]]:
+    """Single numbers that are finite."""
+    for each in declared:
+        value = getattr(result, each.name, None) if each.kind == "scalar" else None
+        if isinstance(value, int | float | np.number) and math.isfinite(value):
+            yield {**_words(each), "value": float(value)}
+
+
+def _words(each: DeclaredQuantity) -> dict[str, str]:
+    return {"name": each.name, "word": each.word, "symbol": each.symbol, "unit": each.unit}
+
+
+def _plots(name: str, result: Result, declared: list[DeclaredQuantity]) -> Iterator[dict[str, Any]]:
+    """Curves over one abscissa in one unit share a plot."""
+    known = {each.name: each for each in declared if each.kind == "curve"}
+    groups: dict[tuple[str, str], list[DeclaredQuantity]] = {}
+    for each in known.values():
+        if each.over in known:
+            groups.setdefault((each.over, each.unit), []).append(each)
+    for (over, unit), curves in groups.items():
+        x = _list_of(result, over)
+        listed = [(each, _list_of(result, each.name)) for each in curves]
+        drawn = [(each, y) for each, y in listed if y is not None and x is not None and y.shape == x.shape]
+        if x is not None and drawn and len(x) > 1:
+            yield {
+                "key": f"{name}.{drawn[0][0].name}",
+                "title": drawn[0][0].word if len(drawn) == 1 else _common(drawn),
+                "unit": unit,
+                "x": {**_words(known[over]), "values": x},
+                "curves": [{**_words(each), "values": y} for each, y in drawn],
+            }
+
+
+def _common(drawn: list[tuple[DeclaredQuantity, Floats]]) -> str:
+    """Title of a plot of several curves: their words, as many as a line holds."""
+    words = [each.word for each, _ in drawn]
+    return ", ".join(words[:2]) + (", …" if len(words) > 2 else "")
+
+
+def _list_of(result: Result, name: str) -> Floats | None:
+    """A curve as it is drawn: gaps where it has no value."""
+    values = getattr(result, name, None)
+    is_list = isinstance(values, np.ndarray) and values.ndim == 1 and values.dtype.kind in "fiu"
+    return np.asarray(values, dtype=float) if is_list else None
+
+
+def _of_columns(name: str, result: Result) -> Iterator[dict[str, Any]]:
+    """Columns of a result's parts, those of one part and one unit in one plot."""
+    columns = result.columns()
+    first = next((each for each in _declared_of(result) if each.kind == "curve"), None)
+    x = _list_of(result, first.name) if first else None
+    if first is None or x is None:
+        return
+    groups: dict[tuple[str, str], list[tuple[str, Floats]]] = {}
+    for head, values in columns.items():
+        match = _COLUMN.fullmatch(head)
+        if match and values.shape == x.shape:
+            part = match[1].rpartition("_")[0] or match[1]
+            groups.setdefault((part, match[2]), []).append((match[1], values))
+    for (part, unit), drawn in groups.items():
+        yield {
+            "key": f"{name}.{drawn[0][0]}",
+            "title": part.replace("_", " "),
+            "unit": unit,
+            "x": {**_words(first), "values": x},
+            "curves": [
+                {"name": head, "word": head.replace("_", " "), "symbol": "", "unit": unit, "values": y}
+                for head, y in drawn
+            ],
+        }

@@ -1,0 +1,234 @@
+// What a user does, and what becomes of the answers.
+import { batch } from "./vendor/signals-core.mjs";
+import { history } from "./history.js";
+import * as state from "./state.js";
+import { connect } from "./socket.js";
+import { between, placeOf } from "./timeline.js";
+
+/** @typedef {import("./socket.js").Request} Request */
+
+const KEPT = "kept text";
+let begun = 0;
+
+/** Hooks of the measurements in the tests: milliseconds from a change to the plots drawn anew. */
+export const measured = /** @type {{ redrawn: number[] }} */ ({ redrawn: [] });
+
+const link = connect({
+  answer: (number, body) => batch(() => HEAR[body.of]?.(body)),
+  state(connected) {
+    if (connected && !state.connected.value && state.text.value) {
+      compute({ text: state.text.value });
+    }
+    state.connected.value = connected;
+    if (connected) begin();
+  },
+});
+
+/** @type {Record<string, (body: any) => void>} */
+const HEAR = {
+  machine(body) {
+    state.seconds.value = body.seconds;
+    state.reason.value = body.reason ?? "";
+    state.problems.value = body.problems ?? [];
+    if (body.text !== undefined) {
+      state.text.value = body.text;
+      remember(body.text);
+    }
+    if (body.controls) state.controls.value = body.controls;
+    if (body.chips) state.chips.value = body.chips;
+    if (body.lanes) begunLanes(body.lanes, !body.problems);
+    state.live.value = body.controls === undefined ? body.set : {};
+    if (body.machine !== undefined) state.machine.value = body.machine;
+    if (body.results) {
+      atTheSameAngle(state.scene.value, body.scene);
+      state.scene.value = body.scene;
+      put("fast", body);
+    }
+    if (begun) requestAnimationFrame(redrawn);
+  },
+  beside(body) {
+    put(body.lane, body);
+    state.lanes.value = { ...state.lanes.value, [body.lane]: "ready" };
+  },
+  stopped(body) {
+    state.lanes.value = { ...state.lanes.value, [body.lane]: "stopped" };
+  },
+  refused(body) {
+    state.message.value = body.words;
+  },
+};
+
+/**
+ * Another length is another motion over time: the drawing stays at its crank angle.
+ * @param {import("./types.js").Scene | null} before @param {import("./types.js").Scene | null} after
+ */
+function atTheSameAngle(before, after) {
+  if (!before || !after) return;
+  const angle = between(before.angles, placeOf(before.times, state.time.value));
+  state.time.value = between(after.times, placeOf(after.angles, angle));
+}
+
+/** @param {string[]} lanes @param {boolean} sound */
+function begunLanes(lanes, sound) {
+  state.lanes.value = Object.fromEntries(lanes.map((lane) => [lane, sound ? "running" : "stopped"]));
+  const there = ["fast", ...lanes];
+  state.answers.value = Object.fromEntries(Object.entries(state.answers.value).filter(([lane]) => there.includes(lane)));
+}
+
+/** @param {string} lane @param {any} body */
+function put(lane, { results, findings, warnings, figures }) {
+  state.answers.value = { ...state.answers.value, [lane]: { results, findings, warnings, figures } };
+}
+
+function redrawn() {
+  measured.redrawn.push(performance.now() - begun);
+  begun = 0;
+}
+
+/** @param {string} text */
+function remember(text) {
+  state.past.value.of.put(text);
+  state.past.value = { ...state.past.value };
+  try {
+    localStorage.setItem(KEPT, JSON.stringify({ ...state.place.value, text, saved: state.saved.value }));
+  } catch {
+    // Without storage there is nothing to recover from.
+  }
+}
+
+/** Whether an answer is on its way. */
+export const busy = () => link.busy();
+
+/** @param {Omit<Request, "ask">} request */
+function compute(request) {
+  begun = performance.now();
+  link.compute({ ask: "compute", ...(request.text === undefined ? {} : state.place.value), ...request });
+}
+
+// -- changes ----------------------------------------------------------------------------------------------------
+
+/** A slider or a joint that is held. @param {Record<string, any>} set */
+export const hold = (set) => compute({ held: true, set });
+
+/** A joint that is dragged, or let go. @param {{ point: string, x: number, y: number, angle: number }} drag @param {boolean} [held] */
+export function pull(drag, held = true) {
+  const locked = Object.keys(state.locks.value).filter((address) => state.locks.value[address]);
+  compute({ held, drag: { ...drag, locked } });
+}
+
+/** Let go: what was held goes into the file. @param {Record<string, any>} set */
+export const settle = (set) => compute({ set });
+
+/** The pose before the gesture. */
+export const letBack = () => compute({ text: state.text.value });
+
+/** @param {string} text */
+export function write(text) {
+  state.text.value = text;
+  remember(text);
+  compute({ text });
+}
+
+export function undo() {
+  const text = state.past.value.of.undo();
+  if (text !== null) again(text);
+}
+
+export function redo() {
+  const text = state.past.value.of.redo();
+  if (text !== null) again(text);
+}
+
+/** @param {string} text */
+function again(text) {
+  state.text.value = text;
+  state.past.value = { ...state.past.value };
+  compute({ text });
+}
+
+export const stop = () => link.send({ ask: "stop" });
+
+// -- files ------------------------------------------------------------------------------------------------------
+
+/** @param {string} place @param {string} name */
+export async function open(place, name) {
+  const body = await link.ask({ ask: "open", place, name });
+  if (body.of !== "file") return HEAR.refused(body);
+  start(body, body.text, body.text);
+}
+
+/**
+ * @param {{ place: string, name: string }} of @param {string} text @param {string} saved
+ */
+export function start({ place, name }, text, saved) {
+  batch(() => {
+    state.place.value = { place, name };
+    state.text.value = text;
+    state.saved.value = saved;
+    state.past.value = { of: history(text), turn: 0 };
+    state.answers.value = {};
+    state.scene.value = null;
+    state.time.value = 0;
+    state.picked.value = "";
+    state.watched.value = "";
+    state.message.value = "";
+    state.dialog.value = "";
+    state.locks.value = {};
+    state.ends.value = {};
+  });
+  globalThis.history.replaceState(null, "", place ? `#open=${place}/${encodeURIComponent(name)}` : "#");
+  compute({ text });
+}
+
+/** @param {string} name @param {boolean} replace */
+export async function save(name, replace) {
+  const text = state.text.value;
+  const body = await link.ask({ ask: "save", name, text, replace });
+  if (body.of !== "saved") return HEAR.refused(body);
+  batch(() => {
+    state.place.value = { place: "folder", name };
+    state.saved.value = text;
+    state.dialog.value = "";
+    state.message.value = `Saved as ${name}.`;
+  });
+  globalThis.history.replaceState(null, "", `#open=folder/${encodeURIComponent(name)}`);
+  localStorage.removeItem(KEPT);
+}
+
+export async function list() {
+  const body = await link.ask({ ask: "gallery" });
+  if (body.of === "gallery") state.listed.value = body.machines;
+}
+
+/** @param {string} place @param {string} name @returns {Promise<any>} */
+export const thumbnail = (place, name) => link.ask({ ask: "thumbnail", place, name });
+
+/** What was not saved when the page was left last; null if nothing. @returns {{ place: string, name: string, text: string, saved: string } | null} */
+export function left() {
+  try {
+    const kept = JSON.parse(localStorage.getItem(KEPT) ?? "null");
+    return kept && kept.text !== kept.saved ? kept : null;
+  } catch {
+    return null;
+  }
+}
+
+let hasBegun = false;
+
+/** Opens what the address names: a machine, or a whole state. */
+async function begin() {
+  if (hasBegun) return;
+  hasBegun = true;
+  const words = new URLSearchParams(location.hash.slice(1));
+  const [place, ...rest] = (words.get("open") ?? "").split("/");
+  const packed = words.get("text");
+  if (packed) {
+    const { unfolded } = await import("./folded.js");
+    return start({ place: "", name: "" }, await unfolded(packed), "");
+  }
+  if (rest.length) return open(place, rest.join("/"));
+  const kept = left();
+  if (kept) return start(kept, kept.text, kept.saved);
+  await list();
+  return open("library", "roller_two_carts");
+}

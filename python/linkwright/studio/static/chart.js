@@ -1,0 +1,116 @@
+// One plot: curves over one abscissa in the user's units, the machine's instant as a line, one cursor in all plots of that abscissa.
+import { html } from "./html.js";
+import { useEffect, useRef } from "./vendor/hooks.mjs";
+import { followers } from "./stage.js";
+import * as state from "./state.js";
+import { colours } from "./theme.js";
+import { between, placeOf } from "./timeline.js";
+import { number, shownUnit } from "./units.js";
+
+/** @typedef {import("./types.js").Plot} Plot */
+
+const HEIGHT = 190;
+/** @type {any} */
+const uPlot = /** @type {any} */ (globalThis).uPlot;
+
+/** Rows of a plot in the user's units: abscissa, then curves. @param {Plot} plot @returns {Float64Array[]} */
+export function rows(plot) {
+  return [plot.x, ...plot.curves].map(({ values, unit }) => {
+    const { factor } = shownUnit(unit, state.units.value);
+    return factor === 1 ? values : values.map((value) => value / factor);
+  });
+}
+
+/** @param {string} symbol @param {string} word */
+export const short = (symbol, word) => symbol.replace(/_(.*)/, " $1") || word;
+
+/** A place of the abscissa as an instant of the drawing; null where that is no angle and no time of it. @param {Plot} plot @param {number} value in SI */
+function instantOf(plot, value) {
+  const scene = state.scene.value;
+  if (!scene) return null;
+  if (plot.x.name === "crank_angle") return between(scene.times, placeOf(scene.angles, value));
+  return null;
+}
+
+/** @param {Plot} plot @returns {number | null} place of the instant on the abscissa, in SI */
+function valueOf(plot) {
+  const scene = state.scene.value;
+  if (!scene || plot.x.name !== "crank_angle" || plot.key.startsWith("run")) return null;
+  return between(scene.angles, placeOf(scene.times, state.time.value));
+}
+
+/** @param {Plot} plot @param {number} width */
+function options(plot, width) {
+  const ink = colours();
+  const axis = { stroke: ink.soft, grid: { stroke: ink.grid, width: 1 }, ticks: { stroke: ink.grid, width: 1, size: 4 }, font: "11px system-ui, sans-serif" };
+  const x = shownUnit(plot.x.unit, state.units.value);
+  const values = (/** @type {any} */ _, /** @type {number[]} */ splits) => splits.map((value) => number(value, 4));
+  return {
+    width,
+    height: HEIGHT,
+    scales: { x: { time: false } },
+    cursor: { sync: { key: plot.x.name + x.unit }, drag: { x: true, y: false, dist: 6 }, points: { size: 6 } },
+    legend: { show: false },
+    axes: [
+      { ...axis, values, label: `${short(plot.x.symbol, plot.x.word)}${x.unit && `, ${x.unit}`}`, labelSize: 18, labelFont: axis.font, size: 30 },
+      { ...axis, values, size: 58 },
+    ],
+    series: [{}, ...plot.curves.map((_, n) => ({ stroke: ink.series[n % ink.series.length], width: 1.8, spanGaps: false }))],
+  };
+}
+
+/** @param {{ plot: Plot }} props */
+export function Chart({ plot }) {
+  const holder = useRef(/** @type {HTMLDivElement | null} */ (null));
+  const chart = useRef(/** @type {any} */ (null));
+  const now = useRef(plot);
+  now.current = plot;
+  // Another look, another unit or another number of curves needs axes of its own.
+  const form = [plot.key, plot.curves.length, shownUnit(plot.x.unit, state.units.value).unit, shownUnit(plot.unit, state.units.value).unit, state.look.value].join("|");
+  useEffect(() => {
+    const element = /** @type {HTMLDivElement} */ (holder.current);
+    const made = new uPlot(options(plot, Math.max(element.clientWidth, 160)), rows(plot), element);
+    chart.current = made;
+    const line = document.createElement("div");
+    line.className = "instant-line";
+    made.over.append(line);
+    const follow = () => {
+      const value = valueOf(now.current);
+      const { factor } = shownUnit(now.current.x.unit, state.units.value);
+      line.hidden = value === null;
+      if (value !== null) line.style.transform = `translateX(${made.valToPos(value / factor, "x").toFixed(1)}px)`;
+    };
+    followers.add(follow);
+    const scrub = () => {
+      const { left } = made.cursor;
+      if (made.select.width > 0 || left < 0) return;
+      const { factor } = shownUnit(now.current.x.unit, state.units.value);
+      const instant = instantOf(now.current, made.posToVal(left, "x") * factor);
+      if (instant === null) return;
+      state.playing.value = false;
+      state.time.value = instant;
+    };
+    made.over.addEventListener("click", scrub);
+    const observer = new ResizeObserver(() => made.setSize({ width: Math.max(element.clientWidth, 160), height: HEIGHT }));
+    observer.observe(element);
+    follow();
+    return () => {
+      followers.delete(follow);
+      observer.disconnect();
+      made.destroy();
+      chart.current = null;
+    };
+  }, [form]);
+  useEffect(() => {
+    const made = chart.current;
+    if (made) made.setData(rows(plot), !isZoomed(made));
+  }, [plot]);
+  return html`<div class="chart" ref=${holder} data-plot=${plot.key} role="img" aria-label="Plot of ${plot.title}; its numbers stand in the data table"></div>`;
+}
+
+/** Whether a user looks at a part of the abscissa. @param {any} made */
+function isZoomed(made) {
+  const x = made.data[0];
+  const { min, max } = made.scales.x;
+  return x.length > 1 && (min > x[0] || max < x[x.length - 1]);
+}

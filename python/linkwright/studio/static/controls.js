@@ -1,0 +1,198 @@
+// Controls of all entries of the file, as the descriptions declare them.
+import { html } from "./html.js";
+import { useState } from "./vendor/hooks.mjs";
+import { useComputed } from "./vendor/signals.mjs";
+import { hold, letBack, settle } from "./actions.js";
+import { Icon } from "./icons.js";
+import { Build, Remove, isElement } from "./build.js";
+import * as state from "./state.js";
+import { number, shownUnit, typed } from "./units.js";
+
+/** @typedef {import("./types.js").Entry} Entry @typedef {import("./types.js").Group} Group */
+
+/** Largest share of a value that a slider reaches beyond it. */
+const REACH = 2;
+
+/** Ends of a slider [SI]. @param {Entry} entry @returns {[number, number]} */
+function endsOf({ address, si, unit, bounds = {} }) {
+  const own = state.ends.value[address];
+  if (own) return own;
+  const value = si ?? 0;
+  const least = bounds.exclusiveMinimum ?? bounds.minimum ?? -Infinity;
+  const most = bounds.exclusiveMaximum ?? bounds.maximum ?? Infinity;
+  if (unit === "rad" && Math.abs(value) <= Math.PI) return [Math.max(least, -Math.PI), Math.min(most, Math.PI)];
+  const size = Math.abs(value) || 1;
+  return [Math.max(least, value < 0 || least < 0 ? -REACH * size : 0, least === 0 ? 0 : -Infinity), Math.min(most, REACH * size)];
+}
+
+/** @param {{ entry: Entry }} props */
+function Quantity({ entry }) {
+  const { address, unit = "", key } = entry;
+  const { unit: word, factor } = shownUnit(unit, state.units.value);
+  const pulled = useComputed(() => state.live.value[address]).value;
+  const si = typeof pulled === "number" ? pulled : entry.si;
+  const [draft, setDraft] = useState(/** @type {string | null} */ (null));
+  const [low, high] = endsOf(entry);
+  const shown = si === null || si === undefined ? String(entry.written) : number(si / factor, 7).replaceAll("−", "-");
+  const id = `at ${address}`;
+
+  /** @param {any} target */
+  function commit(target) {
+    setDraft(null);
+    if (target.value === shown) return;
+    const value = typed(target.value, factor);
+    if (value !== null) settle({ [address]: value });
+  }
+  /** @param {0 | 1} which */
+  const end = (which) => (/** @type {any} */ { target }) => {
+    const value = Number(target.value.replaceAll("−", "-")) * factor;
+    const next = /** @type {[number, number]} */ ([low, high]);
+    next[which] = value;
+    if (Number.isFinite(value) && next[0] < next[1]) state.ends.value = { ...state.ends.value, [address]: next };
+  };
+  const places = /** @param {number} value */ (value) => number(value / factor, 4).replaceAll("−", "-");
+  return html`
+    <div class="field">
+      <input id=${id} class="number" inputmode="decimal" autocomplete="off" spellcheck=${false} value=${draft ?? shown} aria-label="${key}, ${word || "number"}" data-address=${address}
+        onInput=${(/** @type {any} */ { target }) => setDraft(target.value)}
+        onChange=${(/** @type {any} */ { target }) => commit(target)}
+        onKeyDown=${(/** @type {any} */ { key: pressed, target }) => {
+          if (pressed === "Escape") setDraft(null);
+          if (pressed === "Enter") commit(target);
+        }} />
+      <span class="unit">${word}</span>
+    </div>
+    ${typeof si === "number" ? html`
+      <div class="slide">
+        <input class="end" value=${places(low)} aria-label="${key}, lower end of the slider" onChange=${end(0)} />
+        <input type="range" step="any" min=${low} max=${high} value=${si} aria-label="${key}, slider" data-slider=${address}
+          aria-valuetext="${number(si / factor)} ${word}"
+          onInput=${(/** @type {any} */ { target }) => hold({ [address]: Number(target.value) })}
+          onChange=${(/** @type {any} */ { target }) => settle({ [address]: Number(target.value) })}
+          onKeyDown=${(/** @type {any} */ event) => {
+            if (event.key === "Escape") letBack();
+            arrow(event, low, high, address, si);
+          }} />
+        <input class="end" value=${places(high)} aria-label="${key}, upper end of the slider" onChange=${end(1)} />
+      </div>` : null}`;
+}
+
+/**
+ * Arrow keys of a slider move it by a hundredth of its range, with Shift by a tenth.
+ * @param {any} event @param {number} low @param {number} high @param {string} address @param {number} si
+ */
+function arrow(event, low, high, address, si) {
+  const way = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 }[/** @type {string} */ (event.key)];
+  if (!way) return;
+  event.preventDefault();
+  const value = Math.min(Math.max(si + (way * (high - low)) / (event.shiftKey ? 10 : 100), low), high);
+  settle({ [address]: value });
+}
+
+/** @param {{ entry: Entry }} props */
+function Other({ entry }) {
+  const { address, holds, written, choices = [], key } = entry;
+  const id = `at ${address}`;
+  if (holds === "choice") {
+    return html`<select id=${id} aria-label=${key} value=${written} onChange=${(/** @type {any} */ { target }) => settle({ [address]: target.value })}>
+      ${choices.map((each) => html`<option key=${each} value=${each} selected=${each === written}>${each.replaceAll("_", " ")}</option>`)}
+    </select>`;
+  }
+  if (holds === "switch") {
+    return html`<input id=${id} type="checkbox" aria-label=${key} checked=${written} onChange=${(/** @type {any} */ { target }) => settle({ [address]: target.checked })} />`;
+  }
+  if (holds === "text" && String(written).length > 60) {
+    return html`<textarea id=${id} aria-label=${key} rows="3" value=${written} onChange=${(/** @type {any} */ { target }) => settle({ [address]: target.value })}></textarea>`;
+  }
+  if (holds === "text" || holds === "count") {
+    const read = (/** @type {string} */ value) => (holds === "count" && Number.isInteger(Number(value)) ? Number(value) : value);
+    return html`<input id=${id} aria-label=${key} value=${written} onChange=${(/** @type {any} */ { target }) => settle({ [address]: read(target.value) })} />`;
+  }
+  return html`<code class="data" title="Edit lists in the text of the file">${shortened(typeof written === "string" ? written : JSON.stringify(written))}</code>`;
+}
+
+/** @param {string} words */
+const shortened = (words) => (words.length > 48 ? `${words.slice(0, 47)}…` : words);
+
+/** @param {{ address: string }} props */
+function Problems({ address }) {
+  const own = state.problems.value.filter(({ key }) => key === address);
+  return own.map(({ found, expected, remedy }) => html`<p class="problem" role="alert">${found && `found ${found}, `}expected ${expected}${remedy && `; ${remedy}`}</p>`);
+}
+
+/** @param {{ entry: Entry, draggable: Set<string> }} props */
+function Row({ entry, draggable }) {
+  const { address, key, about } = entry;
+  const locked = useComputed(() => state.locks.value[address] ?? false).value;
+  const isPulled = useComputed(() => address in state.live.value).value;
+  return html`
+    <div class="row ${isPulled ? "pulled" : ""}">
+      <label for="at ${address}" title=${about}>${key.replaceAll("_", " ")}</label>
+      ${draggable.has(address) ? html`<button class="lock" aria-pressed=${locked ? "true" : "false"} aria-label="Lock ${key} of ${address.split(".").at(-2)}" title=${locked ? "Locked: joints that are dragged leave it as it is" : "Follows joints that are dragged; lock it"}
+        onClick=${() => (state.locks.value = { ...state.locks.value, [address]: !locked })}><${Icon} name=${locked ? "locked" : "open"} /></button>` : null}
+      ${entry.holds === "quantity" ? html`<${Quantity} entry=${entry} />` : html`<div class="field"><${Other} entry=${entry} /></div>`}
+      <${Problems} address=${address} />
+    </div>`;
+}
+
+/** @param {{ group: Group }} props */
+function More({ group }) {
+  const [open, setOpen] = useState(false);
+  const plain = group.missing.filter(({ expected }) => expected !== "a table" && !expected.startsWith("a list"));
+  if (!plain.length) return null;
+  return html`
+    <div class="more">
+      <button class="quiet" aria-expanded=${open ? "true" : "false"} onClick=${() => setOpen(!open)}>${open ? "Fewer entries" : `Add an entry (${plain.length})`}</button>
+      ${open ? plain.map((each) => html`
+        <button class="add" key=${each.key} title=${each.about} onClick=${() => settle({ [each.address]: first(each) })}>
+          <b>${each.key.replaceAll("_", " ")}</b> ${each.about} <i>${each.usual === null || each.usual === "" ? "" : `Now ${each.usual} ${each.unit ?? ""}.`}</i>
+        </button>`) : null}
+    </div>`;
+}
+
+/** What an entry begins with. @param {import("./types.js").Missing} missing */
+const first = ({ usual, choices = [], unit }) => usual ?? choices[0] ?? (unit === undefined ? "" : `0 ${unit}`.trim());
+
+/** Depth of the groups that are open at first: all of a small machine. */
+const SMALL = 40;
+
+/** @param {Group} group @returns {number} */
+const count = ({ entries, groups }) => entries.length + groups.reduce((sum, each) => sum + count(each), 0);
+
+/** @param {{ group: Group, draggable: Set<string>, deep: number }} props */
+function Part({ group, draggable, deep }) {
+  const open = group.address.startsWith("mechanism") || count(state.controls.value ?? group) < SMALL ? 4 : 2;
+  const wrong = state.problems.value.some(({ key }) => key === group.address || key.startsWith(`${group.address}.`));
+  return html`
+    <details class="part deep${deep}" open=${deep < open || wrong}>
+      <summary title=${group.about}>${group.key.replaceAll("_", " ")}${wrong ? html` <span class="badge">!</span>` : null}</summary>${isElement(group.address) ? html`<${Remove} address=${group.address} word=${group.key} />` : null}
+      <${Problems} address=${group.address} />
+      <${Inside} group=${group} draggable=${draggable} deep=${deep} />
+    </details>`;
+}
+
+/** @param {{ group: Group, draggable: Set<string>, deep: number }} props */
+function Inside({ group, draggable, deep }) {
+  return html`
+    ${group.entries.map((entry) => html`<${Row} key=${entry.address} entry=${entry} draggable=${draggable} />`)}
+    ${group.groups.map((each) => html`<${Part} key=${each.address} group=${each} draggable=${draggable} deep=${deep + 1} />`)}
+    <${More} group=${group} />`;
+}
+
+/** Entries that say what the file is come last: one opens a machine for its dimensions. */
+const LAST = new Set(["format", "name", "description", "source"]);
+
+export function Controls() {
+  const whole = state.controls.value;
+  if (!whole) return html`<p class="nothing">The text of the file is no TOML; mend it under File.</p>`;
+  const draggable = new Set(state.draggable.value.split("\n"));
+  const [heads, others] = [whole.entries.filter(({ key }) => LAST.has(key)), whole.entries.filter(({ key }) => !LAST.has(key))];
+  const rank = ["mechanism", "drive", "bodies", "loads"];
+  const place = (/** @type {Group} */ { key }) => (rank.indexOf(key) + 1 || rank.length + 1);
+  const body = { ...whole, entries: others, groups: [...whole.groups].sort((a, b) => place(a) - place(b)) };
+  return html`
+    <${Problems} address="" />
+    <${Inside} group=${body} draggable=${draggable} deep=${0} />
+    <${Build} />
+    <${Part} group=${{ ...whole, key: "about this machine", address: "", about: "", entries: heads, groups: [], missing: [] }} draggable=${draggable} deep=${2} />`;
+}

@@ -1,0 +1,84 @@
+// What opens over the page: the gallery, saving, units, the same result elsewhere.
+import { html } from "./html.js";
+import { useEffect, useRef, useState } from "./vendor/hooks.mjs";
+import { save } from "./actions.js";
+import { folded } from "./folded.js";
+import { Gallery } from "./gallery.js";
+import { Icon } from "./icons.js";
+import * as state from "./state.js";
+import { SETS, UNITS, chosen } from "./units.js";
+
+function Units() {
+  const choice = state.units.value;
+  return html`
+    <div class="sets" role="group" aria-label="Sets of units">${SETS.map((word, n) => html`<button key=${word} onClick=${() => (state.units.value = chosen(n))}>${word}</button>`)}</div>
+    <div class="units">${Object.entries(UNITS).map(([si, { word, units }]) => html`
+      <label key=${si}>${word}<select value=${choice[si]} onChange=${(/** @type {any} */ { target }) => (state.units.value = { ...choice, [si]: target.value })}>
+        ${Object.keys(units).map((unit) => html`<option key=${unit} value=${unit} selected=${unit === choice[si]}>${unit}</option>`)}
+      </select></label>`)}</div>
+    <p class="about">The file keeps the units that it is written in. A number with a unit of its own, such as <code>8.5 in</code>, can be typed into every field.</p>`;
+}
+
+function SaveAs() {
+  const { place, name } = state.place.value;
+  const [wanted, setWanted] = useState(place === "folder" ? name : `${name || "machine"}.toml`);
+  const [over, setOver] = useState(false);
+  return html`
+    <form onSubmit=${(/** @type {any} */ event) => {
+      event.preventDefault();
+      save(wanted.endsWith(".toml") ? wanted : `${wanted}.toml`, over);
+    }}>
+      <label>Name, below the folder of the studio <input id="save-name" value=${wanted} onInput=${(/** @type {any} */ { target }) => setWanted(target.value)} /></label>
+      <label class="check"><input type="checkbox" checked=${over} onChange=${(/** @type {any} */ { target }) => setOver(target.checked)} />Replace a file of this name</label>
+      <button class="main" type="submit">Save</button>
+    </form>`;
+}
+
+/** @param {{ words: string, label: string }} props */
+function Copy({ words, label }) {
+  const [done, setDone] = useState(false);
+  return html`
+    <div class="copy"><h3>${label}</h3><pre tabindex="0">${words}</pre>
+      <button onClick=${async () => {
+        await navigator.clipboard.writeText(words);
+        setDone(true);
+      }}>${done ? "Copied" : "Copy"}</button></div>`;
+}
+
+function Elsewhere() {
+  const [link, setLink] = useState("");
+  const { place, name } = state.place.value;
+  const text = state.text.value;
+  useEffect(() => {
+    folded(text).then((letters) => setLink(`#text=${letters}`));
+  }, [text]);
+  const file = place === "folder" || place === "library" ? name : "machine.toml";
+  const first = place === "template" || state.unsaved.value ? "Save the file first: these lines read it.\n" : "";
+  return html`
+    ${first ? html`<p class="about">${first}</p>` : null}
+    <${Copy} label="Command line" words=${`linkwright run ${file} --out out`} />
+    <${Copy} label="Python" words=${`import linkwright as lw\n\nmachine = lw.read("${file}")\nstudy = lw.study(machine)\nlw.write_report(study, "report.html")`} />
+    <${Copy} label="This state, to be put behind the address of any studio" words=${link} />`;
+}
+
+const DIALOGS = /** @type {Record<string, [string, any]>} */ ({
+  gallery: ["Machines", Gallery],
+  save: ["Save as", SaveAs],
+  units: ["Units", Units],
+  elsewhere: ["The same elsewhere", Elsewhere],
+});
+
+export function Dialog() {
+  const own = useRef(/** @type {HTMLDialogElement | null} */ (null));
+  const which = state.dialog.value;
+  useEffect(() => {
+    if (which && own.current && !own.current.open) own.current.showModal();
+    if (!which && own.current?.open) own.current.close();
+  }, [which]);
+  const [title, Inside] = DIALOGS[which] ?? ["", null];
+  return html`
+    <dialog ref=${own} class=${which} aria-label=${title || "Dialog"} onClose=${() => (state.dialog.value = "")} onClick=${(/** @type {any} */ { target }) => target === own.current && (state.dialog.value = "")}>
+      <div class="sheet"><header><h2>${title}</h2><button class="icon" aria-label="Close" onClick=${() => (state.dialog.value = "")}><${Icon} name="close" /></button></header>
+      ${Inside ? html`<${Inside} />` : null}</div>
+    </dialog>`;
+}

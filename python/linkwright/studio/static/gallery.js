@@ -1,0 +1,100 @@
+// All machines that can be opened, moving.
+import { html } from "./html.js";
+import { useEffect, useRef, useState } from "./vendor/hooks.mjs";
+import { list, open, thumbnail } from "./actions.js";
+import { fit } from "./frame.js";
+import { paintMoving, paintStill } from "./painter.js";
+import * as state from "./state.js";
+import { colours } from "./theme.js";
+import { onward, placeOf, watchable } from "./timeline.js";
+
+const PLACES = /** @type {Record<string, string>} */ ({ template: "Templates to start from", library: "Machines of the library", folder: "Files of this folder" });
+
+/** One request at a time, in the order in which cards are seen. */
+let queue = Promise.resolve();
+/** @type {Map<string, any>} */
+const known = new Map();
+
+/** @param {string} place @param {string} name */
+function sceneOf(place, name) {
+  const key = `${place}/${name}`;
+  if (!known.has(key)) known.set(key, (queue = queue.then(() => thumbnail(place, name)).catch(() => null)));
+  return known.get(key).then((/** @type {any} */ body) => body?.scene ?? null);
+}
+
+/** @param {HTMLCanvasElement} canvas @param {any} scene @returns {() => void} */
+function moving(canvas, scene) {
+  const ctx = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
+  const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
+  let [time, way, before, handle, seen] = [0, 1, 0, 0, true];
+  const watch = new IntersectionObserver(([entry]) => (seen = entry.isIntersecting));
+  watch.observe(canvas);
+  /** @param {number} now */
+  function step(now) {
+    const period = scene.times[scene.times.length - 1];
+    if (before && !still) [time, way] = onward(time, way, ((now - before) / 1000) * (period / watchable(period)), period, scene.swings);
+    before = now;
+    if (seen) draw();
+    if (!still) handle = requestAnimationFrame(step);
+  }
+  function draw() {
+    const [ratio, ink] = [devicePixelRatio || 1, colours()];
+    const { clientWidth: width, clientHeight: height } = canvas;
+    if (canvas.width !== Math.round(width * ratio)) [canvas.width, canvas.height] = [Math.round(width * ratio), Math.round(height * ratio)];
+    const zoom = 0.45;
+    ctx.setTransform(ratio * zoom, 0, 0, ratio * zoom, 0, 0);
+    ctx.clearRect(0, 0, width / zoom, height / zoom);
+    const parts = scene.parts.map((/** @type {any} */ part) => ({ ...part, slides: false, name: part.kind === "point" || part.kind === "trace" || part.kind === "ground" ? part.name : "" }));
+    const view = { ctx, scene: { ...scene, parts }, frame: fit(scene.box, width / zoom, height / zoom), k: placeOf(scene.times, time), ink, series: ink.series };
+    paintStill({ ...view, scene: { ...scene, parts: parts.filter((/** @type {any} */ { kind }) => kind !== "ground") } });
+    paintMoving(view);
+  }
+  handle = requestAnimationFrame(step);
+  return () => {
+    cancelAnimationFrame(handle);
+    watch.disconnect();
+  };
+}
+
+/** @param {{ listed: import("./types.js").Listed }} props */
+function Card({ listed: { place, name, title } }) {
+  const canvas = useRef(/** @type {HTMLCanvasElement | null} */ (null));
+  const [state_, setState] = useState("waiting");
+  useEffect(() => {
+    const element = /** @type {HTMLCanvasElement} */ (canvas.current);
+    let end = () => {};
+    const watch = new IntersectionObserver(([entry]) => {
+      if (!entry.isIntersecting) return;
+      watch.disconnect();
+      sceneOf(place, name).then((/** @type {any} */ scene) => {
+        setState(scene ? "moving" : "none");
+        if (scene && element.isConnected) end = moving(element, scene);
+      });
+    });
+    watch.observe(element);
+    return () => {
+      watch.disconnect();
+      end();
+    };
+  }, [place, name]);
+  return html`
+    <button class="card ${state_}" onClick=${() => open(place, name)} data-open="${place}/${name}">
+      <canvas ref=${canvas} aria-hidden="true"></canvas>
+      <b>${title}</b><small>${name}</small>
+    </button>`;
+}
+
+export function Gallery() {
+  const [wanted, setWanted] = useState("");
+  useEffect(() => {
+    list();
+  }, []);
+  const seek = wanted.toLowerCase();
+  const found = state.listed.value.filter(({ title, name }) => `${title} ${name}`.toLowerCase().includes(seek));
+  return html`
+    <input type="search" class="seek" placeholder="Find a machine" aria-label="Find a machine" value=${wanted} onInput=${(/** @type {any} */ { target }) => setWanted(target.value)} />
+    ${Object.entries(PLACES).map(([place, words]) => {
+      const here = found.filter((each) => each.place === place);
+      return here.length ? html`<h3>${words}</h3><div class="cards">${here.map((each) => html`<${Card} key="${place}/${each.name}" listed=${each} />`)}</div>` : null;
+    })}`;
+}

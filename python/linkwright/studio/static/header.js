@@ -1,0 +1,38 @@
+// The bar at the top: which machine it is, files, undo, units, look.
+import { html } from "./html.js";
+import { redo, save, undo } from "./actions.js";
+import { Icon } from "./icons.js";
+import * as state from "./state.js";
+
+const LOOKS = /** @type {Record<string, [string, string]>} */ ({ "": ["system", "Look of the system"], light: ["light", "Light"], dark: ["dark", "Dark"] });
+
+export function saveNow() {
+  const { place, name } = state.place.value;
+  if (place === "folder" && name) save(name, true);
+  else state.dialog.value = "save";
+}
+
+export function Header() {
+  const past = state.past.value.of;
+  const { place, name } = state.place.value;
+  const [mark, about] = LOOKS[state.look.value];
+  const next = { "": "light", light: "dark", dark: "" }[/** @type {""} */ (state.look.value)];
+  return html`
+    <header class="bar">
+      <img src="icon.svg" alt="" width="28" height="28" />
+      <div class="title"><h1>${state.machine.value || "Linkwright studio"}</h1>
+        <small>${name || "unnamed"}${place && place !== "folder" ? `, from the ${place}` : ""}${state.unsaved.value ? html` <span class="unsaved" title="There are changes that are not saved">● unsaved</span>` : null}</small></div>
+      <nav aria-label="File">
+        <button onClick=${() => (state.dialog.value = "gallery")}>Machines</button>
+        <button onClick=${saveNow} title="Save (Ctrl+S)">Save</button>
+        <button onClick=${() => (state.dialog.value = "save")}>Save as</button>
+        <span class="gap"></span>
+        <button class="icon" disabled=${!past.canUndo} onClick=${undo} aria-label="Undo" title="Undo (Ctrl+Z)"><${Icon} name="undo" /></button>
+        <button class="icon" disabled=${!past.canRedo} onClick=${redo} aria-label="Redo" title="Redo (Ctrl+Shift+Z)"><${Icon} name="redo" /></button>
+        <span class="gap"></span>
+        <button onClick=${() => (state.dialog.value = "units")}>Units</button>
+        <button onClick=${() => (state.dialog.value = "elsewhere")} title="Command line, Python, link">Copy</button>
+        <button class="icon" onClick=${() => (state.look.value = next)} aria-label="Look: ${about}" title=${about}><${Icon} name=${mark} /></button>
+      </nav>
+    </header>`;
+}

@@ -1,0 +1,56 @@
+// Scalars of all results, the few that one looks for first at the head.
+import { html } from "./html.js";
+import { useState } from "./vendor/hooks.mjs";
+import * as state from "./state.js";
+import { number, shownUnit } from "./units.js";
+
+/** Scalars of the head: by name of the result and of the quantity. */
+const HEAD = [
+  "steady_state.unevenness", "steady_state.speed_mean_time", "steady_state.torque_motor_rms", "steady_state.power_motor_mean", "run_up.time",
+  "forces.shaking_force_max", "forces.torque_drive_max",
+];
+const HEAD_MOST = 6;
+
+/** Index marks of a symbol, as M_d,max. @param {{ symbol: string }} props */
+export function Sign({ symbol }) {
+  const [head, ...rest] = symbol.split("_");
+  return html`<span class="symbol">${head}${rest.length ? html`<sub>${rest.join("_")}</sub>` : null}</span>`;
+}
+
+/** @param {string} name */
+const titled = (name) => {
+  const words = name.replaceAll("_", " ");
+  return words[0].toUpperCase() + words.slice(1);
+};
+
+export function Head() {
+  /** @type {Map<string, import("./types.js").Words & { value: number }>} */
+  const known = new Map(state.results.value.flatMap(({ name, scalars }) => scalars.map((each) => [`${name}.${each.name}`, each])));
+  const found = HEAD.flatMap((name) => known.get(name) ?? []);
+  const fill = [...known.values()].filter((each) => !found.includes(each));
+  const shown = [...found, ...fill].slice(0, found.length >= 3 ? Math.min(found.length, HEAD_MOST) : HEAD_MOST);
+  if (!shown.length) return null;
+  const of = new Map(state.results.value.flatMap(({ name, scalars }) => scalars.map((each) => /** @type {const} */ ([each, name]))));
+  return html`<dl class="head" aria-label="Main results">${shown.map((each) => {
+    const { unit, factor } = shownUnit(each.unit, state.units.value);
+    return html`<div key=${each.name} data-name=${each.name}><dt>${/^(time|revolutions)$/.test(each.word) ? `${titled(of.get(each) ?? "")}: ${each.word}` : each.word}</dt><dd><b data-value=${each.value}>${number(each.value / factor, 4)}</b> <small>${unit || "–"}</small></dd></div>`;
+  })}</dl>`;
+}
+
+export function Numbers() {
+  const [wanted, setWanted] = useState("");
+  const seek = wanted.toLowerCase();
+  const groups = state.results.value
+    .map(({ name, scalars }) => ({ name, scalars: scalars.filter(({ word, symbol, name: own }) => `${word} ${symbol} ${own}`.toLowerCase().includes(seek)) }))
+    .filter(({ scalars }) => scalars.length);
+  return html`
+    <input type="search" class="seek" placeholder="Find a quantity" aria-label="Find a quantity" value=${wanted} onInput=${(/** @type {any} */ { target }) => setWanted(target.value)} />
+    ${groups.map(({ name, scalars }) => html`
+      <table key=${name}><caption>${titled(name.replace(".", ", "))}</caption><tbody>
+        ${scalars.map((each) => {
+          const { unit, factor } = shownUnit(each.unit, state.units.value);
+          return html`<tr key=${each.name}><th scope="row">${each.word}</th><td><${Sign} symbol=${each.symbol} /></td><td class="value" data-scalar="${name}.${each.name}" data-value=${each.value}>${number(each.value / factor)}</td><td>${unit}</td></tr>`;
+        })}
+      </tbody></table>`)}
+    ${groups.length ? null : html`<p class="nothing">No such quantity among the results.</p>`}`;
+}

@@ -1,0 +1,54 @@
+// Play, step, scrub, playback speed, and what is drawn.
+import { html } from "./html.js";
+import { Icon } from "./icons.js";
+import * as state from "./state.js";
+import { between, placeOf } from "./timeline.js";
+
+const LAYERS = /** @type {[keyof typeof state.layers.value & string, string][]} */ ([
+  ["velocities", "Velocities"], ["accelerations", "Accelerations"], ["forces", "Joint forces"], ["paths", "Paths"], ["names", "Names"], ["handles", "Handles"],
+]);
+
+/** @param {number} by steps of the scene */
+function step(by) {
+  const scene = state.scene.value;
+  if (!scene) return;
+  state.playing.value = false;
+  const last = scene.times.length - 1;
+  const k = Math.round(placeOf(scene.times, state.time.value)) + by;
+  state.time.value = scene.times[scene.swings ? Math.min(Math.max(k, 0), last) : (k + last) % last];
+}
+
+function Scrub() {
+  const scene = state.scene.value;
+  if (!scene) return null;
+  const last = scene.times.length - 1;
+  const k = placeOf(scene.times, state.time.value);
+  const degrees = (between(scene.angles, k) * 180) / Math.PI;
+  return html`<input type="range" id="scrub" aria-label="Crank angle" min="0" max=${last} step="any" value=${k}
+    aria-valuetext=${`${degrees.toFixed(0)} degrees`}
+    onInput=${(/** @type {any} */ { target }) => {
+      state.playing.value = false;
+      const n = Math.min(Number(target.value), last - 1e-9);
+      state.time.value = between(scene.times, n);
+    }} />`;
+}
+
+export function Playbar() {
+  const playing = state.playing.value;
+  return html`
+    <div class="playbar" role="group" aria-label="Motion">
+      <button class="icon" onClick=${() => step(-1)} aria-label="One step back" title="One step back"><${Icon} name="back" /></button>
+      <button class="icon play" onClick=${() => (state.playing.value = !playing)} aria-label=${playing ? "Pause" : "Play"} title="Play or pause (space)"><${Icon} name=${playing ? "pause" : "play"} /></button>
+      <button class="icon" onClick=${() => step(1)} aria-label="One step on" title="One step on"><${Icon} name="on" /></button>
+      <${Scrub} />
+      <output id="instant"></output>
+      <label class="speed">Speed
+        <input type="range" min="-2" max="1" step="0.05" value=${state.pace.value} aria-valuetext=${`${(10 ** state.pace.value).toPrecision(2)} times`}
+          onInput=${(/** @type {any} */ { target }) => (state.pace.value = Number(target.value))} />
+      </label>
+    </div>
+    <fieldset class="layers"><legend class="hidden">What is drawn</legend>
+      ${LAYERS.map(([key, word]) => html`<label key=${key}><input type="checkbox" checked=${state.layers.value[key]}
+        onChange=${(/** @type {any} */ { target }) => (state.layers.value = { ...state.layers.value, [key]: target.checked })} /><i class="dot ${key}"></i>${word}</label>`)}
+    </fieldset>`;
+}

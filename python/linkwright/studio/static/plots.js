@@ -1,0 +1,128 @@
+// The plots of all results, the diagrams of the slow ones, and the data behind each.
+import { html } from "./html.js";
+import { useMemo, useState } from "./vendor/hooks.mjs";
+import { Chart, rows, short } from "./chart.js";
+import { csv, download, png, svg } from "./exported.js";
+import { Icon } from "./icons.js";
+import { pointPlots } from "./points.js";
+import * as state from "./state.js";
+import { colours } from "./theme.js";
+import { number, shownUnit } from "./units.js";
+
+/** @typedef {import("./types.js").Plot} Plot */
+
+/** Rows of a data table on the page; the CSV has all. */
+const ROWS_MOST = 181;
+
+/** Plots that say the same as another, or nothing that one looks for first. */
+const ASIDE = [/^forces\.(time|speed|acceleration|power_residual|crank_angle)$/, /\.time$/, /^forces\.shaking_force_/, /_moment$/, /^run_(up|down)\.(crank_angle)$/, /^reduction\./, /^steady_state\.power/, /^forces\.power/];
+
+const titled = (/** @type {string} */ words) => words[0].toUpperCase() + words.slice(1);
+
+/** @param {Plot} plot @returns {import("./exported.js").Sheet} */
+function sheet(plot) {
+  const heads = [plot.x, ...plot.curves].map(({ symbol, word, unit }) => {
+    const { unit: shown } = shownUnit(unit, state.units.value);
+    return `${short(symbol, word)} [${shown || "-"}]`;
+  });
+  return { title: titled(plot.title), heads, rows: rows(plot) };
+}
+
+/** @param {{ plot: Plot }} props */
+function Data({ plot }) {
+  const { heads, rows: columns } = sheet(plot);
+  const count = columns[0].length;
+  const step = Math.max(1, Math.ceil(count / ROWS_MOST));
+  const shown = Array.from({ length: Math.ceil(count / step) }, (_, n) => n * step);
+  return html`
+    <div class="data-table" tabindex="0" role="region" aria-label="Data of ${plot.title}">
+      <table><thead><tr>${heads.map((head) => html`<th scope="col">${head}</th>`)}</tr></thead>
+      <tbody>${shown.map((n) => html`<tr key=${n}>${columns.map((column) => html`<td>${number(column[n], 6)}</td>`)}</tr>`)}</tbody></table>
+    </div>`;
+}
+
+/** @param {{ plot: Plot, of: string }} props */
+function Panel({ plot, of }) {
+  const [data, setData] = useState(false);
+  const { unit } = shownUnit(plot.unit, state.units.value);
+  const name = `${state.machine.value} ${plot.title}`;
+  const asPng = async () => {
+    const canvas = document.querySelector(`[data-plot="${CSS.escape(plot.key)}"] canvas`);
+    if (canvas instanceof HTMLCanvasElement) download(await png(canvas, `${titled(plot.title)} [${unit || "–"}]`, colours()), `${name}.png`);
+  };
+  const asSvg = () => download(new Blob([svg(sheet(plot), ["#0072b2", "#d55e00", "#009e73", "#a8478a", "#b97f00", "#56b4e9"])], { type: "image/svg+xml" }), `${name}.svg`);
+  const asCsv = () => download(new Blob([csv(sheet(plot))], { type: "text/csv" }), `${name}.csv`);
+  return html`
+    <section class="panel" aria-label=${plot.title}>
+      <header>
+        <h3>${titled(plot.title)} <small>${unit}</small></h3>
+        <span class="legend">${plot.curves.length > 1 ? plot.curves.map(({ symbol, word }, n) => html`<span key=${n} title=${word}><i class="key c${n % 6}"></i>${short(symbol, word)}</span>`) : null}</span>
+        <span class="tools">
+          <button class="quiet" aria-pressed=${data ? "true" : "false"} onClick=${() => setData(!data)} title="The numbers as a table">Data</button>
+          <button class="quiet" onClick=${asCsv} title="Download CSV">CSV</button>
+          <button class="quiet" onClick=${asPng} title="Download PNG">PNG</button>
+          <button class="quiet" onClick=${asSvg} title="Download SVG">SVG</button>
+          <button class="quiet" aria-label="Hide the plot of ${plot.title}" title="Hide" onClick=${() => (state.hidden.value = { ...state.hidden.value, [plot.key]: true })}><${Icon} name="close" /></button>
+        </span>
+      </header>
+      <${Chart} plot=${plot} />
+      ${data ? html`<${Data} plot=${plot} />` : null}
+    </section>`;
+}
+
+/** @param {string} key */
+const isAside = (key) => ASIDE.some((each) => each.test(key));
+
+/** @param {Plot} plot */
+const isHidden = ({ key }) => state.hidden.value[key] ?? isAside(key);
+
+export function Plots() {
+  const all = [...pointPlots().map((plot) => ({ plot, of: "points" })), ...state.results.value.flatMap(({ name, plots }) => plots.map((plot) => ({ plot, of: name })))];
+  const points = Object.keys(state.scene.value?.velocities ?? {});
+  const shown = all.filter(({ plot }) => !isHidden(plot));
+  const others = all.filter(({ plot }) => isHidden(plot));
+  return html`
+    ${points.length ? html`
+      <label class="watch">Curves of a point <select value=${state.watched.value} onChange=${(/** @type {any} */ { target }) => (state.watched.value = target.value)}>
+        <option value="">none</option>${points.map((name) => html`<option key=${name} value=${name} selected=${name === state.watched.value}>${name}</option>`)}
+      </select></label>` : null}
+    <div class="panels">
+      ${shown.map(({ plot, of }) => html`<${Panel} key=${plot.key} plot=${plot} of=${of} />`)}
+      ${all.length || state.figures.value.length ? null : html`<p class="nothing">No curves yet. The chips above say what stands in the way.</p>`}
+    </div>
+    ${others.length ? html`
+      <details class="others"><summary>${others.length} more plots</summary>
+        ${others.map(({ plot, of }) => html`<button class="add" key=${plot.key} onClick=${() => (state.hidden.value = { ...state.hidden.value, [plot.key]: false })}><b>${titled(plot.title)}</b> ${of.replaceAll("_", " ")}</button>`)}
+      </details>` : null}`;
+}
+
+export function Diagrams() {
+  return html`<div class="diagrams">${state.figures.value.map((each) => html`<${Diagram} key=${each.name} figure=${each} />`)}
+    ${state.figures.value.length ? null : html`<p class="nothing">${Object.values(state.lanes.value).includes("running") ? "Being computed …" : "No diagrams of this machine."}</p>`}</div>`;
+}
+
+/** @param {{ figure: import("./types.js").Figure }} props */
+function Diagram({ figure }) {
+  const drawn = useMemo(() => parsed(figure.svg), [figure.svg]);
+  const put = (/** @type {HTMLElement | null} */ element) => element?.replaceChildren(drawn);
+  return html`
+    <figure class="diagram">
+      <h3>${figure.title}</h3>
+      <div ref=${put} role="img" aria-label=${figure.caption}></div>
+      <figcaption>${figure.caption} <button class="quiet" onClick=${() => download(new Blob([figure.svg], { type: "image/svg+xml" }), `${state.machine.value} ${figure.title}.svg`)}>SVG</button></figcaption>
+    </figure>`;
+}
+
+/**
+ * A drawing of the server as an element: styles of its attributes are set one by one, since the page allows none in its text.
+ * @param {string} text
+ */
+function parsed(text) {
+  const root = new DOMParser().parseFromString(text.replace(/ style="/g, ' data-style="'), "image/svg+xml").documentElement;
+  const drawn = document.importNode(root, true);
+  for (const each of /** @type {NodeListOf<SVGElement>} */ (drawn.querySelectorAll("[data-style]"))) {
+    each.style.cssText = each.dataset.style ?? "";
+    each.removeAttribute("data-style");
+  }
+  return drawn;
+}

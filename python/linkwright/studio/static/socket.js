@@ -1,0 +1,63 @@
+// The socket: one request to compute is on its way at a time. Of held ones that wait, the newest alone is sent; what was let go is kept.
+import { pack, unpack } from "./wire.js";
+
+/**
+ * @typedef {{ ask: string, [key: string]: any }} Request
+ * @param {{ answer: (number: number, body: any) => void, state: (connected: boolean) => void }} hear
+ */
+export function connect(hear) {
+  let number = 0;
+  /** @type {WebSocket} */
+  let socket;
+  /** @type {Request[]} */
+  let waiting = [];
+  let onTheWay = 0;
+  /** @type {Map<number, (body: any) => void>} */
+  const asked = new Map();
+
+  function open() {
+    socket = new WebSocket(`ws://${location.host}/socket`);
+    socket.binaryType = "arraybuffer";
+    socket.onopen = () => hear.state(true);
+    socket.onclose = () => {
+      onTheWay = 0;
+      waiting = [];
+      hear.state(false);
+      setTimeout(open, 1500);
+    };
+    socket.onmessage = ({ data }) => {
+      const { number: of, body } = unpack(data);
+      const told = asked.get(of);
+      asked.delete(of);
+      if (of === onTheWay && body.of !== "beside" && body.of !== "stopped") {
+        onTheWay = 0;
+        const next = waiting.shift();
+        if (next) compute(next);
+      }
+      if (told) told(body);
+      else hear.answer(of, body);
+    };
+  }
+
+  /** @param {Request} body @returns {number} */
+  function send(body) {
+    number += 1;
+    if (socket.readyState === WebSocket.OPEN) socket.send(pack(number, body));
+    return number;
+  }
+
+  /** @param {Request} body */
+  function compute(body) {
+    if (onTheWay) waiting = [...waiting.filter(({ held }) => !held), body];
+    else onTheWay = send(body);
+  }
+
+  open();
+  return {
+    compute,
+    busy: () => onTheWay !== 0 || waiting.length > 0 || asked.size > 0,
+    send,
+    /** @param {Request} body @returns {Promise<any>} */
+    ask: (body) => new Promise((resolve) => asked.set(send(body), resolve)),
+  };
+}

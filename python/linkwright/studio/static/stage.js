@@ -1,0 +1,313 @@
+// The stage: the drawing on a canvas, handles over it, and the clock that moves both.
+import { html } from "./html.js";
+import { useEffect, useRef } from "./vendor/hooks.mjs";
+import { effect } from "./vendor/signals-core.mjs";
+import "./vendor/signals.mjs";
+import { letBack, pull } from "./actions.js";
+import { paintArrows } from "./arrows.js";
+import { barLength, fit, toMachine, toScreen, zoomed } from "./frame.js";
+import { paintMoving, paintStill } from "./painter.js";
+import * as state from "./state.js";
+import { colours } from "./theme.js";
+import { between, onward, pairAt, placeOf, watchable } from "./timeline.js";
+import { number, shownUnit } from "./units.js";
+
+/** Part of the drawing's size that an arrow key moves a joint by. */
+const NUDGE = 0.005;
+
+/** Things that are drawn anew at every instant, such as the cursors of the plots. @type {Set<(time: number) => void>} */
+export const followers = new Set();
+
+/** Frames of the last seconds, for the tests. */
+export const frames = { count: 0 };
+
+export function Stage() {
+  const holder = useRef(/** @type {HTMLDivElement | null} */ (null));
+  const canvas = useRef(/** @type {HTMLCanvasElement | null} */ (null));
+  useEffect(() => run(/** @type {any} */ (holder.current), /** @type {any} */ (canvas.current)), []);
+  const points = state.handled.value ? state.handled.value.split("\n") : [];
+  return html`
+    <div class="stage" ref=${holder}>
+      <canvas ref=${canvas} role="img" aria-label="Drawing of ${state.machine.value || "the machine"}, to scale"></canvas>
+      <div class="handles">
+        ${state.layers.value.handles ? points.map((point) => html`
+          <button key=${point} class="handle" data-point=${point} title="${point}: drag, or press Enter and click a place, or use the arrow keys"
+            aria-label="Joint ${point}" aria-pressed=${state.picked.value === point ? "true" : "false"}></button>`) : null}
+      </div>
+      ${state.reason.value ? html`<p class="reason" role="status">${state.reason.value}</p>` : null}
+      ${state.isDrawn.value ? null : html`<p class="nothing">${state.problems.value.length ? "The file has problems; they stand beside their entries." : state.machine.value ? "Nothing of this machine moves as a linkage; its answers are in the plots." : "Opening …"}</p>`}
+    </div>`;
+}
+
+/** @param {HTMLDivElement} holder @param {HTMLCanvasElement} canvas */
+function run(holder, canvas) {
+  const ctx = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
+  const still = document.createElement("canvas");
+  let frame = { scale: 1, x: 0, y: 0 };
+  let own = /** @type {string} */ ("");
+  let way = 1;
+  let before = 0;
+  let dirty = true;
+  let stillFor = /** @type {any} */ (null);
+  /** @type {{ point: string, x: number, y: number, moved: boolean, key?: boolean } | null} */
+  let gesture = null;
+
+  function sized() {
+    const ratio = devicePixelRatio || 1;
+    const { clientWidth: width, clientHeight: height } = holder;
+    for (const each of [canvas, still]) {
+      each.width = Math.max(1, Math.round(width * ratio));
+      each.height = Math.max(1, Math.round(height * ratio));
+    }
+    own = "";
+    dirty = true;
+  }
+  const observer = new ResizeObserver(sized);
+  observer.observe(holder);
+
+  const forget = effect(() => {
+    for (const each of [state.scene, state.layers, state.time, state.look, state.picked, state.units]) void each.value;
+    if (state.scene.value && !gesture) {
+      // A drawing stays where it is while a length is pulled; another machine is fitted anew.
+      const name = `${state.machine.value} ${Object.keys(state.scene.value.points).length}`;
+      if (name !== own) {
+        frame = fit(state.scene.value.box, holder.clientWidth, holder.clientHeight);
+        own = name;
+      }
+    }
+    stillFor = null;
+    dirty = true;
+  });
+
+  function draw() {
+    const scene = state.scene.value;
+    const ratio = devicePixelRatio || 1;
+    const { clientWidth: width, clientHeight: height } = holder;
+    ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+    ctx.clearRect(0, 0, width, height);
+    if (!scene) return;
+    const ink = colours();
+    const k = placeOf(scene.times, state.time.value);
+    const view = { ctx, scene, frame, k, ink, series: ink.series, light: state.picked.value };
+    if (stillFor !== scene) {
+      const behind = /** @type {CanvasRenderingContext2D} */ (still.getContext("2d"));
+      behind.setTransform(ratio, 0, 0, ratio, 0, 0);
+      behind.clearRect(0, 0, width, height);
+      paintStill({ ...view, ctx: behind, scene: state.layers.value.paths ? scene : { ...scene, parts: scene.parts.filter(({ kind }) => kind !== "trace") } });
+      stillFor = scene;
+    }
+    ctx.drawImage(still, 0, 0, width, height);
+    paintMoving(state.layers.value.names ? view : { ...view, scene: { ...scene, parts: scene.parts.map((part) => ({ ...part, slides: false })) } });
+    paintArrows(view, state.layers.value);
+    if (gesture?.moved) ghost(view);
+    bar(ink, height);
+    place(scene, k);
+    const { unit, factor } = shownUnit("rad/s", state.units.value);
+    const words = document.getElementById("instant");
+    if (words) {
+      const degrees = (between(scene.angles, k) * 180) / Math.PI;
+      words.textContent = `φ ${degrees.toFixed(1).padStart(6, "\u2007")}°  ${scene.true_speed ? `ω ${number(between(scene.speeds, k) / factor, 4)} ${unit}` : ""}`;
+    }
+  }
+
+  /** @param {import("./painter.js").View} view */
+  function ghost({ ctx, ink, scene, k }) {
+    if (!gesture || !scene.points[gesture.point]) return;
+    const [x, y] = toScreen(frame, gesture.x, gesture.y);
+    const [X, Y] = toScreen(frame, ...pairAt(scene.points[gesture.point], k));
+    if (Math.hypot(X - x, Y - y) < 4) return;
+    ctx.setLineDash([4, 4]);
+    ctx.strokeStyle = ink.bad;
+    ctx.lineWidth = 1.5;
+    ctx.beginPath();
+    ctx.moveTo(X, Y);
+    ctx.lineTo(x, y);
+    ctx.moveTo(x + 8, y);
+    ctx.arc(x, y, 8, 0, 2 * Math.PI);
+    ctx.stroke();
+    ctx.setLineDash([]);
+  }
+
+  /** @param {Record<string, any>} ink @param {number} height */
+  function bar(ink, height) {
+    const { unit, factor } = shownUnit("m", state.units.value);
+    const length = barLength({ ...frame, scale: frame.scale * factor });
+    const pixels = length * factor * frame.scale;
+    ctx.strokeStyle = ink.soft;
+    ctx.lineWidth = 1.5;
+    ctx.beginPath();
+    ctx.moveTo(16, height - 20);
+    ctx.lineTo(16, height - 14);
+    ctx.lineTo(16 + pixels, height - 14);
+    ctx.lineTo(16 + pixels, height - 20);
+    ctx.stroke();
+    ctx.fillStyle = ink.soft;
+    ctx.font = "12px system-ui, sans-serif";
+    ctx.fillText(`${number(length)} ${unit}`, 22, height - 20);
+  }
+
+  /** @param {import("./types.js").Scene} scene @param {number} k */
+  function place(scene, k) {
+    for (const button of /** @type {NodeListOf<HTMLElement>} */ (holder.querySelectorAll(".handle"))) {
+      const path = scene.points[button.dataset.point ?? ""];
+      if (!path) continue;
+      const [x, y] = toScreen(frame, ...pairAt(path, k));
+      button.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+    }
+  }
+
+  /** @param {number} now */
+  function step(now) {
+    const scene = state.scene.value;
+    if (scene && state.playing.value && before && !gesture) {
+      const period = scene.times[scene.times.length - 1];
+      const by = (Math.min(now - before, 100) / 1000) * (period / watchable(period)) * 10 ** state.pace.value;
+      [state.time.value, way] = onward(state.time.value, way, by, period, scene.swings);
+    }
+    before = now;
+    if (dirty) {
+      dirty = false;
+      draw();
+      for (const follow of followers) follow(state.time.value);
+      frames.count += 1;
+    }
+    handle = requestAnimationFrame(step);
+  }
+  let handle = requestAnimationFrame(step);
+
+  // -- gestures ---------------------------------------------------------------------------------------------------
+
+  /** @param {PointerEvent | MouseEvent} event @returns {[number, number]} */
+  function under(event) {
+    const box = holder.getBoundingClientRect();
+    return toMachine(frame, event.clientX - box.left, event.clientY - box.top);
+  }
+
+  /** Crank angle of the drawing. */
+  function angle() {
+    const scene = /** @type {import("./types.js").Scene} */ (state.scene.value);
+    return between(scene.angles, placeOf(scene.times, state.time.value));
+  }
+
+  /** @param {string} point */
+  function begin(point) {
+    const scene = /** @type {import("./types.js").Scene} */ (state.scene.value);
+    const [x, y] = pairAt(scene.points[point], placeOf(scene.times, state.time.value));
+    gesture = { point, x, y, moved: false };
+    at = angle();
+    state.picked.value = point;
+    state.watched.value = point;
+  }
+  let at = 0;
+
+  /** @param {number} x @param {number} y */
+  function move(x, y) {
+    if (!gesture) return;
+    Object.assign(gesture, { x, y, moved: true });
+    pull({ point: gesture.point, x, y, angle: at });
+    dirty = true;
+  }
+
+  /** @param {boolean} keep */
+  function end(keep) {
+    const was = gesture;
+    gesture = null;
+    dirty = true;
+    if (!was?.moved) return;
+    if (keep) pull({ point: was.point, x: was.x, y: was.y, angle: at }, false);
+    else letBack();
+    state.reason.value = "";
+  }
+
+  /** @type {{ x: number, y: number, left: boolean } | null} */
+  let panned = null;
+  /** @param {PointerEvent} event */
+  function down(event) {
+    const button = /** @type {HTMLElement} */ (event.target).closest?.(".handle");
+    if (event.button !== 0) return;
+    if (button instanceof HTMLElement) {
+      begin(button.dataset.point ?? "");
+      holder.setPointerCapture(event.pointerId);
+      return;
+    }
+    if (gesture && !gesture.moved) return;
+    panned = { x: event.clientX, y: event.clientY, left: false };
+    holder.setPointerCapture(event.pointerId);
+  }
+  /** @param {PointerEvent} event */
+  function over(event) {
+    if (gesture) return move(...under(event));
+    if (!panned) return;
+    const [dx, dy] = [event.clientX - panned.x, event.clientY - panned.y];
+    if (!panned.left && Math.hypot(dx, dy) < 4) return;
+    frame = { ...frame, x: frame.x + dx, y: frame.y + dy };
+    panned = { x: event.clientX, y: event.clientY, left: true };
+    stillFor = null;
+    dirty = true;
+  }
+  /** @param {PointerEvent} event */
+  function up(event) {
+    if (gesture?.moved) return end(true);
+    const isClick = panned && !panned.left;
+    panned = null;
+    // A joint that was picked by a click goes where the next click is.
+    if (gesture && !gesture.key) gesture.key = true;
+    else if (gesture && isClick) {
+      move(...under(event));
+      end(true);
+      state.picked.value = "";
+    }
+  }
+  /** @param {KeyboardEvent} event */
+  function key(event) {
+    const button = /** @type {HTMLElement} */ (event.target).closest?.(".handle");
+    if (event.key === "Escape" && (gesture || state.picked.value)) {
+      end(false);
+      state.picked.value = "";
+      return;
+    }
+    if (event.key === "Enter" && button instanceof HTMLElement && !gesture) {
+      event.preventDefault();
+      begin(button.dataset.point ?? "");
+      if (gesture) Object.assign(gesture, { key: true });
+      return;
+    }
+    const ways = /** @type {Record<string, [number, number]>} */ ({ ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] });
+    if (!(button instanceof HTMLElement) || !ways[event.key]) return;
+    event.preventDefault();
+    const scene = state.scene.value;
+    if (!scene) return;
+    if (!gesture || gesture.point !== button.dataset.point) begin(button.dataset.point ?? "");
+    if (!gesture) return;
+    const size = Math.max(scene.box[2] - scene.box[0], scene.box[3] - scene.box[1]) * NUDGE * (event.shiftKey ? 10 : 1);
+    const [dx, dy] = ways[event.key];
+    move(gesture.x + dx * size, gesture.y + dy * size);
+  }
+  /** @param {KeyboardEvent} event */
+  function keyUp(event) {
+    if (event.key.startsWith("Arrow") && gesture?.moved) end(true);
+  }
+  /** @param {WheelEvent} event */
+  function wheel(event) {
+    event.preventDefault();
+    const box = holder.getBoundingClientRect();
+    frame = zoomed(frame, Math.exp(-event.deltaY / 500), event.clientX - box.left, event.clientY - box.top);
+    stillFor = null;
+    dirty = true;
+  }
+  function refit() {
+    own = "";
+    state.layers.value = { ...state.layers.value };
+  }
+  const heard = /** @type {[string, any, any?][]} */ ([
+    ["pointerdown", down], ["pointermove", over], ["pointerup", up], ["pointercancel", () => end(false)],
+    ["keydown", key], ["keyup", keyUp], ["wheel", wheel, { passive: false }], ["dblclick", refit],
+  ]);
+  for (const [name, listen, options] of heard) holder.addEventListener(name, listen, options);
+  return () => {
+    cancelAnimationFrame(handle);
+    observer.disconnect();
+    forget();
+    for (const [name, listen] of heard) holder.removeEventListener(name, listen);
+  };
+}

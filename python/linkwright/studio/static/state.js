@@ -1,0 +1,89 @@
+// What the page knows, as signals: what reads one is drawn again when it changes.
+import { computed, effect, signal } from "./vendor/signals-core.mjs";
+import { history } from "./history.js";
+import { chosen } from "./units.js";
+
+/** @template T @typedef {import("./vendor/signals-core.mjs").Signal<T>} Signal */
+
+/** @param {string} key @param {any} usual */
+function kept(key, usual) {
+  let first = usual;
+  try {
+    first = JSON.parse(localStorage.getItem(key) ?? "null") ?? usual;
+  } catch {
+    // What cannot be read is as good as nothing kept.
+  }
+  const found = signal(first);
+  effect(() => {
+    try {
+      localStorage.setItem(key, JSON.stringify(found.value));
+    } catch {
+      // A browser that keeps nothing forgets it with the tab.
+    }
+  });
+  return found;
+}
+
+// -- the file
+export const text = signal("");
+export const saved = signal("");
+export const place = signal({ place: "", name: "" });
+export const unsaved = computed(() => text.value !== saved.value);
+export const past = signal({ of: history(""), turn: 0 });
+
+// -- the machine
+export const machine = signal("");
+/** @type {Signal<import("./types.js").Group | null>} */
+export const controls = signal(null);
+/** Entries that are being pulled at: address → SI. @type {Signal<Record<string, any>>} */
+export const live = signal({});
+/** @type {Signal<import("./types.js").Problem[]>} */
+export const problems = signal([]);
+/** @type {Signal<import("./types.js").Chip[]>} */
+export const chips = signal([]);
+/** @type {Signal<import("./types.js").Scene | null>} */
+export const scene = signal(null);
+/** Entries that follow a handle, and points with one, as words: what is the same words draws nothing anew. */
+export const draggable = computed(() => (scene.value?.handles ?? []).flatMap(({ entries }) => entries).join("\n"));
+export const handled = computed(() => (scene.value?.handles ?? []).map(({ point }) => point).filter((point) => scene.value?.points[point]).join("\n"));
+export const isDrawn = computed(() => scene.value !== null);
+/** Why a drag stops. */
+export const reason = signal("");
+
+// -- answers, those of each lane apart, so that one does not wait for another
+/** @type {Signal<Record<string, { results: import("./types.js").Shown[], findings: string[], warnings: string[], figures: import("./types.js").Figure[] }>>} */
+export const answers = signal({});
+/** State of each lane: "ready", "running", "stopped". @type {Signal<Record<string, string>>} */
+export const lanes = signal({});
+const inOrder = computed(() => ["fast", "study", "torsion"].map((lane) => answers.value[lane]).filter(Boolean));
+export const results = computed(() => inOrder.value.flatMap((each) => each.results));
+export const figures = computed(() => inOrder.value.flatMap((each) => each.figures));
+export const findings = computed(() => [...new Set(inOrder.value.flatMap((each) => each.findings))]);
+export const warnings = computed(() => [...new Set(inOrder.value.flatMap((each) => each.warnings))]);
+
+// -- the user's choices, kept for the next time
+export const units = kept("units", chosen(0));
+export const look = kept("look", "");
+export const layers = kept("layers", { names: true, paths: true, velocities: false, accelerations: false, forces: false, handles: true });
+export const pace = kept("playback", 0);
+/** Addresses that hold their values in a drag. @type {Signal<Record<string, boolean>>} */
+export const locks = signal({});
+/** Plots that are hidden, and entries whose slider has ends of its own. */
+export const hidden = kept("hidden", /** @type {Record<string, boolean>} */ ({}));
+export const ends = signal(/** @type {Record<string, [number, number]>} */ ({}));
+
+// -- the instant
+export const playing = signal(!matchMedia("(prefers-reduced-motion: reduce)").matches);
+export const time = signal(0);
+export const picked = signal("");
+/** Point whose curves are among the plots. */
+export const watched = signal("");
+
+// -- the page
+export const connected = signal(true);
+export const message = signal("");
+export const dialog = signal("");
+export const tab = signal("machine");
+/** @type {Signal<import("./types.js").Listed[]>} */
+export const listed = signal([]);
+export const seconds = signal(0);

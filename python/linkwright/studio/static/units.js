@@ -1,0 +1,74 @@
+// Units of the page: SI comes in, the user's choice is shown, everywhere at once.
+
+const TURN = 2 * Math.PI;
+const DEGREE = Math.PI / 180;
+
+/**
+ * SI unit as results print it → units to choose from with their factor to SI; the first is that of the sets "SI", "workshop" and "inch".
+ * @type {Record<string, { word: string, units: Record<string, number>, sets: [string, string, string] }>}
+ */
+export const UNITS = {
+  m: { word: "Length", units: { m: 1, mm: 1e-3, cm: 1e-2, in: 0.0254, ft: 0.3048 }, sets: ["m", "mm", "in"] },
+  rad: { word: "Angle", units: { rad: 1, "°": DEGREE }, sets: ["°", "°", "°"] },
+  "rad/s": { word: "Angular speed", units: { "rad/s": 1, rpm: TURN / 60, "°/s": DEGREE }, sets: ["rad/s", "rpm", "rpm"] },
+  "m/s": { word: "Speed", units: { "m/s": 1, "mm/s": 1e-3, "m/min": 1 / 60, "in/s": 0.0254, "ft/s": 0.3048 }, sets: ["m/s", "m/s", "in/s"] },
+  "m/s²": { word: "Acceleration", units: { "m/s²": 1, "mm/s²": 1e-3, "ft/s²": 0.3048 }, sets: ["m/s²", "m/s²", "ft/s²"] },
+  N: { word: "Force", units: { N: 1, kN: 1e3, lbf: 4.4482216152605, kgf: 9.80665 }, sets: ["N", "N", "lbf"] },
+  "N m": { word: "Torque", units: { "N m": 1, "kN m": 1e3, "N mm": 1e-3, "lbf ft": 1.3558179483314004, "lbf in": 0.1129848290276167 }, sets: ["N m", "N m", "lbf ft"] },
+  kg: { word: "Mass", units: { kg: 1, g: 1e-3, t: 1e3, lb: 0.45359237 }, sets: ["kg", "kg", "lb"] },
+  "kg m²": { word: "Moment of inertia", units: { "kg m²": 1, "kg cm²": 1e-4, "lb ft²": 0.04214011009380480 }, sets: ["kg m²", "kg m²", "lb ft²"] },
+  W: { word: "Power", units: { W: 1, kW: 1e3, hp: 745.6998715822701 }, sets: ["W", "kW", "hp"] },
+  s: { word: "Time", units: { s: 1, ms: 1e-3, min: 60 }, sets: ["s", "s", "s"] },
+  Pa: { word: "Pressure", units: { Pa: 1, MPa: 1e6, bar: 1e5, psi: 6894.757293168361 }, sets: ["Pa", "MPa", "psi"] },
+};
+
+export const SETS = ["SI", "Workshop", "Inch"];
+
+/** @param {number} set @returns {Record<string, string>} */
+export const chosen = (set) => Object.fromEntries(Object.entries(UNITS).map(([si, { sets }]) => [si, sets[set]]));
+
+/**
+ * The unit as results print it: files write `kg m^2`.
+ * @param {string} unit
+ */
+export const printed = (unit) => unit.replace(/\^(-?\d)/g, (_, power) => power.replace("-", "⁻").replace(/\d/g, (/** @type {string} */ d) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[+d]));
+
+/**
+ * Unit that is shown for an SI unit, and its factor.
+ * @param {string} si @param {Record<string, string>} choice
+ * @returns {{ unit: string, factor: number }}
+ */
+export function shownUnit(si, choice) {
+  const known = printed(si);
+  const unit = choice[known];
+  const factor = unit === undefined ? undefined : UNITS[known]?.units[unit];
+  return factor === undefined ? { unit: known, factor: 1 } : { unit, factor };
+}
+
+/**
+ * A number as it is read: so many significant digits, no exponent where none is needed.
+ * @param {number} value @param {number} [digits]
+ */
+export function number(value, digits = 5) {
+  if (!Number.isFinite(value)) return "–";
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  if (size >= 1e6 || size < 1e-4) return value.toExponential(digits - 1).replace(/\.?0+e/, "e").replace("e+", "e").replace("-", "−").replace("e-", "e−");
+  const text = value.toPrecision(digits);
+  const plain = text.includes("e") ? String(Number(text)) : text;
+  return (plain.includes(".") ? plain.replace(/\.?0+$/, "") : plain).replace("-", "−");
+}
+
+const WRITTEN = /^([+-−]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-−]?\d+)?)\s*(.*)$/;
+
+/**
+ * What was typed into a field: a number in the unit that is shown, or a text with a unit of its own, which the file then has.
+ * @param {string} text @param {number} factor
+ * @returns {number | string | null} SI number, text, or null for nothing
+ */
+export function typed(text, factor) {
+  const match = WRITTEN.exec(text.trim());
+  if (!match) return text.trim() || null;
+  if (match[2]) return `${match[1].replaceAll("−", "-")} ${match[2]}`;
+  return Number(match[1].replaceAll("−", "-")) * factor;
+}

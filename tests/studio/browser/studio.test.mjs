@@ -1,0 +1,236 @@
+// The studio in a browser: one Chromium, one server, below a copy of the repository's machines.
+import assert from "node:assert/strict";
+import { execFileSync, spawn } from "node:child_process";
+import { cpSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, statSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { after, before, test } from "node:test";
+import { fileURLToPath } from "node:url";
+import { chromium } from "playwright-core";
+
+const ROOT = fileURLToPath(new URL("../../../", import.meta.url));
+const LINKWRIGHT = `${ROOT}.venv/bin/linkwright`;
+const AXE = readFileSync(`${ROOT}node_modules/axe-core/axe.min.js`, "utf8");
+const ARGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"];
+// A machine that does other things too may be slow; what fails, fails by this.
+const PATIENCE = 90_000;
+const RADIUS = "mechanism.cranks.A1.radius";
+
+let folder, server, browser, context, page, origin;
+const faults = [];
+
+before(async () => {
+  folder = mkdtempSync(`${tmpdir()}/studio-`);
+  mkdirSync(`${folder}/examples`);
+  for (const name of readdirSync(`${ROOT}examples`)) {
+    cpSync(`${ROOT}examples/${name}`, `${folder}/examples/${name}`, { recursive: true, filter: (path) => !path.endsWith(".py") });
+  }
+  cpSync(`${ROOT}machines/roller_two_carts.toml`, `${folder}/carts.toml`);
+  server = spawn(LINKWRIGHT, ["studio", "carts.toml", "--no-browser"], { cwd: folder, stdio: ["ignore", "pipe", "inherit"] });
+  const address = await new Promise((resolve) => {
+    let said = "";
+    server.stdout.on("data", (data) => {
+      said += data;
+      const match = /http:\S+/.exec(said);
+      if (match) resolve(match[0]);
+    });
+  });
+  origin = new URL(address).origin;
+  browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ARGS });
+  context = await browser.newContext({ viewport: { width: 1440, height: 900 }, reducedMotion: "reduce", acceptDownloads: true });
+  page = await context.newPage();
+  page.setDefaultTimeout(PATIENCE);
+  page.on("console", (message) => ["error", "warning"].includes(message.type()) && faults.push(message.text()));
+  page.on("pageerror", (error) => faults.push(error.message));
+  page.on("request", (request) => new URL(request.url()).origin !== origin && !request.url().startsWith("blob:") && faults.push(request.url()));
+  page.on("dialog", (dialog) => dialog.accept());
+  await page.goto(address);
+  await known();
+});
+
+after(async () => {
+  await browser?.close();
+  server?.kill();
+  rmSync(folder, { recursive: true, force: true });
+});
+
+/** Waits until the answer to the last change is there. */
+const known = () => page.waitForFunction(() => globalThis.studio?.state.machine.value && !globalThis.studio.busy());
+const scalar = (name) => page.evaluate((of) => {
+  const [result, own] = of.split(".");
+  return globalThis.studio.state.results.value.find((each) => each.name === result)?.scalars.find((each) => each.name === own)?.value;
+}, name);
+const entry = (address) => page.evaluate((of) => globalThis.studio.state.text.value && document.querySelector(`[data-slider="${of}"]`)?.value, address);
+const cli = (...words) => JSON.parse(execFileSync(LINKWRIGHT, ["run", "carts.toml", "--json", ...words], { cwd: folder, encoding: "utf8" })).results;
+const handle = async (point) => {
+  const box = await page.locator(`.handle[data-point="${point}"]`).boundingBox();
+  return [box.x + box.width / 2, box.y + box.height / 2];
+};
+const near = (found, wanted) => assert.ok(Math.abs(found - wanted) <= 1e-9 * Math.abs(wanted), `${found} is not ${wanted}`);
+
+test("the address has lost its token, and opens once", async () => {
+  assert.ok(!page.url().includes("token"));
+  assert.equal((await fetch(origin)).status, 403);
+});
+
+test("nothing moves by itself where less motion is wanted; play, pause, step and scrub do", async () => {
+  const time = () => page.evaluate(() => globalThis.studio.state.time.value);
+  assert.equal(await page.evaluate(() => globalThis.studio.state.playing.value), false);
+  await page.getByRole("button", { name: "Play" }).click();
+  await page.waitForFunction(() => globalThis.studio.state.time.value > 0);
+  await page.getByRole("button", { name: "Pause" }).click();
+  const at = await time();
+  await page.getByRole("button", { name: "One step on" }).click();
+  assert.notEqual(await time(), at);
+  await page.locator("#scrub").fill("45");
+  assert.match(await page.locator("#instant").textContent(), /φ\s+90\.0°/);
+});
+
+test("a slider changes the number as the command line does, and one undo takes the gesture back", async () => {
+  const text = await page.evaluate(() => globalThis.studio.state.text.value);
+  const slider = page.locator(`[data-slider="${RADIUS}"]`);
+  const box = await slider.boundingBox();
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.mouse.down();
+  for (const x of [0.52, 0.55, 0.6]) await page.mouse.move(box.x + box.width * x, box.y + box.height / 2);
+  await page.mouse.up();
+  await known();
+  const radius = /\[mechanism\.cranks\.A1\]\nradius = "([\d.]+) m"/.exec(await page.evaluate(() => globalThis.studio.state.text.value))[1];
+  assert.ok(Number(radius) > 0.21);
+  const wanted = cli("--set", `${RADIUS}=${radius} m`);
+  near(await scalar("steady_state.unevenness"), wanted.steady_state.unevenness);
+  await page.keyboard.press("Control+z");
+  await known();
+  assert.equal(await page.evaluate(() => globalThis.studio.state.text.value), text);
+  assert.ok(await page.getByRole("button", { name: "Undo" }).isDisabled());
+});
+
+test("a joint drags, its lengths follow, Escape gives the pose back, release outside ends it", async () => {
+  const text = await page.evaluate(() => globalThis.studio.state.text.value);
+  const [x, y] = await handle("A1");
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + 20, y - 20, { steps: 4 });
+  await page.keyboard.press("Escape");
+  await page.mouse.up();
+  await known();
+  assert.equal(await page.evaluate(() => globalThis.studio.state.text.value), text);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + 12, y - 25, { steps: 4 });
+  await page.mouse.up();
+  await known();
+  const changed = await page.evaluate(() => globalThis.studio.state.text.value);
+  assert.notEqual(changed, text);
+  const [X, Y] = await handle("A1");
+  assert.ok(Math.hypot(X - x - 12, Y - y + 25) < 2, "the joint is not where it was dragged to");
+  await page.keyboard.press("Control+s");
+  await page.waitForFunction(() => !globalThis.studio.state.unsaved.value);
+  assert.equal(readFileSync(`${folder}/carts.toml`, "utf8"), changed);
+  near(await scalar("steady_state.unevenness"), cli().steady_state.unevenness);
+});
+
+test("a drag stops where the linkage no longer closes, and says why", async () => {
+  const [x, y] = await handle("cart1");
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x - 330, y, { steps: 3 });
+  await page.waitForFunction(() => /closes only/.test(document.querySelector(".reason")?.textContent ?? ""));
+  await page.keyboard.press("Escape");
+  await page.mouse.up();
+  await known();
+});
+
+test("the keyboard alone moves a joint and a slider", async () => {
+  const before = await page.evaluate(() => globalThis.studio.state.text.value);
+  await page.locator('.handle[data-point="A2"]').focus();
+  await page.keyboard.press("ArrowUp");
+  await known();
+  const after = await page.evaluate(() => globalThis.studio.state.text.value);
+  assert.notEqual(after, before);
+  await page.locator(`[data-slider="${RADIUS}"]`).focus();
+  await page.keyboard.press("ArrowRight");
+  await known();
+  assert.notEqual(await page.evaluate(() => globalThis.studio.state.text.value), after);
+});
+
+test("units hold everywhere at once, and a number may have its own", async () => {
+  await page.getByRole("button", { name: "Units" }).click();
+  await page.getByRole("button", { name: "Workshop" }).click();
+  await page.keyboard.press("Escape");
+  const field = page.locator(`input.number[data-address="${RADIUS}"]`);
+  await field.fill("8 in");
+  await field.press("Enter");
+  await known();
+  assert.equal(await field.inputValue(), "203.2");
+  assert.match(await page.evaluate(() => globalThis.studio.state.text.value), /radius = "8 in"/);
+});
+
+test("a problem stands beside its entry, and the text mends it", async () => {
+  const field = page.locator(`input.number[data-address="${RADIUS}"]`);
+  await field.fill("-1");
+  await field.press("Enter");
+  await page.locator(".row .problem").first().waitFor();
+  assert.match(await page.locator(".row .problem").first().textContent(), /greater than 0/);
+  await page.getByRole("tab", { name: "File" }).click();
+  const area = page.getByLabel("Text of the machine file");
+  await area.fill((await area.inputValue()).replace('"-0.03937008 in"', '"8 in"').replace(/radius = "-.*"/, 'radius = "8 in"'));
+  await page.waitForFunction(() => !globalThis.studio.state.problems.value.length);
+  await page.getByRole("tab", { name: "Entries" }).click();
+});
+
+test("plots have their data and their files", async () => {
+  const panel = page.locator(".panel").first();
+  await panel.hover();
+  await panel.getByRole("button", { name: "Data" }).click();
+  assert.ok((await panel.locator("tbody tr").count()) > 100);
+  for (const kind of ["CSV", "SVG", "PNG"]) {
+    const [download] = await Promise.all([page.waitForEvent("download"), panel.getByRole("button", { name: kind }).click()]);
+    assert.ok(download.suggestedFilename().endsWith(kind.toLowerCase()));
+    assert.ok(statSync(await download.path()).size > 1000);
+  }
+});
+
+test("axe finds nothing serious, in light and in dark", async () => {
+  await page.evaluate(AXE);
+  for (const colorScheme of ["light", "dark"]) {
+    await page.emulateMedia({ colorScheme, reducedMotion: "reduce" });
+    const { violations } = await page.evaluate(() => globalThis.axe.run(document, { resultTypes: ["violations"] }));
+    const serious = violations.filter(({ impact }) => ["serious", "critical"].includes(impact));
+    assert.deepEqual(serious.map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map(({ html }) => html.slice(0, 120)).join(" | ")}`), []);
+  }
+  await page.emulateMedia({ colorScheme: "light", reducedMotion: "reduce" });
+});
+
+test("what was not saved is there after a crash, and a saved file opens again", async () => {
+  const text = await page.evaluate(() => globalThis.studio.state.text.value);
+  await page.evaluate(() => history.replaceState(null, "", "#"));
+  await page.reload();
+  await known();
+  assert.equal(await page.evaluate(() => globalThis.studio.state.text.value), text);
+  await page.keyboard.press("Control+s");
+  await page.waitForFunction(() => !globalThis.studio.state.unsaved.value);
+  assert.equal(readFileSync(`${folder}/carts.toml`, "utf8"), text);
+});
+
+test("every machine of the gallery opens", async () => {
+  await page.getByRole("button", { name: "Machines" }).click();
+  await page.locator(".card").nth(40).waitFor({ state: "attached" });
+  const listed = await page.evaluate(() => globalThis.studio.state.listed.value);
+  await page.keyboard.press("Escape");
+  assert.ok(listed.length > 50);
+  for (const { place, name } of listed) {
+    await page.evaluate(([where, which]) => globalThis.studio.open(where, which), [place, name]);
+    await known();
+    const problems = await page.evaluate(() => globalThis.studio.state.problems.value);
+    assert.deepEqual(problems, [], `${place}/${name}`);
+    assert.equal(await page.evaluate(() => globalThis.studio.state.message.value), "", `${place}/${name}`);
+  }
+});
+
+test("there was no error on the console, and no request to elsewhere", () => assert.deepEqual(faults, []));
+
+test("the page stays small", () => {
+  const folderOf = `${ROOT}python/linkwright/studio/static`;
+  const size = (path) => (statSync(path).isDirectory() ? readdirSync(path).reduce((sum, name) => sum + size(`${path}/${name}`), 0) : /\.(m?js|css|html|svg)$/.test(path) ? statSync(path).size : 0);
+  assert.ok(size(folderOf) < 300_000, `${size(folderOf)} bytes`);
+});

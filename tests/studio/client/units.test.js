@@ -1,0 +1,27 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { chosen, number, printed, shownUnit, typed, UNITS } from "../../../python/linkwright/studio/static/units.js";
+
+test("numbers have the digits that are read, and no others", () => {
+  const cases = [[0.2, "0.2"], [0.08496123, "0.084961"], [-1234.5678, "−1234.6"], [1e7, "1e7"], [1.5e-7, "1.5e−7"], [0, "0"], [NaN, "–"], [100000, "100000"]];
+  for (const [value, text] of cases) assert.equal(number(value), text);
+});
+
+test("a unit of a set is one of its row", () => {
+  for (const { units, sets } of Object.values(UNITS)) for (const unit of sets) assert.ok(units[unit] > 0, unit);
+});
+
+test("what files write and what results print is one unit", () => {
+  assert.equal(printed("kg m^2"), "kg m²");
+  assert.deepEqual(shownUnit("kg m^2", chosen(1)), { unit: "kg m²", factor: 1 });
+  assert.deepEqual(shownUnit("m", chosen(2)), { unit: "in", factor: 0.0254 });
+  assert.deepEqual(shownUnit("N s/m", chosen(2)), { unit: "N s/m", factor: 1 });
+});
+
+test("a typed number is in the unit that is shown, a text keeps its own", () => {
+  assert.equal(typed("210", 1e-3), 0.21);
+  assert.equal(typed("−3.5e2", 1), -350);
+  assert.equal(typed(" 8.5 in ", 1e-3), "8.5 in");
+  assert.equal(typed("", 1), null);
+  assert.equal(typed("lots", 1), "lots");
+});

@@ -1,0 +1,203 @@
+"""Attacks: whoever is not the user of this computer is refused, and what is no message is harmless."""
+
+from __future__ import annotations
+
+import socket
+import struct
+from pathlib import Path
+
+import pytest
+from websockets.exceptions import ConnectionClosed, InvalidStatus
+
+from linkwright.kernel.files.templates import template
+
+from .conftest import Served, Tab
+
+
+def test_page_opens_once_and_by_cookie_alone(served: Served) -> None:
+    assert served.get("/")[0] == 403
+    assert served.get("/?token=wrong")[0] == 403
+    # The fixture has used the token.
+    assert served.studio.app.token == ""
+    status, headers, body = served.get("/", Cookie=served.cookie)
+    assert status == 200
+    assert b"<html" in body
+    assert headers["content-security-policy"].startswith("default-src 'self'")
+    assert "access-control-allow-origin" not in headers
+
+
+def test_token_becomes_a_cookie_that_no_script_reads(tmp_path: Path) -> None:
+    from .conftest import begun
+
+    served, server = begun(tmp_path)
+    name = f"linkwright-{served.studio.port}="
+    assert served.cookie.startswith(name)
+    assert served.cookie.removeprefix(name) != served.studio.token
+    server.should_exit = True
+
+
+def test_cookie_is_http_only_and_strict(tmp_path: Path) -> None:
+    from linkwright.studio.server import Studio
+
+    studio = Studio(tmp_path)
+    words = studio.app._set_cookie().decode()
+    assert "; HttpOnly" in words
+    assert "; SameSite=Strict" in words
+    studio.socket.close()
+
+
+@pytest.mark.parametrize(
+    "host", ["evil.example", "127.0.0.1", "localhost:1", "127.0.0.1.evil.example:80", ""]
+)
+def test_foreign_hosts_are_refused(served: Served, host: str) -> None:
+    assert served.get("/", Host=host, Cookie=served.cookie)[0] in (400, 421)
+    assert served.get("/wire.js", Host=host, Cookie=served.cookie)[0] in (400, 421)
+
+
+@pytest.mark.parametrize("origin", ["http://evil.example", "null", "https://127.0.0.1", "http://127.0.0.1:1"])
+def test_foreign_origins_are_refused(served: Served, origin: str) -> None:
+    assert served.get("/", Origin=origin, Cookie=served.cookie)[0] == 403
+    with pytest.raises(InvalidStatus):
+        served.tab(Origin=origin)
+
+
+@pytest.mark.parametrize(
+    "headers",
+    [{"Origin": None}, {"Cookie": None}, {"Cookie": "linkwright-1=x"}, {"Host": "evil.example"}],
+    ids=str,
+)
+def test_sockets_need_origin_host_and_cookie(served: Served, headers: dict[str, str | None]) -> None:
+    with pytest.raises(InvalidStatus):
+        served.tab(**headers)
+
+
+def test_bodies_and_other_methods_are_refused(served: Served) -> None:
+    assert served.get("/", "POST", Cookie=served.cookie)[0] == 405
+    assert served.get("/", "POST", b"x", Cookie=served.cookie, Content_Length="1")[0] == 413
+    assert served.get("/", Cookie=served.cookie, Transfer_Encoding="chunked")[0] in (400, 413)
+
+
+@pytest.mark.parametrize(
+    "path", ["/../server.py", "/%2e%2e/server.py", "/..%2fserver.py", "//etc/passwd", "/vendor/%00"]
+)
+def test_pages_lie_in_their_folder(served: Served, path: str) -> None:
+    assert served.get(path, Cookie=served.cookie)[0] in (400, 404)
+
+
+NO_MESSAGES: dict[str, bytes | str] = {
+    "empty": b"",
+    "short": b"\0" * 7,
+    "length": struct.pack("<II", 1, 100),
+    "list": struct.pack("<II", 1, 2) + b"[]",
+    "broken": struct.pack("<II", 1, 4) + b"{{{{",
+    "deep": struct.pack("<II", 1, 200_000) + b"[" * 200_000,
+    "no words": struct.pack("<II", 1, 10) + b'{"ask": 1}',
+    "text": "text",
+}
+
+
+@pytest.mark.parametrize("message", NO_MESSAGES.values(), ids=NO_MESSAGES.keys())
+def test_what_is_no_message_ends_the_tab_alone(served: Served, tab: Tab, message: bytes | str) -> None:
+    tab.socket.send(message)
+    with pytest.raises(ConnectionClosed) as ended:
+        tab.hear()
+    assert ended.value.rcvd is not None
+    assert ended.value.rcvd.code in (1003, 1007)
+    assert served.get("/", Cookie=served.cookie)[0] == 200
+
+
+def test_oversized_messages_end_the_tab(served: Served, tab: Tab) -> None:
+    def send_and_hear() -> None:
+        tab.socket.send(b"x" * 3_000_000)
+        tab.hear()
+
+    with pytest.raises(ConnectionClosed) as ended:
+        send_and_hear()
+    assert ended.value.rcvd is None or ended.value.rcvd.code == 1009
+    assert served.get("/", Cookie=served.cookie)[0] == 200
+
+
+def test_floods_of_requests_are_answered_by_the_newest(tab: Tab) -> None:
+    text = template("four-bar")
+    tab.ask(ask="compute", held=True, text=text)
+    for _ in range(300):
+        last = tab.send(ask="compute", held=True, text=text)
+    numbers = []
+    while not numbers or numbers[-1] != last:
+        numbers.append(tab.hear()[0])
+    assert len(numbers) < 100
+
+
+def test_floods_of_files_end_the_tab(served: Served, tab: Tab) -> None:
+    def flood() -> None:
+        for _ in range(2000):
+            tab.send(ask="gallery")
+        while True:
+            tab.hear()
+
+    with pytest.raises(ConnectionClosed):
+        flood()
+    assert served.get("/", Cookie=served.cookie)[0] == 200
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "../secret.toml",
+        "/etc/passwd",
+        "link.toml",
+        "way/secret.toml",
+        "a/../../secret.toml",
+        "x\0.toml",
+        "bar.txt",
+        "..",
+    ],
+)
+def test_files_outside_are_neither_read_nor_written(tab: Tab, folder: Path, name: str) -> None:
+    before = (folder.parent / "secret.toml").read_text()
+    assert tab.ask(ask="open", place="folder", name=name)["of"] == "refused"
+    assert tab.ask(ask="save", name=name, text="x", replace=True)["of"] == "refused"
+    assert (folder.parent / "secret.toml").read_text() == before
+
+
+def test_entries_of_a_machine_lead_no_way_out(tab: Tab, folder: Path) -> None:
+    (folder.parent / "points.csv").write_text("angle,torque\n0,1\n1,2\n")
+    text = """format = 1
+name = "x"
+[turning_moment]
+speed = 10
+driver = { kind = "table", file = "../points.csv" }
+"""
+    answer = tab.ask(ask="compute", text=text, place="folder", name="bar.toml")
+    assert answer["problems"]
+
+
+@pytest.mark.parametrize("name", ["<img src=x onerror=alert(1)>", "\u202eevil", "a\x1b[2J"])
+def test_names_with_markup_are_words(tab: Tab, name: str) -> None:
+    text = template("four-bar").replace("name = ", "name = '''" + name.replace("\x1b", "e") + "'''\n# ", 1)
+    answer = tab.ask(ask="compute", text=text)
+    assert answer.get("machine") == name.replace("\x1b", "e") or answer["problems"]
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        {"drag": {}},
+        {"drag": {"point": "x", "x": "y"}},
+        {"set": {"a..b": 1}},
+        {"text": "a = "},
+        {"set": {"mechanism": 1}},
+        {"text": "\0"},
+    ],
+    ids=str,
+)
+def test_requests_without_sense_are_answered(tab: Tab, body: dict[str, object]) -> None:
+    tab.ask(ask="compute", text=template("four-bar"))
+    answer = tab.ask(ask="compute", **body)
+    assert answer["of"] == "refused" or answer["problems"]
+    assert "problems" not in tab.ask(ask="compute", text=template("four-bar"))
+
+
+def test_server_listens_on_this_computer_alone(served: Served) -> None:
+    assert served.studio.socket.getsockname()[0] == "127.0.0.1"
+    assert served.studio.socket.family == socket.AF_INET
