@@ -104,6 +104,7 @@ _HOME = {
     "steady_states": "drive.batch",
     "read_study": "studies.read",
     "sweep": "studies.sweep",
+    "tolerance": "studies.tolerance",
     "evaluate": "studies.engine",
     "required_power": "sizing.power",
     "choose_motor": "sizing.motor",
@@ -208,6 +209,7 @@ if TYPE_CHECKING:
     from linkwright.studies.engine import evaluate as evaluate
     from linkwright.studies.read import read_study as read_study
     from linkwright.studies.sweep import sweep as sweep
+    from linkwright.studies.tolerance import tolerance as tolerance
     from linkwright.synthesis.dead_centre import crank_rocker as crank_rocker
     from linkwright.synthesis.function_generator import function_generator as function_generator
     from linkwright.synthesis.path import path_generator as path_generator

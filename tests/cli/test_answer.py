@@ -94,6 +94,16 @@ values = ["0.8 m"]
 [responses]
 delta = "steady_state.unevenness"
 """,
+    "scatter.toml": """
+machine = "roller_two_carts"
+[variables.phase]
+address = "mechanism.cranks.A1.phase"
+tolerance = "± 1 deg"
+[responses]
+x = { curve = "motion.A1.x", at = "0 deg" }
+[constraints]
+x = { max = 0.3 }
+""",
     "path.toml": """
 x = "60, 40, 0, -30, 0, 40 mm"
 y = "0, 30, 40, 10, -20, -20 mm"
@@ -180,6 +190,11 @@ CASES = {
         "{phases.toml} --out {rows}",
         "{phases.toml} --out {rows_of_none} --set study.variables.rod.values=[0.15]",
         "{phases.toml} --out {rows} --set study.responses.delta=steady_state.nothing",
+    ),
+    "tolerance": Case(
+        "{scatter.toml} --rows 20",
+        "{scatter.toml} --rows 20 --set study.constraints.x.max=0.1",
+        "{phases.toml} --rows 20",
     ),
     "sweep show": Case("{swept}", "{unswept}", "{phases.toml}"),
     "topper": Case("{topper}", "{topper} --set topper.edge_angle=89.9deg", "{topper} --set topper.nothing=1"),

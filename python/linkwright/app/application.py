@@ -46,6 +46,9 @@ COMMANDS = {
     ),
     "forces": Place("Compute the forces in a machine.", "kinetostatics.commands.forces:forces"),
     "balance": Place("Find counterweights.", "kinetostatics.commands.balance:balance"),
+    "tolerance": Place(
+        "Scatter of results with tolerances, and the yield.", "studies.commands.tolerance:tolerance"
+    ),
     "size": Place("Choose motor and flywheel.", "sizing.commands.size:size"),
     "motors": Place("List the motors of the catalogue.", "sizing.commands.motors:motors"),
     "papers": Place("Recompute a published paper, compare with its results.", "app.commands.papers:papers"),

@@ -12,7 +12,8 @@
 | `parquet` | Rows as Parquet files |
 | `folder` | The folder of a sweep |
 | `sweep` | A sweep, and its continuation |
+| `tolerance` | Scatter of responses, contributions, yield, Sobol indices |
 | `show` | Rows of a folder, as they are drawn |
 | `tables`, `figures` | What is shown |
-| `commands/` | ``linkwright sweep`` |
+| `commands/` | ``linkwright sweep``, ``tolerance`` |
 """

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,6 +18,14 @@ from linkwright.machine.machine import Machine
 from linkwright.studies.model.study import Distribution, Variable
 
 Floats = NDArray[np.float64]
+
+# Standard deviations between the limits of a tolerance: a centred process with a capability index of 1, of
+# which 0.27 % lie beyond and are sorted out (ISO 22514-2).
+_SPREAD = 6.0
+
+# "± 0.2 mm"; "+0.1 -0.3 mm", in either order.
+_EVEN = re.compile(r"\s*(?:±|\+/-)\s*([\d.]+(?:[eE][+-]?\d+)?)\s*(.*)", re.DOTALL)
+_UNEVEN = re.compile(r"\s*([+-]\s*[\d.]+)\s+([+-]\s*[\d.]+)\s*(.*)", re.DOTALL)
 
 
 @dataclass(frozen=True)
@@ -112,6 +121,10 @@ def axis(machine: Machine, name: str, variable: Variable) -> Axis:
         raise _problem(
             name, "address", f"{place}, which is no number", "values, for an entry without numbers"
         )
+    if variable.tolerance is not None:
+        low, high = _toleranced(name, get(machine, variable.address[0]), variable.tolerance, found)
+        scatter = ("normal", 0.5 * (low + high), (high - low) / _SPREAD)
+        return Axis(**known, low=low, high=high, steps=variable.steps or 0, distribution=scatter)
     if variable.distribution is not None:
         scatter, low, high = _scatter(name, variable.distribution, found)
         return Axis(**known, low=low, high=high, steps=variable.steps or 0, distribution=scatter)
@@ -171,6 +184,26 @@ def _check_range(name: str, variable: Variable, low: float, high: float) -> None
         raise _problem(name, "steps", str(variable.steps), "nothing: a range of whole numbers has its own")
 
 
+def _toleranced(name: str, value: object, text: str, found: Kind) -> tuple[float, float]:
+    """Limits of an entry by the text of its tolerance."""
+    if not isinstance(value, int | float):
+        raise _problem(name, "tolerance", "an entry without a value", "an entry that the machine has")
+    plain = text.replace("−", "-")
+    if match := _EVEN.fullmatch(plain):
+        parts, unit = [f"-{match[1]}", match[1]], match[2]
+    elif match := _UNEVEN.fullmatch(plain):
+        parts, unit = [match[1].replace(" ", ""), match[2].replace(" ", "")], match[3]
+    else:
+        raise _problem(name, "tolerance", show(text), 'such as "± 0.2 mm" or "+0.1 -0.3 mm"')
+    ends = [
+        _parsed(name, "tolerance", f"{part} {unit}".strip() if unit else float(part), found) for part in parts
+    ]
+    low, high = sorted(value + end for end in ends)
+    if not low < high:
+        raise _problem(name, "tolerance", show(text), "two limits that differ")
+    return low, high
+
+
 def _scatter(name: str, given: Distribution, found: Kind) -> tuple[tuple[str, float, float], float, float]:
     """Kind, mean, deviation; and the ends of a distribution."""
     read = {
@@ -197,7 +230,8 @@ def _scatter(name: str, given: Distribution, found: Kind) -> tuple[tuple[str, fl
 
 def _middles(n: int) -> Floats:
     """Middles of n equal parts from 0 to 1."""
-    return np.linspace(0.5 / n, 1 - 0.5 / n, n)
+    found: Floats = (np.arange(n) + 0.5) / max(n, 1)
+    return found
 
 
 def _scattered(kind: str, mean: float, deviation: float, low: float, high: float, shares: Floats) -> Floats:

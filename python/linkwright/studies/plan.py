@@ -200,13 +200,19 @@ def _further_problems(study: StudyFile, listed: Floats | None) -> Iterable[Probl
         if name not in study.responses:
             yield Problem(f"goals.{name}", show(name), "a response", suggestion(name, study.responses))
     for name, each in study.variables.items():
-        is_given = any((each.range, each.values, each.distribution))
+        is_given = any((each.range, each.values, each.distribution, each.tolerance))
         if not is_given and listed is None:
-            yield Problem(f"variables.{name}", "nothing", "one of range, values, distribution")
+            yield Problem(f"variables.{name}", "nothing", "one of range, values, distribution, tolerance")
         needs_steps = each.values is None and not each.whole and each.steps is None
-        if study.sweep.method == "grid" and is_given and needs_steps:
+        is_grid = study.sweep.method == "grid" and _is_swept(study)
+        if is_grid and is_given and needs_steps:
             yield Problem(f"variables.{name}.steps", "nothing", "how many values a grid takes")
     yield from _taken_twice(study)
+
+
+def _is_swept(study: StudyFile) -> bool:
+    """Whether a sweep is described, and not only what scatters or is sought."""
+    return "sweep" in study.model_fields_set or any(each.steps for each in study.variables.values())
 
 
 def _taken_twice(study: StudyFile) -> Iterable[Problem]:

@@ -104,6 +104,8 @@ def sweep(
 
 def begun(plan: StudyPlan, folder: str | os.PathLike[str]) -> SweepFolder:
     """The folder of a sweep, made if need be; the study is tried on its machine first."""
+    if not plan.n_rows:
+        raise InputError("sweep: found no rows; give ranges `steps`, or name another method in [sweep]")
     found = new_folder(Path(folder), plan)
     _try(plan)
     found.begin()

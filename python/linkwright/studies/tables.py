@@ -5,6 +5,7 @@ from __future__ import annotations
 from linkwright.kernel.page.numbers import number
 from linkwright.kernel.page.table import Row, Table
 from linkwright.studies.sweep import Sweep
+from linkwright.studies.tolerance import Tolerance
 
 # Reasons of failed rows in a table.
 _REASONS = 8
@@ -39,3 +40,31 @@ def with_unit(value: float, unit: str) -> str:
     if unit == "rad":
         return f"{number(value * 57.29577951308232)}°"
     return f"{number(value)} {unit}".rstrip()
+
+
+def tolerance_tables(found: Tolerance, units: dict[str, str]) -> list[Table]:
+    """Scatter of the responses, and what contributes to it."""
+    scatter: list[Row] = []
+    for name, each in found.responses.items():
+        keys = (
+            "mean",
+            "deviation",
+            "deviation_first_order",
+            "band_low",
+            "band_high",
+            "worst_low",
+            "worst_high",
+        )
+        scatter.append((name, "", *(with_unit(each[key], units[name]) for key in keys)))
+    heads = ("response", "", "mean", "standard deviation", "to first order", "99.73 % from", "to")
+    tables = [Table("scatter", "Scatter", (*heads, "worst case from", "to"), scatter)]
+    shares: list[Row] = []
+    for name, parts in found.contributions.items():
+        for variable, share in parts.items():
+            first, total = found.indices.get(name, {}).get(variable, (None, None))
+            slope = number(found.slopes[name][variable])
+            shares.append(
+                (name, "", variable, f"{100 * share:.3g} %", slope, number(first, 3), number(total, 3))
+            )
+    heads = ("response", "", "variable", "share of the variance", "derivative [SI]", "Sobol index", "total")
+    return [*tables, Table("contributions", "Contributions", heads, shares)]

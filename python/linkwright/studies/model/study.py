@@ -22,7 +22,7 @@ from linkwright.kernel.units import Angle
 Value = float | str
 
 # The ways in which a variable is given, of which it has one.
-WAYS = ("range", "values", "distribution")
+WAYS = ("range", "values", "distribution", "tolerance")
 
 
 def _as_list(value: object) -> object:
@@ -66,11 +66,16 @@ class Variable(CheckedDescription):
         None, min_length=1, description="The values: numbers, or whatever else may stand at the address."
     )
     distribution: Distribution | None = Field(None, description="How it scatters.")
+    tolerance: str | None = Field(
+        None, description='Limits about the value of the machine: "± 0.2 mm", "+0.1 -0.3 mm".'
+    )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         given = [way for way in WAYS if getattr(self, way) is not None]
         if len(given) > 1:
-            yield fault(given[1], found=" and ".join(given), expected="one of range, values, distribution")
+            yield fault(
+                given[1], found=" and ".join(given), expected="one of range, values, distribution, tolerance"
+            )
         if self.steps is not None and self.values is not None:
             yield fault("steps", found=self.steps, expected="nothing beside values")
         if self.whole and given and self.range is None:

@@ -1,0 +1,260 @@
+r"""Tolerances: how responses scatter when variables do, by first and second order, and by Monte Carlo.
+
+With the values x of the variables, their middles and standard deviations σ, to first order
+
+.. math:: \sigma_f^2 = \sum_i \left(\frac{\partial f}{\partial x_i} \sigma_i\right)^2, \qquad
+   f_\mathrm{worst} = f \pm \sum_i \left|\frac{\partial f}{\partial x_i}\right| t_i
+
+where t are half widths of the tolerances, and to second order the mean is shifted by ½ Σ f″σ². Derivatives
+are central differences over a quarter of a standard deviation, and said to be so. Sobol indices, first and
+total, are by the estimators of Saltelli and of Jansen [2]_; a block in which a row fails is dropped whole.
+
+References
+----------
+.. [1] JCGM 100:2008, *Guide to the expression of uncertainty in measurement*, section 5.1.
+.. [2] Saltelli et al., *Variance based sensitivity analysis of model output*, Comput. Phys. Commun. 181
+   (2010) 259, table 2 (b) and (f).
+.. [3] Clopper, Pearson, *The use of confidence or fiducial limits*, Biometrika 26 (1934) 404.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.errors import FindingError, InputError
+from linkwright.kernel.public import public
+from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.result import Result
+from linkwright.studies import sampling
+from linkwright.studies.axes import Axis
+from linkwright.studies.engine import SOLVED, Rows, evaluate
+from linkwright.studies.plan import StudyPlan
+
+Floats = NDArray[np.float64]
+
+# Share of a standard deviation to both sides over which derivatives are taken: large against the accuracy of
+# responses, and its square over six is the relative error where the third derivative counts as much as the
+# first over one deviation.
+_STEP = 0.25
+
+# Shares below which 99.73 % of a normal distribution lie between three deviations.
+_BAND = (0.00135, 0.99865)
+
+
+@dataclass(frozen=True)
+class Tolerance(Result):
+    """How responses scatter; every table has an entry a response."""
+
+    n_rows: Annotated[int, Shown("machines drawn at random", "", "")]
+    n_failed: Annotated[int, Shown("machines without an answer", "", "", "They count as outside the limits.")]
+    responses: Annotated[
+        dict[str, dict[str, float]],
+        About(
+            "Response → value at the middle, mean, deviation and 99.73 % band by Monte Carlo, deviation and "
+            "worst case to first order, shift of the mean to second order, in SI."
+        ),
+    ]
+    contributions: Annotated[
+        dict[str, dict[str, float]], About("Response → variable → share of the variance to first order.")
+    ]
+    slopes: Annotated[dict[str, dict[str, float]], About("Response → variable → derivative [SI].")]
+    indices: Annotated[
+        dict[str, dict[str, tuple[float, float]]],
+        About("Response → variable → first and total Sobol index; empty if not asked for."),
+    ]
+    n_dropped: Annotated[
+        int, Shown("blocks dropped from the Sobol indices", "", "", "Some row of each failed.")
+    ]
+    share_within: Annotated[
+        float | None, Shown("yield", "", "", "Share within all limits; None without any.")
+    ]
+    share_low: Annotated[float | None, Shown("lower end of the yield", "", "", "Of its interval.")]
+    share_high: Annotated[float | None, Shown("upper end of the yield", "", "", "Of its interval.")]
+    level: Annotated[float, Shown("probability that the interval holds the truth", "", "")]
+
+    def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
+        """Numbers and tables by name.
+
+        Parameters
+        ----------
+        curves : bool
+            Without effect.
+
+        Returns
+        -------
+        dict
+            Ready for JSON.
+        """
+        names = ("responses", "contributions", "slopes", "indices")
+        return {**super().to_dict(), **{name: getattr(self, name) for name in names}}
+
+
+@public
+def tolerance(
+    plan: StudyPlan, rows: int = 10_000, *, seed: int = 0, level: float = 0.95, indices: int = 0
+) -> Tolerance:
+    """Scatter of the responses of a study, and the yield within its constraints.
+
+    Parameters
+    ----------
+    plan : StudyPlan
+        A study whose variables have tolerances or distributions; a range counts as uniform.
+    rows : int
+        Machines drawn at random, 2 to 10⁷.
+    seed : int
+        Seed of the random generator.
+    level : float
+        Probability that the interval of the yield holds the truth.
+    indices : int
+        Blocks for Sobol indices, each of as many machines as variables and two; 0 for none.
+
+    Returns
+    -------
+    Tolerance
+        Bands, contributions, yield.
+
+    Raises
+    ------
+    InputError
+        A variable is a list; a number is out of range.
+    FindingError
+        The machine in the middle of all tolerances, or a neighbour of it, has no answer.
+    """
+    if not 2 <= rows <= 10_000_000 or not 0 <= indices <= 1_000_000:
+        raise InputError(
+            f"rows {rows}, indices {indices}: expected 2 to 10 000 000 rows, to 1 000 000 blocks"
+        )
+    if not 0 < level < 1:
+        raise InputError(f"level {level}: expected a number between 0 and 1, such as 0.95")
+    listed = [each.name for each in plan.axes if each.choices]
+    if listed:
+        raise InputError(
+            f"variables.{listed[0]}: found a list, expected a tolerance, a distribution or a range"
+        )
+    middle, slopes, bends = _derivatives(plan)
+    drawn = evaluate(plan, plan.values(sampling.random(len(plan.axes), seed, 0, rows)))
+    deviations = np.array([_spread(each)[1] for each in plan.axes])
+    sobol, n_dropped = _indices(plan, seed, indices) if indices else ({}, 0)
+    names = [each.name for each in plan.axes]
+    solved = drawn.status == SOLVED
+    if solved.sum() < 2:
+        raise FindingError(f"only {int(solved.sum())} of {rows} machines have an answer: {drawn.reasons[-1]}")
+    return Tolerance(
+        n_rows=rows,
+        n_failed=int((~solved).sum()),
+        responses={
+            name: _row(plan, drawn.columns[name][solved], middle[name], slopes[name], bends[name])
+            for name in plan.responses
+        },
+        contributions={name: _shares(names, slopes[name] * deviations) for name in plan.responses},
+        slopes={name: dict(zip(names, map(float, slopes[name]), strict=True)) for name in plan.responses},
+        indices=sobol,
+        n_dropped=n_dropped,
+        **_yield(plan, drawn, level),
+        level=level,
+    )
+
+
+def _spread(axis: Axis) -> tuple[float, float, float]:
+    """Middle, standard deviation and half width of a variable; infinite where it has no ends."""
+    # Moments of the distribution as it is cut off, by its quantiles.
+    values = axis.values((np.arange(2000) + 0.5) / 2000)
+    return float(values.mean()), float(values.std()), 0.5 * (axis.high - axis.low)
+
+
+def _derivatives(plan: StudyPlan) -> tuple[dict[str, float], dict[str, Floats], dict[str, Floats]]:
+    """Value in the middle, first and second derivatives by each variable, of each response."""
+    spreads = [_spread(each) for each in plan.axes]
+    middles = np.array([each[0] for each in spreads])
+    steps = np.array([_STEP * each[1] for each in spreads])
+    n = len(middles)
+    points = np.vstack([middles, middles + np.diag(steps), middles - np.diag(steps)])
+    rows = evaluate(plan, {each.name: points[:, i].copy() for i, each in enumerate(plan.axes)})
+    if (rows.status != SOLVED).any():
+        worst = int(np.flatnonzero(rows.status)[0])
+        place = (
+            "in the middle of the tolerances"
+            if not worst
+            else f"beside it in {plan.axes[(worst - 1) % n].name}"
+        )
+        raise FindingError(f"the machine {place} has no answer: {rows.reasons[rows.reason[worst]]}")
+    values = {name: rows.columns[name] for name in plan.responses}
+    first = {name: (f[1 : n + 1] - f[n + 1 :]) / (2 * steps) for name, f in values.items()}
+    second = {name: (f[1 : n + 1] - 2 * f[0] + f[n + 1 :]) / steps**2 for name, f in values.items()}
+    return {name: float(f[0]) for name, f in values.items()}, first, second
+
+
+def _row(plan: StudyPlan, drawn: Floats, middle: float, slopes: Floats, bends: Floats) -> dict[str, float]:
+    """What is known of the scatter of a response."""
+    spreads = np.array([_spread(each) for each in plan.axes])
+    low, high = np.quantile(drawn, _BAND)
+    # What a variable without ends may do is without end, unless the response does not depend on it.
+    with np.errstate(invalid="ignore"):
+        worst = float(np.where(slopes == 0, 0.0, np.abs(slopes) * spreads[:, 2]).sum())
+    return {
+        "middle": middle,
+        "mean": float(drawn.mean()),
+        "deviation": float(drawn.std(ddof=1)),
+        "band_low": float(low),
+        "band_high": float(high),
+        "deviation_first_order": float(np.sqrt(((slopes * spreads[:, 1]) ** 2).sum())),
+        "mean_shift_second_order": float(0.5 * (bends * spreads[:, 1] ** 2).sum()),
+        "worst_low": middle - worst,
+        "worst_high": middle + worst,
+    }
+
+
+def _shares(names: list[str], parts: Floats) -> dict[str, float]:
+    """Shares of the variance, the largest first."""
+    squares = parts**2
+    total = squares.sum()
+    shares = squares / total if total > 0 else squares
+    return {names[i]: float(shares[i]) for i in np.argsort(-shares)}
+
+
+def _yield(plan: StudyPlan, drawn: Rows, level: float) -> dict[str, float | None]:
+    """Share of machines within all limits, with its interval after Clopper and Pearson."""
+    if not plan.limits:
+        return {"share_within": None, "share_low": None, "share_high": None}
+    from scipy.special import betaincinv
+
+    within = drawn.status == SOLVED
+    for name, (low, high) in plan.limits.items():
+        with np.errstate(invalid="ignore"):
+            within &= (drawn.columns[name] >= low) & (drawn.columns[name] <= high)
+    n, k, tail = len(within), int(within.sum()), 0.5 * (1 - level)
+    return {
+        "share_within": k / n,
+        "share_low": float(betaincinv(k, n - k + 1, tail)) if k else 0.0,
+        "share_high": float(betaincinv(k + 1, n - k, 1 - tail)) if k < n else 1.0,
+    }
+
+
+def _indices(plan: StudyPlan, seed: int, n: int) -> tuple[dict[str, dict[str, tuple[float, float]]], int]:
+    """First and total Sobol indices, and how many blocks were dropped."""
+    d = len(plan.axes)
+    both = sampling.random(2 * d, seed + 1, 0, n)
+    a, b = both[:, :d], both[:, d:]
+    mixed = np.repeat(a[None], d, axis=0)
+    for i in range(d):
+        mixed[i, :, i] = b[:, i]
+    rows = evaluate(plan, plan.values(np.vstack([a, b, mixed.reshape(d * n, d)])))
+    kept = (rows.status == SOLVED).reshape(d + 2, n).all(axis=0)
+    found: dict[str, dict[str, tuple[float, float]]] = {}
+    if kept.sum() < 2:
+        raise FindingError("too few blocks of the Sobol indices have an answer in all their rows")
+    for name in plan.responses:
+        f = rows.columns[name].reshape(d + 2, n)[:, kept]
+        # A shift leaves the indices, and takes away rounding.
+        f = f - f[:2].mean()
+        variance = f[:2].var()
+        first = (f[1] * (f[2:] - f[0])).mean(axis=1) / variance if variance > 0 else np.zeros(d)
+        total = 0.5 * ((f[0] - f[2:]) ** 2).mean(axis=1) / variance if variance > 0 else np.zeros(d)
+        found[name] = {
+            each.name: (float(s), float(t)) for each, s, t in zip(plan.axes, first, total, strict=True)
+        }
+    return found, int((~kept).sum())

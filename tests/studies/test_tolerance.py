@@ -1,0 +1,89 @@
+"""Tolerances: linear and bent cases in closed form, yields, indices."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.stats import norm
+
+import linkwright as lw
+from linkwright.kernel.errors import InputError
+from linkwright.studies.plan import StudyPlan
+
+MACHINE = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"
+
+# Two lengths add up; a third response is their product. σ = 1 mm and 2 mm.
+TEXT = f"""
+machine = "{MACHINE}"
+[variables.a]
+address = "mechanism.sliders.cart1.rod"
+distribution = {{ kind = "normal", mean = "0.8 m", deviation = "1 mm" }}
+[variables.b]
+address = "mechanism.sliders.cart2.rod"
+distribution = {{ kind = "normal", mean = "0.8 m", deviation = "2 mm" }}
+[responses]
+sum = {{ formula = "3*a + b" }}
+square = {{ formula = "1e6*(a - 0.8)^2" }}
+[constraints]
+sum = {{ max = 3.205 }}
+"""
+
+
+def plan_of(tmp_path: Path, text: str = TEXT) -> StudyPlan:
+    (tmp_path / "study.toml").write_text(text)
+    return lw.read_study(tmp_path / "study.toml")
+
+
+def test_a_sum(tmp_path: Path) -> None:
+    found = lw.tolerance(plan_of(tmp_path), 40_000, indices=4000)
+    each, deviation = found.responses["sum"], np.hypot(3e-3, 2e-3)
+    assert each["middle"] == pytest.approx(3.2, abs=1e-9)
+    # Deviations of the cut tables of quantiles: 2000 strata miss 0.1 % of them.
+    assert each["deviation_first_order"] == pytest.approx(deviation, rel=2e-3)
+    # Standard error of a deviation from n rows: 1/√(2n) = 0.35 %; four of them.
+    assert each["deviation"] == pytest.approx(deviation, rel=0.015)
+    assert found.contributions["sum"]["a"] == pytest.approx(9 / 13, rel=2e-3)
+    assert found.slopes["sum"] == pytest.approx({"a": 3.0, "b": 1.0}, rel=1e-9)
+    wanted = norm.cdf(5e-3 / deviation)
+    assert found.share_low < wanted < found.share_high
+    assert found.share_high - found.share_low < 0.01
+    # Indices of a sum are the shares of its variance; their errors fall as 1/√4000.
+    first, total = found.indices["sum"]["a"]
+    assert first == pytest.approx(9 / 13, abs=0.08)
+    assert total == pytest.approx(9 / 13, abs=0.08)
+
+
+def test_the_mean_of_a_square_is_its_second_order(tmp_path: Path) -> None:
+    """z² of a standard normal z: mean 1, and nothing to first order."""
+    found = lw.tolerance(plan_of(tmp_path), 40_000).responses["square"]
+    assert found["mean_shift_second_order"] == pytest.approx(1.0, rel=5e-3)
+    # Standard error √(2/n) = 0.7 %; four of them.
+    assert found["mean"] == pytest.approx(1.0, rel=0.03)
+    assert found["deviation_first_order"] == pytest.approx(0.0, abs=1e-9)
+
+
+def test_limits_of_a_tolerance(tmp_path: Path) -> None:
+    text = TEXT.replace('distribution = { kind = "normal", mean = "0.8 m", deviation = "1 mm" }', "X", 1)
+    for given, low, high in (("± 0.6 mm", 0.7994, 0.8006), ("+0.1 -0.3 mm", 0.7997, 0.8001)):
+        axis = plan_of(tmp_path, text.replace("X", f'tolerance = "{given}"')).axes[0]
+        assert (axis.low, axis.high) == pytest.approx((low, high), abs=1e-15)
+        values = axis.values(np.linspace(0, 1, 1001))
+        # Rounding of the sum of value and limit.
+        assert values.min() >= low - 1e-15
+        assert values.max() <= high + 1e-15
+        assert values.mean() == pytest.approx((low + high) / 2, abs=1e-12)
+    for wrong in ("0.6 mm", "± 0.6 kg", "± 0 mm"):
+        with pytest.raises(InputError, match=r"variables\.a\.tolerance"):
+            plan_of(tmp_path, text.replace("X", f'tolerance = "{wrong}"'))
+
+
+def test_worst_case_holds_all(tmp_path: Path) -> None:
+    text = TEXT.replace('distribution = { kind = "normal", mean = "0.8 m", deviation = "1 mm" }', "X", 1)
+    text = text.replace('distribution = { kind = "normal", mean = "0.8 m", deviation = "2 mm" }', "X", 1)
+    plan = plan_of(tmp_path, text.replace("X", 'tolerance = "± 1 mm"'))
+    each = lw.tolerance(plan, 2000).responses["sum"]
+    assert each["worst_low"] == pytest.approx(3.196, abs=1e-9)
+    assert each["worst_high"] == pytest.approx(3.204, abs=1e-9)
+    assert each["worst_low"] < each["band_low"] < each["band_high"] < each["worst_high"]
