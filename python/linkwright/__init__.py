@@ -29,6 +29,7 @@ _HOME = {
     "kinematics": "linkages.kinematics",
     "motions": "linkages.kinematics",
     "linkage": "linkages.cycle",
+    "zero_angle": "linkages.zero",
     "circuits": "linkages.circuits",
     "coupler_curve": "linkages.coupler_curve",
     "period_turns": "linkages.period",
@@ -38,6 +39,8 @@ _HOME = {
     "constant_energy": "drive.constant_energy",
     "steady_state": "drive.steady_state",
     "transient": "drive.transient",
+    "motion_events": "drive.motion_events",
+    "motion_extremes": "drive.motion_events",
     "run_up": "drive.run_up",
     "run_down": "drive.run_down",
     "step_method": "drive.step_method",
@@ -170,6 +173,8 @@ if TYPE_CHECKING:
     from linkwright.drive.batch import steady_states as steady_states
     from linkwright.drive.constant_energy import constant_energy as constant_energy
     from linkwright.drive.model.catalogue import motors as motors
+    from linkwright.drive.motion_events import motion_events as motion_events
+    from linkwright.drive.motion_events import motion_extremes as motion_extremes
     from linkwright.drive.reduction import reduction as reduction
     from linkwright.drive.run_down import run_down as run_down
     from linkwright.drive.run_up import run_up as run_up
@@ -193,6 +198,7 @@ if TYPE_CHECKING:
     from linkwright.linkages.motion import motion as motion
     from linkwright.linkages.period import period_turns as period_turns
     from linkwright.linkages.pose import pose as pose
+    from linkwright.linkages.zero import zero_angle as zero_angle
     from linkwright.machine.address import addresses as addresses
     from linkwright.machine.address import get as get
     from linkwright.machine.address import replace as replace

@@ -129,6 +129,11 @@ NEVER = ""
 CASES = {
     "run": Case("{roller_two_carts}", "{roller_two_carts}" + _SHORT_ROD, "{roller_two_carts}" + _NO_KEY),
     "motion": Case("{roller_two_carts}", "{roller_two_carts}" + _SHORT_ROD, "{roller_two_carts} --at 30"),
+    "transient": Case(
+        "{roller_two_carts} --revolutions 1",
+        "{roller_two_carts} --set loads.rolling1.force=1e5",
+        "{roller_two_carts} --from-angle 30",
+    ),
     "forces": Case(
         "{roller_two_carts}", "{roller_two_carts}" + _SHORT_ROD, "{roller_two_carts} --angles 1deg"
     ),

@@ -84,6 +84,7 @@ EDGES = {
     ("kinetostatics.commands", "drive"),
     # A drive moves a linkage against its loads; its shafts are those of torsion.
     ("drive", "linkages"),
+    ("drive.commands", "linkages"),
     ("drive", "kinetostatics.model"),
     ("drive.model", "torsion.model"),
     # A drive line that twists is a train.

@@ -44,6 +44,7 @@ COMMANDS = {
     "motion": Place(
         "Positions, velocities and accelerations of points and links.", "linkages.commands:motion"
     ),
+    "transient": Place("Follow the motion in time.", "drive.commands.transient:transient"),
     "forces": Place("Compute the forces in a machine.", "kinetostatics.commands.forces:forces"),
     "balance": Place("Find counterweights.", "kinetostatics.commands.balance:balance"),
     "tolerance": Place(

@@ -5,11 +5,13 @@
 | `batch` | Steady motion of thousands to millions of machines that differ in some entries |
 | `cautions` | What the designer of a machine should know although it runs: sentences with numbers |
 | `characteristic` | The motor's characteristic and the mean load that it works against |
+| `commands/` | ``linkwright transient`` |
 | `constant_energy` | How unevenly would it turn without motor and load? |
 | `crank_speed` | At which speed of the crank a command computes, and where that speed comes from |
 | `evenness` | The coefficients δ, H and k_p of a motion |
 | `figures/` | Figures of drives |
 | `model/` | Motors, gearbox, coupling, brake, flywheel |
+| `motion_events` | What happens during a motion in time, and the extremes of its speed and acceleration |
 | `reduction` | What inertia and what load does the crank feel? |
 | `run_down` | How long until it stands? |
 | `run_up` | Does it start, and how long does that take? |
@@ -18,5 +20,6 @@
 | `step_method` | What does the published step method give instead? |
 | `study` | What is known of a drive: reduction to the crank, steady motion, run-up, run-down |
 | `tables` | Results of a drive as tables of text, for the page and for the terminal |
+| `tables_in_time` | A motion in time as tables of text |
 | `transient` | How does it move from here on? |
 """

@@ -7,6 +7,7 @@ from enum import IntEnum
 from typing import Annotated
 
 import numpy as np
+from numpy.polynomial import polynomial
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright.drive.model.motor import ConstantSpeedMotor
@@ -72,6 +73,33 @@ class StepPolynomials:
         for i in reversed(range(factors.shape[-1])):
             rise = (rise + factors[..., i]) * (1 - z if i % 2 else z)
         return rise
+
+    def coefficients(self, which: int) -> Floats:
+        """The same polynomials by powers of z, without what the step begins with.
+
+        Parameters
+        ----------
+        which : int
+            0 the angle [rad], 1 the speed [rad/s].
+
+        Returns
+        -------
+        ndarray, shape (steps, 8)
+            Of z⁰, which is 0, to z⁷.
+        """
+        return self.factors[:, which] @ _POWERS
+
+
+def _powers() -> Floats:
+    """What z, z(1 − z), z²(1 − z), z²(1 − z)², … are by powers of z, (7, 8)."""
+    rows, product = [], np.array([1.0])
+    for i in range(7):
+        product = polynomial.polymul(product, [0.0, 1.0] if i % 2 == 0 else [1.0, -1.0])
+        rows.append(np.pad(product, (0, 8 - len(product))))
+    return np.array(rows)
+
+
+_POWERS = _powers()
 
 
 @dataclass(frozen=True)

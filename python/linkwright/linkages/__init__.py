@@ -25,4 +25,5 @@
 | `straight_portion` | The longest portion of a path that is straight: that hardly leaves its chord |
 | `tables` | A linkage as tables of text: travel, transmission angles, four-bar loops, dead points |
 | `turning` | A mechanism swept over its cycle |
+| `zero` | Crank angles counted from a dead centre |
 """

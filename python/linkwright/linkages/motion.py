@@ -41,7 +41,10 @@ class Path(Record):
     position: Annotated[Floats, About(_PATH_POSITION, "(n, 2) or (n,)")]
     velocity: Annotated[Floats, About("Likewise [m/s or rad/s].", "(n, 2) or (n,)")]
     acceleration: Annotated[Floats, About("Likewise [m/s² or rad/s²].", "(n, 2) or (n,)")]
-    jerk: Annotated[Floats, About("Likewise [m/s³ or rad/s³].", "(n, 2) or (n,)")]
+    jerk: Annotated[
+        Floats | None,
+        About("Likewise [m/s³ or rad/s³]; None where that of the crank is not known.", "(n, 2) or (n,)"),
+    ] = None
 
 
 @dataclass(frozen=True)
@@ -52,7 +55,9 @@ class Motion(Result):
     crank_angle: Annotated[Floats, Shown("crank angle", "φ", "rad")]
     speed: Annotated[Floats, Shown("speed of the crank", "ω", "rad/s")]
     acceleration: Annotated[Floats, Shown("acceleration of the crank", "ε", "rad/s²")]
-    crank_jerk: Annotated[Floats, Shown("jerk of the crank", "dε/dt", "rad/s³")]
+    crank_jerk: Annotated[
+        Floats | None, Shown("jerk of the crank", "dε/dt", "rad/s³", "None where it is not known.")
+    ]
     points: Annotated[dict[str, Path], About("By name.")]
     links: Annotated[dict[str, Path], About("By name.")]
     slides: Annotated[dict[str, Path], About("By name.")]
@@ -87,6 +92,8 @@ def _columns(head: str, path: Path, at: Any) -> dict[str, Floats]:
     places = {head: path.position[..., at] if at is not ... else path.position}
     for rate in _PER_TIME:
         values = getattr(path, rate)
+        if values is None:
+            continue
         places[f"{head}.{rate}"] = values[..., at] if at is not ... else values
     return places
 
@@ -147,6 +154,47 @@ def motion(
         links={name: _path(each.angle, each, rates) for name, each in found.links.items()},
         slides={name: _path(each.position, each, rates) for name, each in found.slides.items()},
     )
+
+
+def motion_along(
+    machine: Machine, time: Floats, angle: Floats, speed: Floats, acceleration: Floats
+) -> Motion:
+    """Motion of every point, link and slide along a motion of the crank that was computed already; no jerk.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine; of a batch, the first.
+    time, angle, speed, acceleration : ndarray, shape (n,)
+        Of the crank [s, rad, rad/s, rad/s²].
+
+    Raises
+    ------
+    AssemblyError
+        The mechanism does not close at one of the angles.
+    """
+    compiled = compile_machine(machine).first()
+    phi = np.ascontiguousarray(angle)
+    require_closed(compiled, machine, phi)
+    found = kinematics_of(compiled, phi, everything(compiled))
+    rates = np.array([speed, acceleration])
+    columns = rates[:, :, None]
+    return Motion(
+        time=time,
+        crank_angle=phi,
+        speed=speed,
+        acceleration=acceleration,
+        crank_jerk=None,
+        points={name: _rates(each.position, each, columns) for name, each in found.points.items()},
+        links={name: _rates(each.angle, each, rates) for name, each in found.links.items()},
+        slides={name: _rates(each.position, each, rates) for name, each in found.slides.items()},
+    )
+
+
+def _rates(position: Floats, each: Any, rates: Floats) -> Path:
+    """The chain rule up to the acceleration."""
+    w, a = rates
+    return Path(position, each.d1 * w, each.d2 * w**2 + each.d1 * a)
 
 
 def _path(position: Floats, each: Any, rates: Floats) -> Path:

@@ -47,6 +47,25 @@ Outside = Annotated[
     ),
 ]
 Json = Annotated[bool, Option("--json", help="Print one JSON object in SI, and nothing else.")]
+ZeroAt = Annotated[
+    str | None,
+    Option(
+        "--zero",
+        metavar='"[OUTPUT] END"',
+        help="Count crank angles from a dead centre: outer, inner, top or bottom, with the name of a slide "
+        'or rocker before it if there are several, as in "ram top".',
+        show_default=False,
+    ),
+]
+UnitsOut = Annotated[
+    str,
+    Option(
+        "--units",
+        metavar="UNITS",
+        help='Units of tables, figures and CSV, such as "mm, rpm, kN"; SI without it. JSON is always SI.',
+        show_default=False,
+    ),
+]
 
 
 def reports_errors(

@@ -7,5 +7,6 @@
 | `glossary` | The field's words: terms, definitions, sources, and the words that they replace |
 | `html` | What the pages of all reports share: templates by Jinja2, figures and data inside the page |
 | `numbers` | Numbers and angles as text |
+| `out_units` | Units in which numbers are shown |
 | `table` | A table of text, and the rows that attributes of results make |
 """

@@ -1,0 +1,46 @@
+"""How does a press start from rest at its top dead centre, and does it get through its first stroke?
+
+On the command line: linkwright transient machine.toml --zero top --revolutions 3 --units mm,rpm,kN
+"""
+
+from pathlib import Path
+
+import numpy as np
+
+import linkwright as lw
+
+
+def study(machine: lw.Machine) -> dict[str, float]:
+    """The first stroke: when the force sets in, how hard it brakes; and a flywheel that is too small."""
+    top = lw.zero_angle(machine, "top").angle
+    motion = lw.transient(machine, angle=top, turns=3.0)
+    kinks = [each for each in lw.motion_events(machine, motion) if each.kind == "kink"]
+    places = lw.kinematics(machine, [each.crank_angle for each in kinks]).slides["ram"].position
+    force_begins = next(each for each, place in zip(kinks, places, strict=True) if place > 0.561)
+    least = lw.motion_extremes(motion)[2]
+    weak = lw.replace(machine, {"drive.flywheel.inertia": 2.0})
+    stalled = lw.transient(weak, angle=top, turns=3.0)
+    return {
+        "time_to_the_force": force_begins.time,
+        "angle_of_the_force": np.degrees(force_begins.crank_angle - top),
+        "acceleration_min": least.value,
+        "end_with_a_small_flywheel": float(stalled.end),
+    }
+
+
+def figure(machine: lw.Machine):
+    """Speed and acceleration over time."""
+    from linkwright.drive.figures.in_time import in_time_figure
+    from linkwright.kernel.page.out_units import OutUnits
+
+    motion = lw.transient(machine, angle=lw.zero_angle(machine, "top").angle, turns=3.0)
+    return in_time_figure(motion, lw.motion_extremes(motion), OutUnits.of("rpm"))
+
+
+if __name__ == "__main__":
+    here = Path(__file__).parent
+    example = lw.read(here / "machine.toml")
+    for name, value in study(example).items():
+        print(f"{name:28} {value:.6g}")
+    figure(example).savefig(here / "figure.png", dpi=120)
+    print(f"{here / 'figure.png'}")

@@ -1,0 +1,6 @@
+"""Commands about drives.
+
+| module | |
+| --- | --- |
+| `transient` | ``linkwright transient FILE``: motion in time |
+"""

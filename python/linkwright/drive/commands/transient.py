@@ -1,0 +1,215 @@
+"""``linkwright transient FILE``: motion in time from rest or any state, what happens on the way, extremes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+from linkwright.kernel.command.answer import Answer, hand_over
+from linkwright.kernel.command.common import File, Json, Outside, Sets, UnitsOut, ZeroAt, option_value
+from linkwright.kernel.command.out import Force, out_option, output_folder
+from linkwright.kernel.command.parameter import Option
+from linkwright.kernel.errors import InputError, require_within
+from linkwright.kernel.limits import ROWS_OUT
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from linkwright.drive.motion_events import MotionEvent, MotionExtreme
+    from linkwright.drive.transient import Transient
+    from linkwright.kernel.page.out_units import OutUnits
+    from linkwright.kernel.page.table import Table
+    from linkwright.linkages.motion import Motion
+    from linkwright.linkages.zero import Zero
+    from linkwright.machine.machine import Machine
+
+FromAngle = Annotated[
+    str, Option("--from-angle", metavar="ANGLE", help='Crank angle at the start, such as "90 deg".')
+]
+FromSpeed = Annotated[
+    str, Option("--from-speed", metavar="SPEED", help='Crank speed at the start, such as "30 rpm".')
+]
+Duration = Annotated[
+    str | None,
+    Option("--duration", metavar="TIME", help="How long it is followed.", show_default=False),
+]
+Revolutions = Annotated[
+    float | None,
+    Option(
+        "--revolutions",
+        metavar="N",
+        help="How many revolutions of the crank it is followed. Without it and --duration, ten.",
+        show_default=False,
+    ),
+]
+NoMotor = Annotated[bool, Option("--no-motor", help="The motor is off.")]
+WithBrake = Annotated[bool, Option("--brake", help="The brake of the file is applied.")]
+Accuracy = Annotated[float, Option("--accuracy", metavar="X", help="Relative accuracy of a step.")]
+Steps = Annotated[
+    int, Option("--steps", metavar="N", help="Equal intervals of time in CSV and --curves.", min=1)
+]
+Curves = Annotated[bool, Option("--curves", help="With --json: curves too.")]
+Folder = Annotated[
+    Path | None, out_option("Write results.json, transient.csv and the figure as SVG and PNG there.")
+]
+
+# Without a duration and a number of revolutions.
+_REVOLUTIONS = 10.0
+
+# Intervals of the table on the terminal.
+_ROWS = 12
+
+
+@dataclass(frozen=True)
+class _Followed:
+    """A motion with what is told of it."""
+
+    machine: Machine
+    motion: Transient
+    zero: Zero
+    units: OutUnits
+    steps: int
+    is_driven: bool
+
+    @property
+    def events(self) -> tuple[MotionEvent, ...]:
+        from linkwright.drive.motion_events import motion_events
+
+        return motion_events(self.machine, self.motion)
+
+    @property
+    def extremes(self) -> tuple[MotionExtreme, ...]:
+        from linkwright.drive.motion_events import motion_extremes
+
+        return motion_extremes(self.motion)
+
+
+def transient(
+    file: File,
+    set: Sets = None,
+    allow_outside: Outside = False,
+    from_angle: FromAngle = "0",
+    from_speed: FromSpeed = "0",
+    duration: Duration = None,
+    revolutions: Revolutions = None,
+    no_motor: NoMotor = False,
+    brake: WithBrake = False,
+    zero: ZeroAt = None,
+    units: UnitsOut = "",
+    accuracy: Accuracy = 1e-8,
+    steps: Steps = 500,
+    json: Json = False,
+    curves: Curves = False,
+    out: Folder = None,
+    force: Force = False,
+) -> None:
+    """Follow the motion in time from rest or any state.
+
+    Tells what happens on the way (kinks of the loads, standstill, stall) with angle and numbers, and the
+    exact extremes of speed and acceleration.
+    """
+    from linkwright.drive.transient import transient as follow
+    from linkwright.kernel.page.out_units import OutUnits
+    from linkwright.kernel.units import ANGLE, SPEED, TIME
+    from linkwright.linkages.zero import Zero, zero_angle
+    from linkwright.machine.read import read
+
+    folder = output_folder(out, force=force)
+    require_within(ROWS_OUT, steps, "--steps", "take fewer")
+    if revolutions is not None and not revolutions > 0:
+        raise InputError(f"--revolutions: found {revolutions:g}, expected more than 0")
+    shown = OutUnits.of(units)
+    machine = read(file, set or [], allow_outside=allow_outside)
+    counted = zero_angle(machine, zero) if zero is not None else Zero()
+    until: dict[str, float] = {}
+    if duration is not None:
+        until["duration"] = option_value("--duration", duration, TIME)
+    if revolutions is not None or not until:
+        until["turns"] = revolutions or _REVOLUTIONS
+    motion = follow(
+        machine,
+        angle=option_value("--from-angle", from_angle, ANGLE) + counted.angle,
+        speed=option_value("--from-speed", from_speed, SPEED),
+        accuracy=accuracy,
+        motor=not no_motor,
+        brake=brake,
+        **until,
+    )
+    followed = _Followed(machine, motion, counted, shown, steps, not no_motor)
+    hand_over(_answer(followed), json=json, curves=curves, folder=folder)
+
+
+def _answer(of: _Followed) -> Answer:
+    from linkwright.drive.tables_in_time import end_sentence
+
+    ended = [end_sentence(of.motion, of.zero)] if of.motion.came_to_rest else []
+    return Answer(
+        machine=of.machine.name,
+        results=partial(_results, of),
+        # Without its motor a machine is meant to come to rest.
+        findings=ended if of.is_driven else [],
+        warnings=[] if of.is_driven else ended,
+        head=lambda: _head(of),
+        tables=partial(_tables, of),
+        files=partial(_files, of),
+        figures=partial(_figures, of),
+    )
+
+
+def _head(of: _Followed) -> str:
+    """How far the angles are from those of the file."""
+    if not of.zero.words:
+        return ""
+    from linkwright.kernel.page.numbers import degrees
+
+    return f"Crank angles from the {of.zero.words}, φ = {degrees(of.zero.angle)} in the file"
+
+
+def _results(of: _Followed, curves: bool) -> dict[str, Any]:
+    """Extremes, events, and the curves at even times."""
+    told: dict[str, Any] = {
+        "end": of.motion.end.name.lower(),
+        "duration": float(of.motion.time[-1]),
+        "turns": of.motion.turns,
+        "angle_zero": of.zero.angle,
+        "zero": of.zero.words,
+        "torque_drive_end": of.motion.torque_drive_end,
+        "torque_load_end": of.motion.torque_load_end,
+        "evaluations": of.motion.evaluations,
+        "extremes": [each._asdict() for each in of.extremes],
+        "events": [each._asdict() for each in of.events],
+    }
+    if curves:
+        told |= {name: values.tolist() for name, values in _course(of).curves().items()}
+    return {"transient": told}
+
+
+def _course(of: _Followed, intervals: int | None = None) -> Motion:
+    """The motion of everything at even times."""
+    from linkwright.drive.motion_events import course
+    from linkwright.linkages.motion import motion_along
+
+    return motion_along(of.machine, *course(of.motion, intervals or of.steps))
+
+
+def _tables(of: _Followed) -> list[Table]:
+    from linkwright.drive.tables_in_time import in_time_tables
+
+    return in_time_tables(of.motion, of.extremes, of.events, _course(of, _ROWS), of.zero, of.units)
+
+
+def _files(of: _Followed) -> dict[str, str]:
+    from linkwright.kernel.page.csv import columns_csv
+    from linkwright.kernel.page.out_units import shown_columns
+
+    course = _course(of)
+    curves = course.curves() | {"crank_angle": course.crank_angle - of.zero.angle}
+    return {"transient.csv": columns_csv(shown_columns(curves, course.unit_of, of.units))}
+
+
+def _figures(of: _Followed) -> dict[str, Figure]:
+    from linkwright.drive.figures.in_time import in_time_figure
+
+    return {"transient": in_time_figure(of.motion, of.extremes, of.units)}

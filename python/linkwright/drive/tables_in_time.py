@@ -1,0 +1,125 @@
+"""A motion in time as tables of text: how it ended, extremes, events, the course."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import isfinite
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.drive.motion_events import MotionEvent, MotionExtreme
+from linkwright.drive.transient import End, Transient
+from linkwright.kernel.page.numbers import degrees, number
+from linkwright.kernel.page.out_units import OutUnits
+from linkwright.kernel.page.table import Row, Table
+from linkwright.linkages.motion import Motion
+from linkwright.linkages.zero import Zero
+
+# What rounding leaves of zero, over the largest value of a column.
+_ROUNDING = 1e-12
+
+_SPEED, _ACCELERATION, _TORQUE = "rad/s", "rad/s²", "N m"
+
+_TORQUES = "at φ = {angle} the drive gives {drive} N m at the crank and the loads"
+_AFTER = "after {time} s, {turns} revolutions"
+_SENTENCES = {
+    End.DOES_NOT_START: f"The machine does not start: {_TORQUES} need {{load}} N m",
+    End.STARTS_BACKWARDS: f"The machine is driven backwards: {_TORQUES} ask for {{load}} N m",
+    End.STALL: f"The machine stalls {_AFTER}: {_TORQUES} need {{load}} N m",
+    End.REVERSAL: f"The machine stands {_AFTER}, and is driven backwards: {_TORQUES} ask for {{load}} N m",
+}
+
+
+def end_sentence(motion: Transient, zero: Zero) -> str:
+    """How a motion came to rest, with numbers; empty if it did not."""
+    if motion.end not in _SENTENCES:
+        return ""
+    return _SENTENCES[motion.end].format(
+        angle=_angle(float(motion.crank_angle[-1]), zero),
+        time=number(float(motion.time[-1])),
+        turns=number(motion.turns, 4),
+        drive=number(motion.torque_drive_end),
+        load=number(motion.torque_load_end),
+    )
+
+
+def in_time_tables(
+    motion: Transient,
+    extremes: Sequence[MotionExtreme],
+    events: Sequence[MotionEvent],
+    course: Motion,
+    zero: Zero,
+    units: OutUnits,
+) -> list[Table]:
+    """The tables of a motion in time, in the units that are wanted."""
+    found = [_extremes(extremes, zero, units), _events(events, zero, units), _course(course, zero, units)]
+    return [table for table in found if table.rows]
+
+
+def _extremes(extremes: Sequence[MotionExtreme], zero: Zero, units: OutUnits) -> Table:
+    rows: list[Row] = [
+        (
+            f"{each.kind} {each.quantity}",
+            "ω" if each.quantity == "speed" else "ε",
+            _value(each.value, _SPEED if each.quantity == "speed" else _ACCELERATION, units),
+            f"{number(each.time)} s",
+            _angle(each.crank_angle, zero),
+        )
+        for each in extremes
+    ]
+    return Table("extremes", "Extremes of the motion", ("quantity", "", "value", "time", "crank angle"), rows)
+
+
+def _events(events: Sequence[MotionEvent], zero: Zero, units: OutUnits) -> Table:
+    heads = ("event", "", "time", "crank angle", "speed", "acceleration before", "after")
+    rates = (each for event in events for each in (event.acceleration_before, event.acceleration_after))
+    most = max((abs(each) for each in rates if each is not None), default=0.0)
+    rows: list[Row] = [
+        (
+            each.kind,
+            "",
+            f"{number(each.time)} s",
+            _angle(each.crank_angle, zero),
+            _value(each.speed, _SPEED, units),
+            _value(each.acceleration_before, _ACCELERATION, units, most),
+            _value(each.acceleration_after, _ACCELERATION, units, most),
+        )
+        for each in events
+    ]
+    return Table("events", "What happens", heads, rows)
+
+
+def _course(course: Motion, zero: Zero, units: OutUnits) -> Table:
+    """Time, angle, speed and acceleration of the crank, and the place and velocity of every slide."""
+    slides = list(course.slides.items())
+    heads: Row = ("time", "", "crank angle", "speed", "acceleration")
+    heads = (*heads, *(word for name, _ in slides for word in (name, f"velocity of {name}")))
+    curves = [(course.speed, _SPEED), (course.acceleration, _ACCELERATION)]
+    curves += [each for _, path in slides for each in ((path.position, "m"), (path.velocity, "m/s"))]
+    columns = [_column(curve, si, units) for curve, si in curves]
+    first = [
+        (f"{number(float(time))} s", "", _angle(float(angle), zero))
+        for time, angle in zip(course.time, course.crank_angle, strict=True)
+    ]
+    rows: list[Row] = [(*head, *cells) for head, *cells in zip(first, *columns, strict=True)]
+    return Table("course", "Motion in time", heads, rows)
+
+
+def _angle(angle: float, zero: Zero) -> str:
+    return degrees(angle - zero.angle)
+
+
+def _column(curve: NDArray[np.float64], si: str, units: OutUnits) -> list[str]:
+    """A curve as cells of a table."""
+    most = float(np.abs(curve).max())
+    return [_value(float(value), si, units, most) for value in curve]
+
+
+def _value(value: float | None, si: str, units: OutUnits, most: float = 0.0) -> str:
+    """A value in the unit that is wanted; zero where nothing but rounding is left beside the largest one."""
+    if value is None or not isfinite(value):
+        return "–"
+    unit, factor = units.shown(si)
+    shown = 0.0 if abs(value) <= _ROUNDING * most else value
+    return f"{number(shown / factor)} {unit}"

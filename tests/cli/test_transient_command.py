@@ -1,0 +1,88 @@
+"""``linkwright transient``: from any state, counted from a dead centre, in the units that are asked for."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from click.testing import CliRunner, Result
+
+import linkwright as lw
+from linkwright.app.application import application
+
+PRESS = Path(__file__).parents[2] / "examples" / "press_with_flywheel" / "machine.toml"
+
+
+def run(*words: str) -> Result:
+    return CliRunner().invoke(application(), ["transient", str(PRESS), *words])
+
+
+def told(*words: str) -> dict[str, Any]:
+    done = run(*words, "--json")
+    assert done.exit_code == 0, done.output
+    found: dict[str, Any] = json.loads(done.stdout)["results"]["transient"]
+    return found
+
+
+def test_json_is_what_python_gives() -> None:
+    found = told("--from-angle", "20 deg", "--from-speed", "30 rpm", "--duration", "0.5 s", "--curves")
+    motion = lw.transient(lw.read(PRESS), angle=np.radians(20), speed=np.pi, duration=0.5)
+    assert found["end"] == "time"
+    assert found["speed"][-1] == motion.speed[-1]
+    assert found["acceleration"][0] == pytest.approx(motion.acceleration[0], rel=1e-9)
+    assert found["extremes"] == [each._asdict() for each in lw.motion_extremes(motion)]
+    assert len(found["ram.place"]) == len(found["time"]) == 501
+    place = lw.kinematics(lw.read(PRESS), [found["crank_angle"][250]]).slides["ram"].position[0]
+    assert found["ram.place"][250] == place
+
+
+def test_angles_count_from_the_dead_centre() -> None:
+    found = told("--zero", "top", "--from-angle", "30 deg", "--duration", "0.1 s")
+    assert found["angle_zero"] == pytest.approx(np.pi / 2)
+    # JSON has the angle of the file.
+    assert found["events"][0]["crank_angle"] == pytest.approx(np.radians(120))
+
+
+def test_files_have_the_units_that_are_asked_for(tmp_path: Path) -> None:
+    words = ("--zero", "top", "--units", "mm, rpm, deg", "--revolutions", "0.5", "--steps", "20")
+    assert run(*words, "--out", str(tmp_path / "out")).exit_code == 0
+    names = {path.name for path in (tmp_path / "out").iterdir()}
+    assert {"results.json", "transient.csv", "transient.svg", "transient.png"} <= names
+    rows = list(csv.DictReader((tmp_path / "out" / "transient.csv").read_text(encoding="utf-8").splitlines()))
+    assert len(rows) == 21
+    assert float(rows[0]["crank_angle [°]"]) == 0.0
+    assert float(rows[-1]["crank_angle [°]"]) == pytest.approx(180.0)
+    assert float(rows[0]["ram.place [mm]"]) == pytest.approx(420.0)
+    assert float(rows[-1]["ram.place [mm]"]) == pytest.approx(580.0)
+    assert "ram.place.velocity [mm/s]" in rows[0]
+    assert "speed [rpm]" in rows[0]
+
+
+def test_a_stall_is_a_finding_and_a_run_down_is_none() -> None:
+    stalled = run("--set", "drive.flywheel.inertia=2", "--set", "drive.motor.catalogue=AIR 0.75 kW 6-pole")
+    assert stalled.exit_code == 1
+    assert "N m at the crank" in " ".join(stalled.stdout.split())
+    stopped = run("--no-motor", "--from-speed", "30 rpm")
+    assert stopped.exit_code == 0
+    assert "WARNING" in stopped.stdout
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("--zero", "left"), "outer, inner, top, bottom"),
+        (("--units", "mm,cm"), "one unit of a kind"),
+        (("--units", "smoot"), "smoot"),
+        (("--revolutions", "0"), "more than 0"),
+        (("--from-angle", "30"), "30 deg"),
+        (("--from-speed=-3 rpm",), "0 or more"),
+    ],
+)
+def test_wrong_input(words: tuple[str, ...], said: str) -> None:
+    done = run(*words)
+    assert done.exit_code == 2
+    assert said in done.stderr

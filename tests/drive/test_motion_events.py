@@ -1,0 +1,136 @@
+"""Events and extremes of motions in time, against closed forms and the equation of motion itself."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.drive.motion_events import course
+from linkwright.kernel.errors import InputError
+from linkwright.machine.program.compiled import compile_machine
+
+ROOT = Path(__file__).parents[2]
+PRESS = ROOT / "examples" / "press_with_flywheel" / "machine.toml"
+
+FLYWHEEL = """
+format = 1
+name = "Flywheel"
+[drive.motor]
+kind = "constant_torque"
+torque = 20
+[drive.flywheel]
+inertia = 4
+[mechanism.cranks.A]
+radius = 0.1
+"""
+
+
+@pytest.fixture(scope="module")
+def press() -> tuple[lw.Machine, lw.drive.transient.Transient]:
+    machine = lw.read(PRESS)
+    return machine, lw.transient(machine, angle=np.pi / 2, turns=3.0)
+
+
+def test_a_flywheel_under_constant_torque() -> None:
+    """ω = M t/J: the extremes are at the ends, and nothing happens on the way."""
+    machine = lw.loads(FLYWHEEL)
+    motion = lw.transient(machine, duration=2.0)
+    slowest, fastest, least, most = lw.motion_extremes(motion)
+    assert (slowest.value, slowest.time) == (0.0, 0.0)
+    assert fastest.value == pytest.approx(10.0, rel=1e-9)
+    assert fastest.time == pytest.approx(2.0)
+    assert fastest.crank_angle == pytest.approx(10.0, rel=1e-9)
+    assert (least.value, most.value) == pytest.approx((5.0, 5.0), rel=1e-9)
+    assert [each.kind for each in lw.motion_events(machine, motion)] == ["start", "end of the time"]
+
+
+def test_an_extreme_of_the_acceleration_satisfies_the_equation_of_motion(press) -> None:
+    """ε = (M_d − M_r − ½ J′ω²)/J at the angle and speed that are told, and no sample lies beyond."""
+    machine, motion = press
+    compiled = compile_machine(machine)
+    sampled = course(motion, 20_000)
+    for each in lw.motion_extremes(motion):
+        values = sampled[2] if each.quantity == "speed" else sampled[3]
+        sign = 1 if each.kind == "maximum" else -1
+        # The margin is rounding of the largest value.
+        assert (sign * values).max() <= sign * each.value + 1e-9 * np.abs(values).max()
+        angle, speed = (float(x[0]) for x in motion.at([each.time]))
+        assert angle == pytest.approx(each.crank_angle, abs=1e-12)
+        if each.quantity == "acceleration":
+            J, slope, load, dry, viscous = compiled.reductions(np.array([angle % (2 * np.pi)]))[:, 0]
+            drive = compiled.motor_torques([speed])[1][0]
+            wanted = (drive - load - dry - viscous * speed - 0.5 * slope * speed**2) / J
+            # The polynomial between the steps is as exact as these, 1e-8 of the speed in steps of 10 ms.
+            assert each.value == pytest.approx(wanted, abs=1e-5)
+
+
+def test_kinks_are_where_the_force_of_the_press_changes(press) -> None:
+    machine, motion = press
+    kinks = [each for each in lw.motion_events(machine, motion) if each.kind == "kink"]
+    places = lw.kinematics(machine, [each.crank_angle for each in kinks]).slides["ram"].position
+    ends = np.array([0.42, 0.56, 0.562, 0.578, 0.58])
+    assert np.abs(places[:, None] - ends).min(axis=1).max() < 1e-8
+    assert {int(np.abs(ends - place).argmin()) for place in places} == {0, 1, 2, 3, 4}
+
+
+def test_a_jump_of_the_acceleration() -> None:
+    """A cam's parabolic law turns its acceleration about in the middle of the rise."""
+    text = (ROOT / "machines" / "roller_cam.toml").read_text(encoding="utf-8")
+    machine = lw.loads(re.sub(r"law = \{.*\}", 'law = { kind = "parabolic" }', text))
+    motion = lw.transient(machine, speed=1.0, turns=1.0)
+    jumps = [each for each in lw.motion_events(machine, motion) if each.kind.startswith("jump")]
+    shares = sorted({round((each.crank_angle / np.pi) % 1, 6) for each in jumps})
+    assert shares == [0.5]
+    compiled = compile_machine(machine)
+    for each in jumps:
+        beside = np.array([each.crank_angle - 1e-6, each.crank_angle + 1e-6]) % (2 * np.pi)
+        J, slope, load, dry, viscous = compiled.reductions(beside)
+        drive = compiled.motor_torques([each.speed])[1][0]
+        wanted = (drive - load - dry - viscous * each.speed - 0.5 * slope * each.speed**2) / J
+        found = (each.acceleration_before, each.acceleration_after)
+        # A millionth of a radian beside the jump; the acceleration changes by 13 rad/s² per radian.
+        assert found == pytest.approx(tuple(wanted), abs=1e-3)
+
+
+def test_a_stall_is_told_with_its_torques() -> None:
+    machine = lw.read(PRESS)
+    motion = lw.transient(machine, speed=3.0, turns=5.0, motor=False)
+    end = lw.motion_events(machine, motion)[-1]
+    assert end.kind == "stall"
+    assert end.speed == 0.0
+    assert end.torque_drive == 0.0
+    assert end.torque_load > 0
+    assert lw.motion_extremes(motion)[0].value == 0.0
+
+
+def test_a_machine_that_does_not_start_has_two_events_and_no_extremes() -> None:
+    machine = lw.replace(lw.loads(FLYWHEEL), {"drive.motor.torque": 0.0})
+    motion = lw.transient(machine, duration=1.0)
+    assert [each.kind for each in lw.motion_events(machine, motion)] == ["start", "does not start"]
+    assert lw.motion_extremes(motion) == ()
+
+
+def test_the_top_of_a_press_is_its_inner_dead_centre() -> None:
+    machine = lw.read(PRESS)
+    top = lw.zero_angle(machine, "top")
+    assert top.angle == pytest.approx(np.pi / 2, abs=1e-9)
+    assert top.words == "top dead centre of ram"
+    assert lw.zero_angle(machine, "ram inner").angle == top.angle
+    assert lw.zero_angle(machine, "bottom").angle == lw.zero_angle(machine, "outer").angle != top.angle
+
+
+@pytest.mark.parametrize(
+    ("where", "words"), [("left", "one of outer"), ("cart1 upper", "one of outer"), ("outer", "cart1")]
+)
+def test_a_dead_centre_that_is_not_told_apart(where: str, words: str) -> None:
+    with pytest.raises(InputError, match=words):
+        lw.zero_angle(lw.read(ROOT / "machines" / "roller_two_carts.toml"), where)
+
+
+def test_what_moves_level_has_no_top() -> None:
+    with pytest.raises(InputError, match="as high at both"):
+        lw.zero_angle(lw.read(ROOT / "machines" / "roller_two_carts.toml"), "cart1 top")
