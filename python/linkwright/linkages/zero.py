@@ -54,7 +54,7 @@ def zero_angle(machine: Machine, where: str) -> Zero:
     Raises
     ------
     InputError
-        It is none of these, no such output moves to and fro, or there are several and none is named; the
+        It is none of these, no such output moves back and forth, or there are several and none is named; the
         top of what does not move up or down.
     AssemblyError
         The mechanism closes nowhere.
@@ -83,7 +83,7 @@ def _output(machine: Machine, name: str) -> ElementMotion:
     outputs = [each for each in linkage(machine).elements if each.turns is None]
     names = list(dict.fromkeys(each.output for each in outputs))
     if not names:
-        raise InputError("zero: no link or slide of the machine moves to and fro, so it has no dead centre")
+        raise InputError("zero: no link or slide of the machine moves back and forth, so it has no dead centre")
     if not name and len(names) > 1:
         listed = ", ".join(names)
         raise InputError(f'zero: several outputs have dead centres ({listed}): name one, "{names[0]} inner"')

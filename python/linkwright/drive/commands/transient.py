@@ -64,7 +64,7 @@ _ROWS = 12
 
 @dataclass(frozen=True)
 class _Followed:
-    """A motion with what is told of it."""
+    """A motion with what is reported of it."""
 
     machine: Machine
     motion: Transient
@@ -107,7 +107,7 @@ def transient(
 ) -> None:
     """Follow the motion in time from rest or any state.
 
-    Tells what happens on the way (kinks of the loads, standstill, stall) with angle and numbers, and the
+    Reports what happens on the way (kinks of the loads, standstill, stall) with angle and numbers, and the
     exact extremes of speed and acceleration.
     """
     from linkwright.drive.transient import transient as follow
