@@ -83,7 +83,9 @@ def _output(machine: Machine, name: str) -> ElementMotion:
     outputs = [each for each in linkage(machine).elements if each.turns is None]
     names = list(dict.fromkeys(each.output for each in outputs))
     if not names:
-        raise InputError("zero: no link or slide of the machine moves back and forth, so it has no dead centre")
+        raise InputError(
+            "zero: no link or slide of the machine moves back and forth, so it has no dead centre"
+        )
     if not name and len(names) > 1:
         listed = ", ".join(names)
         raise InputError(f'zero: several outputs have dead centres ({listed}): name one, "{names[0]} inner"')
