@@ -35,6 +35,7 @@ function Scrub() {
 
 export function Playbar() {
   const playing = state.playing.value;
+  if (!state.isDrawn.value) return null;
   return html`
     <div class="playbar" role="group" aria-label="Motion">
       <button class="icon" onClick=${() => step(-1)} aria-label="One step back" title="One step back"><${Icon} name="back" /></button>

@@ -88,7 +88,7 @@ export function Plots() {
       </select></label>` : null}
     <div class="panels">
       ${shown.map(({ plot, of }) => html`<${Panel} key=${plot.key} plot=${plot} of=${of} />`)}
-      ${all.length || state.figures.value.length ? null : html`<p class="nothing">No curves yet. The chips above say what stands in the way.</p>`}
+      ${all.length || state.figures.value.length ? null : html`<p class="nothing">${Object.values(state.lanes.value).includes("running") ? "Being computed …" : "No curves. The chips below the drawing say what stands in the way."}</p>`}
     </div>
     ${others.length ? html`
       <details class="others"><summary>${others.length} more plots</summary>
