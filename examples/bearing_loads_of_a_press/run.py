@@ -31,7 +31,7 @@ def study(machine: lw.Machine) -> dict[str, float]:
 
 def figure(machine: lw.Machine):
     """Hodographs of the reactions and of the shaking force."""
-    from linkwright.kinetostatics.figures.forces import hodograph_figure
+    from linkwright.kinetostatics.figures import hodograph_figure
 
     return hodograph_figure(lw.forces(machine, n=1440, friction=FRICTION))
 

@@ -22,7 +22,7 @@ def study(machine: lw.Machine) -> dict[str, float]:
 
 def figure(machine: lw.Machine):
     """Torque and power over one revolution."""
-    from linkwright.drive.figures.steady import torque_figure
+    from linkwright.drive.figures import torque_figure
 
     return torque_figure(lw.steady_state(machine))
 

@@ -24,7 +24,7 @@ def study(machine: lw.Machine) -> dict[str, float]:
 
 def figure(machine: lw.Machine):
     """Reduced inertia and load: what makes the drive uneven."""
-    from linkwright.drive.figures.reduction import reduction_figure
+    from linkwright.drive.figures import reduction_figure
 
     return reduction_figure(lw.reduction(machine))
 

@@ -19,7 +19,7 @@ def study(machine: lw.Machine) -> dict[str, float]:
 
 def figure(machine: lw.Machine):
     """Shaking force without counterweights, and with one on the crank."""
-    from linkwright.kinetostatics.figures.forces import cases_figure
+    from linkwright.kinetostatics.figures import cases_figure
 
     found = lw.balance(machine, ["A"], radius=0.08)
     return cases_figure({"without": found.before, "counterweight on the crank": found.after})

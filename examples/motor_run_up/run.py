@@ -25,7 +25,7 @@ def study(machine: lw.Machine) -> dict[str, float]:
 
 def figure(machine: lw.Machine):
     """Speed over time and over turns."""
-    from linkwright.drive.figures.run_up import run_up_figure
+    from linkwright.drive.figures import run_up_figure
 
     steady = lw.steady_state(machine)
     return run_up_figure(lw.run_up(machine, steady=steady), steady)

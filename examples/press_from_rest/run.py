@@ -30,7 +30,7 @@ def study(machine: lw.Machine) -> dict[str, float]:
 
 def figure(machine: lw.Machine):
     """Speed and acceleration over time."""
-    from linkwright.drive.figures.in_time import in_time_figure
+    from linkwright.drive.figures import in_time_figure
     from linkwright.kernel.page.out_units import OutUnits
 
     motion = lw.transient(machine, angle=lw.zero_angle(machine, "top").angle, turns=3.0)

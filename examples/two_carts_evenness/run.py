@@ -21,7 +21,7 @@ def study(machine: lw.Machine) -> dict[str, float]:
 
 def figure(machine: lw.Machine):
     """Speed and acceleration over one revolution."""
-    from linkwright.drive.figures.steady import speed_figure
+    from linkwright.drive.figures import speed_figure
 
     return speed_figure(lw.steady_state(machine))
 

@@ -534,7 +534,7 @@ def test_study_has_the_forces_along_its_steady_motion() -> None:
 def test_every_kind_of_load_and_element_is_among_the_machines() -> None:
     """A new kind of load or element must come here, where its laws are tested."""
     from linkwright.kinetostatics.model.loads import AnyLoad
-    from linkwright.linkages.model.outline import KINDS
+    from linkwright.linkages.model.topology import KINDS
 
     kinds = {each.model_fields["kind"].annotation for each in AnyLoad.__args__[0].__args__}
     machines = [animal(name) for name in ZOO]

@@ -12,7 +12,7 @@ import linkwright as lw
 from linkwright.kernel.errors import AssemblyError, InputError, ShapeError
 from linkwright.kernel.numerics.taylor import Taylor
 from linkwright.linkages.law import FunctionLaw, PolynomialLaw, RampLaw, TableLaw, as_law, constant_speed
-from linkwright.linkages.law_formula import FormulaLaw
+from linkwright.linkages.law_input import FormulaLaw
 
 # One of each dyad, gear, planet, rack, cable and a bar, all in one machine.
 ALL = """

@@ -11,8 +11,8 @@ import pytest
 
 from linkwright.kernel.errors import InputError
 from linkwright.papers.claim import judged, tolerance
+from linkwright.papers.page import conclusion, filled, rounded_up, shown
 from linkwright.papers.paper import PAPERS, Paper, paper, printed_values
-from linkwright.papers.words import conclusion, filled, rounded_up, shown
 
 # Keys of the files of data whose texts are prose of ours; what is printed is quoted as it is.
 PROSE = ("name", "text", "computed", "because", "verdict", "about", "title", "about_figures", "captions")

@@ -12,9 +12,8 @@ from linkwright.machine.address import replace
 from linkwright.machine.read import read
 from linkwright.papers.claim import Cell
 from linkwright.papers.paper1.drive import published_drives, recompute
-from linkwright.papers.paper1.limit import limit_curves, scaled_to
 from linkwright.papers.paper1.paper import Paper1, paper1
-from linkwright.papers.paper1.scheme import motor_torque
+from linkwright.papers.paper1.scheme import limit_curves, motor_torque, scaled_to
 
 
 @pytest.fixture(scope="module")

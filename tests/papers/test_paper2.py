@@ -16,13 +16,13 @@ from linkwright.kernel.files.library import library_path
 from linkwright.kinetostatics.forces import forces
 from linkwright.machine.program.drive_line import drive_inertia
 from linkwright.machine.read import read
+from linkwright.papers.page import page
 from linkwright.papers.paper import printed_values
-from linkwright.papers.paper2 import checks
+from linkwright.papers.paper2 import formulas
 from linkwright.papers.paper2.alternatives import Alternative
+from linkwright.papers.paper2.cam_motion import centre_distance
 from linkwright.papers.paper2.formulas import Formulas
 from linkwright.papers.paper2.paper import Paper2, paper2
-from linkwright.papers.paper2.roller import centre_distance
-from linkwright.papers.sheet import page
 
 STROKE, TIME = 0.4, 3.0
 
@@ -89,8 +89,8 @@ def test_a_misprint_would_be_found(paper: Paper2, place: tuple[str, ...], value:
 
 def test_synthesis_agrees_with_the_printed_formulas(paper: Paper2) -> None:
     # Sums of a dozen terms of size 1 round to some 1e-15.
-    assert checks.radius_difference(paper.formulas, paper.profile) < 4e-15
-    assert checks.diameter_difference(paper.formulas, paper.profile) < 4e-15
+    assert formulas.radius_difference(paper.formulas, paper.profile) < 4e-15
+    assert formulas.diameter_difference(paper.formulas, paper.profile) < 4e-15
     assert paper.profile.diameter_min == pytest.approx(1.0, abs=1e-12)
     assert paper.profile.diameter_max == pytest.approx(1.0, abs=1e-12)
     kinds = {row.kind for row in paper.rows}

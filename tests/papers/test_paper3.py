@@ -12,9 +12,8 @@ from numpy.typing import NDArray
 from scipy.linalg import eigh
 
 from linkwright.papers.claim import holding, tolerance
+from linkwright.papers.page import page, share
 from linkwright.papers.paper3.paper import Paper3, paper3
-from linkwright.papers.sheet import page
-from linkwright.papers.words import share
 
 
 @pytest.fixture(scope="module")

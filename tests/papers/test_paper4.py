@@ -10,9 +10,9 @@ import pytest
 from linkwright.kernel.files.library import library_path
 from linkwright.linkages.closure import closure
 from linkwright.machine.read import read
+from linkwright.papers.page import page
 from linkwright.papers.paper4.formulas import LeverFormula
 from linkwright.papers.paper4.paper import Paper4, paper4
-from linkwright.papers.sheet import page
 
 
 @pytest.fixture(scope="module")

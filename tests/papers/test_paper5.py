@@ -10,11 +10,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from linkwright.papers.page import page, shown
 from linkwright.papers.paper5.paper import Paper5, _heads, paper5
-from linkwright.papers.paper5.short import exact_over
-from linkwright.papers.paper5.step import factors
-from linkwright.papers.sheet import page
-from linkwright.papers.words import shown
+from linkwright.papers.paper5.steps import exact_over, factors
 from linkwright.topping.required_length import length_consistent, length_published, published_lengths
 
 

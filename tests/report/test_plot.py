@@ -10,10 +10,7 @@ import pytest
 from linkwright.app.report.figures import figures
 from linkwright.app.study import Study, study
 from linkwright.drive.characteristic import characteristic
-from linkwright.drive.figures.compare import compare_figure
-from linkwright.drive.figures.motor import motor_figure
-from linkwright.drive.figures.reduction import reduction_figure
-from linkwright.drive.figures.run_up import run_up_figure
+from linkwright.drive.figures import compare_figure, motor_figure, reduction_figure, run_up_figure
 from linkwright.kernel.figure.svg import svg
 from linkwright.kernel.files.templates import template
 from linkwright.machine.read import loads, read

@@ -12,8 +12,8 @@ from linkwright.machine.address import replace
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 from linkwright.machine.read import loads, read
-from linkwright.sizing.fit import with_flywheel
 from linkwright.sizing.flywheel import choose_flywheel, classical_flywheel, constant_inertia
+from linkwright.sizing.motor_change import with_flywheel
 
 
 def machine_of(name: str) -> Machine:

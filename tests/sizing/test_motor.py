@@ -16,8 +16,8 @@ from linkwright.machine.machine import Machine
 from linkwright.machine.read import loads, read
 from linkwright.machine.write import dumps
 from linkwright.sizing.checks import PEAK_SHARE
-from linkwright.sizing.inertia import estimated_inertia, rotor_inertia
 from linkwright.sizing.motor import MotorChoice, choose_motor
+from linkwright.sizing.motor_change import estimated_inertia, rotor_inertia
 
 DRIVES = ("one_cart", "two_carts", "three_carts", "four_carts")
 

@@ -225,7 +225,7 @@ def test_a_wrong_import_is_found(tmp_path: Path) -> None:
         "sizing/motor.py": "from ..synthesis import cam\nfrom .shaft import x\nfrom linkwright import _core",
         "topping/model/topper.py": "from ..tables import topper\nimport linkwright.topping.core",
         "linkages/pose.py": "from linkwright.app.study import study",
-        "drive/figures/steady.py": "from linkwright.drive.steady_state import SteadyState\nimport numpy",
+        "drive/figures.py": "from linkwright.drive.steady_state import SteadyState\nimport numpy",
     }
     for name, text in files.items():
         path = tmp_path / name

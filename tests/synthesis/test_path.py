@@ -8,11 +8,10 @@ import pytest
 import linkwright as lw
 from linkwright.kernel.errors import MachineError, SynthesisError
 from linkwright.synthesis.four_bar import FourBar, turn_spare, type_of
-from linkwright.synthesis.path_model import Linkages, PathModel, disorder
-from linkwright.synthesis.path_starts import starts
+from linkwright.synthesis.path_model import SPARE, Linkages, PathModel, disorder, shape
+from linkwright.synthesis.path_search import starts
 from linkwright.synthesis.task import Box, PathTask
-from linkwright.synthesis.transmission import transmission_caution
-from linkwright.synthesis.turning_shape import SPARE, shape
+from linkwright.synthesis.verification import transmission_caution
 
 KNOWN = FourBar(0.1 + 0.2j, 0.5 + 0.3j, 0.12, 0.35, 0.3, "left", 0.3)
 ANGLES = np.linspace(0, 2 * np.pi, 12, endpoint=False)

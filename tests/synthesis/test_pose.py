@@ -14,8 +14,7 @@ from linkwright.machine.write import dumps
 from linkwright.synthesis.four_bar import FourBar
 from linkwright.synthesis.slider_pose import circle_of_sliders
 from linkwright.synthesis.task import MovingPoint, Poses, PoseTask
-from linkwright.synthesis.transmission import least_transmission
-from linkwright.synthesis.travel import travel
+from linkwright.synthesis.verification import least_transmission, travel
 
 POSES = Poses(x=(0, 0.04, 0.06), y=(0, 0.02, 0.06), angle=(0, np.radians(20), np.radians(50)))
 A, B = MovingPoint(x=-0.02, y=-0.05), MovingPoint(x=0.06, y=-0.04)

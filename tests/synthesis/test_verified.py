@@ -7,7 +7,7 @@ import pytest
 
 import linkwright as lw
 from linkwright.kernel.errors import AssemblyError, SynthesisError
-from linkwright.synthesis import verify
+from linkwright.synthesis import verification
 from linkwright.synthesis.dead_centre import crank_rocker
 from linkwright.synthesis.stroke import slider_crank
 
@@ -58,16 +58,16 @@ def test_slider_cranks_of_all_sizes() -> None:
 )
 def test_a_linkage_that_misses_is_a_finding(make: object, monkeypatch: pytest.MonkeyPatch) -> None:
     """A machine that is not the one of the formulas is refused with both numbers."""
-    analysed = verify.linkage
+    analysed = verification.linkage
 
     def off(machine: lw.Machine) -> object:
         crank = machine.mechanism.cranks["A"].radius
         return analysed(lw.replace(machine, {"mechanism.cranks.A.radius": crank * (1 + 1e-4)}))
 
-    monkeypatch.setattr(verify, "linkage", off)
+    monkeypatch.setattr(verification, "linkage", off)
     with pytest.raises(SynthesisError, match=r"made for a (swing|stroke) of .* when it is analysed again"):
         make()  # type: ignore[operator]
     with pytest.raises(SynthesisError, match="has none"):
-        verify.require_met("a stroke", 1.0, None, "m")
+        verification.require_met("a stroke", 1.0, None, "m")
     with pytest.raises(SynthesisError, match="nan m"):
-        verify.require_met("a stroke", 1.0, float("nan"), "m")
+        verification.require_met("a stroke", 1.0, float("nan"), "m")

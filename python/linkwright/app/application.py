@@ -45,13 +45,13 @@ COMMANDS = {
         "Positions, velocities and accelerations of points and links.", "linkages.commands:motion"
     ),
     "transient": Place("Follow the motion in time.", "drive.commands.transient:transient"),
-    "forces": Place("Compute the forces in a machine.", "kinetostatics.commands.forces:forces"),
-    "balance": Place("Find counterweights.", "kinetostatics.commands.balance:balance"),
+    "forces": Place("Compute the forces in a machine.", "kinetostatics.commands:forces"),
+    "balance": Place("Find counterweights.", "kinetostatics.commands:balance"),
     "tolerance": Place(
         "Scatter of results with tolerances, and the yield.", "studies.commands.tolerance:tolerance"
     ),
-    "size": Place("Choose motor and flywheel.", "sizing.commands.size:size"),
-    "motors": Place("List the motors of the catalogue.", "sizing.commands.motors:motors"),
+    "size": Place("Choose motor and flywheel.", "sizing.commands:size"),
+    "motors": Place("List the motors of the catalogue.", "sizing.commands:motors"),
     "papers": Place("Recompute a published paper, compare with its results.", "app.commands.papers:papers"),
     "new": Place("Write a machine file to start from.", "app.commands.new:new"),
     "schema": Place("Print the JSON Schema of machine files.", "app.commands.schema:schema"),
@@ -67,19 +67,17 @@ GROUPS = {
         {
             "dead-centre": Place(
                 "Crank-rocker or slider-crank for stroke and time ratio.",
-                "synthesis.commands.synthesise:dead_centre",
+                "synthesis.commands:dead_centre",
             ),
             "motion": Place(
-                "Four-bar or slider-crank through two or three poses.", "synthesis.commands.synthesise:motion"
+                "Four-bar or slider-crank through two or three poses.", "synthesis.commands:motion"
             ),
             "function": Place(
                 "Four-bar whose rocker follows a function of the crank angle.",
-                "synthesis.commands.synthesise:function",
+                "synthesis.commands:function",
             ),
-            "path": Place(
-                "Four-bar whose coupler point passes given points.", "synthesis.commands.synthesise:path"
-            ),
-            "line": Place("Straight-line linkage from the catalogue.", "synthesis.commands.synthesise:line"),
+            "path": Place("Four-bar whose coupler point passes given points.", "synthesis.commands:path"),
+            "line": Place("Straight-line linkage from the catalogue.", "synthesis.commands:line"),
         },
     ),
     "cam": Group(

@@ -17,7 +17,7 @@ from linkwright.cam.model.cam import Cam
 from linkwright.cam.model.follower import to_arm_pivot
 from linkwright.cam.profile.contact import CamCurve, Contact, contacts
 from linkwright.kernel.errors import LinkwrightError
-from linkwright.linkages.model.outline import ORIGIN
+from linkwright.linkages.model.topology import ORIGIN
 from linkwright.machine.machine import Machine
 
 Floats = NDArray[np.float64]

@@ -9,7 +9,7 @@
 | `constant_energy` | How unevenly would it turn without motor and load? |
 | `crank_speed` | At which speed of the crank a command computes, and where that speed comes from |
 | `evenness` | The coefficients δ, H and k_p of a motion |
-| `figures/` | Figures of drives |
+| `figures` | Figures of a drive over angle and time, and of its motor, with their captions |
 | `model/` | Motors, gearbox, coupling, brake, flywheel |
 | `motion_events` | What happens during a motion in time, and the extremes of its speed and acceleration |
 | `reduction` | What inertia and what load does the crank feel? |

@@ -91,7 +91,7 @@ def run_up(machine: Machine, *, steady: SteadyState | None = None) -> RunUp:
         if motion.came_to_rest:
             raise StartError(_why_not(motion))
         settled = _settled(motion, steady, options.settled)
-        # Settled well before the end: otherwise the speed may yet leave the band again.
+        # InitialAssembly well before the end: otherwise the speed may yet leave the band again.
         if settled is not None and (settled[0] <= 0.8 * turns or turns >= options.turns_max):
             break
         if turns >= options.turns_max:

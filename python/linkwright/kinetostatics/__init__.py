@@ -6,13 +6,12 @@
 | `balancing` | Which counterweights make the shaking force small? |
 | `cam_contact` | The force with which a cam drives its follower |
 | `collect` | From the unknowns to the result |
-| `commands/` | ``linkwright forces`` and ``linkwright balance`` |
+| `commands` | ``linkwright forces`` and ``linkwright balance`` |
 | `counterweight_formulas` | Counterweights by formulas |
 | `envelope` | How large does each force become, and under which loads? |
 | `equilibrium` | The linear system, its solution, and the iteration over friction |
-| `figures/` | Figures of forces |
+| `figures` | Figures of forces over the crank angle, with their captions |
 | `forces` | Which are its joint reactions, its driving torque, its shaking force? |
-| `formula_load` | What a load by a formula does |
 | `friction` | Friction in pins, guides and slots, as given by the user |
 | `harmonics` | Of which harmonics does a force consist? |
 | `inertia` | What the accelerated masses do |

@@ -9,21 +9,19 @@
 | `cycle` | What are its extreme positions, transmission angles, dead points, its Grashof class? |
 | `dead_points` | Where a linkage stops, turns back, or could go two ways |
 | `dyads` | Dyads as the core has them, and the angle at which each passes on its force |
-| `figures/` | Figures of linkages |
+| `figures` | Figures of a linkage over its cycle, with their captions |
 | `grashof` | Four-bar loops of a mechanism and their class after Grashof |
 | `kinematics` | How do points, links and slides move? |
 | `law` | Laws of the driver: the crank angle over time with three derivatives |
-| `law_formula` | A law of the driver written as a text, ``2*pi*t + 0.1*sin(5*t)`` |
-| `law_table` | A table of times and crank angles, the law of a motion in time |
+| `law_input` | Laws of the crank from a user: a table of times and angles, a formula of the time |
 | `model/` | Elements of a mechanism, how they refer to each other, and in which order they are built |
 | `motion` | Where is everything under a law of time? |
 | `obstacle` | Why an element does not close, in words, and what to change |
-| `outputs` | The output members of a mechanism: links on fixed points, sliders, levers, racks, by element |
 | `period` | After how many revolutions of the crank a mechanism is again where it was |
 | `pose` | Where is everything at one crank angle? |
-| `scene/` | What the moving sketch draws |
+| `scene` | Sketch of a mechanism: points, links, slides, gears, bodies, springs over the crank angle |
 | `straight_portion` | The longest portion of a path that is straight: that hardly leaves its chord |
+| `sweep` | A linkage swept over its cycle: what is looked at, curves, exact extremes |
 | `tables` | A linkage as tables of text: travel, transmission angles, four-bar loops, dead points |
-| `turning` | A mechanism swept over its cycle |
 | `zero` | Crank angles counted from a dead centre |
 """

@@ -230,9 +230,9 @@ def _law(text: str) -> Law:
     """A formula, or the table in a file."""
     if _is_table(text):
         from linkwright.linkages.law import TableLaw
-        from linkwright.linkages.law_table import read_law_table
+        from linkwright.linkages.law_input import read_law_table
 
         return TableLaw(*read_law_table(Path(text)))
-    from linkwright.linkages.law_formula import FormulaLaw
+    from linkwright.linkages.law_input import FormulaLaw
 
     return FormulaLaw(text)

@@ -22,7 +22,7 @@ from linkwright.linkages.closure import closure_error, closure_of
 from linkwright.linkages.dyads import POINT, evaluate
 from linkwright.linkages.period import turns_to_repeat
 from linkwright.linkages.straight_portion import straightest
-from linkwright.linkages.turning import Cycle
+from linkwright.linkages.sweep import Cycle
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import Compiled, compile_machine
 

@@ -23,9 +23,8 @@ from linkwright.kernel.result import Record, Result
 from linkwright.linkages.closure import Closure, closure_error, closure_of
 from linkwright.linkages.dead_points import DeadPoint, dead_points
 from linkwright.linkages.grashof import FourBar, four_bars
-from linkwright.linkages.outputs import Output
 from linkwright.linkages.period import turns_to_repeat
-from linkwright.linkages.turning import Cycle, LinkageSweep, sweep
+from linkwright.linkages.sweep import Cycle, LinkageSweep, Output, sweep
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 

@@ -16,7 +16,7 @@ from linkwright.linkages.closure import Closure, limiter_at
 from linkwright.machine.program.compiled import Compiled
 
 if TYPE_CHECKING:
-    from linkwright.linkages.turning import LinkageSweep
+    from linkwright.linkages.sweep import LinkageSweep
 
 LIMIT = "limit of crank rotation"
 PASSED = "change point passed"

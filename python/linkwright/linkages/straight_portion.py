@@ -8,7 +8,7 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.linkages.turning import Cycle
+from linkwright.linkages.sweep import Cycle
 
 Floats = NDArray[np.float64]
 Places = Callable[[Floats], Floats]

@@ -19,7 +19,7 @@ from linkwright.kinetostatics.model.body import Body, body_faults
 from linkwright.kinetostatics.model.loads import AnyLoad
 from linkwright.kinetostatics.model.loads.references import load_faults
 from linkwright.linkages.model.mechanism import Mechanism
-from linkwright.machine.whole_mechanism import merged, outline_of, with_followers
+from linkwright.machine.whole_mechanism import merged, topology_of, with_followers
 
 if TYPE_CHECKING:
     from linkwright.pumping.model.rod_rotator import RodRotator
@@ -148,10 +148,10 @@ def _reference_faults(machine: object) -> list[InitErrorDetails]:
     if not stands_alone and not isinstance(mechanism, BaseModel | Mapping):
         # There is nothing to refer to.
         return faults
-    outline = outline_of(machine)
-    faults += _faults_of_topper(machine, outline.slides)
+    topology = topology_of(machine)
+    faults += _faults_of_topper(machine, topology.slides)
     bodies, loads = look(machine, "bodies"), look(machine, "loads")
-    return [*faults, *body_faults(outline, bodies), *load_faults(outline, loads)]
+    return [*faults, *body_faults(topology, bodies), *load_faults(topology, loads)]
 
 
 def _faults_of_train(machine: object, train: object) -> Iterator[InitErrorDetails]:

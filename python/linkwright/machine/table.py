@@ -12,7 +12,7 @@ from linkwright.kernel.description.base import Description
 from linkwright.kernel.description.plain import field_names, keys, look
 from linkwright.kernel.description.text import join
 from linkwright.kernel.page.numbers import degrees, number, pretty_unit
-from linkwright.linkages.model.outline import TABLES
+from linkwright.linkages.model.topology import TABLES
 from linkwright.machine.address import kind
 from linkwright.machine.machine import Machine
 

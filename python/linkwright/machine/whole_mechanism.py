@@ -17,7 +17,7 @@ from pydantic import BaseModel
 from linkwright.kernel.description.plain import arrays, keys, look
 from linkwright.linkages.model.element import Crank, LinearDriver
 from linkwright.linkages.model.mechanism import Mechanism
-from linkwright.linkages.model.outline import TABLES, Outline
+from linkwright.linkages.model.topology import TABLES, Topology
 
 if TYPE_CHECKING:
     from linkwright.pumping.model.rod_rotator import RodRotator
@@ -93,16 +93,16 @@ _known: dict[tuple[int, ...], tuple[tuple[object, ...], Mechanism]] = {}
 _KNOWN_MAX = 16
 
 
-def outline_of(machine: object) -> Outline:
+def topology_of(machine: object) -> Topology:
     """Names of the whole mechanism of a machine, checked or raw."""
     own = look(machine, "mechanism")
     unit, rotator = look(machine, "pumping_unit"), look(machine, "rod_rotator")
     if not isinstance(unit, BaseModel | Mapping):
-        return Outline.of(own)
+        return Topology.of(own)
     from linkwright.pumping.model.expansion import ROTATOR_PARTS, UNIT
 
     both = (UNIT, ROTATOR_PARTS) if isinstance(rotator, BaseModel | Mapping) else (UNIT,)
-    return Outline.of({table: _joined(table, own, *both) for table in TABLES})
+    return Topology.of({table: _joined(table, own, *both) for table in TABLES})
 
 
 def _joined(table: str, own: object, *expanded: Mapping[str, Any]) -> dict[str, Any]:

@@ -28,7 +28,7 @@ from functools import cache
 from importlib.resources import files
 from typing import Any
 
-from linkwright.papers.words import filled, named, rounded_up
+from linkwright.papers.page import filled, named, rounded_up
 
 
 @dataclass(frozen=True)

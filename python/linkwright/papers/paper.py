@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from linkwright.kernel.errors import InputError
 from linkwright.papers.claim import Row, judged
-from linkwright.papers.words import conclusion, filled, named
+from linkwright.papers.page import conclusion, filled, named
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -37,7 +37,7 @@ from linkwright.linkages.closure import turn_angles
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import Compiled, compile_machine
 from linkwright.machine.program.drive_line import drive_inertia
-from linkwright.sizing.fit import with_flywheel
+from linkwright.sizing.motor_change import with_flywheel
 
 Floats = NDArray[np.float64]
 

@@ -19,9 +19,8 @@ from linkwright.kernel.result import Record
 from linkwright.kernel.units import INERTIA, RATIO, not_negative, positive
 from linkwright.machine.machine import Machine
 from linkwright.sizing.checks import DECISIVE, Check, MotorChecks, motion_checks, rating_checks
-from linkwright.sizing.fit import with_flywheel, with_motor
 from linkwright.sizing.flywheel import UNEVENNESS, flywheel_inertia
-from linkwright.sizing.inertia import KNOWN, rotor_inertia
+from linkwright.sizing.motor_change import KNOWN, rotor_inertia, with_flywheel, with_motor
 from linkwright.sizing.power import RequiredPower, required_power
 
 By = Literal["all", "fixed-start", "power"]

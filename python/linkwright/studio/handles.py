@@ -18,7 +18,7 @@ from typing import Any
 
 from linkwright.kernel.description.text import join
 from linkwright.linkages.model.mechanism import Mechanism
-from linkwright.linkages.model.outline import ORIGIN
+from linkwright.linkages.model.topology import ORIGIN
 from linkwright.machine.machine import Machine
 
 # Table of the mechanism → entries that place its point.

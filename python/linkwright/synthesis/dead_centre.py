@@ -30,8 +30,12 @@ from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.units import ANGLE, LENGTH, RATIO, Bound, Quantity, positive
 from linkwright.machine.machine import Machine
 from linkwright.synthesis.four_bar import FourBar, cross, turn_spare, worst_transmission
-from linkwright.synthesis.transmission import TransmissionResult
-from linkwright.synthesis.verify import element_of, require_met, require_transmission
+from linkwright.synthesis.verification import (
+    TransmissionResult,
+    element_of,
+    require_met,
+    require_transmission,
+)
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]

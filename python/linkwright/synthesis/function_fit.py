@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from linkwright.synthesis.freudenstein import Fit, begins, residual
 from linkwright.synthesis.function_refine import FunctionModel, Rows, level, refine
 from linkwright.synthesis.function_scale import Scale
-from linkwright.synthesis.path_starts import sequence
+from linkwright.synthesis.path_search import sequence
 from linkwright.synthesis.task import FunctionTask
 
 Floats = NDArray[np.float64]

@@ -27,8 +27,7 @@ from linkwright.synthesis.freudenstein import EXACT, Fit, lengths, solve
 from linkwright.synthesis.function_fit import nearest
 from linkwright.synthesis.function_scale import Scale
 from linkwright.synthesis.task import FunctionTask
-from linkwright.synthesis.transmission import TransmissionResult
-from linkwright.synthesis.verify import require_met
+from linkwright.synthesis.verification import TransmissionResult, require_met
 
 Floats = NDArray[np.float64]
 

@@ -11,7 +11,7 @@ is extreme at the ends of the range and where crank and frame are in line, so it
 kept there. A constraint that is broken by g is the residual w (g + λ); λ grows by what is left of g, until
 nothing is.
 
-Source: as for `damped_step` and `path_refine`; extremes of the transmission angle: VDI 2127; minimum largest
+Source: as for `damped_step` and `path_search`; extremes of the transmission angle: VDI 2127; minimum largest
 errors: C. L. Lawson, Contributions to the theory of linear least maximum approximation, UCLA 1961.
 """
 

@@ -1,7 +1,7 @@
 """Path generation: a four-bar linkage whose coupler point passes given points as its crank turns.
 
-Some ten thousand shapes, each in its best pose, are judged (`path_starts`); the best of each group begins a
-refinement by least squares (`path_refine`), all at once: coarse at first, to the end for those that lead.
+Some ten thousand shapes, each in its best pose, are judged (`path_search`); the best of each group begins a
+refinement by least squares (`path_search`), all at once: coarse at first, to the end for those that lead.
 Several starts that end at the same error are the evidence that it is the minimum; how many did is reported.
 With given crank angles the point is compared at those angles, else with the nearest place of the curve, and
 the places must follow one another in the order of the points.
@@ -26,12 +26,10 @@ from linkwright.kernel.quantities import About, Shown
 from linkwright.linkages.kinematics import motions
 from linkwright.machine.machine import Machine
 from linkwright.synthesis.four_bar import worst_transmission
-from linkwright.synthesis.path_model import Linkages, PathModel
-from linkwright.synthesis.path_refine import refine
-from linkwright.synthesis.path_starts import TRIALS, starts
+from linkwright.synthesis.path_model import Linkages, PathModel, shape
+from linkwright.synthesis.path_search import TRIALS, refine, starts
 from linkwright.synthesis.task import PathTask
-from linkwright.synthesis.transmission import TransmissionResult
-from linkwright.synthesis.turning_shape import shape
+from linkwright.synthesis.verification import TransmissionResult
 
 Floats = NDArray[np.float64]
 

@@ -25,9 +25,14 @@ from linkwright.machine.machine import Machine
 from linkwright.synthesis.four_bar import Complexes, FourBar, cross, side_of
 from linkwright.synthesis.slider_pose import guide_slider
 from linkwright.synthesis.task import MovingPoint, PoseTask
-from linkwright.synthesis.transmission import TransmissionResult, least_transmission
-from linkwright.synthesis.travel import listed, travel, way
-from linkwright.synthesis.verify import require_met
+from linkwright.synthesis.verification import (
+    TransmissionResult,
+    least_transmission,
+    listed,
+    require_met,
+    travel,
+    way,
+)
 
 Floats = NDArray[np.float64]
 

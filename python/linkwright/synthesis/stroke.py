@@ -23,8 +23,12 @@ from linkwright.kernel.units import LENGTH, RATIO, positive
 from linkwright.machine.machine import Machine
 from linkwright.synthesis.dead_centre import SOURCE, best, delta_of, joints, slow_over_quick
 from linkwright.synthesis.four_bar import cross, machine_of
-from linkwright.synthesis.transmission import TransmissionResult
-from linkwright.synthesis.verify import element_of, require_met, require_transmission
+from linkwright.synthesis.verification import (
+    TransmissionResult,
+    element_of,
+    require_met,
+    require_transmission,
+)
 
 Floats = NDArray[np.float64]
 

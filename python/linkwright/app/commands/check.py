@@ -134,7 +134,7 @@ def _motor(machine: Machine) -> str:
 
 def _mechanism(machine: Machine) -> list[tuple[str, str]]:
     """The names of the elements, kind by kind."""
-    from linkwright.linkages.model.outline import TABLES
+    from linkwright.linkages.model.topology import TABLES
 
     # A cam is told as such, not as the driver that it is in the whole mechanism.
     cams = machine.mechanism.cams

@@ -52,7 +52,7 @@ def papers(number: Number = None, json: Json = False, out: Folder = None, force:
 
 def _answer(paper: Paper) -> Answer:
     """What was computed anew; the figures are drawn once, for themselves and for the page."""
-    from linkwright.papers.sheet import page
+    from linkwright.papers.page import page
 
     figures = cache(paper.figures)
     return Answer(

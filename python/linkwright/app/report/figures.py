@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from linkwright.app.study import Study
-from linkwright.drive.figures.captions import drive_figures
+from linkwright.drive.figures import drive_figures
 from linkwright.kernel.figure.captioned import Captioned
-from linkwright.kinetostatics.figures.captions import captioned_forces
-from linkwright.linkages.figures.captions import linkage_figures
+from linkwright.kinetostatics.figures import captioned_forces
+from linkwright.linkages.figures import linkage_figures
 
 
 def figures(study: Study) -> Iterator[Captioned]:

@@ -19,8 +19,8 @@ from linkwright.drive.steady_state import SteadyState
 from linkwright.kernel.errors import AssemblyError
 from linkwright.linkages.closure import Closure, closure
 from linkwright.linkages.kinematics import Kinematics, kinematics
-from linkwright.linkages.model.outline import DRIVERS
-from linkwright.linkages.scene.parts import arc_end, parts
+from linkwright.linkages.model.topology import DRIVERS
+from linkwright.linkages.scene import arc_end, parts
 from linkwright.machine.machine import Machine
 
 Floats = NDArray[np.float64]

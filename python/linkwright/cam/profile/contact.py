@@ -41,7 +41,7 @@ from linkwright.cam.model.cam import Cam
 from linkwright.cam.model.follower import Sizes, sizes, start_of, to_arm_pivot
 from linkwright.kernel.errors import AssemblyError, ShapeError
 from linkwright.linkages.model.element import FixedPoint
-from linkwright.linkages.model.outline import ORIGIN
+from linkwright.linkages.model.topology import ORIGIN
 
 Floats = NDArray[np.float64]
 

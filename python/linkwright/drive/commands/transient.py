@@ -210,6 +210,6 @@ def _files(of: _Followed) -> dict[str, str]:
 
 
 def _figures(of: _Followed) -> dict[str, Figure]:
-    from linkwright.drive.figures.in_time import in_time_figure
+    from linkwright.drive.figures import in_time_figure
 
     return {"transient": in_time_figure(of.motion, of.extremes, of.units)}

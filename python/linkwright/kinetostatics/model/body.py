@@ -23,7 +23,7 @@ from pydantic_core import InitErrorDetails
 from linkwright.kernel.description.base import CheckedDescription, fault, suggestion
 from linkwright.kernel.description.plain import keys, look
 from linkwright.kernel.units import INERTIA, MASS, MASS_PER_LENGTH, Length, not_negative
-from linkwright.linkages.model.outline import Outline
+from linkwright.linkages.model.topology import Topology
 
 
 class Body(CheckedDescription):
@@ -71,12 +71,12 @@ class Body(CheckedDescription):
         return self.along is not None or "across" in self.model_fields_set
 
 
-def body_faults(outline: Outline, bodies: object) -> Iterator[InitErrorDetails]:
+def body_faults(topology: Topology, bodies: object) -> Iterator[InitErrorDetails]:
     """What is wrong between the bodies and the mechanism.
 
     Parameters
     ----------
-    outline : Outline
+    topology : Topology
         Names of the mechanism.
     bodies : object
         The table of bodies, checked or raw.
@@ -93,25 +93,25 @@ def body_faults(outline: Outline, bodies: object) -> Iterator[InitErrorDetails]:
         carrier = name if on is None else on
         if not isinstance(carrier, str) or not isinstance(body, BaseModel | Mapping):
             continue
-        if carrier not in outline.links and carrier not in outline.moving_points:
-            yield _on_nothing(outline, carrier, place)
-        elif carrier not in outline.links:
-            yield from _point_faults(name, carrier, body, outline)
+        if carrier not in topology.links and carrier not in topology.moving_points:
+            yield _on_nothing(topology, carrier, place)
+        elif carrier not in topology.links:
+            yield from _point_faults(name, carrier, body, topology)
 
 
-def _on_nothing(outline: Outline, carrier: str, place: tuple[str, ...]) -> InitErrorDetails:
+def _on_nothing(topology: Topology, carrier: str, place: tuple[str, ...]) -> InitErrorDetails:
     """The fault of a body whose carrier does not exist or does not move."""
-    if carrier in outline.fixed_points:
+    if carrier in topology.fixed_points:
         remedy = f'"{carrier}" is a fixed point: a mass at rest has no effect'
         return fault(*place, found=carrier, expected="the name of a link or a moving point", remedy=remedy)
-    known = dict.fromkeys([*outline.links, *outline.moving_points])
+    known = dict.fromkeys([*topology.links, *topology.moving_points])
     expected = "the name of a link or a moving point" + ("" if place[-1] == "on" else ", or an entry on")
     return fault(*place, found=carrier, expected=expected, remedy=suggestion(carrier, known))
 
 
-def _point_faults(name: str, carrier: str, body: object, outline: Outline) -> Iterator[InitErrorDetails]:
+def _point_faults(name: str, carrier: str, body: object, topology: Topology) -> Iterator[InitErrorDetails]:
     """Entries of a body on a point that belong to a link."""
-    links = [link for link, element in outline.links.items() if element == carrier]
+    links = [link for link, element in topology.links.items() if element == carrier]
     remedy = f'"{carrier}" is a point' + (f'; the link is "{links[0]}"' if links else "")
     for key in ("mass_per_length", "inertia", "along", "across"):
         value = look(body, key)

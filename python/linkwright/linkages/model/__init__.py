@@ -7,6 +7,6 @@
 | `guide_faults` | What is wrong with guides and gears |
 | `mechanism` | All elements by name |
 | `mobility` | How many independent motions a mechanism has by the count of its links and pairs |
-| `outline` | Names in a mechanism: what refers to what, in which order it is built |
 | `structure` | The structure of a mechanism |
+| `topology` | Names in a mechanism: what refers to what, in which order it is built |
 """

@@ -10,7 +10,7 @@ from pydantic_core import InitErrorDetails
 from linkwright.kernel.description.base import fault
 
 if TYPE_CHECKING:
-    from linkwright.linkages.model.outline import Element, Outline
+    from linkwright.linkages.model.topology import Element, Topology
 
 # Which references of an element are points of each of its links, by the link's ending.
 _ENDS: dict[str, dict[str, tuple[str, ...]]] = {
@@ -29,15 +29,15 @@ _ENDS: dict[str, dict[str, tuple[str, ...]]] = {
 _SLIDING = ("linear_drivers", "cams", "racks", "sliders", "yokes")
 
 
-def guide_faults(outline: Outline) -> Iterator[InitErrorDetails]:
+def guide_faults(topology: Topology) -> Iterator[InitErrorDetails]:
     """Guides through points of another body, crossings at rest, gears that nothing turns.
 
-    `outline`: an outline whose names all refer to something.
+    `topology`: a topology whose names all refer to something.
     """
-    for each in outline.elements:
+    for each in topology.elements:
         for before in [key[: -len("through")] for key in each.kind.references if key.endswith("through")]:
-            yield from _through(each, before, outline)
-        if each.kind.table == "crossings" and not set(each.references.values()) - set(outline.fixed_points):
+            yield from _through(each, before, topology)
+        if each.kind.table == "crossings" and not set(each.references.values()) - set(topology.fixed_points):
             remedy = "put a guide on a link that moves"
             yield fault(
                 "crossings", each.name, found="two guides at rest", expected="one that moves", remedy=remedy
@@ -48,37 +48,37 @@ def guide_faults(outline: Outline) -> Iterator[InitErrorDetails]:
             yield fault("gears", each.name, "meshes", expected=expected, remedy=remedy)
 
 
-def _through(each: Element, before: str, outline: Outline) -> Iterator[InitErrorDetails]:
+def _through(each: Element, before: str, topology: Topology) -> Iterator[InitErrorDetails]:
     """A guide on the frame or on what slides goes through its point, one on a link through a point of it."""
     name, on = each.references.get(f"{before}through"), each.references.get(f"{before}on")
     if name is None:
         return
     place = (each.kind.table, each.name, *f"{before}through".split("."))
-    if on is None and name not in (*outline.fixed_points, *_sliding(outline)):
-        remedy = f'{outline.instead(name)}; a guide that turns is carried by a link: say which with "on"'
+    if on is None and name not in (*topology.fixed_points, *_sliding(topology)):
+        remedy = f'{topology.instead(name)}; a guide that turns is carried by a link: say which with "on"'
         expected = "the name of a fixed point, or of something that slides"
         yield fault(*place, found=name, expected=expected, remedy=remedy)
-    elif on is not None and name not in (own := points_of(on, outline)):
+    elif on is not None and name not in (own := points_of(on, topology)):
         remedy = "there is " + ", ".join(f'"{point}"' for point in own) if own else "leave it out"
         yield fault(*place, found=name, expected=f"the name of a point of {on}", remedy=remedy)
 
 
-def _sliding(outline: Outline) -> list[str]:
+def _sliding(topology: Topology) -> list[str]:
     """Names of what slides without turning: its own guide is on no link."""
     return [
         each.name
-        for each in outline.elements
+        for each in topology.elements
         if each.kind.table in _SLIDING
         and each.kind.slides
         and not any(key.split(".")[-1] == "on" for key in each.references)
     ]
 
 
-def points_of(link: str, outline: Outline) -> list[str]:
+def points_of(link: str, topology: Topology) -> list[str]:
     """Names of the points that a link carries. Returns: its ends first, then the points fixed to it."""
-    maker = next(each for each in outline.elements if each.name == outline.links[link])
+    maker = next(each for each in topology.elements if each.name == topology.links[link])
     ends = [maker.references.get(key, "O") for key in _ENDS[maker.kind.table][link.removeprefix(maker.name)]]
     made = maker.made(maker.kind.points)
-    fixed = [each.name for each in outline.elements if each.references.get("link") == link]
-    carried = [name for name in fixed if name in outline.names("rigid_points")]
+    fixed = [each.name for each in topology.elements if each.references.get("link") == link]
+    carried = [name for name in fixed if name in topology.names("rigid_points")]
     return [*ends, *made, *carried]

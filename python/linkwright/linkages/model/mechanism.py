@@ -1,6 +1,6 @@
 """The mechanism: drivers on the crankshaft, and the elements that they move, one built on another.
 
-Angles count counter-clockwise from the x axis. Elements refer to each other by name, in any order; `outline`
+Angles count counter-clockwise from the x axis. Elements refer to each other by name, in any order; `topology`
 says which points and links each of them makes.
 """
 
@@ -30,7 +30,7 @@ from linkwright.linkages.model.element import (
     SlottedLever,
     Yoke,
 )
-from linkwright.linkages.model.outline import ORIGIN, TABLES, Outline
+from linkwright.linkages.model.topology import ORIGIN, TABLES, Topology
 
 if TYPE_CHECKING:
     from linkwright.cam.model.cam import Cam
@@ -97,9 +97,9 @@ class Mechanism(Description):
         try:
             mechanism = handler(data)
         except ValidationError as error:
-            raise_faults(cls.__name__, [*faults_of(error), *Outline.of(data).faults(values_fit=False)])
+            raise_faults(cls.__name__, [*faults_of(error), *Topology.of(data).faults(values_fit=False)])
             raise
-        raise_faults(cls.__name__, Outline.of(mechanism).faults())
+        raise_faults(cls.__name__, Topology.of(mechanism).faults())
         if mechanism.cams:
             from linkwright.cam.model.follower import cam_place_faults
 
@@ -113,11 +113,11 @@ class Mechanism(Description):
 
     def moving_points(self) -> tuple[str, ...]:
         """Names of the points that move."""
-        return tuple(Outline.of(self).moving_points)
+        return tuple(Topology.of(self).moving_points)
 
     def slides(self) -> tuple[str, ...]:
         """Names of the coordinates along guides."""
-        return tuple(Outline.of(self).slides)
+        return tuple(Topology.of(self).slides)
 
     def links(self) -> dict[str, Link]:
         """The links by name.
@@ -150,7 +150,7 @@ class Mechanism(Description):
 
     def steps(self) -> list[Step]:
         """The steps in which the mechanism is built."""
-        return Outline.of(self).build().steps
+        return Topology.of(self).build().steps
 
     def build_order(self) -> list[str]:
         """Names of the moving elements, each after those that it is built on."""

@@ -36,7 +36,7 @@ from typing import Literal, NamedTuple
 
 from linkwright.linkages.model.element import Bar, Guide
 from linkwright.linkages.model.mechanism import Mechanism
-from linkwright.linkages.model.outline import ORIGIN
+from linkwright.linkages.model.topology import ORIGIN
 
 # Name of the member that is at rest; no element can have it, since names have no blank.
 FRAME = "the frame"

@@ -23,8 +23,7 @@ from linkwright.linkages.model.element import (
     Yoke,
 )
 from linkwright.machine.program.numbers import core_law
-from linkwright.machine.program.pending import Foldable
-from linkwright.machine.program.places import Placed, Places, angle_name
+from linkwright.machine.program.places import Foldable, Placed, Places, angle_name
 
 _RADIAN = 2 * np.pi
 

@@ -11,8 +11,7 @@ from linkwright.linkages.model.assembly import Step
 from linkwright.linkages.model.mechanism import Mechanism
 from linkwright.machine.program.elements import Elements
 from linkwright.machine.program.numbers import table
-from linkwright.machine.program.pending import Side, Solved
-from linkwright.machine.program.places import Placed
+from linkwright.machine.program.places import Placed, Side, Solved
 
 
 class MechanismProgram(Elements):

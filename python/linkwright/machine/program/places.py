@@ -1,9 +1,9 @@
-"""Indices of points, links, slides and dyads by name, guides and sums: what elements are made of."""
+"""Where points and links are in the program, and what waits for the initial assembly."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -11,7 +11,47 @@ from linkwright import _core
 from linkwright.linkages.model.element import Guide
 from linkwright.linkages.model.mechanism import Mechanism
 from linkwright.machine.program.numbers import Numbers
-from linkwright.machine.program.pending import Continuous, Pending
+
+
+class Side(NamedTuple):
+    """The sign of a dyad at a joint is that of the place where the joint is assembled."""
+
+    joint: str
+    slot: int
+    pin: int
+    # Point at the other end of a dyad RRR; a guide as its link, none for the frame, and direction in it.
+    pivot: int | None = None
+    guide: tuple[int | None, Any] | None = None
+
+
+class Continuous(NamedTuple):
+    """The continuous angle of a link."""
+
+    name: str
+    link: int
+    winding: int
+    centre: int
+    # The turn is the one in which the angle at the start is nearest to this.
+    near: Any = 0.0
+
+
+class Foldable(NamedTuple):
+    """A dyad RRR or RRP that may have change points."""
+
+    name: str
+    element: int
+    sign: int
+
+
+class Solved(NamedTuple):
+    """A group, whose motion has to be followed once."""
+
+    names: tuple[str, ...]
+    element: int
+    inverse_turns: int
+
+
+Pending = Side | Continuous | Foldable | Solved
 
 
 @dataclass

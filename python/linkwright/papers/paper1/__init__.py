@@ -4,7 +4,6 @@
 | --- | --- |
 | `drive` | One drive: its printed row, and what comes out in three ways |
 | `figures` | the figures of paper 1, computed anew |
-| `limit` | the constant-energy limit of a drive, and the inertia that would fit a published row |
 | `paper` | paper 1 computed anew: the four drives, and what follows |
 | `scheme` | the published scheme of paper 1, with its factor 1/i |
 """

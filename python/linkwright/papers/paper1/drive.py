@@ -26,10 +26,9 @@ from linkwright.machine.machine import Machine
 from linkwright.machine.program.drive_line import drive_inertia
 from linkwright.machine.read import read
 from linkwright.papers.claim import Cell
+from linkwright.papers.page import filled
 from linkwright.papers.paper import printed_values
-from linkwright.papers.paper1.limit import Fit, fitted_inertia, scaled_to
-from linkwright.papers.paper1.scheme import published_scheme, turns_to_steady
-from linkwright.papers.words import filled
+from linkwright.papers.paper1.scheme import Fit, fitted_inertia, published_scheme, scaled_to, turns_to_steady
 from linkwright.sizing.motor import MotorChoice, choose_motor
 
 # Intervals of the revolution for curves; the paper's own step is a degree.

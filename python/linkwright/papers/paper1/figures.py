@@ -18,7 +18,7 @@ from linkwright.kernel.figure.style import (
     turn_axis,
     zero_line,
 )
-from linkwright.papers.paper1.limit import limit_curves
+from linkwright.papers.paper1.scheme import limit_curves
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

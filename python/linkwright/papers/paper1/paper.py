@@ -16,8 +16,7 @@ from linkwright.machine.address import replace as with_entries
 from linkwright.papers.claim import cell_of
 from linkwright.papers.paper import Paper, printed_values
 from linkwright.papers.paper1.drive import Drive, drive, published_drives
-from linkwright.papers.paper1.limit import Fit, fitted_inertia
-from linkwright.papers.paper1.scheme import schemes
+from linkwright.papers.paper1.scheme import Fit, fitted_inertia, schemes
 from linkwright.sizing.power import RequiredPower, required_power
 
 # Between neighbouring cranks of four carts that go two against two [rad].

@@ -23,8 +23,8 @@ from linkwright.kinetostatics.model.loads.friction import DryFriction
 from linkwright.linkages.kinematics import SlideMotion, kinematics
 from linkwright.machine.machine import Machine
 from linkwright.machine.read import read
+from linkwright.papers.page import filled
 from linkwright.papers.paper2.formulas import SECTIONS, Formulas, fraction
-from linkwright.papers.words import filled
 
 Floats = NDArray[np.float64]
 

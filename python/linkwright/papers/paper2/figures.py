@@ -25,8 +25,7 @@ from linkwright.kernel.figure.style import (
     turn_axis,
     zero_line,
 )
-from linkwright.papers.paper2.checks import breadth_of
-from linkwright.papers.paper2.formulas import fraction
+from linkwright.papers.paper2.formulas import breadth_of, fraction
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

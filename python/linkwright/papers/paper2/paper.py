@@ -16,11 +16,8 @@ from linkwright.cam.profile.profile import CamProfile, cam_profile
 from linkwright.papers.claim import tolerance
 from linkwright.papers.paper import Paper, printed_values
 from linkwright.papers.paper2.alternatives import Alternative, alternatives
-from linkwright.papers.paper2.checks import breadth_of, checks
-from linkwright.papers.paper2.course import Course, course
-from linkwright.papers.paper2.formulas import Formulas
-from linkwright.papers.paper2.roller import Rollers, rollers, two_cams
-from linkwright.papers.paper2.start import Start, starts
+from linkwright.papers.paper2.cam_motion import Course, Rollers, Start, course, rollers, starts, two_cams
+from linkwright.papers.paper2.formulas import Formulas, breadth_of, checks
 
 # Cam angles per revolution of the curves.
 _ANGLES = 1440

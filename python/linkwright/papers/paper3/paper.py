@@ -14,14 +14,11 @@ from typing import Any
 from linkwright.kernel.files.library import library_path
 from linkwright.machine.read import read
 from linkwright.papers.claim import holding, tolerance
+from linkwright.papers.page import share, shown
 from linkwright.papers.paper import Paper, printed_values
+from linkwright.papers.paper3.checks import UnevennessChecks, WeakChecks, unevenness_checks, weak_checks
+from linkwright.papers.paper3.crank_train import PENDULUM, inertia_checks, swing_checks, throw_checks
 from linkwright.papers.paper3.engine import Shift, TrialEngine
-from linkwright.papers.paper3.inertia import inertia_checks
-from linkwright.papers.paper3.swing import PENDULUM, swing_checks
-from linkwright.papers.paper3.throw import throw_checks
-from linkwright.papers.paper3.uneven import UnevennessChecks, unevenness_checks
-from linkwright.papers.paper3.weak import WeakChecks, weak_checks
-from linkwright.papers.words import share, shown
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,7 @@ from linkwright.kernel.figure.style import (
     panels,
     styled,
 )
-from linkwright.papers.paper5.step import factors
+from linkwright.papers.paper5.steps import factors
 from linkwright.topping.figures.lengths import COLOURS
 from linkwright.topping.required_length import constant_speed_lengths, length_consistent, length_published
 from linkwright.topping.roots import head_diameter
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from matplotlib.patches import Patch
 
     from linkwright.papers.paper5.paper import Paper5
-    from linkwright.papers.paper5.surface import Surface
+    from linkwright.papers.paper5.steps import Surface
 
 Floats = NDArray[np.float64]
 

@@ -13,12 +13,17 @@ from typing import Any
 import numpy as np
 
 from linkwright.papers.claim import tolerance
+from linkwright.papers.page import shown
 from linkwright.papers.paper import Paper, printed_values
-from linkwright.papers.paper5.short import short_checks
-from linkwright.papers.paper5.step import condition_suffices, head_difference, step_checks
-from linkwright.papers.paper5.surface import Surface, surfaces
+from linkwright.papers.paper5.steps import (
+    Surface,
+    condition_suffices,
+    head_difference,
+    short_checks,
+    step_checks,
+    surfaces,
+)
 from linkwright.papers.paper5.verdict import ClaimVerdict, claim_verdict
-from linkwright.papers.words import shown
 from linkwright.topping.required_length import length_published
 from linkwright.topping.verdict import WAYS, Demand
 

@@ -19,7 +19,7 @@ from linkwright.kernel.description.base import fault
 from linkwright.kernel.description.plain import keys, look
 from linkwright.linkages.model.element import Cable, Crank, FixedPoint, RigidPoint, Rocker
 from linkwright.linkages.model.mechanism import Mechanism
-from linkwright.linkages.model.outline import TABLES
+from linkwright.linkages.model.topology import TABLES
 from linkwright.pumping.model.rod_rotator import PIN, ROTATOR, RodRotator
 from linkwright.pumping.model.rotator_lengths import lengths
 from linkwright.pumping.model.unit import BEAM, BEAM_LINK, CRANK, CRANKSHAFT, ROD, SADDLE, PumpingUnit

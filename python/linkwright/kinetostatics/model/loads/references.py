@@ -9,7 +9,7 @@ from pydantic_core import InitErrorDetails
 from linkwright.kernel.description.base import fault, suggestion
 from linkwright.kernel.description.plain import keys, look
 from linkwright.kinetostatics.model.loads.formula import variable_faults
-from linkwright.linkages.model.outline import Outline, Wanted
+from linkwright.linkages.model.topology import Topology, Wanted
 
 # Loads between two points.
 _BETWEEN = ("spring", "damper", "gas_spring")
@@ -44,12 +44,12 @@ _OF_POINTS = _EVERYWHERE | {"x", "y", "vx", "vy", "v"}
 _OF_LINKS = frozenset({"psi", "psi_dot"})
 
 
-def load_faults(outline: Outline, loads: object) -> Iterator[InitErrorDetails]:
+def load_faults(topology: Topology, loads: object) -> Iterator[InitErrorDetails]:
     """What is wrong between the loads and the mechanism.
 
     Parameters
     ----------
-    outline : Outline
+    topology : Topology
         Names of the mechanism.
     loads : object
         The table of loads, checked or raw.
@@ -64,36 +64,36 @@ def load_faults(outline: Outline, loads: object) -> Iterator[InitErrorDetails]:
         load = look(loads, name)
         kind, on = look(load, "kind"), look(load, "on")
         if kind in _BETWEEN:
-            yield from _between_faults(outline, name, kind, look(load, "between"))
+            yield from _between_faults(topology, name, kind, look(load, "between"))
         elif not isinstance(on, str) or not isinstance(kind, str):
             continue
         elif kind == "force_position":
-            yield from _slide_faults(outline, name, on)
+            yield from _slide_faults(topology, name, on)
         else:
-            yield from _carrier_faults(outline, name, load, kind, on)
-            yield from _link_faults(outline, name, load, kind, on)
+            yield from _carrier_faults(topology, name, load, kind, on)
+            yield from _link_faults(topology, name, load, kind, on)
             if kind == "formula":
-                yield from _formula_faults(outline, name, load, on)
+                yield from _formula_faults(topology, name, load, on)
 
 
-def _between_faults(outline: Outline, name: str, kind: str, between: object) -> Iterator[InitErrorDetails]:
+def _between_faults(topology: Topology, name: str, kind: str, between: object) -> Iterator[InitErrorDetails]:
     """Loads between points that do not exist, or are the same, or both at rest."""
     ends = [end for end in between if isinstance(end, str)] if isinstance(between, list | tuple) else []
-    known = outline.candidates("point")
+    known = topology.candidates("point")
     here = ("loads", name, kind, "between")
     for place, end in enumerate(ends):
         if end not in known:
             expected, remedy = "the name of a point", suggestion(end, known)
             yield fault(*here, place, found=end, expected=expected, remedy=remedy)
-    moving = any(end not in outline.fixed_points for end in ends)
+    moving = any(end not in topology.fixed_points for end in ends)
     if len(ends) == 2 and (ends[0] == ends[1] or not moving):
         expected = "two points, at least one of them moving"
         yield fault(*here, found=" and ".join(ends), expected=expected)
 
 
-def _slide_faults(outline: Outline, name: str, on: str) -> Iterator[InitErrorDetails]:
+def _slide_faults(topology: Topology, name: str, on: str) -> Iterator[InitErrorDetails]:
     """A force by position on something that has no guide."""
-    sliders = outline.names("sliders")
+    sliders = topology.names("sliders")
     if on not in sliders:
         remedy = suggestion(on, sliders)
         place = ("loads", name, "force_position", "on")
@@ -101,43 +101,45 @@ def _slide_faults(outline: Outline, name: str, on: str) -> Iterator[InitErrorDet
 
 
 def _carrier_faults(
-    outline: Outline, name: str, load: object, kind: str, on: str
+    topology: Topology, name: str, load: object, kind: str, on: str
 ) -> Iterator[InitErrorDetails]:
     """A load on nothing, or with an entry that does not belong to its carrier."""
     wants = [(key, want) for (of, key), want in _ENTRY_WANTS.items() if of == kind]
-    known = list(dict.fromkeys(each for _, want in wants for each in outline.candidates(want)))
+    known = list(dict.fromkeys(each for _, want in wants for each in topology.candidates(want)))
     if wants and on not in known:
         expected = "the name of a " + " or a ".join(dict.fromkeys(want for _, want in wants))
-        remedy = outline.instead(on) or suggestion(on, known)
+        remedy = topology.instead(on) or suggestion(on, known)
         yield fault("loads", name, kind, "on", found=on, expected=expected, remedy=remedy)
         return
     for key, want in wants:
         value = look(load, key)
-        if value is not None and on not in outline.candidates(want):
+        if value is not None and on not in topology.candidates(want):
             other: Wanted = "link" if want == "moving point" else "moving point"
             expected = _BELONGS.get((kind, other), f"the name of a {want}")
             remedy = f'"{on}" is a {other}: {expected} belongs here'
             yield fault("loads", name, kind, key, found=value, expected=expected, remedy=remedy)
 
 
-def _link_faults(outline: Outline, name: str, load: object, kind: str, on: str) -> Iterator[InitErrorDetails]:
+def _link_faults(
+    topology: Topology, name: str, load: object, kind: str, on: str
+) -> Iterator[InitErrorDetails]:
     """A further link that does not exist, or is the one that the load acts on."""
     for key in _LINKS:
         link = look(load, key)
         if not isinstance(link, str):
             continue
-        if link not in outline.candidates("link"):
-            yield outline.unknown(link, "link", "loads", name, kind, key)
+        if link not in topology.candidates("link"):
+            yield topology.unknown(link, "link", "loads", name, kind, key)
         elif key == "against" and link == on:
             yield fault("loads", name, kind, key, found=link, expected="another link")
 
 
-def _formula_faults(outline: Outline, name: str, load: object, on: str) -> Iterator[InitErrorDetails]:
+def _formula_faults(topology: Topology, name: str, load: object, on: str) -> Iterator[InitErrorDetails]:
     """A force without direction, and variables that the carrier of a formula does not have."""
     key = "torque" if look(load, "torque") is not None else "force"
     along, direction = look(load, "along"), look(load, "direction")
-    is_slide = on in outline.names("sliders") and along is None and direction is None
-    is_point = key == "force" and on in outline.moving_points
+    is_slide = on in topology.names("sliders") and along is None and direction is None
+    is_point = key == "force" and on in topology.moving_points
     if is_point and not is_slide and along is None and direction is None:
         expected = "direction (from the x axis) or along (a link that the force turns with)"
         yield fault("loads", name, "formula", "direction", expected=expected)

@@ -1,0 +1,451 @@
+"""Figures of a drive over angle and time, and of its motor, with their captions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from linkwright.drive.characteristic import characteristic
+from linkwright.drive.model.motor import ConstantSpeedMotor
+from linkwright.drive.motion_events import course, sides
+from linkwright.drive.study import DriveStudy
+from linkwright.kernel.figure.captioned import Captioned
+from linkwright.kernel.figure.style import (
+    ACCELERATION,
+    BLUE,
+    DRIVE,
+    INERTIA,
+    INK,
+    LINES,
+    LOAD,
+    MATH,
+    MOTOR,
+    RED,
+    SKY,
+    SOFT,
+    SPEED,
+    legend_above,
+    level,
+    named,
+    panels,
+    roomy,
+    styled,
+    turn_axis,
+    zero_line,
+)
+from linkwright.kernel.page.numbers import number
+from linkwright.kernel.page.out_units import OutUnits
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from numpy.typing import NDArray
+
+    from linkwright.drive.characteristic import Characteristic
+    from linkwright.drive.motion_events import MotionExtreme
+    from linkwright.drive.reduction import Reduction
+    from linkwright.drive.run_up import RunUp
+    from linkwright.drive.steady_state import SteadyState
+    from linkwright.drive.transient import Transient
+
+# Turns drawn against time: two show that the motion repeats.
+_TURNS = 2
+
+# Mean power from which it is drawn in kilowatts [W].
+_KILOWATT = 1000.0
+
+
+@styled
+def speed_figure(steady: SteadyState) -> Figure:
+    """Draw speed and acceleration of the crank over its angle."""
+    figure, (speed, acceleration) = panels(2, height=4.2)
+    degrees = np.degrees(steady.crank_angle)
+    _speed(speed, degrees, steady)
+    acceleration.plot(degrees, steady.acceleration, color=ACCELERATION)
+    acceleration.set_ylabel("acceleration ε\n[rad/s²]")
+    roomy(acceleration, steady.acceleration)
+    zero_line(acceleration)
+    turn_axis(speed, label=False)
+    turn_axis(acceleration)
+    return figure
+
+
+def _speed(axes: Axes, degrees: np.ndarray, steady: SteadyState) -> None:
+    """The speed with its mean and its extremes."""
+    axes.plot(degrees, steady.speed, color=SPEED, label="speed")
+    level(axes, steady.speed_mean_extremes, f"mean of the extremes {steady.speed_mean_extremes:.5g} rad/s")
+    places = np.degrees([steady.speed_min_angle, steady.speed_max_angle])
+    extremes = [steady.speed_min, steady.speed_max]
+    axes.plot(places, extremes, "o", color=SPEED, markersize=4.5, label="minimum and maximum")
+    axes.set_ylabel("speed ω\n[rad/s]")
+    roomy(axes, steady.speed)
+    legend_above(axes)
+
+
+@styled
+def torque_figure(steady: SteadyState) -> Figure:
+    """Draw torques at the crank and power of the motor over the crank angle."""
+    figure, (torque, power) = panels(2, height=4.2)
+    degrees = np.degrees(steady.crank_angle)
+    torque.plot(degrees, steady.torque_load, color=LOAD, label="load torque")
+    torque.plot(degrees, steady.torque_drive, color=DRIVE, label="driving torque")
+    torque.set_ylabel("torque at the crank\n[N m]")
+    roomy(torque, steady.torque_drive, steady.torque_load)
+    zero_line(torque)
+    legend_above(torque)
+    _power(power, degrees, steady)
+    turn_axis(torque, label=False)
+    turn_axis(power)
+    return figure
+
+
+def _power(axes: Axes, degrees: np.ndarray, steady: SteadyState) -> None:
+    """The power of the motor with its mean."""
+    unit, size = ("kW", 1e3) if abs(steady.power_motor_mean) >= _KILOWATT else ("W", 1.0)
+    power, mean = steady.power_motor / size, steady.power_motor_mean / size
+    axes.plot(degrees, power, color=MOTOR, label="power of the motor")
+    level(axes, mean, f"mean over time {mean:.4g} {unit}")
+    axes.set_ylabel(f"power $P$\n[{unit}]", **MATH)
+    roomy(axes, power)
+    zero_line(axes)
+    legend_above(axes)
+
+
+@styled
+def time_figure(steady: SteadyState) -> Figure:
+    """Draw speed and motor torque against time, over two revolutions."""
+    figure, (speed, torque) = panels(2, height=4.2)
+    time = np.concatenate([steady.time + turn * steady.period for turn in range(_TURNS)])
+    speed.plot(time, np.tile(steady.speed, _TURNS), color=SPEED, label="speed")
+    level(speed, steady.speed_mean_time, f"mean over time {steady.speed_mean_time:.5g} rad/s")
+    speed.set_ylabel("speed ω\n[rad/s]")
+    roomy(speed, steady.speed)
+    legend_above(speed)
+    torque.plot(time, np.tile(steady.torque_motor, _TURNS), color=MOTOR, label="torque of the motor")
+    level(torque, steady.torque_motor_rms, f"root mean square {steady.torque_motor_rms:.4g} N m")
+    torque.set_ylabel("motor torque $M$\n[N m]", **MATH)
+    roomy(torque, steady.torque_motor)
+    zero_line(torque)
+    legend_above(torque)
+    torque.set_xlabel("time t [s], two revolutions")
+    torque.set_xlim(0, _TURNS * steady.period)
+    return figure
+
+
+# Where the colours begin again, the lines look different.
+_DASHES = ("-", "--", "-.", ":")
+
+
+@styled
+def compare_figure(motions: Mapping[str, SteadyState]) -> Figure:
+    """Draw the speed over its mean, and the acceleration, of several machines.
+
+    `motions`: name of the machine → its steady motion. Returns: two panels, one above the other; speeds as
+    shares of each machine's mean over time.
+    """
+    figure, (speed, acceleration) = panels(2, height=4.6)
+    for n, (name, steady) in enumerate(motions.items()):
+        colour, dash = LINES[n % len(LINES)], _DASHES[n // len(LINES) % len(_DASHES)]
+        degrees = np.degrees(steady.crank_angle)
+        speed.plot(degrees, steady.speed / steady.speed_mean_time, dash, color=colour, label=named(name))
+        acceleration.plot(degrees, steady.acceleration, dash, color=colour)
+    speed.set_ylabel("speed over its mean\n[–]")
+    acceleration.set_ylabel("acceleration ε\n[rad/s²]")
+    zero_line(acceleration)
+    legend_above(speed)
+    turn_axis(speed, label=False)
+    turn_axis(acceleration)
+    return figure
+
+
+@styled
+def reduction_figure(reduction: Reduction) -> Figure:
+    """Draw reduced inertia and reduced torque over the crank angle."""
+    figure, (inertia, torque) = panels(2, height=4.2)
+    degrees = np.degrees(reduction.crank_angle)
+    inertia.plot(degrees, reduction.inertia_reduced, color=INERTIA)
+    inertia.set_ylabel("reduced inertia $J$\n[kg m²]", **MATH)
+    roomy(inertia, reduction.inertia_reduced)
+    torque.plot(degrees, reduction.torque_load, color=LOAD, label="load torque")
+    level(torque, reduction.torque_load_mean, f"mean {reduction.torque_load_mean:.4g} N m")
+    torque.set_ylabel("reduced torque $M_r$\n[N m]", **MATH)
+    roomy(torque, reduction.torque_load, np.array([0.0]))
+    zero_line(torque)
+    legend_above(torque)
+    turn_axis(inertia, label=False)
+    turn_axis(torque)
+    return figure
+
+
+# Points per revolution that show the solver's quintics as smooth lines.
+_POINTS = 180
+
+# Share of the motion after settling that is drawn: enough to see that it repeats.
+_AFTER = 1.0
+
+
+@styled
+def run_up_figure(run_up: RunUp, steady: SteadyState | None = None) -> Figure:
+    """Draw the speed during run-up over time and over turns.
+
+    `steady`: steady motion, whose band of speeds is shaded.
+    """
+    figure, axes = panels(1, height=3.0, columns=2, shared=False)
+    time, turns, speed = _fine(run_up.motion, run_up.turns + _AFTER)
+    for panel, x in zip(axes, (time, turns), strict=True):
+        panel.plot(x, speed, color=BLUE, label="speed")
+        _band(panel, steady)
+        panel.set_xlim(0, float(x[-1]))
+    settled = f"settled to {100 * run_up.settled:.2g} %"
+    for panel, at in zip(axes, (run_up.time, run_up.turns), strict=True):
+        panel.axvline(at, color=INK, linewidth=1.1, linestyle=":", label=settled)
+    _words(axes)
+    _legend(figure, axes[0])
+    return figure
+
+
+@styled
+def attempt_figure(motion: Transient) -> Figure:
+    """Draw the speed of a run-up that fails, over time and over turns.
+
+    `motion`: the motion from the start to the stall.
+    """
+    figure, axes = panels(1, height=3.0, columns=2, shared=False)
+    time, turns, speed = _fine(motion, motion.turns)
+    for panel, x in zip(axes, (time, turns), strict=True):
+        panel.plot(x, speed, color=BLUE, label="speed")
+        panel.plot(x[-1:], speed[-1:], "X", color=RED, markersize=8, label="end of the motion")
+    _words(axes)
+    legend_above(axes[0])
+    return figure
+
+
+def _fine(motion: Transient, turns: float) -> tuple[NDArray[np.float64], ...]:
+    """Time, turns and speed at even times, through the solver's own interpolant."""
+    travelled = (motion.crank_angle - motion.crank_angle[0]) / (2 * np.pi)
+    end = float(np.interp(turns, travelled, motion.time))
+    n = int(np.clip(_POINTS * turns, 200, 4000))
+    time = np.linspace(float(motion.time[0]), end, n)
+    angle, speed = motion.at(time)
+    return time, (angle - motion.crank_angle[0]) / (2 * np.pi), speed
+
+
+def _band(axes: Axes, steady: SteadyState | None) -> None:
+    if steady is not None:
+        label = "band of steady motion"
+        axes.axhspan(steady.speed_min, steady.speed_max, color=SKY, alpha=0.3, linewidth=0, label=label)
+
+
+def _words(axes: list[Axes]) -> None:
+    for panel, word in zip(axes, ("time t [s]", "revolutions of the crank [–]"), strict=True):
+        panel.set_xlabel(word)
+        panel.set_ylim(bottom=0)
+        panel.spines["left"].set_color(SOFT)
+    axes[0].set_ylabel("speed ω [rad/s]")
+
+
+def _legend(figure: Figure, axes: Axes) -> None:
+    handles, labels = axes.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper center", ncols=3, handlelength=1.8)
+
+
+@styled
+def motor_figure(characteristic: Characteristic, steady: SteadyState | None = None) -> Figure:
+    """Draw motor torque over motor speed: the whole curve, and the working range beside it.
+
+    `steady`: steady motion; without it the whole curve alone is drawn. Returns: one or two panels, side by
+    side.
+    """
+    figure, axes = panels(1, height=3.3, columns=2 if steady else 1, shared=False)
+    whole = axes[0]
+    _curves(whole, characteristic)
+    _points(whole, characteristic)
+    whole.set_xlim(0, float(characteristic.speed[-1]))
+    roomy(whole, characteristic.torque, characteristic.torque_load)
+    _motor_words(whole)
+    if steady is not None:
+        span = _span(steady, characteristic)
+        whole.axvspan(*span, color=SKY, alpha=0.25, linewidth=0)
+        _detail(axes[1], characteristic, steady, span)
+    _motor_legend(figure, whole, axes[-1])
+    return figure
+
+
+def _span(steady: SteadyState, characteristic: Characteristic) -> tuple[float, float]:
+    return steady.speed_min * characteristic.ratio, steady.speed_max * characteristic.ratio
+
+
+def _curves(axes: Axes, characteristic: Characteristic) -> None:
+    axes.plot(characteristic.speed, characteristic.torque, color=MOTOR, label="motor")
+    load = axes.plot(characteristic.speed, characteristic.torque_load, color=LOAD, label="mean load")
+    load[0].set(linestyle=(0, (5, 3)), linewidth=1.4)
+    if characteristic.speed_no_load is not None:
+        word = "no-load speed" if characteristic.speed_breakdown is None else "synchronous speed"
+        axes.axvline(characteristic.speed_no_load, color=SOFT, linewidth=1, linestyle=":", label=word)
+
+
+def _points(axes: Axes, characteristic: Characteristic) -> None:
+    """Rated point and breakdown point."""
+    speed, torque = characteristic.speed_rated, characteristic.torque_rated
+    if speed is not None and torque is not None:
+        axes.plot(speed, torque, "o", color=INK, markersize=5, label="rated point")
+    speed, torque = characteristic.speed_breakdown, characteristic.torque_breakdown
+    if speed is not None and torque is not None:
+        axes.plot(speed, torque, "^", color=INK, markersize=5.5, label="breakdown")
+
+
+def _detail(
+    axes: Axes, characteristic: Characteristic, steady: SteadyState, span: tuple[float, float]
+) -> None:
+    """The working range, large: the points that a revolution goes through."""
+    _curves(axes, characteristic)
+    _points(axes, characteristic)
+    speed = steady.speed * characteristic.ratio
+    axes.plot(
+        speed, steady.torque_motor, color=BLUE, linewidth=4, alpha=0.75, label="steady motion, one revolution"
+    )
+    axes.axvspan(*span, color=SKY, alpha=0.25, linewidth=0)
+    # Room for the rated point and the synchronous speed, which lie near the working range.
+    near = 0.5 * (span[1] - span[0]) + 0.01 * span[1]
+    axes.set_xlim(max(0.0, span[0] - near), span[1] + near)
+    axes.locator_params(axis="x", nbins=6)
+    roomy(axes, steady.torque_motor, _load_in(axes.get_xlim(), characteristic), np.array([0.0]))
+    _motor_words(axes)
+
+
+def _load_in(limits: tuple[float, float], characteristic: Characteristic) -> np.ndarray:
+    """The mean load between two speeds."""
+    return np.interp(limits, characteristic.speed, characteristic.torque_load)
+
+
+def _motor_words(axes: Axes) -> None:
+    axes.set_xlabel("motor speed [rad/s]")
+    axes.set_ylabel("motor torque [N m]")
+    zero_line(axes)
+
+
+def _motor_legend(figure: Figure, whole: Axes, last: Axes) -> None:
+    """One legend for both panels, above them."""
+    if whole is last:
+        legend_above(whole)
+        return
+    handles, labels = last.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper center", ncols=3, handlelength=1.8)
+
+
+# The motor's curve is drawn beyond the fastest instant of the revolution by this share of it, and half the
+# range of speeds: as far as the detail beside it looks.
+_BEYOND = 0.012
+
+
+def drive_figures(study: DriveStudy) -> Iterator[Captioned]:
+    """The figures that a drive has results for: steady motion, motor, run-up, reduction."""
+    yield from _steady(study)
+    yield from _motor(study)
+    yield from _run_up(study)
+    yield from _reduction(study)
+
+
+def _steady(study: DriveStudy) -> Iterator[Captioned]:
+    steady = study.steady_state
+    if steady is None:
+        return
+    low, high = number(steady.speed_min), number(steady.speed_max)
+    caption = (
+        f"The crank turns at {low} to {high} rad/s, δ = {number(steady.unevenness)}; a revolution takes "
+        f"{number(steady.period)} s."
+    )
+    yield Captioned("speed", "Speed and acceleration over one revolution", caption, speed_figure(steady))
+    caption = (
+        "The speed follows the difference of driving and load torque and the change of the reduced inertia. "
+        f"The work of the motor is {number(steady.energy_motor)} J per revolution."
+    )
+    yield Captioned("torque", "Torque and power over one revolution", caption, torque_figure(steady))
+    caption = "The same motion over time, as a tachometer shows it."
+    yield Captioned("time", "Speed and motor torque over time", caption, time_figure(steady))
+
+
+def _motor(study: DriveStudy) -> Iterator[Captioned]:
+    drive, steady, reduced = study.machine.drive, study.steady_state, study.reduction
+    if drive is None or drive.motor is None or reduced is None or isinstance(drive.motor, ConstantSpeedMotor):
+        return
+    reach = (1.5 + _BEYOND) * steady.speed_max - 0.5 * steady.speed_min if steady else 0.0
+    curve = characteristic(study.machine, reduced=reduced, speed_max=reach * drive.gearbox.ratio)
+    caption = "Torque over speed at the motor's shaft, against the mean load of a revolution."
+    if steady is not None:
+        slow, fast = (number(speed * drive.gearbox.ratio) for speed in (steady.speed_min, steady.speed_max))
+        caption += f" Shaded: the speeds of steady motion, {slow} to {fast} rad/s."
+    yield Captioned("motor", "Motor and working range", caption, motor_figure(curve, steady))
+
+
+def _run_up(study: DriveStudy) -> Iterator[Captioned]:
+    if study.run_up is not None:
+        run_up = study.run_up
+        caption = (
+            f"Steady motion, to within {100 * run_up.settled:.3g} %, is reached after {number(run_up.time)} "
+            f"s and {number(run_up.turns)} revolutions."
+        )
+        yield Captioned("run_up", "Run-up", caption, run_up_figure(run_up, study.steady_state))
+    elif study.attempt is not None and len(study.attempt.time) > 1:
+        caption = f"The motion ends after {number(study.attempt.turns)} revolutions."
+        yield Captioned("run_up", "Run-up that fails", caption, attempt_figure(study.attempt))
+
+
+def _reduction(study: DriveStudy) -> Iterator[Captioned]:
+    reduced = study.reduction
+    if reduced is None:
+        return
+    low, high, mean = reduced.inertia_min, reduced.inertia_max, reduced.torque_load_mean
+    caption = (
+        f"Inertia reduced to the crank, from {number(low)} to {number(high)} kg m², and load torque referred "
+        f"to the crank, {number(mean)} N m on average."
+    )
+    yield Captioned("reduction", "Reduced inertia and torque", caption, reduction_figure(reduced))
+
+
+# Points that show polynomials as smooth lines.
+_DRAWN_POINTS = 2000
+
+
+@styled
+def in_time_figure(motion: Transient, extremes: Sequence[MotionExtreme], units: OutUnits) -> Figure:
+    """Draw speed and acceleration of the crank over time.
+
+    `extremes`: marked by dots; `units`: those of the axes.
+    """
+    figure, axes = panels(2, height=5.0)
+    time, _, speed, acceleration = course(motion, _DRAWN_POINTS)
+    time, acceleration = _with_jumps(motion, time, acceleration)
+    speed = motion.at(time)[1]
+    for panel, name, symbol, values, si, colour in (
+        (axes[0], "speed", "ω", speed, "rad/s", SPEED),
+        (axes[1], "acceleration", "ε", acceleration, "rad/s²", ACCELERATION),
+    ):
+        unit, factor = units.shown(si)
+        panel.plot(time, values / factor, color=colour)
+        for each in extremes:
+            if each.quantity == name:
+                panel.plot(each.time, each.value / factor, "o", color=INK, markersize=4, clip_on=False)
+        panel.set_ylabel(f"{name} {symbol} [{unit}]")
+        roomy(panel, values / factor)
+        zero_line(panel)
+    axes[-1].set_xlabel("time t [s]")
+    if len(time) > 1:
+        axes[-1].set_xlim(float(time[0]), float(time[-1]))
+    return figure
+
+
+def _with_jumps(
+    motion: Transient, time: np.ndarray, acceleration: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Time and acceleration with both sides of every step's end, so that jumps are upright."""
+    before, after = sides(motion)
+    if not len(before):
+        return time, acceleration
+    inner = motion.time[1:-1]
+    times = np.concatenate([time, inner, inner])
+    values = np.concatenate([acceleration, before[:-1], after[1:]])
+    order = np.argsort(times, kind="stable")
+    return times[order], values[order]

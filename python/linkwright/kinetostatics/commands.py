@@ -1,0 +1,357 @@
+"""``linkwright forces`` and ``linkwright balance``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+from linkwright.drive.crank_speed import speed_words, speeds_of
+from linkwright.kernel.command.answer import Answer, hand_over
+from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
+from linkwright.kernel.command.out import Force, out_option, output_folder
+from linkwright.kernel.command.parameter import Option
+from linkwright.kernel.errors import InputError
+
+if TYPE_CHECKING:
+    from linkwright.kernel.page.table import Table
+    from linkwright.kinetostatics.balancing import Balance
+    from linkwright.kinetostatics.friction import Friction
+    from linkwright.kinetostatics.result import Forces
+    from linkwright.machine.machine import Machine
+
+Speed = Annotated[
+    str | None,
+    Option(
+        "--speed",
+        metavar="SPEED",
+        help='Constant speed of the crank, such as "10 rad/s" or "90 rpm". Without it, the steady motion.',
+        show_default=False,
+    ),
+]
+Span = Annotated[
+    str | None,
+    Option(
+        "--angles",
+        metavar='"FROM, TO"',
+        help='With --speed: crank angles between these alone, such as "-20 deg, 50 deg", for a mechanism '
+        "that does not turn fully.",
+        show_default=False,
+    ),
+]
+Curves = Annotated[bool, Option("--curves", help="With --json: curves too, not peaks alone.")]
+Folder = Annotated[Path | None, out_option("Write results.json, forces.csv and figures as SVG there.")]
+Cases = Annotated[
+    list[str] | None,
+    Option(
+        "--case",
+        metavar='"NAME: PATH=VALUE; …"',
+        help='A load case beside the others, such as "idle: loads.work.force=0". May be given again.',
+        show_default=False,
+    ),
+]
+Frictions = Annotated[
+    list[str] | None,
+    Option(
+        "--friction",
+        metavar='"PAIR: KEY=VALUE, …"',
+        help='Friction of a pin, guide or slot, such as "A: radius=20 mm, coefficient=0.1" or "S.guide: '
+        'coefficient=0.1"; also viscous, and length of a guide. May be given again.',
+        show_default=False,
+    ),
+]
+Angle = Annotated[str, Option("--pressure-angle", metavar="ANGLE", help="Pressure angle of all teeth.")]
+
+
+# Intervals between the ends of --angles.
+_ANGLES = 360
+
+
+def forces(
+    file: File,
+    set: Sets = None,
+    allow_outside: Outside = False,
+    speed: Speed = None,
+    angles: Span = None,
+    case: Cases = None,
+    friction: Frictions = None,
+    pressure_angle: Angle = "20 deg",
+    json: Json = False,
+    curves: Curves = False,
+    out: Folder = None,
+    force: Force = False,
+) -> None:
+    """Compute the forces in a machine.
+
+    Joint reactions of all pins, guides, slots, teeth and cables, driving torque, shaking force and moment;
+    along the steady motion, or at a constant speed.
+    """
+    from linkwright.machine.read import read
+
+    folder = output_folder(out, force=force)
+
+    def read_with(entries: list[str]) -> Machine:
+        return read(file, [*(set or []), *entries], allow_outside=allow_outside)
+
+    found, machine = _cases(read_with, case or [], friction or [], _motion(speed, angles, pressure_angle))
+    speeds = {name: speeds_of(each.speed, machine, speed) for name, each in found.items()}
+    hand_over(_answer(machine, found, speeds), json=json, curves=curves, folder=folder)
+
+
+def _answer(machine: Machine, cases: dict[str, Forces], speeds: dict[str, dict[str, Any]]) -> Answer:
+    """What was found, case by case."""
+    return Answer(
+        machine=machine.name,
+        results=partial(_results, cases, speeds),
+        findings=[_named(name, each, cases) for name, result in cases.items() for each in result.findings],
+        head=partial(_head, speeds),
+        tables=partial(_tables, cases),
+        files=partial(_files, cases),
+    )
+
+
+def _head(speeds: dict[str, dict[str, Any]]) -> str:
+    """At what speed, and which case, where there are several."""
+    words = {name: speed_words(each) for name, each in speeds.items()}
+    return "\n".join(
+        [f"{name}: {said}" for name, said in words.items()] if len(words) > 1 else words.values()
+    )
+
+
+def _tables(cases: dict[str, Forces]) -> list[Table]:
+    """The cases beside each other, or all about the one."""
+    from linkwright.kinetostatics.tables import cases_table, contribution_table, envelope_table
+
+    if len(cases) > 1:
+        return [cases_table(cases)]
+    (only,) = cases.values()
+    return [envelope_table(only), contribution_table(only)]
+
+
+def _named(name: str, finding: str, cases: dict[str, Forces]) -> str:
+    """A finding with its case, where there are several."""
+    return finding if len(cases) == 1 else f"{name}: {finding}"
+
+
+def _motion(speed: str | None, span: str | None, pressure_angle: str) -> dict[str, Any]:
+    """What the options say about motion and teeth."""
+    from linkwright.kernel.units import ANGLE, SPEED
+
+    options: dict[str, Any] = {"pressure_angle": option_value("--pressure-angle", pressure_angle, ANGLE)}
+    if speed is not None:
+        options["speed"] = option_value("--speed", speed, SPEED)
+    if span is not None:
+        ends = [option_value("--angles", each.strip(), ANGLE) for each in span.split(",")]
+        if len(ends) != 2 or ends[0] >= ends[1] or speed is None:
+            found = f'"{span}"' + ("" if speed is not None else " without --speed")
+            raise InputError(f"--angles: found {found}, expected two increasing angles, and --speed")
+        low, high = ends
+        options["angles"] = [low + (high - low) * k / _ANGLES for k in range(_ANGLES + 1)]
+    return options
+
+
+def _cases(
+    read_with: Callable[[list[str]], Machine], cases: list[str], frictions: list[str], options: dict[str, Any]
+) -> tuple[dict[str, Forces], Machine]:
+    """Forces by case, of the machine as it is where there are none; and the machine."""
+    from linkwright.kinetostatics.forces import forces as compute
+
+    machine = read_with([])
+    options["friction"] = _frictions(machine, frictions)
+    if not cases:
+        return {machine.name: compute(machine, **options)}, machine
+    named = dict(_case(text) for text in cases)
+    found = {name: compute(read_with(entries), **options) for name, entries in named.items()}
+    return found, machine
+
+
+def _case(text: str) -> tuple[str, list[str]]:
+    """Name and overrides of a case."""
+    name, colon, entries = text.partition(":")
+    if not colon or not name.strip():
+        raise InputError(
+            f'--case: found "{text}", expected a name, a colon and entries, as in "idle: loads.work.force=0"'
+        )
+    return name.strip(), [each.strip() for each in entries.split(";") if each.strip()]
+
+
+def _frictions(machine: Machine, texts: list[str]) -> dict[str, Friction]:
+    """Friction by pair."""
+    from linkwright.linkages.model.structure import structure
+
+    if not texts:
+        return {}
+    pairs = structure(machine.linkage).pairs
+    found = {}
+    for text in texts:
+        # The last colon with a blank: a pin's name may hold one.
+        name, colon, entries = text.rpartition(": ")
+        if not colon:
+            example = '"A: radius=20 mm, coefficient=0.1"'
+            raise InputError(f'--friction: found "{text}", expected pair, colon and entries, as in {example}')
+        is_pin = name in pairs and pairs[name].kind == "pin"
+        found[name] = _friction(entries, is_pin=is_pin)
+    return found
+
+
+def _friction(entries: str, *, is_pin: bool) -> Friction:
+    """Friction from its entries."""
+    from linkwright.kernel.units import DAMPING, LENGTH, RATIO, TORSIONAL_DAMPING
+    from linkwright.kinetostatics.friction import Friction
+
+    kinds = {"coefficient": RATIO, "radius": LENGTH, "length": LENGTH}
+    kinds["viscous"] = TORSIONAL_DAMPING if is_pin else DAMPING
+    values = {}
+    for entry in entries.split(","):
+        key, sign, value = (part.strip() for part in entry.partition("="))
+        if not sign or key not in kinds:
+            raise InputError(
+                f'--friction: found "{entry.strip()}", expected {", ".join(kinds)} with = and a value'
+            )
+        values[key] = option_value(f"--friction {key}", value, kinds[key])
+    return Friction(**values)
+
+
+def _results(
+    cases: dict[str, Forces], speeds: dict[str, dict[str, Any]], curves: bool
+) -> dict[str, dict[str, Any]]:
+    """The results of each case, its speed and what each pair bears."""
+    from linkwright.kinetostatics.envelope import envelope
+
+    results = {}
+    for name, result in cases.items():
+        rows = {each.name: {k: v for k, v in vars(each).items() if k != "name"} for each in envelope(result)}
+        results[name] = result.to_dict(curves=curves) | speeds[name] | {"envelope": rows}
+    return results
+
+
+def _files(cases: dict[str, Forces]) -> dict[str, str]:
+    """Curves and figures by name."""
+    from linkwright.kernel.figure.svg import svg
+    from linkwright.kernel.page.csv import curves_csv
+    from linkwright.kinetostatics.figures import (
+        cases_figure,
+        forces_figure,
+        hodograph_figure,
+        polar_figure,
+    )
+
+    texts = {}
+    for number, result in enumerate(cases.values(), start=1):
+        end = "" if len(cases) == 1 else f"_{number}"
+        texts[f"forces{end}.csv"] = curves_csv(result)
+        texts[f"forces{end}.svg"] = svg(forces_figure(result))
+        texts[f"hodograph{end}.svg"] = svg(hodograph_figure(result))
+        texts[f"polar{end}.svg"] = svg(polar_figure(result))
+    if len(cases) > 1:
+        texts["load_cases.svg"] = svg(cases_figure(cases))
+    return texts
+
+
+Links = Annotated[
+    str | None,
+    Option(
+        "--links",
+        metavar="LINK,…",
+        help="Links with counterweights, such as A,R.rocker; they turn about fixed points.",
+        show_default=False,
+    ),
+]
+Partial = Annotated[
+    str | None,
+    Option(
+        "--slider",
+        metavar="SLIDER",
+        help="Instead of --links: a counterweight on the crank against a share of this slider's mass.",
+        show_default=False,
+    ),
+]
+Share = Annotated[
+    float, Option("--share", metavar="X", help="With --slider: share of the reciprocating mass.")
+]
+Radius = Annotated[
+    str | None,
+    Option(
+        "--radius",
+        metavar="LENGTH",
+        help="Distance of the counterweights from their pivots. Without it, the length of the link.",
+        show_default=False,
+    ),
+]
+OutFile = Annotated[Path | None, out_option("Write the machine with counterweights there.", "FILE")]
+
+
+def balance(
+    file: File,
+    set: Sets = None,
+    allow_outside: Outside = False,
+    links: Links = None,
+    slider: Partial = None,
+    share: Share = 0.5,
+    radius: Radius = None,
+    speed: Speed = None,
+    json: Json = False,
+    out: OutFile = None,
+    force: Force = False,
+) -> None:
+    """Find counterweights.
+
+    Those on given links that minimise the shaking force of inertia, or one on the crank against a
+    share of a slider's mass; and what they change.
+    """
+    from linkwright.machine.read import read
+
+    machine = read(file, set or (), allow_outside=allow_outside)
+    found = _found(machine, links, slider, share, radius, speed)
+    speeds = speeds_of(found.before.speed, machine, speed)
+    hand_over(_balance_answer(machine, found, speeds), json=json, out=out, force=force)
+
+
+def _found(
+    machine: Machine,
+    links: str | None,
+    slider: str | None,
+    share: float,
+    radius: str | None,
+    speed: str | None,
+) -> Balance:
+    """The counterweights that the options ask for."""
+    from linkwright.kernel.units import LENGTH, SPEED
+    from linkwright.kinetostatics.balancing import balance as fit
+    from linkwright.kinetostatics.counterweight_formulas import partial_balance
+
+    at = None if radius is None else option_value("--radius", radius, LENGTH)
+    omega = None if speed is None else option_value("--speed", speed, SPEED)
+    if (links is None) == (slider is None):
+        found = "neither" if links is None else "both"
+        raise InputError(f"--links or --slider: found {found}, expected one of them")
+    if slider is not None:
+        return partial_balance(machine, slider, share=share, speed=omega, radius=at)
+    names = [each.strip() for each in (links or "").split(",") if each.strip()]
+    return fit(machine, names, speed=omega, radius=at)
+
+
+def _balance_answer(machine: Machine, found: Balance, speeds: dict[str, Any]) -> Answer:
+    """The counterweights, and what they change."""
+    from linkwright.machine.write import dumps
+
+    measures = {name: {"before": a, "after": b} for name, (a, b) in found.measures().items()}
+    weights = {
+        each.link: {k: v for k, v in vars(each).items() if k != "link"} for each in found.counterweights
+    }
+    return Answer(
+        machine=machine.name,
+        results=lambda _: {"balance": {**speeds, "counterweights": weights, "rms": measures}},
+        findings=found.after.findings,
+        head=lambda: speed_words(speeds),
+        tables=partial(_balance_rows, found),
+        machine_file=lambda: dumps(found.machine),
+    )
+
+
+def _balance_rows(found: Balance) -> list[Table]:
+    """Tables for people."""
+    from linkwright.kinetostatics.tables import balance_tables
+
+    return balance_tables(found)

@@ -1,0 +1,160 @@
+"""Figures of forces over the crank angle, with their captions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from linkwright.kernel.figure.captioned import Captioned
+from linkwright.kernel.figure.style import (
+    DRIVE,
+    LINES,
+    LOAD,
+    MATH,
+    SOFT,
+    legend_above,
+    named,
+    panels,
+    roomy,
+    styled,
+    turn_axis,
+    zero_line,
+)
+from linkwright.kernel.page.numbers import number
+from linkwright.kinetostatics.result import Forces
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from matplotlib.ticker import Locator
+
+    from linkwright.kinetostatics.result import Forces
+
+# Reactions drawn: the largest.
+_MOST = 4
+
+
+@styled
+def forces_figure(forces: Forces) -> Figure:
+    """Draw the driving torque and the largest reactions over the crank angle."""
+    figure, (torque, sizes) = panels(2, height=4.2)
+    degrees = np.degrees(forces.crank_angle)
+    torque.plot(degrees, forces.torque_drive, color=DRIVE)
+    torque.set_ylabel("driving torque $M_d$\n[N m]", **MATH)
+    roomy(torque, forces.torque_drive[np.isfinite(forces.torque_drive)])
+    zero_line(torque)
+    for name, colour in zip(_largest(forces), LINES, strict=False):
+        sizes.plot(degrees, forces.pairs[name].size, color=colour, label=named(name))
+    sizes.set_ylabel("size of the reaction\n[N]")
+    legend_above(sizes)
+    _angle_axis(torque, degrees, label=False)
+    _angle_axis(sizes, degrees)
+    return figure
+
+
+@styled
+def hodograph_figure(forces: Forces) -> Figure:
+    """Draw the ends of force vectors: the largest reactions, and the shaking force."""
+    figure, (reactions, frame) = panels(1, height=3.6, columns=2, shared=False)
+    for name, colour in zip(_largest(forces), LINES, strict=False):
+        _vectors(reactions, forces, forces.pairs[name].force, colour, name)
+    legend_above(reactions)
+    _vectors(frame, forces, forces.shaking_force, LOAD, "on the frame")
+    legend_above(frame)
+    return figure
+
+
+def _vectors(axes: Axes, forces: Forces, force: np.ndarray, colour: str, label: str) -> None:
+    """The path of a vector's end, with a mark where the crank angle is zero."""
+    axes.plot(force[:, 0], force[:, 1], color=colour, label=label)
+    start = int(np.argmin(np.abs(forces.crank_angle)))
+    axes.plot(force[start, 0], force[start, 1], "o", color=colour, markersize=4)
+    axes.plot(0, 0, "+", color=SOFT, markersize=8)
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.set_xlabel("$F_x$ [N]", **MATH)
+    axes.set_ylabel("$F_y$ [N]", **MATH)
+
+
+@styled
+def polar_figure(forces: Forces) -> Figure:
+    """Draw the size of the largest reactions over the crank angle as a polar diagram."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(4.6, 4.6), layout="constrained")
+    axes = figure.add_subplot(projection="polar")
+    for name, colour in zip(_largest(forces), LINES, strict=False):
+        axes.plot(forces.crank_angle, forces.pairs[name].size, color=colour, label=named(name))
+    axes.set_xlabel("crank angle φ [°]")
+    axes.set_ylabel("size of the reaction [N]", labelpad=28)
+    axes.legend(loc="lower left", bbox_to_anchor=(-0.15, 1.07), ncols=2)
+    return figure
+
+
+@styled
+def cases_figure(cases: Mapping[str, Forces]) -> Figure:
+    """Draw driving torque and shaking force of several load cases.
+
+    Parameters
+    ----------
+    cases : mapping of str to Forces
+        By name of the case.
+
+    Returns
+    -------
+    Figure
+        Two panels, one above the other.
+    """
+    figure, (torque, frame) = panels(2, height=4.2)
+    for (name, forces), colour in zip(cases.items(), LINES * len(cases), strict=False):
+        degrees = np.degrees(forces.crank_angle)
+        torque.plot(degrees, forces.torque_drive, color=colour, label=named(name))
+        frame.plot(degrees, np.hypot(*forces.shaking_force.T), color=colour)
+    torque.set_ylabel("driving torque $M_d$\n[N m]", **MATH)
+    frame.set_ylabel("shaking force\n[N]")
+    legend_above(torque)
+    zero_line(torque)
+    _angle_axis(torque, degrees, label=False)
+    _angle_axis(frame, degrees)
+    return figure
+
+
+def _angle_axis(axes: Axes, degrees: np.ndarray, *, label: bool = True) -> None:
+    """One revolution along x, or the angles that there are."""
+    turn_axis(axes, label=label)
+    if abs(degrees[0]) > 1e-6 or abs(degrees[-1] - 360) > 1e-6:
+        axes.set_xticks([])
+        axes.autoscale(axis="x")
+        axes.xaxis.set_major_locator(_ticks())
+
+
+def _ticks() -> Locator:
+    """Round angles."""
+    from matplotlib.ticker import MaxNLocator
+
+    return MaxNLocator(nbins=9, steps=[1, 1.5, 3, 4.5, 6, 9, 10])
+
+
+def _largest(forces: Forces) -> list[str]:
+    """Names of the pins, and of teeth, with the largest forces."""
+    sizes = {name: size for name, size in forces.reaction_max.items() if np.isfinite(size) and size > 0}
+    return sorted(sizes, key=lambda name: -sizes[name])[:_MOST]
+
+
+def captioned_forces(forces: Forces) -> Iterator[Captioned]:
+    """The figures of forces with their captions."""
+    pins = forces.reaction_max
+    largest = max(pins, key=lambda name: pins[name])
+    caption = (
+        f"Joint reactions along the steady motion: {largest} at most {number(pins[largest])} N. "
+        f"The drive gives up to {number(forces.torque_drive_max)} N m at the crank."
+    )
+    yield Captioned("forces", "Forces in the pairs", caption, forces_figure(forces))
+    caption = (
+        f"Ends of the force vectors over one revolution, a mark at φ = 0; the shaking force is up to "
+        f"{number(forces.shaking_force_max)} N."
+    )
+    yield Captioned("hodographs", "Hodographs of forces", caption, hodograph_figure(forces))
+    caption = "Size of the largest reactions over the crank angle: where a journal is loaded, and when."
+    yield Captioned("reactions", "Reactions, polar", caption, polar_figure(forces))

@@ -1,0 +1,133 @@
+"""Figures of a linkage over its cycle, with their captions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from linkwright.kernel.figure.captioned import Captioned
+from linkwright.kernel.figure.style import INK, LINES, SOFT, legend_above, level, named, panels, roomy, styled
+from linkwright.kernel.page.numbers import degrees, number
+from linkwright.linkages.coupler_curve import CouplerCurve, coupler_curve
+from linkwright.linkages.cycle import Linkage
+from linkwright.linkages.pose import pose
+from linkwright.machine.machine import Machine
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from linkwright.linkages.coupler_curve import CouplerCurve
+    from linkwright.linkages.cycle import Linkage
+
+# Transmission angle below which a linkage runs badly, a rule of thumb (VDI 2123) [°].
+_POOR = 40.0
+
+
+@styled
+def transmission_figure(linkage: Linkage) -> Figure:
+    """Draw the transmission angle of every dyad over the crank angle. Returns: one panel; dashed where a
+    linkage begins to run badly, at 40° and 140°.
+    """
+    figure, (axes,) = panels(1, height=2.9)
+    angles = np.degrees(linkage.crank_angle)
+    for k, (name, mu) in enumerate(linkage.transmission_angles.items()):
+        axes.plot(angles, np.degrees(mu), color=LINES[k % len(LINES)], label=named(name))
+    drawn = [np.degrees(mu) for mu in linkage.transmission_angles.values()]
+    roomy(axes, *drawn, np.array([_POOR, 180 - _POOR]))
+    level(axes, _POOR, "40° and 140°")
+    axes.axhline(180 - _POOR, color=SOFT, linewidth=1.1, linestyle=(0, (5, 3)))
+    axes.set_xlim(angles[0], angles[-1])
+    axes.set_xlabel("crank angle φ [°]")
+    axes.set_ylabel("transmission angle μ [°]")
+    legend_above(axes)
+    return figure
+
+
+@styled
+def coupler_figure(curves: list[CouplerCurve], links: list[tuple[np.ndarray, bool]]) -> Figure:
+    """Draw the paths of points with the links in one position.
+
+    `links`: ends of each link, shape (2, 2) [m], and whether its start is at rest. Returns: one panel to
+    scale; crosses mark double points, dots cusps.
+    """
+    figure, (axes,) = panels(1, height=5.0)
+    for ends, is_ground in links:
+        axes.plot(ends[:, 0], ends[:, 1], color=INK, linewidth=2.4, marker="o", markersize=3.5)
+        if is_ground:
+            axes.plot(*ends[0], marker="^", markersize=9, color=SOFT, zorder=0)
+    for k, curve in enumerate(curves):
+        colour = LINES[k % len(LINES)]
+        axes.plot(curve.x, curve.y, color=colour, label=f"path of {curve.point}")
+        for point in curve.double_points:
+            axes.plot(point.x, point.y, marker="x", color=colour, markersize=7)
+        for cusp in curve.cusps:
+            axes.plot(cusp.x, cusp.y, marker="o", color=colour, markersize=5)
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.set_xlabel("x [m]")
+    axes.set_ylabel("y [m]")
+    legend_above(axes)
+    return figure
+
+
+# More paths than this hide each other.
+_PATHS_MAX = 6
+
+
+def linkage_figures(machine: Machine, found: Linkage) -> Iterator[Captioned]:
+    """The figures of a machine's linkage over its cycle."""
+    worst = [each for each in found.elements if each.transmission_angle_worst is not None]
+    if worst:
+        least = min(worst, key=lambda each: each.transmission_angle_worst or 0.0)
+        caption = (
+            "90° is ideal. The poorest transmission is that of "
+            f"{least.element}, {degrees(least.transmission_angle_worst or 0.0)} from being in line."
+        )
+        yield Captioned("transmission", "Transmission angles", caption, transmission_figure(found))
+    mechanism = machine.linkage
+    points = [name for name in mechanism.rigid_points if name not in _on_ground(machine)]
+    if points and found.closure.change_point is None:
+        curves = [coupler_curve(machine, name) for name in points[:_PATHS_MAX]]
+        links = _links(machine, float(found.crank_angle[len(found.crank_angle) // 8]))
+        yield Captioned("coupler_curves", "Paths of points", _words(curves), coupler_figure(curves, links))
+
+
+def _on_ground(machine: Machine) -> set[str]:
+    """Points of links that turn about a fixed point: their paths are circles."""
+    links, fixed = machine.linkage.links(), machine.linkage.fixed_points()
+    parts = machine.linkage.rigid_points.items()
+    return {name for name, part in parts if links[part.link].start in fixed}
+
+
+def _links(machine: Machine, angle: float) -> list[tuple[np.ndarray, bool]]:
+    """Ends of the links at a crank angle, with the points that they carry."""
+    places = {name: np.array(each.position) for name, each in pose(machine, angle).points.items()}
+    fixed = machine.linkage.fixed_points()
+    found = []
+    for link in machine.linkage.links().values():
+        if link.start != link.end and link.length:
+            found.append((np.array([places[link.start], places[link.end]]), link.start in fixed))
+    for name, part in machine.linkage.rigid_points.items():
+        found.append((np.array([places[machine.linkage.links()[part.link].start], places[name]]), False))
+    return found
+
+
+def _words(curves: list[CouplerCurve]) -> str:
+    """Length and what is special of each path."""
+    parts = []
+    for curve in curves:
+        extras = [f"{len(each)} {word}" for each, word in _special(curve) if each]
+        more = f", {' and '.join(extras)}" if extras else ""
+        parts.append(
+            f"{curve.point}: {number(curve.length)} m long, straight over "
+            f"{number(curve.straight_length)} m{more}"
+        )
+    return "; ".join(parts) + ". Straight means nowhere farther from the chord than a thousandth of it."
+
+
+def _special(curve: CouplerCurve) -> list[tuple[tuple[object, ...], str]]:
+    return [
+        (curve.double_points, "double point" if len(curve.double_points) == 1 else "double points"),
+        (curve.cusps, "cusp" if len(curve.cusps) == 1 else "cusps"),
+    ]

@@ -1,0 +1,413 @@
+"""The names in a mechanism: which elements there are, what each makes, and what each refers to.
+
+| element | makes the point | makes the links | makes the slides | refers to |
+| --- | --- | --- | --- | --- |
+| fixed point `P` | `P` | – | – | – |
+| crank `A` | `A`, its pin | `A`, pivot → pin | – | a fixed point |
+| linear driver `D` | `D` | – | `D` | its guide |
+| cam `C` | `C`, on the follower | `C`, if it oscillates, pivot → `C` | `C`, if it translates | fixed points |
+| slider `S` | `S` | `S.rod`, driving point → slider | `S` | a moving point, its guide |
+| rocker `R` | `R`, joint | `R.coupler`, driving point → joint; `R.rocker`, pivot → joint | – | two points |
+| slotted lever `L` | – | `L`, pivot → pin | `L`, distance along the slot | a moving point, a point |
+| crossing `X` | `X`, the pin | – | `X.first`, `X.second` | two guides |
+| yoke `Y` | `Y`, on slot and guide | `Y`, along the guide | `Y`; `Y.slot` | a moving point, its guide |
+| rigid point `K` | `K` | – | – | a link |
+| gear `G` | – | `G` | – | a point, links |
+| rack `T` | `T` | – | `T` | a link, its guide |
+| cable `H` | `H`, its end | – | `H`, free length | a link |
+| joint `J` | `J` | – | `J`, if it has a guide | its guide |
+| bar `B` | – | `B`, start → end | – | two points |
+
+A topology is taken from a checked mechanism or from the raw tables of a file.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from graphlib import CycleError, TopologicalSorter
+from types import MappingProxyType
+from typing import Literal, NamedTuple
+
+from pydantic import BaseModel
+from pydantic_core import InitErrorDetails
+
+from linkwright.kernel.description.base import fault, suggestion
+from linkwright.kernel.description.plain import keys, look
+from linkwright.linkages.model.assembly import Build, Part, build
+from linkwright.linkages.model.guide_faults import guide_faults
+
+# The origin is a fixed point of every mechanism, unless a file gives this name to an element.
+ORIGIN = "O"
+
+Wanted = Literal["moving point", "fixed point", "point", "link"]
+
+
+class ElementKind(NamedTuple):
+    """One table of the mechanism: what each element of it makes, as endings of its name, and refers to."""
+
+    table: str
+    word: str
+    points: tuple[str, ...] = ("",)
+    links: tuple[str, ...] = ()
+    slides: tuple[str, ...] = ()
+    references: Mapping[str, Wanted] = MappingProxyType({})
+    # Key and value that tell elements of one table apart; the first of such kinds is that without the key.
+    variant: tuple[str, str] | None = None
+
+
+def _guide(key: str, **others: Wanted) -> dict[str, Wanted]:
+    """What a guide under a key refers to, after other references."""
+    return {**others, f"{key}.through": "point", f"{key}.on": "link"}
+
+
+KINDS = (
+    ElementKind("points", "fixed point"),
+    ElementKind("cranks", "crank", links=("",), references={"pivot": "fixed point"}),
+    ElementKind("linear_drivers", "linear driver", slides=("",), references=_guide("guide")),
+    ElementKind(
+        "cams",
+        "cam",
+        slides=("",),
+        references={"pivot": "fixed point"},
+        variant=("follower", "translating"),
+    ),
+    ElementKind(
+        "cams",
+        "cam",
+        links=("",),
+        references={"pivot": "fixed point", "arm_pivot": "fixed point"},
+        variant=("follower", "oscillating"),
+    ),
+    ElementKind(
+        "sliders",
+        "slider",
+        links=(".rod",),
+        slides=("",),
+        references={"crank": "moving point", "through": "point", "on": "link"},
+    ),
+    ElementKind(
+        "rockers",
+        "rocker",
+        links=(".coupler", ".rocker"),
+        references={"crank": "moving point", "pivot": "point"},
+    ),
+    ElementKind(
+        "slotted_levers",
+        "slotted lever",
+        points=(),
+        links=("",),
+        slides=("",),
+        references={"pin": "moving point", "pivot": "point"},
+    ),
+    ElementKind(
+        "crossings",
+        "crossing",
+        slides=(".first", ".second"),
+        references=_guide("first") | _guide("second"),
+    ),
+    ElementKind(
+        "yokes",
+        "yoke",
+        links=("",),
+        slides=("", ".slot"),
+        references=_guide("guide", pin="moving point"),
+    ),
+    ElementKind("rigid_points", "rigid point", references={"link": "link"}),
+    ElementKind(
+        "gears",
+        "gear",
+        points=(),
+        links=("",),
+        references={"pivot": "point", "meshes": "link", "carrier": "link"},
+    ),
+    ElementKind("racks", "rack", slides=("",), references=_guide("guide", gear="link")),
+    ElementKind("cables", "cable", slides=("",), references={"link": "link"}),
+    ElementKind("joints", "joint", slides=("",), references=_guide("guide")),
+    ElementKind("bars", "bar", points=(), links=("",), references={"start": "point", "end": "point"}),
+)
+
+# The tables of a mechanism, each once.
+TABLES = tuple(dict.fromkeys(kind.table for kind in KINDS))
+
+# Tables of the elements that the drive moves.
+DRIVERS = ("cranks", "linear_drivers", "cams")
+
+
+@dataclass(frozen=True, slots=True)
+class Element:
+    """One element: its kind, its name, the names that it refers to by key, and whether it is redundant."""
+
+    kind: ElementKind
+    name: str
+    references: dict[str, str]
+    redundant: bool = False
+
+    def made(self, endings: tuple[str, ...]) -> tuple[str, ...]:
+        """Names of the points, links or slides with these endings."""
+        return tuple(self.name + ending for ending in endings)
+
+
+# Topologies of the mechanisms looked at last, which an analysis asks for a dozen times.
+_KNOWN_MAX = 8
+_known: dict[int, tuple[object, Topology]] = {}
+
+
+@dataclass(frozen=True, slots=True)
+class Topology:
+    """All elements of a mechanism in the order of the file."""
+
+    elements: list[Element] = field(default_factory=list)
+
+    @classmethod
+    def of(cls, mechanism: object) -> Topology:
+        """Topology of a mechanism, checked or raw.
+
+        Parameters
+        ----------
+        mechanism : object
+            A `Mechanism`, or the table of a file; entries that are no tables are passed over.
+        """
+        known = _known.get(id(mechanism))
+        if known is not None and known[0] is mechanism:
+            return known[1]
+        found = cls([each for kind in KINDS for each in _elements(kind, look(mechanism, kind.table))])
+        if isinstance(mechanism, BaseModel):
+            # A checked mechanism is frozen: the same object has the same topology.
+            if len(_known) >= _KNOWN_MAX:
+                _known.pop(next(iter(_known)), None)
+            _known[id(mechanism)] = (mechanism, found)
+        return found
+
+    def names(self, *tables: str) -> list[str]:
+        """Names of the elements in some tables."""
+        return [each.name for each in self.elements if each.kind.table in tables]
+
+    @property
+    def fixed_points(self) -> list[str]:
+        """Names of the points at rest; the origin first."""
+        origin = [] if any(each.name == ORIGIN for each in self.elements) else [ORIGIN]
+        return origin + self.names("points")
+
+    @property
+    def moving_points(self) -> list[str]:
+        """Names of the points that move."""
+        moving = (each for each in self.elements if each.kind.table != "points")
+        return [name for each in moving for name in each.made(each.kind.points)]
+
+    @property
+    def slides(self) -> list[str]:
+        """Names of the coordinates along guides."""
+        free = {each.name for each in self.elements if each.kind.table == "joints" and not each.references}
+        listed = (each for each in self.elements if each.name not in free)
+        return [name for each in listed for name in each.made(each.kind.slides)]
+
+    @property
+    def links(self) -> dict[str, str]:
+        """Name of each link → name of the element that makes it."""
+        return {name: each.name for each in self.elements for name in each.made(each.kind.links)}
+
+    def candidates(self, wanted: Wanted) -> list[str]:
+        """Names that a reference may have."""
+        if wanted == "link":
+            return list(self.links)
+        fixed = self.fixed_points if wanted != "moving point" else []
+        return fixed + (self.moving_points if wanted != "fixed point" else [])
+
+    def build(self) -> Build:
+        """The steps in which the mechanism is built, and what stands in their way."""
+        parts = {each.name: self._part(each) for each in self.elements if each.kind.table != "points"}
+        ignored = [each.name for each in self.elements if each.redundant]
+        return build(parts, self.fixed_points, ignored)
+
+    def _part(self, element: Element) -> Part:
+        """An element as the assembly sees it."""
+        roles: dict[str, Literal["joint", "bar", "carried"]] = {
+            "joints": "joint",
+            "bars": "bar",
+            "rigid_points": "carried",
+        }
+        kind = element.kind
+        makes = (*element.made(kind.points), *element.made(kind.links))
+        needs = tuple(dict.fromkeys(element.references.values()))
+        return Part(roles.get(kind.table, "element"), needs, makes)
+
+    def faults(self, *, values_fit: bool = True) -> list[InitErrorDetails]:
+        """What is wrong: names twice, references to nothing, circles, joints held too little or too much.
+
+        Parameters
+        ----------
+        values_fit : bool
+            Whether every element is sound by itself; otherwise the mobility is left for later.
+        """
+        driven = [each for each in self.elements if each.kind.table not in ("points", *DRIVERS)]
+        if driven and not self.names(*DRIVERS):
+            remedy = "a linear driver would do as well"
+            expected = "at least one crank, which moves the others"
+            return [*self._twice(), fault("cranks", expected=expected, remedy=remedy)]
+        found = [*self._twice(), *self._unknown()]
+        found = [*found, *self._circles()] if found else [*self._circles(), *guide_faults(self)]
+        return found or ([*self._mobility()] if values_fit else [])
+
+    def _mobility(self) -> Iterator[InitErrorDetails]:
+        """Joints that can still move, and bars that are too many."""
+        found = self.build()
+        kinds = {each.name: each.kind for each in self.elements}
+        for joint in found.loose:
+            if found.stuck and (circle := self._mixed_circle(joint, found.stuck)):
+                yield fault(
+                    "joints",
+                    joint,
+                    found=circle,
+                    expected="bars and guides that end at what is placed before the joint",
+                    remedy="write all of the circle as joints and bars: then they are found together",
+                )
+                continue
+            holds = [
+                each.name
+                for each in self.elements
+                if joint in each.references.values() and not each.redundant
+            ]
+            yield fault(
+                "joints",
+                joint,
+                found="held by " + (", ".join(holds) or "nothing"),
+                expected="as many bars and guides as fix every joint: two for each",
+                remedy="it can still move while the crank stands; add a bar or a guide",
+            )
+        for name in dict.fromkeys(found.surplus):
+            yield fault(
+                kinds[name].table,
+                name,
+                found="one condition too many",
+                expected="two bars or guides for each joint",
+                remedy=self._too_many(name),
+            )
+
+    def _too_many(self, name: str) -> str:
+        """What to do about a bar or guide that is too many."""
+        drivers = self._drivers(name)
+        if len(drivers) > 1:
+            return (
+                f"the drivers {' and '.join(drivers)} both move what it joins, which one moves already; "
+                f"remove {name} or a driver, or write redundant = true to have checked that it always fits"
+            )
+        return (
+            "the mechanism moves without it, and is locked with it unless it always fits; "
+            "remove it, or write redundant = true to have that checked"
+        )
+
+    def _needs(self) -> dict[str, list[str]]:
+        """Each element → the moving elements that it hangs on, joints by the bars that hold them."""
+        makers = {point: point for point in self.moving_points} | self.links
+        needs = {e.name: [makers[n] for n in e.references.values() if n in makers] for e in self.elements}
+        for bar in (each for each in self.elements if each.kind.table == "bars" and not each.redundant):
+            for joint in set(needs[bar.name]) & set(self.names("joints")):
+                needs[joint] += [end for end in needs[bar.name] if end != joint]
+        return needs
+
+    def _drivers(self, name: str) -> list[str]:
+        """Drivers that an element hangs on."""
+        needs, found, open_ = self._needs(), {name}, [name]
+        while open_:
+            fresh = set(needs.get(open_.pop(), ())) - found
+            found |= fresh
+            open_ += fresh
+        return [each for each in self.names(*DRIVERS) if each in found]
+
+    def _mixed_circle(self, joint: str, stuck: list[str]) -> str:
+        """A circle from a joint through an element that waits for it; empty if there is none."""
+        joints = set(self.names("joints"))
+        waiting = {name: [n for n in needs if n in stuck] for name, needs in self._needs().items()}
+        # Joints that hold each other are no circle: they are found together.
+        for other in joints & set(waiting):
+            waiting[other] = [n for n in waiting[other] if n not in joints]
+        circle = _circle(waiting)
+        return " → ".join(circle) if circle and joint in circle else ""
+
+    def _twice(self) -> Iterator[InitErrorDetails]:
+        """Names that an earlier element has."""
+        first: dict[str, ElementKind] = {}
+        for each in self.elements:
+            before = first.setdefault(each.name, each.kind)
+            if before is not each.kind:
+                remedy = f'"{each.name}" is the name of a {before.word} already'
+                yield fault(each.kind.table, each.name, found=each.name, expected="a new name", remedy=remedy)
+
+    def _unknown(self) -> Iterator[InitErrorDetails]:
+        """References to names that do not exist or are something else."""
+        for each in self.elements:
+            for key, wanted in each.kind.references.items():
+                name = each.references.get(key)
+                if name is not None and name not in self.candidates(wanted):
+                    yield self.unknown(name, wanted, each.kind.table, each.name, *key.split("."))
+
+    def unknown(self, name: str, wanted: Wanted, *place: str) -> InitErrorDetails:
+        """The fault of a name that is not what is wanted at a place."""
+        expected = f"the name of a {wanted}"
+        remedy = self.instead(name) or suggestion(name, self.candidates(wanted))
+        return fault(*place, found=name, expected=expected, remedy=remedy)
+
+    def instead(self, name: str) -> str:
+        """What a name stands for; empty if it stands for nothing."""
+        if name in self.fixed_points:
+            return f'"{name}" is a fixed point'
+        word = next((each.kind.word for each in self.elements if each.name == name), "")
+        word = "link" if name in self.links and not word else word
+        return f'"{name}" is a {word}' if word else ""
+
+    def _graph(self) -> dict[str, list[str]]:
+        """Each moving element → the moving elements that it is built on; joints hang on their bars."""
+        makers = {name: name for name in self.moving_points} | self.links
+        for each in self.elements:
+            makers.update(dict.fromkeys(each.made(each.kind.points), each.name))
+        free = ("points", "joints", "bars")
+        jointed = {each.name for each in self.elements if each.kind.table in free}
+        return {
+            each.name: [m for n in each.references.values() if (m := makers.get(n)) and m not in jointed]
+            for each in self.elements
+            if each.kind.table not in free
+        }
+
+    def _circles(self) -> Iterator[InitErrorDetails]:
+        """Elements that are built on one another in a circle."""
+        graph = self._graph()
+        while (circle := _circle(graph)) is not None:
+            kind = next(each.kind for each in self.elements if each.name == circle[0])
+            yield fault(
+                kind.table,
+                circle[0],
+                found=" → ".join(circle),
+                expected="elements that lead back to a crank",
+                remedy="each of these is built on the next; drive one of them by another point",
+            )
+            graph = {name: needs for name, needs in graph.items() if name not in circle}
+
+
+def _circle(graph: dict[str, list[str]]) -> list[str] | None:
+    """One circle of a graph, from an element back to itself; None if there is none."""
+    try:
+        TopologicalSorter(graph).prepare()
+    except CycleError as error:
+        circle: list[str] = error.args[1]
+        return circle[::-1]
+    return None
+
+
+def _elements(kind: ElementKind, table: object) -> Iterator[Element]:
+    """The elements of one table."""
+    for name in keys(table):
+        element = look(table, name)
+        if kind.variant is not None and (look(element, kind.variant[0]) == "oscillating") != bool(kind.links):
+            continue
+        found: dict[str, object] = {}
+        for key in kind.references:
+            part: object = element
+            for step in key.split("."):
+                part = look(part, step)
+            found[key] = part
+        names = {key: value for key, value in found.items() if isinstance(value, str)}
+        if kind.table == "joints" and look(element, "guide") is not None and not names:
+            # A guide on the frame through the origin refers to nothing, and holds the joint all the same.
+            names["guide"] = ORIGIN
+        yield Element(kind, name, names, look(element, "redundant") is True)

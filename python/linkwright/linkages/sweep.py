@@ -1,0 +1,319 @@
+"""A linkage swept over its cycle: what is looked at, curves, exact extremes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.numerics.roots import brackets, zeros
+from linkwright.linkages.closure import Closure
+from linkwright.linkages.dyads import (
+    LINK,
+    SLIDE,
+    Dyad,
+    dyads_of,
+    evaluate,
+    transmission,
+    transmission_channels,
+)
+from linkwright.linkages.model.mechanism import Mechanism
+from linkwright.machine.program.compiled import Compiled
+from linkwright.machine.program.core import Element
+
+Floats = NDArray[np.float64]
+
+# Intervals of a revolution between which at most one extreme of a kind is expected: a degree.
+_INTERVALS = 360
+
+# Where the sweep begins, off the angles at which symmetric linkages have their extremes.
+_OFFSET = 0.0123
+
+# Part of its range at each end that the curves of a linkage with limits keep clear of: rates have no limit
+# there [rad].
+_MARGIN = 1e-7
+
+# Share of the travel by which extreme positions of different turns may differ and be the same.
+_EQUAL = 1e-9
+
+# A derivative below this share of the maximum of its kind is rounding of zero.
+_FLAT = 1e-11
+
+
+@dataclass(frozen=True)
+class Cycle:
+    """The crank angles that are looked at.
+
+    Attributes
+    ----------
+    angles : ndarray, shape (n,)
+        [rad].
+    ends : ndarray, shape (2,)
+        The first and the last; of a linkage with limits those themselves [rad].
+    repeats : bool
+        Whether the motion at the last is that at the first.
+    """
+
+    angles: Floats
+    ends: Floats
+    repeats: bool
+
+    @classmethod
+    def of(cls, where: Closure, period: int | None) -> Cycle:
+        """A period, a revolution where there is none, or the first range in which the mechanism closes."""
+        if where.turns_fully:
+            turns = period or 1
+            angles = np.linspace(_OFFSET, _OFFSET + 2 * np.pi * turns, _INTERVALS * turns + 1)
+            return cls(angles, angles[[0, -1]], period is not None)
+        low, high = where.ranges[0]
+        margin = min(_MARGIN, 0.01 * (high - low))
+        angles = np.linspace(low + margin, high - margin, _INTERVALS + 1)
+        return cls(angles, np.array([low, high]), False)
+
+    @property
+    def span(self) -> float:
+        """From the first angle to the last [rad]."""
+        return float(self.angles[-1] - self.angles[0])
+
+    def named(self, angle: float) -> float:
+        """An angle as readers count it: within one revolution, as it is in a longer cycle or range [rad]."""
+        return float(angle % (2 * np.pi) if self.span < 2 * np.pi * 1.01 else angle)
+
+
+@dataclass(frozen=True)
+class Travel:
+    """Extreme positions of an output [rad or m], the crank angles there, turns, time ratio."""
+
+    low: float
+    high: float
+    low_angle: float
+    high_angle: float
+    turns: float | None
+    time_ratio: float | None
+
+
+class LinkageSweep:
+    """Curves and located zeros of a sweep.
+
+    Attributes
+    ----------
+    dyads, outputs : list
+        What was swept.
+    mu : ndarray, shape (dyads, n)
+        Transmission angles.
+    position, d1 : ndarray, shape (outputs, n)
+        Of the outputs; links with continuous angles.
+    """
+
+    def __init__(self, compiled: Compiled, mechanism: Mechanism, cycle: Cycle) -> None:
+        self.compiled, self.cycle = compiled, cycle
+        self.dyads: list[Dyad] = [each for each in dyads_of(compiled) if each.kind != "group"]
+        self.outputs: list[Output] = outputs_of(compiled, mechanism)
+        channels = [transmission_channels(compiled, each) for each in self.dyads]
+        self._ends = np.cumsum([0, *(len(each) for each in channels)])
+        self._channels = [each for part in channels for each in part]
+        self._channels += [(each.part, each.number) for each in self.outputs]
+        self.mu, self.position, slopes = self._at(cycle.angles)
+        for k, output in enumerate(self.outputs):
+            if output.part == LINK:
+                self.position[k] = np.unwrap(self.position[k])
+        self.d1 = slopes[len(self.dyads) : len(self.dyads) + len(self.outputs)]
+        self._zeros = self._locate(slopes)
+
+    def _at(self, angles: Floats) -> tuple[Floats, Floats, Floats]:
+        """μ, positions, and what changes sign at extremes: dμ/dφ, then d1, then d2 of the outputs."""
+        found = evaluate(self.compiled, self._channels, angles)
+        pairs = [
+            transmission(self.compiled, dyad, found[self._ends[k] : self._ends[k + 1]])
+            for k, dyad in enumerate(self.dyads)
+        ]
+        rest = found[self._ends[-1] :]
+        links = [each.part == LINK for each in self.outputs]
+        place = [np.arctan2(f[1], f[0]) if link else f[0] for f, link in zip(rest, links, strict=True)]
+        d1 = [f[2] if link else f[1] for f, link in zip(rest, links, strict=True)]
+        d2 = [f[3] if link else f[2] for f, link in zip(rest, links, strict=True)]
+        n = len(angles)
+        mu = np.array([np.broadcast_to(each, n) for each, _ in pairs]).reshape(len(pairs), n)
+        slopes = np.array([*(np.broadcast_to(each, n) for _, each in pairs), *d1, *d2])
+        return mu, np.array(place).reshape(len(rest), n), slopes.reshape(len(pairs) + 2 * len(rest), n)
+
+    def _locate(self, slopes: Floats) -> list[Floats]:
+        """Angles of the zeros of each slope."""
+        largest = np.nan_to_num(np.abs(slopes)).max(axis=1, initial=0.0)
+        kinds = [0] * len(self.dyads) + [1 + each.part for each in self.outputs] * 2
+        sizes = {kind: max(x for x, k in zip(largest, kinds, strict=True) if k == kind) for kind in kinds}
+        moves = np.array([x > _FLAT * sizes[k] for x, k in zip(largest, kinds, strict=True)], dtype=bool)
+        row, column = brackets(np.where(moves[:, None], slopes, 1.0))
+        if not len(row):
+            return [np.empty(0) for _ in slopes]
+        angles, every = self.cycle.angles, np.arange(len(row))
+        near, _ = zeros(lambda x: self._at(x)[2][row, every], angles[column], angles[column + 1])
+        return [near[row == k] for k in range(len(slopes))]
+
+    # -- what was found ----------------------------------------------------------------------------------
+
+    def reversals(self, k: int) -> Floats:
+        """Crank angles at which an output turns back."""
+        return self._zeros[len(self.dyads) + k]
+
+    def travel(self, k: int) -> Travel:
+        """Extreme positions of an output."""
+        place, cycle, output = self.position[k], self.cycle, self.outputs[k]
+        total = abs(place[-1] - place[0])
+        if output.part == LINK and cycle.repeats and total > np.pi:
+            low, high = sorted((float(place[0]), float(place[-1])))
+            ends = cycle.angles[[0, -1]] if place[-1] > place[0] else cycle.angles[[-1, 0]]
+            return Travel(low, high, float(ends[0]), float(ends[1]), float(total / (2 * np.pi)), None)
+        at = self.reversals(k)
+        if not len(at) or not cycle.repeats:
+            at = np.concatenate([at, cycle.ends, cycle.angles[[0, -1]]])
+        values = self._positions(k, at)
+        low, high = int(np.nanargmin(values)), int(np.nanargmax(values))
+        ratio = _time_ratio(at, values, cycle.span) if cycle.repeats else None
+        angles = self.cycle.named(at[low]), self.cycle.named(at[high])
+        return Travel(float(values[low]), float(values[high]), *angles, None, ratio)
+
+    def _positions(self, k: int, at: Floats) -> Floats:
+        """Positions of an output at angles; of a link on the revolution that the sweep has there."""
+        values = self._at(at)[1][k]
+        if self.outputs[k].part == LINK:
+            near = np.interp(at, self.cycle.angles, self.position[k])
+            values = near + (values - near + np.pi) % (2 * np.pi) - np.pi
+        found: Floats = values
+        return found
+
+    def ratios(self, k: int) -> tuple[float, float] | tuple[None, None]:
+        """Extremes of the output's speed over the crank's; None where a limit lets them grow."""
+        if not self.cycle.repeats and not self._is_whole():
+            return None, None
+        at = self._zeros[len(self.dyads) + len(self.outputs) + k]
+        at = np.concatenate([at, self.cycle.angles[[0, -1]]])
+        values = self._at(at)[2][len(self.dyads) + k]
+        return float(values.min()), float(values.max())
+
+    def _is_whole(self) -> bool:
+        return self.cycle.span > 2 * np.pi * (1 - 1e-9)
+
+    def transmission(self, element: str) -> tuple[float, float, float, float] | None:
+        """Minimum and maximum μ of a dyad, and their crank angles."""
+        k = next((k for k, each in enumerate(self.dyads) if each.name == element), None)
+        if k is None:
+            return None
+        at = np.concatenate(
+            [self._zeros[k], self.dyads[k].change_points, self.cycle.ends, self.cycle.angles[:1]]
+        )
+        values = self._at(at)[0][k]
+        low, high = int(np.nanargmin(values)), int(np.nanargmax(values))
+        angles = self.cycle.named(at[low]), self.cycle.named(at[high])
+        return float(values[low]), float(values[high]), *angles
+
+
+def _time_ratio(at: Floats, values: Floats, span: float) -> float | None:
+    """Crank angle of the slower way between the extreme positions over that of the quicker one.
+
+    Over several revolutions an output may come to its extremes several times: the ways are those from one
+    lowest position to the next highest, and on to the next lowest.
+    """
+    same = _EQUAL * np.ptp(values)
+    lows = at[values <= values.min() + same]
+    highs = at[values >= values.max() - same]
+    start = lows[0]
+    up = float(np.min((highs - start) % span, initial=span))
+    again = (lows - start - up) % span
+    down = float(np.min(again))
+    return max(up, down) / min(up, down) if 0 < up < span and down > 0 else None
+
+
+def sweep(compiled: Compiled, mechanism: Mechanism, cycle: Cycle) -> LinkageSweep:
+    """Sweep a mechanism over a cycle.
+
+    `cycle`: where it is looked at.
+    """
+    return LinkageSweep(compiled, mechanism, cycle)
+
+
+class Output(NamedTuple):
+    """One coordinate that is moved.
+
+    Attributes
+    ----------
+    element : str
+        Name of the element, or of a joint held by bars.
+    name : str
+        Name of the link or slide.
+    kind : str
+        ``"swing"`` of a link or ``"stroke"`` along a guide.
+    part, number : int
+        What the core calls it.
+    """
+
+    element: str
+    name: str
+    kind: Literal["swing", "stroke"]
+    part: int
+    number: int
+
+
+def outputs_of(compiled: Compiled, mechanism: Mechanism) -> list[Output]:
+    """The outputs of a machine in build order; for a rocker its link on the pivot. Returns: none of the
+    drivers.
+    """
+    names = _Names(compiled, mechanism)
+    return [each for element in compiled.elements for each in names.of(element)]
+
+
+class _Names:
+    """Names of links and slides by the core's index."""
+
+    def __init__(self, compiled: Compiled, mechanism: Mechanism) -> None:
+        self.compiled, self.mechanism = compiled, mechanism
+        self.links = {index: name for name, index in compiled.links.items()}
+        self.slides = {index: name for name, index in compiled.slides.items()}
+        self.grounds = {fixed.point for fixed in compiled.ground}
+
+    def of(self, element: Element) -> Iterator[Output]:
+        """What one element moves."""
+        dyads = self.compiled.dyads
+        match element:
+            case Element.SliderRod() | Element.GuidedRod():
+                yield self._stroke(dyads[element.dyad], element.slide)
+            case Element.Rocker():
+                yield self._swing(dyads[element.dyad], self._hung(element))
+            case Element.SlottedLever():
+                yield self._swing(dyads[element.dyad], element.link)
+                yield self._stroke(dyads[element.dyad], element.slide)
+            case Element.Crossing():
+                yield from (self._stroke(dyads[element.dyad], slide) for slide in element.slides)
+            case Element.Runner(slide=slide) if self.slides[slide] not in self.mechanism.linear_drivers:
+                yield self._stroke(self.slides[slide], slide)
+            case Element.Turn(link=link) if self.links[link] in self.mechanism.gears:
+                yield self._swing(self.links[link], link)
+            case Element.Group():
+                yield from self._group(dyads[element.dyad])
+
+    def _stroke(self, element: str, slide: int) -> Output:
+        return Output(element, self.slides[slide], "stroke", SLIDE, slide)
+
+    def _swing(self, element: str, link: int) -> Output:
+        name = self.links[link].removesuffix(" reversed")
+        return Output(element, name, "swing", LINK, self.compiled.links[name])
+
+    def _hung(self, dyad: Element.Rocker) -> int:
+        """The link of a dyad RRR that hangs on a fixed point, the second if both or none do."""
+        first = dyad.pin in self.grounds and dyad.pivot not in self.grounds
+        return dyad.coupler_link if first else dyad.rocker_link
+
+    def _group(self, dyad: str) -> Iterator[Output]:
+        """Bars of a group that hang on fixed points, and joints on guides."""
+        joints = dyad.split(" and ")
+        fixed = self.mechanism.fixed_points()
+        for name, bar in self.mechanism.bars.items():
+            ends = (bar.start, bar.end)
+            if any(end in joints for end in ends) and any(end in fixed for end in ends):
+                yield self._swing(name, self.compiled.links[name])
+        for joint in joints:
+            if joint in self.compiled.slides:
+                yield self._stroke(joint, self.compiled.slides[joint])

@@ -1,0 +1,350 @@
+"""What must be known of the motion before the first revolution: sides, branches, change points, starts.
+
+| pending | is found by |
+| --- | --- |
+| side of a joint given by its place | where that lies when the mechanism is assembled |
+| continuous angle of a link | its turns per revolution of the crank, and the middle of its swing about them |
+| change points of a dyad | the radicand's zeros, found exactly, and its series there |
+| start of a group | its motion, followed step by step over the revolution |
+
+They are settled in build order, each with what stands before it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright import _core
+from linkwright.kernel.errors import AssemblyError
+from linkwright.machine.program.change_points import folding, in_line, stored, undecided, undecided_error
+from linkwright.machine.program.mechanism import MechanismProgram
+from linkwright.machine.program.numbers import table
+from linkwright.machine.program.places import Continuous, Foldable, Pending, Side, Solved
+
+Floats = NDArray[np.float64]
+
+# Intervals of the revolution that are looked at.
+_LOOK = 720
+
+# Share of a law's range by which its rise over an interval may differ from its slopes without being looked
+# into: a smooth law differs by its third derivative times h³/12, some 1e-7 of its range.
+_DIFFERS = 1e-4
+
+# Beyond this a sine has no digits left that mean anything [rad, m, and their slopes].
+_LARGEST = 1e6
+
+# Halvings of an interval after which what is left of a rise is a jump: half a degree is then 1e-11 rad.
+_HALVINGS = 30
+
+
+def require_smooth(name: str, text: str, law: Callable[[Floats], Floats]) -> None:
+    """Raise if a law has no value at some crank angle, or jumps.
+
+    `law`: crank angles (n,) [rad] → the law and its slope, (2, n).
+    """
+    phi = np.linspace(0.0, 2 * np.pi, _LOOK + 1)
+    value, slope = law(phi)
+    known = (np.abs(value) < _LARGEST) & (np.abs(slope) < _LARGEST)
+    if not known.all():
+        at = float(phi[int(np.argmin(known))])
+        remedy = "look for a division by zero, a root or a logarithm"
+        raise _error(name, text, at, "has no usable value or slope", remedy)
+    rise = np.diff(value) - 0.5 * (slope[1:] + slope[:-1]) * np.diff(phi)
+    size = float(np.ptp(value))
+    for interval in np.flatnonzero(np.abs(rise) > _DIFFERS * size):
+        jump = _jump(law, float(phi[interval]), float(phi[interval + 1]), _DIFFERS * size)
+        if jump is not None:
+            raise _error(
+                name, text, jump, "jumps", "nothing can follow a jump: write a law that is continuous"
+            )
+
+
+def _jump(law: Callable[[Floats], Floats], low: float, high: float, least: float) -> float | None:
+    """Where a law rises by more than ``least`` within rounding; None if it does so gradually."""
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        a, b, c = law(np.array([low, middle, high]))[0]
+        low, high = (low, middle) if abs(b - a) > abs(c - b) else (middle, high)
+    a, c = law(np.array([low, high]))[0]
+    return low if abs(c - a) > 0.1 * least else None
+
+
+def _error(name: str, text: str, at: float, what: str, remedy: str) -> AssemblyError:
+    return AssemblyError(
+        f'the law of {name}, "{text}", {what} at crank angle {np.degrees(at):.4g}°: {remedy}',
+        element=name,
+        crank_angle=at,
+    )
+
+
+# First row of all parameters, which of them vary, and their values over the rows.
+Columns = tuple[Floats, NDArray[np.int32], Floats]
+
+
+# Largest swing of a link about its mean turning that leaves its angle unambiguous, in radians.
+_SWING_MAX = 1.98 * np.pi
+
+# Crank angle at which the side of a rocker or a slider is given [rad]: just after zero, where it may have a
+# change point.
+_JUST_AFTER = 1e-7
+
+# A joint's place this near to the line of its bars, over their length, says nothing of its side.
+_IN_LINE = 1e-9
+
+# A whole number of revolutions is one to this.
+_WHOLE = 1e-6
+
+# Difference in length of a redundant bar, over its length, that counts as rounding.
+_FITS = 1e-9
+
+
+class InitialAssembly:
+    """Elements and numbers of a mechanism with everything pending filled in."""
+
+    def __init__(self, program: MechanismProgram, columns: Columns, plan: Callable[[], _core.Plan]) -> None:
+        self.program = program
+        # Numbers beyond these are not described but found here.
+        self.n_described = len(program.parameters)
+        self.parameters, self.slots, self.values = columns
+        self.make_plan = plan
+        self.assembled_at = program.mechanism.assembled_at
+        self.plan = plan()
+        # Crank angle at which the side of a dyad is given, by the slot of its sign; others just after zero.
+        self.given_at: dict[int, float] = {}
+        # Machines in which a dyad passes an odd number of change points: their motion takes two revolutions.
+        self.odd = np.zeros(1, dtype=np.bool_)
+
+    def run(self) -> None:
+        """Settles all that is pending, in build order.
+
+        Raises
+        ------
+        AssemblyError
+            A law cannot be followed, a group does not close where it is assembled, a link turns irregularly,
+            or a redundant bar does not fit.
+        """
+        self._check_laws()
+        for each in self.program.pending:
+            self._settle(each)
+        self._check_redundant()
+
+    def _settle(self, each: Pending) -> None:
+        match each:
+            case Side():
+                self._side(each)
+            case Continuous():
+                self._continuous(each)
+            case Foldable():
+                self._fold(each)
+            case Solved():
+                self._follow(each)
+
+    def _check_laws(self) -> None:
+        """A driver's law must have a value everywhere, and no jump."""
+        mechanism = self.program.mechanism
+        laws = {name: crank.law for name, crank in mechanism.cranks.items()}
+        laws |= {name: driver.law for name, driver in mechanism.linear_drivers.items()}
+        for name, law in laws.items():
+            if law is not None:
+                require_smooth(name, law, partial(self._law, self.program.slides[f"{name}.law"]))
+
+    def _law(self, slide: int, angles: Floats) -> Floats:
+        """Value and slope of a law, (2, n)."""
+        return self._motion(2, slide, angles)[:2]
+
+    def _changed(self, plan: _core.Plan) -> None:
+        """Goes on with another plan."""
+        self.plan = plan
+
+    def _motion(self, kind: int, index: int, angles: Floats) -> Floats:
+        """Numbers of a point (6), link (4) or slide (3) at crank angles."""
+        width = (6, 4, 3)[kind]
+        out = np.empty((width, len(angles)))
+        what = np.array([[kind, index]], dtype=np.int32)
+        none = np.empty(0, dtype=np.int32)
+        _core.motions(self.plan, self.parameters, none, np.empty((0, 1)), angles, what, out.reshape(-1))
+        return out
+
+    # -- sides -------------------------------------------------------------------------------------------
+
+    def _side(self, each: Side) -> None:
+        """Left of the line from pin to pivot, or ahead along the guide."""
+        at = np.array([self.assembled_at])
+        joint = self.program.mechanism.joints[each.joint]
+        x, y = self._motion(0, each.pin, at)[:2, 0]
+        to = np.array([_first(joint.x) - x, _first(joint.y) - y])
+        if each.pivot is not None:
+            u, v = self._motion(0, each.pivot, at)[:2, 0] - (x, y)
+            side = (u * to[1] - v * to[0]) / max(np.hypot(u, v), 1e-300)
+        else:
+            assert each.guide is not None
+            link, angle = each.guide
+            cos, sin = (1.0, 0.0) if link is None else self._motion(1, link, at)[:2, 0]
+            direction = np.array(
+                [cos * np.cos(angle) - sin * np.sin(angle), sin * np.cos(angle) + cos * np.sin(angle)]
+            )
+            side = float(direction @ to)
+        if abs(side) <= _IN_LINE * float(np.hypot(*to)):
+            raise AssemblyError(
+                f"the joint {each.joint} is given in line with what holds it, so its side is not known; give "
+                "its place at another crank angle (assembled_at), or a little aside",
+                element=each.joint,
+                crank_angle=self.assembled_at,
+            )
+        self.parameters[each.slot] = 1.0 if side > 0 else -1.0
+        self.given_at[each.slot] = self.assembled_at
+
+    # -- continuous angles -------------------------------------------------------------------------------
+
+    def _continuous(self, each: Continuous) -> None:
+        """Turns a revolution of the crank, and the middle of the swing about them."""
+        angles = np.linspace(0.0, 2 * np.pi, _LOOK + 1)
+        cos, sin, *_ = self._motion(1, each.link, angles)
+        closes = np.isfinite(cos)
+        if not closes.any():
+            return
+        psi = np.unwrap(np.arctan2(sin[closes], cos[closes]))
+        at = angles[closes]
+        winding = 0.0
+        if closes.all():
+            winding = (psi[-1] - psi[0]) / (2 * np.pi)
+            winding = round(winding) if abs(winding - round(winding)) < _WHOLE else winding
+        rest = psi - winding * at
+        if np.ptp(rest) > _SWING_MAX:
+            raise AssemblyError(
+                f"the link {each.name} swings by {np.degrees(np.ptp(rest)):.0f}° about its mean turning; "
+                "a gear, a rack or a cable on it has no unambiguous place beyond 356°",
+                element=each.name,
+            )
+        near = _first(each.near)
+        turns = np.round((near - psi[0]) / (2 * np.pi))
+        self.parameters[each.winding] = winding
+        self.parameters[each.centre] = 0.5 * (rest.min() + rest.max()) + 2 * np.pi * turns
+
+    # -- change points -----------------------------------------------------------------------------------
+
+    def _fold(self, each: Foldable) -> None:
+        """Finds the change points of a dyad in every machine, and gives it their series."""
+        found = in_line(self.plan, self.parameters, *self._mechanisms(), each.element)
+        if not any(found):
+            return
+        signs = np.array([self._sign(each, points) for points in found])
+        for row, points in enumerate(found):
+            at = undecided(points, signs[row])
+            if at is not None and len(found) == 1:
+                raise undecided_error(each.name, at)
+            if at is not None:
+                # A machine of a batch that has no answer, and shows it.
+                found[row], signs[row] = [], np.nan
+        self._give_change_points(each, found, signs)
+
+    def _mechanisms(self) -> tuple[NDArray[np.int32], Floats]:
+        """What varies from one mechanism to the next: where masses and the like vary, nothing."""
+        if any(slot < self.program.n_own or slot >= self.n_described for slot in self.slots):
+            return self.slots, self.values
+        return np.empty(0, dtype=np.int32), np.empty((0, 1))
+
+    def _sign(self, each: Foldable, points: list[_core.InLine]) -> float:
+        """The side of a dyad where the product of half-angle sines is positive."""
+        # A side that varies from row to row does not exist.
+        wanted = self.parameters[each.sign]
+        given_at = self.given_at.get(each.sign, _JUST_AFTER)
+        return float(
+            wanted * np.sign(np.prod([np.sin((given_at - point.crank_angle) / 2) for point in points]))
+        )
+
+    def _give_change_points(self, each: Foldable, found: list[list[_core.InLine]], signs: Floats) -> None:
+        """Turns a dyad into one with change points."""
+        change_points, numbers = stored(found, len(self.parameters))
+        self.program.elements[each.element] = folding(self.program.elements[each.element], change_points)
+        self._add(numbers)
+        self._change(each.sign, signs)
+        self.odd = self.odd | np.array([len(points) % 2 == 1 for points in found])
+        self._changed(self.make_plan())
+
+    def _add(self, columns: Floats) -> None:
+        """Appends parameters, a row of values over the machines for each."""
+        slots = np.arange(len(self.parameters), len(self.parameters) + len(columns), dtype=np.int32)
+        self.program.parameters += columns[:, 0].tolist()
+        self.parameters = np.concatenate([self.parameters, columns[:, 0]])
+        if columns.shape[1] > 1:
+            self.slots = np.concatenate([self.slots, slots])
+            self.values = np.concatenate([self.values, columns])
+
+    def _change(self, slot: int, column: Floats) -> None:
+        """Sets a parameter that did not vary until now."""
+        self.parameters[slot] = column[0]
+        if len(column) > 1:
+            self.slots = np.append(self.slots, np.int32(slot))
+            self.values = np.concatenate([self.values, column[None]])
+
+    # -- groups ------------------------------------------------------------------------------------------
+
+    def _follow(self, each: Solved) -> None:
+        """Follows a group over the revolution from where it is assembled."""
+        joints = [self.program.mechanism.joints[name] for name in each.names]
+        near = np.array([_first(value) for joint in joints for value in (joint.x, joint.y)])
+        path = _core.follow_group(self.plan, self.parameters, each.element, self.assembled_at, near)
+        if path is None:
+            names = " and ".join(each.names)
+            raise AssemblyError(
+                f"the joints {names} do not close near their given places at crank angle "
+                f"{np.degrees(self.assembled_at):.6g}°; give places from a drawing of that position, or "
+                "change the lengths",
+                element=each.names[0],
+                crank_angle=self.assembled_at,
+            )
+        phi, turns = path.crank_angle, path.turns
+        span = float(phi[-1] - phi[0])
+        cycle = float(turns or max(1, int(np.ceil(span / (2 * np.pi) + _WHOLE))))
+        # The last angle of a motion that repeats is the first again.
+        knots = (phi / cycle).tolist()
+        self.parameters[each.inverse_turns] = 1.0 / cycle
+        group = self.program.elements[each.element]
+        assert isinstance(group, _core.Element.Group)
+        self.program.elements[each.element] = _core.Element.Group(
+            dyad=group.dyad,
+            unknowns=group.unknowns,
+            carried=group.carried,
+            bars=group.bars,
+            conditions=group.conditions,
+            starts=[table(knots, place) for place in path.places],
+            inverse_turns=group.inverse_turns,
+            repeats=turns is not None,
+        )
+        self._changed(self.make_plan())
+
+    # -- redundant bars ----------------------------------------------------------------------------------
+
+    def _check_redundant(self) -> None:
+        """A redundant bar must fit at every angle; of a batch, in the first machine."""
+        mechanism = self.program.mechanism
+        for name, bar in mechanism.bars.items():
+            if bar.redundant:
+                ends = self.program.points[bar.start], self.program.points[bar.end]
+                self._check_fit(name, *ends, _first(bar.length))
+
+    def _check_fit(self, name: str, start: int, end: int, length: float) -> None:
+        angles = np.linspace(0.0, 2 * np.pi, _LOOK + 1)
+        u = self._motion(0, end, angles)[:2] - self._motion(0, start, angles)[:2]
+        off = np.abs(np.hypot(*u) - length)
+        off = np.where(np.isfinite(off), off, 0.0)
+        worst = int(off.argmax())
+        if off[worst] > _FITS * length:
+            raise AssemblyError(
+                f"the redundant bar {name} ({length:g} m) does not fit: at crank angle "
+                f"{np.degrees(angles[worst]):.4g}° the distance of its ends differs by {off[worst]:.3g} m "
+                "from its length, so the mechanism is locked; correct the length or remove the bar",
+                element=name,
+                crank_angle=float(angles[worst]),
+            )
+
+
+def _first(value: Any) -> float:
+    """A number; of an array over many machines, that of the first."""
+    return float(np.ravel(value)[0])

@@ -1,0 +1,362 @@
+"""``linkwright size`` and ``linkwright motors``."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+import click
+
+from linkwright.kernel.command.answer import Answer, hand_over
+from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
+from linkwright.kernel.command.console import console, progress_bar, styled
+from linkwright.kernel.command.out import Force, out_option
+from linkwright.kernel.command.parameter import Option
+
+if TYPE_CHECKING:
+    from rich.table import Table as Grid
+    from rich.text import Text
+
+    from linkwright.drive.model.catalogue import CatalogueMotor
+    from linkwright.kernel.page.table import Row, Table
+    from linkwright.machine.machine import Machine
+    from linkwright.sizing.checks import Check
+    from linkwright.sizing.flywheel import FlywheelChoice
+    from linkwright.sizing.motor import Candidate, MotorChoice
+
+Reserve = Annotated[
+    float, Option("--power-reserve", metavar="X", help="Rated power over required power, at least.")
+]
+Unevenness = Annotated[
+    float,
+    Option(
+        "--unevenness",
+        metavar="X",
+        help="Coefficient of speed fluctuation, (ω_max − ω_min)/ω_mean, to be reached by the flywheel.",
+    ),
+]
+By = Annotated[
+    Literal["all", "fixed-start", "power"],
+    Option(
+        "--by",
+        help="Checks that decide. fixed-start: all but the start from the worst angle. power: rated power "
+        "and start alone, as is often done.",
+    ),
+]
+FreeRatio = Annotated[
+    bool, Option("--free-ratio", help="Give each motor the ratio that suits it, not the file's.")
+]
+Together = Annotated[
+    bool, Option("--together", help="Judge each motor with its flywheel; a smaller one may do.")
+]
+Inertia = Annotated[
+    list[str] | None,
+    Option(
+        "--inertia",
+        metavar="TYPE=VALUE",
+        help='Inertia of a rotor, such as 4A132S6U3="0.04 kg m^2". May be given again.',
+        show_default=False,
+    ),
+]
+OutFile = Annotated[Path | None, out_option("Write the machine with motor and flywheel there.", "FILE")]
+
+# Seconds after which a bar shows how far it is.
+_PATIENCE = 1.0
+
+# Rows of the table beyond the motor that is chosen; larger ones are larger still.
+_BEYOND = 2
+
+
+def size(
+    file: File,
+    set: Sets = None,
+    allow_outside: Outside = False,
+    power_reserve: Reserve = 1.1,
+    unevenness: Unevenness = 0.05,
+    by: By = "all",
+    free_ratio: FreeRatio = False,
+    together: Together = False,
+    inertia: Inertia = None,
+    json: Json = False,
+    out: OutFile = None,
+    force: Force = False,
+) -> None:
+    """Choose motor and flywheel.
+
+    The smallest motor of the catalogue that passes every check, then the flywheel on the crankshaft, both
+    verified by analysing the machine again. Exit code 1 if no motor suffices.
+    """
+    from linkwright.machine.read import read
+    from linkwright.sizing.flywheel import choose_flywheel
+    from linkwright.sizing.motor import choose_motor
+
+    machine = read(file, set or (), allow_outside=allow_outside)
+    motor = choose_motor(
+        machine,
+        reserve=power_reserve,
+        by=by,
+        free_ratio=free_ratio,
+        unevenness=unevenness if together else None,
+        inertias=_inertias(inertia or []),
+        track=_tracked,
+    )
+    flywheel = None
+    if motor.chosen and motor.chosen.machine:
+        flywheel = choose_flywheel(motor.chosen.machine, unevenness)
+    answer = _answer(machine, motor, flywheel)
+    for reason in answer.findings:
+        click.echo(reason, err=True)
+    hand_over(answer, json=json, out=out, force=force)
+
+
+def _inertias(texts: Sequence[str]) -> dict[str, float]:
+    """Type → inertia, of ``TYPE=VALUE``."""
+    from linkwright.kernel.errors import InputError
+    from linkwright.kernel.units import INERTIA
+
+    found = {}
+    for text in texts:
+        type, equals, value = text.rpartition("=")
+        if not equals:
+            raise InputError(f'--inertia {text}\n  expected: TYPE=VALUE, such as 4A132S6U3="0.04 kg m^2"')
+        found[type.strip()] = option_value("--inertia", value.strip().strip("\"'"), INERTIA)
+    return found
+
+
+def _tracked(types: Sequence[CatalogueMotor]) -> Iterator[CatalogueMotor]:
+    """The types one by one, with a bar on standard error once that takes long."""
+    from time import monotonic
+
+    start, bar = monotonic(), None
+    for done, each in enumerate(types):
+        if bar is None and monotonic() - start > _PATIENCE and sys.stderr.isatty():
+            bar = progress_bar("motors", len(types))
+        if bar is not None:
+            bar.update(bar.task_ids[0], completed=done)
+        yield each
+    if bar is not None:
+        bar.stop()
+
+
+def _file_text(machine: Machine, chosen: Candidate) -> str:
+    """The machine file, with a remark where a number is an estimate."""
+    import tomlkit
+
+    from linkwright.machine.write import dumps
+    from linkwright.sizing.motor import ESTIMATE
+
+    document: Any = tomlkit.parse(dumps(machine))
+    if chosen.inertia_estimated:
+        document["drive"]["motor"]["inertia"].comment(ESTIMATE)
+    return tomlkit.dumps(document)
+
+
+def _answer(machine: Machine, motor: MotorChoice, flywheel: FlywheelChoice | None) -> Answer:
+    """Motor and flywheel, or why no motor suffices."""
+    results = {
+        "required_power": motor.required.to_dict(),
+        "motor": motor.to_dict(),
+        "flywheel": flywheel.to_dict() if flywheel else None,
+    }
+    fitted, chosen = flywheel and flywheel.machine, motor.chosen
+    return Answer(
+        machine=machine.name,
+        results=lambda _: results,
+        findings=[] if chosen else [motor.reason],
+        warnings=_warnings(motor, flywheel),
+        show=partial(_print, machine, motor, flywheel),
+        machine_file=partial(_file_text, fitted, chosen) if fitted and chosen else None,
+    )
+
+
+def _warnings(motor: MotorChoice, flywheel: FlywheelChoice | None) -> list[str]:
+    return [*motor.warnings, *(flywheel.warnings if flywheel else ())]
+
+
+def _print(machine: Machine, motor: MotorChoice, flywheel: FlywheelChoice | None) -> None:
+    """Tables on the terminal."""
+    out, need = console(), motor.required
+    out.print(machine.name + "\n", style="bold")
+    out.print(f"Required power {need.power / 1e3:.2f} kW at {need.speed:.4g} rad/s")
+    out.print(f"  {need.formula}, mean load {need.torque_load_mean:.2f} N m, η {need.efficiency:.4g}\n")
+    if motor.present:
+        out.print(_checks_table("The motor in the file", motor.present))
+    if motor.chosen:
+        chosen = motor.chosen
+        out.print(_checks_table(f"{chosen.type} at ratio {chosen.ratio:.4g}", chosen.checks))
+    out.print(_considered_table(motor))
+    if motor.chosen:
+        out.print("\n" + motor.reason, style="bold")
+    if flywheel:
+        out.print(_flywheel_words(flywheel))
+    for warning in _warnings(motor, flywheel):
+        out.print(styled(("note", "yellow"), f" {warning}"))
+
+
+def _checks_table(title: str, checks: Sequence[Check]) -> Grid:
+    """A line for each check: found, limit, verdict."""
+    from rich.table import Table as Grid
+
+    table = Grid(title=title, title_justify="left", box=None, padding=(0, 2, 0, 0))
+    for word in ("check", "found", "", "limit", "unit", "", "remark"):
+        table.add_column(word, justify="right" if word in ("found", "limit") else "left")
+    marks = {True: ("passes", "green"), False: ("fails", "red"), None: ("not known", "yellow")}
+    for check in checks:
+        sign = "" if check.limit is None else "≤" if check.at_most else "≥"
+        row = (check.name.replace("_", " "), _number(check.value), sign, _number(check.limit), check.unit)
+        table.add_row(*row, styled(marks[check.passed]), check.note)
+    return table
+
+
+def _number(value: float | None) -> str:
+    return "" if value is None else f"{value:.0f}" if abs(value) >= 1e3 else f"{value:.4g}"
+
+
+def _considered_table(motor: MotorChoice) -> Grid:
+    """The motors in the order of their power, around the one that is chosen."""
+    from rich.table import Table as Grid
+
+    table = Grid(title="\nMotors considered", title_justify="left", box=None, padding=(0, 2, 0, 0))
+    for word in ("type", "kW", "ratio", "inertia", "verdict"):
+        table.add_column(word, justify="left" if word in ("type", "verdict") else "right")
+    for each in _shown(motor):
+        inertia = f"{each.inertia:.3g}{'*' if each.inertia_estimated else ''}"
+        power = f"{each.known.power_rated / 1e3:.4g}"
+        table.add_row(each.type, power, f"{each.ratio:.4g}", inertia, _verdict(each, motor))
+    others = len(motor.candidates) - len(_suited(motor))
+    remark = f"; {others} types have another speed: see --free-ratio" if others else ""
+    table.caption, table.caption_justify = f"inertia in kg m²; * estimated{remark}", "left"
+    return table
+
+
+def _shown(motor: MotorChoice) -> list[Candidate]:
+    """Motors from half the required power to a little beyond the one that is chosen."""
+    ranked = sorted(_suited(motor), key=lambda each: each.known.power_rated)
+    enough = [each for each in ranked if each.known.power_rated >= 0.5 * motor.required.power]
+    enough = enough if len(enough) > _BEYOND else ranked[-_BEYOND - 1 :]
+    if motor.chosen is None:
+        return enough
+    at = next(n for n, each in enumerate(enough) if each is motor.chosen)
+    beyond = [each for each in enough[at + 1 :] if each.passes]
+    return [*enough[: at + 1], *beyond[:_BEYOND]]
+
+
+def _suited(motor: MotorChoice) -> list[Candidate]:
+    """Motors whose speed suits the ratio; all, if there is none."""
+    return [each for each in motor.candidates if each.checks[0].passed] or list(motor.candidates)
+
+
+def _verdict(each: Candidate, motor: MotorChoice) -> str | Text:
+    if each is motor.chosen:
+        return styled(("chosen", "bold green"))
+    return "passes, larger than needed" if each.passes else ", ".join(check.brief for check in each.failed)
+
+
+def _flywheel_words(flywheel: FlywheelChoice) -> Text:
+    """What flywheel, what it gives, what the classical estimate would have been."""
+    without = flywheel.unevenness_without
+    bare = "there is no steady motion" if without is None else f"the speed fluctuation is {without:.4f}"
+    if flywheel.inertia == 0:
+        wanted = f" {bare}, at most {flywheel.unevenness_wanted:g} is wanted"
+        return styled(("No flywheel is needed:", "bold"), wanted)
+    return styled(
+        (f"Flywheel {flywheel.inertia:.4g} kg m² on the crankshaft", "bold"),
+        f" for a speed fluctuation of "
+        f"{flywheel.unevenness:.6g}; without it {bare}\n"
+        f"  classical estimate {flywheel.inertia_estimate:.4g} kg m², from an excess work of "
+        f"{flywheel.excess_work:.4g} J",
+    )
+
+
+Poles = Annotated[
+    int | None, Option("--poles", metavar="N", help="This number of poles alone.", show_default=False)
+]
+PowerMin = Annotated[
+    str, Option("--power-min", metavar="POWER", help='Rated power at least, such as "5.5 kW".')
+]
+Series = Annotated[str, Option("--series", metavar="NAME", help="This series alone.", show_default=False)]
+
+
+def motors(poles: Poles = None, power_min: PowerMin = "0 W", series: Series = "", json: Json = False) -> None:
+    """List the motors of the catalogue.
+
+    An inertia with ~ is estimated by similarity, since its source prints none; a dash is a number that
+    the source does not give. A machine file takes one by drive.motor.catalogue.
+    """
+    found = _chosen(poles, power_min, series)
+    hand_over(
+        Answer(
+            machine=None,
+            results=lambda curves: {"motors": [_entries(each) for each in found]},
+            tables=partial(_tables, found),
+        ),
+        json=json,
+    )
+
+
+def _chosen(poles: int | None, power_min: str, series: str) -> list[CatalogueMotor]:
+    """The motors that are asked for, by power."""
+    from linkwright.drive.model.catalogue import motors
+    from linkwright.kernel.description.base import suggestion
+    from linkwright.kernel.errors import InputError
+    from linkwright.kernel.units import POWER
+
+    power, known = option_value("--power-min", power_min, POWER), motors()
+    names = list(dict.fromkeys(each.series for each in known))
+    if series and series not in names:
+        raise InputError(f'--series: there is no series "{series}": {suggestion(series, names)}')
+    numbers = sorted({each.poles for each in known})
+    if poles is not None and poles not in numbers:
+        listed = ", ".join(map(str, numbers))
+        raise InputError(f"--poles: found {poles}, the catalogue has motors with {listed} poles")
+    found = [
+        each
+        for each in known
+        if each.power_rated >= power and poles in (None, each.poles) and series in ("", each.series)
+    ]
+    if not found:
+        raise InputError(f"no motor of the catalogue has {power:.6g} W or more and is as asked for")
+    return sorted(found, key=lambda each: (each.poles, each.power_rated))
+
+
+def _entries(motor: CatalogueMotor) -> dict[str, Any]:
+    """All that is known of a motor, in SI, and its inertia if the source gives none."""
+    from linkwright.sizing.motor_change import rotor_inertia
+
+    inertia, estimated = rotor_inertia(motor)
+    return {**asdict(motor), "inertia": inertia, "inertia_is_estimated": estimated}
+
+
+def _tables(found: list[CatalogueMotor]) -> list[Table]:
+    from linkwright.kernel.page.table import Table
+
+    heads = ("type", "", "poles", "power", "speed", "torque", "breakdown", "start", "inertia", "series")
+    return [Table("motors", "Motors of the catalogue", heads, [_row(each) for each in found])]
+
+
+def _row(motor: CatalogueMotor) -> Row:
+    """A motor in the units of catalogues: kW, rpm, torques over the rated one."""
+    from linkwright.kernel.page.numbers import number
+    from linkwright.kernel.page.table import with_unit
+
+    entries = _entries(motor)
+    mark = "~" if entries["inertia_is_estimated"] else ""
+    over = (
+        "–" if torque is None else f"{number(torque / motor.torque_rated, 3)} ×"
+        for torque in (motor.torque_breakdown, motor.torque_start)
+    )
+    return (
+        motor.type,
+        "",
+        str(motor.poles),
+        f"{number(motor.power_rated / 1000, 3)} kW",
+        f"{number(motor.speed_rated * 9.549296585513721, 4)} rpm",
+        with_unit(motor.torque_rated, "N m"),
+        *over,
+        f"{mark}{number(entries['inertia'], 3)} kg m²",
+        motor.series,
+    )

@@ -1,0 +1,318 @@
+"""``linkwright synthesise``: the kinds of synthesis, their tables and words."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import click
+
+from linkwright.kernel.command.answer import Answer, hand_over
+from linkwright.kernel.command.common import Json, Outside, Sets, option_value
+from linkwright.kernel.command.console import progress_bar
+from linkwright.kernel.command.out import Force, out_option
+from linkwright.kernel.command.parameter import Option
+from linkwright.kernel.errors import InputError
+
+if TYPE_CHECKING:
+    from linkwright.kernel.result import Result
+    from linkwright.machine.machine import Machine
+
+OutFile = Annotated[Path | None, out_option("Write the machine there.", "FILE")]
+Curves = Annotated[bool, Option("--curves", help="With --json: curves too, not scalars alone.")]
+TaskFile = Annotated[
+    Path,
+    Option("--task", metavar="FILE", help="The task: what the linkage shall do.", show_default=False),
+]
+Swing = Annotated[
+    str | None,
+    Option("--swing", metavar="ANGLE", help="Swing of the rocker, for a crank-rocker.", show_default=False),
+]
+Stroke = Annotated[
+    str | None,
+    Option(
+        "--stroke", metavar="LENGTH", help="Stroke of the slider, for a slider-crank.", show_default=False
+    ),
+]
+TimeRatio = Annotated[
+    float,
+    Option(
+        "--time-ratio",
+        metavar="X",
+        help="Crank angle from outer to inner dead centre over the rest of the revolution.",
+    ),
+]
+Frame = Annotated[str, Option("--frame", metavar="LENGTH", help="Distance of the pivots of a crank-rocker.")]
+CouplerMax = Annotated[
+    float, Option("--coupler-max", metavar="X", help="Coupler over rocker of a crank-rocker, at most.")
+]
+Rod = Annotated[
+    str | None,
+    Option(
+        "--rod", metavar="LENGTH", help="Rod of a slider-crank; without it, the best one.", show_default=False
+    ),
+]
+Kind = Annotated[
+    str | None,
+    Option("--kind", metavar="KIND", help="Which linkage; --list names them.", show_default=False),
+]
+Length = Annotated[str, Option("--length", metavar="LENGTH", help="Length of the straight line.")]
+Proportions = Annotated[
+    list[str] | None,
+    Option(
+        "--proportion",
+        metavar="NAME=X",
+        help="A length other than usual; only ratios count. May be given again.",
+    ),
+]
+List = Annotated[bool, Option("--list", help="The catalogue, for this length of line.")]
+
+# Seconds after which a bar shows how far it is.
+_PATIENCE = 1.0
+
+
+def dead_centre(
+    swing: Swing = None,
+    stroke: Stroke = None,
+    time_ratio: TimeRatio = 1.0,
+    frame: Frame = "1 m",
+    coupler_max: CouplerMax = 3.0,
+    rod: Rod = None,
+    json: Json = False,
+    out: OutFile = None,
+    force: Force = False,
+) -> None:
+    """Crank-rocker for a swing, or slider-crank for a stroke, and a time ratio; best transmission angle."""
+    from linkwright.kernel.units import ANGLE, LENGTH
+    from linkwright.synthesis.dead_centre import crank_rocker
+    from linkwright.synthesis.stroke import slider_crank
+
+    if (swing is None) == (stroke is None):
+        raise InputError("expected --swing ANGLE for a crank-rocker, or --stroke LENGTH for a slider-crank")
+    if swing is not None:
+        size = option_value("--frame", frame, LENGTH)
+        angle = option_value("--swing", swing, ANGLE)
+        _finish(
+            "crank_rocker",
+            crank_rocker(angle, time_ratio, frame=size, coupler_max=coupler_max),
+            json,
+            out,
+            force,
+        )
+        return
+    assert stroke is not None
+    length = None if rod is None else option_value("--rod", rod, LENGTH)
+    way = option_value("--stroke", stroke, LENGTH)
+    _finish("slider_crank", slider_crank(way, time_ratio, rod=length), json, out, force)
+
+
+def function(
+    task: TaskFile,
+    set: Sets = None,
+    allow_outside: Outside = False,
+    json: Json = False,
+    curves: Curves = False,
+    out: OutFile = None,
+    force: Force = False,
+) -> None:
+    """Four-bar whose rocker follows a function of the crank angle, by Freudenstein's equation."""
+    from linkwright.machine.read import read_as
+    from linkwright.synthesis.function_generator import function_generator
+    from linkwright.synthesis.task import FunctionTask
+
+    found = function_generator(read_as(FunctionTask, task, set or (), allow_outside=allow_outside))
+    _finish("function_generator", found, json, out, force, curves=curves)
+
+
+def path(
+    task: TaskFile,
+    set: Sets = None,
+    allow_outside: Outside = False,
+    json: Json = False,
+    curves: Curves = False,
+    out: OutFile = None,
+    force: Force = False,
+) -> None:
+    """Four-bar whose coupler point passes given points, by global search."""
+    from linkwright.machine.read import read_as
+    from linkwright.synthesis.path import path_generator
+    from linkwright.synthesis.task import PathTask
+
+    read = read_as(PathTask, task, set or (), allow_outside=allow_outside)
+    with _tracked() as track:
+        found = path_generator(read, track=track)
+    _finish("path_generator", found, json, out, force, curves=curves)
+
+
+def motion(
+    task: TaskFile,
+    set: Sets = None,
+    allow_outside: Outside = False,
+    json: Json = False,
+    curves: Curves = False,
+    out: OutFile = None,
+    force: Force = False,
+) -> None:
+    """Four-bar or slider-crank whose coupler passes two or three poses."""
+    from linkwright.machine.read import read_as
+    from linkwright.synthesis.pose import pose_guide
+    from linkwright.synthesis.task import PoseTask
+
+    found = pose_guide(read_as(PoseTask, task, set or (), allow_outside=allow_outside))
+    _finish("pose_guide", found, json, out, force, curves=curves)
+
+
+def line(
+    kind: Kind = None,
+    length: Length = "1 m",
+    proportion: Proportions = None,
+    list: List = False,
+    json: Json = False,
+    curves: Curves = False,
+    out: OutFile = None,
+    force: Force = False,
+) -> None:
+    """Straight-line linkage from the catalogue, exact or approximate."""
+    from linkwright.kernel.units import LENGTH
+    from linkwright.synthesis.straight_line import straight_line, straight_lines
+
+    wanted = option_value("--length", length, LENGTH)
+    if kind is None and not list:
+        raise InputError("expected --kind KIND, or --list for the catalogue")
+    if kind is None or list:
+        lines = straight_lines(wanted)
+        answer = Answer(
+            machine=None,
+            results=lambda _: {"straight_lines": [each.to_dict() for each in lines]},
+            show=partial(print_catalogue, lines),
+        )
+        hand_over(answer, json=json)
+        return
+    found = straight_line(kind, wanted, proportions=_proportions(proportion or []))
+    _finish("straight_line", found, json, out, force, curves=curves)
+
+
+# In the order of the help.
+
+
+def _proportions(texts: list[str]) -> dict[str, float]:
+    """Name → value, of ``NAME=X``."""
+    found = {}
+    for text in texts:
+        name, _, value = text.partition("=")
+        try:
+            found[name.strip()] = float(value)
+        except ValueError:
+            raise InputError(
+                f"--proportion {text}: expected NAME=X with a plain number, such as arm=2.5"
+            ) from None
+    return found
+
+
+@contextmanager
+def _tracked() -> Iterator[Any]:
+    """Something to call after every step, with a bar on standard error once that takes long."""
+    from time import monotonic
+
+    start = monotonic()
+    bars: list[Any] = []
+
+    def track(done: int, total: int) -> None:
+        if not bars and monotonic() - start > _PATIENCE and sys.stderr.isatty():
+            bars.append(progress_bar("refinement", total))
+        for bar in bars:
+            bar.update(bar.task_ids[0], completed=done)
+
+    try:
+        yield track
+    finally:
+        for bar in bars:
+            bar.stop()
+
+
+def _finish(
+    what: str, found: Result, json: bool, out: Path | None, force: bool, *, curves: bool = False
+) -> None:
+    """Write the machine and print the result."""
+    from linkwright.machine.write import dumps
+
+    machine: Machine = found.machine  # type: ignore[attr-defined]
+    entries = found.to_dict(curves=curves)
+    # Lines of the catalogue have none.
+    warnings = entries.pop("warnings", [])
+    answer = Answer(
+        machine=machine.name,
+        results=lambda _: {what: entries},
+        warnings=warnings,
+        show=partial(_print, machine.name, entries, warnings, out),
+        machine_file=lambda: dumps(machine),
+    )
+    hand_over(answer, json=json, out=out, force=force)
+
+
+def _print(name: str, entries: dict[str, Any], warnings: list[str], out: Path | None) -> None:
+    """A line for each entry, and where the machine file is."""
+    click.echo(name)
+    for key, value in entries.items():
+        click.echo(f"  {key.replace('_', ' '):<26} {words(key, value)}")
+    for warning in warnings:
+        click.echo(f"Warning: {warning}")
+    click.echo(f"Written: {out}" if out else "--out FILE writes the machine file.")
+
+
+# Results that are angles, and plain numbers; other numbers are lengths.
+_ANGLES = ("angle", "swing", "start", "end", "direction")
+_RATIOS = (
+    "ratio",
+    "function",
+    "relative",
+    "straightness",
+    "evaluated",
+    "starts",
+    "found",
+    "rate",
+    "seed",
+    "links",
+    "solutions",
+    "residual",
+)
+
+
+def words(name: str, value: Any) -> str:
+    """A value for people: angles in degrees, lengths in metres."""
+    if value is None:
+        return "–"
+    if isinstance(value, tuple | list):
+        return ", ".join(map(str, value)) or "–"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if not isinstance(value, int | float):
+        return str(value)
+    if any(part in name for part in _RATIOS):
+        return f"{value:.6g}"
+    if any(part in name for part in _ANGLES):
+        from math import degrees
+
+        return f"{degrees(value):.6g}°"
+    return f"{value:.6g} m"
+
+
+def print_catalogue(lines: tuple[Any, ...]) -> None:
+    """The straight-line linkages with what their lines are like."""
+    from math import degrees
+
+    click.echo(
+        f"{'kind':<14} {'exact':<6} {'links':>5} {'deviation':>11} {'crank range':>20} "
+        f"{'longest':>9}  rotates"
+    )
+    for each in lines:
+        span = f"{degrees(each.crank_angle_start):.1f}° to {degrees(each.crank_angle_end):.1f}°"
+        deviation = "0" if each.exact else f"{each.deviation:.3g} m"
+        click.echo(
+            f"{each.kind:<14} {words('', each.exact):<6} {each.links:>5} {deviation:>11} {span:>20} "
+            f"{each.size:>7.3g} m  {words('', each.turns_fully)}"
+        )
