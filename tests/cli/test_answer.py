@@ -134,6 +134,11 @@ CASES = {
         "{roller_two_carts} --set loads.rolling1.force=1e5",
         "{roller_two_carts} --from-angle 30",
     ),
+    "plot": Case(
+        "{roller_two_carts} cart1.velocity",
+        "{roller_two_carts}" + _SHORT_ROD,
+        "{roller_two_carts} cart9.velocity",
+    ),
     "forces": Case(
         "{roller_two_carts}", "{roller_two_carts}" + _SHORT_ROD, "{roller_two_carts} --angles 1deg"
     ),

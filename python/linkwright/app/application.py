@@ -45,6 +45,7 @@ COMMANDS = {
         "Positions, velocities and accelerations of points and links.", "linkages.commands:motion"
     ),
     "transient": Place("Follow the motion in time.", "drive.commands.transient:transient"),
+    "plot": Place("Draw curves of a machine.", "app.commands.plot:plot"),
     "forces": Place("Compute the forces in a machine.", "kinetostatics.commands:forces"),
     "balance": Place("Find counterweights.", "kinetostatics.commands:balance"),
     "tolerance": Place(

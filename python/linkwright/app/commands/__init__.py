@@ -6,6 +6,7 @@
 | `glossary` | `linkwright glossary [WORD]`: the terms of tables, messages and reports |
 | `new` | `linkwright new TEMPLATE`: a machine file to start from |
 | `papers` | `linkwright papers`: published numbers against computed ones |
+| `plot` | `linkwright plot FILE QUANTITY…`: curves of a machine as picture and table |
 | `run` | `linkwright run FILE`: everything that can be computed about a machine |
 | `schema` | `linkwright schema`: the JSON Schema of machine files, for editors |
 """

@@ -1,0 +1,243 @@
+"""``linkwright plot FILE QUANTITY…``: curves of a machine as a picture, a table, CSV."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+from linkwright.kernel.command.answer import Answer, finish, hand_over
+from linkwright.kernel.command.common import File, Json, Outside, Sets, UnitsOut, ZeroAt
+from linkwright.kernel.command.out import Force, output_folder, put, say_written
+from linkwright.kernel.command.parameter import Argument, Option
+from linkwright.kernel.errors import InputError
+
+if TYPE_CHECKING:
+    from linkwright.app.curves import Curve
+    from linkwright.app.study import Study
+    from linkwright.kernel.page.out_units import OutUnits
+    from linkwright.kernel.page.table import Row, Table
+
+Quantities = Annotated[
+    list[str] | None,
+    Argument(
+        "QUANTITY", "Curves such as ram.place, ram.velocity or steady_state.speed; none lists them all."
+    ),
+]
+Over = Annotated[
+    str | None,
+    Option(
+        "--over",
+        metavar="QUANTITY",
+        help="Draw over this curve of the same analysis, such as time or ram.place, not the crank angle.",
+        show_default=False,
+    ),
+]
+Outs = Annotated[
+    list[str] | None,
+    Option(
+        "--out",
+        metavar="FILE|DIR",
+        help="A picture (.png, .svg, .pdf), a table (.csv), or a folder for all of them. May be given again.",
+        show_default=False,
+    ),
+]
+Csv = Annotated[bool, Option("--csv", help="Print CSV.")]
+
+_PICTURES = (".png", ".svg", ".pdf")
+
+# Intervals of the table on the terminal.
+_ROWS = 12
+
+
+def plot(
+    file: File,
+    quantity: Quantities = None,
+    set: Sets = None,
+    allow_outside: Outside = False,
+    over: Over = None,
+    zero: ZeroAt = None,
+    units: UnitsOut = "",
+    csv: Csv = False,
+    json: Json = False,
+    out: Outs = None,
+    force: Force = False,
+) -> None:
+    """Draw curves of a machine, those of one unit on one axis.
+
+    Any curve that `linkwright run` computes, and motion of points, links and slides; over the crank angle of
+    a revolution unless it runs over something else.
+    """
+    from linkwright.app.curves import chosen, curves_of, from_zero
+    from linkwright.app.study import study
+    from linkwright.kernel.page.out_units import OutUnits
+    from linkwright.linkages.zero import Zero, zero_angle
+    from linkwright.machine.read import read
+
+    shown = OutUnits.of(units or "deg")
+    machine = read(file, set or [], allow_outside=allow_outside)
+    counted = zero_angle(machine, zero) if zero is not None else Zero()
+    found = study(machine)
+    if not quantity:
+        hand_over(_list_of(found, curves_of(found)), json=json)
+        return
+    curves = [from_zero(each, counted.angle) for each in chosen(found, quantity, over)]
+    written = _write(curves, shown, counted.words, out or [], force=force)
+    if csv:
+        put(_csv(curves, shown), None)
+    answer = Answer(
+        machine=machine.name,
+        results=lambda _: {"plot": _told(curves, counted.angle)},
+        findings=found.findings,
+        warnings=found.warnings,
+        tables=lambda: [_extremes(curves, shown), _values(curves, shown)],
+        head=lambda: f"Crank angles from the {counted.words}" if counted.words else "",
+    )
+    if written:
+        say_written(written, quiet=True)
+    if csv:
+        finish(answer)
+        return
+    hand_over(answer, json=json)
+
+
+def _list_of(found: Study, curves: dict[str, Curve]) -> Answer:
+    """The names of all curves."""
+    from linkwright.kernel.page.table import Table
+
+    rows: list[Row] = [(each.name, each.unit or "–", each.over) for each in curves.values()]
+    return Answer(
+        machine=found.machine.name,
+        results=lambda _: {
+            "curves": {each.name: {"unit": each.unit, "over": each.over} for each in curves.values()}
+        },
+        findings=found.findings,
+        warnings=found.warnings,
+        tables=lambda: [Table("curves", "Curves that can be drawn", ("curve", "", "over"), rows)],
+    )
+
+
+def _told(curves: Sequence[Curve], zero: float) -> dict[str, Any]:
+    """The curves in SI."""
+    return {
+        "angle_zero": zero,
+        "curves": {
+            each.name: {
+                "unit": each.unit,
+                "over": each.over,
+                "over_unit": each.over_unit,
+                "x": each.x.tolist(),
+                "values": each.values.tolist(),
+            }
+            for each in curves
+        },
+    }
+
+
+def _write(
+    curves: Sequence[Curve], units: OutUnits, zero: str, outs: Sequence[str], *, force: bool
+) -> list[Path]:
+    """The picture and the table where they are wanted."""
+    from linkwright.app.figures import bytes_of, curves_figure
+    from linkwright.kernel.files.output import write_file
+
+    written: list[Path] = []
+    for place in map(Path, outs):
+        ending = place.suffix.lower()
+        if ending == ".csv":
+            write_file(place, _csv(curves, units), replace=force)
+        elif ending in _PICTURES:
+            write_file(place, bytes_of(curves_figure(curves, units, zero), ending), replace=force)
+        elif ending:
+            listed = ", ".join((*_PICTURES, ".csv"))
+            raise InputError(f"--out: found {place}, expected a file that ends in {listed}, or a folder")
+        else:
+            folder = output_folder(place, force=force)
+            assert folder is not None
+            pictures = {
+                f"plot{kind}": bytes_of(curves_figure(curves, units, zero), kind) for kind in (".png", ".svg")
+            }
+            written += folder.write({"plot.csv": _csv(curves, units), **pictures})
+            continue
+        written.append(place)
+    return written
+
+
+def _csv(curves: Sequence[Curve], units: OutUnits) -> str:
+    """What they run over, and each of them; curves on other points have what they run over beside them."""
+    import numpy as np
+
+    from linkwright.kernel.page.csv import columns_csv
+
+    most = max(len(each.x) for each in curves)
+    columns: dict[str, Any] = {}
+    last = None
+    for each in curves:
+        unit, factor = units.shown(each.over_unit)
+        if last is None or len(each.x) != len(last) or not np.array_equal(each.x, last):
+            name = f"{each.over} [{unit or '-'}]"
+            columns[name if name not in columns else f"{each.over} of {each.name} [{unit or '-'}]"] = _long(
+                each.x / factor, most
+            )
+            last = each.x
+        unit, factor = units.shown(each.unit)
+        columns[f"{each.name} [{unit or '-'}]"] = _long(each.values / factor, most)
+    return columns_csv(columns)
+
+
+def _long(values: Any, length: int) -> Any:
+    """With empty places at its end."""
+    import numpy as np
+
+    return np.concatenate([values, np.full(length - len(values), np.nan)])
+
+
+def _extremes(curves: Sequence[Curve], units: OutUnits) -> Table:
+    """Least and greatest value of each curve, and where."""
+    import numpy as np
+
+    from linkwright.kernel.page.table import Table
+
+    rows: list[Row] = []
+    for each in curves:
+        cells = []
+        for k in (int(np.nanargmin(each.values)), int(np.nanargmax(each.values))):
+            cells += [
+                _cell(each.values, k, each.unit, units),
+                _cell(each.x, k, each.over_unit, units),
+            ]
+        rows.append((each.name, "", *cells))
+    heads = ("curve", "", "minimum", f"at {curves[0].over}", "maximum", f"at {curves[0].over}")
+    return Table("extremes", "Extremes among the points of the curves", heads, rows)
+
+
+def _values(curves: Sequence[Curve], units: OutUnits) -> Table:
+    """The curves at some points of the first of them."""
+    import numpy as np
+
+    from linkwright.kernel.page.table import Table
+
+    first = curves[0]
+    same = [each for each in curves if len(each.x) == len(first.x) and np.array_equal(each.x, first.x)]
+    at = np.unique(np.linspace(0, len(first.x) - 1, _ROWS + 1).round().astype(int))
+    rows: list[Row] = [
+        (
+            _cell(first.x, int(k), first.over_unit, units),
+            "",
+            *(_cell(each.values, int(k), each.unit, units) for each in same),
+        )
+        for k in at
+    ]
+    return Table("values", "Values", (first.over, "", *(each.name for each in same)), rows)
+
+
+def _cell(values: Any, k: int, si: str, units: OutUnits) -> str:
+    """A value with its unit; zero where nothing but rounding is left beside the largest one."""
+    import numpy as np
+
+    from linkwright.kernel.page.numbers import number
+
+    unit, factor = units.shown(si)
+    value = float(values[k])
+    shown = 0.0 if abs(value) <= 1e-12 * float(np.nanmax(np.abs(values))) else value / factor
+    return f"{number(shown)}{'' if unit == '°' else ' '}{unit}".rstrip()

@@ -1,0 +1,205 @@
+"""Curves of a study by name: those of all its results, and of every point, link and slide over the cycle."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.app.study import Study
+from linkwright.drive.crank_speed import crank_speed
+from linkwright.drive.steady_state import SteadyState
+from linkwright.kernel.description.base import suggestion
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.quantities import declared, over
+from linkwright.kernel.result import Result
+from linkwright.linkages.cycle import Linkage
+from linkwright.linkages.motion import Motion, motion_along
+from linkwright.machine.machine import Machine
+
+Floats = NDArray[np.float64]
+
+# What people say for the position of a slide.
+_OTHER_WORDS = {"position": "place", "displacement": "place"}
+
+CRANK_ANGLE = "crank_angle"
+
+# Of a revolution, a degree each: no line shows more.
+_INTERVALS = 360
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A curve of a study.
+
+    Attributes
+    ----------
+    name : str
+        With the analysis before it: ``"motion.ram.place.velocity"``.
+    values : ndarray, shape (n,)
+        [unit].
+    unit : str
+        SI unit; empty for a plain number.
+    over, over_unit : str
+        Name of what it runs over, without the analysis, and its SI unit.
+    x : ndarray, shape (n,)
+        What it runs over.
+    """
+
+    name: str
+    values: Floats
+    unit: str
+    over: str
+    over_unit: str
+    x: Floats
+
+
+def curves_of(study: Study) -> dict[str, Curve]:
+    """All curves of a study by name, and the motion of points, links and slides over its cycle."""
+    results: dict[str, Result] = dict(study.results())
+    if study.linkage is not None:
+        results["motion"] = cycle_motion(study.machine, study.linkage, study.steady_state)
+    return {each.name: each for name, result in results.items() for each in _of(name, result)}
+
+
+def cycle_motion(machine: Machine, linkage: Linkage, steady: SteadyState | None) -> Motion:
+    """Everything over the cycle: along the steady motion, else at the constant speed of the machine."""
+    if steady is not None:
+        some = slice(None, None, max(1, (len(steady.time) - 1) // _INTERVALS))
+        return motion_along(
+            machine,
+            steady.time[some],
+            steady.crank_angle[some],
+            steady.speed[some],
+            steady.acceleration[some],
+        )
+    speed = crank_speed(machine, None).value
+    low, high = float(linkage.crank_angle[0]), float(linkage.crank_angle[-1])
+    angle = np.linspace(low, high, _INTERVALS * (linkage.period_turns or 1) + 1)
+    return motion_along(machine, (angle - low) / speed, angle, np.full_like(angle, speed), 0 * angle)
+
+
+def _of(analysis: str, result: Result) -> Iterator[Curve]:
+    """The curves of one result that run over another one."""
+    curves = dict(result.curves())
+    units = {name: result.unit_of(name) for name in curves}
+    for head, curve in result.columns().items():
+        name, _, unit = head.rpartition(" [")
+        curves[name], units[name] = curve, "" if unit == "-]" else unit.rstrip("]")
+    # A motion is known over the time, and asked for over the crank angle.
+    first = CRANK_ANGLE if isinstance(result, Motion) else next(iter(curves), "")
+    for name, curve in curves.items():
+        is_declared = name in declared(type(result)) and not isinstance(result, Motion)
+        along = over(type(result), name) if is_declared else first
+        if along and along in curves and name != along:
+            yield Curve(f"{analysis}.{name}", curve, units[name], along, units[along], curves[along])
+
+
+def chosen(study: Study, names: Sequence[str], along: str | None = None) -> list[Curve]:
+    """The curves that are asked for, over what is asked for.
+
+    Parameters
+    ----------
+    study : Study
+        The study.
+    names : sequence of str
+        Names in full, or so many of their parts in order that one curve alone has them and ends so:
+        ``"ram.velocity"`` is ``"motion.ram.place.velocity"``.
+    along : str or None
+        Another curve of the same result to draw over; without it, what each runs over by itself.
+
+    Raises
+    ------
+    InputError
+        There is no such curve, or several; or they run over different quantities.
+    """
+    known = curves_of(study)
+    found = [known[_name(name, known)] for name in names]
+    if along is not None:
+        found = [_over(each, along, known) for each in found]
+    first = found[0]
+    for each in found[1:]:
+        if (each.over, each.over_unit) != (first.over, first.over_unit):
+            raise InputError(
+                f"{each.name} runs over {each.over}, {first.name} over {first.over}: draw them apart, or "
+                "give --over with a quantity that both have"
+            )
+    return found
+
+
+def _name(asked: str, known: dict[str, Curve]) -> str:
+    """The full name of a curve."""
+    if asked in known:
+        return asked
+    parts = [_OTHER_WORDS.get(part, part) for part in asked.split(".")]
+    fitting = [name for name in known if _fits(parts, name.split("."))]
+    if len(fitting) > 1:
+        # What is asked for in full below the analysis goes before what has more parts between.
+        exact = [name for name in fitting if name.endswith("." + ".".join(parts))]
+        fitting = exact or fitting
+        # A slide has a point of its own: its velocity is that along the guide.
+        along = [name for name in fitting if ".place." in name]
+        fitting = along if len(along) == 1 else fitting
+    if len(fitting) == 1:
+        return fitting[0]
+    if fitting:
+        raise InputError(f'"{asked}" may be {", ".join(fitting[:6])}: give more of its name')
+    listed = suggestion(asked, list(known)) if known else "the study of this machine has none"
+    raise InputError(
+        f'found no curve "{asked}": {listed}; `linkwright plot FILE` without a quantity lists them all'
+    )
+
+
+def _fits(parts: Sequence[str], name: Sequence[str]) -> bool:
+    """Whether a name has these parts in their order, the last one last."""
+    rest = iter(name)
+    return parts[-1] == name[-1] and all(part in rest for part in parts)
+
+
+def _over(curve: Curve, along: str, known: dict[str, Curve]) -> Curve:
+    """The same curve over another one of as many points."""
+    if along == curve.over:
+        return curve
+    analysis = curve.name.split(".")[0]
+    same = {name: each for name, each in known.items() if name.split(".")[0] == analysis}
+    other = known[_name(along, same or known)]
+    return replace(curve, over=other.name.removeprefix(f"{analysis}."), over_unit=other.unit, x=other.values)
+
+
+def from_zero(curve: Curve, zero: float) -> Curve:
+    """A curve over the crank angle, counted from another angle.
+
+    Parameters
+    ----------
+    curve : Curve
+        Any curve; one that runs over something else stays as it is.
+    zero : float
+        Crank angle in the file [rad].
+
+    Returns
+    -------
+    Curve
+        Over a whole number of revolutions it begins at the new zero, else its angles are shifted. What does
+        not repeat, such as the angle of a link that turns on, goes on where it would begin anew.
+    """
+    if curve.over != CRANK_ANGLE or zero == 0:
+        return curve
+    x, y = curve.x - zero, curve.values
+    span = float(x[-1] - x[0])
+    turns = span / (2 * np.pi)
+    if abs(turns - round(turns)) > 1e-9 or round(turns) == 0:
+        return replace(curve, x=x)
+    # The last point is the first one again; between two points the new zero is one of its own.
+    rise = y[-1] - y[0]
+    # What rounding leaves below the zero belongs to it.
+    inner = np.maximum((x[:-1] + 1e-9) % span - 1e-9, 0.0)
+    order = np.argsort(inner, kind="stable")
+    wrapped = np.round((inner - x[:-1]) / span)
+    values = (y[:-1] + rise * wrapped)[order]
+    angles = inner[order]
+    if angles[0] < 1e-9:
+        angles = np.concatenate([angles, [span]])
+        values = np.concatenate([values, [values[0] + rise]])
+    return replace(curve, x=angles, values=values)

@@ -1,0 +1,59 @@
+"""``linkwright plot``: curves by name, from a dead centre, as picture and table."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import CliRunner, Result
+
+from linkwright.app.application import application
+
+PRESS = Path(__file__).parents[2] / "examples" / "press_with_flywheel" / "machine.toml"
+
+
+def run(*words: str) -> Result:
+    return CliRunner().invoke(application(), ["plot", str(PRESS), *words])
+
+
+def test_a_press_from_its_top(tmp_path: Path) -> None:
+    """s = −r cos θ + √(l² − r² sin² θ), and its derivative times the steady speed."""
+    table, picture = tmp_path / "ram.csv", tmp_path / "ram.png"
+    words = ("ram.position", "ram.velocity", "motion.speed", "--zero", "top", "--units", "mm,deg")
+    done = run(*words, "--out", str(table), "--out", str(picture))
+    assert done.exit_code == 0, done.output
+    rows = list(csv.DictReader(table.read_text(encoding="utf-8").splitlines()))
+    theta = np.radians([float(row["crank_angle [°]"]) for row in rows])
+    place = np.array([float(row["motion.ram.place [mm]"]) for row in rows])
+    velocity = np.array([float(row["motion.ram.place.velocity [mm/s]"]) for row in rows])
+    speed = np.array([float(row["motion.speed [rad/s]"]) for row in rows])
+    root = np.sqrt(500**2 - (80 * np.sin(theta)) ** 2)
+    assert place == pytest.approx(-80 * np.cos(theta) + root, abs=1e-9)
+    slope = 80 * np.sin(theta) - 80**2 * np.sin(theta) * np.cos(theta) / root
+    assert velocity == pytest.approx(slope * speed, abs=1e-8)
+    assert theta[[0, -1]] == pytest.approx([0.0, 2 * np.pi])
+    assert picture.read_bytes().startswith(b"\x89PNG")
+
+
+def test_over_another_curve_and_json() -> None:
+    done = run("ram.velocity", "--over", "ram.place", "--json")
+    found = json.loads(done.stdout)["results"]["plot"]["curves"]["motion.ram.place.velocity"]
+    assert (found["over"], found["over_unit"], found["unit"]) == ("ram.place", "m", "m/s")
+    assert min(found["x"]) == pytest.approx(0.42, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("ram.speeds",), "found no curve"),
+        (("ram.place", "run_up.speed"), "draw them apart"),
+        (("ram.place", "--out", "a.bmp"), ".png, .svg, .pdf, .csv"),
+    ],
+)
+def test_wrong_input(words: tuple[str, ...], said: str) -> None:
+    done = run(*words)
+    assert done.exit_code == 2
+    assert said in done.stderr
