@@ -74,7 +74,7 @@ def plot(
     from linkwright.linkages.zero import Zero, zero_angle
     from linkwright.machine.read import read
 
-    shown = OutUnits.of(units or "deg")
+    shown = OutUnits.of(units).with_degrees()
     machine = read(file, set or [], allow_outside=allow_outside)
     counted = zero_angle(machine, zero) if zero is not None else Zero()
     found = study(machine)

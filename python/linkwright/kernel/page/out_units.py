@@ -56,6 +56,12 @@ class OutUnits:
             found.append((name, *known))
         return cls(tuple(found))
 
+    def with_degrees(self) -> OutUnits:
+        """The same with angles in degrees, unless another unit of angles is wanted."""
+        if any(dimension == Dimension(rad=1) for _, _, dimension in self.chosen):
+            return self
+        return OutUnits((*self.chosen, *OutUnits.of("deg").chosen))
+
     def shown(self, unit: str) -> tuple[str, float]:
         """How a quantity of an SI unit is shown.
 
