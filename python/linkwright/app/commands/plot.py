@@ -193,7 +193,7 @@ def _long(values: Any, length: int) -> Any:
 
 
 def _extremes(curves: Sequence[Curve], units: OutUnits) -> Table:
-    """Least and greatest value of each curve, and where."""
+    """Minimum and maximum of each curve, and where."""
     import numpy as np
 
     from linkwright.kernel.page.table import Table
