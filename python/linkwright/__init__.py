@@ -108,6 +108,7 @@ _HOME = {
     "read_study": "studies.read",
     "sweep": "studies.sweep",
     "tolerance": "studies.tolerance",
+    "optimise": "studies.optimise",
     "evaluate": "studies.engine",
     "required_power": "sizing.power",
     "choose_motor": "sizing.motor",
@@ -213,6 +214,7 @@ if TYPE_CHECKING:
     from linkwright.sizing.motor import choose_motor as choose_motor
     from linkwright.sizing.power import required_power as required_power
     from linkwright.studies.engine import evaluate as evaluate
+    from linkwright.studies.optimise import optimise as optimise
     from linkwright.studies.read import read_study as read_study
     from linkwright.studies.sweep import sweep as sweep
     from linkwright.studies.tolerance import tolerance as tolerance

@@ -94,6 +94,18 @@ values = ["0.8 m"]
 [responses]
 delta = "steady_state.unevenness"
 """,
+    "best.toml": """
+machine = "roller_two_carts"
+[variables.phase]
+address = "mechanism.cranks.A1.phase"
+range = ["10 deg", "80 deg"]
+[responses]
+x = { curve = "motion.A1.x", at = "0 deg" }
+[constraints]
+x = { min = 0.1 }
+[goals]
+x = "minimise"
+""",
     "scatter.toml": """
 machine = "roller_two_carts"
 [variables.phase]
@@ -200,6 +212,11 @@ CASES = {
         "{phases.toml} --out {rows}",
         "{phases.toml} --out {rows_of_none} --set study.variables.rod.values=[0.15]",
         "{phases.toml} --out {rows} --set study.responses.delta=steady_state.nothing",
+    ),
+    "optimise": Case(
+        "{best.toml} --evaluations 20",
+        "{best.toml} --evaluations 20 --set study.constraints.x.min=0.5",
+        "{phases.toml}",
     ),
     "tolerance": Case(
         "{scatter.toml} --rows 20",

@@ -48,6 +48,9 @@ COMMANDS = {
     "plot": Place("Draw curves of a machine.", "app.commands.plot:plot"),
     "forces": Place("Compute the forces in a machine.", "kinetostatics.commands:forces"),
     "balance": Place("Find counterweights.", "kinetostatics.commands:balance"),
+    "optimise": Place(
+        "The best machine by a goal, within constraints.", "studies.commands.optimise:optimise"
+    ),
     "tolerance": Place(
         "Scatter of results with tolerances, and the yield.", "studies.commands.tolerance:tolerance"
     ),

@@ -13,6 +13,7 @@
 | `folder` | The folder of a sweep |
 | `sweep` | A sweep, and its continuation |
 | `tolerance` | Scatter of responses, contributions, yield, Sobol indices |
+| `optimise` | The best machine, by CMA-ES over batches |
 | `show` | Rows of a folder, as they are drawn |
 | `tables`, `figures` | What is shown |
 | `commands/` | ``linkwright sweep``, ``tolerance`` |

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from linkwright.kernel.page.numbers import number
 from linkwright.kernel.page.table import Row, Table
+from linkwright.studies.optimise import Optimum
 from linkwright.studies.sweep import Sweep
 from linkwright.studies.tolerance import Tolerance
 
@@ -68,3 +69,20 @@ def tolerance_tables(found: Tolerance, units: dict[str, str]) -> list[Table]:
             )
     heads = ("response", "", "variable", "share of the variance", "derivative [SI]", "Sobol index", "total")
     return [*tables, Table("contributions", "Contributions", heads, shares)]
+
+
+def optimum_tables(found: Optimum, units: dict[str, str]) -> list[Table]:
+    """The best machine, and the best of each combination of choices."""
+    rows: list[Row] = []
+    for name, value in (*found.variables.items(), *found.responses.items()):
+        is_number = isinstance(value, float)
+        rows.append((name, "", with_unit(value, units[name]) if is_number else str(value)))
+    tables = [Table("optimum", f"Best by {found.goal}", ("name", "", "value"), rows)]
+    if found.tried:
+        heads = [*found.tried[0]]
+        listed: list[Row] = [
+            (str(each[heads[0]]), "", *("–" if each[key] is None else str(each[key]) for key in heads[1:]))
+            for each in found.tried
+        ]
+        tables.append(Table("tried", "Choices", (heads[0], "", *heads[1:]), listed))
+    return tables

@@ -3,6 +3,7 @@
 | module | |
 | --- | --- |
 | `progress` | Rows done, rate and remaining time |
+| `optimise` | ``linkwright optimise`` |
 | `tolerance` | ``linkwright tolerance`` |
 | `sweep` | ``linkwright sweep`` and ``linkwright sweep show`` |
 """

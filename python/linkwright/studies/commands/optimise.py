@@ -1,0 +1,58 @@
+"""``linkwright optimise``: the machine that is best by the goal of a study."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from linkwright.kernel.command.answer import Answer, hand_over
+from linkwright.kernel.command.common import Json, Outside, Sets
+from linkwright.kernel.command.out import Force, Out
+from linkwright.kernel.command.parameter import Option
+from linkwright.studies.commands.sweep import StudyArgument
+
+if TYPE_CHECKING:
+    from linkwright.studies.optimise import Optimum
+
+Evaluations = Annotated[
+    int, Option("--evaluations", metavar="N", help="Machines for each combination of choices.", min=10)
+]
+Seed = Annotated[int, Option("--seed", metavar="N", help="Seed of the random generator.", min=0)]
+
+
+def optimise(
+    file: StudyArgument,
+    set: Sets = None,
+    allow_outside: Outside = False,
+    evaluations: Evaluations = 4000,
+    seed: Seed = 0,
+    json: Json = False,
+    out: Out = None,
+    force: Force = False,
+) -> None:
+    """The best machine by the goal of a study, within its constraints; with --out as a machine file.
+
+    Exit code 1 if none keeps them.
+    """
+    from linkwright.machine.write import dumps
+    from linkwright.studies.optimise import optimise as compute
+    from linkwright.studies.read import read_study
+    from linkwright.studies.tables import optimum_tables
+
+    plan = read_study(file, set or [], allow_outside=allow_outside)
+    found = compute(plan, evaluations, seed=seed)
+    answer = Answer(
+        machine=plan.machine.name,
+        results=lambda _: {"optimum": found.to_dict()},
+        head=lambda: _head(plan.machine.name, found),
+        tables=lambda: optimum_tables(found, plan.units),
+        machine_file=lambda: dumps(found.machine),
+    )
+    hand_over(answer, json=json, out=Path(out) if out else None, force=force)
+
+
+def _head(name: str, found: Optimum) -> str:
+    """What was done, and what limits the answer."""
+    failed = f", {found.n_failed} without an answer" if found.n_failed else ""
+    limits = "; ".join(found.active) or "no limit is active"
+    return f"{name}\n{found.n_evaluations} machines computed{failed}\n{limits}"

@@ -1,0 +1,263 @@
+"""The best machine: whole populations of an evolution strategy through the batches of the core.
+
+Variables without numbers, and lists, are enumerated: each combination has a search of its own. Within one,
+CMA-ES [1]_ with margin for whole numbers [2]_, by the package ``cmaes``, orders machines as Deb does [3]_:
+one that keeps all limits before one that does not, those by the goal, these by how far they pass the limits,
+machines without an answer last.
+
+References
+----------
+.. [1] Hansen, *The CMA evolution strategy: a tutorial*, arXiv 1604.00772.
+.. [2] Hamano et al., *CMA-ES with margin*, GECCO 2022, 639.
+.. [3] Deb, *An efficient constraint handling method for genetic algorithms*, Comput. Methods Appl. Mech. Eng.
+   186 (2000) 311.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import product
+from typing import Annotated, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.errors import FindingError, InputError
+from linkwright.kernel.public import public
+from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.result import Result
+from linkwright.machine.machine import Machine
+from linkwright.studies.engine import SOLVED, Rows, evaluate, sound_variant, variant
+from linkwright.studies.plan import StudyPlan
+
+Floats = NDArray[np.float64]
+
+# Combinations of what is enumerated.
+_COMBINATIONS = 1000
+
+# First standard deviation of the search, as a share of each range: 0.3, as [1] advises in section B.5.
+_SIGMA = 0.3
+
+# A limit counts as active where a response is as near to it, relative to its size.
+_ACTIVE = 1e-4
+
+
+@dataclass(frozen=True)
+class Optimum(Result):
+    """The best machine that was found."""
+
+    machine: Annotated[Machine, About("The machine.")]
+    goal: Annotated[str, About("Name of the response that was sought.")]
+    variables: Annotated[dict[str, Any], About("Variable → its value [SI], or what stands at its address.")]
+    responses: Annotated[dict[str, float], About("Response → its value for the best machine [SI].")]
+    active: Annotated[tuple[str, ...], About("Limits that the best machine touches, in words.")]
+    tried: Annotated[
+        tuple[dict[str, Any], ...],
+        About("Best value of each combination of choices; None if no limit is kept."),
+    ]
+    n_evaluations: Annotated[int, Shown("machines that were computed", "", "")]
+    n_failed: Annotated[int, Shown("machines without an answer", "", "")]
+    reasons: Annotated[dict[str, int], About("Why machines had no answer → how many.")]
+
+    def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
+        """Numbers and tables by name.
+
+        Parameters
+        ----------
+        curves : bool
+            Without effect.
+
+        Returns
+        -------
+        dict
+            Ready for JSON.
+        """
+        names = ("variables", "responses", "reasons")
+        return {**super().to_dict(), **{name: dict(getattr(self, name)) for name in names}}
+
+
+@public
+def optimise(plan: StudyPlan, evaluations: int = 4000, *, seed: int = 0) -> Optimum:
+    """Seek the machine that is best by the goal of a study and keeps its constraints.
+
+    Parameters
+    ----------
+    plan : StudyPlan
+        A study with one goal; variables with ranges, or with values that are enumerated.
+    evaluations : int
+        Machines that each combination of choices may take, 10 to 10⁷.
+    seed : int
+        Seed of the random generator; the same seed gives the same search.
+
+    Returns
+    -------
+    Optimum
+        The best machine of all that were computed.
+
+    Raises
+    ------
+    InputError
+        There is no goal or more than one, a variable scatters, or cmaes is not installed.
+    FindingError
+        No machine has an answer and keeps the constraints; says what fails.
+    """
+    _check(plan, evaluations)
+    search = _Search(plan, *next(iter(plan.study.goals.items())))
+    choices = [each for each in plan.axes if each.choices]
+    for shares in product(*(each.levels for each in choices)):
+        search.run({each.name: float(s) for each, s in zip(choices, shares, strict=True)}, evaluations, seed)
+    return search.result()
+
+
+def _check(plan: StudyPlan, evaluations: int) -> None:
+    if len(plan.study.goals) != 1:
+        found = ", ".join(plan.study.goals) or "none"
+        raise InputError(f'goals: found {found}, expected one, such as delta = "minimise"; limit the others')
+    if not 10 <= evaluations <= 10_000_000:
+        raise InputError(f"evaluations {evaluations}: expected 10 to 10 000 000")
+    for each in plan.axes:
+        if each.distribution is not None:
+            raise InputError(
+                f"variables.{each.name}: found a scatter, expected a range or values to choose from"
+            )
+    combinations = np.prod([len(each.choices) for each in plan.axes if each.choices], dtype=float)
+    if combinations > _COMBINATIONS:
+        raise InputError(f"values: found {combinations:.0f} combinations, expected at most {_COMBINATIONS}")
+    try:
+        import cmaes  # noqa: F401
+    except ImportError:
+        raise InputError("the search needs cmaes: pip install 'linkwright[studies]'") from None
+
+
+class _Search:
+    """The best machine so far, and what was computed on the way."""
+
+    def __init__(self, plan: StudyPlan, goal: str, direction: str) -> None:
+        self.plan, self.goal = plan, goal
+        self.sign = 1.0 if direction == "minimise" else -1.0
+        self.best: tuple[tuple[int, float], Floats] | None = None
+        self.tried: list[dict[str, Any]] = []
+        self.count = self.failed = 0
+        self.reasons: dict[str, int] = {}
+
+    def run(self, fixed: dict[str, float], evaluations: int, seed: int) -> None:
+        """One combination of choices."""
+        from cmaes import CMAwM
+
+        free = [i for i, each in enumerate(self.plan.axes) if not each.choices]
+        shares = np.array([fixed.get(each.name, 0.5) for each in self.plan.axes])
+        own: tuple[int, float] = (3, 0.0)
+        if not free:
+            own = min(own, self._told(shares[None])[0])
+        else:
+            # The strategy takes two variables at least: one more, on which nothing depends.
+            size = max(len(free), 2)
+            steps = np.zeros(size)
+            steps[: len(free)] = [_step(self.plan.axes[i]) for i in free]
+            bounds = np.tile([0.0, 1.0], (size, 1))
+            strategy = CMAwM(np.full(size, 0.5), _SIGMA, bounds, steps, seed=seed)
+            used = 0
+            while used < evaluations and not strategy.should_stop():
+                asked = [strategy.ask() for _ in range(strategy.population_size)]
+                points = np.tile(shares, (len(asked), 1))
+                points[:, free] = np.array([each[0] for each in asked])[:, : len(free)]
+                keys = self._told(np.clip(points, 0.0, 1.0))
+                order = {key: float(rank) for rank, key in enumerate(sorted(set(keys)))}
+                strategy.tell([(each[1], order[key]) for each, key in zip(asked, keys, strict=True)])
+                own = min(own, *keys)
+                used += len(asked)
+        chosen = {each.name: _chosen(each, fixed[each.name]) for each in self.plan.axes if each.choices}
+        self.tried.append({**chosen, self.goal: self.sign * own[1] if own[0] == 0 else None})
+
+    def _told(self, points: Floats) -> list[tuple[int, float]]:
+        """How good machines are, the smaller the better: by limits kept, then by goal or violation."""
+        rows = evaluate(self.plan, self.plan.values(points))
+        self.count += len(rows)
+        for place in rows.reason[rows.status != SOLVED]:
+            text = rows.reasons[place]
+            self.reasons[text] = self.reasons.get(text, 0) + 1
+        keys = [self._key(rows, i) for i in range(len(rows))]
+        at = min(range(len(keys)), key=keys.__getitem__)
+        if self.best is None or keys[at] < self.best[0]:
+            self.best = (keys[at], points[at].copy())
+        return keys
+
+    def _key(self, rows: Rows, row: int) -> tuple[int, float]:
+        if rows.status[row] != SOLVED:
+            return 2, 0.0
+        beyond = 0.0
+        for name, (low, high) in self.plan.limits.items():
+            value = rows.columns[name][row]
+            for excess, limit in ((low - value, low), (value - high, high)):
+                beyond += max(excess, 0.0) / (abs(limit) or 1.0)
+        return (1, beyond) if beyond > 0 else (0, self.sign * float(rows.columns[self.goal][row]))
+
+    def result(self) -> Optimum:
+        """The best machine, computed once more by itself."""
+        if self.best is None or self.best[0][0] > 0:
+            raise FindingError(self._refusal())
+        plan, values = self.plan, self.plan.values(self.best[1][None])
+        rows = evaluate(plan, values)
+        responses = {name: float(rows.columns[name][0]) for name in plan.responses}
+        kind = {
+            each.name: _chosen(each, s)
+            for each, s in zip(plan.axes, self.best[1], strict=True)
+            if each.choices
+        }
+        return Optimum(
+            machine=machine_of(plan, rows),
+            goal=self.goal,
+            variables={each.name: kind.get(each.name, float(values[each.name][0])) for each in plan.axes},
+            responses=responses,
+            active=_active(plan, responses),
+            tried=tuple(self.tried) if kind else (),
+            n_evaluations=self.count,
+            n_failed=sum(self.reasons.values()),
+            reasons=self.reasons,
+        )
+
+    def _refusal(self) -> str:
+        if self.best is not None and self.best[0][0] == 1:
+            rows = evaluate(self.plan, self.plan.values(self.best[1][None]))
+            limits = self.plan.limits.items()
+            nearest = ", ".join(f"{name} = {rows.columns[name][0]:.6g}" for name, _ in limits)
+            return f"none of {self.count} machines keeps all limits; the nearest has {nearest}: allow more"
+        most = max(self.reasons, key=self.reasons.__getitem__, default="")
+        return f"none of {self.count} machines has an answer; most often: {most}"
+
+
+def machine_of(plan: StudyPlan, rows: Rows) -> Machine:
+    """The machine of the first row."""
+    changes = [
+        (address, each.choices[int(rows.columns[each.name][0])])
+        for each in plan.axes
+        if not each.is_number
+        for address in each.addresses
+    ]
+    base = variant(plan.machine, changes) if changes else plan.machine
+    named = [(each.name, each.addresses) for each in plan.axes if each.is_number]
+    named += [(each.name, each.addresses) for each in plan.derived]
+    return sound_variant(
+        base, {place: float(rows.columns[name][0]) for name, places in named for place in places}
+    )
+
+
+def _step(axis: Any) -> float:
+    """Distance of whole numbers as a share of their range; 0 for what may have any value."""
+    return 1.0 / (axis.high - axis.low) if axis.is_whole else 0.0
+
+
+def _chosen(axis: Any, share: float) -> Any:
+    return axis.choices[min(int(share * len(axis.choices)), len(axis.choices) - 1)]
+
+
+def _active(plan: StudyPlan, responses: dict[str, float]) -> tuple[str, ...]:
+    """Limits that a machine touches."""
+    found = []
+    for name, (low, high) in plan.limits.items():
+        for limit, word in ((low, "minimum"), (high, "maximum")):
+            if np.isfinite(limit) and abs(responses[name] - limit) <= _ACTIVE * max(
+                abs(limit), abs(responses[name])
+            ):
+                found.append(f"{name} is at its {word}, {limit:.6g} {plan.units[name]}".rstrip())
+    return tuple(found)
