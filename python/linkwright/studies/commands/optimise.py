@@ -9,6 +9,7 @@ from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import Json, Outside, Sets
 from linkwright.kernel.command.out import Force, Out
 from linkwright.kernel.command.parameter import Option
+from linkwright.kernel.errors import FindingError
 from linkwright.studies.commands.sweep import StudyArgument
 
 if TYPE_CHECKING:
@@ -40,7 +41,11 @@ def optimise(
     from linkwright.studies.tables import optimum_tables
 
     plan = read_study(file, set or [], allow_outside=allow_outside)
-    found = compute(plan, evaluations, seed=seed)
+    try:
+        found = compute(plan, evaluations, seed=seed)
+    except FindingError as error:
+        hand_over(Answer(machine=plan.machine.name, findings=[str(error)]), json=json)
+        return
     answer = Answer(
         machine=plan.machine.name,
         results=lambda _: {"optimum": found.to_dict()},
