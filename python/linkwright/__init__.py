@@ -44,6 +44,7 @@ _HOME = {
     "run_up": "drive.run_up",
     "run_down": "drive.run_down",
     "step_method": "drive.step_method",
+    "gradient": "sensitivity.gradient",
     "forces": "kinetostatics.forces",
     "Friction": "kinetostatics.friction",
     "envelope": "kinetostatics.envelope",

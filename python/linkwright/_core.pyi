@@ -36,6 +36,7 @@ __all__ = [
     "Plan",
     "Span",
     "Status",
+    "SteadyGradient",
     "SteadyMotion",
     "SteadyRows",
     "Sum",
@@ -54,6 +55,7 @@ __all__ = [
     "motions",
     "motor_torques",
     "reductions",
+    "steady_gradient",
     "steady_rows",
     "steady_state",
     "third",
@@ -997,6 +999,27 @@ class NoSteadyMotion:
     accuracy: Final[float]
 
 @final
+class SteadyGradient:
+    """Derivatives of steady motion along n directions of the parameters, each (n,).
+
+    `curves` is (7, angles, n): time, speed, acceleration, torques of motor, drive and loads, inertia. At the
+    end of a step that moves with a kink a curve is followed along it.
+    """
+
+    speed_min: Final[_Floats]
+    speed_max: Final[_Floats]
+    acceleration_min: Final[_Floats]
+    acceleration_max: Final[_Floats]
+    period: Final[_Floats]
+    multiplier: Final[_Floats]
+    energy_motor: Final[_Floats]
+    energy_drive: Final[_Floats]
+    energy_load: Final[_Floats]
+    torque_motor_mean: Final[_Floats]
+    torque_motor_rms: Final[_Floats]
+    curves: Final[_Floats]
+
+@final
 class SteadyRows:
     """Steady motion of n machines: statuses, turns swept, quantities of `SteadyMotion`; (n,) each."""
 
@@ -1060,6 +1083,14 @@ class GroupPath:
 
 def steady_state(plan: Plan, q: _Floats, accuracy: float, phi: _Floats) -> SteadyMotion | NoSteadyMotion:
     """Steady motion, with curves at the angles `phi`."""
+
+def steady_gradient(
+    plan: Plan, q: _Floats, accuracy: float, directions: _Floats, phi: _Floats
+) -> SteadyGradient | None:
+    """Derivatives of steady motion along `directions` (parameters, n), with curves at the angles `phi`.
+
+    None without a steady motion.
+    """
 
 def steady_rows(plan: Plan, q: _Floats, slots: _Ints, values: _Floats, accuracy: float) -> SteadyRows:
     """Steady motion of n machines; `values` is (slots, n)."""

@@ -159,6 +159,11 @@ CASES = {
         "{roller_two_carts} --links A1" + _SHORT_ROD,
         "{roller_two_carts} --links nobody",
     ),
+    "sensitivity": Case(
+        "{roller_two_carts}",
+        "{roller_two_carts}" + _SHORT_ROD,
+        "{roller_two_carts} --by mechanism.cranks.A2.phas",
+    ),
     "size": Case(
         "{roller_two_carts}",
         "{roller_two_carts} --set loads.rolling1.force=1e5",

@@ -51,6 +51,7 @@ SUBJECTS = (
     "turning",
     "synthesis",
     "sizing",
+    "sensitivity",
 )
 
 # What a part of a subject may use of another subject, and why. Every subject may use the model of any that it
@@ -110,6 +111,9 @@ EDGES = {
     ("sizing", "drive"),
     ("sizing", "drive.model"),
     ("sizing", "linkages"),
+    # Results of a drive are differentiated.
+    ("sensitivity", "drive"),
+    ("sensitivity.tables", "drive"),
     ("sizing.commands", "drive.model"),
 }
 

@@ -1,12 +1,14 @@
 //! The machine reduced to its crank, and its motion: calls and results.
 
 use linkwright_core::drive::batch::{self, QUANTITIES, Rows};
+use linkwright_core::drive::gradient::{CURVES, Gradient, NUMBERS};
 use linkwright_core::drive::kinks as core_kinks;
 use linkwright_core::drive::reading::{Curves, ReadCurves};
-use linkwright_core::drive::steady::{Failure, Steady, steady_with_others};
+use linkwright_core::drive::steady::{Failure, Steady, steady, steady_with_others};
 use linkwright_core::drive::transient::{End, Start, Trajectory, follow};
 use linkwright_core::kernel::lanes::in_lanes;
-use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
+use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2};
+use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 
 use crate::arrays::{as_indices, column};
@@ -144,6 +146,66 @@ pub(crate) fn steady_state(
             accuracy: reached,
         }),
     })
+}
+
+/// Derivatives of steady motion along directions of the parameters.
+#[pyclass(frozen, get_all, module = "linkwright._core")]
+pub(crate) struct SteadyGradient {
+    speed_min: Array,
+    speed_max: Array,
+    acceleration_min: Array,
+    acceleration_max: Array,
+    period: Array,
+    multiplier: Array,
+    energy_motor: Array,
+    energy_drive: Array,
+    energy_load: Array,
+    torque_motor_mean: Array,
+    torque_motor_rms: Array,
+    curves: Py<PyArray3<f64>>,
+}
+
+#[pyfunction]
+pub(crate) fn steady_gradient(
+    py: Python<'_>,
+    plan: &Plan,
+    q: Floats<'_>,
+    accuracy: f64,
+    directions: PyReadonlyArray2<'_, f64>,
+    phi: Floats<'_>,
+) -> PyResult<Option<SteadyGradient>> {
+    let (q, phi) = (plan.parameters(&q)?, phi.as_slice()?);
+    let n = directions.as_array().ncols();
+    let rows = directions.as_array().nrows();
+    if rows != q.len() {
+        let text = format!("directions of {rows} numbers, {} parameters", q.len());
+        return Err(PyIndexError::new_err(text));
+    }
+    let directions = directions.as_slice()?;
+    let plan = &plan.0;
+    let analysis = "derivatives of steady motion";
+    require_room(analysis, [n, NUMBERS + CURVES * phi.len()])?;
+    let found = guarded(py, analysis, || {
+        let steady = steady(plan, q, accuracy).ok()?;
+        Some(in_lanes(Gradient { plan, q, directions, steady: &steady, phi }))
+    })?;
+    let Some(found) = found else { return Ok(None) };
+    let number = |k: usize| kept(py, found.numbers[k * n..(k + 1) * n].to_vec());
+    // In the order of `drive::gradient`.
+    Ok(Some(SteadyGradient {
+        speed_min: number(0),
+        speed_max: number(1),
+        acceleration_min: number(2),
+        acceleration_max: number(3),
+        period: number(4),
+        multiplier: number(5),
+        energy_motor: number(6),
+        energy_drive: number(7),
+        energy_load: number(8),
+        torque_motor_mean: number(9),
+        torque_motor_rms: number(10),
+        curves: column(py, found.curves).reshape([CURVES, phi.len(), n])?.unbind(),
+    }))
 }
 
 /// Steady motion of many machines, an array over them each.

@@ -51,8 +51,8 @@ mod _core {
     use super::cam::{Cam, CamShape, cam_crossings};
     #[pymodule_export]
     use super::drive::{
-        MotionInTime, NoSteadyMotion, OtherMotion, SteadyMotion, SteadyRows, kinks, law_torques,
-        motor_torques, reductions, steady_rows, steady_state, transient,
+        MotionInTime, NoSteadyMotion, OtherMotion, SteadyGradient, SteadyMotion, SteadyRows, kinks,
+        law_torques, motor_torques, reductions, steady_gradient, steady_rows, steady_state, transient,
     };
     #[pymodule_export]
     use super::linkage::{GroupPath, InLine, follow_group, gaps, in_line, motions, third};

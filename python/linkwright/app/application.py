@@ -54,6 +54,9 @@ COMMANDS = {
     "tolerance": Place(
         "Scatter of results with tolerances, and the yield.", "studies.commands.tolerance:tolerance"
     ),
+    "sensitivity": Place(
+        "Derivatives of the results by the numbers of the file.", "sensitivity.commands:sensitivity"
+    ),
     "size": Place("Choose motor and flywheel.", "sizing.commands:size"),
     "motors": Place("List the motors of the catalogue.", "sizing.commands:motors"),
     "papers": Place("Recompute a published paper, compare with its results.", "app.commands.papers:papers"),

@@ -105,15 +105,34 @@ def replace(machine: Machine, entries: Mapping[str, Any]) -> Machine:
         An address does not exist; the remedy names close ones. A table has no such entries, or a value is no
         number where a number belongs.
     """
+    checked = {
+        address: _checked(machine, known_place(machine, address), value) for address, value in entries.items()
+    }
+    return exchanged(machine, checked)
+
+
+def exchanged(machine: Machine, entries: Mapping[str, Any]) -> Machine:
+    """Copy of a machine with numbers of any kind at some addresses, unchecked."""
     tree: dict[str, Any] = {}
     for address, value in entries.items():
         place = known_place(machine, address)
         branch = tree
         for key in place[:-1]:
             branch = branch.setdefault(key, {})
-        branch[place[-1]] = _Leaf(_checked(machine, place, value))
+        branch[place[-1]] = _Leaf(value)
     changed: Machine = _rebuilt(machine, tree)
     return changed
+
+
+def is_given(machine: Machine, address: str) -> bool:
+    """Whether an entry stands in the file or has its default, and does not follow from others."""
+    *above, last = known_place(machine, address)
+    owner = _at(machine, tuple(above))
+    if not isinstance(owner, Description):
+        return True
+    name = field_names(type(owner))[last]
+    default = type(owner).model_fields[name].default
+    return name in owner.model_fields_set or _at(machine, (*above, last)) == default
 
 
 def resolve(node: object, address: str) -> tuple[str, ...]:

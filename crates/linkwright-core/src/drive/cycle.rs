@@ -388,8 +388,9 @@ impl<R: Real> Turn<R> {
         halved
     }
 
+    /// Steps from (start, length) pairs, not solved yet.
     #[inline(always)]
-    fn tabulate(machine: &Machine<'_, R>, steps: Vec<(R, R)>, layout: Layout, m: &mut Motion<R>) -> Self {
+    pub fn tabulate(machine: &Machine<'_, R>, steps: Vec<(R, R)>, layout: Layout, m: &mut Motion<R>) -> Self {
         let zero = R::splat(0.0);
         let mut tabulated = Vec::with_capacity(steps.len());
         let mut given = Vec::with_capacity(steps.len() * S * machine.plan.laws.len());
@@ -474,7 +475,7 @@ impl<R: Real> Turn<R> {
 
     /// Newton for the stages of every step on its own, then for the starts of all steps together.
     #[inline(always)]
-    fn sweep(&mut self, machine: &Machine<'_, R>, work: &mut Vec<StageNewton<R>>) {
+    pub fn sweep(&mut self, machine: &Machine<'_, R>, work: &mut Vec<StageNewton<R>>) {
         work.clear();
         let mut starts = Vec::with_capacity(self.steps.len());
         let laws = S * machine.plan.laws.len();

@@ -8,6 +8,7 @@
 use crate::drive::cycle::Machine;
 use crate::drive::loads::{ForceElement, FormulaLoad, Law, Load};
 use crate::drive::structure::Plan;
+use crate::kernel::dual::Dual;
 use crate::kernel::formula::Degree;
 use crate::kernel::plane::Angle;
 use crate::kernel::real::Real;
@@ -83,6 +84,9 @@ struct Dip {
 /// Share of a scan interval by which the scan is shifted, so that the round angles at which dead centres
 /// tend to lie (0°, 90°, …) fall inside intervals.
 const SHIFT: f64 = 0.37;
+
+/// A crank angle this near to a zero \[rad\] is on the kink.
+const ON_KINK: f64 = 1e-9;
 
 /// Zeros closer than this \[rad\] to the end of the turn count as its start: rounding must not decide.
 const WRAP: f64 = 1e-7;
@@ -417,6 +421,46 @@ impl Dip {
             },
             Bracket { low: bottom, high, guess: guess(high, self.values[1]), sign: -self.values[0].signum() },
         ]
+    }
+}
+
+impl<R: Real> Machine<'_, Dual<R>> {
+    /// Crank angles with their derivatives: one on a kink moves with it, others stay.
+    #[inline(always)]
+    pub fn moving(&self, angles: &[f64], m: &mut Motion<Dual<R>>) -> Vec<Dual<R>> {
+        let watches = self.plan.watches();
+        let mut moving = Vec::with_capacity(angles.len());
+        for &angle in angles {
+            let phi = Dual::splat(angle);
+            let mut d = R::splat(0.0);
+            self.plan.mechanism.place::<Dual<R>, 2>(self.q, Angle::new(phi), m);
+            for &watch in &watches {
+                let (value, slope) = self.watched(watch, phi, m);
+                if (value.value.abs() - slope.value.abs() * ON_KINK).max_lane() <= 0.0 {
+                    d = -value.d / slope.value;
+                }
+            }
+            for (joint, moves) in self.joints() {
+                let apart = (joint.max_lane() - angle).rem_euclid(TAU);
+                d = if apart.min(TAU - apart) < ON_KINK { moves } else { d };
+            }
+            moving.push(Dual { value: R::splat(angle), d });
+        }
+        moving
+    }
+
+    /// Joints of motion laws in pieces, with their derivatives.
+    #[inline(always)]
+    fn joints(&self) -> Vec<(R, R)> {
+        let mut joints = Vec::new();
+        for element in &self.plan.mechanism.elements {
+            let Element::Programme(programme) = element else { continue };
+            for piece in programme.law.pieces() {
+                let joint = self.q[programme.phase] + piece.start;
+                joints.push((joint.value, joint.d));
+            }
+        }
+        joints
     }
 }
 

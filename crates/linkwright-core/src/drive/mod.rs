@@ -16,6 +16,7 @@
 //! | [`levels`] | whether a machine may have other periodic motions than one that is known |
 //! | [`march`] | all motions over one turn, from the fastest down: which repeat, and whether any does |
 //! | [`steady`] | steady motion of one machine to a wanted accuracy |
+//! | [`gradient`] | derivatives of steady motion by the numbers of the machine |
 //! | [`transient`] | motion in time from given angle and speed, with its events |
 //! | [`batch`] | many machines: lanes and threads |
 
@@ -24,6 +25,7 @@ pub mod check;
 pub mod cycle;
 pub mod extremes;
 pub mod force_elements;
+pub mod gradient;
 pub mod kinks;
 pub mod law;
 pub mod layout;

@@ -54,7 +54,7 @@ impl<R: Real> Machine<'_, R> {
 
     /// The machine at the end of a step.
     #[inline(always)]
-    fn state_at_end(&self, (step, given): &(Step<R>, Vec<Given<R>>)) -> State<R> {
+    pub fn state_at_end(&self, (step, given): &(Step<R>, Vec<Given<R>>)) -> State<R> {
         let row = &step.rows[S - 1];
         let omega = (step.end() * 2.0).sqrt();
         let motor_torque = self.plan.drive.motor_torque(&self.plan.tables, self.q, omega);

@@ -129,7 +129,7 @@ def breakdown_slip(slip_rated: Any, overload: Any, resistance_ratio: Any) -> Any
     with np.errstate(all="ignore"):
         square = 1 / np.asarray(s_n) + 2 * a - 2 * lam * a
         slip = np.where(square > 0, (lam + np.sqrt(lam * lam - square * s_n)) / square, np.nan)
-    return slip if slip.ndim else float(slip)
+    return slip if slip.ndim else slip.item()
 
 
 def _coincide(first: Any, second: Any) -> bool:

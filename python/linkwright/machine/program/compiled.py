@@ -12,7 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright import _core
 from linkwright.kernel.description.plain import arrays
 from linkwright.kernel.description.text import join
-from linkwright.kernel.errors import InputError, MachineError, Problem, ShapeError
+from linkwright.kernel.errors import ConvergenceError, InputError, MachineError, Problem, ShapeError
+from linkwright.kernel.numerics.tangent import plain
 from linkwright.kinetostatics.model.loads.formula import FormulaLoad
 from linkwright.kinetostatics.model.loads.table import TorqueSpeed
 from linkwright.machine.address import addresses
@@ -43,9 +44,15 @@ class Translation:
         self.bodies = bodies_of(machine, self.program)
         self.loads = Loads(machine, self.program).all(brake=brake)
         self.drive = drive_of(machine, self.program, motor=motor)
-        columns = _columns(self.program.parameters, self.program.varying, _row_count(machine))
-        self.settled = InitialAssembly(self.program, columns, self._plan)
-        self.settled.run()
+        self.n_rows = _row_count(machine)
+
+    @cached_property
+    def settled(self) -> InitialAssembly:
+        """The program with all that follows from the motion filled in."""
+        columns = _columns(self.program.parameters, self.program.varying, self.n_rows)
+        assembly = InitialAssembly(self.program, columns, self._plan)
+        assembly.run()
+        return assembly
 
     def _plan(self) -> _core.Plan:
         return _core.Plan(
@@ -76,7 +83,7 @@ def _row_count(machine: Machine) -> int:
 def _columns(parameters: list[Any], varying: list[int], n: int) -> tuple[Floats, NDArray[np.int32], Floats]:
     """First row of all parameters; which vary; their values (k, n)."""
     columns = [np.asarray(parameters[slot], dtype=np.float64) for slot in varying]
-    first = list(parameters)
+    first = [plain(value) for value in parameters]
     for slot, column in zip(varying, columns, strict=True):
         first[slot] = column[0]
     values = np.ascontiguousarray(columns) if columns else np.empty((0, n))
@@ -108,6 +115,8 @@ class Compiled:
         Whether all motions repeat after one revolution of the crank by the kinds of the elements alone.
     speed_guess : float
         Crank speed from which steady motion is sought [rad/s].
+    ratio_slot : int
+        Which parameter is the ratio of the gearbox.
     gear_factors : tuple of float
         Ratio, and the factor on torque times ratio while the motor drives and while the load does.
     speed_tables : tuple
@@ -133,6 +142,7 @@ class Compiled:
     two_turns: NDArray[np.bool_]
     one_turn: bool
     speed_guess: float
+    ratio_slot: int
     gear_factors: tuple[float, float, float]
     speed_tables: tuple[tuple[Sequence[float], Sequence[float]], ...]
     has_laws: bool
@@ -217,6 +227,18 @@ class Compiled:
     def steady(self, angles: Floats, accuracy: float) -> _core.SteadyMotion | _core.NoSteadyMotion:
         """Steady motion with curves at crank angles in [0, 2π]; see `_core.steady_state`."""
         return _core.steady_state(self.plan, self.one, accuracy, angles)
+
+    def steady_gradient(self, accuracy: float, directions: Floats, angles: Floats) -> _core.SteadyGradient:
+        """Derivatives of steady motion along directions of the parameters; see `_core.steady_gradient`.
+
+        Raises ConvergenceError: there is no steady motion to that accuracy.
+        """
+        found = _core.steady_gradient(self.plan, self.one, accuracy, directions, angles)
+        if found is None:
+            raise ConvergenceError(
+                "the derivatives of steady motion were not found", method="collocation", iterations=0
+            )
+        return found
 
     def steady_rows(self, accuracy: float) -> _core.SteadyRows:
         """Steady motion of every row; see `_core.steady_rows`."""
@@ -308,6 +330,7 @@ def _translate(machine: Machine, *, motor: bool, brake: bool) -> Compiled:
         two_turns=settled.odd,
         one_turn=not (settled.odd.any() or any(isinstance(each, _RUNNING) for each in program.elements)),
         speed_guess=float(parameters[drive.speed_start]),
+        ratio_slot=drive.ratio,
         gear_factors=(ratio, forward, reverse),
         speed_tables=tuple(
             (load.speed, load.torque) for load in machine.loads.values() if isinstance(load, TorqueSpeed)

@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from linkwright import _core
 from linkwright.kernel.errors import AssemblyError
+from linkwright.kernel.numerics.tangent import plain
 from linkwright.machine.program.change_points import folding, in_line, stored, undecided, undecided_error
 from linkwright.machine.program.mechanism import MechanismProgram
 from linkwright.machine.program.numbers import table
@@ -347,4 +348,4 @@ class InitialAssembly:
 
 def _first(value: Any) -> float:
     """A number; of an array over many machines, that of the first."""
-    return float(np.ravel(value)[0])
+    return float(np.ravel(plain(value))[0])

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from linkwright import _core
+from linkwright.kernel.numerics.tangent import plain
 from linkwright.linkages.model.assembly import Step
 from linkwright.linkages.model.mechanism import Mechanism
 from linkwright.machine.program.elements import Elements
@@ -90,7 +91,7 @@ class MechanismProgram(Elements):
                 carried=[self._carried_point(name) for name in carried],
                 bars=[self._placed_bar(name, self.mechanism.bars[name]) for name in bars],
                 conditions=[self._condition(name) for name in step.conditions],
-                starts=[table((0.0,), (float(np.ravel(value)[0]),)) for value in places],
+                starts=[table((0.0,), (float(np.ravel(plain(value))[0]),)) for value in places],
                 inverse_turns=turns,
                 repeats=True,
             )

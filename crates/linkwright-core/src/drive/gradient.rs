@@ -1,0 +1,204 @@
+//! Derivatives of steady motion by the numbers of the machine.
+//!
+//! At a solution of F(x, p) = 0 one step of Newton's method in dual numbers leaves x where it is and gives
+//! dx/dp = −F_x⁻¹ F_p: the solver of [`crate::drive::cycle`] itself, run once more on the mesh and from the
+//! solution that it found, with a direction of the parameters in every lane. There is no second description
+//! of any formula, and the iteration is not differentiated.
+//!
+//! Ends of steps that lie on a kink move with it (φ_k′ = −w_p/w′ for the zero of a watched quantity w), so
+//! that a torque may jump there. An extreme stays an extreme: its derivative is that of the curve at its
+//! angle (envelope theorem), or along the kink that it sits on.
+
+use crate::drive::cycle::{Machine, Turn, stages_of_part};
+use crate::drive::layout::Layout;
+use crate::drive::reading::State;
+use crate::drive::steady::Steady;
+use crate::drive::structure::Plan;
+use crate::kernel::call::poll;
+use crate::kernel::dual::Dual;
+use crate::kernel::lanes::Job;
+use crate::kernel::real::Real;
+use crate::linkage::motion::Motion;
+use std::f64::consts::TAU;
+
+/// Numbers of the turn that are differentiated: the four extremes, the period, the multiplier, the works of
+/// motor, drive and loads, mean and root mean square of the motor's torque.
+pub const NUMBERS: usize = 11;
+
+/// Curves that are differentiated: time, speed, acceleration, torques of motor, drive and loads, inertia.
+pub const CURVES: usize = 7;
+
+/// An angle this near to the end of a step \[rad\] is that end.
+const AT_END: f64 = 1e-12;
+
+/// The derivatives along some directions of the parameters.
+pub struct Gradient<'a> {
+    /// The machine's structure.
+    pub plan: &'a Plan,
+    /// Its numbers.
+    pub q: &'a [f64],
+    /// Directions, (parameters, directions).
+    pub directions: &'a [f64],
+    /// The solution.
+    pub steady: &'a Steady,
+    /// Crank angles of the curves, in \[0, 2π\] \[rad\].
+    pub phi: &'a [f64],
+}
+
+/// Derivatives, each list direction by direction.
+#[derive(Clone, Debug)]
+pub struct Derivatives {
+    /// (numbers, directions).
+    pub numbers: Vec<f64>,
+    /// (curves, angles, directions).
+    pub curves: Vec<f64>,
+}
+
+impl Gradient<'_> {
+    /// How many directions there are.
+    fn n(&self) -> usize {
+        self.directions.len() / self.q.len().max(1)
+    }
+}
+
+impl Job for Gradient<'_> {
+    type Output = Derivatives;
+
+    #[inline(always)]
+    fn run<R: Real>(self) -> Derivatives {
+        let n = self.n();
+        let mut numbers = vec![0.0; NUMBERS * n];
+        let mut curves = vec![0.0; CURVES * self.phi.len() * n];
+        let mut lanes = vec![0.0; R::LANES];
+        for first in (0..n).step_by(R::LANES) {
+            poll();
+            let width = R::LANES.min(n - first);
+            let mut q = Vec::with_capacity(self.q.len());
+            for (i, &value) in self.q.iter().enumerate() {
+                let row = i * n + first;
+                lanes[..width].copy_from_slice(&self.directions[row..row + width]);
+                q.push(Dual { value: R::splat(value), d: R::load(&lanes) });
+            }
+            let mut m = Motion::new(&self.plan.mechanism, &q);
+            let moved = Moved::new(Machine { plan: self.plan, q: &q }, self.steady, &mut m);
+            let mut put = |list: &mut [f64], row: usize, x: Dual<R>| {
+                x.d.store(&mut lanes);
+                list[row * n + first..][..width].copy_from_slice(&lanes[..width]);
+            };
+            for (row, number) in moved.numbers(&mut m).into_iter().enumerate() {
+                put(&mut numbers, row, number);
+            }
+            for (at, &phi) in self.phi.iter().enumerate() {
+                for (curve, value) in moved.curves_at(phi, &mut m).into_iter().enumerate() {
+                    put(&mut curves, curve * self.phi.len() + at, value);
+                }
+            }
+        }
+        Derivatives { numbers, curves }
+    }
+}
+
+/// The solved turn in dual numbers.
+struct Moved<'a, R: Real> {
+    machine: Machine<'a, Dual<R>>,
+    steady: &'a Steady,
+    turn: Turn<Dual<R>>,
+    /// Ends of the steps, the last at 2π.
+    edges: Vec<Dual<R>>,
+}
+
+impl<'a, R: Real> Moved<'a, R> {
+    #[inline(always)]
+    fn new(machine: Machine<'a, Dual<R>>, steady: &'a Steady, m: &mut Motion<Dual<R>>) -> Self {
+        let marks = &steady.marks;
+        let ends: Vec<f64> = marks.iter().map(|mark| mark.phi).chain([TAU]).collect();
+        let edges = R::outline(
+            #[inline(always)]
+            || machine.moving(&ends, m),
+        );
+        let steps = edges.windows(2).map(|ends| (ends[0], ends[1] - ends[0])).collect();
+        let mut turn = Turn::tabulate(&machine, steps, Layout::Machines, m);
+        for (step, mark) in turn.steps.iter_mut().zip(marks) {
+            step.u = Dual::splat(mark.u);
+            step.X = mark.X.map(
+                #[inline(always)]
+                |x| Dual::splat(x),
+            );
+        }
+        let mut work = Vec::with_capacity(marks.len());
+        // The first sweep gives the derivative of the solution, the second that of its growth.
+        for _ in 0..2 {
+            turn.correction = Dual::splat(f64::INFINITY);
+            R::outline(
+                #[inline(always)]
+                || turn.sweep(&machine, &mut work),
+            );
+        }
+        Moved { machine, steady, turn, edges }
+    }
+
+    /// The numbers of the turn.
+    #[inline(always)]
+    fn numbers(&self, m: &mut Motion<Dual<R>>) -> [Dual<R>; NUMBERS] {
+        let extremes = &self.steady.extremes;
+        let speeds = [extremes.speed_min, extremes.speed_max].map(
+            #[inline(always)]
+            |extreme| self.state(extreme.phi, m).1.omega,
+        );
+        let accelerations = [extremes.acceleration_min, extremes.acceleration_max].map(
+            #[inline(always)]
+            |extreme| self.state(extreme.phi, m).1.epsilon,
+        );
+        let totals = self.turn.totals(&self.machine);
+        [
+            speeds[0],
+            speeds[1],
+            accelerations[0],
+            accelerations[1],
+            totals.period,
+            self.turn.multiplier,
+            totals.motor_work,
+            totals.crank_work,
+            totals.load_work,
+            totals.torque_mean,
+            totals.torque_rms,
+        ]
+    }
+
+    /// The curves at a crank angle.
+    #[inline(always)]
+    fn curves_at(&self, phi: f64, m: &mut Motion<Dual<R>>) -> [Dual<R>; CURVES] {
+        let (t, state) = self.state(phi, m);
+        [
+            t,
+            state.omega,
+            state.epsilon,
+            state.motor_torque,
+            state.drive_torque,
+            state.load_torque,
+            state.J,
+        ]
+    }
+
+    /// Time and state at a crank angle, or at the end of a step that lies there, which may move.
+    #[inline(always)]
+    fn state(&self, phi: f64, m: &mut Motion<Dual<R>>) -> (Dual<R>, State<Dual<R>>) {
+        let last = self.turn.steps.len() - 1;
+        let k = self.steady.marks.partition_point(|mark| mark.phi < phi - AT_END).clamp(1, last + 1) - 1;
+        let step = &self.turn.steps[k];
+        let ends_here = (self.edges[k + 1].value - phi).abs().max_lane() < AT_END;
+        let to = if ends_here { self.edges[k + 1] } else { Dual::splat(phi) };
+        let h = to - step.phi;
+        let near = stages_of_part(&step.quintic(), Dual::splat(0.0), h / step.h);
+        // The second time from the solution of the first: its derivatives have converged too.
+        let (first, _) = self.machine.advance_near(step.phi, step.u, h, near, m);
+        let there = self.machine.advance_near(step.phi, step.u, h, first.X, m);
+        let mut t = there.0.duration();
+        for before in &self.turn.steps[..k] {
+            t = t + before.duration();
+        }
+        // Time counts from φ = 0, which may lie beside the start of the first step where that moves.
+        let start = (self.turn.steps[0].u * 2.0).sqrt();
+        (t + self.edges[0] / start, self.machine.state_at_end(&there))
+    }
+}

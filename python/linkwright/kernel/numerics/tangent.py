@@ -1,0 +1,213 @@
+"""A number with its derivatives by several variables, which follows the arithmetic of a description.
+
+A description is translated by plain arithmetic on its entries; an entry that is a `Tangent` carries its
+derivatives through it, f(a + b ε) = f(a) + f′(a) b ε. What has no rule here is refused: a derivative is never
+dropped on the way.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+
+class Tangent:
+    """A value and its derivatives by n variables.
+
+    Parameters
+    ----------
+    value : float
+        The number.
+    d : ndarray, shape (n,)
+        Its derivatives.
+    """
+
+    __slots__ = ("d", "value")
+
+    def __init__(self, value: float, d: Floats) -> None:
+        self.value, self.d = float(value), d
+
+    def __repr__(self) -> str:
+        return f"Tangent({self.value!r}, {self.d!r})"
+
+    # Comparisons and signs look at the value alone.
+    def __bool__(self) -> bool:
+        return bool(self.value)
+
+    def __eq__(self, other: object) -> bool:
+        return self.value == plain(other)
+
+    def __lt__(self, other: Any) -> bool:
+        return self.value < plain(other)
+
+    def __le__(self, other: Any) -> bool:
+        return self.value <= plain(other)
+
+    def __gt__(self, other: Any) -> bool:
+        return self.value > plain(other)
+
+    def __ge__(self, other: Any) -> bool:
+        return self.value >= plain(other)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __neg__(self) -> Tangent:
+        return Tangent(-self.value, -self.d)
+
+    def __pos__(self) -> Tangent:
+        return self
+
+    def __abs__(self) -> Tangent:
+        return -self if self.value < 0 else self
+
+    def __add__(self, other: Any) -> Tangent:
+        if isinstance(other, Tangent):
+            return Tangent(self.value + other.value, self.d + other.d)
+        return Tangent(self.value + other, self.d)
+
+    __radd__ = __add__
+
+    def __sub__(self, other: Any) -> Tangent:
+        return self + -other
+
+    def __rsub__(self, other: Any) -> Tangent:
+        return -self + other
+
+    def __mul__(self, other: Any) -> Tangent:
+        if isinstance(other, Tangent):
+            return Tangent(self.value * other.value, self.d * other.value + self.value * other.d)
+        return Tangent(self.value * other, self.d * float(other))
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other: Any) -> Tangent:
+        return self * (other.reciprocal() if isinstance(other, Tangent) else 1.0 / other)
+
+    def __rtruediv__(self, other: Any) -> Tangent:
+        return self.reciprocal() * other
+
+    def __pow__(self, power: Any) -> Tangent:
+        if isinstance(power, Tangent):
+            return (power * self.log()).exp()
+        return self._by(self.value**power, power * self.value ** (power - 1))
+
+    def __rpow__(self, base: Any) -> Tangent:
+        return (self * math.log(base)).exp()
+
+    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:
+        """NumPy's functions of numbers; element by element where an array takes part."""
+        rule = _RULES.get(ufunc.__name__)
+        if rule is None or method != "__call__" or options:
+            raise TypeError(f"no derivative of numpy.{ufunc.__name__}")
+        if not any(np.ndim(each) for each in inputs if not isinstance(each, Tangent)):
+            return rule(*inputs)
+        arrays = [_held(each) if isinstance(each, Tangent) else np.asarray(each) for each in inputs]
+        return np.vectorize(rule, otypes=[object])(*arrays)
+
+    def _by(self, value: float, slope: float) -> Tangent:
+        """A function of the number, by its value and its slope."""
+        return Tangent(value, slope * self.d)
+
+    def reciprocal(self) -> Tangent:
+        """1/x."""
+        inverse = 1.0 / self.value
+        return self._by(inverse, -inverse * inverse)
+
+    def sqrt(self) -> Tangent:
+        """√x."""
+        root = math.sqrt(self.value)
+        return self._by(root, 0.5 / root)
+
+    def exp(self) -> Tangent:
+        """eˣ."""
+        e = math.exp(self.value)
+        return self._by(e, e)
+
+    def log(self) -> Tangent:
+        """ln x."""
+        return self._by(math.log(self.value), 1.0 / self.value)
+
+    def sin(self) -> Tangent:
+        """sin x."""
+        return self._by(math.sin(self.value), math.cos(self.value))
+
+    def cos(self) -> Tangent:
+        """cos x."""
+        return self._by(math.cos(self.value), -math.sin(self.value))
+
+    def tan(self) -> Tangent:
+        """tan x."""
+        return self._by(math.tan(self.value), 1.0 / math.cos(self.value) ** 2)
+
+    def arcsin(self) -> Tangent:
+        """arcsin x."""
+        return self._by(math.asin(self.value), 1.0 / math.sqrt(1.0 - self.value**2))
+
+    def arccos(self) -> Tangent:
+        """arccos x."""
+        return self._by(math.acos(self.value), -1.0 / math.sqrt(1.0 - self.value**2))
+
+    def arctan(self) -> Tangent:
+        """arctan x."""
+        return self._by(math.atan(self.value), 1.0 / (1.0 + self.value**2))
+
+
+def plain(x: Any) -> Any:
+    """The number alone, where derivatives have no part: starting points, sides, windings."""
+    return x.value if isinstance(x, Tangent) else x
+
+
+def _held(x: Tangent) -> NDArray[Any]:
+    """The number as an array of one object."""
+    array = np.empty((), dtype=object)
+    array[()] = x
+    return array
+
+
+def _arctan2(y: Any, x: Any) -> Any:
+    """Angle of (x, y): dψ = (x dy − y dx)/(x² + y²)."""
+    a, b = float(plain(y)), float(plain(x))
+    square = a * a + b * b
+    return math.atan2(a, b) + (y * (b / square) - a * b / square) - (x * (a / square) - a * b / square)
+
+
+def _of_one(name: str) -> Callable[[Any], Any]:
+    return lambda x: getattr(x, name)() if isinstance(x, Tangent) else getattr(np, name)(x)
+
+
+_RULES: dict[str, Callable[..., Any]] = {
+    name: _of_one(name)
+    for name in ("sqrt", "exp", "log", "sin", "cos", "tan", "arcsin", "arccos", "arctan", "reciprocal")
+} | {
+    "add": lambda x, y: y + x if isinstance(y, Tangent) else x + y,
+    "subtract": lambda x, y: -y + x if isinstance(y, Tangent) else x - y,
+    "multiply": lambda x, y: y * x if isinstance(y, Tangent) else x * y,
+    "divide": lambda x, y: y.reciprocal() * x if isinstance(y, Tangent) else x / y,
+    "power": lambda x, y: x**y,
+    "square": lambda x: x * x,
+    "negative": lambda x: -x,
+    "absolute": abs,
+    "hypot": lambda x, y: (x * x + y * y) ** 0.5,
+    "arctan2": _arctan2,
+    "deg2rad": lambda x: x * (math.pi / 180),
+    "rad2deg": lambda x: x * (180 / math.pi),
+    "radians": lambda x: x * (math.pi / 180),
+    "degrees": lambda x: x * (180 / math.pi),
+    "maximum": lambda x, y: y if plain(y) > plain(x) else x,
+    "minimum": lambda x, y: y if plain(y) < plain(x) else x,
+    "sign": lambda x: float(np.sign(plain(x))),
+    "less": lambda x, y: plain(x) < plain(y),
+    "less_equal": lambda x, y: plain(x) <= plain(y),
+    "greater": lambda x, y: plain(x) > plain(y),
+    "greater_equal": lambda x, y: plain(x) >= plain(y),
+    "equal": lambda x, y: plain(x) == plain(y),
+    "not_equal": lambda x, y: plain(x) != plain(y),
+    "isfinite": lambda x: math.isfinite(plain(x)),
+    "isnan": lambda x: math.isnan(plain(x)),
+}

@@ -1,0 +1,88 @@
+"""``linkwright sensitivity FILE``: how the results follow the numbers of the file."""
+
+from __future__ import annotations
+
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from linkwright.kernel.command.answer import Answer, hand_over
+from linkwright.kernel.command.common import File, Json, Outside, Sets
+from linkwright.kernel.command.out import Force, out_option
+from linkwright.kernel.command.parameter import Option
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from linkwright.sensitivity.gradient import Gradient
+
+Of = Annotated[
+    list[str] | None,
+    Option(
+        "--of",
+        metavar="RESPONSE",
+        help='Result, such as "steady_state.unevenness". May be given again; all without it.',
+        show_default=False,
+    ),
+]
+By = Annotated[
+    list[str] | None,
+    Option(
+        "--by",
+        metavar="ADDRESS",
+        help='Entry, such as "mechanism.cranks.A2.phase". May be given again; all without it.',
+        show_default=False,
+    ),
+]
+Out = Annotated[Path | None, out_option("Write results.json and a figure for each response there.")]
+
+# Shown to people without --of: the measures of speed fluctuation and what the motor bears.
+_SHOWN = ("unevenness", "dynamism", "motion_coefficient", "speed_mean_time", "torque_motor_rms")
+
+
+def sensitivity(
+    file: File,
+    set: Sets = None,
+    allow_outside: Outside = False,
+    of: Of = None,
+    by: By = None,
+    json: Json = False,
+    out: Out = None,
+    force: Force = False,
+) -> None:
+    """Derivatives of the results by the numbers of the file.
+
+    Exact derivatives of every scalar result of the steady motion by every entry, per unit and as a share:
+    which dimension, mass or motor entry matters most, and in which direction.
+    """
+    from linkwright.machine.read import read
+    from linkwright.sensitivity.gradient import gradient
+    from linkwright.sensitivity.tables import gradient_tables
+
+    machine = read(file, set or (), allow_outside=allow_outside)
+    found = gradient(machine, of, by)
+    told = found if of else found.only([f"steady_state.{name}" for name in _SHOWN])
+    hand_over(
+        Answer(
+            machine=machine.name,
+            results=lambda curves: found.to_dict(),
+            warnings=[
+                f"{name} has a derivative on either side only: {why}" for name, why in found.ties.items()
+            ],
+            tables=lambda: list(gradient_tables(told)),
+            figures=partial(_figures, told),
+        ),
+        json=json,
+        out=out,
+        force=force,
+    )
+
+
+def _figures(gradient: Gradient) -> dict[str, Figure]:
+    from linkwright.sensitivity.figures import influence_figure
+
+    return {
+        name.replace(".", "_"): influence_figure(gradient, name)
+        for name, value in zip(gradient.responses, gradient.values, strict=True)
+        if value != 0
+    }

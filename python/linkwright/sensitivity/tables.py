@@ -1,0 +1,51 @@
+"""The entries that matter most for a response, as a table."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from linkwright.drive.steady_state import SteadyState
+from linkwright.kernel.page.numbers import number
+from linkwright.kernel.page.table import Row, Table, with_unit
+from linkwright.kernel.quantities import shown
+from linkwright.sensitivity.gradient import Gradient
+
+# Rows of a table: what comes after changes a response by less than these.
+ROWS = 12
+
+
+def ranked(gradient: Gradient, response: str) -> list[int]:
+    """Places of the variables by their influence: change of the response for 1 % of each, largest first.
+
+    Entries that are zero follow, by the size of the derivative.
+    """
+    row = gradient.responses.index(response)
+    effect = np.abs(gradient.derivatives[row] * gradient.at)
+    order = sorted(range(len(effect)), key=lambda at: (-effect[at], -abs(gradient.derivatives[row, at])))
+    return [at for at in order if gradient.derivatives[row, at] != 0]
+
+
+def words(response: str) -> str:
+    """What a response is called, with its symbol."""
+    mark = shown(SteadyState, response.partition(".")[2])
+    return f"{mark.word} {mark.symbol}".strip()
+
+
+def gradient_tables(gradient: Gradient) -> Iterator[Table]:
+    """A table for each response."""
+    for row, response in enumerate(gradient.responses):
+        title = f"{words(response)} = {with_unit(float(gradient.values[row]), gradient.units[row])}"
+        heads = ("entry", "", "value", "derivative", "1 % more changes it by")
+        rows = [_row(gradient, row, at) for at in ranked(gradient, response)[:ROWS]]
+        yield Table(response.replace(".", "_"), title, heads, rows)
+
+
+def _row(gradient: Gradient, row: int, at: int) -> Row:
+    entry, value = gradient.variables[at], float(gradient.at[at])
+    derivative, unit = float(gradient.derivatives[row, at]), gradient.variable_units[at]
+    per = f"{gradient.units[row] or '1'}/({unit})" if unit else gradient.units[row]
+    elasticity = float(gradient.elasticities[row, at])
+    share = "–" if not np.isfinite(elasticity) or value == 0 else f"{number(elasticity, 3)} %"
+    return entry, "", with_unit(value, unit), with_unit(derivative, per), share

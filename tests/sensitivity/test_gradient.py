@@ -1,0 +1,119 @@
+"""Derivatives of steady motion against extrapolated differences of the same analysis, and laws they obey."""
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.machine.program.directions import directions
+from linkwright.machine.program.translator import Translation
+
+TWO_CARTS = "machines/roller_two_carts.toml"
+MACHINES = [
+    TWO_CARTS,
+    "machines/roller_three_carts.toml",
+    "machines/roller_cam.toml",
+    "examples/press_with_flywheel/machine.toml",
+    "examples/fan_by_formula/machine.toml",
+    "examples/gears_and_guides/machine.toml",
+]
+
+# An address in which a machine has a tie of extremes has a derivative on either side only.
+_NUMBERS = (
+    "unevenness",
+    "dynamism",
+    "speed_mean_time",
+    "period",
+    "multiplier",
+    "energy_load",
+    "torque_motor_rms",
+)
+
+
+def _measures(machine):
+    state = lw.steady_state(machine, accuracy=1e-12)
+    return np.array([getattr(state, name) for name in _NUMBERS])
+
+
+def _difference(machine, address):
+    """Richardson's extrapolation of central differences with steps h, 2h: error h⁴, and rounding 1e-12/h."""
+    value = lw.get(machine, address)
+    h = 2e-4 * max(abs(value), 1e-2)
+    at = {k: _measures(lw.replace(machine, {address: value + k * h})) for k in (-2, -1, 1, 2)}
+    return (8 * (at[1] - at[-1]) - (at[2] - at[-2])) / (12 * h)
+
+
+@pytest.mark.parametrize("path", MACHINES)
+def test_derivatives_are_those_of_the_analysis(path):
+    """To 1e-6 of the largest of a response: what the differences themselves are good for."""
+    machine = lw.read(path)
+    if machine.drive is None or machine.drive.motor is None or machine.drive.motor.kind == "constant_speed":
+        pytest.skip("no steady motion to differentiate")
+    found = lw.gradient(machine)
+    rows = [found.responses.index(f"steady_state.{name}") for name in _NUMBERS]
+    tied = np.array([f"steady_state.{name}" in found.ties for name in _NUMBERS])
+    given = [name for name in found.variables if abs(found.at[found.variables.index(name)]) > 0]
+    scale = np.abs(found.derivatives[rows] * found.at).max(axis=1)
+    for address in given[:: max(1, len(given) // 8)]:
+        place = found.variables.index(address)
+        exact = found.derivatives[rows, place] * found.at[place]
+        measured = _difference(machine, address) * found.at[place]
+        assert np.all(np.abs(exact - measured)[~tied] <= 1e-6 * scale[~tied]), address
+
+
+def test_lengths_and_times_scale():
+    """Buckingham: masses, inertias, torques and forces k times as large leave every speed as it is."""
+    machine = lw.read(TWO_CARTS)
+    found = lw.gradient(machine)
+    kinds = {"kg": 1, "kg/m": 1, "N": 1, "N m": 1, "kg m^2": 1, "kg m²": 1, "W": 1}
+    grows = [at for at, unit in enumerate(found.variable_units) if unit in kinds]
+    given = [at for at in grows if not found.variables[at].startswith("drive.motor.power")]
+    row = found.responses.index("steady_state.unevenness")
+    share = (found.derivatives[row] * found.at)[given].sum()
+    assert abs(share) <= 1e-8 * found.values[row]
+
+
+@pytest.mark.parametrize(
+    "path", [TWO_CARTS, "examples/jansen_leg/machine.toml", "examples/scissor_lift/machine.toml"]
+)
+def test_numbers_of_the_program_follow_the_entries(path):
+    """Against central differences of the translation: arithmetic alone, h² and rounding."""
+    machine = lw.read(path)
+    names = [name for name, value in lw.addresses(machine).items() if value]
+    found = directions(machine, names)
+    assert set(found.variables) | set(found.refused) == set(names)
+    n = len(Translation(machine, motor=True, brake=False).program.parameters)
+    for place, name in enumerate(found.variables):
+        value = lw.get(machine, name)
+        h = 1e-6 * abs(value)
+        up, down = (
+            np.array(
+                Translation(
+                    lw.replace(machine, {name: value + step}), motor=True, brake=False
+                ).program.parameters,
+                dtype=float,
+            )
+            for step in (h, -h)
+        )
+        slope = (up - down)[:n] / (2 * h)
+        assert found.values[:n, place] == pytest.approx(
+            slope, rel=1e-6, abs=1e-6 * np.abs(slope).max() + 1e-9
+        )
+
+
+def test_symmetric_carts_tie():
+    """Two equal carts at 90° have their minimum speed once each half revolution: a tie that is told."""
+    machine = lw.replace(lw.read(TWO_CARTS), {"mechanism.cranks.A2.phase": np.pi})
+    found = lw.gradient(machine, ["steady_state.unevenness"])
+    assert "steady_state.unevenness" in found.ties
+
+
+def test_what_has_no_derivative_is_told():
+    machine = lw.read(TWO_CARTS)
+    with pytest.raises(lw.errors.InputError, match="no response"):
+        lw.gradient(machine, ["steady_state.uneveness"])
+    with pytest.raises(lw.errors.MachineError, match="no such entry"):
+        lw.gradient(machine, None, ["mechanism.cranks.A2.phas"])
+    points = lw.read("examples/change_points/machine.toml")
+    lengths = [name for name in lw.addresses(points) if name.endswith("radius")]
+    with pytest.raises(lw.errors.LinkwrightError, match=r"change points|motor"):
+        lw.gradient(points, None, lengths[:1])
