@@ -10,7 +10,7 @@ Neither is a difference. What has no derivative is refused by name, with the rea
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Annotated, Any
 
@@ -166,10 +166,13 @@ def _declared() -> list[tuple[str, object]]:
     return [(name, mark) for name, (_, mark) in declared(SteadyState).items()]
 
 
-# Responses → the extremes that they are made of.
-_MADE_OF: dict[str, Callable[[str], bool]] = {
-    "speed": lambda name: name.startswith(("unevenness", "speed_mean_extremes", "motion_coefficient")),
-    "acceleration": lambda name: name.startswith(("dynamism", "motion_coefficient")),
+# Extremes → what is made of them.
+_MADE_OF = {
+    "speed": (
+        *("speed_mean_extremes", "unevenness", "unevenness_time", "motion_coefficient"),
+        *("motion_coefficient_time", "dynamism", "torque_motor_min", "torque_motor_max", "power_motor_max"),
+    ),
+    "acceleration": ("dynamism", "dynamism_time", "motion_coefficient", "motion_coefficient_time"),
 }
 
 
@@ -177,7 +180,7 @@ def _tie(response: str, ties: dict[str, str]) -> str:
     """Why a response has a derivative on either side only; empty if it has one."""
     name = response.partition(".")[2]
     for extreme, reason in ties.items():
-        if name == extreme or _MADE_OF[extreme.partition("_")[0]](name):
+        if name == extreme or name in _MADE_OF[extreme.partition("_")[0]]:
             return f"{extreme.replace('_', ' ')}: {reason}"
     return ""
 

@@ -169,15 +169,7 @@ impl<'a, R: Real> Moved<'a, R> {
     #[inline(always)]
     fn curves_at(&self, phi: f64, m: &mut Motion<Dual<R>>) -> [Dual<R>; CURVES] {
         let (t, state) = self.state(phi, m);
-        [
-            t,
-            state.omega,
-            state.epsilon,
-            state.motor_torque,
-            state.drive_torque,
-            state.load_torque,
-            state.J,
-        ]
+        [t, state.omega, state.epsilon, state.motor_torque, state.drive_torque, state.load_torque, state.J]
     }
 
     /// Time and state at a crank angle, or at the end of a step that lies there, which may move.

@@ -88,6 +88,11 @@ const SHIFT: f64 = 0.37;
 /// A crank angle this near to a zero \[rad\] is on the kink.
 const ON_KINK: f64 = 1e-9;
 
+/// A zero is simple where the slope is more than this share \[rad\] of its own change with the angle, which is
+/// measured over the second number \[rad\].
+const TOUCHES: f64 = 1e-6;
+const BESIDE: f64 = 1e-2;
+
 /// Zeros closer than this \[rad\] to the end of the turn count as its start: rounding must not decide.
 const WRAP: f64 = 1e-7;
 
@@ -431,12 +436,14 @@ impl<R: Real> Machine<'_, Dual<R>> {
         let watches = self.plan.watches();
         let mut moving = Vec::with_capacity(angles.len());
         for &angle in angles {
-            let phi = Dual::splat(angle);
             let mut d = R::splat(0.0);
-            self.plan.mechanism.place::<Dual<R>, 2>(self.q, Angle::new(phi), m);
-            for &watch in &watches {
-                let (value, slope) = self.watched(watch, phi, m);
-                if (value.value.abs() - slope.value.abs() * ON_KINK).max_lane() <= 0.0 {
+            let beside = self.watched_at(&watches, angle + BESIDE, m);
+            for ((value, slope), (_, next)) in self.watched_at(&watches, angle, m).into_iter().zip(beside) {
+                let bend = (next.value - slope.value) * (1.0 / BESIDE);
+                let is_zero = (value.value.abs() - slope.value.abs() * ON_KINK).max_lane() <= 0.0;
+                // Where the quantity only touches zero, a change of the machine makes two kinks, or none.
+                let is_simple = (bend.abs() * TOUCHES - slope.value.abs()).max_lane() < 0.0;
+                if is_zero && is_simple {
                     d = -value.d / slope.value;
                 }
             }
@@ -447,6 +454,18 @@ impl<R: Real> Machine<'_, Dual<R>> {
             moving.push(Dual { value: R::splat(angle), d });
         }
         moving
+    }
+
+    /// All watched quantities with their slopes at a crank angle.
+    #[inline(always)]
+    fn watched_at(&self, watches: &[Watch], angle: f64, m: &mut Motion<Dual<R>>) -> Vec<(Dual<R>, Dual<R>)> {
+        let phi = Dual::splat(angle);
+        self.plan.mechanism.place::<Dual<R>, 2>(self.q, Angle::new(phi), m);
+        let mut values = Vec::with_capacity(watches.len());
+        for &watch in watches {
+            values.push(self.watched(watch, phi, m));
+        }
+        values
     }
 
     /// Joints of motion laws in pieces, with their derivatives.
