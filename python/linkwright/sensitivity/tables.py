@@ -45,7 +45,7 @@ def gradient_tables(gradient: Gradient) -> Iterator[Table]:
 def _row(gradient: Gradient, row: int, at: int) -> Row:
     entry, value = gradient.variables[at], float(gradient.at[at])
     derivative, unit = float(gradient.derivatives[row, at]), gradient.variable_units[at]
-    per = f"{gradient.units[row] or '1'}/({unit})" if unit else gradient.units[row]
+    per = f"{gradient.units[row]} per {unit}".strip() if unit else gradient.units[row]
     elasticity = float(gradient.elasticities[row, at])
     share = "–" if not np.isfinite(elasticity) or value == 0 else f"{number(elasticity, 3)} %"
     return entry, "", with_unit(value, unit), with_unit(derivative, per), share
