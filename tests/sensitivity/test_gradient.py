@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.kernel.errors import InputError, LinkwrightError, MachineError
 from linkwright.machine.program.directions import directions
 from linkwright.machine.program.translator import Translation
 
@@ -103,7 +104,7 @@ def test_numbers_of_the_program_follow_the_entries(path):
 
 
 def test_a_load_that_ends_on_the_dead_centre():
-    """Work of the press per revolution: the integral of its force, and the guide's force over both strokes."""
+    """Work of the press per revolution: the integral of its force, and that of the guide over both strokes."""
     machine = lw.read("examples/press_with_flywheel/machine.toml")
     found = lw.gradient(machine, ["steady_state.energy_load"], sorted(_TOUCHING))
     # The force is zero at both ends of the stroke, so its integral stays; 4 r times 250 N grows with r.
@@ -119,11 +120,11 @@ def test_symmetric_carts_tie():
 
 def test_what_has_no_derivative_is_told():
     machine = lw.read(TWO_CARTS)
-    with pytest.raises(lw.errors.InputError, match="no response"):
+    with pytest.raises(InputError, match="no response"):
         lw.gradient(machine, ["steady_state.uneveness"])
-    with pytest.raises(lw.errors.MachineError, match="no such entry"):
+    with pytest.raises(MachineError, match="no such entry"):
         lw.gradient(machine, None, ["mechanism.cranks.A2.phas"])
     points = lw.read("examples/change_points/machine.toml")
     lengths = [name for name in lw.addresses(points) if name.endswith("radius")]
-    with pytest.raises(lw.errors.LinkwrightError, match=r"change points|motor"):
+    with pytest.raises(LinkwrightError, match=r"change points|motor"):
         lw.gradient(points, None, lengths[:1])
