@@ -104,7 +104,7 @@ def test_numbers_of_the_program_follow_the_entries(path):
 
 
 def test_a_load_that_ends_on_the_dead_centre():
-    """Work of the press per revolution: the integral of its force, and that of the guide over both strokes."""
+    """Work of the press per revolution: the integral of its force, and that of its guide."""
     machine = lw.read("examples/press_with_flywheel/machine.toml")
     found = lw.gradient(machine, ["steady_state.energy_load"], sorted(_TOUCHING))
     # The force is zero at both ends of the stroke, so its integral stays; 4 r times 250 N grows with r.
