@@ -83,7 +83,7 @@ CHROMIUM ?= $(or $(shell command -v chromium),/usr/bin/chromium)
 
 studio-test: $(TOOLS)
 	@command -v node npm > /dev/null || { echo "The tests of the studio need Node.js 20 or newer with npm (https://nodejs.org); the studio itself needs none."; exit 1; }
-	@test -x $(CHROMIUM) || apt-get install -qq -y chromium > /dev/null || { echo "The tests of the studio need Chromium: apt-get install chromium, or make test CHROMIUM=/path/to/it."; exit 1; }
+	@test -x $(CHROMIUM) || { apt-get update -qq && apt-get install -qq -y chromium; } > /dev/null || { echo "The tests of the studio need Chromium: apt-get install chromium, or make test CHROMIUM=/path/to/it."; exit 1; }
 	npm ci --silent --no-audit --no-fund
 	node tests/studio/vendor.mjs --check
 	node_modules/.bin/tsc -p tests/studio/tsconfig.json

@@ -5,8 +5,8 @@ import pytest
 
 import linkwright as lw
 from linkwright.kernel.errors import InputError, LinkwrightError, MachineError
+from linkwright.machine.program.compiled import Translation
 from linkwright.machine.program.directions import directions
-from linkwright.machine.program.translator import Translation
 
 TWO_CARTS = "machines/roller_two_carts.toml"
 MACHINES = [

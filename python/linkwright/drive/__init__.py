@@ -11,6 +11,7 @@
 | `evenness` | The coefficients δ, H and k_p of a motion |
 | `figures` | Figures of a drive over angle and time, and of its motor, with their captions |
 | `model/` | Motors, gearbox, coupling, brake, flywheel |
+| `gradient` | Derivatives of steady motion by entries of the machine |
 | `motion_events` | What happens during a motion in time, and the extremes of its speed and acceleration |
 | `reduction` | What inertia and what load does the crank feel? |
 | `run_down` | How long until it stands? |

@@ -134,4 +134,4 @@ def _equal_peaks(curve: Floats) -> list[float]:
     with np.errstate(divide="ignore", invalid="ignore"):
         tops = np.where(bend < 0, y[peaks] - 0.5 * slope**2 / bend, y[peaks])
     near = tops >= tops.max() - _TIE * np.ptp(y)
-    return (2 * np.pi * peaks[near] / len(y)).tolist()
+    return [float(2 * np.pi * peak / len(y)) for peak in peaks[near]]

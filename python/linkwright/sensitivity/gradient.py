@@ -120,7 +120,7 @@ def gradient(
     -----
     An entry that others follow from counts with them: the rated speed of a motor moves its breakdown speed.
     Those that follow are varied with all entries of the file held. At a tie of two extremes the derivative is
-    that of the one that is told, and ``ties`` says so.
+    that of the extreme in the results, and ``ties`` says so.
 
     Examples
     --------
@@ -152,7 +152,7 @@ def gradient(
         at=np.array([float(get(machine, name)) for name in found.variables]),
         derivatives=np.stack([tangents[name].d for name in asked]),
         ties={name: reason for name in asked if (reason := _tie(name, steady.ties))},
-        refused=found.refused,
+        refused=dict(found.refused),
     )
 
 

@@ -41,19 +41,19 @@ class Tangent:
         return bool(self.value)
 
     def __eq__(self, other: object) -> bool:
-        return self.value == plain(other)
+        return bool(self.value == plain(other))
 
     def __lt__(self, other: Any) -> bool:
-        return self.value < plain(other)
+        return bool(self.value < plain(other))
 
     def __le__(self, other: Any) -> bool:
-        return self.value <= plain(other)
+        return bool(self.value <= plain(other))
 
     def __gt__(self, other: Any) -> bool:
-        return self.value > plain(other)
+        return bool(self.value > plain(other))
 
     def __ge__(self, other: Any) -> bool:
-        return self.value >= plain(other)
+        return bool(self.value >= plain(other))
 
     __hash__ = None  # type: ignore[assignment]
 
@@ -74,10 +74,10 @@ class Tangent:
     __radd__ = __add__
 
     def __sub__(self, other: Any) -> Tangent:
-        return self + -other
+        return self.__add__(-other)
 
     def __rsub__(self, other: Any) -> Tangent:
-        return -self + other
+        return (-self).__add__(other)
 
     def __mul__(self, other: Any) -> Tangent:
         if isinstance(other, Tangent):
@@ -87,18 +87,18 @@ class Tangent:
     __rmul__ = __mul__
 
     def __truediv__(self, other: Any) -> Tangent:
-        return self * (other.reciprocal() if isinstance(other, Tangent) else 1.0 / other)
+        return self.__mul__(other.reciprocal() if isinstance(other, Tangent) else 1.0 / other)
 
     def __rtruediv__(self, other: Any) -> Tangent:
-        return self.reciprocal() * other
+        return self.reciprocal().__mul__(other)
 
     def __pow__(self, power: Any) -> Tangent:
         if isinstance(power, Tangent):
-            return (power * self.log()).exp()
+            return power.__mul__(self.log()).exp()
         return self._by(self.value**power, power * self.value ** (power - 1))
 
     def __rpow__(self, base: Any) -> Tangent:
-        return (self * math.log(base)).exp()
+        return self.__mul__(math.log(base)).exp()
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:
         """NumPy's functions of numbers; element by element where an array takes part."""
