@@ -3,11 +3,13 @@
 mod common;
 
 use common::{Builder, Built};
-use linkwright_core::drive::batch::{Channel, Rows, motions, third};
+use linkwright_core::drive::batch::Rows;
+use linkwright_core::drive::motions::{motions, third};
 use linkwright_core::drive::motor::Motor;
 use linkwright_core::kernel::jet::Jet;
 use linkwright_core::kernel::plane::Angle;
 use linkwright_core::kernel::real::Real;
+use linkwright_core::linkage::motion::Channel;
 use linkwright_core::linkage::motion::Motion;
 use linkwright_core::linkage::trace::follow;
 use std::f64::consts::TAU;

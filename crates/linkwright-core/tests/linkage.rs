@@ -3,9 +3,12 @@
 mod common;
 
 use common::{Builder, Built, Random, mixed};
-use linkwright_core::drive::batch::{Channel, Rows, motions};
+use linkwright_core::drive::batch::Rows;
+use linkwright_core::drive::motions::motions;
 use linkwright_core::drive::motor::Motor;
-use linkwright_core::kernel::plane::Angle;
+use linkwright_core::kernel::plane::{Angle, Place};
+use linkwright_core::linkage::chain::Chain;
+use linkwright_core::linkage::motion::Channel;
 use linkwright_core::linkage::motion::Motion;
 
 fn place(built: &Built, phi: f64) -> Motion<f64> {
@@ -192,5 +195,49 @@ fn lanes_are_the_scalar() {
                 assert!((found - exact).abs() < tolerance, "row {row}, number {k}: {found} for {exact}");
             }
         }
+    }
+}
+
+/// What is found along a chain is what the whole mechanism has there: every kind of point, link and slide, with angles
+/// that fill the lanes and with a few left over.
+#[test]
+fn a_chain_leads_to_what_the_mechanism_has() {
+    let mut b = Builder::new();
+    let pivot = b.fixed(0.4, 0.02);
+    let (pin, crank) = b.crank(0.1, 0.3);
+    let on_crank = b.rigid_point(crank, 0, 0.05, 0.02);
+    let [joint, coupler, rocker] = b.rocker(pin, pivot, 0.35, 0.3, 1.0);
+    let on_coupler = b.rigid_point(coupler, pin, 0.2, 0.1);
+    let on_rocker = b.rigid_point(rocker, pivot, 0.25, -0.03);
+    let [slider, rod, slide] = b.slider(on_coupler, 0.9, 0.01, 0.4, 1.0);
+    let on_rod = b.rigid_point(rod, on_coupler, 0.3, 0.04);
+    let built = b.finish(Motor::Off, [1.0; 5]);
+    let phi: Vec<f64> = (0..77).map(|i| 0.1 * f64::from(i)).collect();
+    let points = [0, pivot, pin, on_crank, joint, on_coupler, on_rocker, slider, on_rod].map(Channel::Point);
+    let links = [crank, coupler, rocker, rod].map(Channel::Link);
+    let rows = Rows { base: &built.q, slots: &[], values: &[], n: 1 };
+    for channel in points.into_iter().chain(links).chain([Channel::Slide(slide)]) {
+        assert!(Chain::to(&built.plan.mechanism, channel).is_some(), "no chain to {channel:?}");
+        let mut out = vec![f64::NAN; channel.width() * phi.len()];
+        motions(&built.plan, &rows, &phi, &[channel], &mut out);
+        for (i, &phi_i) in phi.iter().enumerate() {
+            for (k, expected) in numbers(&place(&built, phi_i), channel).into_iter().enumerate() {
+                let found = out[k * phi.len() + i];
+                // The same formulas, with products and sums fused or not.
+                assert!((found - expected).abs() < 1e-13, "{channel:?}, number {k} at {phi_i}");
+            }
+        }
+    }
+}
+
+/// What a channel tells of a motion.
+fn numbers(m: &Motion<f64>, channel: Channel) -> Vec<f64> {
+    match channel {
+        Channel::Point(i) => {
+            let Place { p, d1, d2 } = m.points[i];
+            vec![p.x, p.y, d1.x, d1.y, d2.x, d2.y]
+        }
+        Channel::Link(i) => vec![m.links[i].e.x, m.links[i].e.y, m.links[i].d1, m.links[i].d2],
+        Channel::Slide(i) => vec![m.slides[i].s, m.slides[i].d1, m.slides[i].d2],
     }
 }

@@ -1,7 +1,7 @@
 //! Lists and indices between numpy and the core.
 
-use linkwright_core::drive::batch::Channel;
 use linkwright_core::drive::structure::Plan;
+use linkwright_core::linkage::motion::Channel;
 use numpy::PyArray1;
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;

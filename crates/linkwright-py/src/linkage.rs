@@ -1,6 +1,7 @@
 //! Motions of points, links and slides, and what has to be known of a mechanism beforehand: calls and results.
 
 use linkwright_core::drive::batch::{self, Rows};
+use linkwright_core::drive::motions as over_angles;
 use linkwright_core::linkage::trace;
 use numpy::{PyArray1, PyReadonlyArray2, PyReadwriteArray1};
 use pyo3::exceptions::PyValueError;
@@ -31,7 +32,7 @@ pub(crate) fn motions(
     if out.len() != size {
         return Err(PyValueError::new_err(format!("out holds {} numbers, {size} are needed", out.len())));
     }
-    guarded(py, "motions", || batch::motions(&plan.0, &rows, phi, &channels, out))
+    guarded(py, "motions", || over_angles::motions(&plan.0, &rows, phi, &channels, out))
 }
 
 #[pyfunction]
@@ -45,7 +46,9 @@ pub(crate) fn third<'py>(
     let (q, phi) = (plan.parameters(&q)?, phi.as_slice()?);
     let channels = channels(what.as_slice()?, &plan.0)?;
     let width = channels.iter().map(|c| c.third_width()).sum();
-    filled(py, "third derivatives", [width, phi.len()], |to| batch::third(&plan.0, q, phi, &channels, to))
+    filled(py, "third derivatives", [width, phi.len()], |to| {
+        over_angles::third(&plan.0, q, phi, &channels, to)
+    })
 }
 
 #[pyfunction]
@@ -57,7 +60,7 @@ pub(crate) fn gaps<'py>(
 ) -> PyResult<Table<'py>> {
     let (q, phi) = (plan.parameters(&q)?, phi.as_slice()?);
     let shape = [plan.0.mechanism.n_gaps, phi.len()];
-    filled(py, "closure", shape, |to| batch::gaps(&plan.0, q, phi, to))
+    filled(py, "closure", shape, |to| over_angles::gaps(&plan.0, q, phi, to))
 }
 
 /// Where the links of a dyad come into line.

@@ -255,11 +255,13 @@ impl<R: Real> Cam<R> {
     /// a roller, ρ for a flat face. Zero at a sharp point, negative where the follower undercuts.
     #[inline(always)]
     pub fn soundness(&self, contact: &Contact<R>) -> R {
-        if self.kind.is_roller() {
-            R::splat(1.0) - self.size.roller_radius * contact.bend
-        } else {
-            contact.bend
-        }
+        self.soundness_of(contact.bend)
+    }
+
+    /// The same from the bend alone.
+    #[inline(always)]
+    pub fn soundness_of(&self, bend: R) -> R {
+        if self.kind.is_roller() { R::splat(1.0) - self.size.roller_radius * bend } else { bend }
     }
 
     /// Vectors of the ground's frame seen from the cam, which has turned by σφ.

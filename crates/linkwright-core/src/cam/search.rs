@@ -75,33 +75,48 @@ impl Chunk<'_> {
     /// The cams from one on, as many as there are lanes; beyond the last they are repeated.
     #[inline(always)]
     fn lanes<R: Real>(&self, first: usize) -> [R; RESULTS] {
-        let load = |column: &[f64]| {
-            if column.len() == 1 {
-                return R::splat(column[0]);
-            }
-            let mut lanes = [0.0; 2 * LANES_MAX];
-            for (lane, to) in lanes[..R::LANES].iter_mut().enumerate() {
-                *to = column[(first + lane).min(column.len() - 1)];
-            }
-            R::load(&lanes)
-        };
         let cams = self.cams;
-        let cam = Cam::new(cams.kind, cams.sense, cams.side, cams.size.map(load));
-        let lift = load(cams.lift);
+        let size = cams.size.map(
+            #[inline(always)]
+            |column| load(column, first),
+        );
+        let cam = Cam::new(cams.kind, cams.sense, cams.side, size);
+        let lift: R = load(cams.lift, first);
         let (zero, infinite) = (R::splat(0.0), R::splat(f64::INFINITY));
-        let (mut lead, mut sound, mut most, mut least) = (zero, infinite, -infinite, infinite);
+        let (mut most, mut least) = (-infinite, infinite);
+        // The largest |tan γ| so far as a fraction: fractions are compared crosswise, and divided once. One whose lower
+        // part is not positive is infinite.
+        let (mut over, mut under) = (zero, R::splat(1.0));
         for s in self.lifts {
-            let contact = cam.contact(s.map(|x| lift * x));
-            let slope = contact.lead.y.abs() / contact.lead.x;
-            lead = lead.max(slope.select_lt(zero, infinite, slope));
-            sound = sound.min(cam.soundness(&contact));
+            let contact = cam.contact([lift * s[0], lift * s[1], lift * s[2]]);
+            let (y, x) = (contact.lead.y.abs(), contact.lead.x.max(zero));
+            let (known, found) = (over * x, y * under);
+            over = known.select_lt(found, y, over);
+            under = known.select_lt(found, x, under);
             most = most.max(contact.bend);
             least = least.min(contact.bend);
         }
+        let lead = over / under;
+        // Soundness falls with the bend of a pitch curve, and is the radius of a face's profile.
+        let at = if cams.kind.is_roller() { most } else { least };
+        let sound = cam.soundness_of(at);
         // Dimensions that do not go together gave NaN everywhere, which min and max pass over.
         let nan = cam.start * 0.0;
         [lead + nan, sound + nan, most + nan, least + nan]
     }
+}
+
+/// Entries of a column from one on, as many as there are lanes; beyond the last it is repeated.
+#[inline(always)]
+fn load<R: Real>(column: &[f64], first: usize) -> R {
+    if column.len() == 1 {
+        return R::splat(column[0]);
+    }
+    let mut lanes = [0.0; 2 * LANES_MAX];
+    for (lane, to) in lanes[..R::LANES].iter_mut().enumerate() {
+        *to = column[(first + lane).min(column.len() - 1)];
+    }
+    R::load(&lanes)
 }
 
 /// Lanes of the widest register.

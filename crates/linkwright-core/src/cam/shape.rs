@@ -98,11 +98,11 @@ impl Cam<f64> {
 
     /// The greatest of sign·quantity over the turn.
     pub fn extreme(&self, what: Quantity, sign: f64, law: &MotionLaw, shape: &Shape) -> Extreme {
-        let values: Vec<f64> = (0..shape.phi.len()).map(|i| sign * what.read(shape, i)).collect();
+        let values: Vec<f64> = what.column(shape).iter().map(|x| sign * x).collect();
         let mut best = Extreme { phi: f64::NAN, value: f64::NEG_INFINITY };
-        for (i, &value) in values.iter().enumerate() {
+        for (&phi, &value) in shape.phi.iter().zip(&values) {
             if value > best.value {
-                best = Extreme { phi: shape.phi[i], value };
+                best = Extreme { phi, value };
             }
         }
         let inner = peaks(&values, &shape.piece, best.value).into_iter().map(|i| (i - 1, i + 1));
@@ -221,11 +221,11 @@ impl Quantity {
     }
 
     /// The same from a shape.
-    fn read(self, shape: &Shape, i: usize) -> f64 {
+    fn column(self, shape: &Shape) -> &[f64] {
         match self {
-            Quantity::PressureAngle => shape.rows[8][i],
-            Quantity::Bend => shape.rows[9][i],
-            Quantity::Along => shape.rows[11][i],
+            Quantity::PressureAngle => &shape.rows[8],
+            Quantity::Bend => &shape.rows[9],
+            Quantity::Along => &shape.rows[11],
         }
     }
 
@@ -242,18 +242,15 @@ impl Quantity {
 /// Samples inside pieces that are higher than the one before and not lower than the one after, and whose
 /// parabola reaches the highest sample.
 fn peaks(values: &[f64], piece: &[u32], highest: f64) -> Vec<usize> {
-    let inside = |i: &usize| piece[i - 1] == piece[i + 1];
-    let top = |i: usize| {
-        let (a, b, c) = (values[i - 1], values[i], values[i + 1]);
-        let bend = 2.0 * b - a - c;
-        b + if bend > 0.0 { (c - a).powi(2) / (8.0 * bend) } else { 0.0 }
-    };
+    let is_peak = |v: &[f64]| v[1] > v[0] && v[1] >= v[2];
     // The parabola may fall short of the peak: one that nearly reaches is looked at too.
-    let nearly = |i: usize| top(i) + (top(i) - values[i]).abs() >= highest;
-    (1..values.len().saturating_sub(1))
-        .filter(inside)
-        .filter(|&i| values[i] > values[i - 1] && values[i] >= values[i + 1] && nearly(i))
-        .collect()
+    let nearly = |v: &[f64]| {
+        let bend = 2.0 * v[1] - v[0] - v[2];
+        let more = if bend > 0.0 { (v[2] - v[0]).powi(2) / (8.0 * bend) } else { 0.0 };
+        v[1] + more + more.abs() >= highest
+    };
+    let looked_at = values.windows(3).zip(piece.windows(3)).enumerate();
+    looked_at.filter(|(_, (v, p))| is_peak(v) && p[0] == p[2] && nearly(v)).map(|(i, _)| i + 1).collect()
 }
 
 /// The first and the last interval of each piece: a peak in it may lie above neighbours of which the end is the higher.

@@ -18,7 +18,8 @@
 //! | [`steady`] | steady motion of one machine to a wanted accuracy |
 //! | [`gradient`] | derivatives of steady motion by the numbers of the machine |
 //! | [`transient`] | motion in time from given angle and speed, with its events |
-//! | [`batch`] | many machines: lanes and threads |
+//! | [`batch`] | steady motions of many machines: lanes and threads |
+//! | [`motions`] | motions of many machines over the crank angle |
 
 pub mod batch;
 pub mod check;
@@ -34,6 +35,7 @@ pub mod loads;
 pub mod march;
 pub mod measures;
 pub mod mesh;
+pub mod motions;
 pub mod motor;
 pub mod reading;
 pub mod reduce;

@@ -7,6 +7,7 @@
 
 use crate::kernel::real::{COEFFICIENTS, Real};
 use pulp::Simd;
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A piece of work that can be done in any number of lanes.
@@ -95,6 +96,7 @@ with_plain_number!(Mul, mul);
 
 impl<S: Simd> Real for V<S> {
     const LANES: usize = S::F64_LANES;
+    const IS_PLAIN: bool = true;
 
     #[inline(always)]
     fn splat(x: f64) -> Self {
@@ -145,6 +147,47 @@ impl<S: Simd> Real for V<S> {
             V(simd.select_f64s(sin_negative, simd.neg_f64s(sin), sin)),
             V(simd.select_f64s(cos_negative, simd.neg_f64s(cos), cos)),
         )
+    }
+    /// Reduction to |x| ≤ 0.66 by arctan x = π/4 + arctan (x − 1)/(x + 1) and π/2 − arctan 1/x, then the rational
+    /// approximation of Cephes (Moshier, *Methods and Programs for Mathematical Functions*, 1989, `atan.c`).
+    #[inline(always)]
+    fn atan(self) -> Self {
+        const P: [f64; 5] = [
+            -8.750_608_600_031_904e-1,
+            -1.615_753_718_733_365e1,
+            -7.500_855_792_314_705e1,
+            -1.228_866_684_490_136_2e2,
+            -6.485_021_904_942_025e1,
+        ];
+        const Q: [f64; 6] = [
+            1.0,
+            2.485_846_490_142_306_3e1,
+            1.650_270_098_316_988_5e2,
+            4.328_810_604_912_903e2,
+            4.853_903_996_359_137e2,
+            1.945_506_571_482_614e2,
+        ];
+        // What π/2 has beyond its double.
+        const BEYOND: f64 = 6.123_233_995_736_766e-17;
+        let (zero, one, size) = (Self::splat(0.0), Self::splat(1.0), self.abs());
+        let (middle, far) = (Self::splat(0.66), Self::splat(2.414_213_562_373_095));
+        let pick = |near: Self, between: Self, beyond: Self| {
+            size.select_lt(middle, near, size.select_lt(far, between, beyond))
+        };
+        let x = pick(size, size - one, -one) / pick(one, size + one, size);
+        let start = pick(zero, Self::splat(FRAC_PI_4), Self::splat(FRAC_PI_2));
+        let rest = pick(zero, Self::splat(0.5 * BEYOND), Self::splat(BEYOND));
+        let z = x * x;
+        let horner = |c: &[f64]| {
+            let mut sum = Self::splat(c[0]);
+            for &next in &c[1..] {
+                sum = sum.mul_add(z, Self::splat(next));
+            }
+            sum
+        };
+        let tail = (x * (z * horner(&P) / horner(&Q)) + rest) + x;
+        let found = start + tail;
+        self.select_lt(zero, -found, found)
     }
     #[inline(always)]
     fn select_lt(self, limit: Self, below: Self, other: Self) -> Self {
@@ -259,6 +302,7 @@ impl<R: Real> Neg for Pair<R> {
 
 impl<R: Real> Real for Pair<R> {
     const LANES: usize = 2 * R::LANES;
+    const IS_PLAIN: bool = R::IS_PLAIN;
 
     #[inline(always)]
     fn splat(x: f64) -> Self {
@@ -289,6 +333,10 @@ impl<R: Real> Real for Pair<R> {
     fn sin_cos(self) -> (Self, Self) {
         let ((s0, c0), (s1, c1)) = (self.0.sin_cos(), self.1.sin_cos());
         (Pair(s0, s1), Pair(c0, c1))
+    }
+    #[inline(always)]
+    fn atan(self) -> Self {
+        Pair(self.0.atan(), self.1.atan())
     }
     #[inline(always)]
     fn select_lt(self, limit: Self, below: Self, other: Self) -> Self {
@@ -347,6 +395,33 @@ mod tests {
         let error = in_lanes(SinCos(&angles));
         // Both are good to an ulp of a number below one: 2.2e-16 each.
         assert!(error < 4.5e-16, "lanes differ from libm by {error:e}");
+    }
+
+    /// Arc tangent of every lane against libm, relative to its size.
+    struct Atan<'a>(&'a [f64]);
+    impl Job for Atan<'_> {
+        type Output = f64;
+        #[inline(always)]
+        fn run<R: Real>(self) -> f64 {
+            let (mut worst, mut lanes) = (0.0_f64, vec![0.0; R::LANES]);
+            for x in self.0.chunks_exact(R::LANES) {
+                R::load(x).atan().store(&mut lanes);
+                for i in 0..R::LANES {
+                    worst = worst.max(((lanes[i] - x[i].atan()) / x[i].atan().abs().max(1e-300)).abs());
+                }
+            }
+            worst
+        }
+    }
+
+    #[test]
+    fn arc_tangent_agrees_with_libm() {
+        let sizes: Vec<f64> = (0..80_000).map(|i| (f64::from(i) * 7e-4 - 28.0).exp()).collect();
+        let both: Vec<f64> = sizes.iter().flat_map(|&x| [x, -x]).collect();
+        let error = in_lanes(Atan(&both));
+        // Two ulps of the result.
+        assert!(error < 4.5e-16, "lanes differ from libm by {error:e}");
+        assert_eq!(in_lanes(Atan(&[f64::INFINITY; 16])), 0.0, "at infinity");
     }
 
     struct Choice;

@@ -77,6 +77,12 @@ impl MotionLaw {
 fn derivatives<R: Real, const N: usize>(phi: R, series: &impl Fn(f64, &mut [f64])) -> [R; N] {
     let mut found = [R::splat(0.0); N];
     phi.taylor(series, &mut found);
+    times_factorials(found)
+}
+
+/// Derivatives from Taylor coefficients.
+#[inline(always)]
+fn times_factorials<R: Real, const N: usize>(mut found: [R; N]) -> [R; N] {
     let mut factorial = 1.0;
     for (k, x) in found.iter_mut().enumerate().skip(2) {
         factorial *= k as f64;
@@ -89,12 +95,18 @@ impl Piece {
     /// Lift and its derivatives at an angle, the piece going on beyond its ends: one-sided values at a break.
     #[inline(always)]
     pub fn at<R: Real, const N: usize>(&self, phi: R) -> [R; N] {
+        if R::IS_PLAIN {
+            let mut found = [R::splat(0.0); N];
+            self.series((phi - self.start) / R::splat(self.length), &mut found);
+            return times_factorials(found);
+        }
         derivatives(phi, &|x: f64, to: &mut [f64]| self.series((x - self.start) / self.length, to))
     }
 
     /// Taylor coefficients by φ at u; beyond the ends of the piece it goes on as it is.
-    pub fn series(&self, u: f64, to: &mut [f64]) {
-        to.fill(0.0);
+    #[inline(always)]
+    pub fn series<R: Real>(&self, u: R, to: &mut [R]) {
+        to.fill(R::splat(0.0));
         // Horner for the polynomial and all its derivatives over k! at once.
         for &c in self.polynomial.iter().rev() {
             for k in (1..to.len()).rev() {
@@ -103,12 +115,12 @@ impl Piece {
             to[0] = to[0] * u + c;
         }
         for &[frequency, a, b] in &self.harmonics {
-            let (sin, cos) = (frequency * u).sin_cos();
+            let (sin, cos) = (u * frequency).sin_cos();
             // Each derivative of a cos + b sin is b cos − a sin, times the frequency.
-            let (mut value, mut next) = (a * cos + b * sin, b * cos - a * sin);
+            let (mut value, mut next) = (cos * a + sin * b, cos * b - sin * a);
             let mut scale = 1.0;
             for (k, x) in to.iter_mut().enumerate() {
-                *x += scale * value;
+                *x = *x + value * scale;
                 (value, next) = (next, -value);
                 scale *= frequency / (k + 1) as f64;
             }
@@ -116,7 +128,7 @@ impl Piece {
         let inverse = 1.0 / self.length;
         let mut scale = inverse;
         for x in &mut to[1..] {
-            *x *= scale;
+            *x = *x * scale;
             scale *= inverse;
         }
     }

@@ -26,6 +26,8 @@ pub trait Real:
 {
     /// How many plain numbers the bundle holds.
     const LANES: usize;
+    /// Whether it is numbers alone, without derivatives: then a function of it is done in its own arithmetic.
+    const IS_PLAIN: bool = false;
     /// Rounds of Newton's method, after the value has converged, until all derivatives carried along have.
     const ROUNDS: usize = 0;
 
@@ -80,7 +82,7 @@ pub trait Real:
         Self::splat(1.0) / self
     }
 
-    /// eˣ. Like [`Real::ln`] and [`Real::atan`] it is done lane by lane with one derivative; a number that
+    /// eˣ. Like [`Real::ln`] and, but for lanes, [`Real::atan`] it is done lane by lane with one derivative; a number that
     /// carries more of them brings its own three, and everything below follows from those.
     #[inline(always)]
     fn exp(self) -> Self {
@@ -139,6 +141,7 @@ impl<R: Real> Lift<R> for R {
 
 impl Real for f64 {
     const LANES: usize = 1;
+    const IS_PLAIN: bool = true;
 
     #[inline(always)]
     fn splat(x: f64) -> Self {

@@ -62,6 +62,24 @@ impl SliderRod {
     }
 }
 
+/// Numbers of a dyad RRP at one machine (or one per lane).
+#[derive(Clone, Copy)]
+pub(super) struct Rod<R> {
+    pub rod: R,
+    pub inverse_rod: R,
+    pub sign: R,
+    pub offset: R,
+    pub t: Vec2<R>,
+}
+
+/// What a dyad RRP moves.
+pub(super) struct Sliding<R> {
+    pub point: Place<R>,
+    pub link: Heading<R>,
+    pub slide: Slide<R>,
+    pub gap: R,
+}
+
 /// Dyad RRP. With t along and n to the left of the guide, G its foot and B the pin:
 ///
 /// ```text
@@ -71,38 +89,60 @@ impl SliderRod {
 /// sin β = −h/l         β′ = −h′/(±w)             β″ = −(h″ − h′ w′/w)/(±w)
 /// ```
 #[inline(always)]
-pub(super) fn slider_rod<R: Real, const ORDER: u8>(e: &SliderRod, q: &[R], m: &mut Motion<R>) {
-    let (pin, through) = (&m.points[e.pin], &m.points[e.through]);
-    let (rod, sign) = (q[e.rod], q[e.sign]);
-    let t = Vec2::new(q[e.cos], q[e.sin]);
-    let n = t.left();
-    let foot = through.p.plus(n, q[e.offset]);
+pub(super) fn sliding<R: Real, const ORDER: u8>(pin: &Place<R>, through: Vec2<R>, q: &Rod<R>) -> Sliding<R> {
+    let (t, n) = (q.t, q.t.left());
+    let foot = through.plus(n, q.offset);
     let from_foot = pin.p - foot;
 
     let (h, h1) = (n.dot(from_foot), n.dot(pin.d1));
-    let gap = rod.squared() - h.squared();
+    let gap = q.rod.squared() - h.squared();
     let w = gap.sqrt();
     let inverse_w = w.recip();
     let w1 = -(h * h1 * inverse_w);
-    let s = t.dot(from_foot) + sign * w;
-    let s1 = t.dot(pin.d1) + sign * w1;
-    let inverse_cos = sign * inverse_w;
+    let s = t.dot(from_foot) + q.sign * w;
+    let s1 = t.dot(pin.d1) + q.sign * w1;
+    let inverse_cos = q.sign * inverse_w;
     let beta1 = -(h1 * inverse_cos);
 
-    let mut slide = Slide { s, d1: s1, d2: R::splat(0.0) };
-    let mut heading = Heading { e: Vec2::zero(), d1: beta1, d2: R::splat(0.0) };
     let point = foot.plus(t, s);
-    heading.e = (point - pin.p) * q[e.inverse_rod];
+    let mut slide = Slide { s, d1: s1, d2: R::splat(0.0) };
+    let mut link = Heading { e: (point - pin.p) * q.inverse_rod, d1: beta1, d2: R::splat(0.0) };
     if ORDER > 1 {
         let h2 = n.dot(pin.d2);
         let w2 = -((h1.squared() + h * h2 + w1.squared()) * inverse_w);
-        slide.d2 = t.dot(pin.d2) + sign * w2;
-        heading.d2 = -((h2 - h1 * w1 * inverse_w) * inverse_cos);
+        slide.d2 = t.dot(pin.d2) + q.sign * w2;
+        link.d2 = -((h2 - h1 * w1 * inverse_w) * inverse_cos);
     }
-    m.gaps[e.gap] = gap;
-    m.links[e.link].set(heading.e, heading.d1, heading.d2);
-    m.points[e.point].set(point, t * slide.d1, t * slide.d2);
-    m.slides[e.slide].set(slide.s, slide.d1, slide.d2);
+    Sliding { point: Place { p: point, d1: t * slide.d1, d2: t * slide.d2 }, link, slide, gap }
+}
+
+#[inline(always)]
+pub(super) fn slider_rod<R: Real, const ORDER: u8>(e: &SliderRod, q: &[R], m: &mut Motion<R>) {
+    let t = Vec2::new(q[e.cos], q[e.sin]);
+    let rod = Rod { rod: q[e.rod], inverse_rod: q[e.inverse_rod], sign: q[e.sign], offset: q[e.offset], t };
+    let found = sliding::<R, ORDER>(&m.points[e.pin], m.points[e.through].p, &rod);
+    m.gaps[e.gap] = found.gap;
+    m.links[e.link].set(found.link.e, found.link.d1, found.link.d2);
+    m.points[e.point].set(found.point.p, found.point.d1, found.point.d2);
+    m.slides[e.slide].set(found.slide.s, found.slide.d1, found.slide.d2);
+}
+
+/// Numbers of a dyad RRR at one machine (or one per lane).
+#[derive(Clone, Copy)]
+pub(super) struct Bars<R> {
+    pub coupler: R,
+    pub rocker: R,
+    pub inverse_coupler: R,
+    pub inverse_rocker: R,
+    pub sign: R,
+}
+
+/// What a dyad RRR moves.
+pub(super) struct Rocking<R> {
+    pub joint: Place<R>,
+    pub coupler: Heading<R>,
+    pub rocker: Heading<R>,
+    pub gap: R,
 }
 
 /// Dyad RRR between pin A and pivot D, u = D − A, coupler a, rocker b, joint C:
@@ -114,9 +154,8 @@ pub(super) fn slider_rod<R: Real, const ORDER: u8>(e: &SliderRod, q: &[R], m: &m
 /// a κ ψ_a″ = w·f              b κ ψ_b″ = w·e,     w = u″ + a ψ_a′² e − b ψ_b′² f
 /// ```
 #[inline(always)]
-pub(super) fn rocker<R: Real, const ORDER: u8>(g: &Rocker, q: &[R], m: &mut Motion<R>) {
-    let (pin, pivot) = (&m.points[g.pin], &m.points[g.pivot]);
-    let (a, b, sign) = (q[g.coupler], q[g.rocker], q[g.sign]);
+pub(super) fn rocking<R: Real, const ORDER: u8>(pin: &Place<R>, pivot: &Place<R>, q: &Bars<R>) -> Rocking<R> {
+    let (a, b, sign) = (q.coupler, q.rocker, q.sign);
     let u = pivot.p - pin.p;
     let u1 = pivot.d1 - pin.d1;
     let u_squared = u.dot(u);
@@ -127,9 +166,8 @@ pub(super) fn rocker<R: Real, const ORDER: u8>(g: &Rocker, q: &[R], m: &mut Moti
     let half_inverse = (u_squared + u_squared).recip();
     let arm = (u * (projected * half_inverse)).plus(u.left(), sign * S * half_inverse);
     let joint = pin.p + arm;
-    let (inverse_a, inverse_b) = (q[g.inverse_coupler], q[g.inverse_rocker]);
-    let e = arm * inverse_a;
-    let f = (arm - u) * inverse_b;
+    let e = arm * q.inverse_coupler;
+    let f = (arm - u) * q.inverse_rocker;
     let inverse_S = sign * (S.recip() * 2.0);
     // 1/(aκ) and 1/(bκ)
     let (to_a, to_b) = (b * inverse_S, a * inverse_S);
@@ -144,8 +182,22 @@ pub(super) fn rocker<R: Real, const ORDER: u8>(g: &Rocker, q: &[R], m: &mut Moti
         arm_b.d2 = w.dot(e) * to_b;
         place.d2 = pin.d2.plus(arm.left(), coupler.d2).plus(arm, -(psi_a1.squared()));
     }
-    m.gaps[g.gap] = gap;
+    Rocking { joint: place, coupler, rocker: arm_b, gap }
+}
+
+#[inline(always)]
+pub(super) fn rocker<R: Real, const ORDER: u8>(g: &Rocker, q: &[R], m: &mut Motion<R>) {
+    let bars = Bars {
+        coupler: q[g.coupler],
+        rocker: q[g.rocker],
+        inverse_coupler: q[g.inverse_coupler],
+        inverse_rocker: q[g.inverse_rocker],
+        sign: q[g.sign],
+    };
+    let found = rocking::<R, ORDER>(&m.points[g.pin], &m.points[g.pivot], &bars);
+    let (coupler, rocker) = (&found.coupler, &found.rocker);
+    m.gaps[g.gap] = found.gap;
     m.links[g.coupler_link].set(coupler.e, coupler.d1, coupler.d2);
-    m.links[g.rocker_link].set(arm_b.e, arm_b.d1, arm_b.d2);
-    m.points[g.joint].set(place.p, place.d1, place.d2);
+    m.links[g.rocker_link].set(rocker.e, rocker.d1, rocker.d2);
+    m.points[g.joint].set(found.joint.p, found.joint.d1, found.joint.d2);
 }

@@ -117,10 +117,8 @@ impl Mechanism {
         for element in &self.elements[..n] {
             match *element {
                 Element::Crank { pin, link, pivot, radius, cos, sin } => {
-                    let heading = crank_heading(q[cos], q[sin], angle);
-                    let arm = heading.e * q[radius];
-                    let p = m.points[pivot].p + arm;
-                    m.points[pin].set(p, arm.left(), arm * R::splat(-1.0));
+                    let (place, heading) = crank(m.points[pivot].p, q[radius], [q[cos], q[sin]], angle);
+                    m.points[pin].set(place.p, place.d1, place.d2);
                     m.links[link].set(heading.e, heading.d1, heading.d2);
                 }
                 Element::SliderRod(ref e) => dyads::slider_rod::<R, ORDER>(e, q, m),
@@ -167,9 +165,16 @@ impl Element {
     }
 }
 
-/// ψ = φ + phase, so ψ′ = 1 and ψ″ = 0.
+/// A crank with its pin: ψ = φ + phase, so ψ′ = 1 and ψ″ = 0.
 #[inline(always)]
-fn crank_heading<R: Real>(cos: R, sin: R, angle: Angle<R>) -> Heading<R> {
+pub(super) fn crank<R: Real>(
+    pivot: Vec2<R>,
+    radius: R,
+    [cos, sin]: [R; 2],
+    angle: Angle<R>,
+) -> (Place<R>, Heading<R>) {
     let e = Vec2::new(angle.cos * cos - angle.sin * sin, angle.sin * cos + angle.cos * sin);
-    Heading { e, d1: R::splat(1.0), d2: R::splat(0.0) }
+    let arm = e * radius;
+    let place = Place { p: pivot + arm, d1: arm.left(), d2: arm * R::splat(-1.0) };
+    (place, Heading { e, d1: R::splat(1.0), d2: R::splat(0.0) })
 }

@@ -5,6 +5,7 @@
 //! | [`mechanism`] | the mechanism as a program; crank, point of a link |
 //! | [`motion`] | what moves, at one crank angle |
 //! | [`dyads`] | rod on a fixed guide (RRP), rocker (RRR) |
+//! | [`chain`] | the way from the crank to one point, link or slide, in registers |
 //! | [`guided`] | guides that may turn: RRP, RPR, PRP, RPP |
 //! | [`coupled`] | gears, belts, racks, cables, linear drivers, cam followers |
 //! | [`folding`] | the dyads RRR and RRP through their change points |
@@ -19,6 +20,7 @@
 //! the radicand, says by how much.
 
 pub mod arm;
+pub mod chain;
 pub mod coupled;
 pub mod dyads;
 pub mod folding;

@@ -15,6 +15,28 @@ pub struct Motion<R> {
     pub gaps: Vec<R>,
 }
 
+/// What is asked of a motion at every angle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Channel {
+    /// Position, first and second transfer function of a point: x, y, x′, y′, x″, y″.
+    Point(usize),
+    /// Direction of a link as cos ψ, sin ψ, and ψ′, ψ″.
+    Link(usize),
+    /// A slide's s, s′, s″.
+    Slide(usize),
+}
+
+impl Channel {
+    /// How many numbers it gives at each angle.
+    pub fn width(self) -> usize {
+        match self {
+            Channel::Point(_) => 6,
+            Channel::Link(_) => 4,
+            Channel::Slide(_) => 3,
+        }
+    }
+}
+
 /// A point of a link: p = o + a, p′ = o′ + ψ′ a⊥, p″ = o″ + ψ″ a⊥ − ψ′² a, with a = along·e + across·e⊥.
 #[inline(always)]
 pub fn on_link<R: Real, const ORDER: u8>(

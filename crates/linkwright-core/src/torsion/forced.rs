@@ -18,9 +18,10 @@
 //! Torsional Vibration Problems*, vol. 4.
 
 use super::Train;
-use crate::kernel::call::poll;
+use crate::kernel::call::{in_threads, poll};
 use crate::kernel::lanes::{Job, in_lanes, scalar};
 use crate::kernel::real::Real;
+use rayon::prelude::*;
 use std::ops::{Add, Mul};
 
 /// Real and imaginary part.
@@ -54,11 +55,26 @@ impl Damping<'_> {
 pub fn forced(train: &Train, damping: &Damping<'_>, orders: &[f64], torques: &mut [Complex]) -> bool {
     let fits =
         damping.fits(train.len()) && torques.len() == orders.len() * train.len() * damping.speeds.len();
-    if fits {
-        in_lanes(Forced { train, damping, orders, torques });
+    let block = train.len() * damping.speeds.len();
+    if !fits || block == 0 {
+        return fits;
     }
-    fits
+    if torques.len() <= TASK {
+        // Waking threads would take longer than doing it.
+        in_lanes(Forced { train, damping, orders, torques });
+        return true;
+    }
+    let at_once = (TASK / block).max(1);
+    in_threads(|crew| {
+        let tasks = torques.par_chunks_mut(at_once * block).zip(orders.par_chunks(at_once));
+        tasks
+            .for_each(|(torques, orders)| crew.task(|| in_lanes(Forced { train, damping, orders, torques })));
+    });
+    true
 }
+
+/// Amplitudes that a task finds: some hundred microseconds of work.
+const TASK: usize = 65_536;
 
 /// The same in plain numbers, which lanes are measured against.
 pub fn forced_scalar(train: &Train, damping: &Damping<'_>, orders: &[f64], torques: &mut [Complex]) {
