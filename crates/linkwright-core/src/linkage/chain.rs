@@ -101,18 +101,20 @@ impl Chain {
     #[inline(always)]
     pub fn follow<R: Real>(&self, numbers: &[Numbers], sin: &[f64], cos: &[f64], out: &mut [&mut [f64]]) {
         let Some((last, lead)) = numbers.split_last() else { return };
-        for at in (0..sin.len()).step_by(R::LANES) {
-            let sin = R::load(&sin[at..]);
-            let angle = Angle { phi: sin, sin, cos: R::load(&cos[at..]) };
+        let mut at = 0;
+        while at < sin.len() {
+            let sine = R::load(&sin[at..]);
+            let angle = Angle { phi: sine, sin: sine, cos: R::load(&cos[at..]) };
             let mut pin = Place::fixed(Vec2::zero());
-            for (stage, numbers) in self.lead.iter().zip(lead) {
-                pin = point(stage.part, numbers, angle, &pin);
+            for k in 0..lead.len() {
+                pin = point(self.lead[k].part, &lead[k], angle, &pin);
             }
             match end(self.end.part, last, angle, &pin) {
                 Found::Point(Place { p, d1, d2 }) => put([p.x, p.y, d1.x, d1.y, d2.x, d2.y], at, out),
                 Found::Link(Heading { e, d1, d2 }) => put([e.x, e.y, d1, d2], at, out),
                 Found::Slide(Slide { s, d1, d2 }) => put([s, d1, d2], at, out),
             }
+            at += R::LANES;
         }
     }
 }
@@ -168,21 +170,27 @@ fn turned<R: Real>(q: &Numbers, angle: Angle<R>) -> (Place<R>, Heading<R>) {
 
 #[inline(always)]
 fn bars<R: Real>(q: &Numbers, pin: &Place<R>) -> Rocking<R> {
-    let [coupler, rocker, inverse_coupler, inverse_rocker, sign] = [q[2], q[3], q[4], q[5], q[6]].map(
-        #[inline(always)]
-        |x| R::splat(x),
-    );
-    rocking::<R, 2>(pin, &ground(q), &Bars { coupler, rocker, inverse_coupler, inverse_rocker, sign })
+    // Written out: `map` of an array is a call of its own wherever it is not inlined.
+    let bars = Bars {
+        coupler: R::splat(q[2]),
+        rocker: R::splat(q[3]),
+        inverse_coupler: R::splat(q[4]),
+        inverse_rocker: R::splat(q[5]),
+        sign: R::splat(q[6]),
+    };
+    rocking::<R, 2>(pin, &ground(q), &bars)
 }
 
 #[inline(always)]
 fn rod<R: Real>(q: &Numbers, pin: &Place<R>) -> Sliding<R> {
-    let t = Vec2::new(R::splat(q[6]), R::splat(q[7]));
-    let [rod, inverse_rod, sign, offset] = [q[2], q[3], q[4], q[5]].map(
-        #[inline(always)]
-        |x| R::splat(x),
-    );
-    sliding::<R, 2>(pin, ground(q).p, &Rod { rod, inverse_rod, sign, offset, t })
+    let rod = Rod {
+        rod: R::splat(q[2]),
+        inverse_rod: R::splat(q[3]),
+        sign: R::splat(q[4]),
+        offset: R::splat(q[5]),
+        t: Vec2::new(R::splat(q[6]), R::splat(q[7])),
+    };
+    sliding::<R, 2>(pin, ground(q).p, &rod)
 }
 
 /// The stage that has a target, and the point on which it hangs, if any.
