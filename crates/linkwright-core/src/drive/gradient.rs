@@ -120,10 +120,7 @@ impl<'a, R: Real> Moved<'a, R> {
         let mut turn = Turn::tabulate(&machine, steps, Layout::Machines, m);
         for (step, mark) in turn.steps.iter_mut().zip(marks) {
             step.u = Dual::splat(mark.u);
-            step.X = mark.X.map(
-                #[inline(always)]
-                |x| Dual::splat(x),
-            );
+            step.X = mark.X.map(Dual::splat);
         }
         let mut work = Vec::with_capacity(marks.len());
         // The first sweep gives the derivative of the solution, the second that of its growth.
