@@ -10,6 +10,7 @@ from __future__ import annotations
 import os
 import signal
 import sys
+from contextlib import suppress
 from types import FrameType, TracebackType
 from typing import TYPE_CHECKING, NoReturn
 
@@ -47,7 +48,12 @@ class Interrupts:
             signal.signal(signal.SIGINT, _end)
         is_done = isinstance(error, SystemExit) and not error.code
         if self.came and error is not None and not is_done:
-            raise SystemExit(EXIT_CODE) from None
+            # Not by an exception: where the interrupt came inside an `exec`, as in many imports, Python would
+            # end a program that was started by ``-m`` by the signal, with another code.
+            for stream in (sys.stdout, sys.stderr):
+                with suppress(OSError, ValueError):
+                    stream.flush()
+            os._exit(EXIT_CODE)
 
     def _raise(self, number: int, frame: FrameType | None) -> NoReturn:
         self.came = True
