@@ -43,7 +43,7 @@ def test_one_module_writes() -> None:
             if name in calls or (name == "open" and any(str(mode)[:1] in "wax" for mode in modes if mode)):
                 found.add(str(path.relative_to(PACKAGE)))
     # Figures are written into the memory; a folder for a drawing is made beside the module. A sweep puts its
-    # parts into its folder one by one as they are done, and completion goes into the files of the user's shell.
+    # parts into its folder one by one, and completion goes into the files of the user's shell.
     others = {"kernel/figure/svg.py", "app/figures.py", "cam/manufacture/write.py"}
     others |= {"studies/folder.py", "kernel/command/completion.py"}
     assert found - others == WRITERS
