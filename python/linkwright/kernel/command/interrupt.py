@@ -10,7 +10,6 @@ from __future__ import annotations
 import os
 import signal
 import sys
-from contextlib import suppress
 from types import FrameType, TracebackType
 from typing import TYPE_CHECKING, NoReturn
 
@@ -50,9 +49,7 @@ class Interrupts:
         if self.came and error is not None and not is_done:
             # Not by an exception: where the interrupt came inside an `exec`, as in many imports, Python would
             # end a program that was started by ``-m`` by the signal, with another code.
-            for stream in (sys.stdout, sys.stderr):
-                with suppress(OSError, ValueError):
-                    stream.flush()
+            sys.stderr.flush()
             os._exit(EXIT_CODE)
 
     def _raise(self, number: int, frame: FrameType | None) -> NoReturn:
