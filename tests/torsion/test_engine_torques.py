@@ -225,7 +225,7 @@ def test_ring_of_a_balanced_train_takes_nothing() -> None:
     [
         ({}, None),
         ({"loads": {}}, "accelerates the train"),
-        ({"engine": {**V12, "factors": {str(n): 0.0 for n in range(1, 13)}}}, "taken to drive it"),
+        ({"engine": {**V12, "factors": {str(n): 0.0 for n in range(1, 13)}}}, "the loads drive the engine"),
         # What is held neither speeds up nor is driven.
         ({"loads": {}, "shafts": HELD}, None),
     ],
