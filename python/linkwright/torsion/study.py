@@ -191,7 +191,8 @@ def _is_damped(machine: Machine) -> bool:
     loads = any(load.exponent > 0 and load.damping_factor > 0 for load in train.loads.values())
     shafts = any(shaft.damping or shaft.loss_factor for shaft in train.shafts.values())
     gears = any(gear.damping or gear.loss_factor for gear in train.gears.values())
-    return loads or shafts or gears or any(disc.damping for disc in train.discs.values())
+    given = train.modal_damping is not None
+    return given or loads or shafts or gears or any(disc.damping for disc in train.discs.values())
 
 
 def _engine(machine: Machine) -> EngineData | None:

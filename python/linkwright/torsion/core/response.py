@@ -1,13 +1,13 @@
 r"""Forced vibration of a train: amplitudes at every order and speed, and what they add up to.
 
-The core takes trees; a train with loops is solved from its matrices,
+The core takes trees; a train with loops, or with damping ratios of its modes, is solved from its matrices,
 
 .. math:: (-\omega^2 J + i\omega C + K + i\,\mathrm{Im}K)\,q = M
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -65,6 +65,37 @@ class Operating:
     speeds: Floats  # (speeds,) Ω of the first disc [rad/s]
     stiffness: Floats  # (shafts, speeds) about the mean torque [N m/rad]
     disc_damping: Floats  # (masses, speeds) Viscous, against the ground, with that of loads [N m s/rad]
+    modal: ModalLosses | None = None  # of given damping ratios
+
+    def modal_torques(self, velocity: Complexes) -> Complexes | float:
+        """What given damping ratios ask of each mass that moves, (orders, masses, speeds) [N m]."""
+        return 0.0 if self.modal is None else self.modal.torques(velocity)
+
+
+@dataclass(frozen=True)
+class ModalLosses:
+    """Damping of given ratios, with the modes that a train has at each speed."""
+
+    matrices: Floats  # (kinds, masses, masses) C [N m s/rad]
+    kind: Ints  # (speeds,) matrix of each speed
+
+    def torques(self, velocity: Complexes) -> Complexes:
+        """C q̇, (orders, masses, speeds) [N m]. `velocity`: likewise [rad/s]."""
+        torques: Complexes = np.einsum("wij,ojw->oiw", self.matrices[self.kind], velocity)
+        return torques
+
+    def repeated(self, times: int) -> ModalLosses:
+        """With each speed as often."""
+        return ModalLosses(self.matrices, np.repeat(self.kind, times))
+
+
+def modal_losses(referred: ReferredTrain, stiffness: Floats) -> ModalLosses | None:
+    """Damping of the modes of given ratios; None without any. `stiffness`: (shafts, speeds) [N m/rad]."""
+    if not referred.ratios.any():
+        return None
+    columns, kind = np.unique(stiffness, axis=1, return_inverse=True)
+    trains = (replace(referred, stiffness=np.ascontiguousarray(column)) for column in columns.T)
+    return ModalLosses(np.array([train.modal_damping for train in trains]), kind.ravel().astype(np.int32))
 
 
 def respond(referred: ReferredTrain, at: Operating, orders: Floats, torques: Complexes) -> Complexes:
@@ -74,7 +105,7 @@ def respond(referred: ReferredTrain, at: Operating, orders: Floats, torques: Com
     first disc; `torques`: (orders, masses, speeds) referred [N m].
     """
     tree = tree_of(referred)
-    if tree is None:
+    if tree is None or at.modal is not None:
         return _whole(referred, at, orders, torques)
     n, speeds = len(referred.inertia), len(at.speeds)
 
@@ -147,18 +178,26 @@ def _whole(referred: ReferredTrain, at: Operating, orders: Floats, torques: Comp
     """Amplitudes from the matrices, for trains with loops; not finite where they are singular."""
     n, speeds = len(referred.inertia), len(at.speeds)
     q = np.empty((len(orders), n, speeds), complex)
-    step = max(1, _BLOCK // (n * n))
-    for m, order in enumerate(orders):
-        for first in range(0, speeds, step):
-            part = slice(first, first + step)
+    step, diagonal = max(1, _BLOCK // (n * n)), np.arange(n)
+    for first in range(0, speeds, step):
+        part = slice(first, first + step)
+        stiffness = at.stiffness[:, part] * (1 + 1j * referred.loss_factor[:, None])
+        K = _between(referred, stiffness)
+        C = _between(referred, np.broadcast_to(referred.damping[:, None], stiffness.shape))
+        C[:, diagonal, diagonal] += at.disc_damping[:, part].T
+        if at.modal is not None:
+            C = C + at.modal.matrices[at.modal.kind[part]]
+        for m, order in enumerate(orders):
             omega = order * at.speeds[part]
-            s = at.stiffness[:, part] * (1 + 1j * referred.loss_factor[:, None])
-            s = s + 1j * omega * referred.damping[:, None]
-            own = -(omega**2) * referred.inertia[:, None] + 1j * omega * at.disc_damping[:, part]
-            matrix = np.einsum("si,sw,sj->wij", referred.joins, s, referred.joins)
-            matrix[:, np.arange(n), np.arange(n)] += own.T
+            matrix = K + 1j * omega[:, None, None] * C
+            matrix[:, diagonal, diagonal] -= omega[:, None] ** 2 * referred.inertia
             q[m, :, part] = _solved(matrix, torques[m, :, part].T).T
     return q
+
+
+def _between(referred: ReferredTrain, of_shafts: Complexes | Floats) -> Complexes:
+    """Matrix of what acts in each shaft, (speeds, masses, masses). `of_shafts`: (shafts, speeds)."""
+    return np.asarray((referred.joins.T * of_shafts.T[:, None, :]) @ referred.joins, complex)
 
 
 def _solved(matrix: Complexes, torque: Complexes) -> Complexes:

@@ -12,7 +12,7 @@ shaft held at both ends has; then the matrices are solved as a whole.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from numbers import Real
 
@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from linkwright import _core
 from linkwright.kernel.errors import MachineError, Problem
+from linkwright.torsion.model.modal_damping import ModalDamping
 from linkwright.torsion.model.train import GROUND, Shaft, Train, TrainGear
 from linkwright.torsion.model.whole_train import parts_of, speeds, whole_train
 
@@ -46,6 +47,8 @@ class ReferredTrain:
     disc_damping: Floats  # (masses,) Viscous, against the ground, referred [N m s/rad]
     damping: Floats  # (shafts,) Viscous, referred [N m s/rad]
     loss_factor: Floats  # (shafts,) η of the complex stiffness k (1 + iη)
+    # (masses,) ζ of the modes of vibration by frequency, beyond what damps the parts; empty for none.
+    ratios: Floats = field(default_factory=lambda: np.empty(0))
 
     @property
     def is_free(self) -> bool:
@@ -74,7 +77,17 @@ class ReferredTrain:
     @cached_property
     def damping_matrix(self) -> Floats:
         """C of the masses, viscous, shape (masses, masses) [N m s/rad]."""
-        return self._matrix(self.damping) + np.diag(self.disc_damping)
+        return self._matrix(self.damping) + np.diag(self.disc_damping) + self.modal_damping
+
+    @cached_property
+    def modal_damping(self) -> Floats:
+        """J Φ diag(2ζω) Φᵀ J of the modes of given damping ratios, shape (masses, masses) [N m s/rad]."""
+        omega, shapes = self.modes() if len(self.ratios) else (np.empty(0), np.empty((0, len(self.inertia))))
+        vibrating = omega > 0
+        momenta = shapes[vibrating] * self.inertia
+        rates = 2 * self.ratios[: len(momenta)] * omega[vibrating]
+        damping: Floats = (momenta.T * rates) @ momenta
+        return damping
 
     def _matrix(self, between: Floats) -> Floats:
         """The matrix of what acts between the ends of each shaft."""
@@ -136,7 +149,7 @@ def refer(train: Train) -> ReferredTrain:
     def summed(entry: str) -> Floats:
         return np.array([sum(n[a] ** 2 * getattr(train.discs[a], entry) for a in part) for part in masses])
 
-    return ReferredTrain(
+    referred = ReferredTrain(
         discs=tuple(train.discs),
         shafts=tuple(twisting),
         speed=np.array(list(n.values())),
@@ -149,6 +162,18 @@ def refer(train: Train) -> ReferredTrain:
         damping=factor * np.array([part.damping for part in twisting.values()]),
         loss_factor=np.array([part.loss_factor for part in twisting.values()], float),
     )
+    return referred if train.modal_damping is None else _with_ratios(referred, train.modal_damping)
+
+
+def _with_ratios(referred: ReferredTrain, given: ModalDamping) -> ReferredTrain:
+    """A train with damping ratios of its modes."""
+    modes = int(np.count_nonzero(referred.modes()[0]))
+    if len(given.ratios) > modes:
+        found, expected = f"{len(given.ratios)} of them", f"at most {modes}, as many as modes of vibration"
+        raise MachineError([Problem("train.modal_damping.ratios", found, expected)])
+    ratios = np.full(len(referred.inertia), given.others)
+    ratios[: len(given.ratios)] = given.ratios
+    return replace(referred, ratios=ratios)
 
 
 def _rate(part: Shaft | TrainGear) -> float:

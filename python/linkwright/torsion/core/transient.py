@@ -102,6 +102,7 @@ class TrainMotion:
     # (shafts + masses, 4) largest value, its time, minimum value, its time, of torques and speeds.
     extremes: Floats
     work: Floats  # (torques + shafts + masses,) of torques, and lost in shafts and at masses [J]
+    modal_loss: float  # lost by damping ratios of modes [J]
 
 
 @dataclass(frozen=True)
@@ -126,6 +127,8 @@ class MovingTrain:
     curves: tuple[Curve | None, ...]
     inertias: tuple[VariableInertia, ...] = ()  # in addition to the constant ones
     torques: tuple[TrainTorque, ...] = ()  # from outside
+    # (masses, masses) of damping ratios of modes, at the speed of the first disc; None for none [N m s/rad].
+    modal_damping: Floats | None = None
     notes: tuple[str, ...] = field(default=())  # what was assumed
 
     @property
@@ -183,7 +186,9 @@ class MovingTrain:
         end = float(sampled[-1])
         motion = self.system.follow(at, turning, sampled, start, end, accuracy, method, steps_max)
         samples = motion.samples
-        n, m = self.masses, len(self.shafts)
+        n, m, k = self.masses, len(self.shafts), len(self.torques)
+        # Dashpots of modal damping come after the shafts.
+        after = m + len(_dashpots(self))
         return TrainMotion(
             end=motion.end,
             method=motion.method,
@@ -198,8 +203,9 @@ class MovingTrain:
             torque=samples[2 * n : 2 * n + m],
             kinetic=samples[-2],
             potential=samples[-1],
-            extremes=motion.extremes,
-            work=motion.work,
+            extremes=np.delete(motion.extremes, slice(m, after), axis=0),
+            work=np.delete(motion.work, slice(k + m, k + after)),
+            modal_loss=float(motion.work[k + m : k + after].sum()),
         )
 
 
@@ -213,6 +219,7 @@ def moving(
     curves: Sequence[Curve | None] | None = None,
     inertias: Iterable[VariableInertia] = (),
     torques: Iterable[TrainTorque] = (),
+    modal_damping: Floats | None = None,
     notes: Iterable[str] = (),
 ) -> MovingTrain:
     """A train in motion from the train for vibration.
@@ -239,6 +246,7 @@ def moving(
         shapes,
         tuple(inertias),
         tuple(torques),
+        modal_damping,
         tuple(notes),
     )
 
@@ -267,6 +275,10 @@ def encoded(train: MovingTrain) -> _core.TorsionSystem:
         [*masses[ends], _place(curve, curves)]
         for ends, curve in zip(train.tip.tolist(), train.curves, strict=True)
     ]
+    dashpots = _dashpots(train)
+    links += [[first, second, -1] for first, second, _ in dashpots]
+    link_numbers = np.column_stack([train.lead, train.stiffness, train.shaft_damping]).tolist()
+    link_numbers += [[1.0, 0.0, damping] for _, _, damping in dashpots]
     rotors = [[train.mass[rotor.on], _place(rotor.table, tables)] for rotor in train.inertias]
     torques = [_torque(train, torque, tables, curves) for torque in train.torques]
     return _core.TorsionSystem(
@@ -274,7 +286,7 @@ def encoded(train: MovingTrain) -> _core.TorsionSystem:
         at_mass[1],
         at_mass[2],
         _ints(links),
-        _floats(np.column_stack([train.lead, train.stiffness, train.shaft_damping])),
+        _floats(link_numbers),
         _ints(rotors),
         _floats([[n[rotor.on], rotor.phase] for rotor in train.inertias]),
         _ints([row for row, _ in torques]),
@@ -285,6 +297,28 @@ def encoded(train: MovingTrain) -> _core.TorsionSystem:
         _starts([len(curve.x) for curve in curves]),
         _end_to_end([getattr(curve, name) for name in ("x", "y", "before", "after") for curve in curves]),
     )
+
+
+# Share of the largest entry of a damping matrix that is rounding.
+_ROUNDING = 1e-13
+
+
+def _dashpots(train: MovingTrain) -> list[tuple[int, int, float]]:
+    """Damping between masses, and of each against the ground, that makes the matrix of damping ratios.
+
+    A symmetric matrix is Σ c (e_i − e_j)(e_i − e_j)ᵀ of all pairs with c = −C_ij, but for what rows sum up
+    to; single dashpots may be negative, all together are not.
+    """
+    C = train.modal_damping
+    if C is None:
+        return []
+    least = _ROUNDING * float(np.abs(C).max())
+    first, second = np.triu_indices(len(C), 1)
+    pairs = [*zip(first.tolist(), second.tolist(), (-C[first, second]).tolist(), strict=True)]
+    # A train that is free as a whole has modes that vibrate without momentum: rows sum up to zero.
+    if (train.tip == HELD).any():
+        pairs += [(mass, HELD, rest) for mass, rest in enumerate(C.sum(axis=1).tolist())]
+    return [(a, b, c) for a, b, c in pairs if abs(c) > least]
 
 
 def _place(thing: Any, shelf: list[Any]) -> int:

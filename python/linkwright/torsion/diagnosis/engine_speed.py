@@ -50,6 +50,7 @@ def cylinder_response(at: ExcitedTrain, sources: Complexes, disc: str, *, rigid:
         np.repeat(at.operating.speeds, many),
         np.repeat(at.operating.stiffness, many, axis=1),
         np.repeat(at.operating.disc_damping, many, axis=1),
+        None if at.operating.modal is None else at.operating.modal.repeated(many),
     )
     if rigid:
         q = _rigid(referred, same, orders, torques)

@@ -11,6 +11,7 @@ combustion adds. Both are taken at one speed.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -67,7 +68,9 @@ def moving_train(train: Train, manoeuvre: TrainTransient) -> MovingTrain:
     own = np.array([disc.inertia for disc in whole.discs.values()])
     inertias = [] if train.engine is None else throw_inertias(train.engine)
     own[: len(inertias)] = 0.0
-    damping, notes = _shaft_damping(referred, manoeuvre)
+    by_mode = manoeuvre.loss_by == "mode" and bool(referred.loss_factor.any())
+    ratios = _ratios(referred, by_mode=by_mode)
+    damping, notes = _mode_damping(referred) if by_mode else _shaft_damping(referred, manoeuvre)
     return moving(
         referred,
         own,
@@ -76,8 +79,28 @@ def moving_train(train: Train, manoeuvre: TrainTransient) -> MovingTrain:
         curves=[_coupling_curve(train, name) for name in referred.shafts],
         inertias=inertias,
         torques=[*_engine(train, manoeuvre), *_outside(whole, manoeuvre, place), *_events(manoeuvre, place)],
+        modal_damping=replace(referred, ratios=ratios).modal_damping if ratios.any() else None,
         notes=notes,
     )
+
+
+def _ratios(referred: ReferredTrain, *, by_mode: bool) -> Floats:
+    """Damping ratio of each mode of vibration: that given, with that of its hysteresis."""
+    given = referred.ratios if len(referred.ratios) else np.zeros(len(referred.inertia))
+    if not by_mode:
+        return given
+    omega, shapes = referred.modes()
+    ratios = np.zeros_like(given)
+    vibrating = omega > 0
+    loss = np.einsum("ka,ab,kb->k", shapes, referred.loss_matrix, shapes)[vibrating]
+    ratios[: len(loss)] = 0.5 * loss / omega[vibrating] ** 2
+    return given + ratios
+
+
+def _mode_damping(referred: ReferredTrain) -> tuple[Floats, list[str]]:
+    """Viscous damping of the shafts alone where modes have that of the hysteresis, and a note about it."""
+    note = "hysteresis of shafts counts as a damping ratio of each mode, at the frequency of that mode"
+    return referred.damping / lead_speeds(referred) ** 2, [note]
 
 
 def _require_fit(train: Train, manoeuvre: TrainTransient, discs: tuple[str, ...]) -> None:

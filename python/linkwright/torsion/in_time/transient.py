@@ -127,7 +127,10 @@ class TorsionTransient(Result):
     ]
     work: Annotated[dict[str, float], About("Work of each torque from outside [J].")]
     loss: Annotated[
-        dict[str, float], About('Loss in each shaft, and by the damping of the discs together, "discs" [J].')
+        dict[str, float],
+        About(
+            'Loss in each shaft, by the damping of the discs, "discs", and by damping ratios, "modes" [J].'
+        ),
     ]
     energy_error: Annotated[
         float,
@@ -376,6 +379,8 @@ def _energy(train: MovingTrain, moved: TrainMotion) -> tuple[dict[str, float], d
         work[torque.name] = work.get(torque.name, 0.0) + done
     loss: dict[str, Any] = dict(zip(train.shafts, moved.work[k : k + m].tolist(), strict=True))
     loss["discs"] = float(moved.work[k + m :].sum())
+    if train.modal_damping is not None:
+        loss["modes"] = moved.modal_loss
     start, end = sum(moved.energies[:2]), sum(moved.energies[2:])
     size = max(*map(abs, work.values()), *map(abs, loss.values()), abs(start), abs(end))
     left = end - start - sum(work.values()) + sum(loss.values())

@@ -29,6 +29,7 @@ from linkwright.kernel.units import COUNT, INERTIA, Bound, Quantity, positive
 from linkwright.linkages.model.element import PositiveNumber
 from linkwright.torsion.model.coupling import Coupling, Damper
 from linkwright.torsion.model.engine.engine import ReciprocatingEngine
+from linkwright.torsion.model.modal_damping import ModalDamping
 from linkwright.torsion.model.shaft_limit import ShaftLimit
 from linkwright.torsion.model.shaft_row import fillet_faults, flexibilities, place
 from linkwright.torsion.model.shaft_section import Density, Modulus, ShaftSection
@@ -221,6 +222,9 @@ class Train(Description):
     )
     driver: str | None = Field(
         None, description="Disc that drives the loads, where no engine does. Without it, the first."
+    )
+    modal_damping: ModalDamping | None = Field(
+        None, description="Damping ratios of the modes, in addition to what damps single parts."
     )
     run: TrainRun | None = Field(None, description="Speeds and orders at which it is looked at.")
     transient: TrainTransient | None = Field(None, description="Manoeuvre that is followed in time.")

@@ -211,6 +211,11 @@ class TrainTransient(CheckedDescription):
     sample_time: Annotated[float, positive(TIME)] | None = Field(
         None, description="Between the samples of the result. Without it, at most 0.5 ms."
     )
+    loss_by: Literal["shaft", "mode"] = Field(
+        "shaft",
+        description="Whether hysteresis counts as viscous damping of each shaft, right at one frequency, or "
+        "as damping ratio of each mode, right at each natural frequency.",
+    )
     loss_mode: Annotated[int, Field(ge=1)] | None = Field(
         None,
         description="Mode of vibration in which viscous damping loses what hysteresis would. Without it, for "

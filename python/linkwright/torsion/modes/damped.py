@@ -12,6 +12,9 @@ C this is :math:`(K + iH)\,\theta = \omega^{*2} J\,\theta` with :math:`s = i\ome
 The equation times :math:`\bar\theta^T` says, by its imaginary part, what each part damps,
 
 .. math:: 2\sigma \sum J|\theta|^2 = \sum c|\Delta|^2 + \sum c_0|\theta|^2 + \sum \eta k|\Delta|^2/\omega_d
+    + \bar\theta^T C_\zeta\theta
+
+with C_ζ that of given damping ratios.
 
 With the shapes Q and frequencies Ω of the train without damping, :math:`\theta = Q p`, the states
 :math:`y = \Omega p` and :math:`v = \dot p` go on as
@@ -97,7 +100,7 @@ class DampedVibration(Result):
             "share of each disc in the damping",
             "",
             "",
-            "Of its damping from outside.",
+            "Of its damping from outside; what shafts and discs leave over is the share of given ratios.",
             shape="(modes, discs)",
         ),
     ]
@@ -180,7 +183,9 @@ def damped_vibration(machine: Machine, speed: float | None = None) -> DampedVibr
     inertia = 2 * (own * np.abs(shapes) ** 2).sum(axis=1)
     shafts, discs = _damping(referred, disc_damping, shapes, eigenvalues.imag)
     # Divided by their own sum, which σ is but for rounding.
-    whole = (shafts.sum(axis=1) + discs.sum(axis=1))[:, None]
+    modal = np.einsum("ma,ab,mb->m", masses.conj(), referred.modal_damping, masses).real
+    size = np.abs(shapes).max(axis=1) / np.abs(referred.speed * masses[:, referred.mass]).max(axis=1)
+    whole = (shafts.sum(axis=1) + discs.sum(axis=1) + modal * size**2)[:, None]
     damped = (-eigenvalues.real * inertia)[:, None] > 0
     whole = np.where(damped & (whole > 0), whole, np.inf)
     return DampedVibration(

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from linkwright.kernel.errors import InputError, require_within
 from linkwright.kernel.limits import RESPONSE
 from linkwright.machine.machine import Machine
-from linkwright.torsion.core.response import Operating, by_equilibrium, tree_of
+from linkwright.torsion.core.response import Operating, by_equilibrium, modal_losses, tree_of
 from linkwright.torsion.core.train import ReferredTrain, refer
 from linkwright.torsion.model.drive_train import CRANK
 from linkwright.torsion.model.train import Train, TrainRun
@@ -210,4 +210,4 @@ def _operating(train: Train | None, referred: ReferredTrain, torques: Torques, m
             stiffness[s] = lead[s] ** 2 * coupling.slope(mean[s])
     damping = np.repeat(referred.disc_damping[:, None], len(torques.speeds), axis=1)
     np.add.at(damping, referred.mass, referred.speed[:, None] ** 2 * torques.damping)
-    return Operating(torques.speeds, stiffness, damping)
+    return Operating(torques.speeds, stiffness, damping, modal_losses(referred, stiffness))

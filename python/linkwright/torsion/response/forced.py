@@ -162,7 +162,7 @@ def _flow(at: ExcitedTrain, q: Complexes, stiffness: Complexes) -> Complexes:
     omega = at.torques.orders[:, None, None] * at.torques.speeds
     outside = at.referred_harmonics()
     inertia = omega**2 * at.referred.inertia[:, None] * q
-    damping = 1j * omega * at.operating.disc_damping * q
+    damping = 1j * omega * at.operating.disc_damping * q + at.operating.modal_torques(1j * omega * q)
     size = np.abs(outside) + np.abs(inertia) + np.abs(damping)
     return shaft_torques(at.referred, stiffness, q, outside + inertia - damping, size)
 
@@ -189,6 +189,9 @@ class ForcedVibration(TorsionResponse):
     ]
     disc_heat: Annotated[
         Floats, Shown("heat by the damping of each disc", "", "W", "Mean power.", shape="(discs, speeds)")
+    ]
+    modal_heat: Annotated[
+        Floats, Shown("heat by the damping ratios of the modes", "", "W", "Mean power of all modes.")
     ]
     power: Annotated[Floats, Shown("mean power of the pulsating torques", "", "W", "The sum of all heat.")]
 
@@ -259,8 +262,15 @@ def responded(at: ExcitedTrain) -> ForcedVibration:
         unevenness_rigid=rigid,
         unevenness_torsional=torsional,
         disc_heat=0.5 * (omega**2 * at.disc_damping * np.abs(theta) ** 2).sum(axis=0),
+        modal_heat=_modal_heat(at, 1j * omega * q),
         power=0.5 * (at.torques.harmonics * (1j * omega * theta).conj()).real.sum(axis=(0, 1)),
     )
+
+
+def _modal_heat(at: ExcitedTrain, velocity: Complexes) -> Floats:
+    """Mean power that given damping ratios take, (speeds,) [W]. `velocity`: (orders, masses, speeds)."""
+    heat: Floats = 0.5 * (at.operating.modal_torques(velocity) * velocity.conj()).real.sum(axis=(0, 1))
+    return heat
 
 
 def _unevenness(at: ExcitedTrain, orders: Orders, q: Complexes) -> tuple[Floats, Floats, Floats]:

@@ -120,6 +120,7 @@ def meshed(at: ExcitedTrain, response: TorsionResponse) -> MeshTorque:
     J = np.array([disc.inertia for disc in at.train.discs.values()])[:, None]
     theta = response.amplitudes
     outside = at.torques.harmonics + (omega**2 * J - 1j * omega * at.disc_damping) * theta
+    outside = outside - _modal_torques(at, J, response)
     waves = _stage_torques(at, outside, response.shaft_torques)
     mean = _stage_torques(at, _mean_outside(at, J)[None], at.mean_torques[None].astype(complex))[0].real
     greatest, least = span(response.together, waves, mean)
@@ -133,6 +134,20 @@ def meshed(at: ExcitedTrain, response: TorsionResponse) -> MeshTorque:
         greatest=greatest,
         least=least,
     )
+
+
+def _modal_torques(at: ExcitedTrain, J: Floats, response: TorsionResponse) -> Complexes | float:
+    """Torques of given damping ratios on the discs, by inertia, (orders, discs, speeds) [N m]."""
+    referred = at.referred
+    if at.operating.modal is None:
+        return 0.0
+    # One disc of each mass tells how it moves.
+    first = np.unique(referred.mass, return_index=True)[1]
+    q = response.amplitudes[:, first] / referred.speed[first, None]
+    velocity = 1j * response.orders[:, None, None] * response.speeds * q
+    acceleration = at.operating.modal.torques(velocity) / referred.inertia[:, None]
+    torques: Complexes = J * referred.speed[:, None] * acceleration[:, referred.mass]
+    return torques
 
 
 def _mean_outside(at: ExcitedTrain, J: Floats) -> Floats:
