@@ -39,6 +39,10 @@ SILENT = {
     ("studies/engine.py", "_solve"): "rows that a batch cannot hold are solved one by one, and say why",
     ("studies/sweep.py", "_try"): "what a machine cannot do as it is, its variants may, and each row says so",
     (
+        "studies/slopes.py",
+        "_source",
+    ): "what has no exact derivatives is differenced, where the analysis says again what is wrong",
+    (
         "kernel/units/spellings.py",
         "_from_pint",
     ): "a text that pint does not know is reported with the units that are known",

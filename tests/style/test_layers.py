@@ -111,9 +111,10 @@ EDGES = {
     ("sizing", "drive"),
     ("sizing", "drive.model"),
     ("sizing", "linkages"),
-    # Results of a drive are differentiated.
+    # Results of a drive and of a train are differentiated.
     ("sensitivity", "drive"),
-    ("sensitivity.tables", "drive"),
+    ("sensitivity", "drive.model"),
+    ("sensitivity", "torsion.gradient"),
     ("sizing.commands", "drive.model"),
 }
 

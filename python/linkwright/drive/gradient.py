@@ -73,24 +73,23 @@ def steady_tangents(machine: Machine, values: Floats, accuracy: float = 1e-11) -
         raise InputError("a motor of constant speed has the same speed whatever the machine is")
     state = steady_state(machine, accuracy=accuracy, n=_LOOK)
     compiled = compile_machine(machine)
-    found = compiled.steady_gradient(accuracy, values, np.empty(0))
+    angles = np.array([state.speed_min_angle, state.speed_max_angle])
+    found = compiled.steady_gradient(accuracy, values, angles)
     tangents: dict[str, Any] = {
         name: Tangent(getattr(state, name), getattr(found, name)) for name in _NUMBERS
     }
     ratio = Tangent(compiled.gear_factors[0], values[compiled.ratio_slot])
-    tangents |= _of_motor(compiled, state, values, ratio, accuracy)
+    tangents |= _of_motor(compiled, state, found.curves, ratio)
     return SteadyTangents(replace(state, **tangents), _ties(state))
 
 
-def _of_motor(
-    compiled: Compiled, state: SteadyState, values: Floats, ratio: Tangent, accuracy: float
-) -> dict[str, Tangent]:
+def _of_motor(compiled: Compiled, state: SteadyState, curves: Floats, ratio: Tangent) -> dict[str, Tangent]:
     """Extremes of the motor's torque and power, as far as they lie at an extreme speed.
+
+    `curves`: derivatives at both, as the core gives them.
 
     One that lies between, at the breakdown or pull-up speed, is left out.
     """
-    angles = np.array([state.speed_min_angle, state.speed_max_angle])
-    curves = compiled.steady_gradient(accuracy, values, angles).curves
     place = {name: at for at, name in enumerate(_CURVES)}
     speeds = np.array([state.speed_min, state.speed_max])
     torques = compiled.motor_torques(speeds)[0]

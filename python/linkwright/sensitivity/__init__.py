@@ -3,6 +3,7 @@
 | module | |
 | --- | --- |
 | `gradient` | Exact derivatives of results by entries of a machine |
+| `sources` | Of which results there are some, and from where |
 | `tables` | The entries that matter most, in a table |
 | `figures` | The same as bars |
 | `commands` | ``linkwright sensitivity`` |

@@ -21,7 +21,7 @@ Of = Annotated[
     Option(
         "--of",
         metavar="RESPONSE",
-        help='Result, such as "steady_state.unevenness". May be given again; all without it.',
+        help='Result or analysis, such as "steady_state.unevenness", "free_vibration". May be given again.',
         show_default=False,
     ),
 ]
@@ -53,7 +53,8 @@ def sensitivity(
     """Derivatives of the results by the numbers of the file.
 
     Exact derivatives of every scalar result of the steady motion by every entry, per unit and as a share:
-    which dimension, mass or motor entry matters most, and in which direction.
+    which dimension, mass or motor entry matters most, and in which direction. With --of also of natural
+    frequencies, mode shapes and torques of shafts.
     """
     from linkwright.machine.read import read
     from linkwright.sensitivity.gradient import gradient
@@ -61,7 +62,7 @@ def sensitivity(
 
     machine = read(file, set or (), allow_outside=allow_outside)
     found = gradient(machine, of, by)
-    told = found if of else found.only([f"steady_state.{name}" for name in _SHOWN])
+    told = found if of else _few(found)
     hand_over(
         Answer(
             machine=machine.name,
@@ -76,6 +77,12 @@ def sensitivity(
         out=out,
         force=force,
     )
+
+
+def _few(found: Gradient) -> Gradient:
+    """What people are shown without --of."""
+    few = found.only([f"steady_state.{name}" for name in _SHOWN])
+    return few if few.responses else found
 
 
 def _figures(gradient: Gradient) -> dict[str, Figure]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.kernel.figure.style import BLUE, INK, RED, panels, styled
-from linkwright.sensitivity.tables import ROWS, ranked, words
+from linkwright.sensitivity.tables import ROWS, ranked
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -29,7 +29,7 @@ def influence_figure(gradient: Gradient, response: str) -> Figure:
     axes.barh(names, shares, color=[BLUE if share > 0 else RED for share in shares], height=0.62)
     axes.axvline(0.0, color=INK, linewidth=0.8)
     axes.grid(visible=False, axis="y")
-    axes.set_xlabel(f"change of the {words(response)} for 1 % more of the entry [%]")
+    axes.set_xlabel(f"change of the {gradient.words[row]} for 1 % more of the entry [%]")
     axes.margins(x=0.12)
     for place, share in enumerate(shares):
         side = "left" if share > 0 else "right"

@@ -3,9 +3,8 @@ r"""Exact derivatives of results by entries of a machine.
 .. math:: \frac{\mathrm d y_i}{\mathrm d x_j}, \qquad
     E_{ij} = \frac{x_j}{y_i}\frac{\mathrm d y_i}{\mathrm d x_j}
 
-The derivative by an entry comes in two steps: of the numbers of the core's program by the entry
-(`linkwright.machine.program.directions`), and of the result by these numbers (`linkwright.drive.gradient`).
-Neither is a difference. What has no derivative is refused by name, with the reason.
+None of them is a difference: `linkwright.sensitivity.sources` says of which results there are some, and how
+they are found. What has no derivative is refused by name, with the reason.
 """
 
 from __future__ import annotations
@@ -17,17 +16,14 @@ from typing import Annotated, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.drive.gradient import steady_tangents
-from linkwright.drive.steady_state import SteadyState
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError
-from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import About, Shown, declared, shown
+from linkwright.kernel.quantities import About
 from linkwright.kernel.result import Result
 from linkwright.machine.address import addresses, get, kind
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.directions import directions
+from linkwright.sensitivity.sources import SOURCES, Source, analysis_of, chosen, source, usual_analysis
 
 Floats = NDArray[np.float64]
 
@@ -37,6 +33,7 @@ class Gradient(Result):
     """Derivatives of ``n`` responses by ``m`` variables."""
 
     responses: Annotated[tuple[str, ...], About('What is differentiated, as "steady_state.unevenness".')]
+    words: Annotated[tuple[str, ...], About("What each response is called.")]
     variables: Annotated[tuple[str, ...], About("Addresses of the entries.")]
     units: Annotated[tuple[str, ...], About("SI unit of each response.")]
     variable_units: Annotated[tuple[str, ...], About("SI unit of each variable.")]
@@ -67,6 +64,7 @@ class Gradient(Result):
         return replace(
             self,
             responses=names,
+            words=tuple(self.words[row] for row in rows),
             units=tuple(self.units[row] for row in rows),
             values=self.values[rows],
             derivatives=self.derivatives[rows],
@@ -97,9 +95,11 @@ def gradient(
     Parameters
     ----------
     machine : Machine
-        The machine, with a motor.
+        The machine.
     responses : sequence of str, optional
-        Such as ``"steady_state.unevenness"``; without them every scalar result of the steady motion.
+        Such as ``"steady_state.unevenness"``, ``"free_vibration.natural_frequencies.1"`` or, of all modes,
+        ``"free_vibration.natural_frequencies"``; an analysis stands for its usual ones. Without them every
+        scalar of the steady motion, or where nothing gives a speed the natural frequencies of the train.
     variables : sequence of str, optional
         Addresses, such as ``"mechanism.cranks.A2.phase"``; without them every number of the machine.
 
@@ -113,8 +113,8 @@ def gradient(
     ------
     InputError
         There is no such response or entry, or an entry that was asked for has no derivative.
-    SteadyStateError
-        The machine has no steady motion.
+    FindingError
+        The machine cannot do what is asked for, as it has no steady motion.
 
     Notes
     -----
@@ -133,56 +133,46 @@ def gradient(
     names = tuple(addresses(machine)) if variables is None else tuple(dict.fromkeys(variables))
     for name in names:
         get(machine, name)
-    found = directions(machine, names)
-    if variables is not None and found.refused:
-        name, reason = next(iter(found.refused.items()))
+    asked = [usual_analysis(machine)] if responses is None else list(dict.fromkeys(responses))
+    sources = {name: source(machine, name, names) for name in dict.fromkeys(map(analysis_of, asked))}
+    refused = {name: why for each in sources.values() for name, why in each.refused.items()}
+    if variables is not None and refused:
+        name, reason = next(iter(refused.items()))
         raise InputError(f"{name}: it has no derivative: {reason}; leave it out")
-    steady = steady_tangents(machine, found.values)
-    tangents = _scalars(steady.state)
-    asked = tuple(tangents) if responses is None else tuple(dict.fromkeys(responses))
-    for name in asked:
-        if name not in tangents:
-            raise InputError(f'no response "{name}" with a derivative: {suggestion(name, tangents)}')
+    known = tuple(name for name in names if name not in refused)
+    found = [
+        (sources[analysis_of(name)], each)
+        for name in asked
+        for each in _named(sources[analysis_of(name)], name)
+    ]
     return Gradient(
-        responses=asked,
-        variables=found.variables,
-        units=tuple(shown(SteadyState, name.partition(".")[2]).unit for name in asked),
-        variable_units=tuple(_unit(machine, name) for name in found.variables),
-        values=np.array([tangents[name].value for name in asked]),
-        at=np.array([float(get(machine, name)) for name in found.variables]),
-        derivatives=np.stack([tangents[name].d for name in asked]),
-        ties={name: reason for name in asked if (reason := _tie(name, steady.ties))},
-        refused=dict(found.refused),
+        responses=tuple(name for _, name in found),
+        words=tuple(each.words[name] for each, name in found),
+        variables=known,
+        units=tuple(each.units[name] for each, name in found),
+        variable_units=tuple(_unit(machine, name) for name in known),
+        values=np.array([each.tangents[name].value for each, name in found]),
+        at=np.array([float(get(machine, name)) for name in known]),
+        derivatives=np.stack([_row(each, name, known) for each, name in found]),
+        ties={name: each.ties[name] for each, name in found if name in each.ties},
+        refused=refused,
     )
 
 
-def _scalars(state: SteadyState) -> dict[str, Tangent]:
-    """What is a number with derivatives, by name."""
-    found = ((name, getattr(state, name)) for name, mark in _declared() if isinstance(mark, Shown))
-    return {f"steady_state.{name}": value for name, value in found if isinstance(value, Tangent)}
+def _named(of: Source, name: str) -> list[str]:
+    """The responses that a name means."""
+    if name in SOURCES:
+        return list(of.usual)
+    found = chosen(of.tangents, name)
+    if not found:
+        raise InputError(f'no response "{name}" with a derivative: {suggestion(name, of.tangents)}')
+    return found
 
 
-def _declared() -> list[tuple[str, object]]:
-    return [(name, mark) for name, (_, mark) in declared(SteadyState).items()]
-
-
-# Extremes → what is made of them.
-_MADE_OF = {
-    "speed": (
-        *("speed_mean_extremes", "unevenness", "unevenness_time", "motion_coefficient"),
-        *("motion_coefficient_time", "dynamism", "torque_motor_min", "torque_motor_max", "power_motor_max"),
-    ),
-    "acceleration": ("dynamism", "dynamism_time", "motion_coefficient", "motion_coefficient_time"),
-}
-
-
-def _tie(response: str, ties: dict[str, str]) -> str:
-    """Why a response has a derivative on either side only; empty if it has one."""
-    name = response.partition(".")[2]
-    for extreme, reason in ties.items():
-        if name == extreme or name in _MADE_OF[extreme.partition("_")[0]]:
-            return f"{extreme.replace('_', ' ')}: {reason}"
-    return ""
+def _row(of: Source, name: str, variables: Sequence[str]) -> Floats:
+    """Derivatives of a response by some of the variables of its source."""
+    by = dict(zip(of.variables, of.tangents[name].d, strict=True))
+    return np.array([by[each] for each in variables])
 
 
 def _unit(machine: Machine, address: str) -> str:

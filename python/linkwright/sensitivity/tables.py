@@ -6,10 +6,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from linkwright.drive.steady_state import SteadyState
 from linkwright.kernel.page.numbers import number
 from linkwright.kernel.page.table import Row, Table, with_unit
-from linkwright.kernel.quantities import shown
 from linkwright.sensitivity.gradient import Gradient
 
 # Rows of a table: what comes after changes a response by less than these.
@@ -27,16 +25,10 @@ def ranked(gradient: Gradient, response: str) -> list[int]:
     return [at for at in order if gradient.derivatives[row, at] != 0]
 
 
-def words(response: str) -> str:
-    """What a response is called, with its symbol."""
-    mark = shown(SteadyState, response.partition(".")[2])
-    return f"{mark.word} {mark.symbol}".strip()
-
-
 def gradient_tables(gradient: Gradient) -> Iterator[Table]:
     """A table for each response."""
     for row, response in enumerate(gradient.responses):
-        title = f"{words(response)} = {with_unit(float(gradient.values[row]), gradient.units[row])}"
+        title = f"{gradient.words[row]} = {with_unit(float(gradient.values[row]), gradient.units[row])}"
         heads = ("entry", "", "value", "derivative", "1 % more changes it by")
         rows = [_row(gradient, row, at) for at in ranked(gradient, response)[:ROWS]]
         yield Table(response.replace(".", "_"), title, heads, rows)

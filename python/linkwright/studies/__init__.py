@@ -12,6 +12,7 @@
 | `parquet` | Rows as Parquet files |
 | `folder` | The folder of a sweep |
 | `sweep` | A sweep, and its continuation |
+| `slopes` | Derivatives of responses by variables, exact where the analysis has them |
 | `tolerance` | Scatter of responses, contributions, yield, Sobol indices |
 | `optimise` | The best machine, by CMA-ES over batches |
 | `show` | Rows of a folder, as they are drawn |

@@ -5,9 +5,11 @@ With the values x of the variables, their middles and standard deviations σ, to
 .. math:: \sigma_f^2 = \sum_i \left(\frac{\partial f}{\partial x_i} \sigma_i\right)^2, \qquad
    f_\mathrm{worst} = f \pm \sum_i \left|\frac{\partial f}{\partial x_i}\right| t_i
 
-where t are half widths of the tolerances, and to second order the mean is shifted by ½ Σ f″σ². Derivatives
-are central differences over a quarter of a standard deviation, and said to be so. Sobol indices, first and
-total, are by the estimators of Saltelli and of Jansen [2]_; a block in which a row fails is dropped whole.
+where t are half widths of the tolerances, and to second order the mean is shifted by ½ Σ f″σ². First
+derivatives are exact where the analysis has them (`linkwright.studies.slopes`), and otherwise extrapolated
+differences, as `Tolerance.exact` says; second ones are central differences over a quarter of a standard
+deviation. Sobol indices, first and total, are by the estimators of Saltelli and of Jansen [2]_; a block in
+which a row fails is dropped whole.
 
 References
 ----------
@@ -33,6 +35,7 @@ from linkwright.studies import sampling
 from linkwright.studies.axes import Axis
 from linkwright.studies.engine import SOLVED, Rows, evaluate
 from linkwright.studies.plan import StudyPlan
+from linkwright.studies.slopes import slopes
 
 Floats = NDArray[np.float64]
 
@@ -62,6 +65,13 @@ class Tolerance(Result):
         dict[str, dict[str, float]], About("Response → variable → share of the variance to first order.")
     ]
     slopes: Annotated[dict[str, dict[str, float]], About("Response → variable → derivative [SI].")]
+    exact: Annotated[
+        tuple[str, ...],
+        About("Responses whose derivatives are exact; the others have extrapolated differences."),
+    ]
+    ties: Annotated[
+        dict[str, str], About("Responses that have a derivative on either side only, each with the reason.")
+    ]
     indices: Annotated[
         dict[str, dict[str, tuple[float, float]]],
         About("Response → variable → first and total Sobol index; empty if not asked for."),
@@ -89,7 +99,7 @@ class Tolerance(Result):
         dict
             Ready for JSON.
         """
-        names = ("responses", "contributions", "slopes", "indices")
+        names = ("responses", "contributions", "slopes", "indices", "ties")
         return {**super().to_dict(), **{name: getattr(self, name) for name in names}}
 
 
@@ -135,9 +145,13 @@ def tolerance(
         raise InputError(
             f"variables.{listed[0]}: found a list, expected a tolerance, a distribution or a range"
         )
-    middle, slopes, bends = _derivatives(plan)
+    middle, bends = _bends(plan)
+    spreads = [_spread(each) for each in plan.axes]
+    place = slopes(
+        plan, np.array([each[0] for each in spreads]), np.array([_STEP * each[1] for each in spreads])
+    )
     drawn = evaluate(plan, plan.values(sampling.random(len(plan.axes), seed, 0, rows)))
-    deviations = np.array([_spread(each)[1] for each in plan.axes])
+    deviations = np.array([each[1] for each in spreads])
     sobol, n_dropped = _indices(plan, seed, indices) if indices else ({}, 0)
     names = [each.name for each in plan.axes]
     solved = drawn.status == SOLVED
@@ -147,11 +161,15 @@ def tolerance(
         n_rows=rows,
         n_failed=int((~solved).sum()),
         responses={
-            name: _row(plan, drawn.columns[name][solved], middle[name], slopes[name], bends[name])
+            name: _row(plan, drawn.columns[name][solved], middle[name], place.slopes[name], bends[name])
             for name in plan.responses
         },
-        contributions={name: _shares(names, slopes[name] * deviations) for name in plan.responses},
-        slopes={name: dict(zip(names, map(float, slopes[name]), strict=True)) for name in plan.responses},
+        contributions={name: _shares(names, place.slopes[name] * deviations) for name in plan.responses},
+        slopes={
+            name: dict(zip(names, map(float, place.slopes[name]), strict=True)) for name in plan.responses
+        },
+        exact=tuple(name for name in plan.responses if name in place.exact),
+        ties=place.ties,
         indices=sobol,
         n_dropped=n_dropped,
         **_yield(plan, drawn, level),
@@ -166,8 +184,8 @@ def _spread(axis: Axis) -> tuple[float, float, float]:
     return float(values.mean()), float(values.std()), 0.5 * (axis.high - axis.low)
 
 
-def _derivatives(plan: StudyPlan) -> tuple[dict[str, float], dict[str, Floats], dict[str, Floats]]:
-    """Value in the middle, first and second derivatives by each variable, of each response."""
+def _bends(plan: StudyPlan) -> tuple[dict[str, float], dict[str, Floats]]:
+    """Value in the middle, and second derivatives by each variable, of each response."""
     spreads = [_spread(each) for each in plan.axes]
     middles = np.array([each[0] for each in spreads])
     steps = np.array([_STEP * each[1] for each in spreads])
@@ -183,9 +201,8 @@ def _derivatives(plan: StudyPlan) -> tuple[dict[str, float], dict[str, Floats], 
         )
         raise FindingError(f"the machine {place} has no answer: {rows.reasons[rows.reason[worst]]}")
     values = {name: rows.columns[name] for name in plan.responses}
-    first = {name: (f[1 : n + 1] - f[n + 1 :]) / (2 * steps) for name, f in values.items()}
     second = {name: (f[1 : n + 1] - 2 * f[0] + f[n + 1 :]) / steps**2 for name, f in values.items()}
-    return {name: float(f[0]) for name, f in values.items()}, first, second
+    return {name: float(f[0]) for name, f in values.items()}, second
 
 
 def _row(plan: StudyPlan, drawn: Floats, middle: float, slopes: Floats, bends: Floats) -> dict[str, float]:

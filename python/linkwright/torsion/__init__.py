@@ -7,6 +7,7 @@
 | `damper/` | The best damper for a mode |
 | `diagnosis/` | Which cylinder is weak, from a measured speed |
 | `figures/` | Figures of trains |
+| `gradient/` | How frequencies, shapes and torques follow the numbers of the file |
 | `in_time/` | Manoeuvres of trains, followed in time |
 | `limits/` | Whether a train bears its vibration |
 | `model/` | Trains in a machine file: discs, shafts, gears, couplings, dampers, engines, manoeuvres |

@@ -8,7 +8,7 @@ dropped on the way.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import numpy as np
@@ -161,6 +161,12 @@ class Tangent:
 def plain(x: Any) -> Any:
     """The number alone, where derivatives have no part: starting points, sides, windings."""
     return x.value if isinstance(x, Tangent) else x
+
+
+def total(terms: Iterable[Any]) -> Any:
+    """The sum, rounded once; with derivatives if a term has them."""
+    listed = list(terms)
+    return sum(listed) if any(isinstance(each, Tangent) for each in listed) else math.fsum(listed)
 
 
 def _held(x: Tangent) -> NDArray[Any]:

@@ -44,7 +44,10 @@ def tolerance(
         machine=plan.machine.name,
         results=lambda _: {"tolerance": found.to_dict()},
         findings=["No machine within the tolerances keeps all limits."] if found.share_within == 0 else [],
-        warnings=[failed] if found.n_failed else [],
+        warnings=[
+            *([failed] if found.n_failed else []),
+            *(f"{name} has a derivative on either side only: {why}" for name, why in found.ties.items()),
+        ],
         head=lambda: _head(plan, found),
         tables=lambda: tolerance_tables(found, plan.units),
     )
@@ -53,7 +56,9 @@ def tolerance(
 
 def _head(plan: StudyPlan, found: Tolerance) -> str:
     """Name of the machine and its yield."""
-    lines = [plan.machine.name, f"{found.n_rows} machines; derivatives by central differences"]
+    rest = [name for name in plan.responses if name not in found.exact]
+    how = f"by differences of {', '.join(rest)}, exact otherwise" if rest else "exact"
+    lines = [plan.machine.name, f"{found.n_rows} machines; derivatives {how}"]
     if found.share_within is not None:
         low, high = 100 * (found.share_low or 0.0), 100 * (found.share_high or 0.0)
         lines.append(

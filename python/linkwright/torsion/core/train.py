@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from linkwright import _core
 from linkwright.kernel.errors import MachineError, Problem
+from linkwright.kernel.numerics.tangent import plain
 from linkwright.torsion.model.modal_damping import ModalDamping
 from linkwright.torsion.model.train import GROUND, Shaft, Train, TrainGear
 from linkwright.torsion.model.whole_train import parts_of, speeds, whole_train
@@ -160,7 +161,7 @@ def refer(train: Train) -> ReferredTrain:
         stiffness=factor * np.array([_rate(part) for part in twisting.values()]),
         disc_damping=summed("damping"),
         damping=factor * np.array([part.damping for part in twisting.values()]),
-        loss_factor=np.array([part.loss_factor for part in twisting.values()], float),
+        loss_factor=np.array([part.loss_factor for part in twisting.values()]),
     )
     return referred if train.modal_damping is None else _with_ratios(referred, train.modal_damping)
 
@@ -197,7 +198,7 @@ def _require_numbers(train: Train) -> None:
     wrong = [
         Problem(key, f"{value!r}", "one finite number above zero")
         for key, value in entries.items()
-        if not isinstance(value, Real) or not (0 < value < np.inf or (value == 0 and key in fluids))
+        if not isinstance(plain(value), Real) or not (0 < value < np.inf or (value == 0 and key in fluids))
     ]
     if wrong:
         raise MachineError(wrong)

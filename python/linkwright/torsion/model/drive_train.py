@@ -27,6 +27,7 @@ from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.kernel.description.base import fault
 from linkwright.kernel.description.plain import look
 from linkwright.kernel.errors import MachineError, Problem
+from linkwright.kernel.numerics.tangent import plain
 from linkwright.torsion.model.train import GROUND, Disc, ElasticShaft, Shaft, Train, TrainGear
 
 MOTOR, GEARBOX, WHEEL, CRANK = "motor", "gearbox", "wheel", "crank"
@@ -56,8 +57,10 @@ def drive_train(drive: Drive, inertia: float) -> Train:
             discs[at[station]] = discs.get(at[station], 0.0) + J
     _require_inertia(discs)
     gears = {} if at[GEARBOX] in (at[WHEEL], GROUND) else {GEARS: _gears(drive, at)}
-    return Train(
-        discs={name: Disc(inertia=J) for name, J in discs.items()}, shafts=_shafts(drive, at), gears=gears
+    return Train.model_construct(
+        discs={name: Disc.model_construct(inertia=J) for name, J in discs.items()},
+        shafts=_shafts(drive, at),
+        gears=gears,
     )
 
 
@@ -135,7 +138,9 @@ def _is_idle(drive: Drive) -> bool:
 
 def _gears(drive: Drive, at: dict[str, str]) -> TrainGear:
     box = drive.gearbox
-    return TrainGear(between=(at[GEARBOX], at[WHEEL]), ratio=box.ratio, stiffness=box.stiffness)
+    return TrainGear.model_construct(
+        between=(at[GEARBOX], at[WHEEL]), ratio=box.ratio, stiffness=box.stiffness
+    )
 
 
 def _shafts(drive: Drive, at: dict[str, str]) -> dict[str, Shaft]:
@@ -145,7 +150,9 @@ def _shafts(drive: Drive, at: dict[str, str]) -> dict[str, Shaft]:
         shafts[MOTOR_SHAFT] = _between(drive.motor_shaft, (at[MOTOR], at[GEARBOX]))
     if box.stiffness is not None and at[GEARBOX] == GROUND:
         # Teeth whose first side is held are a spring at the other.
-        shafts[GEARS] = Shaft(between=(GROUND, at[WHEEL]), stiffness=box.stiffness * box.ratio**2)
+        shafts[GEARS] = Shaft.model_construct(
+            between=(GROUND, at[WHEEL]), stiffness=box.stiffness * box.ratio**2
+        )
     if drive.crankshaft is not None:
         shafts[CRANKSHAFT] = _between(drive.crankshaft, (at[WHEEL], at[CRANK]))
     return shafts
@@ -154,7 +161,7 @@ def _shafts(drive: Drive, at: dict[str, str]) -> dict[str, Shaft]:
 def _between(shaft: ElasticShaft, ends: tuple[str, str]) -> Shaft:
     """A shaft of the driveline as one of a train."""
     entries = {name: getattr(shaft, name) for name in ElasticShaft.model_fields}
-    return Shaft(between=ends, **entries)
+    return Shaft.model_construct(between=ends, **entries)
 
 
 def _require_numbers(drive: Drive) -> None:
@@ -168,7 +175,7 @@ def _require_numbers(drive: Drive) -> None:
     wrong = [
         Problem(key, f"{value!r}", "one finite number above zero")
         for key, value in entries.items()
-        if not isinstance(value, int | float) or not 0 < value < float("inf")
+        if not isinstance(plain(value), int | float) or not 0 < value < float("inf")
     ]
     if wrong:
         raise MachineError(wrong)

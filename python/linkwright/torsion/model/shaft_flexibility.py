@@ -38,6 +38,7 @@ from functools import cache
 import numpy as np
 
 from linkwright.kernel.numerics.roots import zero
+from linkwright.kernel.numerics.tangent import total
 
 # Points of one Gauss-Legendre rule; an interval is halved until two rules agree to this.
 _POINTS = 16
@@ -101,7 +102,8 @@ def _rule(diameters: tuple[float, float], bores: tuple[float, float], start: flo
         weight / polar_moment(_at(diameters, start + z * width), _at(bores, start + z * width))
         for z, weight in _gauss()
     )
-    return width * math.fsum(terms)
+    part: float = width * total(terms)
+    return part
 
 
 def _over_share(

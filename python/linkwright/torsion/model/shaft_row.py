@@ -13,6 +13,7 @@ from itertools import pairwise
 from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import fault
+from linkwright.kernel.numerics.tangent import total
 from linkwright.torsion.model.shaft_flexibility import polar_moment, step_length
 from linkwright.torsion.model.shaft_section import ShaftSection
 
@@ -75,7 +76,7 @@ def end_inertias(sections: Sequence[ShaftSection], density: float) -> tuple[floa
     At the first end and at the second. `density`: [kg/m³].
     """
     parts = flexibilities(sections)
-    whole, before, first, second = math.fsum(parts), 0.0, 0.0, 0.0
+    whole, before, first, second = total(parts), 0.0, 0.0, 0.0
     for section, part in zip(sections, parts, strict=True):
         share, J = (before + part / 2) / whole, section.inertia(density)
         first, second = first + (1 - share) * J, second + share * J

@@ -42,6 +42,7 @@ from pydantic import Field
 from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import CheckedDescription, fault
+from linkwright.kernel.numerics.tangent import total
 from linkwright.kernel.units import (
     DENSITY,
     FRACTION,
@@ -197,6 +198,8 @@ class ShaftSection(CheckedDescription):
         d, bore = self.diameters[0], self.bores[0]
         if self.kind == "spline":
             return polar_moment(d + _TOOTH_SHARE * (self.diameter - d), bore)
+        if self.keyway_width is None:
+            return polar_moment(d, bore)
         width, depth = self._keyway
         taken: float = 3.38 * width**0.336 * depth**1.34
         if self.keyways == 2:
@@ -250,4 +253,5 @@ class ShaftSection(CheckedDescription):
 
 def _mean_fourth(a: float, b: float) -> float:
     """Mean of the fourth power of a length that goes from a to b in proportion."""
-    return math.fsum(a ** (4 - n) * b**n for n in range(5)) / 5
+    mean: float = total(a ** (4 - n) * b**n for n in range(5)) / 5
+    return mean

@@ -25,6 +25,7 @@ from pydantic import Field
 from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import CheckedDescription, Description, Name, fault
+from linkwright.kernel.numerics.tangent import total
 from linkwright.kernel.units import COUNT, INERTIA, Bound, Quantity, positive
 from linkwright.linkages.model.element import PositiveNumber
 from linkwright.torsion.model.coupling import Coupling, Damper
@@ -138,7 +139,10 @@ class ElasticShaft(CheckedDescription):
     @property
     def rate(self) -> float:
         """Torque per twist, given or of the sections [N m/rad]."""
-        return self.stiffness if self.stiffness is not None else 1.0 / math.fsum(self.compliances)
+        if self.stiffness is not None:
+            return self.stiffness
+        rate: float = 1.0 / total(self.compliances)
+        return rate
 
     def distance(self, share: float) -> float | None:
         """How far from the first end a share of the twist lies [m]; None without sections."""

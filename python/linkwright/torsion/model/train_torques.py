@@ -81,7 +81,8 @@ class TrainLoad(CheckedDescription):
 
     def resistance(self, speed: float) -> float:
         """Mean torque at a speed of its disc above zero [N m]."""
-        return float(self.torque * (speed / self.speed) ** self.exponent)
+        found: float = self.torque * (speed / self.speed) ** self.exponent
+        return found
 
     def damping(self, speed: float) -> float:
         """Damping of its vibration at a speed [N m s/rad]; none where the torque falls with the speed."""
@@ -113,7 +114,10 @@ class Excitation(CheckedDescription):
 
     def factor(self, speed: float) -> float:
         """Amplitudes at a speed over those given."""
-        return 1.0 if self.speed is None else float((speed / self.speed) ** self.exponent)
+        if self.speed is None:
+            return 1.0
+        found: float = (speed / self.speed) ** self.exponent
+        return found
 
 
 def _listed_twice(orders: Sequence[float]) -> Iterator[InitErrorDetails]:

@@ -28,7 +28,10 @@ def whole_train(train: Train) -> Train:
     if not (train.couplings or train.dampers or train.engine or heavy):
         return train
     throws, cranks = ({}, {}) if train.engine is None else _crankshaft(train.engine)
-    rings = {name: Disc(inertia=damper.ring_inertia) for name, damper in train.dampers.items()}
+    rings = {
+        name: Disc.model_construct(inertia=damper.ring_inertia) for name, damper in train.dampers.items()
+    }
+    # All that is made here is unchecked: it was checked where it is described.
     couplings = {name: _coupling(coupling) for name, coupling in train.couplings.items()}
     held = {name: _spring(name, damper) for name, damper in train.dampers.items()}
     return train.model_copy(
@@ -55,11 +58,13 @@ def crank_names(throws: int) -> tuple[str, ...]:
 def _crankshaft(engine: ReciprocatingEngine) -> tuple[dict[str, Disc], dict[str, Shaft]]:
     """Throws, and what twists between them."""
     n = len(engine.throws)
-    disc = Disc(inertia=mean_throw_inertia(engine), damping=engine.damping)
+    disc = Disc.model_construct(inertia=mean_throw_inertia(engine), damping=engine.damping)
     names = throw_names(n)
     stiffness, limit = throw_stiffness(engine) if n > 1 else 0.0, engine.crank_limit
     shafts = {
-        name: Shaft(between=pair, stiffness=stiffness, loss_factor=engine.loss_factor, limit=limit)
+        name: Shaft.model_construct(
+            between=pair, stiffness=stiffness, loss_factor=engine.loss_factor, limit=limit
+        )
         for name, pair in zip(crank_names(n), pairwise(names), strict=True)
     }
     return dict.fromkeys(names, disc), shafts
@@ -86,9 +91,9 @@ def _light(shafts: Mapping[str, Shaft]) -> dict[str, Shaft]:
 
 def _coupling(coupling: Coupling) -> Shaft:
     """What a coupling without mean torque does."""
-    return Shaft(
+    return Shaft.model_construct(
         between=coupling.between,
-        stiffness=float(coupling.slope()),
+        stiffness=float(coupling.slope()) if coupling.stiffness is None else coupling.stiffness,
         damping=coupling.damping,
         loss_factor=coupling.loss_factor,
     )
@@ -96,7 +101,7 @@ def _coupling(coupling: Coupling) -> Shaft:
 
 def _spring(name: str, damper: Damper) -> Shaft:
     """What joins the ring of a damper with its disc."""
-    # No shaft of a file has the stiffness 0, which a fluid has: unchecked.
+    # No shaft of a file has the stiffness 0, which a fluid has.
     return Shaft.model_construct(
         between=(damper.on, name),
         stiffness=damper.stiffness or 0.0,

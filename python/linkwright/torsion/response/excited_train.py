@@ -124,7 +124,7 @@ def loaded(machine: Machine, train: Train, referred: ReferredTrain, torques: Tor
 
     At the speeds of the torques.
     """
-    mean = _mean_torques(referred, torques.mean)
+    mean = mean_shaft_torques(referred, torques.mean)
     return ExcitedTrain(train, referred, torques, mean, _operating(machine.train, referred, torques, mean))
 
 
@@ -179,7 +179,7 @@ def _onto_masses(referred: ReferredTrain, torques: Complexes) -> Complexes:
     return on_masses
 
 
-def _mean_torques(referred: ReferredTrain, mean: Floats) -> Floats:
+def mean_shaft_torques(referred: ReferredTrain, mean: Floats) -> Floats:
     """Torque of each shaft at its own speed under torques that do not pulsate."""
     M = _onto_masses(referred, mean[None].astype(complex))[0].real
     if referred.is_free:

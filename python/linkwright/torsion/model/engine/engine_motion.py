@@ -7,6 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.kernel.numerics.tangent import plain
 from linkwright.torsion.model.engine.engine import ReciprocatingEngine
 from linkwright.torsion.model.engine.equivalent_inertia import mean_inertia
 from linkwright.torsion.model.engine.running_gear import (
@@ -66,7 +67,11 @@ def own_inertia(engine: ReciprocatingEngine) -> float:
 
 def mean_throw_inertia(engine: ReciprocatingEngine) -> float:
     """Mean over the revolution of the inertia of a throw with its rods and pistons [kg m²]."""
-    return mean_inertia(engine.radius, running_gears(engine), own_inertia(engine)).mean
+    own = own_inertia(engine)
+    mean: float = mean_inertia(engine.radius, running_gears(engine), plain(own)).mean
+    # It is linear in what turns with the throw, which may have derivatives.
+    whole: float = mean + (own - plain(own))
+    return whole
 
 
 def throw_stiffness(engine: ReciprocatingEngine) -> float:

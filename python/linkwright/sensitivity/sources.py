@@ -1,0 +1,155 @@
+"""What can be differentiated: results of each analysis with their derivatives by entries of the machine.
+
+| responses | by |
+| --- | --- |
+| ``steady_state.…`` | Newton's step in dual numbers at the solution (`linkwright.drive.gradient`) |
+| ``free_vibration.natural_frequencies.1`` | Rayleigh's quotient (`linkwright.torsion.gradient.modes`) |
+| ``free_vibration.mode_shapes.1.DISC`` | all modes (there too) |
+| ``forced_vibration.shaft_torque_vibratory.SHAFT`` | the adjoint (`linkwright.torsion.gradient.forced`) |
+| ``forced_vibration.shaft_torque_max.SHAFT`` | there too |
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from linkwright.drive.gradient import steady_tangents
+from linkwright.drive.model.motor import ConstantSpeedMotor
+from linkwright.drive.steady_state import SteadyState
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.numerics.tangent import Tangent
+from linkwright.kernel.quantities import Shown, declared, shown
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.directions import directions
+
+
+@dataclass(frozen=True)
+class Source:
+    """Responses of an analysis with their derivatives by `variables`, those of the entries asked for that
+    have some.
+
+    `words` and `units` by response; `ties` and `refused` with their reasons; `usual` are the responses that
+    are given if none is named.
+    """
+
+    variables: tuple[str, ...]
+    tangents: Mapping[str, Tangent]
+    words: Mapping[str, str]
+    units: Mapping[str, str]
+    ties: Mapping[str, str]
+    refused: Mapping[str, str]
+    usual: Sequence[str] = field(default=())
+
+
+def usual_analysis(machine: Machine) -> str:
+    """The analysis whose results are differentiated if none is named."""
+    motor = None if machine.drive is None else machine.drive.motor
+    if motor is not None and not isinstance(motor, ConstantSpeedMotor):
+        return "steady_state"
+    if machine.train is not None or (machine.drive is not None and machine.drive.twists):
+        return "free_vibration"
+    return "steady_state"
+
+
+def source(machine: Machine, analysis: str, variables: Sequence[str]) -> Source:
+    """Results of an analysis along entries of a machine. Raises what the analysis raises."""
+    return SOURCES[analysis](machine, variables)
+
+
+def _steady(machine: Machine, variables: Sequence[str]) -> Source:
+    """Scalars of steady motion."""
+    found = directions(machine, variables)
+    steady = steady_tangents(machine, found.values)
+    listed = [name for name, (_, mark) in declared(SteadyState).items() if isinstance(mark, Shown)]
+    values = {name: getattr(steady.state, name) for name in listed}
+    tangents = {name: value for name, value in values.items() if isinstance(value, Tangent)}
+    marks = {name: shown(SteadyState, name) for name in tangents}
+    return Source(
+        found.variables,
+        {f"steady_state.{name}": value for name, value in tangents.items()},
+        {f"steady_state.{name}": f"{mark.word} {mark.symbol}".strip() for name, mark in marks.items()},
+        {f"steady_state.{name}": mark.unit for name, mark in marks.items()},
+        {f"steady_state.{name}": reason for name in tangents if (reason := _tie(name, steady.ties))},
+        found.refused,
+        [f"steady_state.{name}" for name in tangents],
+    )
+
+
+# Extremes → what is made of them.
+_MADE_OF = {
+    "speed": (
+        *("speed_mean_extremes", "unevenness", "unevenness_time", "motion_coefficient"),
+        *("motion_coefficient_time", "dynamism", "torque_motor_min", "torque_motor_max", "power_motor_max"),
+    ),
+    "acceleration": ("dynamism", "dynamism_time", "motion_coefficient", "motion_coefficient_time"),
+}
+
+
+def _tie(name: str, ties: Mapping[str, str]) -> str:
+    """Why a scalar of the motion has a derivative on either side only; empty if it has one."""
+    for extreme, reason in ties.items():
+        if name == extreme or name in _MADE_OF[extreme.partition("_")[0]]:
+            return f"{extreme.replace('_', ' ')}: {reason}"
+    return ""
+
+
+def _free(machine: Machine, variables: Sequence[str]) -> Source:
+    """Natural frequencies and mode shapes."""
+    from linkwright.torsion.gradient.modes import mode_tangents
+
+    found = mode_tangents(machine, variables)
+    frequencies = {
+        f"free_vibration.natural_frequencies.{i}": each for i, each in found.natural_frequencies.items()
+    }
+    shapes = {f"free_vibration.mode_shapes.{i}.{disc}": each for (i, disc), each in found.mode_shapes.items()}
+    words = {name: f"natural frequency of mode {name.rsplit('.', 1)[-1]}" for name in frequencies}
+    words |= {
+        f"free_vibration.mode_shapes.{i}.{disc}": f"amplitude of {disc} in mode {i}"
+        for i, disc in found.mode_shapes
+    }
+    units = dict.fromkeys(frequencies, "Hz") | dict.fromkeys(shapes, "")
+    ties = {f"free_vibration.natural_frequencies.{i}": reason for i, reason in found.ties.items()}
+    return Source(found.variables, frequencies | shapes, words, units, ties, found.refused, list(frequencies))
+
+
+def _forced(machine: Machine, variables: Sequence[str]) -> Source:
+    """Largest torques of shafts over the speeds."""
+    from linkwright.torsion.gradient.forced import forced_tangents
+
+    found = forced_tangents(machine, variables)
+    kinds = {"vibratory": "shaft_torque_vibratory", "greatest": "shaft_torque_max"}
+    said = {"vibratory": "largest vibratory torque of", "greatest": "largest torque of"}
+    tangents, words, ties = {}, {}, {}
+    for kind, quantity in kinds.items():
+        for shaft, each in getattr(found, kind).items():
+            name = f"forced_vibration.{quantity}.{shaft}"
+            tangents[name], words[name] = each, f"{said[kind]} {shaft} over the speeds"
+            if reason := found.ties.get(f"{kind}.{shaft}"):
+                ties[name] = reason
+    units = dict.fromkeys(tangents, "N m")
+    return Source(found.variables, tangents, words, units, ties, found.refused, list(tangents))
+
+
+# Analysis → its results with derivatives.
+SOURCES: dict[str, Callable[[Machine, Sequence[str]], Source]] = {
+    "steady_state": _steady,
+    "free_vibration": _free,
+    "forced_vibration": _forced,
+}
+
+
+def chosen(listed: Mapping[str, Tangent], asked: str) -> list[str]:
+    """Responses that a name means: that of it alone, or all that begin with it. Empty if there is none."""
+    return [asked] if asked in listed else [name for name in listed if name.startswith(f"{asked}.")]
+
+
+def analysis_of(response: str) -> str:
+    """The analysis that a response is from.
+
+    Raises InputError: none that can be differentiated.
+    """
+    name = response.partition(".")[0]
+    if name not in SOURCES:
+        raise InputError(f'no response "{response}" with a derivative: expected one of {", ".join(SOURCES)}')
+    return name

@@ -1,0 +1,165 @@
+"""Derivatives of responses by the variables of a study: exact where the analysis has them.
+
+A variable reaches a response through its entries of the machine, of which the derivatives are those of
+`linkwright.sensitivity`, and through derived numbers and formulas, which tangents go through. What has no
+exact derivative, such as an extreme of a sampled curve, is differenced over four places, extrapolated to
+fourth order.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.description.formula import NUMBERS
+from linkwright.kernel.description.formula import names as names_in
+from linkwright.kernel.errors import FindingError, InputError
+from linkwright.kernel.numerics.formula_value import value
+from linkwright.kernel.numerics.tangent import Tangent, plain
+from linkwright.sensitivity.sources import SOURCES, Source, source
+from linkwright.studies.engine import SOLVED, evaluate, sound_variant
+from linkwright.studies.plan import Formula, StudyPlan
+from linkwright.studies.responses import Asked
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Slopes:
+    """Responses at a place with their derivatives by the variables.
+
+    `values` by response [SI], `slopes` likewise, (variables,); `exact` names those that are no differences,
+    and `ties` those that have a derivative on either side only, with the reason.
+    """
+
+    values: dict[str, float]
+    slopes: dict[str, Floats]
+    exact: frozenset[str]
+    ties: dict[str, str]
+
+
+def slopes(plan: StudyPlan, at: Floats, steps: Floats) -> Slopes:
+    """Responses and their derivatives.
+
+    `at`: values of the variables, numbers all of them, (variables,) [SI]; `steps`: of differences, where
+    there is no other way, likewise. Raises FindingError: the machine there, or one a step beside it, has no
+    answer.
+    """
+    names = [each.name for each in plan.axes]
+    known: dict[str, Any] = {
+        name: Tangent(x, unit) for name, x, unit in zip(names, at, np.eye(len(at)), strict=True)
+    }
+    for derived in plan.derived:
+        known[derived.name] = _worked(derived, known)
+    is_followed = not any(each is None for each in known.values())
+    exact, ties = _analysed(plan, known) if is_followed else ({}, {})
+    known |= exact
+    differenced: dict[str, Tangent] = {}
+    missing = [each.name for each in plan.asked if each.name not in exact]
+    if missing or not is_followed or _worked_all(plan, known) is None:
+        differenced = _differences(plan, at, steps)
+    known |= {name: differenced[name] for name in missing}
+    rough = set(missing)
+    for each in plan.formulas:
+        found = _worked(each, known) if is_followed else None
+        known[each.name] = differenced[each.name] if found is None else found
+        if found is None or rough & set(names_in(each.tree)):
+            rough.add(each.name)
+    responses = {name: _tangent(known[name], len(at)) for name in plan.responses}
+    return Slopes(
+        {name: each.value for name, each in responses.items()},
+        {name: each.d for name, each in responses.items()},
+        frozenset(set(plan.responses) - rough),
+        ties,
+    )
+
+
+def _tangent(x: Any, n: int) -> Tangent:
+    """A number as one with derivatives."""
+    return x if isinstance(x, Tangent) else Tangent(float(x), np.zeros(n))
+
+
+def _worked(formula: Formula, known: Mapping[str, Any]) -> Any:
+    """The value of a formula with its derivatives; None if a function in it has no rule for them."""
+    try:
+        with np.errstate(all="ignore"):
+            found = value(formula.tree, {**NUMBERS, **known})
+    except (TypeError, KeyError, ArithmeticError, ValueError):
+        return None
+    return found.item() if isinstance(found, np.ndarray) and found.ndim == 0 else found
+
+
+def _worked_all(plan: StudyPlan, known: Mapping[str, Any]) -> dict[str, Any] | None:
+    """All formulas of a study; None if one has no derivatives."""
+    found = dict(known)
+    for each in plan.formulas:
+        found[each.name] = _worked(each, found)
+        if found[each.name] is None:
+            return None
+    return found
+
+
+def _analysed(plan: StudyPlan, known: Mapping[str, Any]) -> tuple[dict[str, Tangent], dict[str, str]]:
+    """Responses of analyses that have exact derivatives, and which of them tie."""
+    named = [(each.name, each.addresses) for each in plan.axes]
+    named += [(each.name, each.addresses) for each in plan.derived]
+    entries = {place: known[name] for name, places in named for place in places}
+    machine = sound_variant(plan.machine, {place: float(plain(x)) for place, x in entries.items()})
+    sources: dict[str, Source | None] = {}
+    found: dict[str, Tangent] = {}
+    ties: dict[str, str] = {}
+    for each in plan.asked:
+        if each.analysis not in SOURCES or each.extreme is not None:
+            continue
+        if each.analysis not in sources:
+            sources[each.analysis] = _source(machine, each.analysis, tuple(entries))
+        own, name = sources[each.analysis], _address(each)
+        if own is None or name not in own.tangents:
+            continue
+        tangent = own.tangents[name]
+        by = zip(own.variables, tangent.d, strict=True)
+        slope = sum((d * entries[place].d for place, d in by), start=np.zeros(len(plan.axes)))
+        found[each.name] = Tangent(tangent.value, slope)
+        if name in own.ties:
+            ties[each.name] = own.ties[name]
+    return found, ties
+
+
+def _source(machine: Any, analysis: str, entries: tuple[str, ...]) -> Source | None:
+    """Results with derivatives by entries; None if some have no derivative."""
+    try:
+        found = source(machine, analysis, entries)
+    except InputError:
+        return None
+    return None if found.refused else found
+
+
+def _address(each: Asked) -> str:
+    """The name of a response among the results that have derivatives."""
+    place = () if each.index is None else (str(each.index),)
+    return ".".join((each.analysis, *each.of, each.quantity, *place))
+
+
+def _differences(plan: StudyPlan, at: Floats, steps: Floats) -> dict[str, Tangent]:
+    """All responses with central differences over h and 2h, extrapolated [1].
+
+    [1] Richardson, The approximate arithmetical solution by finite differences, Phil. Trans. A 210 (1911)
+    307.
+    """
+    n = len(at)
+    points = np.vstack([at, *(at + k * np.diag(steps) for k in (1, -1, 2, -2))])
+    rows = evaluate(plan, {each.name: points[:, i].copy() for i, each in enumerate(plan.axes)})
+    if (rows.status != SOLVED).any():
+        worst = int(np.flatnonzero(rows.status)[0])
+        place = "there" if not worst else f"a step beside in {plan.axes[(worst - 1) % n].name}"
+        raise FindingError(f"the machine {place} has no answer: {rows.reasons[rows.reason[worst]]}")
+    found = {}
+    for name in plan.responses:
+        f = rows.columns[name]
+        one, two = (f[1 + k * n : 1 + (k + 1) * n] - f[1 + (k + 1) * n : 1 + (k + 2) * n] for k in (0, 2))
+        found[name] = Tangent(float(f[0]), (8 * one - two) / (12 * steps))
+    return found

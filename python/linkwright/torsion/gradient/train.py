@@ -1,0 +1,86 @@
+"""Derivatives of a referred train by entries of its machine: inertias, stiffnesses, dampings, speeds.
+
+They follow from the entries by plain arithmetic, which tangents go through. The mechanism behind a
+driveline counts with the mean of its inertia, which does not: of its entries there are none.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.machine.machine import Machine
+from linkwright.machine.tangents import columns
+from linkwright.torsion.core.train import ReferredTrain, refer
+from linkwright.torsion.model.drive_train import drive_train
+from linkwright.torsion.model.train import Train
+from linkwright.torsion.model.whole_train import whole_train
+from linkwright.torsion.response.drive_line import drive_line, mean_inertia
+
+Floats = NDArray[np.float64]
+
+_MECHANISM = "the mean inertia of a mechanism has no derivative here; it is that of the disc `crank`"
+
+
+@dataclass(frozen=True)
+class TrainTangents:
+    """Derivatives of the arrays of a `ReferredTrain` by `variables`, the last axis of each."""
+
+    variables: tuple[str, ...]
+    speed: Floats  # (discs, variables)
+    inertia: Floats  # (masses, variables)
+    stiffness: Floats  # (shafts, variables)
+    disc_damping: Floats  # (masses, variables)
+    damping: Floats  # (shafts, variables)
+    loss_factor: Floats  # (shafts, variables)
+
+    def only(self, variables: Sequence[str]) -> TrainTangents:
+        """Those by some of the variables."""
+        at = [self.variables.index(name) for name in variables]
+        return TrainTangents(tuple(variables), *(getattr(self, name)[:, at] for name in _NUMBERS))
+
+
+_NUMBERS = tuple(each.name for each in fields(TrainTangents))[1:]
+
+
+def train_tangents(
+    machine: Machine, variables: Sequence[str], refused: dict[str, str]
+) -> tuple[Train, ReferredTrain, TrainTangents]:
+    """A train, the same referred to its first disc, and its derivatives; what has none goes into
+    `refused`.
+    """
+    whole = whole_train(_described(machine))
+    referred = refer(whole)
+    J = mean_inertia(machine) if machine.train is None else 0.0
+    if machine.train is None:
+        moving = ("mechanism.", "bodies.", "pumping_unit.", "rod_rotator.")
+        refused.update({name: _MECHANISM for name in variables if name.startswith(moving)})
+    free = [name for name in variables if name not in refused]
+    found = columns(machine, free, partial(_numbers, inertia=J), refused)
+    known = tuple(name for name in free if name in found)
+    table = np.array([found[name] for name in known]).T.reshape(-1, len(known))
+    ends = np.cumsum([len(getattr(referred, name)) for name in _NUMBERS])
+    return whole, referred, TrainTangents(known, *np.split(table, ends[:-1]))
+
+
+def _described(machine: Machine) -> Train:
+    """The train of a machine as it is described, or that of its driveline."""
+    return drive_line(machine) if machine.train is None else machine.train
+
+
+def _numbers(machine: Machine, inertia: float) -> Sequence[Any]:
+    """All numbers of the referred train, one behind the other."""
+    drive = machine.drive
+    if machine.train is None:
+        assert drive is not None
+        train = drive_train(drive, inertia)
+    else:
+        train = machine.train
+    # Ratios of damping belong to modes, and change none of these numbers.
+    referred = refer(train.model_copy(update={"modal_damping": None}))
+    return [number for name in _NUMBERS for number in getattr(referred, name)]
