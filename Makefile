@@ -61,8 +61,9 @@ lint: $(TOOLS)
 	$(BIN)/mypy
 	$(BIN)/python -m mypy.stubtest linkwright._core --ignore-disjoint-bases
 
-rust-test:
-	cargo test -p linkwright-core --locked
+# With both packages named, the kernels are those that the module was built from: nothing long is compiled twice.
+rust-test: $(BUILT)
+	cargo test --release -p linkwright-core -p linkwright-py --features pyo3/extension-module --locked
 
 python-test: $(TOOLS)
 	$(BIN)/python -m pytest -n $(shell nproc) --ignore=$(PRINTED)

@@ -6,7 +6,6 @@ use linkwright_core::drive::kinks as core_kinks;
 use linkwright_core::drive::reading::{Curves, ReadCurves};
 use linkwright_core::drive::steady::{Failure, Steady, steady, steady_with_others};
 use linkwright_core::drive::transient::{End, Start, Trajectory, follow};
-use linkwright_core::kernel::lanes::in_lanes;
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
@@ -134,7 +133,7 @@ pub(crate) fn steady_state(
     require_room(analysis, [7, phi.len()])?;
     let solved = guarded(py, analysis, || {
         let found = steady_with_others(plan, q, accuracy)?;
-        let curves = in_lanes(ReadCurves { plan, q, marks: &found.marks, phi });
+        let curves = ReadCurves { plan, q, marks: &found.marks, phi }.curves();
         Ok::<_, Failure>((found, curves))
     })?;
     Ok(match solved {
@@ -187,7 +186,7 @@ pub(crate) fn steady_gradient(
     require_room(analysis, [n, NUMBERS + CURVES * phi.len()])?;
     let found = guarded(py, analysis, || {
         let steady = steady(plan, q, accuracy).ok()?;
-        Some(in_lanes(Gradient { plan, q, directions, steady: &steady, phi }))
+        Some(Gradient { plan, q, directions, steady: &steady, phi }.derivatives())
     })?;
     let Some(found) = found else { return Ok(None) };
     let number = |k: usize| kept(py, found.numbers[k * n..(k + 1) * n].to_vec());

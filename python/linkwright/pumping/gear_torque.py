@@ -26,7 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.errors import FindingError
-from linkwright.kernel.numerics.roots import zeros
+from linkwright.kernel.numerics.roots import zero, zeros
 from linkwright.kernel.numerics.turn_curve import TurnCurve
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.quantities import Shown
@@ -41,9 +41,6 @@ _ANGLES = 720
 
 # Counterbalance beyond which none is looked for [N m or N].
 _LARGEST = 1e15
-
-# Halvings of a bracket by samples: what is left is a thousandth of what samples err.
-_HALVINGS = 40
 
 
 @dataclass(frozen=True)
@@ -258,7 +255,7 @@ def _force(load: PolishedRodLoad, angles: Floats, position: Floats, factor: Floa
 
 
 def _equal_peaks(turn: _Stroke, is_up: NDArray[np.bool_]) -> float:
-    """The counterbalance with which both strokes have equal peaks among samples, by bisection."""
+    """The counterbalance with which both strokes have equal peaks among samples."""
 
     def excess(size: float) -> float:
         net = turn.net(size)
@@ -273,8 +270,4 @@ def _equal_peaks(turn: _Stroke, is_up: NDArray[np.bool_]) -> float:
                 "counterweights (pumping_unit.load.phase) their moment does not fall in one stroke and rise "
                 "in the other"
             )
-    low, high = -reach, reach
-    for _ in range(_HALVINGS):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if excess(middle) > 0 else (low, middle)
-    return 0.5 * (low + high)
+    return zero(excess, -reach, reach)

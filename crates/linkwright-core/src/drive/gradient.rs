@@ -16,7 +16,7 @@ use crate::drive::steady::Steady;
 use crate::drive::structure::Plan;
 use crate::kernel::call::poll;
 use crate::kernel::dual::Dual;
-use crate::kernel::lanes::Job;
+use crate::kernel::lanes::{Job, in_single_lanes};
 use crate::kernel::real::Real;
 use crate::linkage::motion::Motion;
 use std::f64::consts::TAU;
@@ -58,6 +58,12 @@ impl Gradient<'_> {
     /// How many directions there are.
     fn n(&self) -> usize {
         self.directions.len() / self.q.len().max(1)
+    }
+
+    /// The derivatives. Not inlined: every crate that called it would compile its own kernel.
+    #[inline(never)]
+    pub fn derivatives(self) -> Derivatives {
+        in_single_lanes(self)
     }
 }
 

@@ -8,7 +8,7 @@ use crate::drive::cycle::{Machine, Step, stages_of_part};
 use crate::drive::law::Given;
 use crate::drive::structure::Plan;
 use crate::kernel::call::poll;
-use crate::kernel::lanes::Job;
+use crate::kernel::lanes::{Job, in_lanes};
 use crate::kernel::radau::{N, S, through};
 use crate::kernel::real::Real;
 use crate::linkage::motion::Motion;
@@ -156,6 +156,12 @@ impl Job for ReadCurves<'_> {
 }
 
 impl ReadCurves<'_> {
+    /// The curves. Not inlined: a kernel is long, and every crate that called it would compile its own.
+    #[inline(never)]
+    pub fn curves(self) -> Curves {
+        in_lanes(self)
+    }
+
     /// Index of the last mark not after φ, looked for from a likely one on.
     fn mark_before(&self, phi: f64, from: usize) -> usize {
         let is_before = |k: usize| self.marks.get(k).is_some_and(|mark| mark.phi <= phi);

@@ -28,7 +28,54 @@ pub fn in_lanes<J: Job>(job: J) -> J::Output {
             self.0.run::<Pair<V<S>>>()
         }
     }
-    pulp::Arch::new().dispatch(Wide(job))
+    dispatch(Wide(job), |Wide(job)| scalar(job))
+}
+
+/// Runs the job one register at a time: for numbers that carry derivatives along, two of which fill the processor
+/// as two registers do, in half the code.
+pub fn in_single_lanes<J: Job>(job: J) -> J::Output {
+    struct Narrow<J>(J);
+    impl<J: Job> pulp::WithSimd for Narrow<J> {
+        type Output = J::Output;
+        #[inline(always)]
+        fn with_simd<S: Simd>(self, _simd: S) -> J::Output {
+            self.0.run::<V<S>>()
+        }
+    }
+    dispatch(Narrow(job), |Narrow(job)| scalar(job))
+}
+
+/// Runs the work on the best instruction set found; on plain numbers, which most kernels are compiled for anyway,
+/// where a processor has no registers for several.
+#[inline(always)]
+fn dispatch<W: pulp::WithSimd>(work: W, plain: impl FnOnce(W) -> W::Output) -> W::Output {
+    #[cfg(target_arch = "x86_64")]
+    {
+        use pulp::x86::{V3, V4};
+        if let Some(simd) = V4::try_new() {
+            return simd.vectorize(
+                #[inline(always)]
+                || work.with_simd(simd),
+            );
+        }
+        if let Some(simd) = V3::try_new() {
+            return simd.vectorize(
+                #[inline(always)]
+                || work.with_simd(simd),
+            );
+        }
+        plain(work)
+    }
+    #[cfg(target_arch = "aarch64")]
+    match pulp::aarch64::Neon::try_new() {
+        Some(simd) => simd.vectorize(
+            #[inline(always)]
+            || work.with_simd(simd),
+        ),
+        None => plain(work),
+    }
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    plain(work)
 }
 
 /// Runs the job on plain `f64`: the truth that lanes are measured against.

@@ -259,6 +259,32 @@ impl<Y: State> Stages<Y> {
     }
 }
 
+/// A polynomial without constant part by its factors of z, z (1 − z), z² (1 − z), … ([`Stages::polynomial`]).
+pub fn factors(powers: &[f64]) -> [f64; 7] {
+    // What is left of the polynomial, divided by z and by 1 − z in turns.
+    let mut rest = [0.0; 7];
+    rest[..powers.len() - 1].copy_from_slice(&powers[1..]);
+    let mut found = [0.0; 7];
+    for (i, factor) in found.iter_mut().enumerate() {
+        if i % 2 == 0 {
+            // f = r(1), and (r − f)/(1 − z) has the partial sums of the coefficients behind: r − f = (1 − z) s with
+            // s_p = −Σ_{q>p} r_q.
+            *factor = rest.iter().sum();
+            let mut behind = 0.0;
+            for coefficient in rest.iter_mut().rev() {
+                let own = *coefficient;
+                *coefficient = -behind;
+                behind += own;
+            }
+        } else {
+            *factor = rest[0];
+            rest.rotate_left(1);
+            rest[6] = 0.0;
+        }
+    }
+    found
+}
+
 /// The larger of two errors over their tolerances; one that is no number is not lost.
 pub fn worse(a: f64, b: f64) -> f64 {
     if a.is_nan() || a > b { a } else { b }
@@ -386,6 +412,22 @@ mod tests {
             let slope =
                 (stages.component(0.3 + 1e-5, y[1], 1) - stages.component(0.3 - 1e-5, y[1], 1)) / 2e-5;
             assert!((stages.slope(0.3, 1) - slope).abs() < 1e-8, "slope");
+        }
+    }
+
+    #[test]
+    fn factors_are_of_the_same_polynomial() {
+        let powers = [0.0, 0.7, -1.3, 2.0, 0.4, -0.9, 1.7];
+        let found = factors(&powers);
+        for k in 0..=10 {
+            let z = f64::from(k) / 10.0;
+            let plain: f64 = powers.iter().enumerate().map(|(p, a)| a * z.powi(p as i32)).sum();
+            let term = |(i, factor): (usize, &f64)| {
+                factor * z.powi(i as i32 / 2 + 1) * (1.0 - z).powi((i as i32 + 1) / 2)
+            };
+            let sum: f64 = found.iter().enumerate().map(term).sum();
+            // A few roundings of numbers of size one.
+            assert!((sum - plain).abs() < 1e-14, "at {z}: {sum} for {plain}");
         }
     }
 }

@@ -27,6 +27,7 @@ from linkwright.cam.dynamics.backlash import SideChange, side_changes
 from linkwright.cam.dynamics.bearing import ArmPivot, Bearing, BearingReaction, NoFriction, Push, pushes
 from linkwright.cam.dynamics.follower_load import CamCourse, FollowerLoad, force_along
 from linkwright.kernel.errors import InputError
+from linkwright.kernel.numerics.roots import zero
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Shown
@@ -43,9 +44,6 @@ _REST = 1e-9
 # What is left of a normal force of one, over what is left without friction, below which the follower jams:
 # beyond a thousand times the force no part is rigid any more.
 _JAM = 1e-3
-
-# Bisections of a right angle, down to rounding.
-_HALVINGS = 50
 
 
 _NORMAL = (
@@ -309,15 +307,14 @@ def _jams(course: CamCourse, bearing: Bearing, friction: float, side: Floats, ja
 
 def _limit(course: CamCourse, bearing: Bearing, friction: float, side: Floats, row: int) -> float:
     """The pressure angle, of the same sign, from which on the follower jams at one row."""
-    low, high = 0.0, 0.5 * math.pi * (1 - 1e-12)
     sign = math.copysign(1.0, course.pressure_angle[row])
     if isinstance(bearing, ArmPivot) and np.ndim(bearing.arm):
         bearing = replace(bearing, arm=np.asarray(bearing.arm)[row])
-    for _ in range(_HALVINGS):
-        middle = 0.5 * (low + high)
-        gain = _gain(course, bearing, friction, side, row, sign * middle)
-        low, high = (middle, high) if gain * side[row] > 0 else (low, middle)
-    return sign * low
+    return sign * zero(
+        lambda size: _gain(course, bearing, friction, side, row, sign * size) * side[row],
+        0.0,
+        0.5 * math.pi * (1 - 1e-12),
+    )
 
 
 def _gain(

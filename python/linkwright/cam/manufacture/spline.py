@@ -23,6 +23,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -58,21 +59,19 @@ class Spline:
         return self.values(self.cuts[:-1])[0]
 
     def values(self, x: Floats) -> tuple[Floats, Floats]:
-        """Places and first derivatives by de Boor's recursion.
+        """Places and first derivatives.
 
         ``x`` (…): values of the parameter [rad] → [m], [m/rad], (…, 2).
         """
-        k, t = self.degree, self.knots
-        span = np.clip(np.searchsorted(t, x, "right") - 1, k, len(self.controls) - 1)
-        d = [self.controls[span - k + j] for j in range(k + 1)]
-        for r in range(1, k + 1):
-            if r == k:
-                slope = k * (d[k] - d[k - 1]) / (t[span + 1] - t[span])[..., None]
-            for j in range(k, r - 1, -1):
-                low, high = t[span + j - k], t[span + 1 + j - r]
-                share = ((x - low) / (high - low))[..., None]
-                d[j] = (1 - share) * d[j - 1] + share * d[j]
-        return d[k], slope
+        curve, slope = self._curves
+        return curve(x), slope(x)
+
+    @cached_property
+    def _curves(self) -> tuple[Any, Any]:
+        from scipy.interpolate import BSpline
+
+        curve = BSpline(self.knots, self.controls, self.degree)
+        return curve, curve.derivative()
 
     def at(self, which: Whole, u: Floats) -> Floats:
         """Places on pieces (k,) at shares (k, m) of them, (k, m, 2) [m]."""

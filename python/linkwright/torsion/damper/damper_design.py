@@ -145,23 +145,13 @@ def best_holding(train: RingOnTrain, first: RingSupport, *, free_loss: bool) -> 
 
 
 def _least(value: Callable[[float], float], reach: float) -> float:
-    """Where a function is smallest from −reach to reach: the best of some samples, then golden section."""
+    """Where a function is smallest from −reach to reach: the best of some samples, then Brent's method."""
+    from scipy.optimize import minimize_scalar
+
     samples = np.linspace(-reach, reach, 17)
     n = int(np.argmin([value(float(x)) for x in samples]))
-    low, high = float(samples[max(n - 1, 0)]), float(samples[min(n + 1, 16)])
-    golden = (math.sqrt(5) - 1) / 2
-    a, b = high - golden * (high - low), low + golden * (high - low)
-    at_a, at_b = value(a), value(b)
-    while high - low > _FOUND:
-        if at_a < at_b:
-            high, b, at_b = b, a, at_a
-            a = high - golden * (high - low)
-            at_a = value(a)
-        else:
-            low, a, at_a = a, b, at_b
-            b = low + golden * (high - low)
-            at_b = value(b)
-    return 0.5 * (low + high)
+    bracket = (float(samples[max(n - 1, 0)]), float(samples[min(n + 1, 16)]))
+    return float(minimize_scalar(value, bounds=bracket, method="bounded", options={"xatol": _FOUND}).x)
 
 
 def _range(natural: Floats, mode: int, mu: float) -> Floats:

@@ -15,22 +15,20 @@
 //! | [`equation`] | the equation of motion, and which way the machine goes from rest |
 //! | [`attempt`] | steps of any length from one instant, by the explicit method |
 //! | [`stiff`] | the same by the implicit one |
-//! | [`turns`] | where the speed turns inside a step, past a kink or not |
 
 pub mod attempt;
 pub mod equation;
 pub mod stiff;
-pub mod turns;
 
 use self::attempt::{Attempts, ExplicitAttempt, Piece};
 use self::equation::{AT_REST, Equation, Y};
 use self::stiff::StiffAttempt;
-use self::turns::{Bernstein, passed_and_back};
 use crate::drive::cycle::Machine;
 use crate::drive::mesh::crossing;
 use crate::drive::structure::Plan;
 use crate::kernel::call::poll;
 use crate::kernel::rk::{Trial, next_factor_of};
+use crate::kernel::turns::{Bernstein, passed_and_back};
 use crate::linkage::motion::Motion;
 use std::f64::consts::TAU;
 

@@ -19,7 +19,7 @@
 use super::attempt::{Attempts, Piece, aside_of, tolerance};
 use super::equation::{Equation, Y};
 use crate::kernel::radau::{A, B, C, N, S, stage_newton, through, value};
-use crate::kernel::rk::{Trial, over, worse};
+use crate::kernel::rk::{Trial, factors, over, worse};
 
 /// Newton sweeps of a step; each takes what the angles were off by a further factor (ω h)², or ten.
 const SWEEPS_MAX: usize = 20;
@@ -74,32 +74,6 @@ impl Solved {
 /// Integral of a quintic from 0 on.
 fn integral(a: &[f64; N]) -> [f64; N + 1] {
     std::array::from_fn(|p| if p == 0 { 0.0 } else { a[p - 1] / p as f64 })
-}
-
-/// A polynomial without constant part by its factors of z, z (1 − z), z² (1 − z), … ([`crate::kernel::rk::Stages::polynomial`]).
-fn factors(powers: &[f64]) -> [f64; 7] {
-    // What is left of the polynomial, divided by z and by 1 − z in turns.
-    let mut rest = [0.0; 7];
-    rest[..powers.len() - 1].copy_from_slice(&powers[1..]);
-    let mut found = [0.0; 7];
-    for (i, factor) in found.iter_mut().enumerate() {
-        if i % 2 == 0 {
-            // f = r(1), and (r − f)/(1 − z) has the partial sums of the coefficients behind: r − f = (1 − z) s with
-            // s_p = −Σ_{q>p} r_q.
-            *factor = rest.iter().sum();
-            let mut behind = 0.0;
-            for coefficient in rest.iter_mut().rev() {
-                let own = *coefficient;
-                *coefficient = -behind;
-                behind += own;
-            }
-        } else {
-            *factor = rest[0];
-            rest.rotate_left(1);
-            rest[6] = 0.0;
-        }
-    }
-    found
 }
 
 /// Steps of any length from one instant by the implicit method; the last one is kept.
@@ -241,26 +215,5 @@ impl Attempts for StiffAttempt<'_, '_> {
 
     fn order(&self) -> f64 {
         6.0
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn factors_are_of_the_same_polynomial() {
-        let powers = [0.0, 0.7, -1.3, 2.0, 0.4, -0.9, 1.7];
-        let found = factors(&powers);
-        for k in 0..=10 {
-            let z = f64::from(k) / 10.0;
-            let plain: f64 = powers.iter().enumerate().map(|(p, a)| a * z.powi(p as i32)).sum();
-            let term = |(i, factor): (usize, &f64)| {
-                factor * z.powi(i as i32 / 2 + 1) * (1.0 - z).powi((i as i32 + 1) / 2)
-            };
-            let sum: f64 = found.iter().enumerate().map(term).sum();
-            // A few roundings of numbers of size one.
-            assert!((sum - plain).abs() < 1e-14, "at {z}: {sum} for {plain}");
-        }
     }
 }
