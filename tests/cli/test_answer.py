@@ -19,7 +19,7 @@ import linkwright as lw
 from linkwright.app.application import COMMANDS, GROUPS, application
 from linkwright.kernel.command.answer import Answer, hand_over, json_text
 from linkwright.kernel.command.group import Commands
-from linkwright.kernel.errors import InputError
+from linkwright.kernel.errors import InputError, InternalError
 from linkwright.studies.sweep import begun
 
 ROOT = Path(__file__).parents[2]
@@ -383,3 +383,20 @@ def test_an_answer_on_standard_output_is_whole(tmp_path: Path, capsys: pytest.Ca
     assert ended.value.exit_code == 1
     assert capsys.readouterr().out == json_text(answer)
     assert taken.read_text() == "format = 1\n"
+
+
+@pytest.mark.parametrize("name", ["sensitivity", "transient", "balance", "synthesise dead-centre"])
+def test_what_is_wanted_as_a_file_is_written(
+    name: str, ask: Callable[[str, str], Result], tmp_path: Path
+) -> None:
+    """Those with a folder and those with a machine file; without --json, files are written as well."""
+    more = " --of steady_state.unevenness --by drive.gearbox.ratio" if name == "sensitivity" else ""
+    done = ask(name, f"{CASES[name].right}{more} --out {tmp_path / 'out.toml'}")
+    assert done.exit_code == 0, done.output
+    written = tmp_path / "out.toml"
+    assert written.is_file() or (written / "results.json").is_file()
+
+
+def test_an_answer_without_a_file_that_is_wanted_is_a_fault_of_ours(tmp_path: Path) -> None:
+    with pytest.raises(InternalError, match="no machine to write"):
+        hand_over(Answer(machine="x"), out=tmp_path / "x.toml")

@@ -311,3 +311,57 @@ def test_a_study_of_a_cam_can_be_pickled() -> None:
     study = lw.study(_machine("roller_cam"))
     again = pickle.loads(pickle.dumps(study))
     assert again.to_dict() == study.to_dict()
+
+
+# Annotations of arguments that their function looks at itself: words of which it takes one, calls, what is
+# one of several unlike things.
+_OWN = {
+    "Any",
+    "Bearing | None",
+    "By",
+    "Callable[..., None] | None",
+    "Closure",
+    "Ends",
+    "Form",
+    "Kind",
+    "Law | Callable[[Any], Any] | Sequence[ArrayLike]",
+    "NDArray[np.float64] | None",
+    "Objective",
+    "Track",
+    "Track | None",
+    "Watch | None",
+    "tuple[int, int] | None",
+}
+
+
+def _arguments() -> Iterator[tuple[str, str, str, Callable[[str, Any], Any] | None]]:
+    """Function, argument, annotation and check of every argument that is public."""
+    for name in dir(lw):
+        member = getattr(lw, name)
+        if name.startswith("_") or not callable(member) or member is lw.Machine:
+            continue
+        function = inspect.unwrap(member.__init__ if inspect.isclass(member) else member)
+        checks = checks_of(function)
+        for each in list(inspect.signature(function).parameters.values())[inspect.isclass(member) :]:
+            yield name, each.name, str(each.annotation), checks.get(each.name)
+
+
+def test_no_argument_goes_unchecked() -> None:
+    found = {f"{name}.{argument}: {kind}" for name, argument, kind, check in _arguments() if check is None}
+    assert {each for each in found if each.partition(": ")[2] not in _OWN} == set()
+
+
+@pytest.mark.parametrize("wrong", [3, 1j, object(), [3], b"abc"], ids=repr)
+def test_what_is_of_another_class_is_named(wrong: Any) -> None:
+    """A number in place of a study, a motion, a profile, a list of names."""
+    classes = ("Machine", "Study", "StudyPlan", "Transient", "CamProfile", "Sequence[str]", "Iterable[str]")
+    several = 0
+    for _, argument, kind, check in _arguments():
+        if check is not None and kind.partition(" | ")[0] in classes:
+            with pytest.raises(InputError, match=f"^{argument}: found"):
+                check(argument, wrong)
+            several += 1
+    assert several > 70
+    # One text is not the list of its letters.
+    with pytest.raises(InputError, match=r"responses: found .steady_state.period., expected a list of texts"):
+        lw.gradient(_machine("roller_one_cart"), "steady_state.period")

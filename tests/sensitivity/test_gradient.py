@@ -118,6 +118,39 @@ def test_symmetric_carts_tie():
     assert "steady_state.unevenness" in found.ties
 
 
+@pytest.mark.parametrize("steep", [1.0, 300.0])
+def test_equal_carts_tie_wherever_they_are(steep):
+    """n equal carts repeat their motion n times a revolution; 7 times is at no even angles."""
+    n = 7
+    motor = f'{{ kind = "dc", speed_no_load = 100, torque_stall = {200 * steep} }}'
+    rows = [f"A{k} = {{ radius = 0.2, phase = {2 * np.pi * k / n} }}" for k in range(n)]
+    slides = [f's{k} = {{ crank = "A{k}", rod = 0.5, offset = 0.1 }}' for k in range(n)]
+    loads = [f'd{k} = {{ kind = "dry", on = "s{k}", force = 400 }}' for k in range(n)]
+    text = f"""format = 1
+name = "equal carts"
+[drive]
+motor = {motor}
+gearbox = {{ ratio = 10 }}
+flywheel = {{ inertia = 2 }}
+[mechanism.cranks]
+{chr(10).join(rows)}
+[mechanism.sliders]
+{chr(10).join(slides)}
+[bodies]
+{chr(10).join(f"s{k} = {{ mass = 50 }}" for k in range(n))}
+[loads]
+{chr(10).join(loads)}
+"""
+    found = lw.gradient(
+        lw.loads(text), [f"steady_state.{name}" for name in _EXTREMES], ["drive.gearbox.ratio"]
+    )
+    for name in _EXTREMES:
+        assert "° and 3 angles more" in found.ties[f"steady_state.{name}"], name
+
+
+_EXTREMES = ("speed_min", "speed_max", "acceleration_min", "acceleration_max")
+
+
 def test_what_has_no_derivative_is_told():
     machine = lw.read(TWO_CARTS)
     with pytest.raises(InputError, match="no response"):

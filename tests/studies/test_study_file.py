@@ -16,6 +16,9 @@ Files = Callable[..., Path]
 WRONG = {
     "no such entry": (('"mechanism.cranks.A2.phase"', '"mechanism.cranks.A2.fase"'), "phase.address", 5),
     "wrong unit": (('"45 deg"', '"45 kg"'), "variables.phase.range", 6),
+    "true in place of a number": (('"45 deg"', "true"), "variables.phase.range", 6),
+    "a text in place of a count": (("steps = 5", 'steps = "5"'), "variables.phase.steps", 7),
+    "true in place of a count": (("chunk = 4", "chunk = true"), "sweep.chunk", 26),
     "turned range": (('["45 deg", "135 deg"]', '["135 deg", "45 deg"]'), "variables.phase.range", 6),
     "no steps of a grid": (("steps = 5\n", ""), "variables.phase.steps", 4),
     "two ways": (("steps = 5", "values = [1]"), "values", 7),
@@ -56,6 +59,13 @@ def test_all_problems_are_told_at_once(study_file: Files) -> None:
 def test_too_many_rows_are_refused(study_file: Files) -> None:
     with pytest.raises(InputError, match="1 000 000 000 rows"):
         lw.read_study(study_file(("steps = 5", "steps = 500000"), ("steps = 3", "steps = 10000")))
+
+
+@pytest.mark.parametrize("steps", [400_000_000, 2**63 - 1, 2**64])
+def test_levels_are_counted_before_they_are_made(steps: int, study_file: Files) -> None:
+    """Gigabytes of them, or more than can be indexed."""
+    with pytest.raises((InputError, MachineFileError), match=r"rows|levels|steps"):
+        lw.read_study(study_file(("steps = 5", f"steps = {steps}"), ("steps = 3", "steps = 2")))
 
 
 def test_values_of_a_grid(study_file: Files) -> None:

@@ -75,6 +75,8 @@ def test_bodies_and_other_methods_are_refused(served: Served) -> None:
     assert served.get("/", "POST", Cookie=served.cookie)[0] == 405
     assert served.get("/", "POST", b"x", Cookie=served.cookie, Content_Length="1")[0] == 413
     assert served.get("/", Cookie=served.cookie, Transfer_Encoding="chunked")[0] in (400, 413)
+    # More digits than Python reads as a number; uvicorn's parser may refuse them before the guard does.
+    assert served.get("/", Cookie=served.cookie, Content_Length="9" * 5000)[0] in (400, 413)
 
 
 @pytest.mark.parametrize(

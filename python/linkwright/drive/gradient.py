@@ -42,9 +42,25 @@ _NUMBERS = (
     "torque_motor_rms",
 )
 
-# Intervals of a revolution in which rivals of an extreme are looked for: a peak between two of them is missed
-# by (2π/1440)² of the curve at most, and a parabola through three makes that 1e-10.
+# Angles at which rivals of an extreme are looked for. A peak between two of the even ones is missed by
+# (2π/1440)² of the curve at most; where the motor is steep, the motion bends sharply beside a kink.
 _LOOK = 1440
+_EVEN = np.linspace(0.0, 2 * np.pi, _LOOK, endpoint=False)
+_BESIDE = np.geomspace(1e-9, 3e-3, 14)
+
+# How far a rival may seem to stay below the extreme before it is read more closely, as a share of the range:
+# far more than the angles above leave.
+_DOUBT = 1e-2
+
+# Rounds in which a peak is closed in on, and readings of each: an eighth of the interval, and a 64th of what
+# the height lacks, from round to round.
+_ROUNDS, _READINGS = 3, 17
+
+# Angles of a tie that are told.
+_TOLD = 4
+
+# Peaks nearer than this [rad] are one: the two sides of a corner.
+_APART = 1e-3
 
 # Extremes that are this near, as a share of the curve's range, tie: their heights are not known better.
 _TIE = 1e-7
@@ -80,7 +96,7 @@ def steady_tangents(machine: Machine, values: Floats, accuracy: float = 1e-11) -
     }
     ratio = Tangent(compiled.gear_factors[0], values[compiled.ratio_slot])
     tangents |= _of_motor(compiled, state, found.curves, ratio)
-    return SteadyTangents(replace(state, **tangents), _ties(state))
+    return SteadyTangents(replace(state, **tangents), _ties(compiled, state, accuracy))
 
 
 def _of_motor(compiled: Compiled, state: SteadyState, curves: Floats, ratio: Tangent) -> dict[str, Tangent]:
@@ -108,29 +124,71 @@ def _of_motor(compiled: Compiled, state: SteadyState, curves: Floats, ratio: Tan
     return found
 
 
-def _ties(state: SteadyState) -> dict[str, str]:
+def _ties(compiled: Compiled, state: SteadyState, accuracy: float) -> dict[str, str]:
     """Extremes that the motion has twice."""
     found: dict[str, str] = {}
-    for quantity, curve in (("speed", state.speed), ("acceleration", state.acceleration)):
+    peaks = _Peaks(compiled, accuracy)
+    for quantity in ("speed", "acceleration"):
         for end, sign in (("min", -1.0), ("max", 1.0)):
-            angles = _equal_peaks(sign * curve)
+            name = f"{quantity}_{end}"
+            extreme = (getattr(state, f"{name}_angle"), sign * getattr(state, name))
+            angles = peaks.as_high_as(extreme, quantity, sign)
             if len(angles) > 1:
-                places = " and ".join(f"{np.degrees(angle):.4g}°" for angle in angles[:4])
-                found[f"{quantity}_{end}"] = f"it is reached at {places}"
+                places = [f"{np.degrees(angle):.4g}°" for angle in angles[:_TOLD]]
+                places += [f"{len(angles) - _TOLD} angles more"] if len(angles) > _TOLD else []
+                found[name] = f"it is reached at {' and '.join(places)}"
     low, high = state.acceleration_min, state.acceleration_max
     if abs(low + high) <= _TIE * (high - low):
         found["acceleration_peak"] = "the acceleration is as large forwards as backwards"
     return found
 
 
-def _equal_peaks(curve: Floats) -> list[float]:
-    """Angles [rad] of the peaks as high as the highest, of a curve over a revolution with both ends."""
-    y = curve[:-1]
-    left, right = np.roll(y, 1), np.roll(y, -1)
-    peaks = np.flatnonzero((y >= left) & (y > right))
-    bend = left[peaks] - 2 * y[peaks] + right[peaks]
-    slope = 0.5 * (right[peaks] - left[peaks])
-    with np.errstate(divide="ignore", invalid="ignore"):
-        tops = np.where(bend < 0, y[peaks] - 0.5 * slope**2 / bend, y[peaks])
-    near = tops >= tops.max() - _TIE * np.ptp(y)
-    return [float(2 * np.pi * peak / len(y)) for peak in peaks[near]]
+class _Peaks:
+    """Peaks of speed and acceleration over a revolution, on the solution itself."""
+
+    def __init__(self, compiled: Compiled, accuracy: float) -> None:
+        self.compiled, self.accuracy = compiled, accuracy
+        beside = np.concatenate([-_BESIDE, _BESIDE])
+        angles = np.concatenate([_EVEN, (compiled.kinks()[:, None] + beside).ravel()])
+        self.angles = np.unique(angles % (2 * np.pi))
+        self.curves = self._read(self.angles)
+
+    def _read(self, angles: Floats) -> dict[str, Floats]:
+        """Speed and acceleration at crank angles of any shape."""
+        order, back = np.unique(angles % (2 * np.pi), return_inverse=True)
+        read = self.compiled.steady(order, self.accuracy)
+        back = back.reshape(angles.shape)
+        return {name: getattr(read, name)[back] for name in ("speed", "acceleration")}
+
+    def as_high_as(self, extreme: tuple[float, float], quantity: str, sign: float) -> list[float]:
+        """Angles [rad] of the highest peak and of all that are as high, of a curve with a sign."""
+        at, top = extreme
+        curve = sign * self.curves[quantity]
+        span = float(np.ptp(curve))
+        peaks = np.flatnonzero((curve >= np.roll(curve, 1)) & (curve > np.roll(curve, -1)))
+        peaks = peaks[(curve[peaks] >= top - _DOUBT * span) & (_apart(self.angles[peaks], at) > _APART)]
+        if not len(peaks):
+            return [at]
+        low = np.roll(self.angles, 1)[peaks] - 2 * np.pi * (peaks == 0)
+        high = np.roll(self.angles, -1)[peaks] + 2 * np.pi * (peaks == len(curve) - 1)
+        places, heights = self._refined(low, high, quantity, sign)
+        found = [at]
+        for angle in places[heights >= top - _TIE * span] % (2 * np.pi):
+            if _apart(np.array(found), angle).min() > _APART:
+                found.append(float(angle))
+        return sorted(found)
+
+    def _refined(self, low: Floats, high: Floats, quantity: str, sign: float) -> tuple[Floats, Floats]:
+        """Angles [rad] and heights of the peaks between angles, closed in on from reading to reading."""
+        rows = np.arange(len(low))
+        for _ in range(_ROUNDS):
+            angles = np.linspace(low, high, _READINGS, axis=-1)
+            values = sign * self._read(angles)[quantity]
+            best = values.argmax(axis=-1)
+            low, high = (angles[rows, np.clip(best + way, 0, _READINGS - 1)] for way in (-1, 1))
+        return angles[rows, best], values[rows, best]
+
+
+def _apart(angles: Floats, angle: float) -> Floats:
+    """How far angles are from another one round the revolution [rad]."""
+    return np.abs((angles - angle + np.pi) % (2 * np.pi) - np.pi)

@@ -67,8 +67,8 @@ class Problem:
     def __str__(self) -> str:
         """A block of up to four lines."""
         rows = (("found", self.found), ("expected", self.expected), ("remedy", self.remedy))
-        body = [f"  {name + ':':<10}{_cut(text)}" for name, text in rows if text]
-        return "\n".join([_cut(self.place), *body] if self.place else body)
+        body = [f"  {name + ':':<10}{cut(text)}" for name, text in rows if text]
+        return "\n".join([cut(self.place), *body] if self.place else body)
 
 
 def plain(text: str) -> str:
@@ -89,8 +89,14 @@ def plain(text: str) -> str:
     return "".join(each if each.isprintable() or each == "\n" else ascii(each)[1:-1] for each in text)
 
 
-def _cut(text: str) -> str:
-    """A text that fits into some lines of a terminal, and does not steer it."""
+def cut(text: str) -> str:
+    """A text that fits into some lines of a terminal, and does not steer it.
+
+    Parameters
+    ----------
+    text : str
+        Such as what a user wrote.
+    """
     text = plain(text)
     most = MESSAGE_LINE.most
     return text if len(text) <= most else f"{text[: most - 1]}…"

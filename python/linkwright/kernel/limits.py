@@ -81,6 +81,7 @@ SHOWN = Limit(1_000, "best variants that are shown", "each is looked at exactly"
 PATH_POINTS = Limit(4_000_000, "points and population multiplied in a search", "they take a gigabyte")
 TRIALS = Limit(100_000_000, "population and generations multiplied in a search", "a day on one core")
 SWEEP_ROWS = Limit(1_000_000_000, "rows in a sweep", "a hundred gigabytes of results")
+LEVELS = Limit(1_000_000, "levels of a variable in a grid", "they are held in memory; sobol has none")
 LATIN_ROWS = Limit(
     1_000_000,
     "rows in a Latin hypercube",

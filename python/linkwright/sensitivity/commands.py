@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import File, Json, Outside, Sets
-from linkwright.kernel.command.out import Force, out_option
+from linkwright.kernel.command.out import Force, out_option, output_folder
 from linkwright.kernel.command.parameter import Option
 
 if TYPE_CHECKING:
@@ -60,6 +60,7 @@ def sensitivity(
     from linkwright.sensitivity.gradient import gradient
     from linkwright.sensitivity.tables import gradient_tables
 
+    folder = output_folder(out, force=force)
     machine = read(file, set or (), allow_outside=allow_outside)
     found = gradient(machine, of, by)
     told = found if of else _few(found)
@@ -74,8 +75,7 @@ def sensitivity(
             figures=partial(_figures, told),
         ),
         json=json,
-        out=out,
-        force=force,
+        folder=folder,
     )
 
 

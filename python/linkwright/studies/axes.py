@@ -70,15 +70,18 @@ class Axis:
         return not self.choices or all(isinstance(each, int | float) for each in self.choices)
 
     @property
+    def n_levels(self) -> int:
+        """How many levels a grid takes."""
+        if self.choices:
+            return len(self.choices)
+        return round(self.high - self.low) + 1 if self.is_whole else self.steps
+
+    @property
     def levels(self) -> Floats:
         """Shares that a grid takes, each with a value of its own."""
-        if self.choices:
-            return _middles(len(self.choices))
-        if self.is_whole:
-            return _middles(round(self.high - self.low) + 1)
-        if self.distribution is not None:
-            return _middles(self.steps)
-        return np.linspace(0.0, 1.0, self.steps)
+        if self.choices or self.is_whole or self.distribution is not None:
+            return _middles(self.n_levels)
+        return np.linspace(0.0, 1.0, self.n_levels)
 
     def values(self, shares: Floats) -> Floats:
         """Values in SI; of what are no numbers, their places in the list."""

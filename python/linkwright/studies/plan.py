@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.description.formula import NUMBERS, FormulaError, Node, names, parse
 from linkwright.kernel.errors import MachineError, Problem, UnitError, require_within, show
-from linkwright.kernel.limits import LATIN_ROWS, SWEEP_ROWS
+from linkwright.kernel.limits import LATIN_ROWS, LEVELS, SWEEP_ROWS
 from linkwright.kernel.units import KINDS, Kind, parse_any
 from linkwright.kernel.units import parse as parse_quantity
 from linkwright.machine.address import get, known_place
@@ -89,7 +89,7 @@ class StudyPlan:
         if self.listed is not None:
             return len(self.listed)
         if self.sweep.method == "grid":
-            return int(np.prod([len(each.levels) for each in self.axes], dtype=float))
+            return int(np.prod([each.n_levels for each in self.axes], dtype=float))
         return self.sweep.rows or 0
 
     @property
@@ -231,6 +231,9 @@ def _check_rows(ready: StudyPlan) -> None:
     """Refuse more rows than there may be."""
     limit = LATIN_ROWS if ready.sweep.method == "latin_hypercube" else SWEEP_ROWS
     require_within(limit, ready.n_rows, "rows of the sweep", "vary less, or more coarsely")
+    if ready.sweep.method == "grid" and ready.listed is None:
+        for each in ready.axes:
+            require_within(LEVELS, each.n_levels, f"levels of {each.name}", "vary it more coarsely")
 
 
 def _derived(machine: Machine, known: list[str], name: str, each: Any) -> Formula:

@@ -42,6 +42,9 @@ _HEADERS = (
 # No page of the studio sends a body.
 _BODY_BYTES = 0
 
+# Digits of a length; Python reads no number of thousands of them.
+_DIGITS = 20
+
 # Code of a socket that breaks the rules (RFC 6455, 7.4.1).
 _POLICY = 1008
 
@@ -95,7 +98,9 @@ class Guards:
         if b"transfer-encoding" in dict(headers):
             return 413
         lengths = _values(headers, b"content-length")
-        if any(not length.isdigit() or int(length) > _BODY_BYTES for length in lengths):
+        if any(
+            not length.isdigit() or len(length) > _DIGITS or int(length) > _BODY_BYTES for length in lengths
+        ):
             return 413
         return None
 

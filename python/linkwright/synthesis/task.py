@@ -12,7 +12,7 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import Field, ModelWrapValidatorHandler, ValidationError, model_validator
 from pydantic_core import InitErrorDetails
 
-from linkwright.kernel.description.base import Description, fault, raise_faults
+from linkwright.kernel.description.base import Description, Whole, fault, raise_faults
 from linkwright.kernel.description.problems import problems
 from linkwright.kernel.errors import MachineError
 from linkwright.kernel.limits import PATH_POINTS, TRIALS
@@ -132,7 +132,7 @@ class FunctionTask(Task):
     x: Ratios | None = Field(None, description="Arguments at which the function shall be met.")
     y: Ratios | None = Field(None, description="Its values there; instead of `function`.")
     range: Ratios | None = Field(None, description="First and last argument; without it, those of `x`.")
-    points: int = Field(3, ge=3, le=1000, description="How many points are met, if `x` is not given.")
+    points: Whole = Field(3, ge=3, le=1000, description="How many points are met, if `x` is not given.")
     spacing: Literal["chebyshev", "even"] = Field("chebyshev", description="How they are spread.")
     crank_range: Angle = Field(description="Angle that the crank turns through over the range; signed.")
     rocker_range: Angle = Field(description="Angle that the rocker turns through over the range; signed.")
@@ -220,11 +220,11 @@ class PathTask(Task):
     length_max: PositiveLength | None = Field(
         None, description="Longest link; without it, four sizes of the path."
     )
-    seed: int = Field(
+    seed: Whole = Field(
         1, ge=0, description="Seed of the random generator; the same seed gives the same linkage."
     )
-    population: int = Field(240, ge=20, le=100_000, description="Starts that are refined.")
-    generations: int = Field(
+    population: Whole = Field(240, ge=20, le=100_000, description="Starts that are refined.")
+    generations: Whole = Field(
         600, ge=1, le=1_000_000, description="Steps of the refinement at most, in its last stage."
     )
     accuracy: Ratio = Field(

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from linkwright.kernel.command.out import put, write_folder
+from linkwright.kernel.errors import InternalError
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -181,11 +182,17 @@ def hand_over(
     ------
     InputError
         The folder or the file cannot be written to.
+    InternalError
+        There is no finding, and no machine to write where one is wanted.
     click.exceptions.Exit
         There are findings.
     """
     if out is not None and answer.machine_file is not None:
         put(answer.machine_file(), out, force=force)
+    elif out is not None and not answer.findings:
+        raise InternalError(
+            "files of an answer", f"{out} is wanted, and the answer has no machine to write there"
+        )
     if not json:
         print_answer(answer)
     if folder is not None:

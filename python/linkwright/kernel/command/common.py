@@ -21,7 +21,7 @@ import click
 from linkwright.kernel.command.answer import Answer, json_text
 from linkwright.kernel.command.interrupt import EXIT_CODE
 from linkwright.kernel.command.parameter import Argument, Option
-from linkwright.kernel.errors import FindingError, InputError, LinkwrightError, UnitError, plain
+from linkwright.kernel.errors import FindingError, InputError, LinkwrightError, UnitError, cut, plain
 
 if TYPE_CHECKING:
     from linkwright.kernel.units import Kind
@@ -124,6 +124,7 @@ def option_value(option: str, text: str, kind: Kind) -> float:
     choices = {ANGLE.dimension: ("deg", "rad"), SPEED.dimension: ("rpm", "rad/s")}
     units = choices.get(kind.dimension)
     if units and _is_number(text) and float(text) != 0:
+        text = cut(text)
         one, other = (f'"{text} {unit}"' for unit in units)
         before = "" if "=" in option else f"{option} "
         raise InputError(
@@ -136,8 +137,8 @@ def option_value(option: str, text: str, kind: Kind) -> float:
         problem = error.problem
         # The file takes a bare number there, the command line does not.
         expected = problem.expected.partition(" or a number in ")[0] if units else problem.expected
-        remedy = f"; {problem.remedy}" if problem.remedy else ""
-        raise InputError(f"{option}: found {problem.found}, expected {expected}{remedy}") from None
+        remedy = f"; {cut(problem.remedy)}" if problem.remedy else ""
+        raise InputError(f"{option}: found {cut(problem.found)}, expected {expected}{remedy}") from None
 
 
 def _is_number(text: str) -> bool:

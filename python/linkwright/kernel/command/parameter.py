@@ -21,6 +21,9 @@ from typing import Annotated, Any, Literal, NamedTuple, get_args, get_origin, ge
 
 import click
 
+# The largest whole number up to which every one is a float.
+_WHOLE_MAX = 2**53
+
 # How every command is asked for its help.
 HELP = {"help_option_names": ["-h", "--help"]}
 
@@ -142,7 +145,23 @@ def _converter(kind: Any, low: int | None) -> Any:
         return click.Choice(kind)
     if kind is Path:
         return click.Path(path_type=Path)
-    return kind if low is None else click.IntRange(min=low)
+    return _Whole(low) if kind is int else kind
+
+
+class _Whole(click.IntRange):
+    """A whole number that is a float too: limits are compared with it, and no count is larger."""
+
+    def __init__(self, low: int | None) -> None:
+        super().__init__(min=low)
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """The number of a word."""
+        found = super().convert(value, param, ctx)
+        if abs(found) > _WHOLE_MAX:
+            self.fail(
+                f"found a whole number of {len(str(abs(found)))} digits, expected a smaller one", param, ctx
+            )
+        return found
 
 
 def _list(context: click.Context, parameter: click.Parameter, values: tuple[Any, ...]) -> list[Any] | None:

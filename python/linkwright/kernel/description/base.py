@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Annotated, Any, ClassVar, Self
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, ValidationError, model_validator
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, ValidationError, model_validator
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from linkwright.kernel.limits import NAME, TITLE
@@ -65,6 +65,16 @@ def fault(*place: str | int, found: object = None, expected: str, remedy: str = 
     """
     text = "nothing" if found is None else show(found)
     return InitErrorDetails(type=wrong(text, expected, remedy), loc=place, input=found)
+
+
+def _whole(value: object) -> object:
+    """Neither true nor "3" is a whole number, though pydantic would make one of it."""
+    if isinstance(value, bool | str):
+        raise wrong(show(value), "a whole number")
+    return value
+
+
+Whole = Annotated[int, BeforeValidator(_whole)]
 
 
 def raise_faults(title: str, faults: Iterable[InitErrorDetails]) -> None:

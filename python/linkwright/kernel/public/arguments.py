@@ -13,7 +13,9 @@ a complex number, a text or a list of lists of different length is refused with 
 | `Floats`, `Sequence[float]` | a list of finite numbers |
 | `os.PathLike[str]` | the name of a file |
 | `Overrides` | texts ``PATH=VALUE``, or path → value |
-| `Machine`, `Study` | what `read` and `study` give |
+| `Sequence[str]`, `Iterable[str]` | texts, not one text |
+| `Mapping[str, …]` | something by name |
+| `Machine`, `Study`, … | what `read` and `study` give, and other classes of the package |
 """
 
 from __future__ import annotations
@@ -303,7 +305,7 @@ def _text(name: str, value: Any) -> str:
 
 def _path(name: str, value: Any) -> Any:
     """The name of a file; whether there is one the function sees."""
-    if not isinstance(value, str | os.PathLike):
+    if not isinstance(value, str | os.PathLike) or "\0" in str(value):
         raise _wrong(name, value, "the name of a file")
     return value
 
@@ -318,6 +320,17 @@ def _overrides(name: str, value: Any) -> Any:
     return value
 
 
+def _texts(name: str, value: Any) -> Any:
+    """Several texts; one alone would be taken for its letters."""
+    try:
+        found = None if isinstance(value, str | bytes) else tuple(value)
+    except TypeError:
+        found = None
+    if found is None or not all(map(_is_text, found)):
+        raise _wrong(name, value, "a list of texts")
+    return found
+
+
 def _is_text(value: Any) -> bool:
     return isinstance(value, str)
 
@@ -327,6 +340,28 @@ _KINDS = {
     "Machine": "a machine, such as read() gives",
     "Study": "a study, such as study() gives",
     "FreeVibration": "a free vibration",
+    "StudyPlan": "a study file that was read, such as read_study() gives",
+    "Transient": "a motion in time, such as transient() gives",
+    "SteadyState": "a steady motion, such as steady_state() gives",
+    "Motion": "a motion over time, such as motion() gives",
+    "TorsionResponse": "a torsional response, such as forced_vibration() gives",
+    "Forces": "joint forces, such as forces() gives",
+    "Drawing": "a drawing, such as cam_drawings() gives",
+    "CamProfile": "a cam profile, such as cam_profile() gives",
+    "CamCourse": "a cam's course, such as cam_course() gives",
+    "FollowerLoad": "a FollowerLoad",
+    "OneMass": "a OneMass",
+    "Material": "a Material",
+    "MotionLaw": "a motion law",
+    "MeasuredSpeed": "a measured speed, such as measured_speed() gives",
+    "Mechanism": "a mechanism, such as a machine has",
+    "FunctionTask": "a FunctionTask",
+    "PathTask": "a PathTask",
+    "PoseTask": "a PoseTask",
+    "ReciprocatingEngine": "an engine, such as a train has",
+    "Claim": "a Claim",
+    "Stroke": "a Stroke",
+    "TrainTransient": "a manoeuvre, such as a train has",
 }
 
 
@@ -349,6 +384,11 @@ _CHECKS: dict[str, Check] = {
     "Mapping[str, Any]": _mapping,
     "Mapping[str, ArrayLike]": _mapping,
     "Mapping[str, Mapping[str, Any]]": _mapping,
+    "Mapping[str, Floats]": _mapping,
+    "Mapping[str, float]": _mapping,
+    "Mapping[str, Friction]": _mapping,
+    "Sequence[str]": _texts,
+    "Iterable[str]": _texts,
     "ArrayLike": _one_or_more,
     "tuple[ArrayLike, ArrayLike, ArrayLike]": _three,
     "tuple[float, float]": _two,

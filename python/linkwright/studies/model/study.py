@@ -12,14 +12,14 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import BeforeValidator, Field, ModelWrapValidatorHandler, ValidationError, model_validator
 from pydantic_core import InitErrorDetails
 
-from linkwright.kernel.description.base import CheckedDescription, Description, Name, fault
+from linkwright.kernel.description.base import CheckedDescription, Description, Name, Whole, fault
 from linkwright.kernel.description.problems import problems
 from linkwright.kernel.errors import MachineError
 from linkwright.kernel.limits import SWEEP_ROWS
 from linkwright.kernel.units import Angle
 
 # A number, or a text with a unit, read when it is known what it stands for.
-Value = float | str
+Value = Annotated[float, Field(strict=True)] | str
 
 # The ways in which a variable is given, of which it has one.
 WAYS = ("range", "values", "distribution", "tolerance")
@@ -59,7 +59,7 @@ class Variable(CheckedDescription):
         min_length=1, description="Address of the entry, or a list of them: all take the same value."
     )
     range: tuple[Value, Value] | None = Field(None, description="Minimum and maximum value.")
-    steps: int | None = Field(None, ge=2, description="How many values a grid takes from the range.")
+    steps: Whole | None = Field(None, ge=2, description="How many values a grid takes from the range.")
     scale: Literal["linear", "log"] = Field("linear", description="How a range is divided.")
     whole: bool = Field(False, description="Whether a range holds whole numbers alone.")
     values: tuple[Any, ...] | None = Field(
@@ -90,7 +90,7 @@ class Response(CheckedDescription):
     extreme: Literal["max", "min", "range", "mean", "rms"] | None = Field(
         None, description="What is taken of the curve, at the places where it is sampled."
     )
-    index: int | None = Field(None, ge=0, description="Place in a list, from 0.")
+    index: Whole | None = Field(None, ge=0, description="Place in a list, from 0.")
     at: Angle | None = Field(None, description="Crank angle at which a motion is taken.")
     formula: str | None = Field(None, description="Formula of variables and other responses, in SI.")
 
@@ -146,14 +146,14 @@ class Sweep(CheckedDescription):
     method: Literal["grid", "sobol", "latin_hypercube", "random", "list"] = Field(
         "grid", description="All combinations, sequences that fill space, independent rows, or a file."
     )
-    rows: int | None = Field(
+    rows: Whole | None = Field(
         None, ge=1, le=SWEEP_ROWS.most, description="How many rows; of a grid and a list they follow."
     )
-    seed: int = Field(0, ge=0, description="Seed of the random generator.")
+    seed: Whole = Field(0, ge=0, description="Seed of the random generator.")
     file: str | None = Field(
         None, description="Of a list: CSV with a head, or Parquet in SI; columns are named as the variables."
     )
-    chunk: int | None = Field(
+    chunk: Whole | None = Field(
         None, ge=1, le=1_000_000, description="Rows in a file of results; without it, as fits the analyses."
     )
 

@@ -17,7 +17,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
-from linkwright.kernel.description.base import CheckedDescription, fault
+from linkwright.kernel.description.base import CheckedDescription, Whole, fault
 from linkwright.kernel.description.curve import unread_file
 from linkwright.kernel.limits import ROOTS
 from linkwright.kernel.units import DENSITY, LENGTH, Lengths, Quantity, positive
@@ -27,7 +27,7 @@ from linkwright.topping.model.scatter import AnyScatter, ConstantScatter, Scatte
 class RootField(CheckedDescription):
     """What all fields have."""
 
-    seed: Annotated[int, Field(ge=0)] = Field(1, description="Seed of the random generator.")
+    seed: Annotated[Whole, Field(ge=0)] = Field(1, description="Seed of the random generator.")
     root_density: Annotated[float, positive(DENSITY)] | None = Field(
         None, description="Of the roots, for the mass that is lost."
     )
@@ -37,8 +37,8 @@ class RandomField(RootField):
     """Roots that scatter."""
 
     kind: Literal["random"] = Field(description="By distributions.")
-    roots: Annotated[int, Field(ge=2, le=ROOTS.most)] = Field(20_000, description="How many are looked at.")
-    rows: Annotated[int, Field(ge=2, le=ROOTS.most)] = Field(
+    roots: Annotated[Whole, Field(ge=2, le=ROOTS.most)] = Field(20_000, description="How many are looked at.")
+    rows: Annotated[Whole, Field(ge=2, le=ROOTS.most)] = Field(
         100, description="In how many rows they stand; each begins at a random phase of the knife."
     )
     root_diameter: AnyScatter | None = Field(
@@ -90,7 +90,7 @@ class MeasuredField(RootField):
         description="File of comma-separated values beside the machine file, in place of the lists, its "
         'head with units: "root_diameter [mm], cut_height [mm], offset [mm]".',
     )
-    phases: Annotated[int, Field(ge=4, le=100_000)] = Field(
+    phases: Annotated[Whole, Field(ge=4, le=100_000)] = Field(
         64, description="Phases of the knife in which each root is looked at, evenly over one revolution."
     )
     root_diameter: Lengths = Field((), description="Diameter D of each root.")

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
-from linkwright.kernel.description.base import CheckedDescription, Description, Name, fault
+from linkwright.kernel.description.base import CheckedDescription, Description, Name, Whole, fault
 from linkwright.kernel.numerics.tangent import total
 from linkwright.kernel.units import COUNT, INERTIA, Bound, Quantity, positive
 from linkwright.linkages.model.element import PositiveNumber
@@ -54,7 +54,7 @@ class TrainRun(CheckedDescription):
 
     speed_min: PositiveSpeed = Field(description="Lowest speed of the first disc.")
     speed_max: PositiveSpeed = Field(description="Highest speed of the first disc.")
-    points: int = Field(200, ge=2, le=100_000, description="How many speeds, evenly spaced.")
+    points: Whole = Field(200, ge=2, le=100_000, description="How many speeds, evenly spaced.")
     speed_rated: PositiveSpeed | None = Field(
         None, description="Speed of service, at which waveforms are shown. Without it, the highest."
     )

@@ -25,6 +25,7 @@ from linkwright.kernel.description.base import (
     CheckedDescription,
     Description,
     Name,
+    Whole,
     close_match,
     fault,
     suggestion,
@@ -145,7 +146,7 @@ class ShortCircuit(_Passing):
     on: str = Field(description="Disc of the generator.")
     torque: PositiveTorque = Field(description="Its apparent power over its speed.")
     speed: PositiveSpeed = Field(description="Of its rotor.")
-    pole_pairs: int = Field(ge=1, description="Of its rotor.")
+    pole_pairs: Whole = Field(ge=1, description="Of its rotor.")
     reactance: Annotated[float, positive(RATIO)] = Field(description="Subtransient, per unit.")
     decay: Annotated[float, positive(TIME)] = Field(description="Time constant of the torque.")
     phases: Literal[2, 3] = Field(3, description="How many are short-circuited.")
@@ -227,7 +228,7 @@ class TrainTransient(CheckedDescription):
     method: Literal["auto", "explicit", "implicit"] = Field(
         "auto", description="Of integration; implicit steps do not follow the swings of very stiff shafts."
     )
-    steps_max: int = Field(5_000_000, ge=1, description="Steps after which it is given up.")
+    steps_max: Whole = Field(5_000_000, ge=1, description="Steps after which it is given up.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         if self.sample_time is not None and self.duration / self.sample_time > SAMPLES.most:
