@@ -22,7 +22,7 @@ Place = tuple[str, ...]
 _GROUPS = {"points": "Fixed points", "rigid_points": "Points on links"}
 
 # Tables of a train, in the order of the report.
-_TRAIN = ("discs", "shafts", "gears", "couplings", "dampers", "loads", "excitations")
+_TRAIN = ("engines", "discs", "shafts", "gears", "couplings", "dampers", "drivers", "loads", "excitations")
 
 # Longer lists are cut; the machine file holds them all.
 _LONGEST_LIST = 12
@@ -104,7 +104,7 @@ def _train(machine: Machine) -> Iterator[Part]:
     for table in _TRAIN:
         for name in getattr(train, table):
             yield _part(table.capitalize(), machine, ("train", table, name))
-    for name in ("run", "transient"):
+    for name in ("modal_damping", "run", "transient"):
         if getattr(train, name) is not None:
             yield _part("Train", machine, ("train", name))
 

@@ -14,6 +14,7 @@ from linkwright.kernel.page.numbers import number
 from linkwright.machine.table import grouped, machine_parts
 from linkwright.machine.write import dumps
 from linkwright.torsion.figures.captions import torsion_figures
+from linkwright.torsion.model.train import Train
 from linkwright.torsion.response.survey import TorquePeaks
 from linkwright.torsion.study import TorsionStudy
 from linkwright.torsion.tables.torsion import study_tables
@@ -109,10 +110,23 @@ def _formulas(study: TorsionStudy) -> Iterator[Formula]:
     yield formula("Orders in phase", "θ ( t ) = Σ Re θ_ν e^iνΩt", "Ker Wilson, vol. 2")
     yield formula("Speed fluctuation", "δ = frac(ω_max − ω_min|ω_m)", "Paper 3")
     yield formula("Heat", "P = frac(1|2) Σ ( ω^2 c + ω η k ) Δ^2", den_hartog)
-    if study.machine.train is not None and study.machine.train.engine is not None:
+    if study.machine.train is not None and study.machine.train.installed:
         yield formula(
             "Inertia torque of a throw", "M = − frac(1|2) J′ ( φ ) Ω^2", "Biezeno and Grammel, vol. 4"
         )
+
+
+def _balanced(train: Train) -> str:
+    """How mean torques balance."""
+    if not train.installed:
+        shares = ", ".join(f"{on} {share:.4g}" for on, share in train.shares.items() if share < 1)
+        parts = f", by shares of the power: {shares}" if shares else ""
+        return f"Mean torques balance: the drivers give what the loads take{parts}; their slope damps."
+    if train.run is not None and train.run.loads_follow:
+        return "Mean torques balance: loads take what the engines give; their slope over the speed damps."
+    return (
+        "Loads are as given, their slope over the speed damps; what engines leave over accelerates the train."
+    )
 
 
 def _assumptions(study: TorsionStudy) -> Iterator[str]:
@@ -127,12 +141,11 @@ def _assumptions(study: TorsionStudy) -> Iterator[str]:
     if train is None:
         yield "The mechanism is a disc with the mean of its inertia; what its change does acts as a torque."
         return
-    if train.engine is not None:
+    if train.installed:
         yield "A throw is a disc with the mean of its inertia; what its change does acts as a torque."
         yield "Gas pressure is that of steady running; cylinders differ by their factors alone."
     if train.loads:
-        balanced = "what the engine gives" if train.engine is not None else "what the driver is asked for"
-        yield f"Mean torques balance: the loads take {balanced}; their slope over the speed damps."
+        yield _balanced(train)
     for name, coupling in train.couplings.items():
         if coupling.twist is not None:
             yield f"Coupling {name} has the stiffness of its curve at the mean torque of each speed."

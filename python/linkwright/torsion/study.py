@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -14,7 +14,7 @@ from linkwright.kernel.units import FREQUENCY, not_negative
 from linkwright.machine.machine import Machine
 from linkwright.torsion.in_time.transient import TorsionTransient, torsion_transient
 from linkwright.torsion.limits.verdict import Verdict, verdict
-from linkwright.torsion.model.engine.engine import ReciprocatingEngine, firing_angles
+from linkwright.torsion.model.engine.engine import firing_angles
 from linkwright.torsion.model.train import Train
 from linkwright.torsion.modes.campbell import CampbellDiagram, campbell
 from linkwright.torsion.modes.damped import DampedVibration, damped_vibration
@@ -64,8 +64,8 @@ class TorsionStudy:
         Whether all limits are kept.
     along : UnevennessAlong or None
         Speed fluctuation over the cylinders of an engine at its speed of service.
-    engine : EngineData or None
-        What an engine is in the train.
+    engines : dict of EngineData
+        What each engine is in the train, by name; that of a single one is empty.
     campbell : CampbellDiagram or None
         Critical speeds.
     peaks : TorquePeaks or None
@@ -84,10 +84,15 @@ class TorsionStudy:
     stress: ShaftStress | None = None
     verdict: Verdict | None = None
     along: UnevennessAlong | None = None
-    engine: EngineData | None = None
+    engines: Mapping[str, EngineData] = field(default_factory=dict)
     campbell: CampbellDiagram | None = None
     peaks: TorquePeaks | None = None
     transient: TorsionTransient | None = None
+
+    @property
+    def engine(self) -> EngineData | None:
+        """The engine of a train that has but one."""
+        return self.engines.get("")
 
     @property
     def findings(self) -> list[str]:
@@ -123,6 +128,8 @@ class TorsionStudy:
             results["campbell"] = self.campbell.to_dict()
         if self.engine is not None:
             results["engine"] = self.engine.to_dict()
+        elif self.engines:
+            results["engines"] = {name: engine.to_dict() for name, engine in self.engines.items()}
         if self.along is not None:
             results["unevenness_along"] = self.along.to_dict(curves=True)
         return results | {"scheme": self.scheme.to_dict(curves=True)}
@@ -172,7 +179,7 @@ def torsion_study(machine: Machine, *, holzer: Sequence[float] = ()) -> TorsionS
         stress if stress.shafts else None,
         verdict(machine, seen),
         _along(machine, at, forced),
-        _engine(machine),
+        _engines(machine, at),
         campbell(machine, speed_range=(at.torques.speeds[0], at.torques.speeds[-1])),
         torque_peaks(seen),
         moved,
@@ -195,18 +202,22 @@ def _is_damped(machine: Machine) -> bool:
     return given or loads or shafts or gears or any(disc.damping for disc in train.discs.values())
 
 
-def _engine(machine: Machine) -> EngineData | None:
-    """What an engine is, at its speed of service."""
+def _engines(machine: Machine, at: ExcitedTrain) -> dict[str, EngineData]:
+    """What each engine is, at its speed of service."""
     train = machine.train
-    if train is None or train.engine is None or train.run is None:
-        return None
-    return engine_data(train.engine, train.run.service)
+    if train is None or train.run is None:
+        return {}
+    turning = dict(zip(at.referred.discs, at.referred.speed.tolist(), strict=True))
+    return {
+        one.name: engine_data(one.engine, train.run.service * turning[one.throws[0]])
+        for one in train.installed
+    }
 
 
 def _along(machine: Machine, at: ExcitedTrain, forced: ForcedVibration) -> UnevennessAlong | None:
     """Speed fluctuation over the cylinders of an engine whose cylinders fire one after another."""
     train = machine.train
-    if train is None or train.engine is None or train.run is None:
+    if train is None or train.engine is None or train.engines or train.run is None:
         return None
     angles, cycle = firing_angles(train.engine.places, train.engine.firing_order, train.engine.cycle)
     # Two that fire at once share one rise of the speed, which then is none of either.
@@ -221,7 +232,7 @@ def _balance(study: TorsionStudy) -> Iterator[str]:
     if study.transient is not None and study.transient.balance:
         yield f"Manoeuvre: {study.transient.balance}."
     at, train = study.excited, study.machine.train
-    if at is None or train is None or train.engine is None or not train.loads:
+    if at is None or train is None or not train.installed or not train.loads:
         return
     if train.run is not None and train.run.loads_follow:
         least, most = float(at.torques.load_factor.min()), float(at.torques.load_factor.max())
@@ -258,8 +269,8 @@ def _warnings(study: TorsionStudy) -> Iterator[str]:
     if run is not None and not run.speed_min <= run.service <= run.speed_max:
         near = min(max(run.service, run.speed_min), run.speed_max) * 30 / np.pi
         yield f"The service speed is not among the speeds analysed: its results are those of {near:.5g} rpm."
-    if train is not None and train.engine is not None and at.referred.is_free:
-        yield from _balance_warnings(train.engine, train, at)
+    if train is not None and train.installed and at.referred.is_free:
+        yield from _balance_warnings(train, at)
     yield from _about_loads(study, at)
     yield from _about_couplings(study, forced)
     yield from _about_the_ends(study, forced)
@@ -269,13 +280,13 @@ def _warnings(study: TorsionStudy) -> Iterator[str]:
         yield f"Orders {listed} have no common base with the others: their amplitudes are added."
 
 
-def _balance_warnings(engine: ReciprocatingEngine, train: Train, at: ExcitedTrain) -> Iterator[str]:
+def _balance_warnings(train: Train, at: ExcitedTrain) -> Iterator[str]:
     """Loads that do not take what an engine gives."""
     if not train.loads:
         yield "The engine drives no load: its mean torque accelerates the train, and the shafts carry it."
         return
-    # Behind the throws there are loads alone, and all of them drive if one does.
-    behind = slice(len(engine.throws), None)
+    # Behind the throws there are loads and drivers alone, and all loads drive if one does.
+    behind = slice(sum(len(one.throws) for one in train.installed), None)
     driven = at.referred.speed[behind] @ at.torques.mean[behind] > 0
     if driven.any():
         rpm = ", ".join(f"{speed * 30 / np.pi:.5g}" for speed in at.torques.speeds[driven][:4])

@@ -92,9 +92,10 @@ class EngineSpeed:
 
     def __init__(self, machine: Machine, speed: float, disc: str, *, rigid: bool = False) -> None:
         train = machine.train
-        if train is None or train.engine is None:
+        if train is None or train.engine is None or train.engines:
             raise InputError(
-                f"{machine.name} has no [train.engine]: expected one whose cylinders are to be judged"
+                f"{machine.name} has not one [train.engine]: expected a single one, whose cylinders "
+                "are to be judged"
             )
         self.machine, self.engine, self.disc, self.rigid = machine, train.engine, disc, rigid
         self.train = train_of(machine)

@@ -169,9 +169,10 @@ def record_diagnosis(
 
 def _engine(machine: Machine) -> ReciprocatingEngine:
     """The engine of a machine."""
-    if machine.train is None or machine.train.engine is None:
+    if machine.train is None or machine.train.engine is None or machine.train.engines:
         raise InputError(
-            f"{machine.name} has no [train.engine]: expected one whose cylinders are to be judged"
+            f"{machine.name} has not one [train.engine]: expected a single one, whose cylinders "
+            "are to be judged"
         )
     return machine.train.engine
 

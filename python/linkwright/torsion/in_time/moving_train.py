@@ -10,6 +10,7 @@ combustion adds. Both are taken at one speed.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
@@ -33,6 +34,7 @@ from linkwright.torsion.core.transient import MovingTrain, VariableInertia, movi
 from linkwright.torsion.model.engine.engine import ReciprocatingEngine, firing_angles
 from linkwright.torsion.model.engine.engine_motion import reduced_throw
 from linkwright.torsion.model.train import Train
+from linkwright.torsion.model.train_drivers import InstalledEngine
 from linkwright.torsion.model.train_torques import Harmonic, LoadHarmonic, TrainLoad
 from linkwright.torsion.model.train_transient import (
     FuelSwitch,
@@ -66,8 +68,12 @@ def moving_train(train: Train, manoeuvre: TrainTransient) -> MovingTrain:
     _require_fit(train, manoeuvre, tuple(whole.discs))
     place = {name: k for k, name in enumerate(whole.discs)}
     own = np.array([disc.inertia for disc in whole.discs.values()])
-    inertias = [] if train.engine is None else throw_inertias(train.engine)
-    own[: len(inertias)] = 0.0
+    inertias = [
+        inertia
+        for engine in train.installed
+        for inertia in throw_inertias(engine.engine, place[engine.throws[0]], engine.phase)
+    ]
+    own[[inertia.on for inertia in inertias]] = 0.0
     by_mode = manoeuvre.loss_by == "mode" and bool(referred.loss_factor.any())
     ratios = _ratios(referred, by_mode=by_mode)
     damping, notes = _mode_damping(referred) if by_mode else _shaft_damping(referred, manoeuvre)
@@ -78,7 +84,11 @@ def moving_train(train: Train, manoeuvre: TrainTransient) -> MovingTrain:
         shaft_damping=damping,
         curves=[_coupling_curve(train, name) for name in referred.shafts],
         inertias=inertias,
-        torques=[*_engine(train, manoeuvre), *_outside(whole, manoeuvre, place), *_events(manoeuvre, place)],
+        torques=[
+            *_engines(train, manoeuvre, referred),
+            *_outside(whole, manoeuvre, place),
+            *_events(manoeuvre, place),
+        ],
         modal_damping=replace(referred, ratios=ratios).modal_damping if ratios.any() else None,
         notes=notes,
     )
@@ -154,9 +164,9 @@ def _coupling_curve(train: Train, name: str) -> Curve | None:
     return None if coupling is None or coupling.twist is None else odd(*coupling.curve())
 
 
-def _engine(train: Train, manoeuvre: TrainTransient) -> list[TrainTorque]:
-    """Torques of the engine, if there is one."""
-    if train.engine is None:
+def _engines(train: Train, manoeuvre: TrainTransient, referred: ReferredTrain) -> list[TrainTorque]:
+    """Torques of the engines."""
+    if not train.installed:
         return []
     service = None if train.run is None else train.run.service
     speed = manoeuvre.gas_speed or manoeuvre.speed or service
@@ -165,7 +175,12 @@ def _engine(train: Train, manoeuvre: TrainTransient) -> list[TrainTorque]:
             "train.transient.gas_speed: found nothing, expected the speed at which gas torques are taken, as "
             "the motion starts at rest and [train.run] gives no speed of service"
         )
-    return engine_motion_torques(train.engine, manoeuvre, speed, highest_order(train))
+    torques = []
+    for engine in train.installed:
+        first = referred.discs.index(engine.throws[0])
+        its_speed = speed * float(referred.speed[first])
+        torques += engine_motion_torques(engine, manoeuvre, its_speed, highest_order(train), first)
+    return torques
 
 
 def _outside(whole: Train, manoeuvre: TrainTransient, place: dict[str, int]) -> Iterator[TrainTorque]:
@@ -176,6 +191,10 @@ def _outside(whole: Train, manoeuvre: TrainTransient, place: dict[str, int]) -> 
         law = None if excitation.speed is None else Power(excitation.speed, excitation.exponent, is_even=True)
         for shape, pitch, phase in _shapes(excitation.harmonics, 0.0):
             yield TrainTorque(name, place[excitation.on], 1.0, law, shape, pitch, phase)
+    for name, driver in whole.drivers.items():
+        if driver.torque is not None:
+            law = None if driver.speed is None else Power(driver.speed, driver.exponent, is_even=True)
+            yield TrainTorque(name, place[driver.on], driver.torque, law)
     for name, motor in manoeuvre.motors.items():
         changes = [
             (event.time, float(event.kind == "motor_on"), 0.0)
@@ -252,65 +271,67 @@ def _events(manoeuvre: TrainTransient, place: dict[str, int]) -> Iterator[TrainT
                 )
 
 
-# Name of what combustion adds in a cylinder, before its number.
-COMBUSTION = "combustion_"
+# Name of what combustion adds in a cylinder: after that of one of several engines, before its number.
+COMBUSTION = re.compile(r"(?:^|_)combustion_\d+$")
 
 # Angles over one revolution at which a throw is reduced: far beyond its harmonics.
 _SAMPLES = 256
 
 
-def throw_inertias(engine: ReciprocatingEngine) -> list[VariableInertia]:
-    """Inertia of each throw with its rods and pistons over the angle."""
+def throw_inertias(engine: ReciprocatingEngine, place: int = 0, phase: float = 0.0) -> list[VariableInertia]:
+    """Inertia of each throw with its rods and pistons. `place`: of the first; `phase`: [rad]."""
     phi = 2 * np.pi * np.arange(_SAMPLES) / _SAMPLES
     reduced = reduced_throw(engine, phi)
     first = variable_inertia(0, reduced.inertia_reduced, reduced.inertia_reduced_d1)
-    return [VariableInertia(n, first.table, angle) for n, angle in enumerate(engine.throws)]
+    return [VariableInertia(place + n, first.table, angle + phase) for n, angle in enumerate(engine.throws)]
 
 
 def engine_motion_torques(
-    engine: ReciprocatingEngine, manoeuvre: TrainTransient, speed: float, highest: float
+    installed: InstalledEngine, manoeuvre: TrainTransient, speed: float, highest: float, first: int = 0
 ) -> list[TrainTorque]:
     """Torques of gas and weight on the throws.
 
     ``"gas_N"`` of each cylinder without combustion, ``"combustion_N"`` on top of it, ``"weight_N"`` of each
-    throw. `speed`: [rad/s].
+    throw; before it the name of one of several engines. `speed`: of its crank [rad/s]; `first`: its disc.
     """
+    engine, phase, prefix = installed.engine, installed.phase, installed.prefix
     fires, _ = firing_angles(engine.places, engine.firing_order, engine.cycle)
     motored, added = _gas_tables(engine, speed, highest)
     torques = []
     for n, (place, angle) in enumerate(zip(engine.places, fires, strict=True)):
         number = n + 1
-        gas = TrainTorque(f"gas_{number}", place.throw, shape=motored[place.bank], phase=-float(angle))
+        disc, lead = first + place.throw, phase - float(angle)
+        gas = TrainTorque(f"{prefix}gas_{number}", disc, shape=motored[place.bank], phase=lead)
         factor = engine.factor(number)
         burns = TrainTorque(
-            f"{COMBUSTION}{number}",
-            place.throw,
+            f"{prefix}combustion_{number}",
+            disc,
             factor,
             shape=added[place.bank],
-            phase=-float(angle),
-            weight=combustion_weight(manoeuvre, number),
+            phase=lead,
+            weight=combustion_weight(manoeuvre, number, installed.name),
         )
         torques += [gas, burns]
-    return [*torques, *_weights(engine)]
+    return [*torques, *_weights(installed, first)]
 
 
-def combustion_weight(manoeuvre: TrainTransient, cylinder: int) -> Curve | None:
+def combustion_weight(manoeuvre: TrainTransient, cylinder: int, engine: str = "") -> Curve | None:
     """Share of the combustion in a cylinder over time. None if it burns all the time."""
     fuel = [
         (event.time, float(event.kind == "fuel_on"), event.over)
         for event in manoeuvre.events
-        if isinstance(event, FuelSwitch)
+        if isinstance(event, FuelSwitch) and event.engine in (None, engine)
     ]
     weight = switched(fuel, manoeuvre.fuel) if fuel or manoeuvre.fuel != 1.0 else None
-    for change in _misfires(manoeuvre, cylinder):
+    for change in _misfires(manoeuvre, cylinder, engine):
         weight = change if weight is None else product(weight, change)
     return weight
 
 
-def _misfires(manoeuvre: TrainTransient, cylinder: int) -> Iterator[Curve]:
+def _misfires(manoeuvre: TrainTransient, cylinder: int, engine: str) -> Iterator[Curve]:
     """Share that each event leaves to a cylinder."""
     for event in manoeuvre.events:
-        if isinstance(event, Misfire) and cylinder in event.cylinders:
+        if isinstance(event, Misfire) and cylinder in event.cylinders and event.engine in (None, engine):
             end = [(event.end, 1.0, 0.0)] if np.isfinite(event.end) else []
             yield switched([(event.time, event.factor, 0.0), *end])
 
@@ -331,10 +352,12 @@ def _gas_tables(
     return motored, added
 
 
-def _weights(engine: ReciprocatingEngine) -> list[TrainTorque]:
+def _weights(installed: InstalledEngine, first: int) -> list[TrainTorque]:
     """Torque of the weights of each throw."""
+    engine, prefix = installed.engine, installed.prefix
     phi = 2 * np.pi * np.arange(_SAMPLES) / _SAMPLES
     table = smooth(reduced_throw(engine, phi).weight_torque)
     return [
-        TrainTorque(f"weight_{n + 1}", n, shape=table, phase=angle) for n, angle in enumerate(engine.throws)
+        TrainTorque(f"{prefix}weight_{n + 1}", first + n, shape=table, phase=angle + installed.phase)
+        for n, angle in enumerate(engine.throws)
     ]

@@ -4,7 +4,7 @@ r"""A running train starts as in steady running: its mean torques balance, and i
 | --- | --- |
 | a motor that drives | the speed: the motor's curve, and the loads over theirs, meet at one |
 | an engine | its combustion, as a governor would have it |
-| neither | the driver: a constant torque, what the loads need |
+| neither | the drivers: constant torques, what the loads need, by their shares |
 
 Loads never change, unless that is asked for.
 
@@ -73,15 +73,19 @@ def balanced_start(
         return _with_loads(moving, train, speed, left)
     if any(motor.on_at_start for motor in manoeuvre.motors.values()):
         return _at_steady_speed(moving, manoeuvre)
-    if train.engine is not None:
+    if train.installed:
         return _with_combustion(moving, manoeuvre, left)
     if manoeuvre.motors:
         return moving, speed, f"nothing drives at the start: {left:.5g} N m slow the train down"
-    name = train.driver or next(iter(train.discs))
-    driver = moving.discs.index(name)
-    drive = TrainTorque("driver", driver, -left / float(moving.speed[driver]))
-    told = f"{name} is driven by a constant {drive.scale:.5g} N m, what the loads need at the start"
-    return replace(moving, torques=(*moving.torques, drive)), speed, told
+    drives = [
+        TrainTorque("driver", driver, -share * left / float(moving.speed[driver]))
+        for driver, share in ((moving.discs.index(name), share) for name, share in train.shares.items())
+    ]
+    if not drives:
+        return moving, speed, f"drivers and loads do not balance at the start: {left:+.5g} N m are left over"
+    given = " and ".join(f"{moving.discs[drive.on]} by {drive.scale:.5g} N m" for drive in drives)
+    told = f"a constant torque drives {given}, what the loads need at the start"
+    return replace(moving, torques=(*moving.torques, *drives)), speed, told
 
 
 def _left(moving: MovingTrain, speed: float, angle: float) -> float:
@@ -145,7 +149,7 @@ def _with_loads(
 
 def _burns(torque: TrainTorque) -> bool:
     """Whether a torque is that of a combustion."""
-    return torque.name.startswith(COMBUSTION)
+    return COMBUSTION.search(torque.name) is not None
 
 
 def _scaled(moving: MovingTrain, which: list[bool], factor: float) -> MovingTrain:

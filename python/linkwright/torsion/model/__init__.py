@@ -13,6 +13,7 @@
 | `shaft_section` | Sections of a shaft |
 | `train` | A torsional train: discs, shafts, gear stages; speeds and orders of its forced vibration |
 | `train_base` | Quantities that several parts of a train have |
+| `train_drivers` | What drives a train: engines, turbines, motors, each with its part of the power |
 | `train_faults` | What is wrong with a train as a whole |
 | `train_torques` | Torques on a train from outside: what it drives, and what makes it pulsate |
 | `train_transient` | A manoeuvre of a train, followed in time, and its events |

@@ -35,6 +35,7 @@ from linkwright.torsion.model.shaft_limit import ShaftLimit
 from linkwright.torsion.model.shaft_row import fillet_faults, flexibilities, place
 from linkwright.torsion.model.shaft_section import Density, Modulus, ShaftSection
 from linkwright.torsion.model.train_base import GROUND, Damping, LossFactor, PositiveSpeed, PositiveStiffness
+from linkwright.torsion.model.train_drivers import InstalledEngine, TrainDriver, TrainEngine
 from linkwright.torsion.model.train_torques import Excitation, TrainLoad
 from linkwright.torsion.model.train_transient import TrainTransient
 
@@ -224,11 +225,47 @@ class Train(Description):
     engine: ReciprocatingEngine | None = Field(
         None, description="Reciprocating engine, which stands for discs throw_1, throw_2, … and their shafts."
     )
+    engines: dict[Name, TrainEngine] = Field(
+        default_factory=dict,
+        description="Several engines, by name, each with discs NAME_throw_1, NAME_throw_2, … and shafts "
+        "NAME_crank_1, … Without it, there is [train.engine] alone.",
+    )
     driver: str | None = Field(
         None, description="Disc that drives the loads, where no engine does. Without it, the first."
+    )
+    drivers: dict[Name, TrainDriver] = Field(
+        default_factory=dict,
+        description="Several turbines or motors that drive the loads, by name, in place of one driver.",
     )
     modal_damping: ModalDamping | None = Field(
         None, description="Damping ratios of the modes, in addition to what damps single parts."
     )
     run: TrainRun | None = Field(None, description="Speeds and orders at which it is looked at.")
     transient: TrainTransient | None = Field(None, description="Manoeuvre that is followed in time.")
+
+    @property
+    def installed(self) -> tuple[InstalledEngine, ...]:
+        """All engines, each in its place."""
+        if not self.engines:
+            return () if self.engine is None else (InstalledEngine("", self.engine, 0.0),)
+        return tuple(
+            InstalledEngine(
+                name, engine.model_copy(update={"factors": one.factors or engine.factors}), one.phase
+            )
+            for name, one in self.engines.items()
+            if (engine := one.engine or self.engine) is not None
+        )
+
+    @property
+    def shares(self) -> dict[str, float]:
+        """Share of each disc that drives in the power that loads need, of all 1; none beside engines."""
+        if self.installed:
+            return {}
+        sharing = [driver for driver in self.drivers.values() if driver.torque is None]
+        if not sharing:
+            return {} if self.drivers else {self.driver or next(iter(self.discs)): 1.0}
+        total = math.fsum(driver.share for driver in sharing)
+        shares: dict[str, float] = {}
+        for driver in sharing:
+            shares[driver.on] = shares.get(driver.on, 0.0) + driver.share / total
+        return shares

@@ -13,20 +13,19 @@ from linkwright.kernel.description.plain import keys, look
 from linkwright.kernel.errors import AssemblyError, InputError
 from linkwright.kernel.limits import DISCS
 from linkwright.torsion.model.train import GROUND, Train
+from linkwright.torsion.model.train_drivers import crank_names, throw_names
 from linkwright.torsion.model.train_transient import transient_faults
 from linkwright.torsion.model.whole_train import (
     Contradiction,
-    crank_names,
     parts_of,
     speeds,
-    throw_names,
     whole_train,
 )
 
 # Tables whose entries join two discs, and those whose entries sit on one.
 _TABLES = ("shafts", "couplings", "gears")
 _NUMBERS = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
-_ON = ("dampers", "loads", "excitations")
+_ON = ("dampers", "loads", "excitations", "drivers")
 
 
 def train_faults(train: object) -> Iterator[InitErrorDetails]:
@@ -34,8 +33,7 @@ def train_faults(train: object) -> Iterator[InitErrorDetails]:
     if train is None:
         return
     own = keys(look(train, "discs")) if isinstance(look(train, "discs"), dict) else ()
-    throws = _throws(train)
-    discs = (*throw_names(throws), *own)
+    discs = (*_throw_names(train), *own)
     if not discs:
         remedy = 'describe what turns as [train.discs], NAME = { inertia = "2 kg m^2" }'
         yield fault("train", "discs", expected="at least one disc", remedy=remedy)
@@ -47,7 +45,7 @@ def train_faults(train: object) -> Iterator[InitErrorDetails]:
         remedy = "it is the word for what is held"
         yield fault("train", "discs", GROUND, found=GROUND, expected="another name", remedy=remedy)
         return
-    wrong = [*_same_names(train), *_name_faults(train, discs)]
+    wrong = [*_same_names(train), *_name_faults(train, discs), *_engine_faults(train)]
     yield from wrong
     if wrong:
         return
@@ -67,10 +65,10 @@ def train_faults(train: object) -> Iterator[InitErrorDetails]:
 
 def _same_names(train: object) -> Iterator[InitErrorDetails]:
     """Parts of one name: results name discs with rings, and shafts with couplings and meshes, alike."""
-    throws = _throws(train)
+    cranks = [name for engine, throws in _engines(train) for name in crank_names(throws, engine)]
     for tables, taken in (
-        (("shafts", "couplings", "dampers", "gears"), crank_names(throws)),
-        (("discs", "dampers"), throw_names(throws)),
+        (("shafts", "couplings", "dampers", "gears"), cranks),
+        (("discs", "dampers"), _throw_names(train)),
     ):
         seen = dict.fromkeys(taken, "engine")
         for table in tables:
@@ -81,10 +79,44 @@ def _same_names(train: object) -> Iterator[InitErrorDetails]:
                 seen.setdefault(name, table)
 
 
-def _throws(train: object) -> int:
+def _engines(train: object) -> list[tuple[str, int]]:
+    """Name and throws of each engine."""
+    installed = look(train, "engines")
+    own = _throws(look(train, "engine"))
+    if not keys(installed):
+        return [("", own)]
+    return [(name, _throws(look(look(installed, name), "engine")) or own) for name in keys(installed)]
+
+
+def _throws(engine: object) -> int:
     """How many throws an engine has, whose angles may still be a text as it was read."""
-    angles = look(look(train, "engine"), "throws")
+    angles = look(engine, "throws")
     return len(_NUMBERS.findall(angles)) if isinstance(angles, str) else len(keys(angles))
+
+
+def _throw_names(train: object) -> tuple[str, ...]:
+    """Discs of all engines."""
+    return tuple(name for engine, throws in _engines(train) for name in throw_names(throws, engine))
+
+
+def _engine_faults(train: object) -> Iterator[InitErrorDetails]:
+    """Engines that are described nowhere, and cylinders that they have not."""
+    if not isinstance(train, Train):
+        return
+    for name, one in train.engines.items():
+        engine = one.engine or train.engine
+        if engine is None:
+            remedy = "describe it as [train.engine], for all engines, or as [train.engines.NAME.engine]"
+            yield fault("train", "engines", name, expected="the engine itself", remedy=remedy)
+            continue
+        for number in one.factors:
+            if number not in map(str, range(1, engine.n_cylinders + 1)):
+                expected = f"the number of a cylinder, 1 to {engine.n_cylinders}"
+                yield fault("train", "engines", name, "factors", number, found=number, expected=expected)
+    if train.engines and train.engine is not None and train.engine.factors:
+        remedy = "give them to the engine whose cylinders they are, as train.engines.NAME.factors"
+        found = dict(train.engine.factors)
+        yield fault("train", "engine", "factors", found=found, expected="none beside engines", remedy=remedy)
 
 
 def _pairs(train: object, table: str) -> Iterator[tuple[str, Sequence[str]]]:
@@ -118,11 +150,17 @@ def _seat_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetai
     """Dampers, loads and torques on what is no disc, and a driver that is none."""
     driver = look(train, "driver")
     if isinstance(driver, str) and look(train, "engine") is not None:
-        remedy = "leave it out; a machine that drives beside the engine is an excitation or a load"
+        remedy = (
+            "leave it out; a machine that drives beside the engine is one of [train.drivers], with a torque"
+        )
         yield fault("train", "driver", found=driver, expected="none beside [train.engine]", remedy=remedy)
+    elif isinstance(driver, str) and keys(look(train, "drivers")):
+        remedy = "leave one of them out"
+        yield fault("train", "driver", found=driver, expected="none beside [train.drivers]", remedy=remedy)
     elif isinstance(driver, str) and driver not in discs:
         remedy = close_match(driver, discs) or suggestion(driver, discs)
         yield fault("train", "driver", found=driver, expected="the name of a disc", remedy=remedy)
+    yield from _driver_faults(train)
     for table in _ON:
         for name in keys(look(train, table)):
             on = look(look(look(train, table), name), "on")
@@ -133,10 +171,21 @@ def _seat_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetai
                 )
 
 
+def _driver_faults(train: object) -> Iterator[InitErrorDetails]:
+    """Shares of the power beside an engine, which gives what its gas says."""
+    if not isinstance(train, Train) or not train.installed:
+        return
+    for name, driver in train.drivers.items():
+        if driver.torque is None:
+            expected = "the torque that it gives beside the engine"
+            yield fault("train", "drivers", name, "torque", expected=expected)
+
+
 def _parts_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetails]:
     """A train in unconnected parts; the ground alone connects nothing."""
     pairs = [(a, b) for table in _TABLES for _, (a, b) in _pairs(train, table) if GROUND not in (a, b)]
-    pairs += pairwise(throw_names(_throws(train)))
+    for engine, throws in _engines(train):
+        pairs += pairwise(throw_names(throws, engine))
     parts = parts_of(discs, pairs)
     if len(parts) > 1:
         found = "; ".join(_listed(part) for part in parts[:4]) + ("; …" if len(parts) > 4 else "")

@@ -94,6 +94,7 @@ class FuelSwitch(Description):
     """The combustion in all cylinders sets in or ends."""
 
     kind: Literal["fuel_on", "fuel_off"]
+    engine: str | None = Field(None, description="Which of several engines. Without it, all.")
     time: Instant = Field(description="When it begins.")
     over: Instant = Field(0.0, description="Time that it takes.")
 
@@ -102,6 +103,7 @@ class Misfire(_Passing):
     """Cylinders do without combustion, or with part of it."""
 
     kind: Literal["misfire"]
+    engine: str | None = Field(None, description="Which of several engines.")
     cylinders: tuple[Annotated[int, Field(ge=1)], ...] = Field(description="Their numbers.")
     factor: Share = Field(0.0, description="Share of the combustion that is left.")
 
@@ -274,13 +276,23 @@ def _unknown(name: str, known: Iterable[str], word: str, *place: str | int) -> I
 def _engine_faults(train: Train, event: Misfire | FuelSwitch, n: int) -> Iterator[InitErrorDetails]:
     """Combustion without an engine, or cylinders that it has not."""
     place = ("train", "transient", "events", n)
-    if train.engine is None:
+    engines = {one.name: one.engine for one in train.installed}
+    if not engines:
         remedy = "describe it as [train.engine]"
         yield fault(
             *place, "kind", found=event.kind, expected="an event of a train with an engine", remedy=remedy
         )
+    elif event.engine is not None and event.engine not in engines:
+        expected = "the name of one of [train.engines]"
+        yield fault(
+            *place, "engine", found=event.engine, expected=expected, remedy=suggestion(event.engine, engines)
+        )
+    elif isinstance(event, Misfire) and event.engine is None and len(engines) > 1:
+        yield fault(
+            *place, "engine", expected="the engine whose cylinders they are", remedy=suggestion("", engines)
+        )
     elif isinstance(event, Misfire):
-        cylinders = train.engine.n_cylinders
+        cylinders = engines[event.engine or next(iter(engines))].n_cylinders
         for k, number in enumerate(event.cylinders):
             if number > cylinders:
                 expected = f"the number of a cylinder, 1 to {cylinders}"

@@ -13,10 +13,10 @@ from itertools import pairwise
 from typing import NamedTuple, TypeVar
 
 from linkwright.torsion.model.coupling import Coupling, Damper
-from linkwright.torsion.model.engine.engine import ReciprocatingEngine
 from linkwright.torsion.model.engine.engine_motion import mean_throw_inertia, throw_stiffness
 from linkwright.torsion.model.shaft_row import end_inertias
 from linkwright.torsion.model.train import GROUND, Disc, Shaft, Train
+from linkwright.torsion.model.train_drivers import InstalledEngine
 
 
 def whole_train(train: Train) -> Train:
@@ -25,13 +25,18 @@ def whole_train(train: Train) -> Train:
     Of the same vibration: discs, then rings of dampers; shafts, then couplings, then what holds the rings.
     """
     heavy = any(shaft.density is not None for shaft in train.shafts.values())
-    if not (train.couplings or train.dampers or train.engine or heavy):
+    if not (train.couplings or train.dampers or train.installed or heavy):
         return train
-    throws, cranks = ({}, {}) if train.engine is None else _crankshaft(train.engine)
+    throws: dict[str, Disc] = {}
+    cranks: dict[str, Shaft] = {}
+    for engine in train.installed:
+        discs, shafts = _crankshaft(engine)
+        throws |= discs
+        cranks |= shafts
+    # All that is made here is unchecked: it was checked where it is described.
     rings = {
         name: Disc.model_construct(inertia=damper.ring_inertia) for name, damper in train.dampers.items()
     }
-    # All that is made here is unchecked: it was checked where it is described.
     couplings = {name: _coupling(coupling) for name, coupling in train.couplings.items()}
     held = {name: _spring(name, damper) for name, damper in train.dampers.items()}
     return train.model_copy(
@@ -39,33 +44,24 @@ def whole_train(train: Train) -> Train:
             "discs": _loaded({**throws, **train.discs, **rings}, train.shafts),
             "shafts": {**cranks, **_light(train.shafts), **couplings, **held},
             "engine": None,
+            "engines": {},
             "couplings": {},
             "dampers": {},
         }
     )
 
 
-def throw_names(throws: int) -> tuple[str, ...]:
-    """Names of the discs that the throws of an engine are."""
-    return tuple(f"throw_{n + 1}" for n in range(throws))
-
-
-def crank_names(throws: int) -> tuple[str, ...]:
-    """Names of the shafts between the throws of an engine."""
-    return tuple(f"crank_{n + 1}" for n in range(throws - 1))
-
-
-def _crankshaft(engine: ReciprocatingEngine) -> tuple[dict[str, Disc], dict[str, Shaft]]:
+def _crankshaft(installed: InstalledEngine) -> tuple[dict[str, Disc], dict[str, Shaft]]:
     """Throws, and what twists between them."""
-    n = len(engine.throws)
+    engine, names = installed.engine, installed.throws
+    n = len(names)
     disc = Disc.model_construct(inertia=mean_throw_inertia(engine), damping=engine.damping)
-    names = throw_names(n)
     stiffness, limit = throw_stiffness(engine) if n > 1 else 0.0, engine.crank_limit
     shafts = {
         name: Shaft.model_construct(
             between=pair, stiffness=stiffness, loss_factor=engine.loss_factor, limit=limit
         )
-        for name, pair in zip(crank_names(n), pairwise(names), strict=True)
+        for name, pair in zip(installed.cranks, pairwise(names), strict=True)
     }
     return dict.fromkeys(names, disc), shafts
 

@@ -12,7 +12,7 @@ fires at :math:`\varphi_f`, turn the harmonics by :math:`e^{i\nu\alpha}` and :ma
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -91,27 +91,51 @@ def cylinder_torques(engine: ReciprocatingEngine, speeds: Floats, highest: float
     return CylinderTorques(orders, firing, motored, tuple(banks))
 
 
-def engine_sources(engine: ReciprocatingEngine, speeds: Floats, highest: float = 24.0) -> list[Source]:
+class EnginePlace(NamedTuple):
+    """Where an engine is in its train."""
+
+    first: int = 0  # place of its first throw among the discs
+    turning: float = 1.0  # speed of its crank over that of the first disc of the train
+    phase: float = 0.0  # angle by which its crank leads [rad]
+
+
+def engine_sources(
+    engine: ReciprocatingEngine, speeds: Floats, highest: float = 24.0, place: EnginePlace | None = None
+) -> list[Source]:
     """Torques on the throws of an engine, with their mean.
 
-    One a throw, in order. `speeds`: (speeds,) [rad/s].
+    One a throw, in order. `speeds`: (speeds,) of the first disc of the train [rad/s].
     """
-    factors = np.array([engine.factor(n + 1) for n in range(engine.n_cylinders)])
-    return throw_sources(engine, cylinder_torques(engine, speeds, highest), CylinderStates(factors[:, None]))
+    place = place or EnginePlace()
+    gas = cylinder_torques(engine, place.turning * speeds, highest)
+    return throw_sources(engine, gas, CylinderStates(sound_factors(engine)[:, None]), place)
 
 
-def throw_sources(engine: ReciprocatingEngine, gas: CylinderTorques, states: CylinderStates) -> list[Source]:
+def sound_factors(engine: ReciprocatingEngine) -> Floats:
+    """Share of the combustion in each cylinder as its file says, (cylinders,)."""
+    return np.array([engine.factor(n + 1) for n in range(engine.n_cylinders)])
+
+
+def throw_sources(
+    engine: ReciprocatingEngine,
+    gas: CylinderTorques,
+    states: CylinderStates,
+    place: EnginePlace | None = None,
+) -> list[Source]:
     """Torques on the throws of an engine whose cylinders work more or less.
 
     One a throw, in order, with a column for each speed or state.
     """
+    place = place or EnginePlace()
     torque = states.torque(gas)
     moving = _moving_parts(engine, gas.banks[0].speeds, gas.orders)
     sources = []
     for n, angle in enumerate(engine.throws):
         own = sum(torque[c] for c, place in enumerate(engine.places) if place.throw == n)
         total = own + moving * np.exp(1j * gas.orders * angle)[:, None]
-        sources.append(Source(n, gas.orders[1:], total[1:], total[0].real))
+        total = total * np.exp(1j * gas.orders * place.phase)[:, None]
+        orders = place.turning * gas.orders[1:]
+        sources.append(Source(place.first + n, orders, total[1:], total[0].real))
     return sources
 
 

@@ -21,7 +21,7 @@ from linkwright.torsion.model.drive_train import CRANK
 from linkwright.torsion.model.train import Train, TrainRun
 from linkwright.torsion.modes.free import lead_speeds, train_of
 from linkwright.torsion.response.drive_line import mechanism_sources, steady_speed
-from linkwright.torsion.response.engine_torques import engine_sources
+from linkwright.torsion.response.engine_torques import EnginePlace, engine_sources
 from linkwright.torsion.response.harmonics import Source, Torques, torques_of
 
 Floats = NDArray[np.float64]
@@ -105,7 +105,7 @@ def under(
         listed,
         damping,
         is_free=referred.is_free,
-        has_engine=machine.train is not None and machine.train.engine is not None,
+        has_engine=machine.train is not None and bool(machine.train.installed),
         loads_follow=follow,
     )
     return loaded(machine, train, referred, torques)
@@ -140,7 +140,7 @@ def is_excited(machine: Machine) -> bool:
 def pulsates(train: Train) -> bool:
     """Whether a train has torques that pulsate."""
     waves = any(load.harmonics for load in train.loads.values())
-    return bool(train.excitations) or waves or train.engine is not None
+    return bool(train.excitations) or waves or bool(train.installed)
 
 
 def highest_order(train: Train) -> float:
@@ -154,9 +154,16 @@ def _sources(
     """Torques of the engine or of the mechanism, and their damping (discs, speeds)."""
     if machine.train is None:
         return mechanism_sources(machine, turning, place, speeds)
-    if machine.train.engine is None:
-        return [], None
-    return engine_sources(machine.train.engine, speeds, highest_order(machine.train)), None
+    sources = []
+    for engine in machine.train.installed:
+        first = place[engine.throws[0]]
+        sources += engine_sources(
+            engine.engine,
+            speeds,
+            highest_order(machine.train),
+            EnginePlace(first, float(turning[first]), engine.phase),
+        )
+    return sources, None
 
 
 def _speeds(machine: Machine, turning: Floats, place: dict[str, int]) -> Floats:

@@ -71,8 +71,8 @@ def torques_of(
 ) -> Torques:
     """All torques on the discs of a train.
 
-    Without an engine the mean torques of a free train balance: the driver gives what the loads need. What an
-    engine gives beyond its loads accelerates the train, unless the loads follow: then they take off what it
+    Without an engine the mean torques of a free train balance: the drivers give what the loads need, by
+    their shares. What an engine gives beyond its loads accelerates the train, unless the loads follow: then they take off what it
     gives, in proportion to their laws. `turning`: (discs,) speed of each disc over that of the first;
     `speeds`: (speeds,) [rad/s]; `damping`: (discs, speeds) [N m s/rad].
     """
@@ -82,6 +82,10 @@ def torques_of(
     for each in every:
         if each.mean is not None:
             mean[each.disc] += each.mean
+    for driver in train.drivers.values():
+        if driver.torque is not None:
+            n = turning[place[driver.on]]
+            mean[place[driver.on]] += [driver.torque_at(n * speed) for speed in speeds.tolist()]
     resistance, of_loads = _loads(train, place, turning, speeds)
     factor = np.ones(len(speeds))
     if is_free:
@@ -91,8 +95,8 @@ def torques_of(
             factor = np.divide(drive, needed, out=factor, where=needed > 0)
             resistance, of_loads = factor * resistance, np.maximum(factor, 0.0) * of_loads
         elif not has_engine:
-            driver = place[train.driver or next(iter(place))]
-            mean[driver] += (needed - drive) / turning[driver]
+            for on, share in train.shares.items():
+                mean[place[on]] += share * (needed - drive) / turning[place[on]]
     every += _load_harmonics(train, place, turning, resistance)
     orders = _orders(each.orders for each in every)
     harmonics = np.zeros((len(orders), len(place), len(speeds)), complex)

@@ -7,6 +7,7 @@ of the speed itself.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Annotated, NamedTuple, TypeVar
@@ -79,6 +80,9 @@ _EQUAL = 1e-9
 
 # Share of a limit from which on a peak between the speeds might be above it.
 _NEAR = 0.8
+
+# Speeds that are looked at in one piece.
+_AT_ONCE = 256
 
 # Speeds about a speed, through which a cubic goes.
 _ABOUT = 4
@@ -157,15 +161,31 @@ class Survey:
 
         In the same order at any speeds. `speeds`: (n,) [rad/s].
         """
-        at = between(self.machine, self.at, speeds)
-        return criteria(self.machine, at, torsion_response(at), self.service)
+        parts = [criteria(self.machine, at, torsion_response(at), self.service) for at in self._parts(speeds)]
+        return [
+            first._replace(
+                found=np.concatenate([each.found for each in (first, *rest)]),
+                permitted=np.concatenate([each.permitted for each in (first, *rest)]),
+            )
+            for first, *rest in zip(*parts, strict=True)
+        ]
 
     def carried_at(self, speeds: Floats) -> TorsionResponse:
-        """What the shafts carry at any speeds between the lowest and the highest.
+        """What the shafts carry at some speeds between the lowest and the highest.
 
-        At these. `speeds`: (n,) [rad/s].
+        At these, which are few. `speeds`: (n,) [rad/s].
         """
         return torsion_response(between(self.machine, self.at, speeds))
+
+    def vibratory_at(self, speeds: Floats) -> Floats:
+        """Vibratory torque of each shaft at any speeds in the range, (shafts, n) [N m]."""
+        parts = [torsion_response(at).shaft_torque_vibratory for at in self._parts(speeds)]
+        return np.concatenate(parts, axis=1)
+
+    def _parts(self, speeds: Floats) -> Iterator[ExcitedTrain]:
+        """The train at any speeds, some at a time: all orders of all shafts at once may be too many."""
+        for first in range(0, max(len(speeds), 1), _AT_ONCE):
+            yield between(self.machine, self.at, speeds[first : first + _AT_ONCE])
 
     @cached_property
     def _further(self) -> Floats:
@@ -197,7 +217,7 @@ def between(machine: Machine, at: ExcitedTrain, speeds: Floats) -> ExcitedTrain:
     At these. Torques of the file itself are exact, as are all where fewer than four speeds are known.
     `speeds`: (n,) between them [rad/s].
     """
-    exact = machine.train is not None and machine.train.engine is None
+    exact = machine.train is not None and not machine.train.installed
     if exact or len(at.torques.speeds) < _ABOUT:
         return excited_train(machine, speeds)
     about, weights = _about(at.torques.speeds, speeds)
@@ -259,22 +279,20 @@ def torque_peaks(seen: Survey) -> TorquePeaks:
     every, vibratory = seen.at.torques.speeds, seen.found.shaft_torque_vibratory
     if len(resonant):
         every = np.concatenate([every, resonant])
-        vibratory = np.concatenate([vibratory, seen.carried_at(resonant).shaft_torque_vibratory], axis=1)
+        vibratory = np.concatenate([vibratory, seen.vibratory_at(resonant)], axis=1)
     order = np.argsort(every)
     every, size = every[order], _finite(vibratory[:, order])
     worst = size.argmax(axis=1)
     about = np.clip(worst[:, None] + [-1, 1], 0, len(every) - 1)
     speed = np.array(
         peaks_between(
-            lambda at: _finite(seen.carried_at(at).shaft_torque_vibratory),
+            lambda at: _finite(seen.vibratory_at(at)),
             [(row, *every[pair].tolist()) for row, pair in enumerate(about)],
             [(float(every[k]), float(size[row, k])) for row, k in enumerate(worst)],
         )
     )
     rows = np.arange(len(size))
-    return TorquePeaks(
-        seen.found.shafts, _finite(seen.carried_at(speed).shaft_torque_vibratory)[rows, rows], speed
-    )
+    return TorquePeaks(seen.found.shafts, _finite(seen.vibratory_at(speed))[rows, rows], speed)
 
 
 def _finite(torque: Floats) -> Floats:

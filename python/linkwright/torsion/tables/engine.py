@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
@@ -12,7 +12,20 @@ from linkwright.torsion.diagnosis.record_diagnosis import RecordDiagnosis
 from linkwright.torsion.response.engine_torques import EngineData
 
 
-def engine_table(data: EngineData) -> Table:
+def engine_tables(engines: Mapping[str, EngineData]) -> Iterator[Table]:
+    """A table for each kind of engine."""
+    named: list[tuple[list[str], EngineData]] = []
+    for name, data in engines.items():
+        same = next((names for names, other in named if other == data), None)
+        if same is None:
+            named.append(([name], data))
+        else:
+            same.append(name)
+    for names, data in named:
+        yield engine_table(data, " and ".join(names))
+
+
+def engine_table(data: EngineData, names: str = "") -> Table:
     """Discs and stiffness of throws by every formula, and the gas."""
     rows: list[Row] = [
         ("rotating inertia of a throw", "J_k", with_unit(data.own_inertia, "kg m²"), ""),
@@ -42,10 +55,14 @@ def engine_table(data: EngineData) -> Table:
         for n, value in enumerate(values)
     ]
     rows.append(("firing order", "", "-".join(data.firing), ""))
+    title = f"Engines {names}" if " and " in names else f"Engine {names}".rstrip()
     steps = sorted({f"{np.degrees(interval):.5g}°" for interval in data.intervals})
     rows.append(("firing intervals", "", ", ".join(steps) or "a cycle", ""))
     return Table(
-        "engine", f"Engine, gas at {data.speed * 30 / np.pi:.5g} rpm", ("quantity", "", "value", ""), rows
+        "engine",
+        f"{title}, gas at {data.speed * 30 / np.pi:.5g} rpm",
+        ("quantity", "", "value", ""),
+        rows,
     )
 
 

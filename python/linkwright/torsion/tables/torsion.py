@@ -17,7 +17,7 @@ from linkwright.torsion.modes.free import FreeVibration, Node
 from linkwright.torsion.modes.holzer import HolzerTable
 from linkwright.torsion.response.forced import ForcedVibration
 from linkwright.torsion.study import TorsionStudy
-from linkwright.torsion.tables.engine import engine_table
+from linkwright.torsion.tables.engine import engine_tables
 
 Floats = NDArray[np.float64]
 
@@ -40,8 +40,8 @@ def study_tables(study: TorsionStudy) -> Iterator[Table]:
         yield _judgements(study.verdict)
     if study.transient is not None and study.transient.judgements:
         yield _peak_judgements(study.transient)
-    if study.engine is not None:
-        yield engine_table(study.engine)
+    if study.engines:
+        yield from engine_tables(study.engines)
     yield from torsion_tables(study.free)
     if study.damped is not None:
         yield _damped(study, study.damped)
