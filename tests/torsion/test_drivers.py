@@ -73,7 +73,7 @@ def test_drivers_hold_a_motion_in_time() -> None:
     )
     mean = dict(zip(moved.shafts, moved.torque_max, strict=True))
     assert mean == pytest.approx({"of_a": 200.0, "of_b": 375.0, "line": 4000.0}, rel=1e-6)
-    assert "a by 200 N m and b by 375 N m" in moved.balance
+    assert "a is driven by a constant 200 N m and b by a constant 375 N m" in moved.balance
 
 
 def test_engines_in_phase_are_symmetric_and_lead_by_their_phase() -> None:

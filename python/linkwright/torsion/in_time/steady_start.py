@@ -83,8 +83,8 @@ def balanced_start(
     ]
     if not drives:
         return moving, speed, f"drivers and loads do not balance at the start: {left:+.5g} N m are left over"
-    given = " and ".join(f"{moving.discs[drive.on]} by {drive.scale:.5g} N m" for drive in drives)
-    told = f"a constant torque drives {given}, what the loads need at the start"
+    given = " and ".join(f"{moving.discs[drive.on]} by a constant {drive.scale:.5g} N m" for drive in drives)
+    told = f"{given.replace(' by', ' is driven by', 1)}, what the loads need at the start"
     return replace(moving, torques=(*moving.torques, *drives)), speed, told
 
 

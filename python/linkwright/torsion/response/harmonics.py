@@ -72,9 +72,9 @@ def torques_of(
     """All torques on the discs of a train.
 
     Without an engine the mean torques of a free train balance: the drivers give what the loads need, by
-    their shares. What an engine gives beyond its loads accelerates the train, unless the loads follow: then they take off what it
-    gives, in proportion to their laws. `turning`: (discs,) speed of each disc over that of the first;
-    `speeds`: (speeds,) [rad/s]; `damping`: (discs, speeds) [N m s/rad].
+    their shares. What an engine gives beyond its loads accelerates the train, unless the loads follow: then
+    they take off what it gives, in proportion to their laws. `turning`: (discs,) speed of each disc over that
+    of the first; `speeds`: (speeds,) [rad/s]; `damping`: (discs, speeds) [N m s/rad].
     """
     place = {name: k for k, name in enumerate(train.discs)}
     every = [*sources, *_excitations(train, place, turning, speeds)]
