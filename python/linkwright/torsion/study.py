@@ -10,16 +10,18 @@ import numpy as np
 
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.result import Result
 from linkwright.kernel.units import FREQUENCY, not_negative
 from linkwright.machine.machine import Machine
 from linkwright.torsion.in_time.transient import TorsionTransient, torsion_transient
+from linkwright.torsion.limits.misfire import MisfireVerdict, misfire_verdict
 from linkwright.torsion.limits.verdict import Verdict, verdict
 from linkwright.torsion.model.engine.engine import firing_angles
 from linkwright.torsion.model.train import Train
 from linkwright.torsion.modes.campbell import CampbellDiagram, campbell
 from linkwright.torsion.modes.damped import DampedVibration, damped_vibration
 from linkwright.torsion.modes.free import FreeVibration, free_vibration, train_of
-from linkwright.torsion.modes.holzer import HolzerTable, holzer_table
+from linkwright.torsion.modes.holzer import HolzerTable, holzer_frequency, holzer_table
 from linkwright.torsion.modes.scheme import Scheme, scheme
 from linkwright.torsion.response.engine_torques import EngineData, engine_data
 from linkwright.torsion.response.excited_train import ExcitedTrain, excited_train, is_excited, pulsates
@@ -62,6 +64,8 @@ class TorsionStudy:
         Of the shafts with known sections.
     verdict : Verdict or None
         Whether all limits are kept.
+    misfire : MisfireVerdict or None
+        The same with the worst single misfire of an engine.
     along : UnevennessAlong or None
         Speed fluctuation over the cylinders of an engine at its speed of service.
     engines : dict of EngineData
@@ -83,6 +87,7 @@ class TorsionStudy:
     forced: ForcedVibration | None = None
     stress: ShaftStress | None = None
     verdict: Verdict | None = None
+    misfire: MisfireVerdict | None = None
     along: UnevennessAlong | None = None
     engines: Mapping[str, EngineData] = field(default_factory=dict)
     campbell: CampbellDiagram | None = None
@@ -120,7 +125,13 @@ class TorsionStudy:
             results["holzer"] = [table.to_dict(curves=True) for table in self.holzer]
         if self.damped is not None:
             results["damped"] = self.damped.to_dict(curves=True)
-        parts = {"forced": self.forced, "peaks": self.peaks, "stress": self.stress, "verdict": self.verdict}
+        parts: dict[str, Result | None] = {
+            "forced": self.forced,
+            "peaks": self.peaks,
+            "stress": self.stress,
+            "verdict": self.verdict,
+        }
+        parts |= {"misfire": self.misfire}
         results |= {name: part.to_dict(curves=True) for name, part in parts.items() if part is not None}
         if self.transient is not None:
             results["transient"] = self.transient.to_dict()
@@ -136,15 +147,15 @@ class TorsionStudy:
 
 
 @public
-def torsion_study(machine: Machine, *, holzer: Sequence[float] = ()) -> TorsionStudy:
+def torsion_study(machine: Machine, *, holzer: Sequence[float | str] = ()) -> TorsionStudy:
     """Study the torsional vibration of a train or of a driveline.
 
     Parameters
     ----------
     machine : Machine
         With a [train], or with a torsionally flexible driveline.
-    holzer : sequence of float
-        Frequencies of Holzer's tables [Hz].
+    holzer : sequence of float or str
+        Frequencies of Holzer's tables [Hz], or texts: "20 rad/s", "300 rpm", "f_3" of the natural frequencies.
 
     Returns
     -------
@@ -156,9 +167,10 @@ def torsion_study(machine: Machine, *, holzer: Sequence[float] = ()) -> TorsionS
     InputError
         The machine has no train; a frequency that makes no sense.
     """
-    in_range(holzer=(holzer, not_negative(FREQUENCY)))
     free = free_vibration(machine)
-    tables = tuple(holzer_table(machine, frequency) for frequency in holzer)
+    frequencies = [holzer_frequency(each, free) for each in holzer]
+    in_range(holzer=(frequencies, not_negative(FREQUENCY)))
+    tables = tuple(holzer_table(machine, frequency) for frequency in frequencies)
     damped = damped_vibration(machine, _service(machine)) if _is_damped(machine) else None
     moved = None
     if machine.train is not None and machine.train.transient is not None:
@@ -178,6 +190,7 @@ def torsion_study(machine: Machine, *, holzer: Sequence[float] = ()) -> TorsionS
         forced,
         stress if stress.shafts else None,
         verdict(machine, seen),
+        misfire_verdict(machine, seen),
         _along(machine, at, forced),
         _engines(machine, at),
         campbell(machine, speed_range=(at.torques.speeds[0], at.torques.speeds[-1])),
@@ -261,6 +274,7 @@ def _warnings(study: TorsionStudy) -> Iterator[str]:
             yield "Torques pulsate, but no speeds are given: forced vibration needs [train.run]."
         return
     yield from () if study.verdict is None else (f"{note}." for note in study.verdict.notes)
+    yield from () if study.misfire is None else _about_misfires(study.misfire)
     if not np.isfinite(forced.shaft_torque_max).all():
         rows = ~np.isfinite(forced.shaft_torque_max).all(axis=0)
         rpm = ", ".join(f"{speed * 30 / np.pi:.5g}" for speed in forced.speeds[rows][:4])
@@ -278,6 +292,19 @@ def _warnings(study: TorsionStudy) -> Iterator[str]:
     if len(rest):
         listed = ", ".join(f"{order:.5g}" for order in rest[:4])
         yield f"Orders {listed} have no common base with the others: their amplitudes are added."
+
+
+def _about_misfires(found: MisfireVerdict) -> Iterator[str]:
+    """Limits that are not kept with a cylinder out, by the cylinder."""
+    by_cylinder: dict[str, list[str]] = {}
+    for row in found.judgements:
+        if row.above is not None:
+            low, high = (speed * 30 / np.pi for speed in row.above)
+            words = f"{row.part}, {row.what}, {row.found / row.permitted:.3g} times the limit"
+            by_cylinder.setdefault(row.cylinder, []).append(f"{words} within {low:.5g} to {high:.5g} rpm")
+    for cylinder, parts in by_cylinder.items():
+        listed = "; ".join(parts)
+        yield f"Cylinder {cylinder} misfiring: {listed}: restrict the operation with a cylinder out."
 
 
 def _balance_warnings(train: Train, at: ExcitedTrain) -> Iterator[str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import File, Json, Outside, Sets
@@ -21,12 +21,15 @@ Folder = Annotated[
     Path | None,
     out_option("Write report.html, results.json, and scheme and mode shapes as SVG and PNG there."),
 ]
+Curves = Annotated[
+    bool, Option("--curves", help="With --json: every order over the speed, and the manoeuvre over time.")
+]
 Holzer = Annotated[
-    list[float] | None,
+    list[str] | None,
     Option(
         "--holzer",
-        metavar="HZ",
-        help="Holzer's table at this frequency. May be given again.",
+        metavar="FREQUENCY",
+        help='Holzer\'s table at a frequency: 45 (Hz), "20 rad/s", "300 rpm", f_3. May be given again.',
         show_default=False,
     ),
 ]
@@ -37,6 +40,7 @@ def torsion(
     set: Sets = None,
     allow_outside: Outside = False,
     json: Json = False,
+    curves: Curves = False,
     holzer: Holzer = None,
     out: Folder = None,
     force: Force = False,
@@ -55,14 +59,14 @@ def torsion(
     machine = read(file, set or [], allow_outside=allow_outside)
     with progress("computing"):
         study = torsion_study(machine, holzer=holzer or ())
-    hand_over(_answer(study), json=json, folder=folder)
+    hand_over(_answer(study), json=json, folder=folder, curves=curves)
 
 
 def _answer(study: TorsionStudy) -> Answer:
     """All that was found of the train."""
     return Answer(
         machine=study.machine.name,
-        results=lambda _: study.results(),
+        results=partial(_results, study),
         findings=study.findings,
         warnings=study.warnings,
         extra={"balance": study.balance} if study.balance else {},
@@ -73,6 +77,18 @@ def _answer(study: TorsionStudy) -> Answer:
     )
 
 
+def _results(study: TorsionStudy, curves: bool) -> dict[str, Any]:
+    """Results by name; with curves every order over the speed, and the samples of the manoeuvre."""
+    from linkwright.torsion.tables.orders import order_results
+
+    results = study.results()
+    if curves and study.excited is not None and study.forced is not None:
+        results["orders"] = order_results(study.excited, study.forced)
+    if curves and study.transient is not None:
+        results["transient"] = study.transient.to_dict(curves=True)
+    return results
+
+
 def _tables(study: TorsionStudy) -> list[Table]:
     """Tables for people."""
     from linkwright.torsion.tables.torsion import study_tables
@@ -81,13 +97,19 @@ def _tables(study: TorsionStudy) -> list[Table]:
 
 
 def _files(study: TorsionStudy) -> dict[str, str]:
-    """The report."""
+    """The report, every order over the speed, the curves of the manoeuvre."""
     from linkwright.kernel.command.console import progress
     from linkwright.kernel.command.out import command_line
     from linkwright.torsion.page import torsion_html
+    from linkwright.torsion.tables.orders import manoeuvre_csv, order_files
 
     with progress("drawing"):
-        return {"report.html": torsion_html(study, command=command_line())}
+        files = {"report.html": torsion_html(study, command=command_line())}
+    if study.excited is not None and study.forced is not None:
+        files |= order_files(study.excited, study.forced)
+    if study.transient is not None:
+        files["manoeuvre.csv"] = manoeuvre_csv(study.transient)
+    return files
 
 
 def _figures(study: TorsionStudy) -> dict[str, Figure]:

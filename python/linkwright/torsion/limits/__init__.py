@@ -4,6 +4,7 @@
 | --- | --- |
 | `barred_range` | Speeds that shafts do not bear indefinitely |
 | `criteria` | What is asked of the parts of a train, and where over the speed it is exceeded |
+| `misfire` | The worst single misfire |
 | `peak_judgement` | Whether shafts and couplings bear a manoeuvre |
 | `verdict` | Whether all limits are kept |
 """

@@ -18,6 +18,8 @@ trains.
 from __future__ import annotations
 
 import math
+import re
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Annotated
 
@@ -30,11 +32,11 @@ from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
-from linkwright.kernel.units import FREQUENCY, not_negative
+from linkwright.kernel.units import FREQUENCY, SPEED, UnitError, not_negative, parse
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.train import ReferredTrain, refer
 from linkwright.torsion.model.train import Train
-from linkwright.torsion.modes.free import own_stiffness, train_of, twists_of
+from linkwright.torsion.modes.free import FreeVibration, own_stiffness, train_of, twists_of
 
 Floats = NDArray[np.float64]
 
@@ -147,6 +149,29 @@ def holzer_table(machine: Machine, frequency: float, *, end: str | None = None) 
         end=end,
         residual_torque=residual / float(referred.speed[last]),
     )
+
+
+def holzer_frequency(asked: float | str, free: FreeVibration) -> float:
+    """A frequency [Hz]: a number, a text with the unit of a frequency or of a speed, or one of the train as f_3."""
+    if not isinstance(asked, str):
+        return asked
+    text = asked.strip()
+    if match := re.fullmatch(r"f_?(\d+)", text):
+        mode, last = int(match[1]), len(free.natural_frequencies) - 1
+        if mode > last:
+            raise InputError(f'holzer: found "{text}", expected a natural frequency, f_0 to f_{last}')
+        return float(free.natural_frequencies[mode])
+    for kind, scale in ((FREQUENCY, 1.0), (SPEED, 1 / (2 * math.pi))):
+        with suppress(UnitError):
+            bare = kind is FREQUENCY or not text.replace(".", "", 1).isdigit()
+            if bare and not (kind is FREQUENCY and _IS_SPEED.search(text)):
+                return scale * parse(text, kind)
+    expected = 'a frequency such as 45 (in Hz), "20 rad/s", "300 rpm" or f_1'
+    raise InputError(f'holzer: found "{text}", expected {expected}')
+
+
+# Radians and revolutions are no cycles per second, though both are numbers per time.
+_IS_SPEED = re.compile(r"rad|r(?:ev)?/|rpm|1/min", re.IGNORECASE)
 
 
 def _last(train: Train) -> str:

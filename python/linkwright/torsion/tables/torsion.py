@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from linkwright.kernel.page.numbers import number
 from linkwright.kernel.page.table import Row, Table, with_unit
 from linkwright.torsion.in_time.transient import TorsionTransient
+from linkwright.torsion.limits.misfire import MisfireVerdict
 from linkwright.torsion.limits.verdict import Verdict
 from linkwright.torsion.modes.campbell import CampbellDiagram
 from linkwright.torsion.modes.damped import DampedVibration
@@ -18,6 +19,7 @@ from linkwright.torsion.modes.holzer import HolzerTable
 from linkwright.torsion.response.forced import ForcedVibration
 from linkwright.torsion.study import TorsionStudy
 from linkwright.torsion.tables.engine import engine_tables
+from linkwright.torsion.tables.orders import excitation_tables
 
 Floats = NDArray[np.float64]
 
@@ -38,6 +40,8 @@ def study_tables(study: TorsionStudy) -> Iterator[Table]:
     """All tables of a study of torsional vibration."""
     if study.verdict is not None and study.verdict.judgements:
         yield _judgements(study.verdict)
+    if study.misfire is not None:
+        yield _misfire(study.misfire)
     if study.transient is not None and study.transient.judgements:
         yield _peak_judgements(study.transient)
     if study.engines:
@@ -47,7 +51,8 @@ def study_tables(study: TorsionStudy) -> Iterator[Table]:
         yield _damped(study, study.damped)
     if study.campbell is not None and study.campbell.critical:
         yield _critical(study.campbell)
-    if study.forced is not None:
+    if study.forced is not None and study.excited is not None:
+        yield from excitation_tables(study.excited, service_place(study, study.forced))
         yield _shafts(study, study.forced)
         yield _discs(study, study.forced)
     if study.transient is not None:
@@ -73,6 +78,24 @@ def _judgements(verdict: Verdict) -> Table:
         for judgement in verdict.judgements
     ]
     return Table("limits", "Limits", ("limit", "", "found", "permitted", "at rpm", "verdict"), rows)
+
+
+def _misfire(found: MisfireVerdict) -> Table:
+    """Each limit with the worst single misfire."""
+    rows: list[Row] = [
+        (
+            f"{row.part}: {row.what}",
+            "",
+            _shown(row.found, row.kind.unit),
+            _shown(row.permitted, row.kind.unit),
+            _rpm(row.speed),
+            row.cylinder,
+            "within limit" if row.is_kept else "restricted operation",
+        )
+        for row in found.judgements
+    ]
+    heads = ("limit", "", "found", "permitted", "at rpm", "cylinder", "verdict")
+    return Table("misfire", "Limits with one cylinder misfiring, the worst of all", heads, rows)
 
 
 def _peak_judgements(moved: TorsionTransient) -> Table:
