@@ -155,7 +155,7 @@ def torsion_study(machine: Machine, *, holzer: Sequence[float | str] = ()) -> To
     machine : Machine
         With a [train], or with a torsionally flexible driveline.
     holzer : sequence of float or str
-        Frequencies of Holzer's tables [Hz], or texts: "20 rad/s", "300 rpm", "f_3" of the natural frequencies.
+        Frequencies of Holzer's tables [Hz], or texts: "20 rad/s", "300 rpm", natural frequencies as "f_3".
 
     Returns
     -------

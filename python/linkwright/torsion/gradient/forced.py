@@ -81,7 +81,7 @@ def forced_tangents(machine: Machine, variables: Sequence[str]) -> ForcedTangent
     refused = _refused(machine, variables)
     train, referred, d = train_tangents(machine, variables, refused)
     at = excited_train(machine)
-    peaks = _peaks(at, has_engine=machine.train.engine is not None)
+    peaks = _peaks(at, has_engine=bool(machine.train.installed))
     places = sorted({place for _, _, place, _ in peaks})
     torques = _torque_tangents(machine, train, referred, at.torques.speeds[places], d.variables, refused)
     _refuse_moved(machine, d, torques, refused)
@@ -109,7 +109,7 @@ def _refused(machine: Machine, variables: Sequence[str]) -> dict[str, str]:
             refused[name] = "it says at which speeds and orders the train is looked at"
         elif last == "order":
             refused[name] = "an order says which torques meet"
-        elif name.startswith("train.engine.") and last not in _OF_TRAIN:
+        elif name.startswith(("train.engine.", "train.engines.")) and last not in _OF_TRAIN:
             refused[name] = "gas and inertia torques of an engine have no derivatives"
         elif (
             name.startswith("train.loads.")
@@ -247,9 +247,14 @@ def _torques(
                 _add_wave(
                     table[k], orders, disc, turning[disc] * part.order, -part.share * resistance, part.phase
                 )
-        if train.engine is None and not any("ground" in shaft.between for shaft in train.shafts.values()):
-            driver = discs.index(train.driver or discs[0])
-            table[k, -2, driver] -= (turning * table[k, -2]).sum() / turning[driver]
+        for driver in train.drivers.values():
+            if driver.torque is not None:
+                disc = discs.index(driver.on)
+                table[k, -2, disc] += driver.torque_at(turning[disc] * speed)
+        if not train.installed and not any("ground" in shaft.between for shaft in train.shafts.values()):
+            left = (turning * table[k, -2]).sum()
+            for on, share in train.shares.items():
+                table[k, -2, discs.index(on)] -= share * left / turning[discs.index(on)]
     return list(table.ravel())
 
 

@@ -264,7 +264,7 @@ class Train(Description):
         sharing = [driver for driver in self.drivers.values() if driver.torque is None]
         if not sharing:
             return {} if self.drivers else {self.driver or next(iter(self.discs)): 1.0}
-        total = math.fsum(driver.share for driver in sharing)
+        total = sum(driver.share for driver in sharing)
         shares: dict[str, float] = {}
         for driver in sharing:
             shares[driver.on] = shares.get(driver.on, 0.0) + driver.share / total

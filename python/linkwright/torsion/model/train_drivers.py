@@ -44,9 +44,10 @@ class TrainDriver(CheckedDescription):
     def torque_at(self, speed: float) -> float:
         """Torque given, at a speed of its disc above zero [N m]."""
         assert self.torque is not None
-        return (
-            self.torque if self.speed is None else float(self.torque * (speed / self.speed) ** self.exponent)
-        )
+        if self.speed is None:
+            return self.torque
+        torque: float = self.torque * (speed / self.speed) ** self.exponent
+        return torque
 
 
 class TrainEngine(Description):

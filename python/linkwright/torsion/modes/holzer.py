@@ -27,12 +27,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.description.base import suggestion
-from linkwright.kernel.errors import FindingError, InputError
+from linkwright.kernel.errors import FindingError, InputError, UnitError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
-from linkwright.kernel.units import FREQUENCY, SPEED, UnitError, not_negative, parse
+from linkwright.kernel.units import FREQUENCY, SPEED, not_negative, parse
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.train import ReferredTrain, refer
 from linkwright.torsion.model.train import Train
@@ -152,7 +152,7 @@ def holzer_table(machine: Machine, frequency: float, *, end: str | None = None) 
 
 
 def holzer_frequency(asked: float | str, free: FreeVibration) -> float:
-    """A frequency [Hz]: a number, a text with the unit of a frequency or of a speed, or one of the train as f_3."""
+    """A frequency [Hz] from a number, a text with the unit of a frequency or speed, or f_3 of the train."""
     if not isinstance(asked, str):
         return asked
     text = asked.strip()
@@ -161,17 +161,23 @@ def holzer_frequency(asked: float | str, free: FreeVibration) -> float:
         if mode > last:
             raise InputError(f'holzer: found "{text}", expected a natural frequency, f_0 to f_{last}')
         return float(free.natural_frequencies[mode])
-    for kind, scale in ((FREQUENCY, 1.0), (SPEED, 1 / (2 * math.pi))):
-        with suppress(UnitError):
-            bare = kind is FREQUENCY or not text.replace(".", "", 1).isdigit()
-            if bare and not (kind is FREQUENCY and _IS_SPEED.search(text)):
-                return scale * parse(text, kind)
+    is_speed = _OF_SPEED.search(text) is not None
+    with suppress(UnitError):
+        return parse(text, SPEED) / (2 * math.pi) if is_speed else _hertz(text)
     expected = 'a frequency such as 45 (in Hz), "20 rad/s", "300 rpm" or f_1'
     raise InputError(f'holzer: found "{text}", expected {expected}')
 
 
 # Radians and revolutions are no cycles per second, though both are numbers per time.
-_IS_SPEED = re.compile(r"rad|r(?:ev)?/|rpm|1/min", re.IGNORECASE)
+_OF_SPEED = re.compile(r"rad|rev|r/|rpm|1/min", re.IGNORECASE)
+
+
+def _hertz(text: str) -> float:
+    """A frequency; a number alone is in hertz."""
+    try:
+        return float(text)
+    except ValueError:
+        return parse(text, FREQUENCY)
 
 
 def _last(train: Train) -> str:
