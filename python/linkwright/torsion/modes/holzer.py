@@ -19,7 +19,6 @@ from __future__ import annotations
 
 import math
 import re
-from contextlib import suppress
 from dataclasses import dataclass
 from typing import Annotated
 
@@ -161,11 +160,12 @@ def holzer_frequency(asked: float | str, free: FreeVibration) -> float:
         if mode > last:
             raise InputError(f'holzer: found "{text}", expected a natural frequency, f_0 to f_{last}')
         return float(free.natural_frequencies[mode])
-    is_speed = _OF_SPEED.search(text) is not None
-    with suppress(UnitError):
+    try:
+        is_speed = _OF_SPEED.search(text) is not None
         return parse(text, SPEED) / (2 * math.pi) if is_speed else _hertz(text)
-    expected = 'a frequency such as 45 (in Hz), "20 rad/s", "300 rpm" or f_1'
-    raise InputError(f'holzer: found "{text}", expected {expected}')
+    except UnitError:
+        expected = 'a frequency such as 45 (in Hz), "20 rad/s", "300 rpm" or f_1'
+        raise InputError(f'holzer: found "{text}", expected {expected}') from None
 
 
 # Radians and revolutions are no cycles per second, though both are numbers per time.
