@@ -386,6 +386,40 @@ fn threads_do_not_change_the_answer() {
     assert_eq!(run(1), run(2), "one and two threads");
 }
 
+/// What a row gives depends on that row alone, also where its motion passes the motor's breakdown and gets ends of
+/// steps there: the same bits in any company.
+#[test]
+fn neighbours_do_not_change_a_row() {
+    let built = two_carts(FRAC_PI_2, 0.9);
+    let slot = built.q.iter().position(|&q| q == 1000.0).expect("the first cart's mass");
+    let force = built.q.iter().position(|&q| q == 3562.0).expect("the first cart's resistance");
+    let n = 60;
+    let mass = |i: usize| 700.0 + 10.0 * i as f64;
+    let resistance = |i: usize| 2400.0 + 1700.0 * ((i * 37) % n) as f64 / n as f64;
+    let run = |order: &[usize]| {
+        let values: Vec<f64> =
+            order.iter().map(|&i| mass(i)).chain(order.iter().map(|&i| resistance(i))).collect();
+        let rows = Rows { base: &built.q, slots: &[slot, force], values: &values, n: order.len() };
+        let mut out = vec![0.0; order.len() * QUANTITIES];
+        let (status, _) = steady_rows(&built.plan, &rows, 1e-9, &mut out);
+        assert!(status.iter().all(|&s| s == Status::Ok), "all solved");
+        out
+    };
+    let all: Vec<usize> = (0..n).collect();
+    let together = run(&all);
+    // Breakdown of the motor of paper 1, at the crank.
+    let breakdown = 94.95 / 9.8;
+    let passes = |row: &&[f64]| row[0] < breakdown && breakdown < row[1];
+    let passing = together.chunks_exact(QUANTITIES).filter(passes).count();
+    assert!(10 < passing && passing < 50, "{passing} of {n} rows pass breakdown");
+    let reversed: Vec<usize> = (0..n).rev().collect();
+    for order in [&reversed[..], &all[40..], &all[7..9]] {
+        for (&i, row) in order.iter().zip(run(order).chunks_exact(QUANTITIES)) {
+            assert_eq!(row, &together[i * QUANTITIES..(i + 1) * QUANTITIES], "row {i} of {}", order.len());
+        }
+    }
+}
+
 /// Scaling lengths by k at equal masses scales J by k², and the time of a free turn not at all.
 #[test]
 fn inertia_scales_with_the_square_of_length() {

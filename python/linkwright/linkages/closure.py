@@ -126,7 +126,14 @@ def closure(machine: Machine) -> Closure:
 
 
 def closure_of(compiled: Compiled) -> Closure:
-    """`closure` of a compiled machine."""
+    """`closure` of a compiled machine: every analysis asks for it, and it is found once."""
+    found: Closure | None = compiled.kept.get("closure")
+    if found is None:
+        found = compiled.kept["closure"] = _found_closure(compiled)
+    return found
+
+
+def _found_closure(compiled: Compiled) -> Closure:
     turns = turns_to_repeat(compiled)
     if turns is None:
         return _endless(compiled)

@@ -1,12 +1,15 @@
 //! Many machines of one structure: rows into lanes, lanes over threads.
 //!
-//! A row is one machine: the base parameters with some slots replaced. Rows that lanes cannot do to the
-//! accuracy asked for (a kink of the drive's characteristic inside the range of speed, no convergence) are
-//! done again one by one by [`crate::drive::steady`], which also names the reason when there is no answer.
+//! A row is one machine: the base parameters with some slots replaced. Rows whose motion passes kinks of the drive's
+//! characteristic are collected and get ends of steps there ([`crate::drive::passing`]). Rows that lanes cannot do to the
+//! accuracy asked for (laws with kinks of their own, no convergence) are done again one by one by
+//! [`crate::drive::steady`], which also names the reason when there is no answer.
 
-use crate::drive::cycle::{Machine, Turn};
+use crate::drive::cycle::{Machine, Turn, divide};
 use crate::drive::extremes::Extremes;
+use crate::drive::layout::unbundle;
 use crate::drive::measures::Totals;
+use crate::drive::passing::Passing;
 use crate::drive::steady::{Steady, steady};
 use crate::drive::structure::Plan;
 use crate::kernel::call::{in_threads, poll};
@@ -46,23 +49,16 @@ impl Rows<'_> {
         }
     }
 
-    /// Parameters of `R::LANES` rows from `first` on; the last row is repeated past the end.
+    /// Parameters of some rows, one a lane; the last is repeated past the end.
     #[inline(always)]
-    fn lanes<R: Real>(&self, first: usize, q: &mut Vec<R>) {
-        q.clear();
-        q.extend(self.base.iter().map(|&x| R::splat(x)));
-        let mut padded = vec![0.0; R::LANES];
+    fn lanes<R: Real>(&self, rows: &[usize], q: &mut [R]) {
+        let mut lanes = vec![0.0; R::LANES];
         for (i, &slot) in self.slots.iter().enumerate() {
             let column = &self.values[i * self.n..(i + 1) * self.n];
-            q[slot] = match column.get(first..first + R::LANES) {
-                Some(whole) => R::load(whole),
-                None => {
-                    for (lane, value) in padded.iter_mut().enumerate() {
-                        *value = column[(first + lane).min(self.n - 1)];
-                    }
-                    R::load(&padded)
-                }
-            };
+            for (lane, value) in lanes.iter_mut().enumerate() {
+                *value = column[rows[lane.min(rows.len() - 1)]];
+            }
+            q[slot] = R::load(&lanes);
         }
     }
 }
@@ -70,8 +66,18 @@ impl Rows<'_> {
 /// Quantities of a row's steady motion, in the order of a result row.
 pub const QUANTITIES: usize = 13;
 
-/// Steps a turn in lanes before they are halved; [`PROMISED`] tells where these do not suffice.
-const STEPS: usize = 16;
+/// Steps a turn in lanes before they are halved: at first, and where these do not suffice for [`PROMISED`].
+const STEPS: [usize; 2] = [16, 16];
+
+/// Relative corrections after which a turn, and the turn in steps of half the length, have converged. The next would be
+/// about their squares, which measured errors do not notice.
+const CONVERGED: [f64; 2] = [1e-5, 1e-7];
+
+/// Most times that ends of steps are moved to the kinks that a motion passes.
+const PLACEMENTS: usize = 4;
+
+/// Ends of steps farther from their kinks \[rad\], or speeds farther beyond a kink as a share, are not placed well enough.
+const PLACED: f64 = 1e-6;
 
 /// Relative error that a row in lanes may have, as measured; rows above it are solved one by one.
 const PROMISED: f64 = 1e-7;
@@ -138,78 +144,241 @@ struct Chunk<'a> {
 impl Job for Chunk<'_> {
     type Output = u64;
 
+    /// All rows on a mesh without kinks of the drive; those that pass some on meshes of their own; those that err too
+    /// much on a finer mesh.
     #[inline(always)]
-    fn run<R: Real>(self) -> u64 {
-        let mut q: Vec<R> = self.rows.base.iter().map(|&x| R::splat(x)).collect();
-        let mut m = Motion::new(&self.plan.mechanism, &q);
-        let mut sweeps = 0;
-        let mut lane = vec![0.0; R::LANES];
-        for (block, status) in self.status.chunks_mut(R::LANES).enumerate() {
-            let at = block * R::LANES;
-            self.rows.lanes::<R>(self.first + at, &mut q);
-            m.ground(&self.plan.mechanism, &q);
-            let machine = Machine { plan: self.plan, q: &q };
-            let breaks = R::outline(
+    fn run<R: Real>(mut self) -> u64 {
+        let mut lanes = Lanes::<R>::new(self.plan, self.rows);
+        let all: Vec<usize> = (0..self.status.len()).collect();
+        let mut bundles: Vec<Bundle> = all.chunks(R::LANES).map(|rows| Bundle::new(rows, 0)).collect();
+        let (mut passing, mut coarse, mut sweeps) = (Vec::new(), Vec::new(), 0);
+        loop {
+            for bundle in &bundles {
+                sweeps += lanes.solve(bundle, &mut self, &mut passing, &mut coarse);
+            }
+            if !coarse.is_empty() {
+                bundles = coarse.chunks(R::LANES).map(|rows| Bundle::new(rows, 1)).collect();
+                coarse.clear();
+            } else if !passing.is_empty() {
+                // Lanes with about as many steps side by side.
+                passing.sort_by_key(|row: &Passing| (row.edges.len(), row.row));
+                bundles.clear();
+                let mut rest = passing.drain(..).peekable();
+                while rest.peek().is_some() {
+                    bundles.push(Bundle::of_passing(rest.by_ref().take(R::LANES).collect()));
+                }
+            } else {
+                return sweeps;
+            }
+        }
+    }
+}
+
+/// Rows that are solved side by side, counted from the first of the chunk.
+struct Bundle {
+    rows: Vec<usize>,
+    /// Which number of steps.
+    level: usize,
+    /// Their meshes where they pass kinks of the drive, else empty.
+    passing: Vec<Passing>,
+}
+
+impl Bundle {
+    fn new(rows: &[usize], level: usize) -> Self {
+        Bundle { rows: rows.to_vec(), level, passing: Vec::new() }
+    }
+
+    fn of_passing(passing: Vec<Passing>) -> Self {
+        Bundle { rows: passing.iter().map(|row| row.row).collect(), level: STEPS.len() - 1, passing }
+    }
+}
+
+/// What bundles of rows are solved with.
+struct Lanes<'a, R> {
+    plan: &'a Plan,
+    rows: &'a Rows<'a>,
+    q: Vec<R>,
+    m: Motion<R>,
+    /// Parameters of a row on its own.
+    row: Vec<f64>,
+}
+
+impl<'a, R: Real> Lanes<'a, R> {
+    #[inline(always)]
+    fn new(plan: &'a Plan, rows: &'a Rows<'a>) -> Self {
+        let q: Vec<R> = rows.base.iter().map(|&x| R::splat(x)).collect();
+        let m = Motion::new(&plan.mechanism, &q);
+        Lanes { plan, rows, q, m, row: rows.base.to_vec() }
+    }
+
+    /// Solves a bundle; returns the turns swept. Rows that pass kinks of the drive, or that ask for a finer mesh, are
+    /// added to the lists.
+    #[inline(always)]
+    fn solve(
+        &mut self,
+        bundle: &Bundle,
+        chunk: &mut Chunk<'_>,
+        passing: &mut Vec<Passing>,
+        coarser: &mut Vec<usize>,
+    ) -> u64 {
+        let Bundle { rows, level, passing: meshes } = bundle;
+        let numbers: Vec<usize> = rows.iter().map(|row| chunk.first + row).collect();
+        self.rows.lanes(&numbers, &mut self.q);
+        self.m.ground(&self.plan.mechanism, &self.q);
+        let (machine, m) = (Machine { plan: self.plan, q: &self.q }, &mut self.m);
+        let mesh_of = |lane: usize| &meshes[lane.min(meshes.len() - 1)];
+        let meshes: Vec<&Passing> =
+            if meshes.is_empty() { Vec::new() } else { (0..R::LANES).map(mesh_of).collect() };
+        let mut breaks = Vec::new();
+        if meshes.is_empty() {
+            breaks = R::outline(
                 #[inline(always)]
-                || machine.breaks(&mut m),
+                || machine.breaks(m),
             );
-            let mut coarse = R::outline(
-                #[inline(always)]
-                || Turn::of_machines(&machine, &breaks, STEPS, &mut m),
-            );
+        }
+        let edges: Vec<Vec<f64>> = if meshes.is_empty() {
+            breaks.iter().map(|breaks| divide(breaks, STEPS[*level])).collect()
+        } else {
+            meshes.iter().map(|mesh| mesh.edges.clone()).collect()
+        };
+        let mut coarse = R::outline(
+            #[inline(always)]
+            || Turn::of_machines(&machine, &edges, m),
+        );
+        coarse.limit = CONVERGED[0];
+        if meshes.is_empty() {
             R::outline(
                 #[inline(always)]
                 || coarse.start_from_balance(&machine),
             );
+        } else {
+            coarse.start_from_lanes(&meshes);
+        }
+        let mut displaced = R::splat(0.0);
+        for _ in 0..=PLACEMENTS {
             R::outline(
                 #[inline(always)]
                 || coarse.solve(&machine),
             );
-            let mut turn = R::outline(
-                #[inline(always)]
-                || coarse.halved(&machine, &mut m),
-            );
-            R::outline(
-                #[inline(always)]
-                || turn.solve(&machine),
-            );
-            let extremes = R::outline(
-                #[inline(always)]
-                || turn.extremes(&machine, &mut m),
-            );
-            let totals = R::outline(
-                #[inline(always)]
-                || turn.totals(&machine),
-            );
-            sweeps += u64::from(coarse.sweeps + turn.sweeps) * status.len() as u64;
-            for (k, quantity) in row_of(turn.multiplier, &extremes, &totals).into_iter().enumerate() {
-                quantity.store(&mut lane);
-                for i in 0..status.len() {
-                    self.out[(at + i) * QUANTITIES + k] = lane[i];
-                }
+            if meshes.is_empty() {
+                break;
             }
-            let error = R::outline(
-                #[inline(always)]
-                || turn.error_against(&coarse, &machine, &mut m),
-            );
-            let may_have_faster = R::outline(
-                #[inline(always)]
-                || turn.may_have_faster(&machine),
-            );
-            // Where Newton did not converge, or to a motion that the machine departs from, or that may not be
-            // the fastest, there is no error to trust.
-            let none = R::splat(f64::NAN);
-            let is_stable = turn.multiplier.select_lt(R::splat(1.0), error, none);
-            let is_fastest = may_have_faster.select_lt(R::splat(0.5), is_stable, none);
-            let trusted = turn.correction.select_lt(R::splat(PROMISED), is_fastest, none);
-            trusted.store(&mut lane);
-            for (status, error) in status.iter_mut().zip(&lane) {
-                if error.is_nan() || *error > PROMISED {
-                    *status = Status::Inaccurate;
+            displaced = coarse.move_to_kinks(&machine, &meshes, m);
+            if displaced.max_lane() <= 0.0 {
+                break;
+            }
+        }
+        let n = rows.len() as u64;
+        let is_free = if meshes.is_empty() {
+            self.hand_over(&coarse, &breaks, rows, &numbers, passing)
+        } else {
+            vec![true; rows.len()]
+        };
+        if !is_free.contains(&true) {
+            return u64::from(coarse.sweeps) * n;
+        }
+        let (machine, m) = (Machine { plan: self.plan, q: &self.q }, &mut self.m);
+        let mut turn = R::outline(
+            #[inline(always)]
+            || coarse.halved(&machine, m),
+        );
+        turn.limit = CONVERGED[1];
+        R::outline(
+            #[inline(always)]
+            || turn.solve(&machine),
+        );
+        let extremes = R::outline(
+            #[inline(always)]
+            || turn.extremes(&machine, m),
+        );
+        let totals = R::outline(
+            #[inline(always)]
+            || turn.totals(&machine),
+        );
+        let error = R::outline(
+            #[inline(always)]
+            || turn.error_against(&coarse, &machine, m),
+        );
+        let may_have_faster = R::outline(
+            #[inline(always)]
+            || coarse.may_have_faster(&machine),
+        );
+        // Where Newton did not converge, or to a motion that the machine departs from, or that may not be
+        // the fastest, there is no error to trust.
+        let none = R::splat(f64::NAN);
+        let is_stable = turn.multiplier.select_lt(R::splat(1.0), error, none);
+        let is_fastest = may_have_faster.select_lt(R::splat(0.5), is_stable, none);
+        let is_placed = displaced.select_lt(R::splat(PLACED), is_fastest, none);
+        let trusted = turn.correction.select_lt(R::splat(turn.limit), is_placed, none);
+        let mut errors = vec![0.0; R::LANES];
+        trusted.store(&mut errors);
+        let (mut lane, row_of_lanes) = (vec![0.0; R::LANES], row_of(turn.multiplier, &extremes, &totals));
+        for (k, quantity) in row_of_lanes.into_iter().enumerate() {
+            quantity.store(&mut lane);
+            for (i, row) in rows.iter().enumerate() {
+                if is_free[i] {
+                    chunk.out[row * QUANTITIES + k] = lane[i];
                 }
             }
         }
-        sweeps
+        let pieces = if meshes.is_empty() { Vec::new() } else { turn.pieces_of_lanes() };
+        for (i, &row) in rows.iter().enumerate() {
+            if !is_free[i] {
+                continue;
+            }
+            let result = &chunk.out[row * QUANTITIES..(row + 1) * QUANTITIES];
+            self.rows.replace(numbers[i], &mut self.row);
+            let speeds = self.plan.drive.speed_kinks(&self.plan.tables, &self.row);
+            let is_passed = |speed: &&f64| result[0] < **speed && **speed < result[1];
+            let is_resolved = |speed: &f64| {
+                let u = 0.5 * speed * speed;
+                meshes.get(i).is_some_and(|mesh| mesh.has(*speed))
+                    && pieces[i].iter().all(|piece| !piece.passes(u, PLACED))
+            };
+            let is_good = errors[i] <= PROMISED && result.iter().all(|x| x.is_finite()) && result[0] > 0.0;
+            if errors[i] > PROMISED && *level + 1 < STEPS.len() {
+                coarser.push(row);
+            } else if !is_good || !speeds.iter().filter(is_passed).all(is_resolved) {
+                chunk.status[row] = Status::Inaccurate;
+            }
+        }
+        u64::from(coarse.sweeps + turn.sweeps) * n
+    }
+
+    /// Adds the rows of a bundle that pass kinks of the drive to the list; which do not.
+    #[inline(always)]
+    fn hand_over(
+        &mut self,
+        turn: &Turn<R>,
+        breaks: &[Vec<f64>],
+        rows: &[usize],
+        numbers: &[usize],
+        passing: &mut Vec<Passing>,
+    ) -> Vec<bool> {
+        let (mut low, mut high) = (R::splat(f64::INFINITY), R::splat(0.0));
+        for step in &turn.steps {
+            for &u in &step.X {
+                (low, high) = (low.min(u), high.max(u));
+            }
+        }
+        let (low, high) = (unbundle(&[low]), unbundle(&[high]));
+        let is_solved = unbundle(&[turn.correction]);
+        let mut is_free = vec![true; rows.len()];
+        let mut pieces = Vec::new();
+        for (lane, &row) in rows.iter().enumerate() {
+            self.rows.replace(numbers[lane], &mut self.row);
+            let mut speeds = self.plan.drive.speed_kinks(&self.plan.tables, &self.row);
+            speeds.retain(|speed| low[lane] < 0.5 * speed * speed && 0.5 * speed * speed < high[lane]);
+            if !speeds.is_empty() && is_solved[lane] < turn.limit {
+                if pieces.is_empty() {
+                    pieces = turn.pieces_of_lanes();
+                }
+                let solution = std::mem::take(&mut pieces[lane]);
+                passing.push(Passing::new(row, solution, &breaks[lane], &speeds, STEPS[STEPS.len() - 1]));
+                is_free[lane] = false;
+            }
+        }
+        is_free
     }
 }
 
@@ -226,14 +395,10 @@ fn retry(
     // Where a law has its kinks is only known with the motion.
     let moves_kinks = !plan.moving_kinks().is_empty();
     for (i, (status, row)) in status.iter_mut().zip(out.chunks_exact_mut(QUANTITIES)).enumerate() {
-        let q = rows.row(first + i);
-        let passes_kink = || {
-            moves_kinks || plan.drive.speed_kinks(&plan.tables, &q).iter().any(|&s| row[0] < s && s < row[1])
-        };
-        let is_good = row.iter().all(|x| x.is_finite()) && row[0] > 0.0;
-        if *status == Status::Ok && is_good && !passes_kink() {
+        if *status == Status::Ok && !moves_kinks {
             continue;
         }
+        let q = rows.row(first + i);
         match steady(plan, &q, accuracy) {
             Ok(found) => {
                 row.copy_from_slice(&row_of_steady(&found));

@@ -77,12 +77,10 @@ impl<R: Real> Turn<R> {
     #[inline(always)]
     pub fn check(&self, machine: &Machine<'_, R>, accuracy: f64, m: &mut Motion<R>) -> Check {
         let limits = Limits { accuracy, epsilon: self.acceleration_scale() };
-        let differences: Vec<Differences<R>> = (0..self.steps.len())
-            .map(
-                #[inline(always)]
-                |k| self.differences(machine, k, limits, m),
-            )
-            .collect();
+        let mut differences = Vec::with_capacity(self.steps.len());
+        for k in 0..self.steps.len() {
+            differences.push(self.differences(machine, k, limits, m));
+        }
         let column = |of: &dyn Fn(usize) -> R| unbundle(&(0..differences.len()).map(of).collect::<Vec<_>>());
         let defect = column(&|k| differences[k].defect);
         let mut check = Check {
@@ -244,9 +242,9 @@ impl<R: Real> Turn<R> {
             x = x * 0.5;
             share *= 0.5;
             let X = stages_of_part(&quintic, R::splat(0.0), R::splat(share));
-            let (first, _) = machine.advance_near(whole.phi, whole.u, x, X, m);
+            let (first, _) = machine.advance_within(self.limit, whole.phi, whole.u, x, X, m);
             let X = stages_of_part(&quintic, R::splat(share), R::splat(share));
-            let (second, _) = machine.advance_near(whole.phi + x, first.end(), x, X, m);
+            let (second, _) = machine.advance_within(self.limit, whole.phi + x, first.end(), x, X, m);
             let du = size(second.end() - whole.end());
             let de = size(second.K[S - 1] - whole.K[S - 1]);
             relative = relative.max(du / whole.u * 0.5).max(de / epsilon);

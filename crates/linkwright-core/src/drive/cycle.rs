@@ -71,6 +71,8 @@ pub struct Turn<R> {
     pub sweeps: u32,
     /// Largest relative correction of the last sweep, of the turn in each lane.
     pub correction: R,
+    /// Relative correction after which a lane has converged: the next would be about its square.
+    pub limit: f64,
 }
 
 /// A machine with its parameters in lanes of `R`: what every function of a turn works on.
@@ -91,8 +93,8 @@ const SHRINK: f64 = 0.25;
 /// Newton sweeps of a step on its own.
 const STEP_SWEEPS: usize = 16;
 
-/// Relative correction after which the stages of a step have converged: the next would be its square.
-const CONVERGED: f64 = 1e-8;
+/// Relative correction after which the stages of a step have converged: the next would be about its square.
+pub const CONVERGED: f64 = 1e-8;
 
 /// Largest correction of the last sweep that counts as converged at all.
 const SOLVED: f64 = 1e-6;
@@ -155,17 +157,22 @@ impl<R: Real> Machine<'_, R> {
     /// The reduced machine at a crank angle; what its laws need to know there is added to `given`.
     #[inline(always)]
     pub fn row(&self, phi: R, m: &mut Motion<R>, given: &mut Vec<Given<R>>) -> Row<R> {
-        let r = self.plan.reduce::<R, 2>(self.q, Angle::new(phi), 1.0, m);
-        if !self.plan.laws.is_empty() {
-            self.plan.give(self.q, phi, m, given);
-        }
-        let inverse = r.J.recip();
-        Row { inverse, drift: r.J_d1 * inverse, load: r.load + r.dry, viscous: r.viscous }
+        R::outline(
+            #[inline(always)]
+            || {
+                let r = self.plan.reduce::<R, 2>(self.q, Angle::new(phi), 1.0, m);
+                if !self.plan.laws.is_empty() {
+                    self.plan.give(self.q, phi, m, given);
+                }
+                let inverse = r.J.recip();
+                Row { inverse, drift: r.J_d1 * inverse, load: r.load + r.dry, viscous: r.viscous }
+            },
+        )
     }
 
     /// The stages of a step.
     #[inline(always)]
-    fn rows(&self, phi: R, h: R, m: &mut Motion<R>, given: &mut Vec<Given<R>>) -> [Row<R>; S] {
+    pub(super) fn rows(&self, phi: R, h: R, m: &mut Motion<R>, given: &mut Vec<Given<R>>) -> [Row<R>; S] {
         let mut rows = [Row { inverse: h, drift: h, load: h, viscous: h }; S];
         for i in 0..S {
             rows[i] = self.row(h.mul_add(R::splat(C[i]), phi), m, given);
@@ -183,27 +190,38 @@ impl<R: Real> Machine<'_, R> {
     /// The same with stages to start from.
     #[inline(always)]
     pub fn advance_near(&self, phi: R, u: R, h: R, X: [R; S], m: &mut Motion<R>) -> (Step<R>, Vec<Given<R>>) {
+        self.advance_within(CONVERGED, phi, u, h, X, m)
+    }
+
+    /// The same until the relative correction is below a limit.
+    #[inline(always)]
+    pub fn advance_within(
+        &self,
+        limit: f64,
+        phi: R,
+        u: R,
+        h: R,
+        X: [R; S],
+        m: &mut Motion<R>,
+    ) -> (Step<R>, Vec<Given<R>>) {
         let mut given = Vec::new();
-        let rows = R::outline(
-            #[inline(always)]
-            || self.rows(phi, h, m, &mut given),
-        );
+        let rows = self.rows(phi, h, m, &mut given);
         let step = R::outline(
             #[inline(always)]
-            || self.solve_step(Step { X, ..Step::at_rest(phi, h, rows, u) }, &given),
+            || self.solve_step(Step { X, ..Step::at_rest(phi, h, rows, u) }, &given, limit),
         );
         (step, given)
     }
 
     /// Newton for the stages of a step from its given start.
     #[inline(always)]
-    fn solve_step(&self, mut step: Step<R>, given: &[Given<R>]) -> Step<R> {
+    fn solve_step(&self, mut step: Step<R>, given: &[Given<R>], limit: f64) -> Step<R> {
         let mut worst = R::splat(f64::INFINITY);
         for _ in 0..STEP_SWEEPS {
-            let newton = self.step_newton(&mut step, given, worst);
-            let correction = step.take(&newton, R::splat(0.0), worst);
-            worst = worst.select_lt(R::splat(CONVERGED), worst, correction);
-            if worst.max_lane() < CONVERGED {
+            let newton = self.step_newton(&mut step, given, worst, limit);
+            let correction = step.take(&newton, R::splat(0.0), worst, limit);
+            worst = worst.select_lt(R::splat(limit), worst, correction);
+            if worst.max_lane() < limit {
                 break;
             }
         }
@@ -216,8 +234,14 @@ impl<R: Real> Machine<'_, R> {
     /// One Newton step for the stages of a step. Lanes whose last correction was small enough keep what they
     /// have: no lane's bits depend on how long another takes.
     #[inline(always)]
-    fn step_newton(&self, step: &mut Step<R>, given: &[Given<R>], correction: R) -> StageNewton<R> {
-        let limit = R::splat(CONVERGED);
+    fn step_newton(
+        &self,
+        step: &mut Step<R>,
+        given: &[Given<R>],
+        correction: R,
+        limit: f64,
+    ) -> StageNewton<R> {
+        let limit = R::splat(limit);
         let (f, d) = self.accelerations(&step.rows, given, &step.X);
         let newton = stage_newton(step.u, step.h, &f, &d, &step.X);
         for i in 0..S {
@@ -276,8 +300,8 @@ impl<R: Real> Step<R> {
 
     /// Corrects the stages for a correction of the start; the largest relative correction.
     #[inline(always)]
-    fn take(&mut self, newton: &StageNewton<R>, delta: R, last: R) -> R {
-        let (mut worst, limit) = (R::splat(0.0), R::splat(CONVERGED));
+    fn take(&mut self, newton: &StageNewton<R>, delta: R, last: R, limit: f64) -> R {
+        let (mut worst, limit) = (R::splat(0.0), R::splat(limit));
         for i in 0..S {
             let change = newton.u[i].mul_add(delta, newton.p[i]);
             let next = (self.X[i] + change).max(self.X[i] * SHRINK);
@@ -337,18 +361,21 @@ pub fn stages_of_part<R: Real>(quintic: &[R; N], from: R, length: R) -> [R; S] {
 }
 
 impl<R: Real> Turn<R> {
-    /// Machines in lanes, each with its own steps between its own breaks, no longer than 2π/`n`; lanes with
-    /// fewer steps are filled up at 2π.
+    /// Machines in lanes, each with its own ends of steps; lanes with fewer steps are filled up at 2π.
     #[inline(always)]
-    pub fn of_machines(machine: &Machine<'_, R>, breaks: &[Vec<f64>], n: usize, m: &mut Motion<R>) -> Self {
-        let mut lanes: Vec<Vec<f64>> = breaks.iter().map(|breaks| divide(breaks, n)).collect();
-        let most = lanes.iter().map(Vec::len).max().unwrap_or(0);
-        for lane in &mut lanes {
-            lane.resize(most, TAU);
+    pub fn of_machines(machine: &Machine<'_, R>, edges: &[Vec<f64>], m: &mut Motion<R>) -> Self {
+        let most = edges.iter().map(Vec::len).max().unwrap_or(0);
+        let at = |lane: &Vec<f64>, k: usize| lane.get(k).copied().unwrap_or(TAU);
+        let mut starts = vec![0.0; R::LANES];
+        let mut ends = starts.clone();
+        let mut steps = Vec::with_capacity(most);
+        for k in 1..most {
+            for (lane, edges) in edges.iter().enumerate() {
+                (starts[lane], ends[lane]) = (at(edges, k - 1), at(edges, k));
+            }
+            let start = R::load(&starts);
+            steps.push((start, R::load(&ends) - start));
         }
-        let across = |k: usize| R::load(&lanes.iter().map(|lane| lane[k]).collect::<Vec<_>>());
-        let edges: Vec<R> = (0..most).map(across).collect();
-        let steps = edges.windows(2).map(|ends| (ends[0], ends[1] - ends[0])).collect();
         Self::tabulate(machine, steps, Layout::Machines, m)
     }
 
@@ -373,16 +400,12 @@ impl<R: Real> Turn<R> {
             steps.extend([(step.phi, h), (step.phi + h, h)]);
         }
         let mut halved = Self::tabulate(machine, steps, self.layout, m);
+        halved.limit = self.limit;
         let half = R::splat(0.5);
         for (halves, whole) in halved.steps.chunks_exact_mut(2).zip(&self.steps) {
             let quintic = whole.quintic();
-            let X = [R::splat(0.0), half].map(
-                #[inline(always)]
-                |from| stages_of_part(&quintic, from, half),
-            );
-            for (part, X) in halves.iter_mut().zip(X) {
-                part.X = X;
-            }
+            halves[0].X = stages_of_part(&quintic, R::splat(0.0), half);
+            halves[1].X = stages_of_part(&quintic, half, half);
             (halves[0].u, halves[1].u) = (whole.u, halves[0].end());
         }
         halved
@@ -395,10 +418,7 @@ impl<R: Real> Turn<R> {
         let mut tabulated = Vec::with_capacity(steps.len());
         let mut given = Vec::with_capacity(steps.len() * S * machine.plan.laws.len());
         for (phi, h) in steps {
-            let rows = R::outline(
-                #[inline(always)]
-                || machine.rows(phi, h, m, &mut given),
-            );
+            let rows = machine.rows(phi, h, m, &mut given);
             tabulated.push(Step::at_rest(phi, h, rows, zero));
         }
         Turn {
@@ -408,6 +428,7 @@ impl<R: Real> Turn<R> {
             multiplier: zero,
             sweeps: 0,
             correction: R::splat(f64::INFINITY),
+            limit: CONVERGED,
         }
     }
 
@@ -467,7 +488,7 @@ impl<R: Real> Turn<R> {
                 || self.sweep(machine, &mut work),
             );
             self.sweeps += 1;
-            if self.correction.max_lane() < CONVERGED {
+            if self.correction.max_lane() < self.limit {
                 return;
             }
         }
@@ -481,7 +502,7 @@ impl<R: Real> Turn<R> {
         let laws = S * machine.plan.laws.len();
         for (k, step) in self.steps.iter_mut().enumerate() {
             let given = &self.given[k * laws..(k + 1) * laws];
-            work.push(machine.step_newton(step, given, self.correction));
+            work.push(machine.step_newton(step, given, self.correction, self.limit));
             starts.push(step.u);
         }
         let ends = self.layout.ends(&starts);
@@ -491,9 +512,9 @@ impl<R: Real> Turn<R> {
             defect[k] = step.end() + work[k].p[S - 1] - defect[k];
         }
         let (delta, multiplier) = self.layout.close(&growth, &defect);
-        let (mut worst, done, limit) = (R::splat(0.0), self.correction, R::splat(CONVERGED));
+        let (mut worst, done, limit) = (R::splat(0.0), self.correction, R::splat(self.limit));
         for ((step, newton), delta) in self.steps.iter_mut().zip(work.iter()).zip(delta) {
-            worst = worst.max(step.take(newton, delta, done));
+            worst = worst.max(step.take(newton, delta, done, self.limit));
             let next = (step.u + delta).max(step.u * SHRINK);
             step.u = done.select_lt(limit, step.u, next);
         }

@@ -55,8 +55,11 @@ const ASIDE: [f64; 2] = [0.04, 0.004];
 /// How much farther than that the better place may lie.
 const LEAP: f64 = 4.0;
 
-/// (u, ε) at the samples of a step.
-type Samples<R> = [(R, R); N];
+/// u and ε at the samples of a step.
+type Samples<R> = [[R; N]; 2];
+
+/// Numbers of a step that a promise is made of: start, length, and its samples.
+const NUMBERS: usize = 2 + 2 * N;
 
 /// What is made as large as possible: u or acceleration, with sign −1 for the smallest.
 #[derive(Clone, Copy)]
@@ -66,30 +69,36 @@ struct Quantity {
 }
 
 impl Quantity {
-    /// Of (u, ε).
+    /// Of the samples of a step.
     #[inline(always)]
-    fn of<R: Real>(self, (u, epsilon): (R, R)) -> R {
-        (if self.is_speed { u } else { epsilon }) * self.sign
-    }
-
-    /// At the samples of a step.
-    #[inline(always)]
-    fn samples<R: Real>(self, samples: &Samples<R>) -> [R; N] {
-        let mut y = [samples[0].0; N];
-        for i in 0..N {
-            y[i] = self.of(samples[i]);
-        }
-        y
+    fn of<R: Real>(self, samples: &Samples<R>, i: usize) -> R {
+        samples[usize::from(!self.is_speed)][i] * self.sign
     }
 }
 
-/// A place in a step that promises an extreme, with the samples of the step.
+/// A value that a step promises, and its place as a share of the step.
+#[derive(Clone, Copy)]
+struct Hint<R> {
+    value: R,
+    at: R,
+}
+
+/// A step that promises an extreme: its number, its lane, what is extreme there and where.
+#[derive(Clone, Copy)]
+struct Pick {
+    step: usize,
+    lane: usize,
+    quantity: usize,
+    at: f64,
+}
+
+/// Steps that promise an extreme, one a lane, with their samples.
 #[derive(Clone, Copy)]
 struct Promise<R> {
     /// Sign and kind of the quantity; 1 for speed, 0 for acceleration.
     sign: R,
     is_speed: R,
-    value: R,
+    /// Place as a share of the step.
     at: R,
     phi: R,
     h: R,
@@ -116,12 +125,22 @@ impl<R: Real> Turn<R> {
             #[inline(always)]
             || self.samples(machine, m),
         );
+        let numbers = self.numbers(&samples);
+        let hints = R::outline(
+            #[inline(always)]
+            || hints(&samples),
+        );
         let mut best = match self.layout {
-            Layout::Machines => QUANTITIES.map(
-                #[inline(always)]
-                |quantity| self.largest_of_machine(machine, &samples, quantity, m),
-            ),
-            Layout::Steps => self.largest_of_steps(machine, &samples, m),
+            Layout::Machines => {
+                let nothing = Extreme { value: R::splat(f64::NEG_INFINITY), phi: R::splat(0.0) };
+                let mut best = [nothing; QUANTITIES.len()];
+                for (quantity, hints) in hints.into_iter().enumerate() {
+                    best[quantity] =
+                        self.largest_of_machine(machine, &samples, &numbers, quantity, hints, m);
+                }
+                best
+            }
+            Layout::Steps => self.largest_of_steps(machine, &samples, &numbers, &hints, m),
         };
         for (best, quantity) in best.iter_mut().zip(QUANTITIES) {
             best.value = best.value * quantity.sign;
@@ -141,13 +160,29 @@ impl<R: Real> Turn<R> {
         for step in &self.steps {
             given.clear();
             let row = machine.row(step.phi, m, &mut given);
-            let mut sample = [(step.u, machine.acceleration(&row, &given, step.u).value); N];
-            for i in 0..S {
-                sample[i + 1] = (step.X[i], step.K[i]);
-            }
-            samples.push(sample);
+            let (mut u, mut epsilon) = ([step.u; N], [step.u; N]);
+            epsilon[0] = machine.acceleration(&row, &given, step.u).value;
+            u[1..].copy_from_slice(&step.X);
+            epsilon[1..].copy_from_slice(&step.K);
+            samples.push([u, epsilon]);
         }
         samples
+    }
+
+    /// The numbers of all steps in a row: step by step, number by number, lane by lane.
+    #[inline(always)]
+    fn numbers(&self, samples: &[Samples<R>]) -> Vec<f64> {
+        let mut numbers = vec![0.0; self.steps.len() * NUMBERS * R::LANES];
+        let rows = numbers.chunks_exact_mut(NUMBERS * R::LANES);
+        for ((step, [u, epsilon]), to) in self.steps.iter().zip(samples).zip(rows) {
+            step.phi.store(to);
+            step.h.store(&mut to[R::LANES..]);
+            for i in 0..N {
+                u[i].store(&mut to[(2 + i) * R::LANES..]);
+                epsilon[i].store(&mut to[(2 + N + i) * R::LANES..]);
+            }
+        }
+        numbers
     }
 
     /// In lanes with a machine each: the best step of every lane, and others that promise as much.
@@ -156,33 +191,35 @@ impl<R: Real> Turn<R> {
         &self,
         machine: &Machine<'_, R>,
         samples: &[Samples<R>],
-        quantity: Quantity,
+        numbers: &[f64],
+        quantity: usize,
+        mut hints: Vec<Hint<R>>,
         m: &mut Motion<R>,
     ) -> Extreme<R> {
-        let mut promises = R::outline(
-            #[inline(always)]
-            || self.promises(samples, quantity),
-        );
-        let range = self.range(samples, quantity);
+        let range = self.range(samples, QUANTITIES[quantity]);
         let lowest = R::splat(f64::NEG_INFINITY);
-        let mut best = self.largest_of_ends(samples, quantity);
+        let mut best = self.largest_of_ends(samples, QUANTITIES[quantity]);
+        let (mut steps, mut places) = (vec![0.0; R::LANES], vec![0.0; R::LANES]);
+        let mut picks = vec![Pick { step: 0, lane: 0, quantity, at: 0.0 }; R::LANES];
         for round in 0..ROUNDS {
-            let promise = R::outline(
-                #[inline(always)]
-                || take_best(&mut promises),
-            );
+            let (step, hint) = take_best(&mut hints);
             let worth = best.value - range * DOUBT;
-            if round > 0 && (promise.value - worth).max_lane() <= 0.0 {
+            if round > 0 && (hint.value - worth).max_lane() <= 0.0 {
                 break;
             }
+            step.store(&mut steps);
+            hint.at.store(&mut places);
+            for (lane, pick) in picks.iter_mut().enumerate() {
+                *pick = Pick { step: steps[lane] as usize, lane, at: places[lane], ..*pick };
+            }
             // u has one derivative more than its derivative: its quintic's peak is good enough.
-            let asides = if quantity.is_speed { &ASIDE[..0] } else { &ASIDE[..1] };
+            let asides = if QUANTITIES[quantity].is_speed { &ASIDE[..0] } else { &ASIDE[..1] };
             let found = R::outline(
                 #[inline(always)]
-                || promise.read_around(machine, asides, m),
+                || Promise::<R>::of_picks(&picks, numbers).read_around(machine, self.limit, asides, m),
             );
             // A lane whose step was not worth it takes nothing: its bits do not depend on its neighbours.
-            let value = worth.select_lt(promise.value, found.value, lowest);
+            let value = worth.select_lt(hint.value, found.value, lowest);
             best.keep_larger(&Extreme { value, phi: found.phi });
         }
         best
@@ -193,8 +230,8 @@ impl<R: Real> Turn<R> {
     fn largest_of_ends(&self, samples: &[Samples<R>], quantity: Quantity) -> Extreme<R> {
         let mut best = Extreme { value: R::splat(f64::NEG_INFINITY), phi: R::splat(0.0) };
         for (step, sample) in self.steps.iter().zip(samples) {
-            best.keep_larger(&Extreme { value: quantity.of(sample[0]), phi: step.phi });
-            best.keep_larger(&Extreme { value: quantity.of(sample[N - 1]), phi: step.phi + step.h });
+            best.keep_larger(&Extreme { value: quantity.of(sample, 0), phi: step.phi });
+            best.keep_larger(&Extreme { value: quantity.of(sample, N - 1), phi: step.phi + step.h });
         }
         best
     }
@@ -206,38 +243,38 @@ impl<R: Real> Turn<R> {
         &self,
         machine: &Machine<'_, R>,
         samples: &[Samples<R>],
+        numbers: &[f64],
+        hints: &[Vec<Hint<R>>; 4],
         m: &mut Motion<R>,
     ) -> [Extreme<R>; 4] {
-        let mut chosen: Vec<(usize, Promise<f64>)> = Vec::new();
-        for (which, quantity) in QUANTITIES.into_iter().enumerate() {
-            let promises = R::outline(
-                #[inline(always)]
-                || self.promises(samples, quantity),
-            );
-            let values = unbundle(&promises.iter().map(|promise| promise.value).collect::<Vec<_>>());
+        let mut picks: Vec<Pick> = Vec::new();
+        let (mut values, mut places) = (vec![0.0; self.steps.len() * R::LANES], vec![0.0; R::LANES]);
+        for (quantity, hints) in hints.iter().enumerate() {
+            for (hint, values) in hints.iter().zip(values.chunks_exact_mut(R::LANES)) {
+                hint.value.store(values);
+            }
             let top = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-            let worth = top - DOUBT * unbundle(&[self.range(samples, quantity)])[0];
+            self.range(samples, QUANTITIES[quantity]).store(&mut places);
+            let worth = top - DOUBT * places[0];
             for (k, _) in values.iter().enumerate().filter(|&(_, &value)| value >= worth) {
-                chosen.push((which, promises[k / R::LANES].lane(k % R::LANES)));
+                let (step, lane) = (k / R::LANES, k % R::LANES);
+                hints[step].at.store(&mut places);
+                picks.push(Pick { step, lane, quantity, at: places[lane] });
             }
         }
-        let mut best = QUANTITIES.map(
-            #[inline(always)]
-            |quantity| {
-                let of_lanes = self.largest_of_ends(samples, quantity);
-                let mut best = Extreme { value: f64::NEG_INFINITY, phi: 0.0 };
-                for (value, phi) in unbundle(&[of_lanes.value]).into_iter().zip(unbundle(&[of_lanes.phi])) {
-                    best.keep_larger(&Extreme { value, phi });
-                }
-                best
-            },
-        );
-        for chosen in chosen.chunks(R::LANES) {
-            let promise = Promise::<R>::of_lanes(chosen);
-            let found = promise.read_around(machine, &ASIDE, m);
+        let mut best = [Extreme { value: f64::NEG_INFINITY, phi: 0.0 }; QUANTITIES.len()];
+        for (best, quantity) in best.iter_mut().zip(QUANTITIES) {
+            let of_lanes = self.largest_of_ends(samples, quantity);
+            for (value, phi) in unbundle(&[of_lanes.value]).into_iter().zip(unbundle(&[of_lanes.phi])) {
+                best.keep_larger(&Extreme { value, phi });
+            }
+        }
+        for picks in picks.chunks(R::LANES) {
+            let promise = Promise::<R>::of_picks(picks, numbers);
+            let found = promise.read_around(machine, self.limit, &ASIDE, m);
             let (values, places) = (unbundle(&[found.value]), unbundle(&[found.phi]));
-            for (lane, &(which, _)) in chosen.iter().enumerate() {
-                best[which].keep_larger(&Extreme { value: values[lane], phi: places[lane] });
+            for (lane, pick) in picks.iter().enumerate() {
+                best[pick.quantity].keep_larger(&Extreme { value: values[lane], phi: places[lane] });
             }
         }
         best.map(|best| Extreme { value: R::splat(best.value), phi: R::splat(best.phi) })
@@ -246,125 +283,106 @@ impl<R: Real> Turn<R> {
     /// Largest minus smallest sample.
     #[inline(always)]
     fn range(&self, samples: &[Samples<R>], quantity: Quantity) -> R {
-        let mut low = quantity.of(samples[0][0]);
+        let mut low = quantity.of(&samples[0], 0);
         let mut high = low;
         for sample in samples {
-            for state in sample {
-                low = low.min(quantity.of(*state));
-                high = high.max(quantity.of(*state));
+            for i in 0..N {
+                low = low.min(quantity.of(sample, i));
+                high = high.max(quantity.of(sample, i));
             }
         }
         self.layout.highest(high) + self.layout.highest(-low)
     }
-
-    /// What every step promises.
-    #[inline(always)]
-    fn promises(&self, samples: &[Samples<R>], quantity: Quantity) -> Vec<Promise<R>> {
-        let mut promises = Vec::with_capacity(samples.len());
-        for (step, sample) in self.steps.iter().zip(samples) {
-            let samples = quantity.samples(sample);
-            let (value, at) = peak_of_step(&samples);
-            let (sign, is_speed) =
-                (R::splat(quantity.sign), R::splat(if quantity.is_speed { 1.0 } else { 0.0 }));
-            let (phi, h, u, quintic) = (step.phi, step.h, step.u, step.quintic());
-            promises.push(Promise { sign, is_speed, value, at, phi, h, u, samples, quintic });
-        }
-        promises
-    }
 }
 
-/// The best promise of each lane; it promises nothing any more.
+/// What every step promises of each quantity.
 #[inline(always)]
-fn take_best<R: Real>(promises: &mut [Promise<R>]) -> Promise<R> {
-    let mut best = promises[0];
-    for promise in promises.iter() {
-        best.keep_better(promise);
+fn hints<R: Real>(samples: &[Samples<R>]) -> [Vec<Hint<R>>; 4] {
+    let mut hints = [const { Vec::new() }; 4];
+    for sample in samples {
+        for (kind, values) in sample.iter().enumerate() {
+            for (sign, hint) in peaks_of_step(values).into_iter().enumerate() {
+                hints[2 * kind + sign].push(hint);
+            }
+        }
+    }
+    hints
+}
+
+/// The best promise of each lane, and the number of its step; that promises nothing any more.
+#[inline(always)]
+fn take_best<R: Real>(hints: &mut [Hint<R>]) -> (R, Hint<R>) {
+    let (mut best, mut step) = (hints[0], R::splat(0.0));
+    for (k, hint) in hints.iter().enumerate() {
+        step = best.value.select_lt(hint.value, R::splat(k as f64), step);
+        best.at = best.value.select_lt(hint.value, hint.at, best.at);
+        best.value = best.value.max(hint.value);
     }
     let lowest = R::splat(f64::NEG_INFINITY);
-    for promise in promises {
-        let is_other = (promise.phi - best.phi).abs() + (promise.h - best.h).abs();
-        promise.value = R::splat(0.0).select_lt(is_other, promise.value, lowest);
+    for (k, hint) in hints.iter_mut().enumerate() {
+        let is_other = (step - R::splat(k as f64)).abs();
+        hint.value = R::splat(0.5).select_lt(is_other, hint.value, lowest);
     }
-    best
+    (step, best)
 }
 
 impl<R: Real> Promise<R> {
-    /// That of one lane.
-    #[inline(always)]
-    fn lane(&self, lane: usize) -> Promise<f64> {
-        let of = |x: R| unbundle(&[x])[lane];
-        Promise {
-            sign: of(self.sign),
-            is_speed: of(self.is_speed),
-            value: of(self.value),
-            at: of(self.at),
-            phi: of(self.phi),
-            h: of(self.h),
-            u: of(self.u),
-            samples: self.samples.map(of),
-            quintic: self.quintic.map(of),
-        }
-    }
-
     /// One in each lane; the last fills the lanes that are left.
     #[inline(always)]
-    fn of_lanes(promises: &[(usize, Promise<f64>)]) -> Self {
-        let across = |of: &dyn Fn(&Promise<f64>) -> f64| {
-            let lane = |i: usize| of(&promises[i.min(promises.len() - 1)].1);
-            R::load(&(0..R::LANES).map(lane).collect::<Vec<_>>())
-        };
-        Promise {
-            sign: across(&|p| p.sign),
-            is_speed: across(&|p| p.is_speed),
-            value: across(&|p| p.value),
-            at: across(&|p| p.at),
-            phi: across(&|p| p.phi),
-            h: across(&|p| p.h),
-            u: across(&|p| p.u),
-            samples: std::array::from_fn(|i| across(&|p| p.samples[i])),
-            quintic: std::array::from_fn(|i| across(&|p| p.quintic[i])),
+    fn of_picks(picks: &[Pick], numbers: &[f64]) -> Self {
+        let zero = R::splat(0.0);
+        let (mut rows, mut lanes) = ([zero; NUMBERS + 3], vec![0.0; R::LANES]);
+        for (number, row) in rows.iter_mut().enumerate() {
+            for (lane, to) in lanes.iter_mut().enumerate() {
+                let pick = picks[lane.min(picks.len() - 1)];
+                let quantity = QUANTITIES[pick.quantity];
+                *to = match number {
+                    0 => quantity.sign,
+                    1 => f64::from(u8::from(quantity.is_speed)),
+                    2 => pick.at,
+                    _ => numbers[(pick.step * NUMBERS + number - 3) * R::LANES + pick.lane],
+                };
+            }
+            *row = R::load(&lanes);
         }
-    }
-
-    /// Takes over the other promise in the lanes where it is better.
-    #[inline(always)]
-    fn keep_better(&mut self, other: &Promise<R>) {
-        let value = self.value;
-        self.at = value.select_lt(other.value, other.at, self.at);
-        self.phi = value.select_lt(other.value, other.phi, self.phi);
-        self.h = value.select_lt(other.value, other.h, self.h);
-        self.u = value.select_lt(other.value, other.u, self.u);
+        let [sign, is_speed, at, phi, h, u, ..] = rows;
+        let (mut us, mut samples) = ([u; N], [u; N]);
         for i in 0..N {
-            self.samples[i] = value.select_lt(other.value, other.samples[i], self.samples[i]);
-            self.quintic[i] = value.select_lt(other.value, other.quintic[i], self.quintic[i]);
+            us[i] = rows[5 + i];
+            samples[i] = is_speed.select_lt(R::splat(0.5), rows[5 + N + i], us[i]) * sign;
         }
-        self.value = value.max(other.value);
+        Promise { sign, is_speed, at, phi, h, u, samples, quintic: through(&us) }
     }
 
     /// The quantity at a place of the step, on the curve.
     #[inline(always)]
-    fn read(&self, machine: &Machine<'_, R>, at: R, m: &mut Motion<R>) -> Extreme<R> {
+    fn read(&self, machine: &Machine<'_, R>, limit: f64, at: R, m: &mut Motion<R>) -> Extreme<R> {
         let X = stages_of_part(&self.quintic, R::splat(0.0), at);
-        let (there, _) = machine.advance_near(self.phi, self.u, at * self.h, X, m);
+        let (there, _) = machine.advance_within(limit, self.phi, self.u, at * self.h, X, m);
         let value = self.is_speed.select_lt(R::splat(0.5), there.K[S - 1], there.end());
         Extreme { value: value * self.sign, phi: at.mul_add(self.h, self.phi) }
     }
 
     /// The quantity near the quintic's peak, read at better and better places.
     #[inline(always)]
-    fn read_around(&self, machine: &Machine<'_, R>, asides: &[f64], m: &mut Motion<R>) -> Extreme<R> {
+    fn read_around(
+        &self,
+        machine: &Machine<'_, R>,
+        limit: f64,
+        asides: &[f64],
+        m: &mut Motion<R>,
+    ) -> Extreme<R> {
         let mut place = self.peak();
         let mut best = Extreme { value: R::splat(f64::NEG_INFINITY), phi: place };
         for &aside in asides {
             let middle = place.max(R::splat(aside)).min(R::splat(1.0 - aside));
-            let [left, centre, right] = [middle - aside, middle, middle + aside].map(
-                #[inline(always)]
-                |at| {
-                    let found = self.read(machine, at, m);
-                    best.keep_larger(&found);
-                    found.value
-                },
-            );
+            let (places, mut values) = ([middle - aside, middle, middle + aside], [middle; 3]);
+            for i in 0..places.len() {
+                let found = self.read(machine, limit, places[i], m);
+                best.keep_larger(&found);
+                values[i] = found.value;
+            }
+            let [left, centre, right] = values;
             let bend = left - centre - centre + right;
             let slope = right - left;
             let ahead = R::splat(LEAP * aside);
@@ -373,7 +391,7 @@ impl<R: Real> Promise<R> {
             let better = middle + bend.select_lt(R::splat(0.0), top, uphill);
             place = better.max(R::splat(0.0)).min(R::splat(1.0));
         }
-        best.keep_larger(&self.read(machine, place, m));
+        best.keep_larger(&self.read(machine, limit, place, m));
         best
     }
 
@@ -394,31 +412,39 @@ impl<R: Real> Promise<R> {
     }
 }
 
-/// Height and place (share of the step) of the best of four parabolas through neighbouring samples.
+/// Smallest, with its sign turned, and largest value that the best of four parabolas through neighbouring samples
+/// promise, with their places.
 #[inline(always)]
-fn peak_of_step<R: Real>(y: &[R; N]) -> (R, R) {
-    let mut best = (y[0], R::splat(0.0));
+fn peaks_of_step<R: Real>(y: &[R; N]) -> [Hint<R>; 2] {
+    let zero = R::splat(0.0);
+    let mut best = [Hint { value: -y[0], at: zero }, Hint { value: y[0], at: zero }];
     for i in 0..S - 1 {
-        let at = [R::splat(AT[i]), R::splat(AT[i + 1]), R::splat(AT[i + 2])];
-        let (height, place) = peak(at, [y[i], y[i + 1], y[i + 2]]);
-        best = (best.0.max(height), best.0.select_lt(height, place, best.1));
+        let found = peaks([AT[i], AT[i + 1], AT[i + 2]], [y[i], y[i + 1], y[i + 2]]);
+        for (best, found) in best.iter_mut().zip(found) {
+            best.at = best.value.select_lt(found.value, found.at, best.at);
+            best.value = best.value.max(found.value);
+        }
     }
     best
 }
 
-/// Height and place of the parabola through three points on their span.
+/// The same of the parabola through three points on their span.
 #[inline(always)]
-fn peak<R: Real>(x: [R; 3], y: [R; 3]) -> (R, R) {
+fn peaks<R: Real>(x: [f64; 3], y: [R; 3]) -> [Hint<R>; 2] {
     let (left, right) = (x[1] - x[0], x[2] - x[1]);
-    let slope_left = (y[1] - y[0]) / left;
-    let slope_right = (y[2] - y[1]) / right;
-    let bend = (slope_right - slope_left) / (left + right);
+    let slope_left = (y[1] - y[0]) * (1.0 / left);
+    let slope_right = (y[2] - y[1]) * (1.0 / right);
+    let bend = (slope_right - slope_left) * (1.0 / (left + right));
     // Newton's form about the middle: y = y₁ + g (x − x₁) + bend (x − x₁)².
+    let (left, right) = (R::splat(left), R::splat(right));
     let g = bend.mul_add(left, slope_left);
-    let ends = (y[0], y[2]);
-    let outer = (ends.0.max(ends.1), ends.0.select_lt(ends.1, right, -left));
-    // Concave parabolas have their top inside or beyond an end; for others the better end is the top.
     let top = (g / (bend * -2.0)).max(-left).min(right);
-    let dx = bend.select_lt(R::splat(0.0), top, outer.1);
-    (bend.mul_add(dx, g).mul_add(dx, y[1]), x[1] + dx)
+    let mut hints = [Hint { value: y[1], at: top }; 2];
+    for (hint, sign) in hints.iter_mut().zip([-1.0, 1.0]) {
+        let outer = (y[0] * sign).select_lt(y[2] * sign, right, -left);
+        // Concave parabolas have their top inside or beyond an end; for others the better end is the top.
+        let dx = (bend * sign).select_lt(R::splat(0.0), top, outer);
+        *hint = Hint { value: bend.mul_add(dx, g).mul_add(dx, y[1]) * sign, at: dx + x[1] };
+    }
+    hints
 }

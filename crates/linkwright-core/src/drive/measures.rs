@@ -60,10 +60,11 @@ impl<R: Real> Totals<R> {
     /// From the integrals over a turn.
     #[inline(always)]
     fn new(layout: Layout, sums: [R; INTEGRALS]) -> Self {
-        let [period, motor_work, crank_work, load_work, impulse, heat] = sums.map(
-            #[inline(always)]
-            |sum| layout.total(sum),
-        );
+        let mut totals = sums;
+        for total in &mut totals {
+            *total = layout.total(*total);
+        }
+        let [period, motor_work, crank_work, load_work, impulse, heat] = totals;
         let torque_mean = impulse / period;
         let torque_rms = (heat / period).sqrt();
         Totals { period, motor_work, crank_work, load_work, torque_mean, torque_rms }

@@ -46,14 +46,14 @@ impl Piece {
     }
 
     /// Quintic through start and stages.
-    fn quintic(&self) -> [f64; N] {
+    pub(super) fn quintic(&self) -> [f64; N] {
         let mut values = [self.u; N];
         values[1..].copy_from_slice(&self.X);
         through(&values)
     }
 
     /// u at an angle, on the quintic.
-    fn value(&self, quintic: &[f64; N], phi: f64) -> f64 {
+    pub(super) fn value(&self, quintic: &[f64; N], phi: f64) -> f64 {
         // Where the solution falls fast a polynomial may swing below zero.
         let least = self.X.iter().copied().fold(self.u, f64::min);
         value(quintic, (phi - self.phi) / self.h).max(0.5 * least)

@@ -18,6 +18,7 @@
 //! | [`steady`] | steady motion of one machine to a wanted accuracy |
 //! | [`gradient`] | derivatives of steady motion by the numbers of the machine |
 //! | [`transient`] | motion in time from given angle and speed, with its events |
+//! | `passing` | kinks of the drive as ends of steps of machines in lanes |
 //! | [`batch`] | steady motions of many machines: lanes and threads |
 //! | [`motions`] | motions of many machines over the crank angle |
 
@@ -37,6 +38,7 @@ pub mod measures;
 pub mod mesh;
 pub mod motions;
 pub mod motor;
+mod passing;
 pub mod reading;
 pub mod reduce;
 pub mod steady;

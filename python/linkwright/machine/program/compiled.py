@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -130,6 +130,8 @@ class Compiled:
         Points at rest.
     elements : tuple of _core.Element
         The core's program in build order: indices of what each makes and hangs on, slots of its numbers.
+    kept : dict
+        What has been found out about the machine once and for all, by name.
     """
 
     plan: _core.Plan
@@ -150,6 +152,7 @@ class Compiled:
     resisting: _core.Plan
     ground: tuple[_core.Fixed, ...] = ()
     elements: tuple[_core.Element, ...] = ()
+    kept: dict[str, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     @property
     def n_rows(self) -> int:
