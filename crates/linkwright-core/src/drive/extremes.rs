@@ -135,8 +135,7 @@ impl<R: Real> Turn<R> {
                 let nothing = Extreme { value: R::splat(f64::NEG_INFINITY), phi: R::splat(0.0) };
                 let mut best = [nothing; QUANTITIES.len()];
                 for (quantity, hints) in hints.into_iter().enumerate() {
-                    best[quantity] =
-                        self.largest_of_machine(machine, &samples, &numbers, quantity, hints, m);
+                    best[quantity] = self.largest_of_machine(machine, &samples, &numbers, quantity, hints, m);
                 }
                 best
             }
