@@ -7,7 +7,7 @@
 
 use crate::drive::cycle::{Machine, Turn, divide};
 use crate::drive::extremes::Extremes;
-use crate::drive::layout::unbundle;
+use crate::drive::layout::{Layout, unbundle};
 use crate::drive::measures::Totals;
 use crate::drive::passing::Passing;
 use crate::drive::steady::{Steady, steady};
@@ -66,8 +66,8 @@ impl Rows<'_> {
 /// Quantities of a row's steady motion, in the order of a result row.
 pub const QUANTITIES: usize = 13;
 
-/// Steps a turn in lanes before they are halved: at first, and where these do not suffice for [`PROMISED`].
-const STEPS: [usize; 2] = [16, 16];
+/// Steps a turn in lanes before they are halved; [`PROMISED`] tells where these do not suffice.
+const STEPS: usize = 16;
 
 /// Relative corrections after which a turn, and the turn in steps of half the length, have converged. The next would be
 /// about their squares, which measured errors do not notice.
@@ -144,53 +144,36 @@ struct Chunk<'a> {
 impl Job for Chunk<'_> {
     type Output = u64;
 
-    /// All rows on a mesh without kinks of the drive; those that pass some on meshes of their own; those that err too
-    /// much on a finer mesh.
+    /// All rows on a mesh without kinks of the drive, then those that pass some on meshes of their own.
     #[inline(always)]
     fn run<R: Real>(mut self) -> u64 {
         let mut lanes = Lanes::<R>::new(self.plan, self.rows);
         let all: Vec<usize> = (0..self.status.len()).collect();
-        let mut bundles: Vec<Bundle> = all.chunks(R::LANES).map(|rows| Bundle::new(rows, 0)).collect();
-        let (mut passing, mut coarse, mut sweeps) = (Vec::new(), Vec::new(), 0);
-        loop {
+        let new = |rows: &[usize]| Bundle { rows: rows.to_vec(), passing: Vec::new() };
+        let mut bundles: Vec<Bundle> = all.chunks(R::LANES).map(new).collect();
+        let (mut passing, mut sweeps) = (Vec::new(), 0);
+        while !bundles.is_empty() {
             for bundle in &bundles {
-                sweeps += lanes.solve(bundle, &mut self, &mut passing, &mut coarse);
+                sweeps += lanes.solve(bundle, &mut self, &mut passing);
             }
-            if !coarse.is_empty() {
-                bundles = coarse.chunks(R::LANES).map(|rows| Bundle::new(rows, 1)).collect();
-                coarse.clear();
-            } else if !passing.is_empty() {
-                // Lanes with about as many steps side by side.
-                passing.sort_by_key(|row: &Passing| (row.edges.len(), row.row));
-                bundles.clear();
-                let mut rest = passing.drain(..).peekable();
-                while rest.peek().is_some() {
-                    bundles.push(Bundle::of_passing(rest.by_ref().take(R::LANES).collect()));
-                }
-            } else {
-                return sweeps;
+            // Lanes with about as many steps side by side.
+            passing.sort_by_key(|row: &Passing| (row.edges.len(), row.row));
+            bundles.clear();
+            let mut rest = passing.drain(..).peekable();
+            while rest.peek().is_some() {
+                let passing: Vec<Passing> = rest.by_ref().take(R::LANES).collect();
+                bundles.push(Bundle { rows: passing.iter().map(|row| row.row).collect(), passing });
             }
         }
+        sweeps
     }
 }
 
 /// Rows that are solved side by side, counted from the first of the chunk.
 struct Bundle {
     rows: Vec<usize>,
-    /// Which number of steps.
-    level: usize,
     /// Their meshes where they pass kinks of the drive, else empty.
     passing: Vec<Passing>,
-}
-
-impl Bundle {
-    fn new(rows: &[usize], level: usize) -> Self {
-        Bundle { rows: rows.to_vec(), level, passing: Vec::new() }
-    }
-
-    fn of_passing(passing: Vec<Passing>) -> Self {
-        Bundle { rows: passing.iter().map(|row| row.row).collect(), level: STEPS.len() - 1, passing }
-    }
 }
 
 /// What bundles of rows are solved with.
@@ -199,6 +182,8 @@ struct Lanes<'a, R> {
     rows: &'a Rows<'a>,
     q: Vec<R>,
     m: Motion<R>,
+    coarse: Turn<R>,
+    turn: Turn<R>,
     /// Parameters of a row on its own.
     row: Vec<f64>,
 }
@@ -208,20 +193,14 @@ impl<'a, R: Real> Lanes<'a, R> {
     fn new(plan: &'a Plan, rows: &'a Rows<'a>) -> Self {
         let q: Vec<R> = rows.base.iter().map(|&x| R::splat(x)).collect();
         let m = Motion::new(&plan.mechanism, &q);
-        Lanes { plan, rows, q, m, row: rows.base.to_vec() }
+        let (coarse, turn) = (Turn::empty(Layout::Machines), Turn::empty(Layout::Machines));
+        Lanes { plan, rows, q, m, coarse, turn, row: rows.base.to_vec() }
     }
 
-    /// Solves a bundle; returns the turns swept. Rows that pass kinks of the drive, or that ask for a finer mesh, are
-    /// added to the lists.
+    /// Solves a bundle; returns the turns swept. Rows that are found to pass kinks of the drive are added to the list.
     #[inline(always)]
-    fn solve(
-        &mut self,
-        bundle: &Bundle,
-        chunk: &mut Chunk<'_>,
-        passing: &mut Vec<Passing>,
-        coarser: &mut Vec<usize>,
-    ) -> u64 {
-        let Bundle { rows, level, passing: meshes } = bundle;
+    fn solve(&mut self, bundle: &Bundle, chunk: &mut Chunk<'_>, passing: &mut Vec<Passing>) -> u64 {
+        let Bundle { rows, passing: meshes } = bundle;
         let numbers: Vec<usize> = rows.iter().map(|row| chunk.first + row).collect();
         self.rows.lanes(&numbers, &mut self.q);
         self.m.ground(&self.plan.mechanism, &self.q);
@@ -237,13 +216,14 @@ impl<'a, R: Real> Lanes<'a, R> {
             );
         }
         let edges: Vec<Vec<f64>> = if meshes.is_empty() {
-            breaks.iter().map(|breaks| divide(breaks, STEPS[*level])).collect()
+            breaks.iter().map(|breaks| divide(breaks, STEPS)).collect()
         } else {
             meshes.iter().map(|mesh| mesh.edges.clone()).collect()
         };
-        let mut coarse = R::outline(
+        let (coarse, turn) = (&mut self.coarse, &mut self.turn);
+        R::outline(
             #[inline(always)]
-            || Turn::of_machines(&machine, &edges, m),
+            || coarse.tabulate_machines(&machine, &edges, m),
         );
         coarse.limit = CONVERGED[0];
         if meshes.is_empty() {
@@ -270,17 +250,19 @@ impl<'a, R: Real> Lanes<'a, R> {
         }
         let n = rows.len() as u64;
         let is_free = if meshes.is_empty() {
-            self.hand_over(&coarse, &breaks, rows, &numbers, passing)
+            hand_over(coarse, &breaks, rows, passing, |row| {
+                self.rows.replace(chunk.first + row, &mut self.row);
+                self.plan.drive.speed_kinks(&self.plan.tables, &self.row)
+            })
         } else {
             vec![true; rows.len()]
         };
         if !is_free.contains(&true) {
             return u64::from(coarse.sweeps) * n;
         }
-        let (machine, m) = (Machine { plan: self.plan, q: &self.q }, &mut self.m);
-        let mut turn = R::outline(
+        R::outline(
             #[inline(always)]
-            || coarse.halved(&machine, m),
+            || coarse.halve_into(turn, &machine, m),
         );
         turn.limit = CONVERGED[1];
         R::outline(
@@ -297,7 +279,7 @@ impl<'a, R: Real> Lanes<'a, R> {
         );
         let error = R::outline(
             #[inline(always)]
-            || turn.error_against(&coarse, &machine, m),
+            || turn.error_against(coarse, &machine, m),
         );
         let may_have_faster = R::outline(
             #[inline(always)]
@@ -336,50 +318,45 @@ impl<'a, R: Real> Lanes<'a, R> {
                     && pieces[i].iter().all(|piece| !piece.passes(u, PLACED))
             };
             let is_good = errors[i] <= PROMISED && result.iter().all(|x| x.is_finite()) && result[0] > 0.0;
-            if errors[i] > PROMISED && *level + 1 < STEPS.len() {
-                coarser.push(row);
-            } else if !is_good || !speeds.iter().filter(is_passed).all(is_resolved) {
+            if !is_good || !speeds.iter().filter(is_passed).all(is_resolved) {
                 chunk.status[row] = Status::Inaccurate;
             }
         }
         u64::from(coarse.sweeps + turn.sweeps) * n
     }
+}
 
-    /// Adds the rows of a bundle that pass kinks of the drive to the list; which do not.
-    #[inline(always)]
-    fn hand_over(
-        &mut self,
-        turn: &Turn<R>,
-        breaks: &[Vec<f64>],
-        rows: &[usize],
-        numbers: &[usize],
-        passing: &mut Vec<Passing>,
-    ) -> Vec<bool> {
-        let (mut low, mut high) = (R::splat(f64::INFINITY), R::splat(0.0));
-        for step in &turn.steps {
-            for &u in &step.X {
-                (low, high) = (low.min(u), high.max(u));
-            }
+/// Adds the rows of a bundle that pass kinks of the drive to the list; which do not. `kinks_of` a row are speeds.
+#[inline(always)]
+fn hand_over<R: Real>(
+    turn: &Turn<R>,
+    breaks: &[Vec<f64>],
+    rows: &[usize],
+    passing: &mut Vec<Passing>,
+    mut kinks_of: impl FnMut(usize) -> Vec<f64>,
+) -> Vec<bool> {
+    let (mut low, mut high) = (R::splat(f64::INFINITY), R::splat(0.0));
+    for step in &turn.steps {
+        for &u in &step.X {
+            (low, high) = (low.min(u), high.max(u));
         }
-        let (low, high) = (unbundle(&[low]), unbundle(&[high]));
-        let is_solved = unbundle(&[turn.correction]);
-        let mut is_free = vec![true; rows.len()];
-        let mut pieces = Vec::new();
-        for (lane, &row) in rows.iter().enumerate() {
-            self.rows.replace(numbers[lane], &mut self.row);
-            let mut speeds = self.plan.drive.speed_kinks(&self.plan.tables, &self.row);
-            speeds.retain(|speed| low[lane] < 0.5 * speed * speed && 0.5 * speed * speed < high[lane]);
-            if !speeds.is_empty() && is_solved[lane] < turn.limit {
-                if pieces.is_empty() {
-                    pieces = turn.pieces_of_lanes();
-                }
-                let solution = std::mem::take(&mut pieces[lane]);
-                passing.push(Passing::new(row, solution, &breaks[lane], &speeds, STEPS[STEPS.len() - 1]));
-                is_free[lane] = false;
-            }
-        }
-        is_free
     }
+    let (low, high) = (unbundle(&[low]), unbundle(&[high]));
+    let is_solved = unbundle(&[turn.correction]);
+    let (mut is_free, mut pieces) = (vec![true; rows.len()], Vec::new());
+    for (lane, &row) in rows.iter().enumerate() {
+        let mut speeds = kinks_of(row);
+        speeds.retain(|speed| low[lane] < 0.5 * speed * speed && 0.5 * speed * speed < high[lane]);
+        if !speeds.is_empty() && is_solved[lane] < turn.limit {
+            if pieces.is_empty() {
+                pieces = turn.pieces_of_lanes();
+            }
+            let solution = std::mem::take(&mut pieces[lane]);
+            passing.push(Passing::new(row, solution, &breaks[lane], &speeds, STEPS));
+            is_free[lane] = false;
+        }
+    }
+    is_free
 }
 
 /// Does the rows again, one by one, that lanes could not do. Returns the turns swept.

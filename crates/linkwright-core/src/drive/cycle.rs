@@ -172,7 +172,7 @@ impl<R: Real> Machine<'_, R> {
 
     /// The stages of a step.
     #[inline(always)]
-    pub(super) fn rows(&self, phi: R, h: R, m: &mut Motion<R>, given: &mut Vec<Given<R>>) -> [Row<R>; S] {
+    fn rows(&self, phi: R, h: R, m: &mut Motion<R>, given: &mut Vec<Given<R>>) -> [Row<R>; S] {
         let mut rows = [Row { inverse: h, drift: h, load: h, viscous: h }; S];
         for i in 0..S {
             rows[i] = self.row(h.mul_add(R::splat(C[i]), phi), m, given);
@@ -363,7 +363,7 @@ pub fn stages_of_part<R: Real>(quintic: &[R; N], from: R, length: R) -> [R; S] {
 impl<R: Real> Turn<R> {
     /// Machines in lanes, each with its own ends of steps; lanes with fewer steps are filled up at 2π.
     #[inline(always)]
-    pub fn of_machines(machine: &Machine<'_, R>, edges: &[Vec<f64>], m: &mut Motion<R>) -> Self {
+    pub fn tabulate_machines(&mut self, machine: &Machine<'_, R>, edges: &[Vec<f64>], m: &mut Motion<R>) {
         let most = edges.iter().map(Vec::len).max().unwrap_or(0);
         let at = |lane: &Vec<f64>, k: usize| lane.get(k).copied().unwrap_or(TAU);
         let mut starts = vec![0.0; R::LANES];
@@ -376,7 +376,7 @@ impl<R: Real> Turn<R> {
             let start = R::load(&starts);
             steps.push((start, R::load(&ends) - start));
         }
-        Self::tabulate(machine, steps, Layout::Machines, m)
+        self.tabulate_again(machine, &steps, m);
     }
 
     /// One machine, its steps between the given angles in lanes, the last bundle filled up at 2π.
@@ -391,16 +391,15 @@ impl<R: Real> Turn<R> {
         Self::tabulate(machine, steps, Layout::Steps, m)
     }
 
-    /// The turn in steps of half the length, to be solved from this solution on.
+    /// The turn in steps of half the length, to be solved from this solution on, in the place of another.
     #[inline(always)]
-    pub fn halved(&self, machine: &Machine<'_, R>, m: &mut Motion<R>) -> Self {
+    pub fn halve_into(&self, halved: &mut Self, machine: &Machine<'_, R>, m: &mut Motion<R>) {
         let mut steps = Vec::with_capacity(2 * self.steps.len());
         for step in &self.steps {
             let h = step.h * 0.5;
             steps.extend([(step.phi, h), (step.phi + h, h)]);
         }
-        let mut halved = Self::tabulate(machine, steps, self.layout, m);
-        halved.limit = self.limit;
+        halved.tabulate_again(machine, &steps, m);
         let half = R::splat(0.5);
         for (halves, whole) in halved.steps.chunks_exact_mut(2).zip(&self.steps) {
             let quintic = whole.quintic();
@@ -408,27 +407,51 @@ impl<R: Real> Turn<R> {
             halves[1].X = stages_of_part(&quintic, half, half);
             (halves[0].u, halves[1].u) = (whole.u, halves[0].end());
         }
-        halved
+    }
+
+    /// A turn without steps.
+    #[inline(always)]
+    pub fn empty(layout: Layout) -> Self {
+        Turn {
+            steps: Vec::new(),
+            given: Vec::new(),
+            layout,
+            multiplier: R::splat(0.0),
+            sweeps: 0,
+            correction: R::splat(f64::INFINITY),
+            limit: CONVERGED,
+        }
     }
 
     /// Steps from (start, length) pairs, not solved yet.
     #[inline(always)]
     pub fn tabulate(machine: &Machine<'_, R>, steps: Vec<(R, R)>, layout: Layout, m: &mut Motion<R>) -> Self {
+        let mut turn = Self::empty(layout);
+        turn.tabulate_again(machine, &steps, m);
+        turn
+    }
+
+    /// The same in the place of this turn: a turn of machines in lanes takes some hundred thousand bytes, which a batch
+    /// asks for once.
+    #[inline(always)]
+    pub fn tabulate_again(&mut self, machine: &Machine<'_, R>, steps: &[(R, R)], m: &mut Motion<R>) {
         let zero = R::splat(0.0);
-        let mut tabulated = Vec::with_capacity(steps.len());
-        let mut given = Vec::with_capacity(steps.len() * S * machine.plan.laws.len());
-        for (phi, h) in steps {
-            let rows = machine.rows(phi, h, m, &mut given);
-            tabulated.push(Step::at_rest(phi, h, rows, zero));
+        let row = Row { inverse: zero, drift: zero, load: zero, viscous: zero };
+        self.steps.clear();
+        self.given.clear();
+        for &(phi, h) in steps {
+            self.steps.push(Step::at_rest(phi, h, [row; S], zero));
+            self.take_rows(machine, self.steps.len() - 1, m);
         }
-        Turn {
-            steps: tabulated,
-            given,
-            layout,
-            multiplier: zero,
-            sweeps: 0,
-            correction: R::splat(f64::INFINITY),
-            limit: CONVERGED,
+        (self.multiplier, self.sweeps, self.correction) = (zero, 0, R::splat(f64::INFINITY));
+    }
+
+    /// The stages of a step, which has its start and length; what laws need there is added to what is given.
+    #[inline(always)]
+    pub fn take_rows(&mut self, machine: &Machine<'_, R>, k: usize, m: &mut Motion<R>) {
+        let step = &mut self.steps[k];
+        for i in 0..S {
+            step.rows[i] = machine.row(step.h.mul_add(R::splat(C[i]), step.phi), m, &mut self.given);
         }
     }
 

@@ -279,8 +279,11 @@ impl<R: Real> Machine<'_, R> {
                     });
                     continue;
                 }
-                let dip =
-                    Dip { low: scan_angle(i), values: [a, b], slopes: [at(slopes, i), at(slopes, i + 1)] };
+                let slopes = [at(slopes, i), at(slopes, i + 1)];
+                if slopes[0] * a.signum() >= 0.0 || slopes[1] * a.signum() <= 0.0 {
+                    continue;
+                }
+                let dip = Dip { low: scan_angle(i), values: [a, b], slopes };
                 if dip.is_deep() {
                     dips[lane].push(dip);
                 }

@@ -160,10 +160,11 @@ impl<R: Real> Turn<R> {
         }
         if most.max_lane() > 0.0 {
             self.given.clear();
-            for (k, step) in self.steps.iter_mut().enumerate() {
+            for k in 0..n {
+                let step = &mut self.steps[k];
                 step.phi = step.phi + moves[k];
                 step.h = step.h + (moves[k + 1] - moves[k]);
-                step.rows = machine.rows(step.phi, step.h, m, &mut self.given);
+                self.take_rows(machine, k, m);
             }
             self.correction = zero.select_lt(most, R::splat(f64::INFINITY), self.correction);
         }
