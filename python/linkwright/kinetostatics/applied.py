@@ -6,7 +6,7 @@ the body of its guide, a spring between the members that carry its ends.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -119,6 +119,15 @@ def applied(scene: Scene, load: Any) -> Applied:
     if kind in on_crankshaft:
         return Applied(Wrenches(scene), on_crankshaft[kind](scene, load))
     return Applied(on_members[kind](scene, load), np.zeros(scene.n))
+
+
+def together(scene: Scene, sources: Iterable[Applied]) -> Applied:
+    """The sum of several loads."""
+    found = Applied(Wrenches(scene), np.zeros(scene.n))
+    for each in sources:
+        found.wrenches.values += each.wrenches.values
+        found.resisting += each.resisting
+    return found
 
 
 def _sense(rate: Floats, size: float, scene: Scene) -> Floats:

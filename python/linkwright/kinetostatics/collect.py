@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.errors import FindingError
-from linkwright.kinetostatics.applied import Applied
+from linkwright.kinetostatics.applied import Applied, together
 from linkwright.kinetostatics.equilibrium import Solution
 from linkwright.kinetostatics.pairs import PairModel
 from linkwright.kinetostatics.places import Scene, cross
@@ -35,6 +35,8 @@ class Collector:
         Its pairs and drives.
     sources : dict of str to Applied
         What acts, by name.
+    columns : dict of str to Applied
+        The same, or its sum: a column each of the solution.
     solution : Solution
         The unknowns.
 
@@ -45,9 +47,15 @@ class Collector:
     """
 
     def __init__(
-        self, scene: Scene, models: list[PairModel], sources: dict[str, Applied], solution: Solution
+        self,
+        scene: Scene,
+        models: list[PairModel],
+        sources: dict[str, Applied],
+        columns: dict[str, Applied],
+        solution: Solution,
     ) -> None:
-        self.scene, self.models, self.sources, self.solution = scene, models, sources, solution
+        self.scene, self.models, self.solution = scene, models, solution
+        self.sources, self.columns = sources, columns
         sizes = np.cumsum([0] + [len(model.unknowns) for model in models])
         self.spans = [slice(int(a), int(b)) for a, b in pairwise(sizes)]
         self.works = {model.name: model.unknowns[0].power() for model in models if model.kind in _DRIVES}
@@ -57,7 +65,7 @@ class Collector:
     def forces(self) -> Forces:
         """Everything, by name."""
         shares = {
-            name: self._contribution(k, name, each) for k, (name, each) in enumerate(self.sources.items())
+            name: self._contribution(k, name, each) for k, (name, each) in enumerate(self.columns.items())
         }
         total = self.solution.x.sum(axis=-1)
         spans = list(zip(self.models, self.spans, strict=True))
@@ -137,19 +145,25 @@ class Collector:
     def _powers(self, torque: Floats, total: Floats) -> dict[str, Floats]:
         """Power of drive, loads and friction, and change of kinetic energy."""
         speed = self.scene.motion.speed
-        by_source = {name: (s.wrenches.power() - s.resisting) * speed for name, s in self.sources.items()}
-        kinetic = -by_source.pop("inertia")
-        lost = by_source.pop("friction", np.zeros(self.scene.n))
+        others = dict(self.sources)
+        parts = (others.pop("inertia"), others.pop("friction", None), together(self.scene, others.values()))
+        inertia, friction, loads = (None if each is None else self._power(each) * speed for each in parts)
+        assert inertia is not None
+        lost = np.zeros(self.scene.n) if friction is None else friction
         for model, span in zip(self.models, self.spans, strict=True):
             if model.extra is not None and model.kind not in ("mesh", "rack"):
                 lost = lost + self._dry(span, total) * model.rate
-        loads = np.sum([np.zeros(self.scene.n), *by_source.values()], axis=0)
         return {
             "power_drive": torque * speed,
             "power_load": loads,
             "power_friction": lost,
-            "power_kinetic": kinetic,
+            "power_kinetic": -inertia,
         }
+
+    def _power(self, source: Applied) -> Floats:
+        """Work of a source in a radian of the crank."""
+        found: Floats = source.wrenches.power() - source.resisting
+        return found
 
     def _slack(self, pairs: dict[str, PairForce]) -> list[str]:
         """Cables that would have to push."""

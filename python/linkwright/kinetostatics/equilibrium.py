@@ -82,9 +82,12 @@ class Equilibrium:
         moments = np.array([each for model in models for each in model.moments])
         self.column_scale = np.where(moments, scene.size, 1.0)
         self.base = self._matrix([each.values for model in models for each in model.unknowns], row_scale)
-        none = np.zeros_like(loads[..., 0])
-        extras = [none if model.extra is None else model.extra.values for model in models]
-        self.extras = self._matrix(extras, row_scale)
+        self.extras = [
+            None
+            if model.extra is None or not model.is_nonlinear
+            else self._matrix([model.extra.values], row_scale)
+            for model in models
+        ]
         self.b = loads.reshape(len(loads), -1, loads.shape[-1])[:, self.rows] * row_scale[:, None]
 
     def _matrix(self, columns: list[Floats], row_scale: Floats) -> Floats:
@@ -155,8 +158,9 @@ class Equilibrium:
         """x of A x = −b at some angles, (n, unknowns, sources), and where it is unbounded."""
         A = self.base.copy()
         for k, span in enumerate(self.spans):
-            if self.models[k].is_nonlinear:
-                A[:, :, span] += self.extras[:, :, k, None] * slopes[:, None, span]
+            extra = self.extras[k]
+            if extra is not None:
+                A[:, :, span] += extra * slopes[:, None, span]
         A = (A * self.column_scale)[where]
         # Numbers without any pattern that a mechanism could have: squares of whole numbers, in radians.
         random = np.cos(np.arange(1.0, A.shape[1] * _PROBES + 1) ** 2).reshape(A.shape[1], _PROBES)

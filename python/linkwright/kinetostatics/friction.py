@@ -36,6 +36,14 @@ class Friction:
     viscous: float = 0.0
     length: float = 0.0
 
+    @property
+    def acts(self) -> bool:
+        """Whether there is any."""
+        return bool(self.coefficient or self.viscous)
+
+
+FRICTIONLESS = Friction()
+
 
 def checked(friction: Mapping[str, Friction], pairs: Mapping[str, Pair]) -> dict[str, Friction]:
     """Friction by pair, with names and numbers that make sense.

@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.kinetostatics.friction import Friction
+from linkwright.kinetostatics.friction import FRICTIONLESS, Friction
 from linkwright.kinetostatics.places import Scene, dot, left
 from linkwright.kinetostatics.wrench import Wrenches
 from linkwright.linkages.model.element import Gear
@@ -118,7 +118,7 @@ def pair_models(scene: Scene, friction: dict[str, Friction], pressure_angle: flo
     """
     spread = float(np.tan(pressure_angle))
     known = scene.structure.pairs.values()
-    made = [_model(scene, pair, friction.get(pair.name, Friction()), spread) for pair in known]
+    made = [_model(scene, pair, friction.get(pair.name, FRICTIONLESS), spread) for pair in known]
     return made + [_drive(scene, drive) for drive in scene.structure.drives]
 
 
@@ -150,6 +150,8 @@ def _pin(scene: Scene, pair: Pair, friction: Friction) -> PairModel:
         force = np.zeros((scene.n, 2))
         force[:, axis] = 1.0
         unknowns.append(Wrenches(scene).between(pair.first, pair.second, force, place))
+    if not friction.acts:
+        return _without_friction(scene, pair.name, "pin", pair.second, *unknowns)
     one = np.ones(scene.n)
     extra = Wrenches(scene).couple(pair.second, one).couple(pair.first, -one)
     rate, sense = _moving(scene, scene.turning(pair.second) - scene.turning(pair.first), 1.0)
@@ -160,14 +162,17 @@ def _guide(scene: Scene, pair: Pair, friction: Friction) -> PairModel:
     assert pair.guide is not None
     t = scene.direction(pair.guide)
     none = np.zeros(scene.n)
-    normal = Wrenches(scene).on_guide(pair, left(t), none)
-    extra = Wrenches(scene).on_guide(pair, t, none)
-    # The speed along the guide is the power of a unit of force between block and guide.
-    rate, sense = _moving(scene, extra.power(), scene.size)
-    unknowns = [normal]
+    unknowns = [Wrenches(scene).on_guide(pair, left(t), none)]
     if scene.structure.members[pair.second].turns:
         unknowns.append(Wrenches(scene).on_guide(pair, 0 * t, np.ones(scene.n)))
     moments = (False, True)[: len(unknowns)]
+    if not friction.acts:
+        found = _without_friction(scene, pair.name, "guide", pair.second, *unknowns)
+        found.moments = moments
+        return found
+    extra = Wrenches(scene).on_guide(pair, t, none)
+    # The speed along the guide is the power of a unit of force between block and guide.
+    rate, sense = _moving(scene, extra.power(), scene.size)
     return PairModel(pair.name, "guide", pair.second, unknowns, moments, extra, rate, sense, friction)
 
 
@@ -175,6 +180,8 @@ def _slot(scene: Scene, pair: Pair, friction: Friction) -> PairModel:
     assert pair.guide is not None
     t, place = scene.direction(pair.guide), scene.point(pair.point)
     normal = Wrenches(scene).between(pair.first, pair.second, left(t), place)
+    if not friction.acts:
+        return _without_friction(scene, pair.name, "slot", pair.second, normal)
     extra = Wrenches(scene).between(pair.first, pair.second, t, place)
     rate, sense = _moving(scene, extra.power(), scene.size)
     return PairModel(pair.name, "slot", pair.second, [normal], (False,), extra, rate, sense, friction)
@@ -237,9 +244,9 @@ def with_pulls(scene: Scene, models: list[PairModel], x: Floats) -> bool:
     return changed
 
 
-def _without_friction(scene: Scene, name: str, kind: str, second: str, unknown: Wrenches) -> PairModel:
-    still = np.zeros(scene.n)
-    return PairModel(name, kind, second, [unknown], (False,), None, still, still, Friction())
+def _without_friction(scene: Scene, name: str, kind: str, second: str, *unknowns: Wrenches) -> PairModel:
+    still, forces = np.zeros(scene.n), (False,) * len(unknowns)
+    return PairModel(name, kind, second, list(unknowns), forces, None, still, still, FRICTIONLESS)
 
 
 # -- teeth ---------------------------------------------------------------------------------------------------

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -82,6 +84,15 @@ class Scene:
     def turning(self, member: str, order: int = 1) -> Floats:
         """First or second derivative of a member's angle by the crank angle, (n,)."""
         return np.zeros(self.n) if member == FRAME else self.angle(self.structure.members[member].link, order)
+
+    @cached_property
+    def rates(self) -> Floats:
+        """First derivatives of the members' places and angles, (n, members + 1, 3); zero for the frame."""
+        found = np.zeros((self.n, len(self.index), 3))
+        for name, i in self.index.items():
+            if name != FRAME:
+                found[:, i, :2], found[:, i, 2] = self.reference(name, 1), self.turning(name)
+        return found
 
     def moved(self, member: str, place: Floats) -> Floats:
         """First derivative, by the crank angle, of the place (n, 2) as a point of a member."""

@@ -80,11 +80,7 @@ class Wrenches:
 
     def power(self) -> Floats:
         """Σ F·p′ + M ψ′ over the members, (n,) [N m]; times the speed it is power."""
-        total = np.zeros(self.scene.n)
-        for name, i in self.scene.index.items():
-            if name != FRAME:
-                total += (self.values[:, i, :2] * self.scene.reference(name, 1)).sum(axis=-1)
-                total += self.values[:, i, 2] * self.scene.turning(name)
+        total: Floats = np.einsum("nmc,nmc->n", self.values, self.scene.rates)
         return total
 
 

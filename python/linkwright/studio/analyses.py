@@ -194,7 +194,9 @@ def _forces(machine: Machine, steady: SteadyState, every: int) -> Any:
     """Forces along the steady motion, at some of its angles."""
     some = slice(None, None, every)
     curves = (steady.crank_angle, steady.speed, steady.acceleration, steady.time)
-    return forces(machine, Motion(*(np.ascontiguousarray(curve[some]) for curve in curves)))
+    return forces(
+        machine, Motion(*(np.ascontiguousarray(curve[some]) for curve in curves)), contributions=False
+    )
 
 
 def beside(machine: Machine, lane: str) -> Answers:

@@ -17,6 +17,7 @@ from typing import Any
 from anyio import to_thread
 
 from linkwright.kernel.errors import LinkwrightError, MachineError, Problem
+from linkwright.machine.address import replace
 from linkwright.machine.machine import Machine
 from linkwright.machine.read import loads
 from linkwright.studio.analyses import chips, failed, fast, lanes
@@ -52,6 +53,8 @@ class Session:
     def __init__(self, folder: Folder, send: Callable[[bytes], Any]) -> None:
         self.folder, self.send = folder, send
         self.text, self.place, self.name = "", "", ""
+        # The last text that was sound, with its path and its machine.
+        self.sound: tuple[str, str, Machine] | None = None
         self.newest: tuple[int, Body] | None = None
         self.others: asyncio.Queue[tuple[int, Body]] = asyncio.Queue(_WAITING)
         self.changed, self.quiet = asyncio.Event(), asyncio.Event()
@@ -128,7 +131,7 @@ class Session:
             if not held and entries:
                 self.text, entries = changed(self.text, entries), {}
                 answer["text"] = self.text
-            machine = loads(self.text, entries, path=base(self.folder, self.place, self.name))
+            machine = self._machine(entries)
             answer |= fast(machine, held=held).body() | {"machine": machine.name}
         except LinkwrightError as error:
             answer |= {"problems": _problems(error)} if machine is None else failed(error).body()
@@ -138,9 +141,25 @@ class Session:
         due = (number, self.text, lanes(machine)) if machine is not None and not held else None
         return packed(number, answer), due
 
+    def _machine(self, entries: dict[str, Any]) -> Machine:
+        """The machine of the text with other entries; of a sound text they alone are read anew."""
+        path = base(self.folder, self.place, self.name)
+        if self.sound is None or self.sound[:2] != (self.text, path):
+            self.sound = None
+            if not entries:
+                self.sound = (self.text, path, loads(self.text, path=path))
+                return self.sound[2]
+        elif all(type(value) in (int, float) for value in entries.values()):
+            try:
+                return replace(self.sound[2], entries) if entries else self.sound[2]
+            except LinkwrightError:
+                # Read as a file, they tell their places in it.
+                pass
+        return loads(self.text, entries, path=path)
+
     def _dragged(self, pull: Body, entries: dict[str, Any]) -> Body:
         """The entries that follow a joint; they are put to the others."""
-        start = loads(self.text, path=base(self.folder, self.place, self.name))
+        start = self._machine({})
         place = (float(pull["x"]), float(pull["y"]))
         locked = frozenset(map(str, pull.get("locked", ())))
         found = drag(start, str(pull["point"]), place, float(pull["angle"]), locked)

@@ -47,4 +47,10 @@ def arrays(node: object, place: tuple[str, ...] = ()) -> Iterator[tuple[tuple[st
     if isinstance(node, np.ndarray):
         yield place, node
     for key in keys(node):
-        yield from arrays(look(node, key), (*place, key))
+        below = look(node, key)
+        # Nearly all entries are plain values.
+        if type(below) not in _PLAIN:
+            yield from arrays(below, (*place, key))
+
+
+_PLAIN = frozenset((float, int, str, bool, type(None)))

@@ -38,6 +38,9 @@ else:
     Cam = deferred_model("cam.model.cam", "Cam")
 
 
+_ORIGIN = FixedPoint(x=0.0, y=0.0)
+
+
 class Link(NamedTuple):
     """A link of a mechanism: the rigid body between two of its points.
 
@@ -109,7 +112,7 @@ class Mechanism(Description):
     def fixed_points(self) -> dict[str, FixedPoint]:
         """The points at rest by name, with the origin."""
         bears = any(ORIGIN in getattr(self, table) for table in TABLES)
-        return ({} if bears else {ORIGIN: FixedPoint(x=0.0, y=0.0)}) | self.points
+        return ({} if bears else {ORIGIN: _ORIGIN}) | self.points
 
     def moving_points(self) -> tuple[str, ...]:
         """Names of the points that move."""

@@ -1,6 +1,6 @@
 // One plot: curves over one abscissa in the user's units, the machine's instant as a line, one cursor in all plots of that abscissa.
 import { html } from "./html.js";
-import { useEffect, useRef } from "./vendor/hooks.mjs";
+import { useEffect, useLayoutEffect, useRef } from "./vendor/hooks.mjs";
 import { followers } from "./stage.js";
 import * as state from "./state.js";
 import { colours } from "./theme.js";
@@ -65,16 +65,20 @@ export function Chart({ plot }) {
   const chart = useRef(/** @type {any} */ (null));
   const now = useRef(plot);
   now.current = plot;
+  // What is not seen is drawn when it comes into sight.
+  const seen = useRef({ is: true, drawn: plot });
   // Another look, another unit or another number of curves needs axes of its own.
   const form = [plot.key, plot.curves.length, shownUnit(plot.x.unit, state.units.value).unit, shownUnit(plot.unit, state.units.value).unit, state.look.value].join("|");
   useEffect(() => {
     const element = /** @type {HTMLDivElement} */ (holder.current);
     const made = new uPlot(options(plot, Math.max(element.clientWidth, 160)), rows(plot), element);
     chart.current = made;
+    seen.current.drawn = plot;
     const line = document.createElement("div");
     line.className = "instant-line";
     made.over.append(line);
     const follow = () => {
+      if (!seen.current.is) return;
       const value = valueOf(now.current);
       const { factor } = shownUnit(now.current.x.unit, state.units.value);
       line.hidden = value === null;
@@ -91,20 +95,30 @@ export function Chart({ plot }) {
       state.time.value = instant;
     };
     made.over.addEventListener("click", scrub);
+    const watch = new IntersectionObserver(([entry]) => {
+      seen.current.is = entry.isIntersecting;
+      refresh();
+    });
+    watch.observe(element);
     const observer = new ResizeObserver(() => made.setSize({ width: Math.max(element.clientWidth, 160), height: HEIGHT }));
     observer.observe(element);
     follow();
     return () => {
       followers.delete(follow);
+      watch.disconnect();
       observer.disconnect();
       made.destroy();
       chart.current = null;
     };
   }, [form]);
-  useEffect(() => {
+  function refresh() {
     const made = chart.current;
-    if (made) made.setData(rows(plot), !isZoomed(made));
-  }, [plot]);
+    if (!made || !seen.current.is || seen.current.drawn === now.current) return;
+    seen.current.drawn = now.current;
+    made.setData(rows(now.current), !isZoomed(made));
+  }
+  // In the frame of the answer, not in the one after it.
+  useLayoutEffect(refresh, [plot]);
   return html`<div class="chart" ref=${holder} data-plot=${plot.key} role="img" aria-label="Plot of ${plot.title}; its numbers stand in the data table"></div>`;
 }
 

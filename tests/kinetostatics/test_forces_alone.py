@@ -1,0 +1,24 @@
+"""Forces without the shares of each load are the same forces."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.kinetostatics.friction import Friction
+
+
+@pytest.mark.parametrize("friction", [None, {"cart1": Friction(coefficient=0.1, radius=0.02, viscous=3.0)}])
+def test_the_sum_is_solved_as_the_shares_are(friction: dict[str, Friction] | None) -> None:
+    machine = lw.read("roller_two_carts")
+    whole = lw.forces(machine, friction=friction)
+    alone = lw.forces(machine, friction=friction, contributions=False)
+    assert whole.contributions
+    assert not alone.contributions
+    for name in ("torque_drive", "shaking_force", "shaking_moment", "power_load", "power_friction"):
+        wanted = getattr(whole, name)
+        # Sums in another order.
+        assert getattr(alone, name) == pytest.approx(wanted, abs=1e-9 * (1 + np.abs(wanted).max()))
+    for name, pair in whole.pairs.items():
+        assert alone.pairs[name].force == pytest.approx(pair.force, abs=1e-9 * np.abs(pair.force).max())
