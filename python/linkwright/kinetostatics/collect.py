@@ -146,18 +146,16 @@ class Collector:
         """Power of drive, loads and friction, and change of kinetic energy."""
         speed = self.scene.motion.speed
         others = dict(self.sources)
-        parts = (others.pop("inertia"), others.pop("friction", None), together(self.scene, others.values()))
-        inertia, friction, loads = (None if each is None else self._power(each) * speed for each in parts)
-        assert inertia is not None
-        lost = np.zeros(self.scene.n) if friction is None else friction
+        inertia, friction = others.pop("inertia"), others.pop("friction", None)
+        lost = np.zeros(self.scene.n) if friction is None else self._power(friction) * speed
         for model, span in zip(self.models, self.spans, strict=True):
             if model.extra is not None and model.kind not in ("mesh", "rack"):
                 lost = lost + self._dry(span, total) * model.rate
         return {
             "power_drive": torque * speed,
-            "power_load": loads,
+            "power_load": self._power(together(self.scene, others.values())) * speed,
             "power_friction": lost,
-            "power_kinetic": -inertia,
+            "power_kinetic": -self._power(inertia) * speed,
         }
 
     def _power(self, source: Applied) -> Floats:
