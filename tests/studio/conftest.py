@@ -19,7 +19,7 @@ from linkwright.studio.server import Studio
 from linkwright.studio.wire import packed
 
 # Seconds that an answer may take on a machine that does other things too.
-PATIENCE = 60
+PATIENCE = 180
 
 
 class Served(NamedTuple):

@@ -15,6 +15,7 @@ References
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import product
 from typing import Annotated, Any
@@ -77,7 +78,9 @@ class Optimum(Result):
 
 
 @public
-def optimise(plan: StudyPlan, evaluations: int = 4000, *, seed: int = 0) -> Optimum:
+def optimise(
+    plan: StudyPlan, evaluations: int = 4000, *, seed: int = 0, watch: Callable[..., None] | None = None
+) -> Optimum:
     """Seek the machine that is best by the goal of a study and keeps its constraints.
 
     Parameters
@@ -88,6 +91,9 @@ def optimise(plan: StudyPlan, evaluations: int = 4000, *, seed: int = 0) -> Opti
         Machines that each combination of choices may take, 10 to 10⁷.
     seed : int
         Seed of the random generator; the same seed gives the same search.
+    watch : callable, optional
+        Told after each population how many machines were computed, the best value of the goal, None as long
+        as no machine keeps the limits, and the values of that machine's variables [SI].
 
     Returns
     -------
@@ -102,7 +108,7 @@ def optimise(plan: StudyPlan, evaluations: int = 4000, *, seed: int = 0) -> Opti
         No machine has an answer and keeps the constraints; says what fails.
     """
     _check(plan, evaluations)
-    search = _Search(plan, *next(iter(plan.study.goals.items())))
+    search = _Search(plan, *next(iter(plan.study.goals.items())), watch)
     choices = [each for each in plan.axes if each.choices]
     for shares in product(*(each.levels for each in choices)):
         search.run({each.name: float(s) for each, s in zip(choices, shares, strict=True)}, evaluations, seed)
@@ -132,8 +138,8 @@ def _check(plan: StudyPlan, evaluations: int) -> None:
 class _Search:
     """The best machine so far, and what was computed on the way."""
 
-    def __init__(self, plan: StudyPlan, goal: str, direction: str) -> None:
-        self.plan, self.goal = plan, goal
+    def __init__(self, plan: StudyPlan, goal: str, direction: str, watch: Callable[..., None] | None) -> None:
+        self.plan, self.goal, self.watch = plan, goal, watch
         self.sign = 1.0 if direction == "minimise" else -1.0
         self.best: tuple[tuple[int, float], Floats] | None = None
         self.tried: list[dict[str, Any]] = []
@@ -180,6 +186,10 @@ class _Search:
         at = min(range(len(keys)), key=keys.__getitem__)
         if self.best is None or keys[at] < self.best[0]:
             self.best = (keys[at], points[at].copy())
+        if self.watch is not None:
+            (rank, value), best = self.best
+            at_best = {name: float(column[0]) for name, column in self.plan.values(best[None]).items()}
+            self.watch(self.count, self.sign * value if rank == 0 else None, at_best)
         return keys
 
     def _key(self, rows: Rows, row: int) -> tuple[int, float]:

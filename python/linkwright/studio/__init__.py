@@ -17,6 +17,8 @@ No mechanics is computed here: the studio asks the rooms of the subjects, and th
 | `drawing` | The drawing with rates, forces and handles |
 | `handles` | Points that can be dragged, and the entries that follow |
 | `drag` | Which lengths bring a point to a place, and where the linkage no longer closes |
+| `design` | What entries do to a result, and which entries bring it to a value |
+| `search` | Sweeps and optimisations of the machine, in the process beside |
 | `controls` | Controls of all entries, from the descriptions |
 | `document` | The text of the file: changes that keep comments |
 | `files` | Files below the folder, library, templates |

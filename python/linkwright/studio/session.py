@@ -16,12 +16,16 @@ from typing import Any
 
 from anyio import to_thread
 
+from linkwright.kernel.description.schema_walk import annotation_at, mark_of
+from linkwright.kernel.description.text import split
 from linkwright.kernel.errors import LinkwrightError, MachineError, Problem
-from linkwright.machine.address import replace
+from linkwright.kernel.units import Quantity
+from linkwright.machine.address import get, replace
 from linkwright.machine.machine import Machine
 from linkwright.machine.read import loads
 from linkwright.studio.analyses import chips, failed, fast, lanes
 from linkwright.studio.controls import controls
+from linkwright.studio.design import reach, slopes
 from linkwright.studio.document import changed
 from linkwright.studio.drag import drag
 from linkwright.studio.drawing import thumbnail
@@ -61,15 +65,20 @@ class Session:
         # Number and text that slow analyses are due for, and which of them the user stopped.
         self.due: tuple[int, str, list[str]] | None = None
         self.worker, self.running, self.stopped = Worker(), "", False
+        # Searches have a process of their own: they go on while the machine changes.
+        self.searcher: Worker = Worker()
+        self.search: tuple[int, Body] | None = None
+        self.sought = asyncio.Event()
 
     async def run(self) -> None:
         """Answer until cancelled."""
         try:
             async with asyncio.TaskGroup() as tasks:
-                for lane in (self._compute, self._answer, self._beside):
+                for lane in (self._compute, self._answer, self._beside, self._search):
                     tasks.create_task(lane())
         finally:
             await self.worker.end()
+            await self.searcher.end()
 
     def take(self, message: bytes) -> None:
         """Take one message of the page.
@@ -88,6 +97,11 @@ class Session:
         if body["ask"] == "compute":
             self.newest = (number, body)
             self.changed.set()
+        elif body["ask"] == "search":
+            self.search = (number, body)
+            self.sought.set()
+        elif body["ask"] == "end search":
+            asyncio.ensure_future(self.searcher.end())  # noqa: RUF006 (as of what is stopped)
         elif body["ask"] == "stop":
             asyncio.ensure_future(self._stop())  # noqa: RUF006 (it ends a process, and is not waited for)
         else:
@@ -128,6 +142,8 @@ class Session:
         try:
             if isinstance(pull := body.get("drag"), dict):
                 answer |= self._dragged(pull, entries)
+            if isinstance(pull := body.get("reach"), dict):
+                answer |= self._reached(pull, entries)
             if not held and entries:
                 self.text, entries = changed(self.text, entries), {}
                 answer["text"] = self.text
@@ -142,19 +158,19 @@ class Session:
         return packed(number, answer), due
 
     def _machine(self, entries: dict[str, Any]) -> Machine:
-        """The machine of the text with other entries; of a sound text they alone are read anew."""
+        """The machine of the text with other entries.
+
+        Lengths, places and masses of a sound text are checked by their own bounds alone, and set;
+        whatever else may contradict other entries, and the whole is read.
+        """
         path = base(self.folder, self.place, self.name)
         if self.sound is None or self.sound[:2] != (self.text, path):
             self.sound = None
             if not entries:
                 self.sound = (self.text, path, loads(self.text, path=path))
                 return self.sound[2]
-        elif all(type(value) in (int, float) for value in entries.values()):
-            try:
-                return replace(self.sound[2], entries) if entries else self.sound[2]
-            except LinkwrightError:
-                # Read as a file, they tell their places in it.
-                pass
+        elif all(_stands_alone(self.sound[2], address, value) for address, value in entries.items()):
+            return replace(self.sound[2], entries) if entries else self.sound[2]
         return loads(self.text, entries, path=path)
 
     def _dragged(self, pull: Body, entries: dict[str, Any]) -> Body:
@@ -163,6 +179,13 @@ class Session:
         place = (float(pull["x"]), float(pull["y"]))
         locked = frozenset(map(str, pull.get("locked", ())))
         found = drag(start, str(pull["point"]), place, float(pull["angle"]), locked)
+        entries |= found.entries
+        return {"reason": found.reason}
+
+    def _reached(self, pull: Body, entries: dict[str, Any]) -> Body:
+        """The entries that follow a result; they are put to the others."""
+        free = {str(address): (float(low), float(high)) for address, (low, high) in pull["free"].items()}
+        found = reach(self._machine({}), str(pull["of"]), float(pull["value"]), free)
         entries |= found.entries
         return {"reason": found.reason}
 
@@ -228,6 +251,25 @@ class Session:
             for lane in due[2]:
                 await self.send(packed(due[0], {"of": "stopped", "lane": lane}))
 
+    # -- searches ------------------------------------------------------------------------------------------
+
+    async def _search(self) -> None:
+        """Run the sweep or the optimisation that was asked for last, and send what it finds on its way."""
+        while True:
+            await self.sought.wait()
+            self.sought.clear()
+            if self.search is None:
+                continue
+            (number, body), self.search = self.search, None
+            path = base(self.folder, self.place, self.name)
+            job = {"number": number, "lane": "search", "text": self.text, "path": path, "search": body}
+            is_ended = True
+            async for message in self.searcher.messages(job):
+                await self.send(message)
+                is_ended = False
+            if is_ended or self.searcher.is_ended:
+                await self.send(packed(number, {"of": "search", "ended": True}))
+
     # -- files -----------------------------------------------------------------------------------------------
 
     async def _answer(self) -> None:
@@ -248,6 +290,8 @@ class Session:
         ask = body["ask"]
         if ask == "gallery":
             return {"of": "gallery", "machines": gallery(self.folder), "folder": str(self.folder.root)}
+        if ask == "slopes":
+            return {"of": "slopes", **slopes(self._machine({}), str(body.get("response", "")))}
         place, name = str(body.get("place", "folder")), str(body.get("name", ""))
         if ask == "open":
             text = opened(self.folder, place, name)
@@ -260,6 +304,15 @@ class Session:
             self.place, self.name = "folder", name
             return {"of": "saved", "name": name}
         return {"of": "refused", "words": f"{ask!r}: no such request"}
+
+
+def _stands_alone(machine: Machine, address: str, value: Any) -> bool:
+    """Whether a new value is sound, and is so whatever the other entries are."""
+    place = split(address)
+    if place[0] not in ("mechanism", "bodies") or type(value) is not float or machine.mechanism.cams:
+        return False
+    mark = mark_of(annotation_at(Machine, place, machine))
+    return isinstance(mark, Quantity) and isinstance(get(machine, address), float) and mark.holds(value)
 
 
 def _internal(number: int, error: Exception) -> bytes:

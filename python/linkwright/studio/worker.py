@@ -1,6 +1,7 @@
 """What runs beside a session, in a process of its own, so that it never holds up a slider and can be ended.
 
-It reads one line of JSON a job and answers with the length of a body and the body, as `wire` packs it.
+It reads one line of JSON a job and answers with bodies as `wire` packs them, each behind its length and
+whether it is the last.
 """
 
 from __future__ import annotations
@@ -11,9 +12,12 @@ import os
 import struct
 import sys
 from asyncio.subprocess import PIPE, Process
+from collections.abc import AsyncIterator
+from functools import partial
 from typing import Any
 
-_LENGTH = struct.Struct("<I")
+# Length of a body, and whether it is the last of its job.
+_HEAD = struct.Struct("<I?")
 
 # A job is a machine file and some entries.
 _LINE_BYTES = 4_000_000
@@ -29,15 +33,29 @@ def main() -> None:
     # The page has nothing of what a library might print.
     out = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
+
+    def send(number: int, found: dict[str, Any], *, is_last: bool) -> None:
+        body = packed(number, found)
+        out.write(_HEAD.pack(len(body), is_last) + body)
+        out.flush()
+
     for line in sys.stdin.buffer:
         job = json.loads(line)
+        number, lane = job["number"], job["lane"]
         try:
-            found = beside(loads(job["text"], path=job["path"]), job["lane"])
+            machine = loads(job["text"], path=job["path"])
+            if lane == "search":
+                from linkwright.studio.search import search
+
+                found = search(machine, job["search"], partial(send, number, is_last=False))
+            else:
+                found = {"of": "beside", "lane": lane, **beside(machine, lane).body()}
         except LinkwrightError as error:
-            found = failed(error)
-        body = packed(job["number"], {"of": "beside", "lane": job["lane"], **found.body()})
-        out.write(_LENGTH.pack(len(body)) + body)
-        out.flush()
+            if lane == "search":
+                found = {"of": "search", "ended": True, "words": str(error)}
+            else:
+                found = {"of": "beside", "lane": lane, **failed(error).body()}
+        send(number, found, is_last=True)
 
 
 class Worker:
@@ -45,6 +63,8 @@ class Worker:
 
     def __init__(self) -> None:
         self._process: Process | None = None
+        # Whether the last job was ended before its last message.
+        self.is_ended = False
 
     async def run(self, job: dict[str, Any]) -> bytes | None:
         """The message that answers a job; None if the process was ended, or ended by itself.
@@ -54,17 +74,32 @@ class Worker:
         job : dict
             ``number``, ``lane``, ``text`` and ``path``.
         """
+        found = None
+        async for message in self.messages(job):
+            found = message
+        return None if self.is_ended else found
+
+    async def messages(self, job: dict[str, Any]) -> AsyncIterator[bytes]:
+        """The messages that answer a job, as they come.
+
+        Parameters
+        ----------
+        job : dict
+            As of `run`; of a search, ``search`` besides.
+        """
         process = await self._running()
+        self.is_ended = is_last = False
         if process.stdin is None or process.stdout is None:
-            return None
+            return
         try:
             process.stdin.write(json.dumps(job).encode() + b"\n")
             await process.stdin.drain()
-            size = _LENGTH.unpack(await process.stdout.readexactly(_LENGTH.size))[0]
-            return await process.stdout.readexactly(size)
+            while not is_last:
+                size, is_last = _HEAD.unpack(await process.stdout.readexactly(_HEAD.size))
+                yield await process.stdout.readexactly(size)
         except (asyncio.IncompleteReadError, ConnectionError):
+            self.is_ended = True
             await self.end()
-            return None
 
     async def _running(self) -> Process:
         if self._process is None or self._process.returncode is not None:

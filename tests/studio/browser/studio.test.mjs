@@ -14,6 +14,7 @@ const ARGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run
 // A machine that does other things too may be slow; what fails, fails by this.
 const PATIENCE = 90_000;
 const RADIUS = "mechanism.cranks.A1.radius";
+const PHASE = "mechanism.cranks.A2.phase";
 
 let folder, server, browser, context, page, origin;
 const faults = [];
@@ -188,6 +189,70 @@ test("plots have their data and their files", async () => {
     assert.ok(download.suggestedFilename().endsWith(kind.toLowerCase()));
     assert.ok(statSync(await download.path()).size > 1000);
   }
+});
+
+test("a result is pulled, and the entries that follow give it on the command line too", async () => {
+  await page.evaluate((text) => globalThis.studio.write(text), readFileSync(`${ROOT}machines/roller_two_carts.toml`, "utf8"));
+  await known();
+  await page.getByRole("tab", { name: "Design" }).click();
+  await page.locator("#goal").selectOption("steady_state.unevenness");
+  await page.locator(`[data-free="${PHASE}"]`).check();
+  assert.match(await page.locator(`[data-slope="${PHASE}"]`).textContent(), /δ rises by [\d.]+ % per °/);
+  const before = await scalar("steady_state.unevenness");
+  const box = await page.locator("#pull").boundingBox();
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width * 0.55, box.y + box.height / 2);
+  await page.waitForFunction((old) => globalThis.studio.state.results.value[0].scalars.find(({ name }) => name === "unevenness").value > 1.02 * old, before);
+  await page.mouse.move(box.x + box.width * 0.6, box.y + box.height / 2);
+  await page.mouse.up();
+  await known();
+  const phase = await page.evaluate((of) => document.querySelector(`[data-slider="${of}"]`).value, PHASE);
+  const found = await scalar("steady_state.unevenness");
+  assert.ok(found > 1.1 * before);
+  near(found, JSON.parse(execFileSync(LINKWRIGHT, ["run", `${ROOT}machines/roller_two_carts.toml`, "--json", "--set", `${PHASE}=${phase} rad`], { encoding: "utf8" })).results.steady_state.unevenness);
+  await page.getByLabel("Wanted value").fill("0.001");
+  await page.getByLabel("Wanted value").press("Enter");
+  await page.locator(".design .problem").waitFor();
+});
+
+test("a pinned machine stays beside the one at hand", async () => {
+  await page.locator("#pin").click();
+  const pinned = await scalar("steady_state.unevenness");
+  await page.keyboard.press("Control+z");
+  await known();
+  assert.match(await page.locator("#variants").textContent(), /%/);
+  assert.equal(await page.evaluate(() => globalThis.studio.state.pins.value[0].scalars["steady_state.unevenness"]), pinned);
+  await page.getByRole("button", { name: "Back to it" }).click();
+  await known();
+  near(await scalar("steady_state.unevenness"), pinned);
+  await page.getByRole("button", { name: "Unpin Variant 1" }).click();
+});
+
+test("one entry is swept into a curve, two into a map, and a search ends where it is stopped", async () => {
+  const isDone = () => page.waitForFunction(() => globalThis.studio.state.search.value?.rows && globalThis.studio.state.search.value.done === globalThis.studio.state.search.value.rows);
+  await page.locator("#over-0").selectOption(PHASE);
+  await page.getByLabel("Values").fill("9");
+  await page.locator("#seek").click();
+  await isDone();
+  await page.getByRole("button", { name: "Use the minimum" }).click();
+  await known();
+  const values = await page.evaluate(() => Array.from(globalThis.studio.state.search.value.values).filter(Number.isFinite));
+  // The file has seven digits.
+  assert.ok(Math.abs((await scalar("steady_state.unevenness")) / Math.min(...values) - 1) < 1e-5);
+  await page.locator("#over-1").selectOption("bodies.cart1.mass");
+  await page.getByLabel("Values").fill("5");
+  await page.locator("#seek").click();
+  await page.locator(".heat canvas").waitFor();
+  await isDone();
+  await page.getByLabel("What is done").selectOption("optimise");
+  await page.locator("#seek").click();
+  await page.locator("#take").waitFor();
+  await page.getByRole("button", { name: "Stop", exact: true }).last().click();
+  await page.waitForFunction(() => globalThis.studio.state.search.value.ended || globalThis.studio.state.search.value.last);
+  await page.locator("#take").click();
+  await known();
+  assert.ok((await scalar("steady_state.unevenness")) < Math.min(...values));
 });
 
 test("axe finds nothing serious, in light and in dark", async () => {

@@ -1,5 +1,5 @@
 // What a user does, and what becomes of the answers.
-import { batch } from "./vendor/signals-core.mjs";
+import { batch, effect, signal } from "./vendor/signals-core.mjs";
 import { history } from "./history.js";
 import * as state from "./state.js";
 import { connect } from "./socket.js";
@@ -8,6 +8,9 @@ import { between, placeOf } from "./timeline.js";
 /** @typedef {import("./socket.js").Request} Request */
 
 const KEPT = "kept text";
+
+/** Grows with every machine that is no longer pulled at. */
+const turn = signal(0);
 let begun = 0;
 
 /** Hooks of the measurements in the tests: milliseconds from a change to the plots drawn anew. */
@@ -39,6 +42,7 @@ const HEAR = {
     if (body.lanes) begunLanes(body.lanes, !body.problems);
     state.live.value = body.controls === undefined ? body.set : {};
     if (body.machine !== undefined) state.machine.value = body.machine;
+    if (body.controls !== undefined) turn.value += 1;
     if (body.results) {
       atTheSameAngle(state.scene.value, body.scene);
       state.scene.value = body.scene;
@@ -52,6 +56,9 @@ const HEAR = {
   },
   stopped(body) {
     state.lanes.value = { ...state.lanes.value, [body.lane]: "stopped" };
+  },
+  search(body) {
+    state.search.value = { ...state.search.value, ...body };
   },
   refused(body) {
     state.message.value = body.words;
@@ -116,8 +123,43 @@ export function pull(drag, held = true) {
   compute({ held, drag: { ...drag, locked } });
 }
 
-/** Let go: what was held goes into the file. @param {Record<string, any>} set */
-export const settle = (set) => compute({ set });
+/** Let go: what was held goes into the file. @param {Record<string, any>} set @param {string} [text] another text in its place */
+export const settle = (set, text) => (text === undefined ? compute({ set }) : write(text));
+
+/** The result that is looked at goes to a value; entries follow within their limits. @param {number} value @param {Record<string, [number, number]>} free @param {boolean} held */
+export const to = (value, free, held) => compute({ held, reach: { of: state.goal.value, value, free } });
+
+/** The machine at hand stays beside those that follow. */
+export function pin() {
+  const names = new Set(state.pins.value.map(({ name }) => name));
+  let n = 1;
+  while (names.has(`Variant ${n}`)) n += 1;
+  const results = state.results.value;
+  const scalars = Object.fromEntries(results.flatMap(({ name, scalars: own }) => own.map((each) => [`${name}.${each.name}`, each.value])));
+  const plots = Object.fromEntries(results.flatMap(({ plots: own }) => own.map(({ key, x, curves }) => [key, { x: x.values, curves: Object.fromEntries(curves.map(({ name, values }) => [name, values])) }])));
+  state.pins.value = [...state.pins.value, { name: `Variant ${n}`, text: state.text.value, scalars, plots }];
+}
+
+/** @param {number} place */
+export const unpin = (place) => (state.pins.value = state.pins.value.filter((_, n) => n !== place));
+
+/** @param {object} asked */
+export function seek(asked) {
+  state.search.value = { ...asked, done: 0, rows: 0, course: { machines: [], best: [] }, axes: [], kind: "" };
+  link.send({ ask: "search", ...asked });
+}
+
+export const stopSearch = () => link.send({ ask: "end search" });
+
+// Derivatives follow the machine, and the result that is looked at.
+effect(() => {
+  const [response, now] = [state.goal.value, turn.value];
+  state.slopes.value = null;
+  if (!response || !now || state.problems.peek().length) return;
+  link.ask({ ask: "slopes", response }).then((body) => {
+    if (body.of === "slopes" && response === state.goal.value && now === turn.value) state.slopes.value = body;
+  });
+});
 
 /** The pose before the gesture. */
 export const letBack = () => compute({ text: state.text.value });
@@ -175,6 +217,9 @@ export function start({ place, name }, text, saved) {
     state.dialog.value = "";
     state.locks.value = {};
     state.ends.value = {};
+    state.free.value = {};
+    state.pins.value = [];
+    state.search.value = null;
   });
   globalThis.history.replaceState(null, "", place ? `#open=${place}/${encodeURIComponent(name)}` : "#");
   compute({ text });

@@ -4,9 +4,10 @@ import { render } from "./vendor/preact.mjs";
 import { useState } from "./vendor/hooks.mjs";
 import { effect } from "./vendor/signals-core.mjs";
 import "./vendor/signals.mjs";
-import { busy, hold, measured, open, redo, undo } from "./actions.js";
+import { busy, hold, measured, open, redo, undo, write } from "./actions.js";
 import { Chips, Findings } from "./chips.js";
 import { Controls } from "./controls.js";
+import { Design } from "./design.js";
 import { Dialog } from "./dialogs.js";
 import { Editor } from "./editor.js";
 import { Header, saveNow } from "./header.js";
@@ -50,7 +51,7 @@ function App() {
         <${Stage} /><${Playbar} /><${Chips} />
         <div class="below"><${Head} /><${Findings} /></div>
       </section>
-      <aside class="right" aria-label="Results"><${Tabs} name="results" tabs=${[["Plots", Plots], ["Numbers", Numbers], ["Diagrams", Diagrams]]} /></aside>
+      <aside class="right" aria-label="Results"><${Tabs} name="results" tabs=${[["Plots", Plots], ["Numbers", Numbers], ["Diagrams", Diagrams], ["Design", Design]]} /></aside>
     </main>
     <${Message} /><${Dialog} />`;
 }
@@ -85,6 +86,6 @@ addEventListener("keydown", (event) => {
 });
 
 // What the tests of the page measure.
-Object.assign(globalThis, { studio: { state, measured, frames, busy, hold, open } });
+Object.assign(globalThis, { studio: { state, measured, frames, busy, hold, open, write } });
 
 render(html`<${App} />`, /** @type {HTMLElement} */ (document.getElementById("app")));

@@ -21,6 +21,29 @@ export function rows(plot) {
   });
 }
 
+/** What is drawn: the rows, and those of pinned machines at the same abscissae; where there is no value, there is a gap. @param {Plot} plot @returns {any[]} */
+function drawn(plot) {
+  const pinned = state.pins.value.flatMap(({ plots }) => {
+    const old = plots[plot.key];
+    return old ? plot.curves.map(({ name, unit }) => within(old.x, old.curves[name], plot.x.values, shownUnit(unit, state.units.value).factor)) : [];
+  });
+  const own = rows(plot);
+  const whole = own.slice(1).map((row) => (row.every(Number.isFinite) ? row : Array.from(row, (value) => (Number.isFinite(value) ? value : null))));
+  return [own[0], ...whole, ...pinned];
+}
+
+/** A curve at other abscissae; null beyond its own. @param {Float64Array} xs @param {Float64Array | undefined} ys @param {Float64Array} at @param {number} factor */
+function within(xs, ys, at, factor) {
+  return Array.from(at, (x) => {
+    if (!ys || x < xs[0] || x > xs[xs.length - 1]) return null;
+    const value = between(ys, placeOf(xs, x)) / factor;
+    return Number.isFinite(value) ? value : null;
+  });
+}
+
+/** How often each curve of a plot is drawn dashed. @param {Plot} plot */
+const copies = (plot) => state.pins.value.filter(({ plots }) => plots[plot.key]).length;
+
 /** @param {string} symbol @param {string} word */
 export const short = (symbol, word) => symbol.replace(/_(.*)/, " $1") || word;
 
@@ -55,7 +78,11 @@ function options(plot, width) {
       { ...axis, values, label: `${short(plot.x.symbol, plot.x.word)}${x.unit && `, ${x.unit}`}`, labelSize: 18, labelFont: axis.font, size: 30 },
       { ...axis, values, size: 58 },
     ],
-    series: [{}, ...plot.curves.map((_, n) => ({ stroke: ink.series[n % ink.series.length], width: 1.8, spanGaps: false }))],
+    series: [
+      {},
+      ...plot.curves.map((_, n) => ({ stroke: ink.series[n % ink.series.length], width: 1.8, spanGaps: false })),
+      ...Array.from({ length: copies(plot) }, () => plot.curves.map((_, n) => ({ stroke: ink.series[n % ink.series.length], width: 1.1, dash: [5, 4], points: { show: false } }))).flat(),
+    ],
   };
 }
 
@@ -68,10 +95,10 @@ export function Chart({ plot }) {
   // What is not seen is drawn when it comes into sight.
   const seen = useRef({ is: true, drawn: plot });
   // Another look, another unit or another number of curves needs axes of its own.
-  const form = [plot.key, plot.curves.length, shownUnit(plot.x.unit, state.units.value).unit, shownUnit(plot.unit, state.units.value).unit, state.look.value].join("|");
+  const form = [plot.key, plot.curves.length, shownUnit(plot.x.unit, state.units.value).unit, shownUnit(plot.unit, state.units.value).unit, state.look.value, state.pins.value.map(({ name }) => name)].join("|");
   useEffect(() => {
     const element = /** @type {HTMLDivElement} */ (holder.current);
-    const made = new uPlot(options(plot, Math.max(element.clientWidth, 160)), rows(plot), element);
+    const made = new uPlot(options(plot, Math.max(element.clientWidth, 160)), drawn(plot), element);
     chart.current = made;
     seen.current.drawn = plot;
     const line = document.createElement("div");
@@ -115,7 +142,7 @@ export function Chart({ plot }) {
     const made = chart.current;
     if (!made || !seen.current.is || seen.current.drawn === now.current) return;
     seen.current.drawn = now.current;
-    made.setData(rows(now.current), !isZoomed(made));
+    made.setData(drawn(now.current), !isZoomed(made));
   }
   // In the frame of the answer, not in the one after it.
   useLayoutEffect(refresh, [plot]);

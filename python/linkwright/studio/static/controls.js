@@ -5,6 +5,7 @@ import { useComputed } from "./vendor/signals.mjs";
 import { hold, letBack, settle } from "./actions.js";
 import { Icon } from "./icons.js";
 import { Build, Remove, isElement } from "./build.js";
+import { effect } from "./slopes.js";
 import * as state from "./state.js";
 import { number, shownUnit, typed } from "./units.js";
 
@@ -14,7 +15,7 @@ import { number, shownUnit, typed } from "./units.js";
 const REACH = 2;
 
 /** Ends of a slider [SI]. @param {Entry} entry @returns {[number, number]} */
-function endsOf({ address, si, unit, bounds = {} }) {
+export function endsOf({ address, si, unit, bounds = {} }) {
   const own = state.ends.value[address];
   if (own) return own;
   const value = si ?? 0;
@@ -128,11 +129,21 @@ function Row({ entry, draggable }) {
   return html`
     <div class="row ${isPulled ? "pulled" : ""}">
       <label for="at ${address}" title=${about}>${key.replaceAll("_", " ")}</label>
-      ${draggable.has(address) ? html`<button class="lock" aria-pressed=${locked ? "true" : "false"} aria-label="Lock ${key} of ${address.split(".").at(-2)}" title=${locked ? "Locked: joints that are dragged leave it as it is" : "Follows joints that are dragged; lock it"}
-        onClick=${() => (state.locks.value = { ...state.locks.value, [address]: !locked })}><${Icon} name=${locked ? "locked" : "open"} /></button>` : null}
+      <span class="signs">${entry.holds === "quantity" ? html`<${Slope} entry=${entry} />` : null}${draggable.has(address) ? html`<button class="lock" aria-pressed=${locked ? "true" : "false"} aria-label="Lock ${key} of ${address.split(".").at(-2)}" title=${locked ? "Locked: joints that are dragged leave it as it is" : "Follows joints that are dragged; lock it"}
+        onClick=${() => (state.locks.value = { ...state.locks.value, [address]: !locked })}><${Icon} name=${locked ? "locked" : "open"} /></button>` : null}</span>
       ${entry.holds === "quantity" ? html`<${Quantity} entry=${entry} />` : html`<div class="field"><${Other} entry=${entry} /></div>`}
       <${Problems} address=${address} />
     </div>`;
+}
+
+/** What the entry does to the result that is looked at. @param {{ entry: Entry }} props */
+function Slope({ entry }) {
+  const slopes = state.slopes.value;
+  const slope = slopes?.slopes[entry.address];
+  if (!slopes || slope === undefined) return null;
+  const { share, words } = effect(slopes, slope, entry, state.units.value);
+  if (!share) return null;
+  return html`<span class="slope ${share < 0 ? "falls" : "rises"}" title=${words} data-slope=${entry.address}><i aria-hidden="true">${share < 0 ? "▼" : "▲"}</i><span aria-hidden="true">${number(100 * Math.abs(share), 2)} %</span><span class="hidden">${words}</span></span>`;
 }
 
 /** @param {{ group: Group }} props */

@@ -59,7 +59,8 @@ function run(holder, canvas) {
       each.width = Math.max(1, Math.round(width * ratio));
       each.height = Math.max(1, Math.round(height * ratio));
     }
-    own = "";
+    if (state.scene.value) frame = fit(state.scene.value.box, width, height);
+    stillFor = null;
     dirty = true;
   }
   const observer = new ResizeObserver(sized);

@@ -72,6 +72,18 @@ export const locks = signal({});
 export const hidden = kept("hidden", /** @type {Record<string, boolean>} */ ({}));
 export const ends = signal(/** @type {Record<string, [number, number]>} */ ({}));
 
+// -- design
+/** The result whose derivatives stand beside the entries; empty for none. */
+export const goal = kept("goal", "");
+/** @type {Signal<import("./types.js").Slopes | null>} */
+export const slopes = signal(null);
+/** Entries that follow the result that is pulled. @type {Signal<Record<string, boolean>>} */
+export const free = signal({});
+/** @type {Signal<import("./types.js").Pin[]>} */
+export const pins = signal([]);
+/** What the last sweep or search has found so far. @type {Signal<any>} */
+export const search = signal(null);
+
 // -- the instant
 export const playing = signal(!matchMedia("(prefers-reduced-motion: reduce)").matches);
 export const time = signal(0);

@@ -34,4 +34,9 @@
  * @typedef {{ place: string, name: string, title: string }} Listed
  */
 
+/**
+ * @typedef {{ response: string, word: string, symbol: string, unit: string, value: number, slopes: Record<string, number>, tie: string, responses: string[] }} Slopes
+ * @typedef {{ name: string, text: string, scalars: Record<string, number>, plots: Record<string, { x: Float64Array, curves: Record<string, Float64Array> }> }} Pin
+ */
+
 export {};

@@ -1,0 +1,122 @@
+"""Sweeps and optimisations of the machine on the page: studies made of its entries, told as they go on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from time import monotonic
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.errors import InputError
+from linkwright.machine.machine import Machine
+from linkwright.studies.engine import SOLVED, evaluate
+from linkwright.studies.model.study import StudyFile
+from linkwright.studies.optimise import optimise
+from linkwright.studies.plan import StudyPlan, plan
+from linkwright.studio.document import short
+
+Floats = NDArray[np.float64]
+Body = dict[str, Any]
+Tell = Callable[[Body], None]
+
+# Values of a curve, and of each entry of a map, at most; machines of a search.
+_VALUES, _SIDE, _MACHINES = 401, 61, 20_000
+
+# Rows that are computed before the page is told, and seconds between two tellings of a search.
+_ROWS, _PAUSE = 64, 0.15
+
+
+def search(machine: Machine, asked: Body, tell: Tell) -> Body:
+    """Compute a curve or a map over entries, or the best machine.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    asked : dict
+        ``kind``, ``"sweep"`` or ``"optimise"``; ``response``; ``entries``, each with ``address``, ``low`` and
+        ``high`` [SI]. Of a sweep, ``steps`` of each entry; of an optimisation ``direction``,
+        ``"minimise"`` or ``"maximise"``, and ``machines``.
+    tell : callable
+        Told what is there so far.
+
+    Returns
+    -------
+    dict
+        All of it: of a sweep ``axes`` and ``values``, NaN as gaps, with ``reasons`` of rows that fail; of an
+        optimisation ``entries``, address → value, ``value``, and how the search went on.
+    """
+    run = {"sweep": _sweep, "optimise": _optimise}.get(str(asked.get("kind")))
+    if run is None:
+        raise InputError("expected a sweep or an optimisation")
+    return run(machine, asked, tell)
+
+
+def _plan(machine: Machine, asked: Body, **more: Any) -> StudyPlan:
+    """The study that the page describes."""
+    entries = asked["entries"]
+    if not entries:
+        raise InputError("no entry varies; choose one")
+    variables = {
+        f"v{n}": {"address": each["address"], "range": (float(each["low"]), float(each["high"]))}
+        | ({"steps": int(each["steps"])} if "steps" in each else {})
+        for n, each in enumerate(entries)
+    }
+    tables = {"variables": variables, "responses": {"y": str(asked["response"])}, **more}
+    return plan(machine, StudyFile.model_validate(tables))
+
+
+def _sweep(machine: Machine, asked: Body, tell: Tell) -> Body:
+    """A grid over one entry or two."""
+    entries, most = asked["entries"], _VALUES if len(asked["entries"]) == 1 else _SIDE
+    if len(entries) > 2 or any(not 2 <= int(each["steps"]) <= most for each in entries):
+        raise InputError(f"steps: expected 2 to {most} of each of at most two entries")
+    study = _plan(machine, asked)
+    values = np.full(study.n_rows, np.nan)
+    reasons: dict[str, int] = {}
+    axes = [
+        {"address": each["address"], "values": np.linspace(each["low"], each["high"], int(each["steps"]))}
+        for each in entries
+    ]
+    done = 0
+    while True:
+        found = {"of": "search", "kind": "sweep", "response": asked["response"], "axes": axes}
+        found |= {"values": values, "done": done, "rows": len(values), "reasons": reasons}
+        if done == len(values):
+            return found
+        tell(found)
+        end = min(done + _ROWS, len(values))
+        rows = evaluate(study, study.rows(done, end))
+        values[done:end] = rows.columns["y"]
+        for place in rows.reason[rows.status != SOLVED]:
+            reasons[rows.reasons[place]] = reasons.get(rows.reasons[place], 0) + 1
+        done = end
+
+
+def _optimise(machine: Machine, asked: Body, tell: Tell) -> Body:
+    """The best machine within the limits of the entries."""
+    direction, machines = str(asked.get("direction")), min(int(asked.get("machines", 2000)), _MACHINES)
+    study = _plan(machine, asked, goals={"y": direction})
+    addresses = {f"v{n}": each["address"] for n, each in enumerate(asked["entries"])}
+    counts: list[int] = []
+    course: list[float] = []
+    told = [monotonic()]
+
+    def body(at: dict[str, float], value: float | None, **more: Any) -> Body:
+        entries = {addresses[name]: float(short(each)) for name, each in at.items()}
+        found = {"of": "search", "kind": "optimise", "response": asked["response"], "rows": machines}
+        found |= {"course": {"machines": np.array(counts, float), "best": np.array(course)}}
+        return found | {"done": counts[-1] if counts else 0, "entries": entries, "value": value, **more}
+
+    def watch(count: int, value: float | None, at: dict[str, float]) -> None:
+        counts.append(count)
+        course.append(np.nan if value is None else value)
+        if monotonic() - told[0] > _PAUSE:
+            told[0] = monotonic()
+            tell(body(at, value))
+
+    found = optimise(study, machines, watch=watch)
+    best = {name: float(value) for name, value in found.variables.items()}
+    return body(best, found.responses["y"], last=True, failed=found.n_failed)

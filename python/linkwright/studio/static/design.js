@@ -1,0 +1,228 @@
+// Design in place: pull a result and let entries follow, compare variants, sweep one or two entries, search for the best.
+import { html } from "./html.js";
+import { useState } from "./vendor/hooks.mjs";
+import { letBack, pin, seek, settle, stopSearch, to, unpin } from "./actions.js";
+import { Chart } from "./chart.js";
+import { endsOf } from "./controls.js";
+import { Heat } from "./heat.js";
+import { Sign } from "./numbers.js";
+import { effect, entryAt, named, ranked } from "./slopes.js";
+import * as state from "./state.js";
+import { number, shownUnit } from "./units.js";
+
+/** Entries that are listed first. */
+const FIRST = 8;
+
+/** Scalars that have derivatives: those of the steady motion. */
+const goals = () => (state.results.value.find(({ name }) => name === "steady_state")?.scalars ?? []).filter(({ name }) => {
+  const known = state.slopes.value?.responses;
+  return !known || known.includes(`steady_state.${name}`);
+});
+
+/** @param {{ children?: any, title: string }} props */
+const Section = ({ title, children }) => html`<section class="design" aria-label=${title}><h3>${title}</h3>${children}</section>`;
+
+function Goal() {
+  const found = goals();
+  const now = found.find(({ name }) => `steady_state.${name}` === state.goal.value);
+  return html`
+    <${Section} title="Pull a result">
+      <label class="line"><span>Result</span> <select id="goal" value=${state.goal.value} onChange=${(/** @type {any} */ { target }) => (state.goal.value = target.value)}>
+        <option value="">none</option>
+        ${found.map(({ name, word, symbol }) => html`<option key=${name} value="steady_state.${name}" selected=${`steady_state.${name}` === state.goal.value}>${word}${symbol ? `, ${symbol.replace("_", " ")}` : ""}</option>`)}
+      </select></label>
+      ${found.length ? null : html`<p class="about">A result can be pulled once there is a steady motion.</p>`}
+      ${now ? html`<${Pull} now=${now} />` : null}
+    <//>`;
+}
+
+/** @param {{ now: import("./types.js").Words & { value: number } }} props */
+function Pull({ now }) {
+  const { unit, factor } = shownUnit(now.unit, state.units.value);
+  // While it is pulled the ends stay where they were.
+  const [held, setHeld] = useState(/** @type {number | null} */ (null));
+  const from = held ?? now.value;
+  const free = follows();
+  const [low, high] = from >= 0 ? [0, 2 * from || 1] : [2 * from, 0];
+  const done = () => {
+    setHeld(null);
+    state.reason.value = "";
+  };
+  return html`
+    <div class="line"><span><${Sign} symbol=${now.symbol} /></span>
+      <input class="number" aria-label="Wanted value" inputmode="decimal" value=${number(now.value / factor, 6).replaceAll("−", "-")}
+        onChange=${(/** @type {any} */ { target }) => {
+          const value = Number(target.value.replaceAll("−", "-").replace(",", "."));
+          if (Number.isFinite(value)) to(value * factor, free, false);
+        }} /> <small>${unit}</small></div>
+    <input type="range" id="pull" step="any" min=${low} max=${high} value=${now.value} aria-label="Pull the result" aria-valuetext="${number(now.value / factor, 4)} ${unit}"
+      onInput=${(/** @type {any} */ { target }) => {
+        if (held === null) setHeld(now.value);
+        to(Number(target.value), free, true);
+      }}
+      onChange=${(/** @type {any} */ { target }) => {
+        done();
+        to(Number(target.value), free, false);
+      }}
+      onKeyDown=${(/** @type {any} */ event) => {
+        const way = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 }[/** @type {string} */ (event.key)];
+        if (event.key === "Escape") {
+          done();
+          letBack();
+        }
+        if (!way) return;
+        event.preventDefault();
+        to(now.value * (1 + (way * (event.shiftKey ? 10 : 1)) / 100), free, false);
+      }} />
+    ${state.reason.value ? html`<p class="problem" role="status">${state.reason.value}</p>` : null}
+    <${Following} />`;
+}
+
+/** Entries that follow, with their limits: the ends of their sliders. @returns {Record<string, [number, number]>} */
+function follows() {
+  const chosen = Object.entries(state.free.value).flatMap(([address, is]) => (is ? [entryAt(address)] : []));
+  return Object.fromEntries(chosen.flatMap((entry) => (entry ? [[entry.address, endsOf(entry)]] : [])));
+}
+
+function Following() {
+  const [all, setAll] = useState(false);
+  const slopes = state.slopes.value;
+  if (!slopes) return html`<p class="about">Derivatives are being computed …</p>`;
+  const listed = ranked(slopes).filter(({ address }, n) => all || n < FIRST || state.free.value[address]);
+  return html`
+    <h4>Entries that follow</h4>
+    ${slopes.tie ? html`<p class="about">${slopes.tie}</p>` : null}
+    <div class="following">${listed.map(({ address, entry, slope }) => {
+      const { words } = effect(slopes, slope, entry, state.units.value);
+      return html`<label key=${address} class="check"><input type="checkbox" data-free=${address} checked=${state.free.value[address] ?? false}
+        onChange=${(/** @type {any} */ { target }) => (state.free.value = { ...state.free.value, [address]: target.checked })} /><span>${named(address)}</span> <small>${words}</small></label>`;
+    })}</div>
+    <p class="about">They stay within the ends of their sliders. <button class="quiet" onClick=${() => setAll(!all)}>${all ? "Show fewer" : "Show all"}</button></p>`;
+}
+
+function Variants() {
+  const pins = state.pins.value;
+  const scalars = state.results.value.flatMap(({ name, scalars: own }) => own.map((each) => ({ ...each, key: `${name}.${each.name}` })));
+  const shown = scalars.filter(({ key }) => HEADS.includes(key));
+  return html`
+    <${Section} title="Compare variants">
+      <button id="pin" disabled=${!state.results.value.length} onClick=${pin}>Pin this machine</button>
+      ${pins.length ? html`
+        <div class="data-table" tabindex="0" role="region" aria-label="Measures of the variants"><table id="variants"><thead><tr><th scope="col">Measure</th><th scope="col">Now</th>${pins.map(({ name }, n) => html`<th scope="col" key=${n}>${name}</th>`)}</tr></thead>
+        <tbody>${shown.map(({ key, word, unit: si, value }) => {
+          const { unit, factor } = shownUnit(si, state.units.value);
+          return html`<tr key=${key}><th scope="row">${word}${unit ? `, ${unit}` : ""}</th><td>${number(value / factor, 4)}</td>
+            ${pins.map(({ scalars: old }, n) => html`<td key=${n}>${key in old ? html`${number(old[key] / factor, 4)} <small>${against(value, old[key])}</small>` : "–"}</td>`)}</tr>`;
+        })}</tbody></table></div>
+        <div class="sets">${pins.map(({ name, text }, n) => html`<span key=${n} class="chip">${name} <button onClick=${() => settle({}, text)}>Back to it</button><button aria-label="Unpin ${name}" onClick=${() => unpin(n)}>×</button></span>`)}</div>
+        <p class="about">Their curves are dashed in the plots.</p>` : html`<p class="about">A pinned machine stays beside the one at hand: its curves in the plots, its measures here.</p>`}
+    <//>`;
+}
+
+/** Measures of variants. */
+const HEADS = ["unevenness", "dynamism", "speed_mean_time", "speed_min", "speed_max", "torque_motor_rms", "torque_motor_max", "power_motor_mean", "efficiency"].map((name) => `steady_state.${name}`).concat("forces.shaking_force_max", "forces.torque_drive_max");
+
+/** @param {number} now @param {number} old */
+const against = (now, old) => (old ? `(${now >= old ? "+" : "−"}${number(Math.abs(now / old - 1) * 100, 2)} %)` : "");
+
+function Search() {
+  const [kind, setKind] = useState("sweep");
+  const [direction, setDirection] = useState("minimise");
+  const [asked, setAsked] = useState("steady_state.unevenness");
+  const [picked, setPicked] = useState(["", ""]);
+  const [steps, setSteps] = useState(41);
+  const all = state.results.value.flatMap(({ name, scalars }) => scalars.map((each) => ({ ...each, key: `${name}.${each.name}` })));
+  const numbers = entries();
+  const free = Object.keys(follows());
+  const chosen = kind === "sweep" ? picked.filter(Boolean) : free;
+  const start = () => {
+    const count = chosen.length > 1 ? Math.min(steps, 25) : steps;
+    const listed = chosen.flatMap((address) => {
+      const entry = entryAt(address);
+      if (!entry) return [];
+      const [low, high] = endsOf(entry);
+      return [{ address, low, high, ...(kind === "sweep" ? { steps: count } : {}) }];
+    });
+    seek({ kind, response: asked, entries: listed, direction, machines: 2000 });
+  };
+  return html`
+    <${Section} title="Sweep or search">
+      <div class="line"><span>What</span> <select aria-label="What is done" value=${kind} onChange=${(/** @type {any} */ { target }) => setKind(target.value)}>
+        <option value="sweep">Sweep entries</option><option value="optimise">Search for the best</option></select></div>
+      <label class="line"><span>Result</span> <select id="asked" value=${asked} onChange=${(/** @type {any} */ { target }) => setAsked(target.value)}>
+        ${all.map(({ key, word }) => html`<option key=${key} value=${key} selected=${key === asked}>${word}</option>`)}</select></label>
+      ${kind === "sweep" ? [0, 1].map((n) => html`
+        <label class="line" key=${n}><span>${n ? "and over" : "over"}</span> <select id="over-${n}" value=${picked[n]} onChange=${(/** @type {any} */ { target }) => setPicked(picked.map((each, k) => (k === n ? target.value : each)))}>
+          <option value="">${n ? "nothing more" : "choose an entry"}</option>${numbers.map(({ address }) => html`<option key=${address} value=${address} selected=${address === picked[n]}>${named(address)}</option>`)}</select></label>`) : html`
+        <div class="line"><span>Goal</span> <select aria-label="Direction" value=${direction} onChange=${(/** @type {any} */ { target }) => setDirection(target.value)}><option value="minimise">Minimum</option><option value="maximise">Maximum</option></select></div>
+        <p class="about">${free.length ? `${free.length === 1 ? "The entry" : "The entries"} ${free.map(named).join(", ")} may vary.` : "Choose under Pull a result which entries may vary."}</p>`}
+      ${kind === "sweep" ? html`<label class="line"><span>Values</span> <input type="number" min="2" max="401" value=${steps} onChange=${(/** @type {any} */ { target }) => setSteps(Math.min(Math.max(Math.round(Number(target.value)) || 2, 2), 401))} /></label>` : null}
+      <p><button id="seek" class="main" disabled=${!chosen.length} onClick=${start}>Start</button> ${runs(state.search.value) ? html`<button onClick=${stopSearch}>Stop</button>` : null}</p>
+      <p class="about">Entries vary between the ends of their sliders.</p>
+      <${Found} />
+    <//>`;
+}
+
+/** Entries of the file that are numbers. @returns {import("./types.js").Entry[]} */
+function entries() {
+  /** @type {import("./types.js").Entry[]} */
+  const found = [];
+  const walk = (/** @type {import("./types.js").Group} */ group) => {
+    found.push(...group.entries.filter(({ holds, si }) => holds === "quantity" && typeof si === "number"));
+    group.groups.forEach(walk);
+  };
+  if (state.controls.value) walk(state.controls.value);
+  return found;
+}
+
+/** Whether a search goes on. @param {any} found */
+const runs = (found) => found && !found.ended && !found.last && !(found.kind === "sweep" && found.done === found.rows);
+
+function Found() {
+  const found = state.search.value;
+  if (!found) return null;
+  const result = state.results.value.flatMap(({ name, scalars }) => scalars.map((each) => ({ ...each, key: `${name}.${each.name}` }))).find(({ key }) => key === found.response);
+  const words = result ?? { name: found.response ?? "", word: found.response ?? "", symbol: "", unit: "" };
+  const state_ = found.words ?? (found.ended ? `stopped after ${found.done ?? 0} of ${found.rows ?? 0}` : runs(found) ? `${found.done} of ${found.rows} machines` : `${found.done} machines`);
+  return html`
+    <p class="about" role="status" id="found">${state_}</p>
+    ${found.kind === "sweep" ? html`<${Swept} found=${found} words=${words} />` : null}
+    ${found.kind === "optimise" && found.course.machines.length ? html`<${Course} found=${found} words=${words} />` : null}
+    ${Object.entries(found.reasons ?? {}).map(([why, count]) => html`<p class="about" key=${why}>${count} without an answer: ${why}</p>`)}`;
+}
+
+/** @param {{ found: any, words: import("./types.js").Words }} props */
+function Swept({ found, words }) {
+  const { axes, values } = found;
+  const use = (/** @type {1 | -1} */ sign) => {
+    let best = -1;
+    for (let n = 0; n < values.length; n += 1) if (Number.isFinite(values[n]) && (best < 0 || sign * values[n] < sign * values[best])) best = n;
+    if (best < 0) return;
+    const inner = axes.length > 1 ? axes[1].values.length : 1;
+    const places = axes.length > 1 ? [Math.floor(best / inner), best % inner] : [best];
+    settle(Object.fromEntries(places.map((place, n) => [axes[n].address, axes[n].values[place]])));
+  };
+  const x = (/** @type {any} */ axis) => ({ name: axis.address, word: named(axis.address), symbol: named(axis.address), unit: entryAt(axis.address)?.unit ?? "", values: axis.values });
+  const plot = { key: "search", title: words.word, unit: words.unit, x: x(axes[0]), curves: [{ ...words, values }] };
+  return html`
+    <h4>${words.word}</h4>
+    ${axes.length === 1 ? html`<${Chart} plot=${plot} />` : html`<${Heat} values=${values} x=${x(axes[1])} y=${x(axes[0])} words=${words} />`}
+    ${found.done === found.rows ? html`<p><button onClick=${() => use(1)}>Use the minimum</button> <button onClick=${() => use(-1)}>Use the maximum</button></p>` : null}`;
+}
+
+/** @param {{ found: any, words: import("./types.js").Words }} props */
+function Course({ found, words }) {
+  const { machines, best } = found.course;
+  const plot = { key: "course", title: words.word, unit: words.unit, x: { name: "machines", word: "machines", symbol: "machines", unit: "", values: machines }, curves: [{ ...words, values: best }] };
+  const { unit, factor } = shownUnit(words.unit, state.units.value);
+  return html`
+    <h4>Best so far: ${found.value === null ? "none keeps the limits" : `${number(found.value / factor, 5)} ${unit}`}</h4>
+    <${Chart} plot=${plot} />
+    <ul class="about">${Object.entries(found.entries).map(([address, value]) => {
+      const own = shownUnit(entryAt(address)?.unit ?? "", state.units.value);
+      return html`<li key=${address}>${named(address)} = ${number(/** @type {number} */ (value) / own.factor, 5)} ${own.unit}</li>`;
+    })}</ul>
+    ${found.value === null ? null : html`<p><button id="take" onClick=${() => settle(found.entries)}>Take it over</button></p>`}`;
+}
+
+export const Design = () => html`<${Goal} /><${Variants} /><${Search} />`;

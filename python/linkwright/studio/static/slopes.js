@@ -1,0 +1,61 @@
+// What an entry does to the result that is looked at, in words: "δ falls by 3 % per cm".
+import * as state from "./state.js";
+import { number, shownUnit } from "./units.js";
+
+/** @typedef {import("./types.js").Entry} Entry @typedef {import("./types.js").Group} Group @typedef {import("./types.js").Slopes} Slopes */
+
+/** Share of an entry that one step of its arrow is about. */
+const STEP = 0.05;
+
+/** Changes below this share are none. */
+const NONE = 5e-5;
+
+/** @type {{ of: Group | null, by: Map<string, Entry> }} */
+let known = { of: null, by: new Map() };
+
+/** The entry at an address; undefined if there is none. @param {string} address */
+export function entryAt(address) {
+  const whole = state.controls.value;
+  if (known.of !== whole) {
+    known = { of: whole, by: new Map() };
+    const walk = (/** @type {Group} */ group) => {
+      for (const each of group.entries) known.by.set(each.address, each);
+      group.groups.forEach(walk);
+    };
+    if (whole) walk(whole);
+  }
+  return known.by.get(address);
+}
+
+/** An address as words: "radius of A1". @param {string} address */
+export function named(address) {
+  const keys = address.split(".").map((key) => key.replaceAll("_", " "));
+  return keys.length > 1 ? `${keys[keys.length - 1]} of ${keys[keys.length - 2]}` : address;
+}
+
+/**
+ * A step of an entry in the user's unit that one would make, and what it does.
+ * @param {Slopes} slopes @param {number} slope @param {Entry} entry @param {Record<string, string>} units
+ * @returns {{ share: number, words: string }} relative change of the result
+ */
+export function effect(slopes, slope, entry, units) {
+  const { unit, factor } = shownUnit(entry.unit ?? "", units);
+  const size = Math.abs((entry.si ?? 0) / factor);
+  const step = unit === "°" ? 1 : 10 ** Math.round(Math.log10(STEP * (size || 1)));
+  const share = (slope * step * factor) / Math.abs(slopes.value);
+  const sign = slopes.symbol.split("_")[0] || slopes.word;
+  if (!Number.isFinite(share) || Math.abs(share) < NONE) return { share: 0, words: `${sign} does not change` };
+  const one = step === 1 ? unit || "unit" : `${number(step)} ${unit}`.trim();
+  return { share, words: `${sign} ${share < 0 ? "falls" : "rises"} by ${number(100 * Math.abs(share), 2)} % per ${one}` };
+}
+
+/** Entries with derivatives, those that do most within five hundredths of themselves first. @param {Slopes} slopes */
+export function ranked(slopes) {
+  return Object.entries(slopes.slopes)
+    .flatMap(([address, slope]) => {
+      const entry = entryAt(address);
+      return entry?.holds === "quantity" ? [{ address, slope, entry, weight: Math.abs(slope) * (Math.abs(entry.si ?? 0) || (entry.unit === "rad" ? 1 : 0)) }] : [];
+    })
+    .filter(({ slope }) => slope !== 0)
+    .sort((a, b) => b.weight - a.weight);
+}

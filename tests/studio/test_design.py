@@ -1,0 +1,70 @@
+"""A result that is pulled arrives within the limits of its entries, or says what holds it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.kernel.errors import InputError
+from linkwright.studio.design import reach, slopes
+from linkwright.studio.search import search
+
+from .conftest import Tab
+
+DELTA, PHASE, RADIUS = "steady_state.unevenness", "mechanism.cranks.A2.phase", "mechanism.cranks.A1.radius"
+
+
+@pytest.mark.parametrize("share", [0.95, 1.5, 3.0])
+def test_entries_bring_the_result_to_its_value(share: float) -> None:
+    machine = lw.read("roller_two_carts")
+    wanted = share * lw.steady_state(machine).unevenness
+    found = reach(machine, DELTA, wanted, {PHASE: (-3.1, 3.1), RADIUS: (0.1, 0.4)})
+    assert not found.reason
+    assert lw.steady_state(lw.replace(machine, found.entries)).unevenness == pytest.approx(wanted, rel=2e-6)
+
+
+def test_limits_are_respected_and_told() -> None:
+    machine = lw.read("roller_two_carts")
+    found = reach(machine, DELTA, 0.1, {"bodies.cart1.mass": (900.0, 1001.0)})
+    assert found.entries == {"bodies.cart1.mass": 1001.0}
+    assert "limits of cart1.mass" in found.reason
+
+
+def test_slopes_are_those_of_the_package() -> None:
+    machine = lw.read("roller_two_carts")
+    found = slopes(machine, DELTA)
+    assert found["slopes"] == lw.gradient(machine).of(DELTA)
+    with pytest.raises(InputError, match="no derivative"):
+        slopes(machine, "forces.shaking_force_max")
+
+
+def test_a_map_holds_what_each_machine_has() -> None:
+    machine = lw.read("roller_two_carts")
+    entries = [
+        {"address": PHASE, "low": 1.4, "high": 1.7, "steps": 2},
+        {"address": RADIUS, "low": 0.18, "high": 9.0, "steps": 3},
+    ]
+    found = search(machine, {"kind": "sweep", "response": DELTA, "entries": entries}, lambda _: None)
+    values = found["values"].reshape(2, 3)
+    wanted = lw.steady_state(lw.replace(machine, {PHASE: 1.7, RADIUS: 0.18})).unevenness
+    assert values[1, 0] == pytest.approx(wanted, rel=1e-8)
+    assert np.isnan(values[:, 2]).all()
+    assert sum(found["reasons"].values()) == np.isnan(values).sum()
+
+
+def test_a_search_is_told_as_it_goes_on_and_can_be_ended(tab: Tab) -> None:
+    text = (lw.kernel.files.library.library_path("roller_two_carts")).read_text()
+    tab.ask(ask="compute", text=text)
+    entries = [{"address": PHASE, "low": 0.8, "high": 2.3}]
+    asked = {"kind": "optimise", "response": DELTA, "direction": "minimise", "machines": 20000}
+    number = tab.send(ask="search", entries=entries, **asked)
+    seen: list[dict] = []  # type: ignore[type-arg]
+    while not seen or not seen[-1].get("ended"):
+        of, answer = tab.hear()
+        if of == number and answer["of"] == "search":
+            seen.append(answer)
+            if len(seen) == 1:
+                tab.send(ask="end search")
+    assert seen[0]["value"] > 0
+    assert list(seen[0]["entries"]) == [PHASE]
