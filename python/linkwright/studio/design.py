@@ -1,6 +1,6 @@
 r"""Design in place: what entries do to a result, and which entries bring a result to a value.
 
-For a result y of the chosen entries x with the ranges s, a step of Gauss–Newton that moves the entries least,
+For a result y of the chosen entries x with the ranges s, the smallest step of Gauss–Newton,
 
 .. math:: \Delta x = s^2 g\,\frac{y^* - y}{g^T s^2 g}, \qquad g = \frac{\partial y}{\partial x}
 
@@ -148,7 +148,7 @@ class _Reach:
 
     def _walk(self, step: Floats, miss: float) -> str:
         """Go a part of the step that leads nearer; why there is none."""
-        reason = f"no further: {self._name()} turns back here"
+        reason = f"no further: {self._name()} has an extreme here"
         for halving in range(_HALVINGS):
             at = np.clip(self.at + 0.5**halving * step, self.low, self.high)
             try:
