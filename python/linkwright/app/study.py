@@ -114,6 +114,15 @@ class Study(DriveStudy):
         }
         return {**cams, **{name: result for name, result in found.items() if result is not None}}
 
+    def _repr_html_(self) -> str:
+        """Failed checks, warnings and all results, as a notebook shows them."""
+        from linkwright.kernel.page.notebook import result_html, table_html
+
+        words = [("failed check", each) for each in self.findings]
+        words += [("warning", each) for each in self.warnings]
+        head = table_html(self.machine.name, words or [("checks", "none failed")])
+        return head + "".join(result_html(each, name) for name, each in self.results().items())
+
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Name, results, findings and warnings, ready for JSON.
 

@@ -15,6 +15,7 @@ from linkwright.kernel.quantities import attributes_section, declared, shown
 
 if TYPE_CHECKING:
     import pandas as pd
+    from matplotlib.figure import Figure
 
 
 # What a table in a result may hold to be written out.
@@ -103,6 +104,34 @@ class Result(Record):
         import pandas as pd
 
         return pd.DataFrame(self.curves())
+
+    def plot(self, *names: str) -> Figure:
+        """The curves as a figure, an axis for each unit.
+
+        Parameters
+        ----------
+        *names : str
+            Attributes, such as ``"speed"``; all curves without any.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            A notebook shows it; ``figure.savefig(path)`` writes it.
+
+        Raises
+        ------
+        InputError
+            There is no such curve.
+        """
+        from linkwright.kernel.figure.plotted import plotted
+
+        return plotted(self, names)
+
+    def _repr_html_(self) -> str:
+        """The scalars as a table, as a notebook shows them."""
+        from linkwright.kernel.page.notebook import result_html
+
+        return result_html(self)
 
     def curves(self) -> dict[str, np.ndarray]:
         """The arrays of common length by name."""

@@ -93,6 +93,19 @@ class Machine(Description):
         own = with_followers(self.mechanism)
         return own if self.pumping_unit is None else merged(own, self.pumping_unit, self.rod_rotator)
 
+    def _repr_html_(self) -> str:
+        """The parts with their entries, as a notebook shows them."""
+        from linkwright.kernel.page.notebook import table_html
+        from linkwright.machine.table import machine_parts
+
+        parts = machine_parts(self)
+        rows = [
+            (f"{part.group}: {part.name}" if part.name else part.group, entry.word, entry.value)
+            for part in parts
+            for entry in part.entries
+        ]
+        return table_html(self.name, rows)
+
     @property
     def is_train_alone(self) -> bool:
         """Whether it is a torsional train and nothing else."""

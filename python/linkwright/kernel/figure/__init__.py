@@ -4,6 +4,7 @@
 | --- | --- |
 | `captioned` | A figure of the page with its words |
 | `inline` | SVG that can stand in a page together with others |
+| `plotted` | The curves of a result as a figure |
 | `style` | Colours, fonts, axes |
 | `svg` | A figure as SVG text, or as PNG |
 """

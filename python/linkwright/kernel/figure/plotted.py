@@ -1,0 +1,78 @@
+"""The curves of a result as a figure, an axis for each unit."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from linkwright.kernel.description.base import suggestion
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.figure.style import LINES, legend_above, panels, styled
+from linkwright.kernel.quantities import DeclaredQuantity, quantities_of
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+# Height of each axis [inch].
+_HEIGHT = 1.9
+
+
+@styled
+def plotted(result: Any, names: tuple[str, ...]) -> Figure:
+    """Draw curves of a result over what they run over.
+
+    Parameters
+    ----------
+    result : Result
+        The result.
+    names : tuple of str
+        Attributes; all curves without any.
+
+    Returns
+    -------
+    Figure
+        Of matplotlib.
+
+    Raises
+    ------
+    InputError
+        The result has no such curve, none at all, or curves over different quantities were asked for.
+    """
+    owner: type = type(result)
+    known = {each.name: each for each in quantities_of(owner) if each.kind == "curve"}
+    drawn = {name: each for name, each in known.items() if each.over in known and _is_drawn(result, each)}
+    for name in names:
+        if name not in drawn:
+            raise InputError(f"no curve {name!r} of this result: {suggestion(name, drawn)}")
+    chosen = [drawn[name] for name in names or drawn]
+    if not chosen:
+        raise InputError(f"{owner.__name__} has no curves to plot")
+    over = chosen[0].over
+    if strange := [each.name for each in chosen if names and each.over != over]:
+        raise InputError(f"{strange[0]} runs over {drawn[strange[0]].over}, not over {over}: plot it alone")
+    return _figure(result, known[over], [each for each in chosen if each.over == over])
+
+
+def _is_drawn(result: Any, each: DeclaredQuantity) -> bool:
+    """Whether there are as many values as places."""
+    values, places = getattr(result, each.name, None), getattr(result, each.over, None)
+    return isinstance(values, np.ndarray) and isinstance(places, np.ndarray) and values.shape == places.shape
+
+
+def _figure(result: Any, over: DeclaredQuantity, chosen: list[DeclaredQuantity]) -> Figure:
+    units = list(dict.fromkeys(result.unit_of(each.name) for each in chosen))
+    figure, axes = panels(len(units), height=_HEIGHT * len(units) + 0.5)
+    x, unit = getattr(result, over.name), result.unit_of(over.name)
+    if unit == "rad":
+        x, unit = np.degrees(x), "°"
+    for axis, own in zip(axes, units, strict=True):
+        curves = [each for each in chosen if result.unit_of(each.name) == own]
+        for each, colour in zip(curves, LINES * len(curves), strict=False):
+            axis.plot(x, getattr(result, each.name), color=colour, label=each.word)
+        word = curves[0].word if len(curves) == 1 else ""
+        axis.set_ylabel(f"{word} [{own}]".strip() if own else word)
+        if len(curves) > 1:
+            legend_above(axis)
+    axes[-1].set_xlabel(f"{over.word} [{unit}]" if unit else over.word)
+    return figure

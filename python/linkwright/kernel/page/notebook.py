@@ -1,0 +1,64 @@
+"""Results and machines as a notebook shows them: words, symbols, numbers and units in plain HTML."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from html import escape
+from typing import Any
+
+from linkwright.kernel.page.numbers import number
+from linkwright.kernel.quantities import quantities_of
+
+
+def table_html(title: str, rows: Iterable[Sequence[str]]) -> str:
+    """A small table.
+
+    Parameters
+    ----------
+    title : str
+        Above it.
+    rows : iterable of sequences of str
+        Cells; the first of each row is its head.
+
+    Returns
+    -------
+    str
+        HTML; letters of machine files are letters there.
+    """
+    lines = [
+        f'<tr><th scope="row" style="text-align:left">{escape(head)}</th>'
+        + "".join(f'<td style="text-align:left">{escape(cell)}</td>' for cell in cells)
+        + "</tr>"
+        for head, *cells in rows
+    ]
+    caption = f'<caption style="text-align:left;font-weight:600">{escape(title)}</caption>'
+    return f"<table>{caption}<tbody>{''.join(lines)}</tbody></table>"
+
+
+def result_html(result: Any, title: str = "") -> str:
+    """The scalars of a result, and which curves it has.
+
+    Parameters
+    ----------
+    result : Result
+        The result.
+    title : str
+        Above the table; without it the name of the class.
+
+    Returns
+    -------
+    str
+        HTML.
+    """
+    owner: type = type(result)
+    declared = list(quantities_of(owner))
+    rows = []
+    for each in declared:
+        value = getattr(result, each.name, None) if each.kind == "scalar" else None
+        if isinstance(value, int | float) and not isinstance(value, bool):
+            rows.append((each.word, each.symbol, number(value), result.unit_of(each.name)))
+    drawn = result.curves()
+    curves = [each.name for each in declared if each.kind == "curve" and each.over and each.name in drawn]
+    if curves:
+        rows.append(("curves, for .plot()", "", ", ".join(curves), ""))
+    return table_html(title or owner.__name__, rows)

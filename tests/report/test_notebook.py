@@ -1,0 +1,48 @@
+"""What a notebook shows of machines, results and studies, and figures of curves by name."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.kernel.errors import InputError
+
+
+def test_a_result_shows_its_numbers_with_words_and_units() -> None:
+    steady = lw.steady_state(lw.read("roller_two_carts"))
+    shown = steady._repr_html_()
+    assert "coefficient of speed fluctuation" in shown
+    assert f'<td style="text-align:left">{steady.speed_max:.5g}</td>' in shown
+    assert "rad/s²" in shown
+
+
+def test_a_machine_and_its_study_are_shown_and_names_are_letters() -> None:
+    machine = lw.read("roller_two_carts", {"name": "<b>two</b> & two"})
+    assert "<b>two</b>" not in machine._repr_html_()
+    assert "&lt;b&gt;two&lt;/b&gt; &amp; two" in machine._repr_html_()
+    assert "Cranks: A1" in machine._repr_html_()
+    shown = lw.study(machine)._repr_html_()
+    assert "The motor is overloaded" in shown
+    assert "run_up" in shown
+
+
+def test_curves_are_plotted_an_axis_for_each_unit() -> None:
+    steady = lw.steady_state(lw.read("roller_two_carts"))
+    axes = steady.plot("speed", "torque_load", "torque_drive").axes
+    assert [len(each.lines) for each in axes] == [1, 2]
+    x, y = axes[0].lines[0].get_data()
+    assert np.array_equal(y, steady.speed)
+    assert x[-1] == pytest.approx(360)
+    assert axes[-1].get_xlabel() == "crank angle [°]"
+    assert steady.plot().axes
+
+
+def test_a_curve_that_is_none_is_refused() -> None:
+    steady = lw.steady_state(lw.read("roller_two_carts"))
+    with pytest.raises(InputError, match="no curve 'sped'"):
+        steady.plot("sped")
+    linkage = lw.study(lw.read("roller_two_carts")).linkage
+    assert linkage is not None
+    with pytest.raises(InputError, match="no curves"):
+        linkage.plot()
