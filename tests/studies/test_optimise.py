@@ -29,9 +29,11 @@ far = "minimise"
 """
 
 
-def optimum(tmp_path: Path, text: str, evaluations: int = 3000) -> Optimum:
+def optimum(
+    tmp_path: Path, text: str, evaluations: int = 3000, method: str = "global", starts: int = 8
+) -> Optimum:
     (tmp_path / "study.toml").write_text(text)
-    return lw.optimise(lw.read_study(tmp_path / "study.toml"), evaluations)
+    return lw.optimise(lw.read_study(tmp_path / "study.toml"), evaluations, method=method, starts=starts)
 
 
 def test_a_place_that_is_known(tmp_path: Path) -> None:
@@ -65,3 +67,47 @@ def test_what_cannot_be_kept_is_told(tmp_path: Path) -> None:
         optimum(tmp_path, TEXT + '[constraints]\ny = { min = "0.4 m" }\n', 1500)
     with pytest.raises(InputError, match="goals"):
         optimum(tmp_path, TEXT.replace('[goals]\nfar = "minimise"\n', ""))
+
+
+# δ of two carts over their phase has its minimum on an edge, where two maxima of the speed tie.
+PHASE = """
+machine = "roller_two_carts"
+[variables.phase]
+address = "mechanism.cranks.A2.phase"
+range = ["60 deg", "120 deg"]
+[responses]
+delta = "steady_state.unevenness"
+[goals]
+delta = "minimise"
+"""
+
+
+def test_the_best_phase_by_grid_by_evolution_and_by_gradient(tmp_path: Path) -> None:
+    """To 1e-6 of the phase; each grid of 41 is a twentieth of the one before."""
+    by_gradient = optimum(tmp_path, PHASE, method="gradient", starts=1)
+    by_evolution = optimum(tmp_path, PHASE, 600)
+    plan = lw.read_study(tmp_path / "study.toml")
+    low, high = plan.axes[0].low, plan.axes[0].high
+    while high - low > 2e-7:
+        grid = np.linspace(low, high, 41)
+        best = int(lw.evaluate(plan, {"phase": grid}).columns["delta"].argmin())
+        low, high = grid[max(best - 1, 0)], grid[min(best + 1, 40)]
+    assert by_gradient.variables["phase"] == pytest.approx((low + high) / 2, rel=1e-6)
+    assert by_evolution.variables["phase"] == pytest.approx((low + high) / 2, rel=1e-6)
+    assert by_gradient.responses["delta"] == pytest.approx(by_evolution.responses["delta"], rel=1e-6)
+    # An edge has no multipliers.
+    assert by_gradient.multipliers == {}
+
+
+def test_what_limits_cost(tmp_path: Path) -> None:
+    """Nearest to (−0.1, 0.15) below y = 0.1: (0.15 − y)² gives 2·0.05 for each metre."""
+    found = optimum(tmp_path, TEXT + '[constraints]\ny = { max = "0.1 m" }\n', method="gradient", starts=2)
+    assert found.variables["r"] == pytest.approx(np.hypot(0.1, 0.1), rel=1e-6)
+    assert found.responses["y"] <= 0.1
+    assert found.multipliers == {"maximum of y": pytest.approx(0.1, rel=1e-5)}
+    assert found.worth == ("0.001 m more at the maximum of y would make far 0.0001 smaller",)
+    text = TEXT.replace('["10 deg", "170 deg"]', '["10 deg", "90 deg"]')
+    found = optimum(tmp_path, text, method="gradient", starts=2)
+    assert "a is at the upper end of its range, 1.5708 rad" in found.active
+    # At 90° far = 0.1² + (r − 0.15)²: with r = 0.15, ∂far/∂a = 2·0.1·∂x/∂a = −2·0.1·0.15.
+    assert found.multipliers == {"upper end of a": pytest.approx(0.03, rel=1e-4)}

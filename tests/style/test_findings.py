@@ -43,6 +43,11 @@ SILENT = {
         "_source",
     ): "what has no exact derivatives is differenced, where the analysis says again what is wrong",
     (
+        "studies/local.py",
+        "_slsqp",
+    ): "a machine on the way without an answer ends the way; the places before it count",
+    ("studies/local.py", "_planes"): "a trial without an answer is taken back: the radius shrinks",
+    (
         "kernel/units/spellings.py",
         "_from_pint",
     ): "a text that pint does not know is reported with the units that are known",

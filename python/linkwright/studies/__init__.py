@@ -6,6 +6,7 @@
 | `read` | A study and its machine from files |
 | `plan` | A study checked against its machine, ready to run |
 | `axes` | Variables: the value of each share between 0 and 1 |
+| `iso286` | Limit deviations of sizes by classes such as H7 |
 | `sampling` | Rows as shares: grid, Sobol, Latin hypercube, random |
 | `responses` | What is asked: analyses, and one number of each result |
 | `engine` | Responses of many machines, in batches or one by one |
@@ -15,6 +16,7 @@
 | `slopes` | Derivatives of responses by variables, exact where the analysis has them |
 | `tolerance` | Scatter of responses, contributions, yield, Sobol indices |
 | `optimise` | The best machine, by CMA-ES over batches |
+| `local` | Down to the nearest best machine by exact derivatives, and what its limits cost |
 | `show` | Rows of a folder, as they are drawn |
 | `tables`, `figures` | What is shown |
 | `commands/` | ``linkwright sweep``, ``tolerance`` |

@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import MachineError, Problem, UnitError, show
-from linkwright.kernel.units import COUNT, Kind, parse
+from linkwright.kernel.units import COUNT, LENGTH, Kind, parse
 from linkwright.machine.address import addresses, get, kind, known_place
 from linkwright.machine.machine import Machine
+from linkwright.studies import iso286
 from linkwright.studies.model.study import Distribution, Variable
 
 Floats = NDArray[np.float64]
@@ -192,12 +193,14 @@ def _toleranced(name: str, value: object, text: str, found: Kind) -> tuple[float
     if not isinstance(value, int | float):
         raise _problem(name, "tolerance", "an entry without a value", "an entry that the machine has")
     plain = text.replace("−", "-")
+    if code := iso286.CODE.fullmatch(plain):
+        return _coded(name, float(value), text, code, found)
     if match := _EVEN.fullmatch(plain):
         parts, unit = [f"-{match[1]}", match[1]], match[2]
     elif match := _UNEVEN.fullmatch(plain):
         parts, unit = [match[1].replace(" ", ""), match[2].replace(" ", "")], match[3]
     else:
-        raise _problem(name, "tolerance", show(text), 'such as "± 0.2 mm" or "+0.1 -0.3 mm"')
+        raise _problem(name, "tolerance", show(text), 'such as "± 0.2 mm", "+0.1 -0.3 mm" or "25 H7"')
     ends = [
         _parsed(name, "tolerance", f"{part} {unit}".strip() if unit else float(part), found) for part in parts
     ]
@@ -205,6 +208,23 @@ def _toleranced(name: str, value: object, text: str, found: Kind) -> tuple[float
     if not low < high:
         raise _problem(name, "tolerance", show(text), "two limits that differ")
     return low, high
+
+
+def _coded(name: str, value: float, text: str, code: re.Match[str], found: Kind) -> tuple[float, float]:
+    """Limits of a size by its class of ISO 286; the nominal size is that of the machine."""
+    if found.unit != LENGTH.unit:
+        raise _problem(
+            name, "tolerance", f"{show(text)} of {found.word}", "limits with a unit: classes are of lengths"
+        )
+    size, letter, grade = code.groups()
+    if size is not None and abs(float(size) * 1e-3 - value) > 1e-9 * abs(value):
+        expected = f"the size that the machine has, {value * 1e3:.6g} mm"
+        raise _problem(name, "tolerance", show(text), expected, f'"{letter}{grade}" takes that size')
+    limits = iso286.deviations(value, letter, int(grade))
+    if limits is None:
+        where = f"of {value * 1e3:.6g} mm" if 0 < value <= 0.5 else f"of {value * 1e3:.6g} mm, beyond 500 mm"
+        raise _problem(name, "tolerance", f"{show(text)} {where}", iso286.KNOWN, "give the limits themselves")
+    return value + limits[0], value + limits[1]
 
 
 def _scatter(name: str, given: Distribution, found: Kind) -> tuple[tuple[str, float, float], float, float]:

@@ -3,7 +3,8 @@
 Variables without numbers, and lists, are enumerated: each combination has a search of its own. Within one,
 CMA-ES [1]_ with margin for whole numbers [2]_, by the package ``cmaes``, orders machines as Deb does [3]_:
 one that keeps all limits before one that does not, those by the goal, these by how far they pass the limits,
-machines without an answer last.
+machines without an answer last. From the best of them, or from many starts instead, exact derivatives lead
+further down (`linkwright.studies.local`).
 
 References
 ----------
@@ -15,10 +16,10 @@ References
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
 from itertools import product
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,10 +29,17 @@ from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
+from linkwright.studies import sampling
 from linkwright.studies.engine import SOLVED, Rows, evaluate, sound_variant, variant
+from linkwright.studies.local import Descent, Price, prices
 from linkwright.studies.plan import StudyPlan
 
 Floats = NDArray[np.float64]
+
+Method = Literal["both", "global", "gradient"]
+
+# Places that are looked at for each start from which derivatives lead down.
+_LOOKED = 16
 
 # Combinations of what is enumerated.
 _COMBINATIONS = 1000
@@ -52,6 +60,11 @@ class Optimum(Result):
     variables: Annotated[dict[str, Any], About("Variable → its value [SI], or what stands at its address.")]
     responses: Annotated[dict[str, float], About("Response → its value for the best machine [SI].")]
     active: Annotated[tuple[str, ...], About("Limits that the best machine touches, in words.")]
+    multipliers: Annotated[
+        dict[str, float],
+        About("Active limit → by how much the goal would be better if it were wider by one unit [SI]."),
+    ]
+    worth: Annotated[tuple[str, ...], About("The same in words.")]
     tried: Annotated[
         tuple[dict[str, Any], ...],
         About("Best value of each combination of choices; None if no limit is kept."),
@@ -73,13 +86,19 @@ class Optimum(Result):
         dict
             Ready for JSON.
         """
-        names = ("variables", "responses", "reasons")
+        names = ("variables", "responses", "multipliers", "reasons")
         return {**super().to_dict(), **{name: dict(getattr(self, name)) for name in names}}
 
 
 @public
 def optimise(
-    plan: StudyPlan, evaluations: int = 4000, *, seed: int = 0, watch: Callable[..., None] | None = None
+    plan: StudyPlan,
+    evaluations: int = 4000,
+    *,
+    seed: int = 0,
+    method: Method = "both",
+    starts: int = 8,
+    watch: Callable[..., None] | None = None,
 ) -> Optimum:
     """Seek the machine that is best by the goal of a study and keeps its constraints.
 
@@ -91,6 +110,10 @@ def optimise(
         Machines that each combination of choices may take, 10 to 10⁷.
     seed : int
         Seed of the random generator; the same seed gives the same search.
+    method : {"both", "global", "gradient"}
+        CMA-ES and from its best on by derivatives; CMA-ES alone; derivatives from many starts.
+    starts : int
+        From how many places derivatives lead down, 1 to 1000, where `method` is ``"gradient"``.
     watch : callable, optional
         Told after each population how many machines were computed, the best value of the goal, None as long
         as no machine keeps the limits, and the values of that machine's variables [SI].
@@ -107,20 +130,29 @@ def optimise(
     FindingError
         No machine has an answer and keeps the constraints; says what fails.
     """
-    _check(plan, evaluations)
+    _check(plan, evaluations, method, starts)
     search = _Search(plan, *next(iter(plan.study.goals.items())), watch)
     choices = [each for each in plan.axes if each.choices]
     for shares in product(*(each.levels for each in choices)):
-        search.run({each.name: float(s) for each, s in zip(choices, shares, strict=True)}, evaluations, seed)
+        fixed = {each.name: float(s) for each, s in zip(choices, shares, strict=True)}
+        search.run(fixed, evaluations, seed, method, starts)
     return search.result()
 
 
-def _check(plan: StudyPlan, evaluations: int) -> None:
+def _check(plan: StudyPlan, evaluations: int, method: str, starts: int) -> None:
     if len(plan.study.goals) != 1:
         found = ", ".join(plan.study.goals) or "none"
         raise InputError(f'goals: found {found}, expected one, such as delta = "minimise"; limit the others')
     if not 10 <= evaluations <= 10_000_000:
         raise InputError(f"evaluations {evaluations}: expected 10 to 10 000 000")
+    if method not in get_args(Method) or not 1 <= starts <= 1000:
+        expected = "both, global or gradient, and 1 to 1000 starts"
+        raise InputError(f"method {method}, starts {starts}: expected {expected}")
+    whole = [each.name for each in plan.axes if each.is_whole]
+    if method == "gradient" and whole:
+        raise InputError(
+            f"variables.{whole[0]}: found whole numbers, which have no derivatives; leave out --method"
+        )
     for each in plan.axes:
         if each.distribution is not None:
             raise InputError(
@@ -129,6 +161,8 @@ def _check(plan: StudyPlan, evaluations: int) -> None:
     combinations = np.prod([len(each.choices) for each in plan.axes if each.choices], dtype=float)
     if combinations > _COMBINATIONS:
         raise InputError(f"values: found {combinations:.0f} combinations, expected at most {_COMBINATIONS}")
+    if method == "gradient":
+        return
     try:
         import cmaes  # noqa: F401
     except ImportError:
@@ -146,34 +180,66 @@ class _Search:
         self.count = self.failed = 0
         self.reasons: dict[str, int] = {}
 
-    def run(self, fixed: dict[str, float], evaluations: int, seed: int) -> None:
+    def run(
+        self, fixed: Mapping[str, float], evaluations: int, seed: int, method: Method, starts: int
+    ) -> None:
         """One combination of choices."""
-        from cmaes import CMAwM
-
         free = [i for i, each in enumerate(self.plan.axes) if not each.choices]
         shares = np.array([fixed.get(each.name, 0.5) for each in self.plan.axes])
-        own: tuple[int, float] = (3, 0.0)
+        before, self.best = self.best, None
         if not free:
-            own = min(own, self._told(shares[None])[0])
+            self._told(shares[None])
+        elif method == "gradient":
+            self._descend(self._started(shares, free, seed, starts))
         else:
-            # The strategy takes two variables at least: one more, on which nothing depends.
-            size = max(len(free), 2)
-            steps = np.zeros(size)
-            steps[: len(free)] = [_step(self.plan.axes[i]) for i in free]
-            bounds = np.tile([0.0, 1.0], (size, 1))
-            strategy = CMAwM(np.full(size, 0.5), _SIGMA, bounds, steps, seed=seed)
-            used = 0
-            while used < evaluations and not strategy.should_stop():
-                asked = [strategy.ask() for _ in range(strategy.population_size)]
-                points = np.tile(shares, (len(asked), 1))
-                points[:, free] = np.array([each[0] for each in asked])[:, : len(free)]
-                keys = self._told(np.clip(points, 0.0, 1.0))
-                order = {key: float(rank) for rank, key in enumerate(sorted(set(keys)))}
-                strategy.tell([(each[1], order[key]) for each, key in zip(asked, keys, strict=True)])
-                own = min(own, *keys)
-                used += len(asked)
+            self._evolve(shares, free, evaluations, seed)
+            if method == "both" and self.best is not None and self.best[0][0] < 2:
+                self._descend([self.best[1]])
+        own = (3, 0.0) if self.best is None else self.best[0]
+        if before is not None and (self.best is None or before[0] <= own):
+            self.best = before
         chosen = {each.name: _chosen(each, fixed[each.name]) for each in self.plan.axes if each.choices}
         self.tried.append({**chosen, self.goal: self.sign * own[1] if own[0] == 0 else None})
+
+    def _evolve(self, shares: Floats, free: list[int], evaluations: int, seed: int) -> None:
+        """Populations of the evolution strategy."""
+        from cmaes import CMAwM
+
+        # The strategy takes two variables at least: one more, on which nothing depends.
+        size = max(len(free), 2)
+        steps = np.zeros(size)
+        steps[: len(free)] = [_step(self.plan.axes[i]) for i in free]
+        bounds = np.tile([0.0, 1.0], (size, 1))
+        strategy = CMAwM(np.full(size, 0.5), _SIGMA, bounds, steps, seed=seed)
+        used = 0
+        while used < evaluations and not strategy.should_stop():
+            asked = [strategy.ask() for _ in range(strategy.population_size)]
+            points = np.tile(shares, (len(asked), 1))
+            points[:, free] = np.array([each[0] for each in asked])[:, : len(free)]
+            keys = self._told(np.clip(points, 0.0, 1.0))
+            order = {key: float(rank) for rank, key in enumerate(sorted(set(keys)))}
+            strategy.tell([(each[1], order[key]) for each, key in zip(asked, keys, strict=True)])
+            used += len(asked)
+
+    def _started(self, shares: Floats, free: list[int], seed: int, starts: int) -> list[Floats]:
+        """The best of many places that fill the ranges."""
+        points = np.tile(shares, (starts * _LOOKED, 1))
+        points[:, free] = sampling.sobol(len(free), seed, 0, len(points))
+        keys = self._told(points)
+        order = sorted(range(len(keys)), key=keys.__getitem__)
+        return [points[i] for i in order[:starts] if keys[i][0] < 2]
+
+    def _descend(self, starts: list[Floats]) -> None:
+        """Derivatives lead down from each start."""
+        for start in starts:
+            plan, kept = settled(self.plan, start)
+            if all(axis.is_whole or axis.choices for axis in plan.axes):
+                return
+            descent = Descent(plan, self.goal, self.sign)
+            point = start.copy()
+            point[kept] = descent.run(start[kept])
+            self.count += descent.count
+            self._told(point[None])
 
     def _told(self, points: Floats) -> list[tuple[int, float]]:
         """How good machines are, the smaller the better: by limits kept, then by goal or violation."""
@@ -214,17 +280,26 @@ class _Search:
             for each, s in zip(plan.axes, self.best[1], strict=True)
             if each.choices
         }
+        worth = self._prices()
         return Optimum(
             machine=machine_of(plan, rows),
             goal=self.goal,
             variables={each.name: kind.get(each.name, float(values[each.name][0])) for each in plan.axes},
             responses=responses,
-            active=_active(plan, responses),
+            active=(*_active(plan, responses), *_ends(plan, self.best[1])),
+            multipliers={each.what: each.multiplier for each in worth},
+            worth=tuple(_in_words(plan, self.goal, self.sign, each) for each in worth),
             tried=tuple(self.tried) if kind else (),
             n_evaluations=self.count,
             n_failed=sum(self.reasons.values()),
             reasons=self.reasons,
         )
+
+    def _prices(self) -> list[Price]:
+        """What active limits cost."""
+        assert self.best is not None
+        plan, kept = settled(self.plan, self.best[1])
+        return prices(plan, self.goal, self.sign, self.best[1][kept], _ACTIVE)
 
     def _refusal(self) -> str:
         if self.best is not None and self.best[0][0] == 1:
@@ -234,6 +309,39 @@ class _Search:
             return f"none of {self.count} machines keeps all limits; the nearest has {nearest}: allow more"
         most = max(self.reasons, key=self.reasons.__getitem__, default="")
         return f"none of {self.count} machines has an answer; most often: {most}"
+
+
+def settled(plan: StudyPlan, shares: Floats) -> tuple[StudyPlan, list[int]]:
+    """The study with what is no number chosen, and the places of the variables that are left."""
+    kept = [i for i, each in enumerate(plan.axes) if each.is_number]
+    changes = [
+        (address, _chosen(each, share))
+        for each, share in zip(plan.axes, shares, strict=True)
+        if not each.is_number
+        for address in each.addresses
+    ]
+    machine = variant(plan.machine, changes) if changes else plan.machine
+    return replace(plan, machine=machine, axes=tuple(plan.axes[i] for i in kept)), kept
+
+
+def _ends(plan: StudyPlan, shares: Floats) -> tuple[str, ...]:
+    """Ends of ranges that a machine touches."""
+    found = []
+    for each, share in zip(plan.axes, shares, strict=True):
+        if not each.choices and min(share, 1.0 - share) <= _ACTIVE:
+            word, value = ("lower", each.low) if share < 0.5 else ("upper", each.high)
+            found.append(f"{each.name} is at the {word} end of its range, {value:.6g} {each.unit}".rstrip())
+    return tuple(found)
+
+
+def _in_words(plan: StudyPlan, goal: str, sign: float, price: Price) -> str:
+    """What one hundredth of a limit is worth."""
+    unit, own = plan.units[goal], plan.units[price.of]
+    wider = 0.01 * (abs(price.limit) or 1.0)
+    way = "more" if price.is_upper else "less"
+    better = "smaller" if sign > 0 else "larger"
+    gain = f"{price.multiplier * wider:.4g} {unit}".rstrip()
+    return f"{wider:.4g} {own} {way} at the {price.what} would make {goal} {gain} {better}".replace("  ", " ")
 
 
 def machine_of(plan: StudyPlan, rows: Rows) -> Machine:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import Json, Outside, Sets
@@ -18,6 +18,14 @@ if TYPE_CHECKING:
 Evaluations = Annotated[
     int, Option("--evaluations", metavar="N", help="Machines for each combination of choices.", min=10)
 ]
+Way = Annotated[
+    Literal["both", "global", "gradient"],
+    Option(
+        "--method",
+        help="CMA-ES and from its best by derivatives, CMA-ES alone, or derivatives from many starts.",
+    ),
+]
+Starts = Annotated[int, Option("--starts", metavar="N", help="Starts of --method gradient.", min=1)]
 Seed = Annotated[int, Option("--seed", metavar="N", help="Seed of the random generator.", min=0)]
 
 
@@ -27,6 +35,8 @@ def optimise(
     allow_outside: Outside = False,
     evaluations: Evaluations = 4000,
     seed: Seed = 0,
+    method: Way = "both",
+    starts: Starts = 8,
     json: Json = False,
     out: Out = None,
     force: Force = False,
@@ -42,7 +52,7 @@ def optimise(
 
     plan = read_study(file, set or [], allow_outside=allow_outside)
     try:
-        found = compute(plan, evaluations, seed=seed)
+        found = compute(plan, evaluations, seed=seed, method=method, starts=starts)
     except FindingError as error:
         hand_over(Answer(machine=plan.machine.name, findings=[str(error)]), json=json)
         return
@@ -60,4 +70,4 @@ def _head(name: str, found: Optimum) -> str:
     """What was done, and what limits the answer."""
     failed = f", {found.n_failed} without an answer" if found.n_failed else ""
     limits = "; ".join(found.active) or "no limit is active"
-    return f"{name}\n{found.n_evaluations} machines computed{failed}\n{limits}"
+    return "\n".join([name, f"{found.n_evaluations} machines computed{failed}", limits, *found.worth])

@@ -1,0 +1,302 @@
+r"""Down to the nearest best machine by exact derivatives, and what its limits cost.
+
+Sequential quadratic programming (SLSQP of SciPy [1]_) goes down where goal and limits are smooth. Extremes
+of a motion are not where two of them tie, and best machines often stand there; so cutting planes [2]_
+follow: the goal is taken as the largest of its tangents at the places nearby, a linear programme finds the
+lowest point of these within a radius, and the radius is halved where that is no better. Where two branches
+cross, they meet as Newton's method does.
+
+At the place that is found the multipliers λ ≥ 0 of the active limits c are those of
+
+.. math:: \min_\lambda \Bigl\| \nabla f + \sum \lambda_i \nabla c_i \Bigr\|
+
+so that a limit which is wider by one unit makes the goal better by λ.
+
+References
+----------
+.. [1] Kraft, A software package for sequential quadratic programming, DFVLR-FB 88-28, 1988.
+.. [2] Kelley, The cutting-plane method for solving convex programs, J. SIAM 8 (1960) 703; with a trust
+region,
+   Nocedal and Wright, Numerical Optimization, 2nd ed. 2006, chapter 18.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.errors import FindingError
+from linkwright.studies.axes import Axis
+from linkwright.studies.plan import StudyPlan
+from linkwright.studies.slopes import slopes
+
+Floats = NDArray[np.float64]
+
+# Limits are kept by this share of their size: batches, which judge in the end, are computed to 1e-9.
+_MARGIN = 3e-9
+
+# Cost of passing a limit by its own size, over the size of the goal: more than any multiplier that is met.
+_PENALTY = 1e3
+
+# First radius of the cutting planes and the last, as shares of the ranges, and how many tangents are kept.
+_FIRST, _LAST, _KEPT = 0.02, 1e-10, 30
+
+# A promised gain below this share of the goal ends the search: results are computed to 1e-11.
+_GAIN = 1e-11
+
+# Steps of differences as a share of the range, where there are no exact derivatives.
+_STEP = 1e-4
+
+# A residual of the multipliers above this share of the goal's gradient: they explain nothing.
+_EXPLAINED = 0.05
+
+
+@dataclass(frozen=True)
+class _Place:
+    """Goal, to be made small, and limits, to be kept below zero, with slopes by the shares."""
+
+    share: Floats
+    goal: float
+    goal_slope: Floats
+    over: Floats  # (limits,) by how much each is passed, over its size
+    over_slope: Floats  # (limits, variables)
+
+    @property
+    def merit(self) -> float:
+        """The goal with the cost of limits that are passed."""
+        return self.goal + _PENALTY * float(np.maximum(self.over, 0.0).sum())
+
+
+class Descent:
+    """The way down from starts of a study whose variables are numbers."""
+
+    def __init__(self, plan: StudyPlan, goal: str, sign: float) -> None:
+        self.plan, self.goal, self.sign = plan, goal, sign
+        self.free = [i for i, each in enumerate(plan.axes) if not each.choices and not each.is_whole]
+        self.count = 0
+        self.size = 1.0
+        self._known: dict[bytes, _Place] = {}
+
+    def run(self, start: Floats) -> Floats:
+        """The best place from a start, as shares, (variables,).
+
+        Raises FindingError: the machine of the start has no answer.
+        """
+        self.base = start.copy()
+        first = self.at(start[self.free])
+        self.size = max(abs(first.goal * self.size), 1e-300)
+        self._known.clear()
+        best = self._planes(self._slsqp(start[self.free]))
+        found = self.base.copy()
+        found[self.free] = best.share
+        return found
+
+    def at(self, share: Floats) -> _Place:
+        """Goal and limits at a place, its free shares given."""
+        key = share.tobytes()
+        if key not in self._known:
+            self.count += 1
+            self._known[key] = self._computed(share)
+        return self._known[key]
+
+    def _computed(self, share: Floats) -> _Place:
+        whole = self.base.copy()
+        whole[self.free] = np.clip(share, 0.0, 1.0)
+        values = np.array([float(axis.values(whole[i : i + 1])[0]) for i, axis in enumerate(self.plan.axes)])
+        rates = np.array([_rate(axis, x) for axis, x in zip(self.plan.axes, values, strict=True)])
+        found = slopes(self.plan, values, _STEP * np.abs(rates))
+        slope = {name: (each * rates)[self.free] for name, each in found.slopes.items()}
+        over, over_slope = [], []
+        for name, limit, way in limits(self.plan):
+            size = abs(limit) or 1.0
+            over.append(way * (found.values[name] - limit) / size + _MARGIN)
+            over_slope.append(way * slope[name] / size)
+        n = len(self.free)
+        return _Place(
+            share.copy(),
+            self.sign * found.values[self.goal] / self.size,
+            self.sign * slope[self.goal] / self.size,
+            np.array(over),
+            np.array(over_slope).reshape(len(over), n),
+        )
+
+    def _slsqp(self, start: Floats) -> _Place:
+        """The best place on the way of SLSQP."""
+        from scipy.optimize import minimize
+
+        kept = {
+            "type": "ineq",
+            "fun": lambda share: -self.at(share).over,
+            "jac": lambda share: -self.at(share).over_slope,
+        }
+        given: Any = {
+            "fun": lambda share: self.at(share).goal,
+            "x0": start,
+            "jac": lambda share: self.at(share).goal_slope,
+            "bounds": [(0.0, 1.0)] * len(start),
+            "constraints": [kept] if limits(self.plan) else [],
+            "method": "SLSQP",
+            "options": {"maxiter": 60, "ftol": 1e-14},
+        }
+        try:
+            minimize(**given)
+        except FindingError:
+            # A machine on the way has no answer: what was found before it stands.
+            return self._least()
+        return self._least()
+
+    def _least(self) -> _Place:
+        """The best place so far."""
+        return min(self._known.values(), key=lambda each: each.merit)
+
+    def _planes(self, best: _Place) -> _Place:
+        """The best place by cutting planes about one."""
+        near, radius = [best], _FIRST
+        while radius > _LAST:
+            trial, gain = self._lowest(near, best, radius)
+            if gain < _GAIN:
+                return best
+            moved = float(np.abs(trial - best.share).max())
+            try:
+                there = self.at(trial)
+            except FindingError:
+                radius /= 4
+                continue
+            near = [*near, there][-_KEPT:]
+            if there.merit < best.merit:
+                best = there
+                radius = min(radius, 4 * moved)
+            else:
+                radius = min(radius, moved) / 2
+        return best
+
+    def _lowest(self, near: list[_Place], best: _Place, radius: float) -> tuple[Floats, float]:
+        """Lowest point of the tangents nearby, within a radius of the best, and by how much it is lower."""
+        from scipy.optimize import linprog
+
+        n, m = len(best.share), len(best.over)
+        reach = 4 * radius
+        rows, ends = [], []
+        for each in near:
+            away = best.share - each.share
+            if np.abs(away).max() > reach:
+                continue
+            # A tangent that passes above the best place, as on a hump, is lowered to it.
+            height = min(float(each.goal + each.goal_slope @ away), best.goal)
+            rows.append(np.concatenate([each.goal_slope, [-1.0], np.zeros(m)]))
+            ends.append(best.goal - height)
+            for k in range(m):
+                level = min(float(each.over[k] + each.over_slope[k] @ away), max(float(best.over[k]), 0.0))
+                rows.append(np.concatenate([each.over_slope[k], [0.0], -np.eye(m)[k]]))
+                ends.append(-level)
+        # Unknowns in radii, so that the smallest are no rounding: steps, the goal's change, passing of the
+        # limits.
+        box = [(max(-1.0, -share / radius), min(1.0, (1.0 - share) / radius)) for share in best.share]
+        cost = np.concatenate([np.zeros(n), [1.0], np.full(m, _PENALTY)])
+        found = linprog(
+            cost,
+            A_ub=np.array(rows),
+            b_ub=np.array(ends) / radius,
+            bounds=[*box, (None, None), *[(0.0, None)] * m],
+        )
+        if not found.success or found.x is None:
+            return best.share, 0.0
+        passed = _PENALTY * (np.maximum(best.over, 0.0).sum() - radius * found.x[n + 1 :].sum())
+        return np.clip(best.share + radius * found.x[:n], 0.0, 1.0), float(passed - radius * found.x[n])
+
+
+def limits(plan: StudyPlan) -> list[tuple[str, float, float]]:
+    """Finite limits: response, value [SI], 1 of a maximum and −1 of a minimum."""
+    return [
+        (name, limit, way)
+        for name, (low, high) in plan.limits.items()
+        for limit, way in ((low, -1.0), (high, 1.0))
+        if np.isfinite(limit)
+    ]
+
+
+def _rate(axis: Axis, value: float) -> float:
+    """Derivative of a variable by its share."""
+    if axis.is_log:
+        return float(value * np.log(axis.high / axis.low))
+    return axis.high - axis.low
+
+
+@dataclass(frozen=True)
+class Price:
+    """What an active limit of `of`, a response or a variable, costs: `multiplier` [goal per unit of the
+    limit, SI].
+    """
+
+    what: str
+    of: str
+    limit: float
+    is_upper: bool
+    multiplier: float
+
+
+def prices(plan: StudyPlan, goal: str, sign: float, share: Floats, near: float) -> list[Price]:
+    """Multipliers of the active limits of a place; none where they do not explain it.
+
+    `share`: (variables,); `near`: distance from a limit over its size, up to which it is active.
+    """
+    from scipy.optimize import nnls
+
+    values = np.array([float(axis.values(share[i : i + 1])[0]) for i, axis in enumerate(plan.axes)])
+    rates = np.array([_rate(axis, x) for axis, x in zip(plan.axes, values, strict=True)])
+    found = slopes(plan, values, _STEP * np.abs(rates))
+    free = [not axis.choices and not axis.is_whole for axis in plan.axes]
+    listed = list(_active(plan, found.values, values, rates, found.slopes, near))
+    if not listed or goal in found.ties:
+        return []
+    down = -(sign * found.slopes[goal] * rates)[free]
+    ways = np.array([each.outward[free] for each in listed]).T
+    found_lambda, rest = nnls(ways, down)
+    if rest > _EXPLAINED * np.linalg.norm(down):
+        return []
+    return [
+        Price(each.what, each.of, each.limit, each.is_upper, float(x / each.unit))
+        for each, x in zip(listed, found_lambda, strict=True)
+    ]
+
+
+class _Touched(NamedTuple):
+    """An active limit: words, response or variable, value [SI], outward slope by the shares, a unit of it
+    there.
+    """
+
+    what: str
+    of: str
+    limit: float
+    is_upper: bool
+    outward: Floats
+    unit: float
+
+
+def _active(
+    plan: StudyPlan,
+    found: dict[str, float],
+    values: Floats,
+    rates: Floats,
+    slope: dict[str, Floats],
+    near: float,
+) -> Iterator[_Touched]:
+    """Active limits of responses and of ranges."""
+    for name, limit, way in limits(plan):
+        if abs(found[name] - limit) <= near * max(abs(limit), abs(found[name])):
+            word = "maximum" if way > 0 else "minimum"
+            yield _Touched(f"{word} of {name}", name, limit, way > 0, way * slope[name] * rates, 1.0)
+    for i, axis in enumerate(plan.axes):
+        if axis.choices or axis.is_whole:
+            continue
+        for limit, way, word in ((axis.low, -1.0, "lower"), (axis.high, 1.0, "upper")):
+            if abs(values[i] - limit) <= near * (axis.high - axis.low):
+                # A unit of the variable is 1/rate of its share.
+                outward = way * np.eye(len(values))[i]
+                yield _Touched(
+                    f"{word} end of {axis.name}", axis.name, limit, way > 0, outward, abs(rates[i])
+                )
