@@ -110,6 +110,7 @@ _HOME = {
     "sweep": "studies.sweep",
     "tolerance": "studies.tolerance",
     "optimise": "studies.optimise",
+    "front": "studies.front",
     "evaluate": "studies.engine",
     "required_power": "sizing.power",
     "choose_motor": "sizing.motor",
@@ -215,6 +216,7 @@ if TYPE_CHECKING:
     from linkwright.sizing.motor import choose_motor as choose_motor
     from linkwright.sizing.power import required_power as required_power
     from linkwright.studies.engine import evaluate as evaluate
+    from linkwright.studies.front import front as front
     from linkwright.studies.optimise import optimise as optimise
     from linkwright.studies.read import read_study as read_study
     from linkwright.studies.sweep import sweep as sweep

@@ -111,3 +111,22 @@ def test_what_limits_cost(tmp_path: Path) -> None:
     assert "a is at the upper end of its range, 1.5708 rad" in found.active
     # At 90° far = 0.1² + (r − 0.15)²: with r = 0.15, ∂far/∂a = 2·0.1·∂x/∂a = −2·0.1·0.15.
     assert found.multipliers == {"upper end of a": pytest.approx(0.03, rel=1e-4)}
+
+
+def test_a_front_of_two_goals(tmp_path: Path) -> None:
+    """Squared distances to two places: the front is the line between them, √f₁ + √f₂ their distance."""
+    goals = 'far = "minimise"\nother = "minimise"\n'
+    text = TEXT.replace('far = "minimise"\n', goals)
+    text = text.replace("[goals]", 'other = { formula = "(x - 0.05)^2 + (y - 0.15)^2" }\n[goals]')
+    (tmp_path / "study.toml").write_text(text)
+    found = lw.front(lw.read_study(tmp_path / "study.toml"), 4, method="gradient", starts=1)
+    assert len(found.machines) == 4
+    # 0.0225 (0.15 m)² in three equal steps.
+    ends = np.array([[each.responses[name] for name in ("far", "other")] for each in found.machines])
+    assert ends[:, 1] == pytest.approx(0.0225 * np.array([3, 2, 1, 0]) / 3, abs=2e-6)
+    assert np.sqrt(ends).sum(axis=1)[1:3] == pytest.approx(0.15, rel=1e-5)
+    assert found.machines[1].active == ("other is at its maximum, 0.015",)
+    with pytest.raises(InputError, match="expected two"):
+        lw.front(
+            lw.read_study(tmp_path / "study.toml", ["study.goals.other=minimise", "study.goals.x=minimise"])
+        )

@@ -188,3 +188,26 @@ def test_a_full_disk(study_file: Files, tmp_path: Path) -> None:
     assert "goes on" in told
     assert not list((tmp_path / "rows").glob("*part*"))
     assert lw.sweep(lw.read_study(study), tmp_path / "rows").is_complete
+
+
+def test_processes_that_are_lost_are_replaced(study_file: Files, tmp_path: Path) -> None:
+    """The folder is that of one process, though one of two is killed as soon as a file is there."""
+    import multiprocessing
+
+    plan = lw.read_study(study_file(("chunk = 4", "chunk = 1")))
+    lw.sweep(plan, tmp_path / "alone")
+    killed: list[int] = []
+
+    def watch(done: int, total: int, rate: float) -> None:
+        if not killed:
+            child = multiprocessing.active_children()[0]
+            assert child.pid is not None
+            killed.append(child.pid)
+            os.kill(child.pid, signal.SIGKILL)
+
+    found = lw.sweep(plan, tmp_path / "beside", workers=2, watch=watch)
+    assert killed
+    assert found.is_complete
+    assert contents(tmp_path / "beside") == contents(tmp_path / "alone")
+    with pytest.raises(InputError, match="workers"):
+        lw.sweep(plan, tmp_path / "none", workers=0)

@@ -15,6 +15,8 @@
 | `sweep` | A sweep, and its continuation |
 | `slopes` | Derivatives of responses by variables, exact where the analysis has them |
 | `tolerance` | Scatter of responses, contributions, yield, Sobol indices |
+| `front` | Machines of which none is better in both of two goals |
+| `workers` | Files of a sweep by processes beside |
 | `optimise` | The best machine, by CMA-ES over batches |
 | `local` | Down to the nearest best machine by exact derivatives, and what its limits cost |
 | `show` | Rows of a folder, as they are drawn |

@@ -68,6 +68,7 @@ def sweep(
     folder: str | os.PathLike[str],
     *,
     chunks: tuple[int, int] | None = None,
+    workers: int = 1,
     watch: Callable[..., None] | None = None,
 ) -> Sweep:
     """Compute the rows of a study that a folder does not have yet.
@@ -82,6 +83,8 @@ def sweep(
     chunks : tuple of int, optional
         First number of the files to compute, and the one after the last: a share of the work, as for one job
         of many.
+    workers : int
+        Processes that compute, 1 to 1000; one is this one, whose core uses all processors where it can.
     watch : callable, optional
         Told rows done, rows in all, and rows a second.
 
@@ -96,9 +99,14 @@ def sweep(
         The folder is that of another study, or cannot be written to; an analysis needs what the machine does
         not have.
     """
+    if not 1 <= workers <= 1000:
+        raise InputError(f"workers {workers}: expected 1 to 1000 processes")
     found = begun(plan, folder)
     missing, repaired = _missing(found, chunks)
-    _compute(plan, found, missing, watch)
+    if workers == 1:
+        _compute(plan, found, missing, watch)
+    else:
+        _compute_beside(plan, found, missing, workers, watch)
     return summary(found, plan.responses, repaired)
 
 
@@ -157,6 +165,20 @@ def _compute(
                 watch(done, total, done / max(monotonic() - began, 1e-9))
         if writing is not None:
             writing.result()
+
+
+def _compute_beside(
+    plan: StudyPlan, folder: SweepFolder, missing: list[int], workers: int, watch: Callable[..., None] | None
+) -> None:
+    """Compute and write files by processes."""
+    from linkwright.studies.workers import computed
+
+    rows = {number: stop - start for number in missing for start, stop in [folder.rows_of(number)]}
+    done, total, began = 0, sum(rows.values()), monotonic()
+    for number in computed(plan, folder, missing, workers):
+        done += rows[number]
+        if watch is not None:
+            watch(done, total, done / max(monotonic() - began, 1e-9))
 
 
 def summary(folder: SweepFolder, responses: Iterable[str], repaired: tuple[str, ...] = ()) -> Sweep:

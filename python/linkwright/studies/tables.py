@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from linkwright.kernel.page.numbers import number
 from linkwright.kernel.page.table import Row, Table
+from linkwright.studies.front import Front
 from linkwright.studies.optimise import Optimum
 from linkwright.studies.sweep import Sweep
 from linkwright.studies.tolerance import Tolerance
@@ -86,3 +87,20 @@ def optimum_tables(found: Optimum, units: dict[str, str]) -> list[Table]:
         ]
         tables.append(Table("tried", "Choices", (heads[0], "", *heads[1:]), listed))
     return tables
+
+
+def front_tables(found: Front, units: dict[str, str]) -> list[Table]:
+    """A row for each machine of a front: goals first, then variables, and what is active."""
+    first = found.machines[0]
+    names = [*found.goals, *first.variables, *(name for name in first.responses if name not in found.goals)]
+    rows: list[Row] = []
+    for nth, each in enumerate(found.machines, start=1):
+        values = {**each.variables, **each.responses}
+        shown = [
+            with_unit(values[name], units[name]) if isinstance(values[name], float) else str(values[name])
+            for name in names
+        ]
+        rows.append((str(nth), "", *shown, "; ".join(each.active) or "–"))
+    return [
+        Table("front", "Machines of which none is better in both goals", ("", "", *names, "active"), rows)
+    ]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import Json, Outside, Sets
@@ -14,6 +14,7 @@ from linkwright.studies.commands.sweep import StudyArgument
 
 if TYPE_CHECKING:
     from linkwright.studies.optimise import Optimum
+    from linkwright.studies.plan import StudyPlan
 
 Evaluations = Annotated[
     int, Option("--evaluations", metavar="N", help="Machines for each combination of choices.", min=10)
@@ -26,6 +27,7 @@ Way = Annotated[
     ),
 ]
 Starts = Annotated[int, Option("--starts", metavar="N", help="Starts of --method gradient.", min=1)]
+Points = Annotated[int, Option("--points", metavar="N", help="Machines of the front of two goals.", min=3)]
 Seed = Annotated[int, Option("--seed", metavar="N", help="Seed of the random generator.", min=0)]
 
 
@@ -37,13 +39,15 @@ def optimise(
     seed: Seed = 0,
     method: Way = "both",
     starts: Starts = 8,
+    points: Points = 9,
     json: Json = False,
     out: Out = None,
     force: Force = False,
 ) -> None:
     """The best machine by the goal of a study, within its constraints; with --out as a machine file.
 
-    Exit code 1 if none keeps them.
+    Of two goals the machines of which none is better in both; with --out that in the middle. Exit code 1 if
+    none keeps the constraints.
     """
     from linkwright.machine.write import dumps
     from linkwright.studies.optimise import optimise as compute
@@ -51,6 +55,10 @@ def optimise(
     from linkwright.studies.tables import optimum_tables
 
     plan = read_study(file, set or [], allow_outside=allow_outside)
+    if len(plan.study.goals) == 2:
+        options = {"seed": seed, "method": method, "starts": starts}
+        _hand_over_front(plan, points, evaluations, options, json=json, out=out, force=force)
+        return
     try:
         found = compute(plan, evaluations, seed=seed, method=method, starts=starts)
     except FindingError as error:
@@ -62,6 +70,38 @@ def optimise(
         head=lambda: _head(plan.machine.name, found),
         tables=lambda: optimum_tables(found, plan.units),
         machine_file=lambda: dumps(found.machine),
+    )
+    hand_over(answer, json=json, out=Path(out) if out else None, force=force)
+
+
+def _hand_over_front(
+    plan: StudyPlan,
+    points: int,
+    evaluations: int,
+    options: dict[str, Any],
+    *,
+    json: bool,
+    out: Path | None,
+    force: bool,
+) -> None:
+    """The machines of which none is better in both goals."""
+    from linkwright.machine.write import dumps
+    from linkwright.studies.front import front
+    from linkwright.studies.tables import front_tables
+
+    try:
+        found = front(plan, points, evaluations, **options)
+    except FindingError as error:
+        hand_over(Answer(machine=plan.machine.name, findings=[str(error)]), json=json)
+        return
+    middle = found.machines[len(found.machines) // 2]
+    answer = Answer(
+        machine=plan.machine.name,
+        results=lambda _: {"front": found.to_dict()},
+        warnings=[f"no machine has {limit}: {reason}" for limit, reason in found.failed.items()],
+        head=lambda: f"{plan.machine.name}\n{found.n_evaluations} machines computed",
+        tables=lambda: front_tables(found, plan.units),
+        machine_file=lambda: dumps(middle.machine),
     )
     hand_over(answer, json=json, out=Path(out) if out else None, force=force)
 

@@ -36,12 +36,16 @@ Chunks = Annotated[
 ]
 
 
+Workers = Annotated[int, Option("--workers", metavar="N", help="Processes that compute.", min=1)]
+
+
 def sweep(
     file: StudyArgument,
     out: Into,
     set: Sets = None,
     allow_outside: Outside = False,
     chunks: Chunks = "",
+    workers: Workers = 1,
     json: Json = False,
 ) -> None:
     """Compute the rows of a study into a folder; one that was stopped goes on.
@@ -54,7 +58,7 @@ def sweep(
 
     plan = read_study(file, set or [], allow_outside=allow_outside)
     with rows_bar() as watch:
-        found = compute(plan, out, chunks=_share(chunks), watch=watch)
+        found = compute(plan, out, chunks=_share(chunks), workers=workers, watch=watch)
     hand_over(_answer(plan.machine.name, found, plan.units), json=json)
 
 

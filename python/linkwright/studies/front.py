@@ -1,0 +1,152 @@
+r"""Two goals at once: the machines of which none is better in both, by ε-constraints.
+
+The first goal is sought while the second is held to a limit, which goes in equal steps from what the best
+machine by the first goal has to what the best by the second has [1]_. That finds all of a front, also where
+it is hollow, where weighted sums do not.
+
+References
+----------
+.. [1] Haimes, Lasdon, Wismer, On a bicriterion formulation of the problems of integrated system
+identification and
+   system optimization, IEEE Trans. Syst. Man Cybern. 1 (1971) 296.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Annotated, Any
+
+import numpy as np
+
+from linkwright.kernel.errors import FindingError, InputError
+from linkwright.kernel.public import public
+from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.result import Result
+from linkwright.studies.optimise import Method, Optimum, optimise
+from linkwright.studies.plan import StudyPlan
+
+# Machines whose goals differ by less, relative to the range of the front, are one.
+_SAME = 1e-9
+
+
+@dataclass(frozen=True)
+class Front(Result):
+    """Machines of which none is better in both goals."""
+
+    goals: Annotated[tuple[str, str], About("Names of the responses that are sought.")]
+    machines: Annotated[
+        tuple[Optimum, ...], About("From the best by the first goal to the best by the second.")
+    ]
+    failed: Annotated[dict[str, str], About("Limits of the second goal that no machine was found for → why.")]
+    n_evaluations: Annotated[int, Shown("machines that were computed", "", "")]
+
+    def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
+        """Numbers by name, each machine as that of `optimise`.
+
+        Parameters
+        ----------
+        curves : bool
+            Without effect.
+
+        Returns
+        -------
+        dict
+            Ready for JSON.
+        """
+        machines = [each.to_dict() for each in self.machines]
+        return {
+            **super().to_dict(),
+            "goals": list(self.goals),
+            "machines": machines,
+            "failed": dict(self.failed),
+        }
+
+
+@public
+def front(
+    plan: StudyPlan,
+    points: int = 9,
+    evaluations: int = 2000,
+    *,
+    seed: int = 0,
+    method: Method = "both",
+    starts: int = 8,
+) -> Front:
+    """Seek the machines of which none is better in both of two goals.
+
+    Parameters
+    ----------
+    plan : StudyPlan
+        A study with two goals.
+    points : int
+        How many machines, 3 to 1000.
+    evaluations : int
+        Machines that each search may take, 10 to 10⁷.
+    seed : int
+        Seed of the random generator.
+    method : {"both", "global", "gradient"}
+        As of `optimise`.
+    starts : int
+        As of `optimise`.
+
+    Returns
+    -------
+    Front
+        The machines, with what is active.
+
+    Raises
+    ------
+    InputError
+        There are not two goals, or `optimise` refuses the study.
+    FindingError
+        No machine keeps the constraints.
+    """
+    if len(plan.study.goals) != 2:
+        raise InputError(f"goals: found {', '.join(plan.study.goals) or 'none'}, expected two for a front")
+    if not 3 <= points <= 1000:
+        raise InputError(f"points {points}: expected 3 to 1000")
+    (first, _), (second, way) = plan.study.goals.items()
+
+    def sought(goal: str, limit: float | None = None) -> Optimum:
+        return optimise(
+            _of_one(plan, goal, second, limit), evaluations, seed=seed, method=method, starts=starts
+        )
+
+    ends = sought(first), sought(second)
+    found, failed = list(ends), {}
+    for limit in np.linspace(ends[0].responses[second], ends[1].responses[second], points)[1:-1]:
+        try:
+            found.append(sought(first, float(limit)))
+        except FindingError as error:
+            word = "at most" if way == "minimise" else "at least"
+            failed[f"{second} {word} {limit:.6g} {plan.units[second]}".rstrip()] = str(error)
+    signs = np.array([1.0 if each == "minimise" else -1.0 for each in plan.study.goals.values()])
+    return Front(
+        (first, second),
+        _best(found, (first, second), signs),
+        failed,
+        sum(each.n_evaluations for each in found),
+    )
+
+
+def _of_one(plan: StudyPlan, goal: str, second: str, limit: float | None) -> StudyPlan:
+    """The study with one of its goals, and the other within a limit."""
+    study = plan.study.model_copy(update={"goals": {goal: plan.study.goals[goal]}})
+    limits = dict(plan.limits)
+    if limit is not None:
+        low, high = limits.get(second, (-np.inf, np.inf))
+        is_small = plan.study.goals[second] == "minimise"
+        limits[second] = (low, min(high, limit)) if is_small else (max(low, limit), high)
+    return replace(plan, study=study, limits=limits)
+
+
+def _best(found: list[Optimum], goals: tuple[str, str], signs: Any) -> tuple[Optimum, ...]:
+    """Those that none of the others beats in both goals, in the order of the first."""
+    table = signs * np.array([[each.responses[goal] for goal in goals] for each in found])
+    order = np.lexsort((table[:, 1], table[:, 0]))
+    slack = _SAME * np.ptp(table[:, 1])
+    kept: list[int] = []
+    for at in order.tolist():
+        if not kept or table[at, 1] < table[kept[-1], 1] - slack:
+            kept.append(at)
+    return tuple(found[at] for at in kept)
