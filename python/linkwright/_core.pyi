@@ -1044,7 +1044,8 @@ class MotionInTime:
     """Motion in time at the ends of the steps [s, rad, rad/s, rad/s²].
 
     How it ended by name, torques of drive and load there [N m], evaluations; of each step seven factors of
-    the angle and seven of the speed, (steps, 14) (`Stages::component` in `kernel/rk.rs`).
+    the angle and seven of the speed, (steps, 14) (`Stages::component` in `kernel/rk.rs`), and whether it is
+    by the implicit method (steps,).
     """
 
     end: Final[str]
@@ -1053,6 +1054,7 @@ class MotionInTime:
     speed: Final[_Floats]
     acceleration: Final[_Floats]
     between: Final[_Floats]
+    implicit: Final[NDArray[np.bool_]]
     torque_drive_end: Final[float]
     torque_load_end: Final[float]
     evaluations: Final[int]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +11,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import linkwright as lw
+from linkwright.drive.tables_in_time import methods_sentence
 
 MACHINES = Path(__file__).parents[2] / "machines"
 
@@ -65,6 +68,27 @@ def test_a_steep_motor_against_radau(stall: float) -> None:
     np.testing.assert_allclose(found[0], angle, rtol=0, atol=3e-8 * angle[-1])
     # Four revolutions; by an explicit method at 1e8 a million steps.
     assert len(path.time) < 1500
+    check_parts(path, is_stiff=stall > 1e5)
+
+
+def check_parts(path: lw.Transient, *, is_stiff: bool) -> None:
+    """The parts tile the motion, are of the methods of their steps, and take turns."""
+    assert path.implicit.shape == (path.steps,)
+    assert path.implicit.any() == is_stiff
+    parts = path.methods
+    assert sum(each.steps for each in parts) == path.steps
+    assert [each.time_start for each in parts] == [0.0, *(each.time_end for each in parts[:-1])]
+    assert parts[-1].time_end == path.time[-1]
+    for one, other in pairwise(parts):
+        assert {one.method, other.method} == {"explicit", "implicit"}
+    inside = [
+        path.implicit[(path.time[:-1] >= each.time_start) & (path.time[1:] <= each.time_end)]
+        for each in parts
+    ]
+    assert [{"explicit": False, "implicit": True}[each.method] for each in parts] == [
+        bool(all(of)) for of in inside
+    ]
+    assert path.to_dict()["methods"][0]["method"] == parts[0].method
 
 
 @pytest.mark.parametrize(
@@ -85,3 +109,16 @@ def test_a_run_up_at_the_end_of_a_range_takes_few_steps(entry: str, value: float
     last = float(result.motion.speed[-1])
     there = np.interp(result.motion.crank_angle[-1] % (2 * np.pi), steady.crank_angle, steady.speed)
     assert last == pytest.approx(there, rel=1e-6)
+
+
+def test_json_and_report_tell_the_methods() -> None:
+    machine = lw.replace(
+        lw.read(MACHINES / "roller_one_cart.toml"), {"drive.motor.torque_breakdown": 2.154e6}
+    )
+    result = lw.run_up(machine)
+    parts = result.to_dict()["methods"]
+    assert {each["method"] for each in parts} >= {"implicit"}
+    assert sum(each["steps"] for each in parts) == result.motion.steps
+    told = methods_sentence(result.motion)
+    assert "Radau IIA" in told
+    assert sum(int(each) for each in re.findall(r"(\d+) steps", told)) == result.motion.steps

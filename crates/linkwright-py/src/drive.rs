@@ -5,7 +5,7 @@ use linkwright_core::drive::gradient::{CURVES, Gradient, NUMBERS};
 use linkwright_core::drive::kinks as core_kinks;
 use linkwright_core::drive::reading::{Curves, ReadCurves};
 use linkwright_core::drive::steady::{Failure, Steady, steady, steady_with_others};
-use linkwright_core::drive::transient::{End, Start, Trajectory, follow};
+use linkwright_core::drive::transient::{End, Start, follow};
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
@@ -292,6 +292,7 @@ pub(crate) struct MotionInTime {
     speed: Array,
     acceleration: Array,
     between: Py<PyArray2<f64>>,
+    implicit: Py<PyArray1<bool>>,
     torque_drive_end: f64,
     torque_load_end: f64,
     evaluations: usize,
@@ -324,20 +325,19 @@ pub(crate) fn transient(
     let q = plan.parameters(&q)?;
     let start = Start { phi, omega, duration, turns, accuracy };
     let path = guarded(py, "motion in time", || follow(&plan.0, q, &start))?;
-    let Trajectory { t, phi, omega, epsilon, between, end, drive_torque, load_torque, evaluations, .. } =
-        path;
-    let steps = between.len();
-    let between = column(py, between.into_flattened().into_flattened()).reshape([steps, 14])?;
+    let steps = path.between.len();
+    let between = column(py, path.between.into_flattened().into_flattened()).reshape([steps, 14])?;
     Ok(MotionInTime {
-        end: name_of(end),
-        time: kept(py, t),
-        crank_angle: kept(py, phi),
-        speed: kept(py, omega),
-        acceleration: kept(py, epsilon),
+        end: name_of(path.end),
+        time: kept(py, path.t),
+        crank_angle: kept(py, path.phi),
+        speed: kept(py, path.omega),
+        acceleration: kept(py, path.epsilon),
         between: between.unbind(),
-        torque_drive_end: drive_torque,
-        torque_load_end: load_torque,
-        evaluations,
+        implicit: PyArray1::from_vec(py, path.implicit).unbind(),
+        torque_drive_end: path.drive_torque,
+        torque_load_end: path.load_torque,
+        evaluations: path.evaluations,
     })
 }
 

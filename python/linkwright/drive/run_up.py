@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.drive.steady_state import SteadyState, steady_state
-from linkwright.drive.transient import End, Transient, transient
+from linkwright.drive.transient import End, MethodPart, Transient, transient
 from linkwright.kernel.errors import InputError, StartError, SteadyStateError
 from linkwright.kernel.numerics.roots import minima, zeros
 from linkwright.kernel.public import public
@@ -46,6 +46,17 @@ class RunUp(Result):
         float, Shown("maximum speed during the run-up", "ω_peak", "rad/s", "Until then.", table="run_up")
     ]
     motion: Annotated[Transient, About("The whole motion.")]
+
+    @property
+    def methods(
+        self,
+    ) -> Annotated[tuple[MethodPart, ...], About("Which method was used from when to when.")]:
+        """Which method was used from when to when, in the order of time."""
+        return self.motion.methods
+
+    def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
+        """As any result, with the parts as tables by name."""
+        return super().to_dict(curves=curves) | {"methods": [each._asdict() for each in self.methods]}
 
 
 @public
@@ -91,7 +102,7 @@ def run_up(machine: Machine, *, steady: SteadyState | None = None) -> RunUp:
         if motion.came_to_rest:
             raise StartError(_why_not(motion))
         settled = _settled(motion, steady, options.settled)
-        # InitialAssembly well before the end: otherwise the speed may yet leave the band again.
+        # Settled well before the end: otherwise the speed may yet leave the band again.
         if settled is not None and (settled[0] <= 0.8 * turns or turns >= options.turns_max):
             break
         if turns >= options.turns_max:

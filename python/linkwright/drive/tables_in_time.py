@@ -44,6 +44,30 @@ def end_sentence(motion: Transient, zero: Zero) -> str:
     )
 
 
+_METHODS = {
+    "explicit": "the explicit method of Dormand and Prince, order 8 (DOP853)",
+    "implicit": "the implicit method Radau IIA, order 9, where the drive is stiff",
+}
+
+# Parts that are told one by one; of a motion that changes its method more often the sums of steps are told.
+_PARTS = 4
+
+
+def methods_sentence(motion: Transient) -> str:
+    """Which method was used over which part of a motion, with the steps of each."""
+    parts = motion.methods
+    if len(parts) > _PARTS:
+        steps = {name: sum(each.steps for each in parts if each.method == name) for name in _METHODS}
+        return ", ".join(f"{steps[name]} steps by {words}" for name, words in _METHODS.items())
+    if len(parts) == 1:
+        return f"{parts[0].steps} steps by {_METHODS[parts[0].method]}"
+    return ", ".join(
+        f"{each.steps} steps from {number(each.time_start)} to {number(each.time_end)} s by "
+        f"{_METHODS[each.method]}"
+        for each in parts
+    )
+
+
 def in_time_tables(
     motion: Transient,
     extremes: Sequence[MotionExtreme],

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import Annotated
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 from numpy.polynomial import polynomial
@@ -37,6 +38,25 @@ class End(IntEnum):
     REVERSAL = 5
     DOES_NOT_CLOSE = 6
     INACCURATE = 7
+
+
+class MethodPart(NamedTuple):
+    """A part of a motion in time whose steps are all by one method.
+
+    Attributes
+    ----------
+    method : str
+        ``"explicit"`` (DOP853) or ``"implicit"`` (Radau IIA, where the drive is stiff).
+    time_start, time_end : float
+        [s].
+    steps : int
+        Steps of the solver [–].
+    """
+
+    method: str
+    time_start: float
+    time_end: float
+    steps: int
 
 
 @dataclass(frozen=True)
@@ -123,6 +143,14 @@ class Transient(Result):
     ]
     evaluations: Annotated[int, Shown("evaluations of the machine", "", "")]
     between: Annotated[StepPolynomials, About("What `at` reads between the ends of the steps.")]
+    implicit: Annotated[
+        NDArray[np.bool_],
+        About("Whether a step is by the implicit method; False is the explicit one.", shape="(steps,)"),
+    ]
+
+    def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
+        """As any result, with the parts as tables by name."""
+        return super().to_dict(curves=curves) | {"methods": [each._asdict() for each in self.methods]}
 
     @property
     def turns(self) -> Annotated[float, Shown("revolutions of the crank", "n", "")]:
@@ -133,6 +161,23 @@ class Transient(Result):
     def steps(self) -> Annotated[int, Shown("steps", "", "")]:
         """Steps of the solver."""
         return len(self.time) - 1
+
+    @property
+    def methods(
+        self,
+    ) -> Annotated[tuple[MethodPart, ...], About("Which method was used from when to when.")]:
+        """Which method was used from when to when, in the order of time; none if there is no step."""
+        switches = np.flatnonzero(np.diff(self.implicit)) + 1
+        ends = [0, *switches.tolist(), self.steps] if self.steps else []
+        return tuple(
+            MethodPart(
+                "implicit" if self.implicit[first] else "explicit",
+                float(self.time[first]),
+                float(self.time[last]),
+                last - first,
+            )
+            for first, last in itertools.pairwise(ends)
+        )
 
     @property
     def came_to_rest(self) -> bool:
@@ -253,4 +298,5 @@ def transient(
         torque_load_end=found.torque_load_end,
         evaluations=found.evaluations,
         between=StepPolynomials(found.between.reshape(-1, 2, 7)),
+        implicit=found.implicit,
     )

@@ -92,9 +92,10 @@ impl<R: Real> Turn<R> {
             reached: column(&|k| differences[k].relative).into_iter().fold(0.0, f64::max),
         };
         self.add_carried(&mut check, &defect, limits);
+        let roundings = self.integral_roundings(machine);
         for (i, size) in self.integral_sizes(machine).into_iter().enumerate() {
             let parts = column(&|k| differences[k].integrals[i]);
-            add_integral(&mut check, &parts, size, accuracy);
+            add_integral(&mut check, &parts, size, roundings[i], accuracy);
         }
         check
     }
@@ -117,6 +118,23 @@ impl<R: Real> Turn<R> {
         }
         let total = |sum: R| unbundle(&[sum]).into_iter().sum::<f64>();
         std::array::from_fn(|i| total(sizes[i]).max(total(least[i])))
+    }
+
+    /// What rounding of the speed makes of the integrals, through the torque of a steep motor: δM = J ∂ε/∂u δu.
+    #[inline(always)]
+    fn integral_roundings(&self, machine: &Machine<'_, R>) -> [f64; INTEGRALS] {
+        let zero = R::splat(0.0);
+        let mut sums = [zero; INTEGRALS];
+        for (k, step) in self.steps.iter().enumerate() {
+            let parts = machine.integrals(step, self.given_of(machine, k));
+            let torque = step.steepness() * step.u * (2.0 * ROUNDING) / step.rows[S - 1].inverse;
+            let (at_motor, work) = (torque / machine.q[machine.plan.drive.ratio], torque * step.h);
+            let (impulse, heat) = (at_motor * parts[0], at_motor * parts[4].abs() * 2.0);
+            for (i, part) in [zero, work, work, work, impulse, heat].into_iter().enumerate() {
+                sums[i] = sums[i] + part;
+            }
+        }
+        sums.map(|sum| unbundle(&[sum]).into_iter().sum())
     }
 
     /// Peak acceleration of the stages, or what counts in its place.
@@ -261,14 +279,15 @@ fn size<R: Real>(difference: R) -> R {
     difference.abs().select_lt(infinity, difference.abs(), infinity)
 }
 
-/// Adds the errors of an integral; its size is that of its parts, so that nothing is lost where they cancel.
-fn add_integral(check: &mut Check, parts: &[f64], size: f64, accuracy: f64) {
+/// Adds the errors of an integral; its size is that of its parts, so that nothing is lost where they cancel. What the
+/// rounding of speeds makes of it is told, but no finer step would take it away.
+fn add_integral(check: &mut Check, parts: &[f64], size: f64, rounding: f64, accuracy: f64) {
     let sum: f64 = parts.iter().sum();
     if size <= 0.0 || sum <= ROUNDING * size {
         return;
     }
     check.reached = check.reached.max(sum / size);
-    if sum > accuracy * size {
+    if sum > (accuracy * size).max(rounding) {
         let worst = parts.iter().copied().fold(0.0, f64::max);
         for (excess, part) in check.excess.iter_mut().zip(parts) {
             if *part >= 0.3 * worst && *part > ROUNDING * size {

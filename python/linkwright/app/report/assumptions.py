@@ -13,6 +13,7 @@ from linkwright.drive.model.motor import (
     InductionMotor,
     TableMotor,
 )
+from linkwright.drive.tables_in_time import methods_sentence
 from linkwright.kernel.page.numbers import degrees, number
 from linkwright.kinetostatics.model.body import Body
 from linkwright.kinetostatics.model.loads.between import Damper, GasSpring, Spring, TorsionalSpring
@@ -178,4 +179,4 @@ def _methods(study: Study) -> Iterator[str]:
             "root mean squares do not depend on them."
         )
     if study.run_up is not None:
-        yield "The run-up is integrated in time by Dormand and Prince's method of order 8, adaptive steps."
+        yield f"The run-up is integrated in time: {methods_sentence(study.run_up.motion)}."

@@ -159,12 +159,16 @@ def _answer(of: _Followed) -> Answer:
 
 
 def _head(of: _Followed) -> str:
-    """How far the angles are from those of the file."""
-    if not of.zero.words:
-        return ""
+    """How far the angles are from those of the file; the methods of a motion that took implicit steps."""
+    from linkwright.drive.tables_in_time import methods_sentence
     from linkwright.kernel.page.numbers import degrees
 
-    return f"Crank angles from the {of.zero.words}, φ = {degrees(of.zero.angle)} in the file"
+    lines = []
+    if of.zero.words:
+        lines.append(f"Crank angles from the {of.zero.words}, φ = {degrees(of.zero.angle)} in the file")
+    if of.motion.implicit.any():
+        lines.append(f"Integrated in {methods_sentence(of.motion)}")
+    return "\n".join(lines)
 
 
 def _results(of: _Followed, curves: bool) -> dict[str, Any]:
@@ -178,6 +182,8 @@ def _results(of: _Followed, curves: bool) -> dict[str, Any]:
         "torque_drive_end": of.motion.torque_drive_end,
         "torque_load_end": of.motion.torque_load_end,
         "evaluations": of.motion.evaluations,
+        "steps": of.motion.steps,
+        "methods": [each._asdict() for each in of.motion.methods],
         "extremes": [each._asdict() for each in of.extremes],
         "events": [each._asdict() for each in of.events],
     }

@@ -85,8 +85,8 @@ pub struct Trajectory {
     pub epsilon: Vec<f64>,
     /// Of each step the polynomials of angle and speed ([`crate::kernel::rk::Stages::component`]).
     pub between: Vec<[[f64; 7]; 2]>,
-    /// How many of the steps are by the implicit method.
-    pub steps_implicit: usize,
+    /// Of each step whether it is by the implicit method.
+    pub implicit: Vec<bool>,
     pub end: End,
     /// Drive's torque at the crank where the motion ended \[N m\].
     pub drive_torque: f64,
@@ -150,7 +150,7 @@ impl Path {
             omega: vec![start.omega],
             epsilon: Vec::new(),
             between: Vec::new(),
-            steps_implicit: 0,
+            implicit: Vec::new(),
             end: End::Time,
             drive_torque: f64::NAN,
             load_torque: f64::NAN,
@@ -229,7 +229,7 @@ impl Path {
             path.phi.push(piece.y[0]);
             path.omega.push(piece.y[1]);
             path.between.push(piece.between);
-            path.steps_implicit += usize::from(is_stiff);
+            path.implicit.push(is_stiff);
             if k + 1 < pieces.len() {
                 path.epsilon.push(piece.rate[1]);
             }
