@@ -112,9 +112,7 @@ def test_a_run_up_at_the_end_of_a_range_takes_few_steps(entry: str, value: float
 
 
 def test_json_and_report_tell_the_methods() -> None:
-    machine = lw.replace(
-        lw.read(MACHINES / "roller_one_cart.toml"), {"drive.motor.torque_breakdown": 2.154e6}
-    )
+    machine = lw.replace(lw.read(MACHINES / "roller_one_cart.toml"), {"drive.gearbox.ratio": 98000})
     result = lw.run_up(machine)
     parts = result.to_dict()["methods"]
     assert [each["method"] for each in parts] == ["explicit", "implicit"]
