@@ -41,6 +41,7 @@ _HOME = {
     "transient": "drive.transient",
     "motion_events": "drive.motion_events",
     "motion_extremes": "drive.motion_events",
+    "cycle_motion": "drive.cycle_motion",
     "run_up": "drive.run_up",
     "run_down": "drive.run_down",
     "step_method": "drive.step_method",
@@ -175,6 +176,7 @@ if TYPE_CHECKING:
     from linkwright.cam.search import search_cams as search_cams
     from linkwright.drive.batch import steady_states as steady_states
     from linkwright.drive.constant_energy import constant_energy as constant_energy
+    from linkwright.drive.cycle_motion import cycle_motion as cycle_motion
     from linkwright.drive.model.catalogue import motors as motors
     from linkwright.drive.motion_events import motion_events as motion_events
     from linkwright.drive.motion_events import motion_extremes as motion_extremes

@@ -38,15 +38,15 @@ def test_number(value: float | None, text: str) -> None:
 
 def test_tables_are_those_that_there_are_results_for() -> None:
     machine = read(TWO_CARTS)
-    usual = ["reduction", "steady_state", "measures", "drive", "run_up"]
-    linkage = ["forces", "linkage", "transmission", "dead_points"]
-    assert [table.name for table in tables(study(machine))] == [*usual, *linkage]
+    usual = ["linkage", "motion", "transmission", "reduction", "steady_state", "measures", "drive", "run_up"]
+    last = ["forces", "dead_points", "numerical"]
+    assert [table.name for table in tables(study(machine))] == [*usual, *last]
     stepped = tables(study(machine, step=np.radians(1)))
-    assert [table.name for table in stepped] == [*usual, "step_method", *linkage]
+    assert [table.name for table in stepped] == [*usual, "step_method", *last]
     for table in stepped:
         assert {len(row) for row in table.rows} == {len(table.heads)}
     with_brake = read(TWO_CARTS, ["drive.brake.torque=100"])
-    assert [table.name for table in tables(study(with_brake))] == [*usual, "run_down", *linkage]
+    assert [table.name for table in tables(study(with_brake))] == [*usual, "run_down", *last]
 
 
 def test_curves_read_back_exactly() -> None:

@@ -9,15 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.app.study import Study
-from linkwright.drive.crank_speed import crank_speed
-from linkwright.drive.steady_state import SteadyState
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.quantities import declared, over
 from linkwright.kernel.result import Result
-from linkwright.linkages.cycle import Linkage
-from linkwright.linkages.motion import Motion, motion_along
-from linkwright.machine.machine import Machine
+from linkwright.linkages.motion import Motion
 
 Floats = NDArray[np.float64]
 
@@ -25,9 +21,6 @@ Floats = NDArray[np.float64]
 _OTHER_WORDS = {"position": "place", "displacement": "place"}
 
 CRANK_ANGLE = "crank_angle"
-
-# Of a revolution, a degree each: no line shows more.
-_INTERVALS = 360
 
 
 @dataclass(frozen=True)
@@ -57,28 +50,8 @@ class Curve:
 
 
 def curves_of(study: Study) -> dict[str, Curve]:
-    """All curves of a study by name, and the motion of points, links and slides over its cycle."""
-    results: dict[str, Result] = dict(study.results())
-    if study.linkage is not None:
-        results["motion"] = cycle_motion(study.machine, study.linkage, study.steady_state)
-    return {each.name: each for name, result in results.items() for each in _of(name, result)}
-
-
-def cycle_motion(machine: Machine, linkage: Linkage, steady: SteadyState | None) -> Motion:
-    """Everything over the cycle: along the steady motion, else at the constant speed of the machine."""
-    if steady is not None:
-        some = slice(None, None, max(1, (len(steady.time) - 1) // _INTERVALS))
-        return motion_along(
-            machine,
-            steady.time[some],
-            steady.crank_angle[some],
-            steady.speed[some],
-            steady.acceleration[some],
-        )
-    speed = crank_speed(machine, None).value
-    low, high = float(linkage.crank_angle[0]), float(linkage.crank_angle[-1])
-    angle = np.linspace(low, high, _INTERVALS * (linkage.period_turns or 1) + 1)
-    return motion_along(machine, (angle - low) / speed, angle, np.full_like(angle, speed), 0 * angle)
+    """All curves of a study by name."""
+    return {each.name: each for name, result in study.results().items() for each in _of(name, result)}
 
 
 def _of(analysis: str, result: Result) -> Iterator[Curve]:

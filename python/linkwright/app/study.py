@@ -16,9 +16,11 @@ when the machine has its table.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+from linkwright.drive.cycle_motion import CycleMotion, cycle_motion_of
 from linkwright.drive.sound_loads import require_turn
 from linkwright.drive.steady_state import SteadyState
 from linkwright.drive.study import INTERVALS, DriveStudy, drive_study, has_motor
@@ -75,6 +77,8 @@ class Study(DriveStudy):
         Names of the cams whose follower vibrates, and how at the design speed, ``"cam_vibration"``.
     findings : tuple of str
         What the machine cannot do, in sentences.
+    accuracy : float
+        Relative accuracy of the steady speed.
     """
 
     forces: Forces | None = None
@@ -88,6 +92,14 @@ class Study(DriveStudy):
     loaded_cams: tuple[LoadedCam, ...] = ()
     cam_vibrations: tuple[tuple[str, FollowerVibration], ...] = ()
     findings: tuple[str, ...] = ()
+    accuracy: float = field(default=1e-10, repr=False)
+
+    @cached_property
+    def motion(self) -> CycleMotion | None:
+        """Motion of every point, link and slide over the cycle; computed when it is first asked for."""
+        if self.linkage is None:
+            return None
+        return cycle_motion_of(self.machine, self.linkage, self.steady_state, self.accuracy)
 
     @property
     def gear_torque(self) -> GearTorque | None:
@@ -102,8 +114,17 @@ class Study(DriveStudy):
 
     def results(self) -> dict[str, Result]:
         """The results that there are, by analysis."""
-        first = ("turning_moment", "topper", "linkage", "pumping_unit", "gear_torque", "rotator", "reduction")
-        names = (*first, "constant_energy", "steady_state", "step_method", "run_up", "run_down", "forces")
+        first = ("turning_moment", "topper", "linkage", "motion", "pumping_unit", "gear_torque", "rotator")
+        names = (
+            *first,
+            "reduction",
+            "constant_energy",
+            "steady_state",
+            "step_method",
+            "run_up",
+            "run_down",
+            "forces",
+        )
         found: dict[str, Result | None] = {name: getattr(self, name) for name in names}
         single = len(self.cams) == 1
         cams: dict[str, Result] = {"cam" if single else f"cam.{each.name}": each for each in self.cams}
@@ -185,6 +206,7 @@ def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = Non
         rotator=rotator,
         turning_moment=diagram,
         linkage=moved if moved is not None and moved.elements else None,
+        accuracy=accuracy,
     )
     whole = _with_cams(whole, found)
     warnings = (*_of_units(whole), *whole.warnings, *found.warnings)

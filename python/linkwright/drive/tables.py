@@ -7,6 +7,7 @@ from collections.abc import Collection, Iterator, Sequence
 from linkwright.drive.steady_state import SteadyState
 from linkwright.drive.step_method import StepMotion
 from linkwright.drive.study import DriveStudy
+from linkwright.kernel.page.measured import crank_angle
 from linkwright.kernel.page.numbers import degrees, number
 from linkwright.kernel.page.table import Row, Table, rows_in, with_unit
 from linkwright.kernel.quantities import in_table, shown
@@ -22,14 +23,8 @@ def drive_tables(study: DriveStudy) -> Iterator[Table]:
 def _rows(result: Result, table: str, *, without: Collection[str] = ()) -> list[Row]:
     """The rows of a table; of an extreme, with the crank angle where it is."""
     extremes = [name for name in in_table(type(result), table) if hasattr(result, f"{name}_angle")]
-    places = {name: f"at φ = {_on_turn(getattr(result, f'{name}_angle'))}" for name in extremes}
+    places = {name: crank_angle(getattr(result, f"{name}_angle"), "at φ = ") for name in extremes}
     return rows_in(result, table, places, without=without)
-
-
-def _on_turn(angle: float) -> str:
-    """A crank angle from 0° on; a full revolution is 0°."""
-    text = degrees(angle)
-    return "0°" if text == "360°" else text
 
 
 def _reduction(study: DriveStudy) -> Table | None:
@@ -46,7 +41,22 @@ def _steady(study: DriveStudy) -> Table | None:
     if steady is None:
         return None
     heads = ("quantity", "", "value", "where")
-    return Table("steady_state", "Steady motion", heads, _rows(steady, "steady_state"))
+    rows = _rows(steady, "steady_state", without=_NUMERICAL)
+    return Table("steady_state", "Steady motion", heads, rows)
+
+
+# What says how the solution was found, not how the machine moves.
+_NUMERICAL = ("multiplier", "accuracy", "steps")
+
+
+def numerical_tables(study: DriveStudy) -> Iterator[Table]:
+    """How the steady motion was found, and how stable it is."""
+    steady = study.steady_state
+    if steady is not None:
+        heads = ("quantity", "", "value", "")
+        without = [name for name in in_table(type(steady), "steady_state") if name not in _NUMERICAL]
+        rows = _rows(steady, "steady_state", without=without)
+        yield Table("numerical", "Numerical details of the steady motion", heads, rows)
 
 
 def _measures(study: DriveStudy) -> Table | None:

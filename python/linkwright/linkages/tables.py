@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from linkwright.kernel.page.numbers import degrees, number
+from linkwright.kernel.page.measured import crank_angle, measured
+from linkwright.kernel.page.numbers import number
 from linkwright.kernel.page.table import Row, Table
 from linkwright.linkages.cycle import ElementMotion, Linkage
 
@@ -10,11 +11,23 @@ from linkwright.linkages.cycle import ElementMotion, Linkage
 _DEAD_POINTS_MAX = 24
 
 
-def linkage_tables(found: Linkage) -> list[Table]:
-    """The tables of a linkage over its cycle: those that have rows."""
-    return [
-        table for table in (_travel(found), _transmission(found), _loops(found), _dead(found)) if table.rows
-    ]
+def travel_tables(found: Linkage) -> list[Table]:
+    """Strokes, swings and time ratios, if there are outputs."""
+    return _with_rows(_travel(found))
+
+
+def transmission_tables(found: Linkage) -> list[Table]:
+    """Transmission angles, if there are dyads."""
+    return _with_rows(_transmission(found))
+
+
+def loop_tables(found: Linkage) -> list[Table]:
+    """Four-bar loops and dead points, where there are such."""
+    return _with_rows(_loops(found), _dead(found))
+
+
+def _with_rows(*tables: Table) -> list[Table]:
+    return [table for table in tables if table.rows]
 
 
 def _travel(found: Linkage) -> Table:
@@ -27,14 +40,17 @@ def _travel_row(each: ElementMotion) -> Row:
     if each.turns is not None:
         travel, ends = f"{number(each.turns)} revolutions", ("–", "–")
     elif each.swing is not None:
-        travel, ends = degrees(each.swing), (degrees(each.low_angle), degrees(each.high_angle))
+        travel, ends = (
+            measured(each.swing, "rad"),
+            (crank_angle(each.low_angle), crank_angle(each.high_angle)),
+        )
     else:
-        travel, ends = f"{number(each.stroke)} m", (degrees(each.low_angle), degrees(each.high_angle))
+        travel, ends = measured(each.stroke, "m"), (crank_angle(each.low_angle), crank_angle(each.high_angle))
     low, high = each.velocity_ratio_min, each.velocity_ratio_max
     ratios = "–" if low is None else f"{number(low, 4)} to {number(high, 4)}"
     unit = "1/m" if each.stroke is not None else ""
     advantage = each.mechanical_advantage_min
-    gain = "–" if advantage is None else f"≥ {number(advantage, 4)} {unit}".rstrip()
+    gain = measured(advantage, unit, digits=4, before="≥ ")
     return each.output, "", travel, *ends, number(each.time_ratio, 4), ratios, gain
 
 
@@ -48,10 +64,10 @@ def _transmission(found: Linkage) -> Table:
             rows[each.element] = (
                 each.element,
                 "μ",
-                degrees(low),
-                degrees(at[0]),
-                degrees(high),
-                degrees(at[1]),
+                measured(low, "rad"),
+                crank_angle(at[0]),
+                measured(high, "rad"),
+                crank_angle(at[1]),
             )
     return Table("transmission", "Transmission angle", heads, list(rows.values()))
 
@@ -65,12 +81,12 @@ def _loops(found: Linkage) -> Table:
             lengths = (loop.driver, loop.coupler, loop.follower, loop.ground)
             sums = (loop.sum_extremes, loop.sum_others)
             rows.append(
-                (f"{each.element}: {loop.grashof}", "", *(f"{number(x)} m" for x in (*lengths, *sums)))
+                (f"{each.element}: {loop.grashof}", "", *(measured(x, "m") for x in (*lengths, *sums)))
             )
     return Table("grashof", "Four-bar loops", heads, rows)
 
 
 def _dead(found: Linkage) -> Table:
     points = found.dead_points if len(found.dead_points) <= _DEAD_POINTS_MAX else ()
-    rows: list[Row] = [(f"{each.element}: {each.kind}", "φ", degrees(each.angle)) for each in points]
+    rows: list[Row] = [(f"{each.element}: {each.kind}", "φ", crank_angle(each.angle)) for each in points]
     return Table("dead_points", "Dead points", ("element", "", "crank angle"), rows)

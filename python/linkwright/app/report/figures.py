@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from linkwright.app.study import Study
 from linkwright.drive.figures import drive_figures
+from linkwright.drive.figures_of_cycle import cycle_figures
 from linkwright.kernel.figure.captioned import Captioned
 from linkwright.kinetostatics.figures import captioned_forces
 from linkwright.linkages.figures import linkage_figures
@@ -14,9 +15,10 @@ from linkwright.linkages.figures import linkage_figures
 def figures(study: Study) -> Iterator[Captioned]:
     """The figures that a study has results for, in the order of the page."""
     yield from _slices(study)
-    yield from drive_figures(study)
-    if study.linkage is not None:
+    if study.linkage is not None and study.motion is not None:
+        yield from cycle_figures(study.motion, study.linkage)
         yield from linkage_figures(study.machine, study.linkage)
+    yield from drive_figures(study)
     if study.forces is not None:
         yield from captioned_forces(study.forces)
 

@@ -10,13 +10,13 @@ import linkwright
 from linkwright.app.report.assumptions import assumptions
 from linkwright.app.report.figures import figures
 from linkwright.app.report.scene import scene
-from linkwright.app.report.tables import tables
+from linkwright.app.report.tables import DETAIL_TABLES, MOTION_TABLES, tables
 from linkwright.app.study import Study
 from linkwright.drive.model.motor import InductionMotor
 from linkwright.kernel.files.output import write_file
 from linkwright.kernel.page.formulas import PAPER_1, Formula, formulas
 from linkwright.kernel.page.html import embedded, environment, picture
-from linkwright.kernel.page.numbers import number
+from linkwright.kernel.page.numbers import degrees, number
 from linkwright.kernel.public import public
 from linkwright.machine.table import grouped, machine_parts
 from linkwright.machine.write import dumps
@@ -64,13 +64,18 @@ def report_html(study: Study, *, command: str = "") -> str:
 def _context(study: Study, command: str) -> dict[str, Any]:
     """All that the template asks for."""
     drawn = [(each, picture(each.figure, each.name, each.title)) for each in figures(study)]
+    moving = [each for each in drawn if each[0].name.startswith(_MOTION_FIGURES)]
+    listed = tables(study)
     return {
         "study": study,
         "machine": study.machine,
         "headline": list(_headline(study)),
         "groups": grouped(machine_parts(study.machine)),
-        "tables": tables(study),
-        "figures": drawn,
+        "motion_tables": [each for each in listed if each.name in MOTION_TABLES],
+        "motion_figures": moving,
+        "tables": [each for each in listed if each.name not in (*MOTION_TABLES, *DETAIL_TABLES)],
+        "figures": [each for each in drawn if each not in moving],
+        "details": [each for each in listed if each.name in DETAIL_TABLES],
         "scene": embedded(scene(study)),
         "topper_scene": embedded(knife_scene(study)),
         "formulas": _formulas(study),
@@ -80,6 +85,10 @@ def _context(study: Study, command: str) -> dict[str, Any]:
         "command": command or "linkwright run machine.toml --out report",
         "version": linkwright.__version__,
     }
+
+
+# Figures of the part on motion begin so.
+_MOTION_FIGURES = ("motion_", "transmission", "coupler_curves")
 
 
 def knife_scene(study: Study) -> dict[str, Any] | None:
@@ -122,6 +131,28 @@ def _topper_headline(study: Study) -> Iterator[tuple[str, str, str]]:
     yield from topper_headline(*study.knife)
 
 
+# Outputs among the few numbers.
+_OUTPUTS = 2
+
+
+def _motion_headline(study: Study) -> Iterator[tuple[str, str, str]]:
+    """Strokes, swings and time ratios, and the worst transmission angle."""
+    if study.linkage is None:
+        return
+    moving = [each for each in study.linkage.elements if each.turns is None]
+    for each in {each.output: each for each in moving[::-1]}.values() if len(moving) <= _OUTPUTS else ():
+        if each.stroke is not None:
+            yield f"stroke of {each.output}", number(each.stroke, 4), "m"
+        elif each.swing is not None:
+            yield f"swing of {each.output}", degrees(each.swing), ""
+        if each.time_ratio is not None:
+            yield f"time ratio of {each.output}", number(each.time_ratio, 4), ""
+    worst = [each.transmission_angle_worst for each in study.linkage.elements]
+    known = [angle for angle in worst if angle is not None]
+    if known:
+        yield "worst transmission angle", degrees(min(known)), ""
+
+
 def _formulas(study: Study) -> list[Formula]:
     cut = [*_turning_formulas(study), *_topper_formulas(study)]
     if study.machine.is_topper_alone or study.machine.is_diagram_alone:
@@ -147,6 +178,7 @@ def _headline(study: Study) -> Iterator[tuple[str, str, str]]:
     """The few numbers that one looks for first: symbol and word, value, unit."""
     yield from _turning_headline(study)
     yield from _topper_headline(study)
+    yield from _motion_headline(study)
     steady, run_up, reduced = study.steady_state, study.run_up, study.reduction
     if steady is not None:
         yield "mean speed", number(steady.speed_mean_time, 4), "rad/s"

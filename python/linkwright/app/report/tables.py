@@ -5,18 +5,37 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from linkwright.app.study import Study
-from linkwright.drive.tables import drive_tables
+from linkwright.drive.tables import drive_tables, numerical_tables
+from linkwright.drive.tables_of_cycle import cycle_tables
 from linkwright.kernel.page.table import Table
 from linkwright.kinetostatics.tables import envelope_table
-from linkwright.linkages.tables import linkage_tables
+from linkwright.linkages.tables import loop_tables, transmission_tables, travel_tables
+
+# What the page has first, below the sketch, and what it has last.
+MOTION_TABLES = ("linkage", "motion", "transmission")
+DETAIL_TABLES = ("grashof", "dead_points", "numerical")
 
 
 def tables(study: Study) -> list[Table]:
-    """All results of a study as tables, without those that have nothing to tell."""
-    found = [*_slices(study), *drive_tables(study)]
+    """All results of a study as tables: its subject, motion, drive, forces, and numerical details last."""
+    found = [*_slices(study), *_motion(study), *drive_tables(study)]
     forces = envelope_table(study.forces) if study.forces else None
-    found += [forces] if forces is not None else []
-    return found + (linkage_tables(study.linkage) if study.linkage else [])
+    return [*found, *([forces] if forces is not None else []), *_rest(study)]
+
+
+def _motion(study: Study) -> Iterator[Table]:
+    """Strokes and time ratios, the motion, transmission angles."""
+    if study.linkage is not None and study.motion is not None:
+        yield from travel_tables(study.linkage)
+        yield from cycle_tables(study.motion, study.linkage)
+        yield from transmission_tables(study.linkage)
+
+
+def _rest(study: Study) -> Iterator[Table]:
+    """Loops and dead points, and how the numbers were found."""
+    if study.linkage is not None:
+        yield from loop_tables(study.linkage)
+    yield from numerical_tables(study)
 
 
 def _slices(study: Study) -> Iterator[Table]:

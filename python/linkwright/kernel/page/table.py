@@ -6,7 +6,7 @@ import math
 from collections.abc import Collection, Mapping
 from typing import NamedTuple
 
-from linkwright.kernel.page.numbers import degrees, number
+from linkwright.kernel.page.measured import measured
 from linkwright.kernel.quantities import Shown, in_table, shown
 from linkwright.kernel.result import Result
 
@@ -28,14 +28,12 @@ class Table(NamedTuple):
 def row(result: Result, name: str, at: str = "") -> Row:
     """Word, symbol, value with its unit (of an angle, degrees), and where it is."""
     mark, value = shown(type(result), name), getattr(result, name)
-    is_angle = mark.unit == "rad" and value is not None
-    text = degrees(value) if is_angle else with_unit(value, mark.unit, _scale(result, mark))
-    return mark.word, mark.symbol, text, at
+    return mark.word, mark.symbol, with_unit(value, mark.unit, _scale(result, mark)), at
 
 
 def with_unit(value: float | None, unit: str, scale: float = 0.0) -> str:
     """A value with its unit; a dash for none, and zero for what is rounding beside a scale."""
-    return "–" if value is None else f"{number(value, scale=scale)} {unit}".rstrip()
+    return measured(value, unit, scale)
 
 
 def _scale(result: Result, mark: Shown) -> float:

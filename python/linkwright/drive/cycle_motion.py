@@ -1,0 +1,339 @@
+r"""Motion of every point, link and slide over the cycle of a machine, with its extremes.
+
+.. math:: \dot p = p' \omega, \qquad \ddot p = p'' \omega^2 + p' \varepsilon
+
+Speed ω and acceleration ε of the crank are those of steady motion, else those of a constant speed. Extremes
+are sought among samples and on both sides of every kink, and located between their neighbours until two
+rounds agree: values are those of the exact motion there, not of an interpolation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from typing import Annotated, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.drive.crank_speed import crank_speed
+from linkwright.drive.steady_state import SteadyState, steady_state
+from linkwright.kernel.public import public
+from linkwright.kernel.quantities import About
+from linkwright.kernel.result import Record
+from linkwright.linkages.cycle import Linkage, linkage
+from linkwright.linkages.motion import Motion, motion_along
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import Compiled, compile_machine
+from linkwright.machine.program.core import SteadyMotion
+
+Floats = NDArray[np.float64]
+# Crank angles → time, speed, acceleration of the crank.
+CrankMotion = Callable[[Floats], tuple[Floats, Floats, Floats]]
+
+# Intervals of a revolution: of the curves, a degree each, which no line can resolve; of the search.
+_DRAWN, _SEARCHED = 360, 1440
+
+# Distance from a kink at which each of its sides is looked at [rad]: of a smooth curve, 1e-9 of its slope.
+_BESIDE = 1e-9
+
+# A peak lower than another by more than this share of the span is not it: between two samples a quarter of a
+# degree apart, the hundredth harmonic of the crank rises above them by less.
+_NEAR = 0.03
+
+# Points in the neighbourhood of a peak in each round, and rounds at most: each narrows it to a quarter.
+_POINTS, _ROUNDS = 9, 12
+
+# Two rounds agree when the peak changes by less than this share of the span.
+_AGREE = 1e-12
+
+# What changes less than this share of its size, or of those of its kind, is constant but for rounding.
+_CONSTANT = 1e-12
+
+# Near a limit of the crank rates grow with one over the root of the distance: at distances of these shares of
+# the range they differ by a factor of 100, and by about 1 where they are bounded.
+_LIMIT_FAR, _LIMIT_NEAR, _GROWS = 1e-4, 1e-8, 10.0
+
+
+@dataclass(frozen=True)
+class Extremes(Record):
+    """Extremes of one quantity over the cycle; None where it grows without limit or goes on and on."""
+
+    minimum: Annotated[float | None, About("Minimum [SI].")]
+    minimum_angle: Annotated[float | None, About("Crank angle of the minimum [rad].")]
+    maximum: Annotated[float | None, About("Maximum [SI].")]
+    maximum_angle: Annotated[float | None, About("Crank angle of the maximum [rad].")]
+
+
+_NONE = Extremes(None, None, None, None)
+
+
+@dataclass(frozen=True)
+class CycleMotion(Motion):
+    """A mechanism over its cycle, in steady motion or at constant speed of the crank."""
+
+    is_steady: Annotated[bool, About("Whether the crank moves as in steady motion, not at constant speed.")]
+    speed_source: Annotated[str, About("Where the speed of the crank comes from.")]
+    extremes: Annotated[dict[str, Extremes], About("By name of the curve; without what is at rest.")]
+    coupler_points: Annotated[
+        tuple[str, ...], About("Points of links, without those whose paths are circles about fixed points.")
+    ]
+
+    def curves(self) -> dict[str, np.ndarray]:
+        """Those of `Motion`, and speed and size of the acceleration of points: ``K.velocity``, ….
+
+        A slide has a point of its own, and its velocity is that along the guide.
+        """
+        found = super().curves()
+        for name, path in self.points.items():
+            if name not in self.slides:
+                found[f"{name}.velocity"] = np.hypot(*path.velocity.T)
+                found[f"{name}.acceleration"] = np.hypot(*path.acceleration.T)
+        return found
+
+    def unit_of(self, name: str) -> str:
+        """SI unit of an attribute or a column by its name."""
+        of, _, last = name.rpartition(".")
+        return _SIZES[last] if of in self.points and last in _SIZES else super().unit_of(name)
+
+    def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
+        """Extremes by name of the curve, and where the speed comes from. Returns: plain numbers in SI."""
+        told: dict[str, Any] = {
+            "is_steady": self.is_steady,
+            "speed_source": self.speed_source,
+            "extremes": {name: asdict(each) for name, each in self.extremes.items()},
+        }
+        return told | ({name: each.tolist() for name, each in self.curves().items()} if curves else {})
+
+
+_SIZES = {"velocity": "m/s", "acceleration": "m/s²"}
+
+
+@public
+def cycle_motion(machine: Machine, *, accuracy: float = 1e-10) -> CycleMotion:
+    """Motion of every point, link and slide over the cycle, with exact extremes.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine; of a batch, the first. With a motor it is in steady motion; else its crank turns at the
+        design speed, or at 1 rad/s where there is none.
+    accuracy : float
+        Relative accuracy of the steady speed, 1e-13 to 1e-2.
+
+    Returns
+    -------
+    CycleMotion
+        Over the period, or over the range in which the mechanism closes: curves by name, such as
+        ``ram.place.velocity``, and their extremes.
+
+    Raises
+    ------
+    AssemblyError
+        The mechanism closes nowhere.
+    SteadyStateError
+        There is a motor, and no steady motion.
+
+    Examples
+    --------
+    >>> import linkwright as lw
+    >>> found = lw.cycle_motion(lw.read("press_with_flywheel"))
+    >>> round(found.extremes["ram.place.velocity"].maximum, 4)
+    0.5705
+    """
+    has_motor = machine.drive is not None and machine.drive.motor is not None
+    steady = steady_state(machine, accuracy=accuracy) if has_motor else None
+    return cycle_motion_of(machine, linkage(machine), steady, accuracy)
+
+
+def cycle_motion_of(
+    machine: Machine, known: Linkage, steady: SteadyState | None, accuracy: float = 1e-10
+) -> CycleMotion:
+    """`cycle_motion` of a machine whose linkage and steady motion are known; without the latter, at constant
+    speed.
+    """
+    compiled = compile_machine(machine).first()
+    if steady is None:
+        low, high = float(known.crank_angle[0]), float(known.crank_angle[-1])
+        speed, source = crank_speed(machine, None)
+        crank = _at_constant_speed(speed, low)
+    else:
+        low, high, source = 0.0, 2 * np.pi, "steady motion"
+        crank = _in_steady_motion(compiled, steady, accuracy)
+    turns = known.period_turns or 1
+    drawn = np.linspace(low, high, _DRAWN * turns + 1)
+    motion = _along(machine, crank, drawn)
+    found = CycleMotion(
+        **vars(motion),
+        is_steady=steady is not None,
+        speed_source=source,
+        extremes={},
+        coupler_points=_coupler_points(machine),
+    )
+    search = _Search(machine, crank, list(found.curves())[len(_CRANK) :])
+    looked = _looked_at(compiled, low, high, turns)
+    limit = None if known.closure.turns_fully else (low, high)
+    return CycleMotion(**{**vars(found), "extremes": search.extremes(looked, limit)})
+
+
+# Columns that are the crank's own, first in `curves`.
+_CRANK = ("time", "crank_angle", "speed", "acceleration")
+
+
+def _at_constant_speed(speed: float, start: float) -> CrankMotion:
+    return lambda phi: ((phi - start) / speed, np.full_like(phi, speed), np.zeros_like(phi))
+
+
+def _in_steady_motion(compiled: Compiled, steady: SteadyState, accuracy: float) -> CrankMotion:
+    """The same solution read at any angles; a motor of constant speed has none to solve."""
+    if steady.method != "collocation":
+        return _at_constant_speed(steady.speed_max, 0.0)
+
+    def at(phi: Floats) -> tuple[Floats, Floats, Floats]:
+        order = np.argsort(phi, kind="stable")
+        found = compiled.steady(np.ascontiguousarray(phi[order]), accuracy)
+        assert isinstance(found, SteadyMotion)
+        back = np.argsort(order, kind="stable")
+        return found.time[back], found.speed[back], found.acceleration[back]
+
+    return at
+
+
+def _coupler_points(machine: Machine) -> tuple[str, ...]:
+    links, fixed = machine.linkage.links(), machine.linkage.fixed_points()
+    parts = machine.linkage.rigid_points.items()
+    return tuple(name for name, part in parts if links[part.link].start not in fixed)
+
+
+def _along(machine: Machine, crank: CrankMotion, phi: Floats) -> Motion:
+    time, speed, acceleration = crank(phi)
+    return motion_along(machine, time, phi, speed, acceleration)
+
+
+def _looked_at(compiled: Compiled, low: float, high: float, turns: int) -> Floats:
+    """Angles at which extremes are looked for first: evenly, and on both sides of every kink."""
+    even = np.linspace(low, high, _SEARCHED * turns + 1)
+    first, last = np.floor(np.array([low, high]) / (2 * np.pi)).astype(int)
+    every = [compiled.kinks() + 2 * np.pi * n for n in range(first, last + 1)]
+    kinks = np.concatenate(every)
+    found = np.unique(np.concatenate([even, kinks - _BESIDE, kinks + _BESIDE]))
+    return found[(found >= low) & (found <= high)]
+
+
+@dataclass(frozen=True)
+class _Search:
+    """The search for the extremes of all columns of a motion at once."""
+
+    machine: Machine
+    crank: CrankMotion
+    names: list[str]
+
+    def values(self, phi: Floats) -> Floats:
+        """All columns at crank angles, (k, n)."""
+        motion = _along(self.machine, self.crank, phi)
+        curves = CycleMotion(
+            **vars(motion), is_steady=False, speed_source="", extremes={}, coupler_points=()
+        ).curves()
+        return np.array([curves[name] for name in self.names]).reshape(len(self.names), len(phi))
+
+    def extremes(self, looked: Floats, limit: tuple[float, float] | None) -> dict[str, Extremes]:
+        """Those of all columns that move, by name."""
+        values = self.values(looked)
+        span = np.ptp(values, axis=1)
+        moves = span > _CONSTANT * np.maximum(np.abs(values).max(axis=1), self._scales(values))
+        rise = values[:, -1] - values[:, 0]
+        endless = self._unlimited(limit) | [
+            self._turns_on(name, float(x)) for name, x in zip(self.names, rise, strict=True)
+        ]
+        sought = np.flatnonzero(moves & ~endless)
+        found: dict[str, Extremes] = {self.names[k]: _NONE for k in np.flatnonzero(endless)}
+        if len(sought):
+            parts = self._of([self.names[k] for k in sought])._peaks(looked, values[sought], span[sought])
+            for k, *numbers in zip(sought, *parts, strict=True):
+                found[self.names[k]] = Extremes(*(float(x) for x in numbers))
+        return {name: found[name] for name in self.names if name in found}
+
+    def _of(self, names: list[str]) -> _Search:
+        """The search among some of the columns."""
+        return _Search(self.machine, self.crank, names)
+
+    def _scales(self, values: Floats) -> Floats:
+        """Peak absolute value of all columns of one kind: rounding of one is rounding beside another."""
+        kinds = [name.rpartition(".")[2] for name in self.names]
+        peak = np.abs(values).max(axis=1)
+        return np.array([max(p for p, other in zip(peak, kinds, strict=True) if other == k) for k in kinds])
+
+    @staticmethod
+    def _turns_on(name: str, rise: float) -> bool:
+        """Whether it is the angle of a link that goes on from one cycle to the next."""
+        return name.endswith(".angle") and abs(rise) > np.pi and abs(np.sin(rise / 2)) < _NEAR
+
+    def _unlimited(self, limit: tuple[float, float] | None) -> NDArray[np.bool_]:
+        """Which columns grow without limit towards the ends of a range of the crank."""
+        if limit is None:
+            return np.zeros(len(self.names), dtype=bool)
+        low, high = limit
+        inwards = np.array([_LIMIT_FAR, _LIMIT_NEAR, -_LIMIT_FAR, -_LIMIT_NEAR]) * (high - low)
+        at = np.where(inwards > 0, low, high) + inwards
+        far, near = (np.abs(self.values(np.sort(at)))[:, pair].max(axis=1) for pair in ([1, 2], [0, 3]))
+        unlimited: NDArray[np.bool_] = near > _GROWS * np.maximum(far, np.finfo(float).tiny)
+        return unlimited
+
+    def _peaks(self, looked: Floats, values: Floats, span: Floats) -> tuple[Floats, Floats, Floats, Floats]:
+        """Minima of all columns, their crank angles, maxima, their crank angles; (k,) each."""
+        # What is sought are maxima, of the columns with the other sign first.
+        signed = np.where(np.isfinite(values), np.array([-1.0, 1.0])[:, None, None] * values, -np.inf)
+        signed = signed.reshape(-1, len(looked))
+        row, column = _candidates(signed, np.tile(span, 2))
+        sign, of = np.where(row < len(span), -1.0, 1.0), row % len(span)
+        best, best_at = signed[row, column], looked[column]
+        low = looked[np.maximum(column - 1, 0)]
+        high = looked[np.minimum(column + 1, len(looked) - 1)]
+        for _ in range(_ROUNDS):
+            x = low[:, None] + (high - low)[:, None] * np.linspace(0, 1, _POINTS)
+            y = self.values(x.ravel())[np.repeat(of, _POINTS), np.arange(x.size)].reshape(x.shape)
+            y = np.where(np.isfinite(y), sign[:, None] * y, -np.inf)
+            top = y.argmax(axis=1)
+            each = np.arange(len(row))
+            x_top, y_top = _vertex(x, y, top)
+            better = y[each, top] > best
+            rise = np.where(better, y[each, top] - best, 0.0)
+            best, best_at = np.where(better, y[each, top], best), np.where(better, x[each, top], best_at)
+            # The parabola through the best three says how much there is still to gain.
+            left = np.maximum(y_top - best, 0.0)
+            if (np.maximum(rise, left) <= _AGREE * span[of]).all():
+                break
+            width = np.where(left > 0, 0.25, 0.125) * (high - low)
+            centre = np.where(left > 0, x_top, best_at)
+            low, high = np.maximum(centre - width, low), np.minimum(centre + width, high)
+        order = np.lexsort((-best_at, best, row))
+        last = order[np.append(np.diff(row[order]) > 0, True)]
+        (low, high), (low_at, high_at) = (each[last].reshape(2, -1) for each in (sign * best, best_at))
+        return low, low_at, high, high_at
+
+
+def _candidates(signed: Floats, span: Floats) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Row and column of the samples beside which the maximum of a row may be."""
+    before = np.concatenate([np.full((len(signed), 1), -np.inf), signed[:, :-1]], axis=1)
+    after = np.concatenate([signed[:, 1:], np.full((len(signed), 1), -np.inf)], axis=1)
+    is_local = (signed >= before) & (signed > after)
+    most = signed.max(axis=1, keepdims=True)
+    # Where a row is flat, its first sample stands for all.
+    is_local[np.arange(len(signed)), signed.argmax(axis=1)] = True
+    beside = np.minimum(_NEAR * span[:, None], 4 * (2 * signed - before - after))
+    row, column = np.nonzero(is_local & (signed + np.where(np.isfinite(beside), beside, 0.0) >= most))
+    return row, column
+
+
+def _vertex(x: Floats, y: Floats, top: NDArray[np.intp]) -> tuple[Floats, Floats]:
+    """Place and value of the vertex of the parabola through the best of some points and its neighbours."""
+    each = np.arange(len(x))
+    middle = np.clip(top, 1, x.shape[1] - 2)
+    a, b, c = (y[each, middle + k] for k in (-1, 0, 1))
+    step = x[each, middle] - x[each, middle - 1]
+    bend = a - 2 * b + c
+    with np.errstate(all="ignore"):
+        share = np.where(bend < 0, 0.5 * (a - c) / bend, 0.0)
+        share = np.where(np.isfinite(share), np.clip(share, -1, 1), 0.0)
+        value = b - 0.25 * (a - c) * share
+    return x[each, middle] + share * step, np.where(np.isfinite(value), value, b)

@@ -1,0 +1,120 @@
+"""The motion over the cycle as figures: position, velocity, acceleration of sliders, rockers and points."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from linkwright.drive.cycle_motion import CycleMotion, Extremes
+from linkwright.drive.tables_of_cycle import outputs, speed_words, within_turn
+from linkwright.kernel.figure.captioned import Captioned
+from linkwright.kernel.figure.style import LINES, legend_above, named, panels, roomy, styled, zero_line
+from linkwright.kernel.page.measured import crank_angle, measured
+from linkwright.linkages.cycle import Linkage
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+# Figures of one page, and lines of one picture: more hide each other.
+_FIGURES_MAX, _LINES_MAX = 6, 4
+
+_HEIGHT, _PANEL = 0.8, 1.75
+
+
+def cycle_figures(motion: CycleMotion, linkage: Linkage) -> Iterator[Captioned]:
+    """A figure of the sliders, one of the rockers and one of the coupler points, each with its extremes."""
+    groups: dict[tuple[tuple[str, str, str], ...], list[str]] = {}
+    for name, quantities in outputs(motion, linkage):
+        if any(name + ending in motion.extremes for ending, *_ in quantities):
+            groups.setdefault(quantities, []).append(name)
+    count = 0
+    for quantities, names in groups.items():
+        for first in range(0, len(names), _LINES_MAX):
+            if (count := count + 1) > _FIGURES_MAX:
+                return
+            some = names[first : first + _LINES_MAX]
+            caption = f"{_words(motion, some, quantities)}, {speed_words(motion)}."
+            yield Captioned(
+                f"motion_{count}",
+                f"Motion of {_listed(some)}",
+                caption[0].upper() + caption[1:],
+                cycle_figure(motion, some, quantities),
+            )
+
+
+@styled
+def cycle_figure(
+    motion: CycleMotion, names: Sequence[str], quantities: Sequence[tuple[str, str, str]]
+) -> Figure:
+    """Draw quantities of some outputs over the crank angle, a panel each; dots mark the extremes.
+
+    `quantities`: end of the name of the curve, word and symbol of each.
+    """
+    figure, axes = panels(len(quantities), height=_HEIGHT + _PANEL * len(quantities))
+    for panel, (ending, word, symbol) in zip(axes, quantities, strict=True):
+        _panel(panel, motion, [name + ending for name in names], names)
+        unit = motion.unit_of(names[0] + ending)
+        panel.set_ylabel(f"{word} {symbol}\n[{'°' if unit == 'rad' else unit}]")
+    if len(names) > 1:
+        legend_above(axes[0])
+    low, high = np.degrees(motion.crank_angle[[0, -1]])
+    axes[-1].set_xlabel("crank angle φ [°]")
+    axes[-1].set_xlim(low, high)
+    if high - low > 359:
+        step = 45 * round((high - low) / 360)
+        axes[-1].set_xticks(np.arange(np.ceil(low / step - 1e-6) * step, high + 1e-6, step))
+    return figure
+
+
+def _panel(panel: Axes, motion: CycleMotion, curves: Sequence[str], names: Sequence[str]) -> None:
+    """One quantity of all outputs."""
+    known = motion.curves()
+    phi = np.degrees(motion.crank_angle)
+    drawn = []
+    for colour, curve, name in zip(LINES, curves, names, strict=False):
+        size = 180 / np.pi if motion.unit_of(curve) == "rad" else 1.0
+        extremes = motion.extremes.get(curve)
+        values = size * known[curve]
+        if extremes is not None and extremes.maximum is None and not curve.endswith(".angle"):
+            # Towards a limit of the crank it grows without limit: what most of the range needs is shown.
+            drawn.append(np.percentile(values, (4, 96)))
+        else:
+            drawn.append(values)
+        panel.plot(phi, values, color=colour, label=named(name))
+        _mark(panel, extremes, size, colour)
+    roomy(panel, *drawn)
+    zero_line(panel)
+
+
+def _mark(panel: Axes, extremes: Extremes | None, size: float, colour: str) -> None:
+    """Dots at the extremes."""
+    if extremes is None:
+        return
+    low, high = (extremes.minimum_angle, extremes.minimum), (extremes.maximum_angle, extremes.maximum)
+    for place, value in (low, high):
+        if place is not None and value is not None:
+            panel.plot(np.degrees(place), size * value, "o", color=colour, markersize=4)
+
+
+def _words(motion: CycleMotion, names: Sequence[str], quantities: Sequence[tuple[str, str, str]]) -> str:
+    """The peak of every rate, and where."""
+    ending, word, _ = quantities[-2]
+    parts = []
+    for name in names:
+        found = motion.extremes.get(name + ending)
+        if found is None:
+            continue
+        if found.minimum is None or found.maximum is None:
+            parts.append(f"the {word} of {name} becomes infinite at the limits of crank rotation")
+            continue
+        peak, at = max((abs(found.minimum), found.minimum_angle), (abs(found.maximum), found.maximum_angle))
+        value = measured(peak, motion.unit_of(name + ending))
+        parts.append(f"the peak {word} of {name} is {value} at φ = {crank_angle(within_turn(motion, at))}")
+    return "; ".join(parts) or "at rest"
+
+
+def _listed(names: Sequence[str]) -> str:
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"

@@ -1,0 +1,84 @@
+"""The motion over the cycle as a table of text: extremes of every slider, rocker and coupler point."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from linkwright.drive.cycle_motion import CycleMotion, Extremes
+from linkwright.kernel.page.measured import crank_angle, measured
+from linkwright.kernel.page.table import Row, Table
+from linkwright.linkages.cycle import Linkage
+
+# Of each kind: end of the name of the curve, word, symbol.
+_SLIDE = (
+    (".place", "position", "s"),
+    (".place.velocity", "velocity", "v"),
+    (".place.acceleration", "acceleration", "a"),
+)
+_ROCKER = (
+    (".angle", "angle", "ψ"),
+    (".angle.velocity", "angular velocity", "ω"),
+    (".angle.acceleration", "angular acceleration", "ε"),
+)
+_POINT = ((".velocity", "speed", "v"), (".acceleration", "acceleration", "a"))
+
+
+def cycle_tables(motion: CycleMotion, linkage: Linkage) -> Iterator[Table]:
+    """The table of the motion over the cycle, if anything moves that is an output."""
+    rows = [
+        row
+        for name, quantities in outputs(motion, linkage)
+        for ending, word, symbol in quantities
+        for row in _row(motion, name, ending, word, symbol)
+    ]
+    if rows:
+        heads = ("output", "", "minimum", "at φ", "maximum", "at φ")
+        yield Table("motion", f"Motion over the cycle, {speed_words(motion)}", heads, rows)
+
+
+def speed_words(motion: CycleMotion) -> str:
+    """How the crank moves."""
+    if motion.is_steady:
+        return "in steady motion"
+    return measured(float(motion.speed[0]), "rad/s", before="at ") + " of the crank"
+
+
+def outputs(motion: CycleMotion, linkage: Linkage) -> Iterator[tuple[str, tuple[tuple[str, str, str], ...]]]:
+    """Names of sliders, rockers and coupler points, each with its quantities."""
+    listed = list(dict.fromkeys(each.output for each in linkage.elements))
+    for name in dict.fromkeys([*listed, *motion.slides]):
+        if name in motion.slides:
+            yield name, _SLIDE
+        elif name in motion.links:
+            yield name, _ROCKER
+    for name in motion.coupler_points:
+        yield name, _POINT
+
+
+def _row(motion: CycleMotion, name: str, ending: str, word: str, symbol: str) -> Iterator[Row]:
+    """One quantity with its extremes; none of what is at rest or turns on."""
+    found = motion.extremes.get(name + ending)
+    if found is None or (ending == ".angle" and found.maximum is None):
+        return
+    unit, scale = motion.unit_of(name + ending), _scale(found)
+    yield (
+        f"{name}, {word}",
+        symbol,
+        measured(found.minimum, unit, scale),
+        crank_angle(within_turn(motion, found.minimum_angle)),
+        measured(found.maximum, unit, scale),
+        crank_angle(within_turn(motion, found.maximum_angle)),
+    )
+
+
+def within_turn(motion: CycleMotion, angle: float | None) -> float | None:
+    """A crank angle from 0 on, unless the cycle takes several revolutions [rad]."""
+    is_single = np.ptp(motion.crank_angle) < 2 * np.pi + 1e-6
+    return angle % (2 * np.pi) if angle is not None and is_single else angle
+
+
+def _scale(found: Extremes) -> float:
+    """Peak absolute value."""
+    return max((abs(each) for each in (found.minimum, found.maximum) if each is not None), default=0.0)
