@@ -8,8 +8,10 @@
 | `commands/` | ``linkwright transient`` |
 | `constant_energy` | How unevenly would it turn without motor and load? |
 | `crank_speed` | At which speed of the crank a command computes, and where that speed comes from |
+| `cycle_motion` | Position, velocity, acceleration of everything over the cycle, with exact extremes |
 | `evenness` | The coefficients δ, H and k_p of a motion |
 | `figures` | Figures of a drive over angle and time, and of its motor, with their captions |
+| `figures_of_cycle` | Figures of sliders, rockers and coupler points over the cycle |
 | `model/` | Motors, gearbox, coupling, brake, flywheel |
 | `gradient` | Derivatives of steady motion by entries of the machine |
 | `motion_events` | What happens during a motion in time, and the extremes of its speed and acceleration |
@@ -22,5 +24,6 @@
 | `study` | What is known of a drive: reduction to the crank, steady motion, run-up, run-down |
 | `tables` | Results of a drive as tables of text, for the page and for the terminal |
 | `tables_in_time` | A motion in time as tables of text |
+| `tables_of_cycle` | Extremes of sliders, rockers and coupler points over the cycle as a table |
 | `transient` | How does it move from here on? |
 """
