@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -60,6 +61,16 @@ def test_json_is_that_of_python(press: Path) -> None:
     assert found["reaction_max"] == pytest.approx(result.reaction_max)
     assert found["torque_drive"] == pytest.approx(result.torque_drive.tolist())
     assert found["envelope"]["torque_drive"]["peak"] == pytest.approx(result.torque_drive_max)
+
+
+def test_a_rocking_drive_names_the_angles_that_it_has() -> None:
+    """What the message proposes works as printed."""
+    code, text = run("forces", "log_function_generator", "--speed", "1 rad/s")
+    assert code == 1
+    proposed = re.search('--speed "(.*?)" --angles="(.*?)"', " ".join(text.split()))
+    assert proposed is not None
+    code, _ = run("forces", "log_function_generator", "--speed", proposed[1], f"--angles={proposed[2]}")
+    assert code == 0
 
 
 def test_angles_are_those_asked_for(press: Path) -> None:

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner, Result
 
+import linkwright as lw
 from linkwright.app.application import application
 
 PRESS = Path(__file__).parents[2] / "examples" / "press_with_flywheel" / "machine.toml"
@@ -36,6 +37,17 @@ def test_a_press_from_its_top(tmp_path: Path) -> None:
     assert velocity == pytest.approx(slope * speed, abs=1e-8)
     assert theta[[0, -1]] == pytest.approx([0.0, 2 * np.pi])
     assert picture.read_bytes().startswith(b"\x89PNG")
+
+
+def test_extremes_are_exact_and_counted_from_the_top() -> None:
+    """In steady motion: those of `cycle_motion`, wherever angles are counted from."""
+    found = lw.cycle_motion(lw.read(PRESS)).extremes["ram.place.velocity"]
+    words = ("ram.velocity", "--zero", "top", "--json")
+    told = json.loads(run(*words).stdout)["results"]["plot"]["curves"]["motion.ram.place.velocity"]
+    assert told["is_exact"]
+    assert (told["minimum"], told["maximum"]) == pytest.approx((found.minimum, found.maximum), rel=1e-12)
+    assert told["maximum_at"] == pytest.approx(found.maximum_angle - np.pi / 2, abs=1e-6)
+    assert told["minimum_at"] == pytest.approx(found.minimum_angle - np.pi / 2, abs=1e-6)
 
 
 def test_over_another_curve_and_json() -> None:

@@ -144,7 +144,9 @@ def test_files_are_written(tmp_path: Path) -> None:
     folder = tmp_path / "new" / "folder"
     done = run(TWO_CARTS, "--out", folder)
     assert done.exit_code == 0
-    curves = {f"{name}.csv" for name in ("linkage", "steady_state", "reduction", "run_up", "forces")}
+    curves = {
+        f"{name}.csv" for name in ("linkage", "motion", "steady_state", "reduction", "run_up", "forces")
+    }
     names = {"results.json", "report.html", *curves}
     assert {path.name for path in folder.glob("[!.]*")} == names
     assert all(str(folder / name) in done.stdout for name in names)
@@ -182,7 +184,7 @@ def test_no_steady_motion() -> None:
     found = results(TWO_CARTS, "--set", "drive.gearbox.ratio=3")
     assert found["findings"][0].startswith("No steady motion: at best")
     assert found["findings"][1].startswith("Does not start")
-    assert set(found["results"]) == {"linkage", "reduction", "constant_energy"}
+    assert set(found["results"]) == {"linkage", "motion", "reduction", "constant_energy"}
 
 
 def test_rod_shorter_than_crank(tmp_path: Path) -> None:
@@ -191,7 +193,7 @@ def test_rod_shorter_than_crank(tmp_path: Path) -> None:
     found = results(TWO_CARTS, "--set", "mechanism.sliders.cart1.rod=0.1")
     assert "the rod of cart1 (0.1 m) does not reach its guide" in found["findings"][0]
     # What the linkage does within its limits is known all the same.
-    assert set(found["results"]) == {"linkage"}
+    assert set(found["results"]) == {"linkage", "motion"}
     assert not found["results"]["linkage"]["turns_fully"]
     assert {path.name for path in tmp_path.glob("[!.]*")} == {"results.json", "report.html", "linkage.csv"}
 

@@ -51,6 +51,17 @@ def test_a_sound_machine_has_nothing_to_warn_of() -> None:
     assert study(loads(template("compressor"))).warnings == ()
 
 
+def test_a_motor_without_a_rotor_is_told_with_an_estimate() -> None:
+    """0.138 kg m² at 107.7 N m, and the power 5/3 of the ratio of torques: by hand for 3 kW at 955 rpm."""
+    given = 'inertia = "0.02 kg m^2"'
+    text = template("slider-crank")
+    estimate = 0.138 * (3000 / (955 * math.pi / 30) / 107.7) ** (5 / 3)
+    assert text.count(given) == 1
+    without = study(loads(text.replace(given, "")))
+    assert warned(without, "4A112MA6U3", f"{estimate:.3g} kg m²", "counts as zero")
+    assert not warned(study(loads(text)), "counts as zero")
+
+
 def test_overload_is_told_with_both_numbers() -> None:
     found = two_carts()
     assert warned(found, "root mean square of 128.8 N m", "19.6 % above the rated 107.7 N m")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from linkwright.drive.model.catalogue import motors
+from linkwright.drive.model.catalogue import estimated_inertia, motors
 from linkwright.drive.model.motor import InductionMotor
 from linkwright.drive.run_up import run_up
 from linkwright.drive.steady_state import steady_state
@@ -17,7 +17,7 @@ from linkwright.machine.read import loads, read
 from linkwright.machine.write import dumps
 from linkwright.sizing.checks import PEAK_SHARE
 from linkwright.sizing.motor import MotorChoice, choose_motor
-from linkwright.sizing.motor_change import estimated_inertia, rotor_inertia
+from linkwright.sizing.motor_change import rotor_inertia
 
 DRIVES = ("one_cart", "two_carts", "three_carts", "four_carts")
 

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.app.study import Study
+from linkwright.drive.cycle_motion import CycleMotion
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.quantities import declared, over
@@ -176,3 +178,89 @@ def from_zero(curve: Curve, zero: float) -> Curve:
         angles = np.concatenate([angles, [span]])
         values = np.concatenate([values, [values[0] + rise]])
     return replace(curve, x=angles, values=values)
+
+
+class CurveExtremes(NamedTuple):
+    """Minimum and maximum of a curve, and where.
+
+    Attributes
+    ----------
+    minimum, minimum_at, maximum, maximum_at : float
+        In SI; what the curve runs over.
+    is_exact : bool
+        Whether they are those of the motion itself, not of the points of the curve.
+    """
+
+    minimum: float
+    minimum_at: float
+    maximum: float
+    maximum_at: float
+    is_exact: bool
+
+
+def extremes(study: Study, curve: Curve, zero: float = 0.0) -> CurveExtremes:
+    """Extremes of a curve: exact ones where its analysis knows them.
+
+    Parameters
+    ----------
+    study : Study
+        The study that the curve is from.
+    curve : Curve
+        With its crank angles counted from `zero`.
+    zero : float
+        Crank angle in the file [rad].
+
+    Returns
+    -------
+    CurveExtremes
+        In SI; without any number, NaN.
+    """
+    known = _exact(study, curve)
+    if known is not None:
+        low, low_at, high, high_at = known
+        return CurveExtremes(low, _on(curve, low_at - zero), high, _on(curve, high_at - zero), True)
+    if not np.isfinite(curve.values).any():
+        nan = float("nan")
+        return CurveExtremes(nan, nan, nan, nan, False)
+    low_k, high_k = int(np.nanargmin(curve.values)), int(np.nanargmax(curve.values))
+    low, high = float(curve.values[low_k]), float(curve.values[high_k])
+    return CurveExtremes(low, float(curve.x[low_k]), high, float(curve.x[high_k]), False)
+
+
+def _exact(study: Study, curve: Curve) -> tuple[float, float, float, float] | None:
+    """Minimum, its crank angle, maximum, its crank angle, if the analysis has them."""
+    if curve.over != CRANK_ANGLE:
+        return None
+    results = study.results()
+    analysis = max((key for key in results if curve.name.startswith(f"{key}.")), key=len)
+    name, result = curve.name.removeprefix(f"{analysis}."), results[analysis]
+    if isinstance(result, CycleMotion):
+        if name in ("speed", "acceleration") and result.is_steady:
+            return _declared(study.steady_state, name)
+        found = result.extremes.get(name)
+        numbers = () if found is None else tuple(vars(found).values())
+        return _four(numbers)
+    return _declared(result, name)
+
+
+def _declared(result: Result | None, name: str) -> tuple[float, float, float, float] | None:
+    """The attributes of a result that tell the extremes of one of its curves."""
+    names = (f"{name}_min", f"{name}_min_angle", f"{name}_max", f"{name}_max_angle")
+    return _four([getattr(result, each, None) for each in names])
+
+
+def _four(numbers: Sequence[float | None]) -> tuple[float, float, float, float] | None:
+    """Four numbers, if there are as many."""
+    known = [float(each) for each in numbers if each is not None]
+    return (known[0], known[1], known[2], known[3]) if len(known) == 4 else None
+
+
+def _on(curve: Curve, angle: float) -> float:
+    """A crank angle on the revolutions that a curve runs over [rad]."""
+    turn = 2 * np.pi
+    low, high = float(curve.x[0]) - 1e-9, float(curve.x[-1]) + 1e-9
+    while angle < low:
+        angle += turn
+    while angle > high:
+        angle -= turn
+    return angle

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from linkwright.drive.model.catalogue import KNOWN, estimated_inertia
 from linkwright.drive.model.drive import Drive
 from linkwright.drive.model.motor import ConstantSpeedMotor, DcMotor, InductionMotor
 from linkwright.drive.reduction import Reduction
@@ -42,10 +43,25 @@ def cautions(machine: Machine, reduced: Reduction, steady: SteadyState | None) -
         return (*found, "The machine has no motor: steady motion and run-up are not computed.")
     found += _without_run_up(drive)
     found += _start_by_kloss(machine, drive)
+    found += _without_rotor(drive)
     if steady is not None:
         found += [*_cycle(steady), *_design_speed(drive, steady), *_overload(drive, steady)]
         found += [*_breakdown(drive, steady), *_generator(drive, steady), *_gear_gain(drive, steady)]
     return tuple(found)
+
+
+def _without_rotor(drive: Drive) -> Iterator[str]:
+    """A type of the catalogue without the inertia of its rotor."""
+    motor = drive.motor
+    if not isinstance(motor, InductionMotor) or not motor.catalogue or motor.inertia:
+        return
+    if "inertia" in motor.model_fields_set or motor.torque_rated is None:
+        return
+    estimate = estimated_inertia(float(motor.torque_rated))
+    yield (
+        f"The catalogue gives no rotor inertia for {motor.catalogue}, and it counts as zero; similarity with "
+        f"{KNOWN} gives an estimate of {estimate:.3g} kg m²: give drive.motor.inertia."
+    )
 
 
 def _unloaded(machine: Machine) -> Iterator[str]:

@@ -154,7 +154,7 @@ def cycle_motion_of(
     """
     compiled = compile_machine(machine).first()
     if steady is None:
-        low, high = float(known.crank_angle[0]), float(known.crank_angle[-1])
+        low, high = _cycle(known)
         speed, source = crank_speed(machine, None)
         crank = _at_constant_speed(speed, low)
     else:
@@ -178,6 +178,13 @@ def cycle_motion_of(
 
 # Columns that are the crank's own, first in `curves`.
 _CRANK = ("time", "crank_angle", "speed", "acceleration")
+
+
+def _cycle(known: Linkage) -> tuple[float, float]:
+    """First and last crank angle of the cycle [rad]: of a crank that turns all round, from zero on."""
+    low, high = float(known.crank_angle[0]), float(known.crank_angle[-1])
+    is_round = known.closure.turns_fully and known.closure.change_point is None
+    return (0.0, high - low) if is_round else (low, high)
 
 
 def _at_constant_speed(speed: float, start: float) -> CrankMotion:

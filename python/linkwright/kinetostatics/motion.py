@@ -10,12 +10,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from linkwright.drive.steady_state import SteadyState, steady_state
 from linkwright.drive.transient import Transient
-from linkwright.kernel.errors import InputError, ShapeError
+from linkwright.kernel.errors import AssemblyError, InputError, ShapeError
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import Shown
 from linkwright.kernel.result import Record
 from linkwright.kernel.units import ANGULAR_ACCELERATION, SPEED, Quantity
-from linkwright.linkages.closure import turn_angles
+from linkwright.linkages.closure import closure, closure_error, turn_angles
 from linkwright.machine.machine import Machine
 
 Floats = NDArray[np.float64]
@@ -70,6 +70,8 @@ def motion_at(
         return motion
     if isinstance(motion, SteadyState | Transient):
         return Motion(motion.crank_angle, motion.speed, motion.acceleration, motion.time)
+    if angles is None:
+        _require_full_turn(machine)
     if speed is None:
         drive = machine.drive
         if drive is not None and drive.motor is not None and angles is None:
@@ -82,6 +84,24 @@ def motion_at(
         )
     in_range(speed=(speed, Quantity(SPEED)), acceleration=(acceleration, Quantity(ANGULAR_ACCELERATION)))
     return _at_speed(speed, acceleration, turn_angles(n) if angles is None else angles)
+
+
+def _require_full_turn(machine: Machine) -> None:
+    """Raise AssemblyError if the crank does not turn all round, with the angles that it has."""
+    found = closure(machine)
+    if found.turns_fully:
+        return
+    error = closure_error(found, machine)
+    if not found.moves:
+        raise error
+    low, high = np.degrees(found.ranges[0]) - (360.0 if found.ranges[0][1] > 2 * np.pi else 0.0)
+    low, high = np.ceil(10 * low + 1) / 10, np.floor(10 * high - 1) / 10
+    raise AssemblyError(
+        f"{error}; within that range forces are found at a speed, between given crank angles, such as "
+        f'--speed "10 rad/s" --angles="{low:.1f} deg, {high:.1f} deg"',
+        element=error.element,
+        crank_angle=error.crank_angle,
+    )
 
 
 def _at_speed(speed: float, acceleration: float, angles: ArrayLike) -> Motion:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Annotated, Any, Literal
 
-from linkwright.drive.model.catalogue import CatalogueMotor, motors
+from linkwright.drive.model.catalogue import KNOWN, CatalogueMotor, motors
 from linkwright.drive.model.catalogue import motor as catalogue_motor
 from linkwright.drive.model.motor import InductionMotor
 from linkwright.drive.run_up import RunUp
@@ -20,7 +20,7 @@ from linkwright.kernel.units import INERTIA, RATIO, not_negative, positive
 from linkwright.machine.machine import Machine
 from linkwright.sizing.checks import DECISIVE, Check, MotorChecks, motion_checks, rating_checks
 from linkwright.sizing.flywheel import UNEVENNESS, flywheel_inertia
-from linkwright.sizing.motor_change import KNOWN, rotor_inertia, with_flywheel, with_motor
+from linkwright.sizing.motor_change import rotor_inertia, with_flywheel, with_motor
 from linkwright.sizing.power import RequiredPower, required_power
 
 By = Literal["all", "fixed-start", "power"]

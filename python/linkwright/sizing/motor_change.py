@@ -1,24 +1,11 @@
-"""A machine with another motor or flywheel; inertia of a motor's rotor.
-
-Similar machines at equal shear stress in the air gap have torque as the cube of their size and inertia as its
-fifth power, so
-
-.. math:: J = J_1 (M_n/M_{n1})^{5/3}
-
-It is an estimate: types of one frame share their diameter and differ in length, for which J grows as M only.
-"""
+"""A machine with another motor or flywheel; inertia of a motor's rotor, given or estimated."""
 
 from __future__ import annotations
 
 from typing import Any
 
-from linkwright.drive.model.catalogue import CatalogueMotor, motor
+from linkwright.drive.model.catalogue import CatalogueMotor, estimated_inertia
 from linkwright.machine.machine import Machine
-
-# The only type of the catalogue whose inertia is printed: 0.138 kg m² at 107.7 N m (paper 1, worked case).
-KNOWN = "4A160S6U3 (method 1)"
-
-_EXPONENT = 5 / 3
 
 
 def rotor_inertia(known: CatalogueMotor) -> tuple[float, bool]:
@@ -37,19 +24,6 @@ def rotor_inertia(known: CatalogueMotor) -> tuple[float, bool]:
     if known.inertia is not None:
         return known.inertia, False
     return estimated_inertia(known.torque_rated), True
-
-
-def estimated_inertia(torque_rated: float) -> float:
-    """Estimate the inertia of a rotor from the rated torque of its motor.
-
-    `torque_rated`: M_n [N m]. Returns: J [kg m²], by similarity with `KNOWN`.
-
-    >>> round(estimated_inertia(107.7), 3)
-    0.138
-    """
-    like = motor(KNOWN)
-    assert like.inertia is not None
-    return float(like.inertia * (torque_rated / like.torque_rated) ** _EXPONENT)
 
 
 def with_motor(

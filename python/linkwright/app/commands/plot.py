@@ -46,6 +46,9 @@ Csv = Annotated[bool, Option("--csv", help="Print CSV.")]
 
 _PICTURES = (".png", ".svg", ".pdf")
 
+# The place of a flat peak is known to the root of rounding: beside this, what is left of zero is rounding.
+_PLACE = 2e4
+
 # Intervals of the table on the terminal.
 _ROWS = 12
 
@@ -87,10 +90,10 @@ def plot(
         put(_csv(curves, shown), None)
     answer = Answer(
         machine=machine.name,
-        results=lambda _: {"plot": _told(curves, counted.angle)},
+        results=lambda _: {"plot": _told(found, curves, counted.angle)},
         findings=found.findings,
         warnings=found.warnings,
-        tables=lambda: [_extremes(curves, shown), _values(curves, shown)],
+        tables=lambda: [_extremes(found, curves, counted.angle, shown), _values(curves, shown)],
         head=lambda: f"Crank angles from the {counted.words}" if counted.words else "",
     )
     if written:
@@ -117,8 +120,10 @@ def _list_of(found: Study, curves: dict[str, Curve]) -> Answer:
     )
 
 
-def _told(curves: Sequence[Curve], zero: float) -> dict[str, Any]:
+def _told(study: Study, curves: Sequence[Curve], zero: float) -> dict[str, Any]:
     """The curves in SI."""
+    from linkwright.app.curves import extremes
+
     return {
         "angle_zero": zero,
         "curves": {
@@ -128,6 +133,7 @@ def _told(curves: Sequence[Curve], zero: float) -> dict[str, Any]:
                 "over_unit": each.over_unit,
                 "x": each.x.tolist(),
                 "values": each.values.tolist(),
+                **extremes(study, each, zero)._asdict(),
             }
             for each in curves
         },
@@ -192,23 +198,24 @@ def _long(values: Any, length: int) -> Any:
     return np.concatenate([values, np.full(length - len(values), np.nan)])
 
 
-def _extremes(curves: Sequence[Curve], units: OutUnits) -> Table:
+def _extremes(study: Study, curves: Sequence[Curve], zero: float, units: OutUnits) -> Table:
     """Minimum and maximum of each curve, and where."""
-    import numpy as np
-
+    from linkwright.app.curves import extremes
     from linkwright.kernel.page.table import Table
 
     rows: list[Row] = []
+    rough = []
     for each in curves:
-        cells = []
-        for k in (int(np.nanargmin(each.values)), int(np.nanargmax(each.values))):
-            cells += [
-                _cell(each.values, k, each.unit, units),
-                _cell(each.x, k, each.over_unit, units),
-            ]
-        rows.append((each.name, "", *cells))
+        found = extremes(study, each, zero)
+        if not found.is_exact:
+            rough.append(each.name)
+        scale = max(abs(found.minimum), abs(found.maximum))
+        values = [_shown(value, each.unit, units, scale) for value in (found.minimum, found.maximum)]
+        places = [_shown(at, each.over_unit, units, _PLACE) for at in (found.minimum_at, found.maximum_at)]
+        rows.append((each.name, "", values[0], places[0], values[1], places[1]))
     heads = ("curve", "", "minimum", f"at {curves[0].over}", "maximum", f"at {curves[0].over}")
-    return Table("extremes", "Extremes among the points of the curves", heads, rows)
+    title = f"Extremes; of {', '.join(rough)} among the points of the curve" if rough else "Extremes"
+    return Table("extremes", title, heads, rows)
 
 
 def _values(curves: Sequence[Curve], units: OutUnits) -> Table:
@@ -228,16 +235,21 @@ def _values(curves: Sequence[Curve], units: OutUnits) -> Table:
         )
         for k in at
     ]
-    return Table("values", "Values", (first.over, "", *(each.name for each in same)), rows)
+    heads = (each.name.split(".", 1)[1].replace(".", " ") for each in same)
+    return Table("values", "Values", (first.over, "", *heads), rows)
 
 
 def _cell(values: Any, k: int, si: str, units: OutUnits) -> str:
     """A value with its unit; zero where nothing but rounding is left beside the largest one."""
     import numpy as np
 
+    return _shown(float(values[k]), si, units, float(np.nanmax(np.abs(values))))
+
+
+def _shown(value: float, si: str, units: OutUnits, scale: float = 0.0) -> str:
+    """A value with its unit; zero where it is rounding beside a scale."""
     from linkwright.kernel.page.numbers import number
 
     unit, factor = units.shown(si)
-    value = float(values[k])
-    shown = 0.0 if abs(value) <= 1e-12 * float(np.nanmax(np.abs(values))) else value / factor
-    return f"{number(shown)}{'' if unit == '°' else ' '}{unit}".rstrip()
+    text = number(value / factor, scale=scale / factor)
+    return text if text == "–" else f"{text}{'' if unit == '°' else ' '}{unit}".rstrip()
