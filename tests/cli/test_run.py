@@ -195,7 +195,8 @@ def test_rod_shorter_than_crank(tmp_path: Path) -> None:
     # What the linkage does within its limits is known all the same.
     assert set(found["results"]) == {"linkage", "motion"}
     assert not found["results"]["linkage"]["turns_fully"]
-    assert {path.name for path in tmp_path.glob("[!.]*")} == {"results.json", "report.html", "linkage.csv"}
+    written = {"results.json", "report.html", "linkage.csv", "motion.csv"}
+    assert {path.name for path in tmp_path.glob("[!.]*")} == written
 
 
 def test_a_machine_without_a_motor_is_no_failure() -> None:
