@@ -103,7 +103,8 @@ class CycleMotion(Motion):
             "speed_source": self.speed_source,
             "extremes": {name: asdict(each) for name, each in self.extremes.items()},
         }
-        return told | ({name: each.tolist() for name, each in self.curves().items()} if curves else {})
+        columns = {name: each.tolist() for name, each in self.curves().items()} if curves else {}
+        return super().to_dict(curves=curves) | columns | told
 
 
 _SIZES = {"velocity": "m/s", "acceleration": "m/s²"}
