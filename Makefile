@@ -22,7 +22,7 @@ export PATH := $(CURDIR)/$(BIN):$(PATH)
 
 PRINTED := tests/cli/test_printed_commands.py
 
-.PHONY: demo build test test-deep lint rust-test python-test studio-test bench docs clean
+.PHONY: demo build test test-deep lint rust-test python-test studio-test wheel-test bench docs clean
 
 demo: build
 	$(BIN)/linkwright run machines/roller_two_carts.toml --out out/roller_two_carts
@@ -51,7 +51,7 @@ $(TOOLS): $(BUILT)
 
 # Two at a time: one waits for a compiler or for the network while the other computes.
 test:
-	$(MAKE) --no-print-directory -j2 --output-sync=target lint rust-test python-test studio-test
+	$(MAKE) --no-print-directory -j2 --output-sync=target lint rust-test python-test studio-test wheel-test
 
 lint: $(TOOLS)
 	cargo fmt --all --check

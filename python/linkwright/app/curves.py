@@ -246,12 +246,12 @@ def _exact(study: Study, curve: Curve) -> tuple[float, float, float, float] | No
 def _declared(result: Result | None, name: str) -> tuple[float, float, float, float] | None:
     """The attributes of a result that tell the extremes of one of its curves."""
     names = (f"{name}_min", f"{name}_min_angle", f"{name}_max", f"{name}_max_angle")
-    return _four([getattr(result, each, None) for each in names])
+    return _four([getattr(result, name, None) for name in names])
 
 
 def _four(numbers: Sequence[float | None]) -> tuple[float, float, float, float] | None:
     """Four numbers, if there are as many."""
-    known = [float(each) for each in numbers if each is not None]
+    known = [float(number) for number in numbers if number is not None]
     return (known[0], known[1], known[2], known[3]) if len(known) == 4 else None
 
 

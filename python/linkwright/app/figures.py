@@ -29,16 +29,16 @@ def curves_figure(curves: Sequence[Curve], units: OutUnits, zero: str = "") -> F
     `curves`: over one quantity; `units`: those of the axes; `zero`: from where crank angles are counted.
     """
     by_unit: dict[tuple[str, float], list[Curve]] = {}
-    for each in curves:
-        by_unit.setdefault(units.shown(each.unit), []).append(each)
+    for curve in curves:
+        by_unit.setdefault(units.shown(curve.unit), []).append(curve)
     figure, axes = panels(len(by_unit), height=_AROUND + _PANEL * len(by_unit))
     colours = iter(LINES * len(curves))
     for panel, ((unit, factor), group) in zip(axes, by_unit.items(), strict=True):
-        for each in group:
-            x = each.x / _over_unit(each, units)[1]
-            panel.plot(x, each.values / factor, color=next(colours), label=named(_short(each)))
+        for member in group:
+            x = member.x / _over_unit(member, units)[1]
+            panel.plot(x, member.values / factor, color=next(colours), label=named(_short(member)))
         panel.set_ylabel(f"[{unit or '–'}]")
-        roomy(panel, *(each.values[np.isfinite(each.values)] / factor for each in group))
+        roomy(panel, *(member.values[np.isfinite(member.values)] / factor for member in group))
         zero_line(panel)
         legend_above(panel)
     _under(axes[-1], curves, units, zero)
@@ -53,8 +53,8 @@ def _under(axes: Axes, curves: Sequence[Curve], units: OutUnits, zero: str) -> N
     if zero and first.over == CRANK_ANGLE:
         word += f" from the {zero}"
     axes.set_xlabel(f"{word} [{unit or '–'}]")
-    low = min(float(np.nanmin(each.x)) for each in curves) / factor
-    high = max(float(np.nanmax(each.x)) for each in curves) / factor
+    low = min(float(np.nanmin(curve.x)) for curve in curves) / factor
+    high = max(float(np.nanmax(curve.x)) for curve in curves) / factor
     if high > low:
         axes.set_xlim(low, high)
     if unit == "°" and 0 < high - low <= 720.5:

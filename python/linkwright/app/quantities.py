@@ -49,9 +49,9 @@ def quantities(of: Any) -> tuple[DeclaredQuantity, ...]:
     if isinstance(of, Result):
         return tuple(each._replace(unit=of.unit_of(each.name)) for each in quantities_of(type(of)))
     return tuple(
-        each._replace(name=f"{name}.{each.name}", over=each.over and f"{name}.{each.over}")
+        quantity._replace(name=f"{name}.{quantity.name}", over=quantity.over and f"{name}.{quantity.over}")
         for name, result in _parts(of).items()
-        for each in quantities(result)
+        for quantity in quantities(result)
     )
 
 
@@ -63,5 +63,5 @@ def _parts(study: Any) -> Mapping[str, Result]:
         return study.results()
     if isinstance(study, type) or not is_dataclass(study):
         raise InputError(f"of: found {shown(study)}, expected a result, its class, or a study")
-    parts = {each.name: getattr(study, each.name) for each in fields(study)}
+    parts = {field.name: getattr(study, field.name) for field in fields(study)}
     return {name: part for name, part in parts.items() if isinstance(part, Result)}

@@ -69,26 +69,26 @@ def soundness(machine: Machine) -> Soundness:
     Soundness
         What was looked at, and the findings.
     """
-    found = Findings()
+    findings = Findings()
     looked = [
-        *_diagram(machine, found),
-        *_knife(machine, found),
-        *_mechanism(machine, found),
-        *_train(machine, found),
+        *_diagram(machine, findings),
+        *_knife(machine, findings),
+        *_mechanism(machine, findings),
+        *_train(machine, findings),
     ]
-    return Soundness(tuple(looked), found.findings)
+    return Soundness(tuple(looked), findings.findings)
 
 
-def _diagram(machine: Machine, found: Findings) -> Iterator[str]:
+def _diagram(machine: Machine, findings: Findings) -> Iterator[str]:
     if machine.turning_moment is None:
         return
     from linkwright.turning.diagram import turning_moment
 
-    found.of(turning_moment, machine, n=1)
+    findings.of(turning_moment, machine, n=1)
     yield "turning-moment diagram: driver and load balance over a cycle"
 
 
-def _knife(machine: Machine, found: Findings) -> Iterator[str]:
+def _knife(machine: Machine, findings: Findings) -> Iterator[str]:
     described = machine.topper
     if described is None:
         return
@@ -97,36 +97,36 @@ def _knife(machine: Machine, found: Findings) -> Iterator[str]:
     from linkwright.topping.knife_look import knife_look
     from linkwright.topping.roots import draw_roots
 
-    looked = found.of(lambda: tuple(knife_look(machine, described)))
-    found.add(looked or ())
+    looked = findings.of(lambda: tuple(knife_look(machine, described)))
+    findings.add(looked or ())
     if looked is not None and described.field is not None:
-        found.of(lambda: require_advance(edges_of(machine, described), draw_roots(described)))
+        findings.of(lambda: require_advance(edges_of(machine, described), draw_roots(described)))
     yield "knife of the topper: its advance, and its length for every head"
 
 
-def _mechanism(machine: Machine, found: Findings) -> Iterator[str]:
+def _mechanism(machine: Machine, findings: Findings) -> Iterator[str]:
     if not machine.has_crank:
         return
     if machine.pumping_unit is not None:
         from linkwright.pumping.unit import PolishedRod
 
-        found.of(PolishedRod.of, machine, machine.pumping_unit)
+        findings.of(PolishedRod.of, machine, machine.pumping_unit)
         yield "pumping unit: its crank turns all round"
     if machine.rod_rotator is not None:
         from linkwright.pumping.rod_rotator import rod_rotator
 
-        found.of(rod_rotator, machine)
+        findings.of(rod_rotator, machine)
         yield "rod rotator: lengths, and the motion that its regime asks for"
     if machine.mechanism.cams:
         from linkwright.cam.study import sound_cams
 
-        sound_cams(machine, found)
+        sound_cams(machine, findings)
         yield "cams: undercut, crossings, pressure angle of 90°, hollows, second followers"
-    compiled = found.of(require_turn, machine)
+    compiled = findings.of(require_turn, machine)
     yield "mechanism: closes over the whole revolution" + (", loads there" if machine.loads else "")
     if machine.drive is not None and machine.drive.motor is not None:
         if compiled is not None:
-            found.of(_require_drive, machine, compiled)
+            findings.of(_require_drive, machine, compiled)
         yield "drive: characteristic of the motor, start"
 
 
@@ -147,13 +147,13 @@ def _require_drive(machine: Machine, compiled: Compiled) -> None:
     start_of(machine)
 
 
-def _train(machine: Machine, found: Findings) -> Iterator[str]:
+def _train(machine: Machine, findings: Findings) -> Iterator[str]:
     if machine.train is None and (machine.drive is None or not machine.drive.twists):
         return
     from linkwright.torsion.modes.free import free_vibration
 
-    free = found.of(free_vibration, machine)
-    found.add(_not_definite(free) if free else ())
+    free = findings.of(free_vibration, machine)
+    findings.add(_not_definite(free) if free else ())
     yield "train: connected, natural frequencies"
 
 

@@ -127,9 +127,9 @@ class Study(DriveStudy):
         )
         found: dict[str, Result | None] = {name: getattr(self, name) for name in names}
         single = len(self.cams) == 1
-        cams: dict[str, Result] = {"cam" if single else f"cam.{each.name}": each for each in self.cams}
-        cams |= {"cam_sizes" if single else f"cam_sizes.{each.name}": each for each in self.cam_sizes}
-        cams |= {"cam_force" if single else f"cam_force.{each.name}": each for each in self.loaded_cams}
+        cams: dict[str, Result] = {"cam" if single else f"cam.{cam.name}": cam for cam in self.cams}
+        cams |= {"cam_sizes" if single else f"cam_sizes.{size.name}": size for size in self.cam_sizes}
+        cams |= {"cam_force" if single else f"cam_force.{cam.name}": cam for cam in self.loaded_cams}
         cams |= {
             "cam_vibration" if single else f"cam_vibration.{name}": each for name, each in self.cam_vibrations
         }
@@ -139,8 +139,8 @@ class Study(DriveStudy):
         """Failed checks, warnings and all results, as a notebook shows them."""
         from linkwright.kernel.page.notebook import result_html, table_html
 
-        words = [("failed check", each) for each in self.findings]
-        words += [("warning", each) for each in self.warnings]
+        words = [("failed check", finding) for finding in self.findings]
+        words += [("warning", warning) for warning in self.warnings]
         head = table_html(self.machine.name, words or [("checks", "none failed")])
         return head + "".join(result_html(each, name) for name, each in self.results().items())
 
@@ -190,16 +190,16 @@ def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = Non
     InputError
         The accuracy or the step makes no sense.
     """
-    found = Findings()
-    diagram = _diagram(machine, found)
+    findings = Findings()
+    diagram = _diagram(machine, findings)
     if machine.is_diagram_alone:
-        return Study(machine, turning_moment=diagram, findings=found.findings)
-    cut = _cut(machine, found)
+        return Study(machine, turning_moment=diagram, findings=findings.findings)
+    cut = _cut(machine, findings)
     if machine.is_topper_alone:
-        return _topped(Study(machine, turning_moment=diagram, findings=found.findings), cut)
-    unit, rotator = _pumped(machine, found)
-    moved = found.of(linkage, machine)
-    whole = _turned(machine, found, accuracy, step)
+        return _topped(Study(machine, turning_moment=diagram, findings=findings.findings), cut)
+    unit, rotator = _pumped(machine, findings)
+    moved = findings.of(linkage, machine)
+    whole = _turned(machine, findings, accuracy, step)
     whole = replace(
         whole,
         pumping_unit=unit,
@@ -208,27 +208,27 @@ def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = Non
         linkage=moved if moved is not None and moved.elements else None,
         accuracy=accuracy,
     )
-    whole = _with_cams(whole, found)
-    warnings = (*_of_units(whole), *whole.warnings, *found.warnings)
-    return _topped(replace(whole, findings=found.findings, warnings=warnings), cut)
+    whole = _with_cams(whole, findings)
+    warnings = (*_of_units(whole), *whole.warnings, *findings.warnings)
+    return _topped(replace(whole, findings=findings.findings, warnings=warnings), cut)
 
 
-def _diagram(machine: Machine, found: Findings) -> TurningMomentDiagram | None:
+def _diagram(machine: Machine, findings: Findings) -> TurningMomentDiagram | None:
     """The turning-moment diagram of a shaft."""
     if machine.turning_moment is None:
         return None
     from linkwright.turning.diagram import turning_moment
 
-    return found.of(turning_moment, machine)
+    return findings.of(turning_moment, machine)
 
 
-def _cut(machine: Machine, found: Findings) -> TopperStudy | None:
+def _cut(machine: Machine, findings: Findings) -> TopperStudy | None:
     """What the knife of a topper cuts."""
     if machine.topper is None:
         return None
     from linkwright.topping.topper import topper
 
-    return found.of(topper, machine)
+    return findings.of(topper, machine)
 
 
 def _topped(known: Study, cut: TopperStudy | None) -> Study:
@@ -246,15 +246,15 @@ def _topped(known: Study, cut: TopperStudy | None) -> Study:
     )
 
 
-def _pumped(machine: Machine, found: Findings) -> tuple[PumpingUnitMotion | None, RodRotatorMotion | None]:
+def _pumped(machine: Machine, findings: Findings) -> tuple[PumpingUnitMotion | None, RodRotatorMotion | None]:
     """The polished rod and the rotator of a pumping unit."""
     if machine.pumping_unit is None:
         return None, None
     from linkwright.pumping.rod_rotator import rod_rotator
     from linkwright.pumping.unit import pumping_unit
 
-    unit = found.of(pumping_unit, machine, n=INTERVALS)
-    return unit, found.of(rod_rotator, machine, n=INTERVALS) if machine.rod_rotator else None
+    unit = findings.of(pumping_unit, machine, n=INTERVALS)
+    return unit, findings.of(rod_rotator, machine, n=INTERVALS) if machine.rod_rotator else None
 
 
 def _of_units(known: Study) -> tuple[str, ...]:
@@ -266,7 +266,7 @@ def _of_units(known: Study) -> tuple[str, ...]:
     return unit_cautions(known.machine, known.pumping_unit, known.rotator)
 
 
-def _with_cams(known: Study, found: Findings) -> Study:
+def _with_cams(known: Study, findings: Findings) -> Study:
     """A study with what is known of its cams."""
     machine = known.machine
     if not machine.mechanism.cams:
@@ -274,27 +274,27 @@ def _with_cams(known: Study, found: Findings) -> Study:
     from linkwright.cam.profile.least_sizes import least_sizes
     from linkwright.cam.study import cam_vibrations, cam_warnings, loaded_cams, sound_cams
 
-    cams, sound = sound_cams(machine, found)
+    cams, sound = sound_cams(machine, findings)
     return replace(
         known,
         cams=cams,
-        cam_sizes=tuple(least_sizes(each) for each in cams),
-        loaded_cams=loaded_cams(machine, sound, known.forces, found),
-        cam_vibrations=cam_vibrations(cams, found),
+        cam_sizes=tuple(least_sizes(cam) for cam in cams),
+        loaded_cams=loaded_cams(machine, sound, known.forces, findings),
+        cam_vibrations=cam_vibrations(cams, findings),
         warnings=(*cam_warnings(cams), *known.warnings),
     )
 
 
-def _turned(machine: Machine, found: Findings, accuracy: float, step: float | None) -> Study:
+def _turned(machine: Machine, findings: Findings, accuracy: float, step: float | None) -> Study:
     """A linkage by its dimensions alone, or what follows from bodies, loads and drive."""
     if _is_motion_alone(machine):
-        found.of(require_turn, machine)
+        findings.of(require_turn, machine)
         alone = "The machine has no masses, loads or motor: its motion alone is computed."
         return Study(machine, warnings=() if machine.pumping_unit else (alone,))
-    driven = drive_study(machine, found, accuracy, step)
+    driven = drive_study(machine, findings, accuracy, step)
     steady = driven.steady_state
     # Angles without an answer for forces are no fault of the motion: they are said as warnings.
-    borne = found.beside_of(_forces, machine, steady) if steady else None
+    borne = findings.beside_of(_forces, machine, steady) if steady else None
     return Study(**vars(driven), forces=borne)
 
 

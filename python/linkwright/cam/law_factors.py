@@ -103,7 +103,9 @@ def cam_laws() -> dict[str, LawFactors]:
 
 def _of_unit(law: MotionLaw) -> LawFactors:
     """Factors of a law with lift and length of one."""
-    (low_a, high_a), (low_j, high_j) = ([each.value for each in law.extremes(order)] for order in (2, 3))
+    (low_a, high_a), (low_j, high_j) = (
+        [extreme.value for extreme in law.extremes(order)] for order in (2, 3)
+    )
     peaks = [max(abs(low), abs(high)) for low, high in ((low_a, high_a), (low_j, high_j))]
     product = _peak_of_product(law)
     jumps = {name: _jumps(law, order) for order, name in enumerate(_NAMES, start=1)}

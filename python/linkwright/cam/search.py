@@ -161,7 +161,7 @@ def variant(machine: Machine, name: str, found: Cams, i: int) -> Machine:
     cam = machine.mechanism.cams[name]
     if found.laws:
         law = found.laws[int(found.law[i])]
-        cam = cam.with_entries({"sections": tuple(_with(each, law) for each in cam.sections)})
+        cam = cam.with_entries({"sections": tuple(_with(section, law) for section in cam.sections)})
     entries: dict[str, Any] = {
         key: float(column[i]) for key, column in found.entries.items() if key != "lift_factor"
     }
@@ -169,7 +169,7 @@ def variant(machine: Machine, name: str, found: Cams, i: int) -> Machine:
         entries["breadth"] = None
     factor = found.entries.get("lift_factor")
     if factor is not None:
-        entries["sections"] = tuple(_times(each, float(factor[i])) for each in cam.sections)
+        entries["sections"] = tuple(_times(section, float(factor[i])) for section in cam.sections)
     cams = {**machine.mechanism.cams, name: cam.with_entries(entries)}
     return machine.with_entries({"mechanism": machine.mechanism.with_entries({"cams": cams})})
 
@@ -231,7 +231,9 @@ def _variants(cam: Cam, laws: Sequence[str]) -> list[Cam]:
     """The cam with each law in its moving sections."""
     if not laws:
         return [cam]
-    return [cam.with_entries({"sections": tuple(_with(each, law) for each in cam.sections)}) for law in laws]
+    return [
+        cam.with_entries({"sections": tuple(_with(section, law) for section in cam.sections)}) for law in laws
+    ]
 
 
 def _with(section: MotionSection, law: str) -> MotionSection:

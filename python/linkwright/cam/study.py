@@ -14,40 +14,40 @@ from linkwright.kinetostatics.result import Forces
 from linkwright.machine.machine import Machine
 
 
-def sound_cams(machine: Machine, found: Findings) -> tuple[tuple[CamProfile, ...], tuple[CamProfile, ...]]:
+def sound_cams(machine: Machine, findings: Findings) -> tuple[tuple[CamProfile, ...], tuple[CamProfile, ...]]:
     """All cams, and those that can be made; what makes one impossible is a finding."""
-    looked = [found.of(cam_profile, machine, name) for name in machine.mechanism.cams]
+    looked = [findings.of(cam_profile, machine, name) for name in machine.mechanism.cams]
     told = [(each, cam_faults(each)) for each in looked if each is not None]
-    found.add(text for _, faults in told for text in faults)
+    findings.add(text for _, faults in told for text in faults)
     return tuple(each for each, _ in told), tuple(each for each, faults in told if not faults)
 
 
 def loaded_cams(
-    machine: Machine, cams: tuple[CamProfile, ...], borne: Forces | None, found: Findings
+    machine: Machine, cams: tuple[CamProfile, ...], borne: Forces | None, findings: Findings
 ) -> tuple[LoadedCam, ...]:
     """The cams that can be made under load; a follower that leaves its cam is a finding."""
     speed = None if machine.drive is None else machine.drive.speed
     if not (machine.bodies or machine.loads) or (borne is None and speed is None):
         return ()
     along = None if borne is not None else speed
-    loaded = [found.of(loaded_cam, machine, each, along) for each in cams]
+    loaded = [findings.of(loaded_cam, machine, cam, along) for cam in cams]
     return tuple(each for each in loaded if each is not None)
 
 
 def cam_vibrations(
-    cams: tuple[CamProfile, ...], found: Findings
+    cams: tuple[CamProfile, ...], findings: Findings
 ) -> tuple[tuple[str, FollowerVibration], ...]:
     """Names of the cams whose follower vibrates, and how at the design speed."""
-    return tuple(each for cam in cams for each in _vibration(cam, found))
+    return tuple(each for cam in cams for each in _vibration(cam, findings))
 
 
-def _vibration(profile: CamProfile, found: Findings) -> Iterator[tuple[str, FollowerVibration]]:
+def _vibration(profile: CamProfile, findings: Findings) -> Iterator[tuple[str, FollowerVibration]]:
     """Vibration of a follower at the design speed; strikes and loss of contact are findings."""
     train, speed = profile.cam.train, profile.speed
     leaps = any(joint.order < 0 for joint in profile.cam.motion.joints)
     if train is None or not speed or leaps:
         return
-    about = found.about(f"cam {profile.name}: ")
+    about = findings.about(f"cam {profile.name}: ")
     shaken = about.of(follower_vibration, profile.cam.lift, one_mass(train), abs(speed))
     if shaken is not None:
         yield profile.name, shaken
@@ -55,4 +55,4 @@ def _vibration(profile: CamProfile, found: Findings) -> Iterator[tuple[str, Foll
 
 def cam_warnings(cams: tuple[CamProfile, ...]) -> tuple[str, ...]:
     """What the designer of cams should know, in sentences."""
-    return tuple(sentence(text) for each in cams for text in cam_cautions(each))
+    return tuple(sentence(text) for cam in cams for text in cam_cautions(cam))

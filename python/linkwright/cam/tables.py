@@ -38,7 +38,7 @@ def cam_tables(
 ) -> Iterator[Table]:
     """The tables of all cams of a machine."""
     borne = {each.name: each for each in loaded}
-    least = {each.name: each for each in sizes}
+    least = {size.name: size for size in sizes}
     for profile in cams:
         yield profile_table(profile)
         if profile.name in least:
@@ -178,7 +178,7 @@ def comparison_table(profile: CamProfile) -> Table:
 
 def _factor_row(name: str, factors: LawFactors) -> Row:
     jumps = factors.remarks[0].split(" ", 1)[0] if factors.remarks else ""
-    values = (getattr(factors, each) for each in _FACTORS)
+    values = (getattr(factors, factor) for factor in _FACTORS)
     return name, jumps, *("∞" if value is None else number(value) for value in values)
 
 
@@ -193,7 +193,7 @@ def _own(profile: CamProfile) -> Iterator[tuple[str, LawFactors]]:
         if abs(rise) <= _REST * profile.stroke or max(slopes) > _REST * abs(rise) / (high - low):
             continue
         factors = law_factors(stretch)
-        key = tuple(number(getattr(factors, each)) for each in _FACTORS)
+        key = tuple(number(getattr(factors, factor)) for factor in _FACTORS)
         if key not in seen:
             seen.append(key)
             yield f"section {n} of this cam", factors
@@ -222,7 +222,8 @@ def law_table(factors: Mapping[str, LawFactors]) -> Table:
 def bound_table() -> Table:
     """Theoretical lower bounds, and which law gets there."""
     rows: list[Row] = [
-        (each.holds_for, _COLUMNS[each.name], number(each.value), _named(each.reached_by)) for each in BOUNDS
+        (bound.holds_for, _COLUMNS[bound.name], number(bound.value), _named(bound.reached_by))
+        for bound in BOUNDS
     ]
     return Table(
         "cam_law_bounds", "Theoretical lower bound", ("for laws with", "factor", "bound", "reached by"), rows

@@ -425,9 +425,9 @@ def in_time_figure(motion: Transient, extremes: Sequence[MotionExtreme], units: 
     ):
         unit, factor = units.shown(si)
         panel.plot(time, values / factor, color=colour)
-        for each in extremes:
-            if each.quantity == name:
-                panel.plot(each.time, each.value / factor, "o", color=INK, markersize=4, clip_on=False)
+        for extreme in extremes:
+            if extreme.quantity == name:
+                panel.plot(extreme.time, extreme.value / factor, "o", color=INK, markersize=4, clip_on=False)
         panel.set_ylabel(f"{name} {symbol} [{unit}]")
         roomy(panel, values / factor)
         zero_line(panel)

@@ -126,7 +126,7 @@ def _of_motor(compiled: Compiled, state: SteadyState, curves: Floats, ratio: Tan
 
 def _ties(compiled: Compiled, state: SteadyState, accuracy: float) -> dict[str, str]:
     """Extremes that the motion has twice."""
-    found: dict[str, str] = {}
+    ties: dict[str, str] = {}
     peaks = _Peaks(compiled, accuracy)
     for quantity in ("speed", "acceleration"):
         for end, sign in (("min", -1.0), ("max", 1.0)):
@@ -136,11 +136,11 @@ def _ties(compiled: Compiled, state: SteadyState, accuracy: float) -> dict[str, 
             if len(angles) > 1:
                 places = [f"{np.degrees(angle):.4g}°" for angle in angles[:_TOLD]]
                 places += [f"{len(angles) - _TOLD} angles more"] if len(angles) > _TOLD else []
-                found[name] = f"it is reached at {' and '.join(places)}"
+                ties[name] = f"it is reached at {' and '.join(places)}"
     low, high = state.acceleration_min, state.acceleration_max
     if abs(low + high) <= _TIE * (high - low):
-        found["acceleration_peak"] = "the acceleration is as large forwards as backwards"
-    return found
+        ties["acceleration_peak"] = "the acceleration is as large forwards as backwards"
+    return ties
 
 
 class _Peaks:

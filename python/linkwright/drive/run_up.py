@@ -56,7 +56,7 @@ class RunUp(Result):
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """As any result, with the parts as tables by name."""
-        return super().to_dict(curves=curves) | {"methods": [each._asdict() for each in self.methods]}
+        return super().to_dict(curves=curves) | {"methods": [method._asdict() for method in self.methods]}
 
 
 @public

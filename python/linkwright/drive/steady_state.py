@@ -145,7 +145,7 @@ class SteadyState(Result):
         """As `Result.to_dict`, other motions as tables with names. Returns: plain numbers, texts and lists,
         ready for JSON.
         """
-        return super().to_dict(curves=curves) | {"others": [each._asdict() for each in self.others]}
+        return super().to_dict(curves=curves) | {"others": [other._asdict() for other in self.others]}
 
     @property
     def speed_mean_extremes(self) -> Annotated[float, Shown("mean of the extreme speeds", "ω_m", "rad/s")]:
@@ -301,7 +301,7 @@ def _motor_extremes(
     assert machine.drive.motor is not None
     ratio = compiled.gear_factors[0]
     marks = [low, *sorted(mark / ratio for mark in machine.drive.motor.speed_marks), high]
-    ends = [each for each in marks if low <= each <= high]
+    ends = [mark for mark in marks if low <= mark <= high]
 
     def torque(omega: Floats) -> Floats:
         return compiled.motor_torques(omega)[0]
@@ -353,43 +353,43 @@ def _peak(of: Callable[[Floats], Floats], low: float, high: float) -> float:
     return best
 
 
-def _from_core(machine: Machine, found: SteadyMotion, phi: Floats, compiled: Compiled) -> SteadyState:
+def _from_core(machine: Machine, motion: SteadyMotion, phi: Floats, compiled: Compiled) -> SteadyState:
     """What the core found, with the extremes of the motor and its power."""
-    weakest, strongest, most = _motor_extremes(machine, compiled, found.speed_min, found.speed_max)
+    weakest, strongest, most = _motor_extremes(machine, compiled, motion.speed_min, motion.speed_max)
     ratio = compiled.gear_factors[0]
-    others = [(each.speed_min, each.speed_max, each.period, each.multiplier) for each in found.others]
+    others = [(other.speed_min, other.speed_max, other.period, other.multiplier) for other in motion.others]
     return SteadyState(
         crank_angle=phi,
-        time=found.time,
-        speed=found.speed,
-        acceleration=found.acceleration,
-        torque_motor=found.torque_motor,
-        torque_drive=found.torque_drive,
-        torque_load=found.torque_load,
-        power_motor=found.torque_motor * found.speed * ratio,
-        inertia_reduced=found.inertia_reduced,
-        speed_min=found.speed_min,
-        speed_max=found.speed_max,
-        acceleration_min=found.acceleration_min,
-        acceleration_max=found.acceleration_max,
-        speed_min_angle=found.speed_min_angle,
-        speed_max_angle=found.speed_max_angle,
-        acceleration_min_angle=found.acceleration_min_angle,
-        acceleration_max_angle=found.acceleration_max_angle,
-        period=found.period,
-        multiplier=found.multiplier,
-        energy_motor=found.energy_motor,
-        energy_drive=found.energy_drive,
-        energy_load=found.energy_load,
-        torque_motor_mean=found.torque_motor_mean,
-        torque_motor_rms=found.torque_motor_rms,
+        time=motion.time,
+        speed=motion.speed,
+        acceleration=motion.acceleration,
+        torque_motor=motion.torque_motor,
+        torque_drive=motion.torque_drive,
+        torque_load=motion.torque_load,
+        power_motor=motion.torque_motor * motion.speed * ratio,
+        inertia_reduced=motion.inertia_reduced,
+        speed_min=motion.speed_min,
+        speed_max=motion.speed_max,
+        acceleration_min=motion.acceleration_min,
+        acceleration_max=motion.acceleration_max,
+        speed_min_angle=motion.speed_min_angle,
+        speed_max_angle=motion.speed_max_angle,
+        acceleration_min_angle=motion.acceleration_min_angle,
+        acceleration_max_angle=motion.acceleration_max_angle,
+        period=motion.period,
+        multiplier=motion.multiplier,
+        energy_motor=motion.energy_motor,
+        energy_drive=motion.energy_drive,
+        energy_load=motion.energy_load,
+        torque_motor_mean=motion.torque_motor_mean,
+        torque_motor_rms=motion.torque_motor_rms,
         torque_motor_min=weakest,
         torque_motor_max=strongest,
         power_motor_max=most,
-        accuracy=found.accuracy,
-        sweeps=found.sweeps,
-        steps=found.steps,
-        others=tuple(OtherMotion(*each) for each in others),
+        accuracy=motion.accuracy,
+        sweeps=motion.sweeps,
+        steps=motion.steps,
+        others=tuple(OtherMotion(*other) for other in others),
     )
 
 
@@ -449,12 +449,12 @@ def _at_constant_speed(machine: Machine, compiled: Compiled, phi: Floats) -> Ste
     )
 
 
-def _failure(found: NoSteadyMotion, compiled: Compiled, accuracy: float) -> Exception:
+def _failure(motion: NoSteadyMotion, compiled: Compiled, accuracy: float) -> Exception:
     """The error for a machine without steady motion, with the numbers of the core."""
-    angle, speed, reached = found.crank_angle, found.speed, found.accuracy
-    if found.status == Status.DOES_NOT_CLOSE:
+    angle, speed, reached = motion.crank_angle, motion.speed, motion.accuracy
+    if motion.status == Status.DOES_NOT_CLOSE:
         return SteadyStateError(NO_INERTIA)
-    if found.status == Status.NO_STEADY_MOTION:
+    if motion.status == Status.NO_STEADY_MOTION:
         if np.isnan(angle):
             return SteadyStateError(_runs_away(compiled, speed))
         return SteadyStateError(

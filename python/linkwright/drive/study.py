@@ -62,31 +62,31 @@ class DriveStudy:
     warnings: tuple[str, ...] = ()
 
 
-def drive_study(machine: Machine, found: Findings, accuracy: float, step: float | None) -> DriveStudy:
+def drive_study(machine: Machine, findings: Findings, accuracy: float, step: float | None) -> DriveStudy:
     """What follows from bodies, loads and drive.
 
     Parameters
     ----------
     machine : Machine
         The machine.
-    found : Findings
+    findings : Findings
         Where findings are collected.
     accuracy : float
         Relative accuracy of the steady speed.
     step : float or None
         Step of the crank angle [rad] for the step method; None without it.
     """
-    reduced = found.of(reduction, machine, n=INTERVALS)
+    reduced = findings.of(reduction, machine, n=INTERVALS)
     if reduced is None:
         return DriveStudy(machine)
     # Without inertia at some angle there is no energy to stay constant.
     limit = constant_energy_of(reduced, compile_machine(machine).first()) if has_inertia(reduced) else None
     if not has_motor(machine):
         return DriveStudy(machine, reduced, limit, warnings=cautions(machine, reduced, None))
-    steady = found.of(steady_state, machine, accuracy=accuracy, n=INTERVALS)
-    started, attempt = _run_up(machine, steady, found)
-    stopped = found.of(run_down, machine, steady=steady) if steady and _has_brake(machine) else None
-    stepped = found.of(step_method, machine, step=step) if step is not None else None
+    steady = findings.of(steady_state, machine, accuracy=accuracy, n=INTERVALS)
+    started, attempt = _run_up(machine, steady, findings)
+    stopped = findings.of(run_down, machine, steady=steady) if steady and _has_brake(machine) else None
+    stepped = findings.of(step_method, machine, step=step) if step is not None else None
     return DriveStudy(
         machine,
         reduced,
@@ -101,24 +101,24 @@ def drive_study(machine: Machine, found: Findings, accuracy: float, step: float 
 
 
 def _run_up(
-    machine: Machine, steady: SteadyState | None, found: Findings
+    machine: Machine, steady: SteadyState | None, findings: Findings
 ) -> tuple[RunUp | None, Transient | None]:
     """The run-up, or how far it comes."""
     if _keeps_speed(machine):
         return None, None
     if steady is None:
         # Without steady motion nothing says when it has run up, but it may be that it cannot even start.
-        found.of(start_of, machine)
-        return None, _attempt(machine, found)
-    started = found.of(run_up, machine, steady=steady)
-    return started, None if started else _attempt(machine, found)
+        findings.of(start_of, machine)
+        return None, _attempt(machine, findings)
+    started = findings.of(run_up, machine, steady=steady)
+    return started, None if started else _attempt(machine, findings)
 
 
-def _attempt(machine: Machine, found: Findings) -> Transient | None:
+def _attempt(machine: Machine, findings: Findings) -> Transient | None:
     """The motion from the start to the stall; None if it never moves or cannot be followed."""
     options = machine.run_up
     start = {"angle": options.angle_start, "speed": options.speed_start, "turns": options.turns_max}
-    motion = found.of(transient, machine, accuracy=_ATTEMPT_ACCURACY, **start)
+    motion = findings.of(transient, machine, accuracy=_ATTEMPT_ACCURACY, **start)
     return motion if motion is not None and motion.turns > 0 else None
 
 

@@ -57,14 +57,14 @@ def methods_sentence(motion: Transient) -> str:
     """Which method was used over which part of a motion, with the steps of each."""
     parts = motion.methods
     if len(parts) > _PARTS:
-        steps = {name: sum(each.steps for each in parts if each.method == name) for name in _METHODS}
+        steps = {name: sum(part.steps for part in parts if part.method == name) for name in _METHODS}
         return ", ".join(f"{steps[name]} steps by {words}" for name, words in _METHODS.items())
     if len(parts) == 1:
         return f"{parts[0].steps} steps by {_METHODS[parts[0].method]}"
     return ", ".join(
-        f"{each.steps} steps from {number(each.time_start)} to {number(each.time_end)} s by "
-        f"{_METHODS[each.method]}"
-        for each in parts
+        f"{part.steps} steps from {number(part.time_start)} to {number(part.time_end)} s by "
+        f"{_METHODS[part.method]}"
+        for part in parts
     )
 
 
@@ -84,13 +84,13 @@ def in_time_tables(
 def _extremes(extremes: Sequence[MotionExtreme], zero: Zero, units: OutUnits) -> Table:
     rows: list[Row] = [
         (
-            f"{each.kind} {each.quantity}",
-            "ω" if each.quantity == "speed" else "ε",
-            _value(each.value, _SPEED if each.quantity == "speed" else _ACCELERATION, units),
-            f"{number(each.time)} s",
-            _angle(each.crank_angle, zero),
+            f"{extreme.kind} {extreme.quantity}",
+            "ω" if extreme.quantity == "speed" else "ε",
+            _value(extreme.value, _SPEED if extreme.quantity == "speed" else _ACCELERATION, units),
+            f"{number(extreme.time)} s",
+            _angle(extreme.crank_angle, zero),
         )
-        for each in extremes
+        for extreme in extremes
     ]
     return Table("extremes", "Extremes of the motion", ("quantity", "", "value", "time", "crank angle"), rows)
 
@@ -98,18 +98,18 @@ def _extremes(extremes: Sequence[MotionExtreme], zero: Zero, units: OutUnits) ->
 def _events(events: Sequence[MotionEvent], zero: Zero, units: OutUnits) -> Table:
     heads = ("event", "", "time", "crank angle", "speed", "acceleration before", "after")
     rates = (each for event in events for each in (event.acceleration_before, event.acceleration_after))
-    most = max((abs(each) for each in rates if each is not None), default=0.0)
+    most = max((abs(rate) for rate in rates if rate is not None), default=0.0)
     rows: list[Row] = [
         (
-            each.kind,
+            event.kind,
             "",
-            f"{number(each.time)} s",
-            _angle(each.crank_angle, zero),
-            _value(each.speed, _SPEED, units),
-            _value(each.acceleration_before, _ACCELERATION, units, most),
-            _value(each.acceleration_after, _ACCELERATION, units, most),
+            f"{number(event.time)} s",
+            _angle(event.crank_angle, zero),
+            _value(event.speed, _SPEED, units),
+            _value(event.acceleration_before, _ACCELERATION, units, most),
+            _value(event.acceleration_after, _ACCELERATION, units, most),
         )
-        for each in events
+        for event in events
     ]
     return Table("events", "What happens", heads, rows)
 

@@ -47,7 +47,7 @@ def speed_words(motion: CycleMotion) -> str:
 
 def outputs(motion: CycleMotion, linkage: Linkage) -> Iterator[tuple[str, tuple[tuple[str, str, str], ...]]]:
     """Names of sliders, rockers and coupler points, each with its quantities."""
-    listed = list(dict.fromkeys(each.output for each in linkage.elements))
+    listed = list(dict.fromkeys(element.output for element in linkage.elements))
     for name in dict.fromkeys([*listed, *motion.slides]):
         if name in motion.slides:
             yield name, _SLIDE
@@ -79,6 +79,6 @@ def within_turn(motion: CycleMotion, angle: float | None) -> float | None:
     return angle % (2 * np.pi) if angle is not None and is_single else angle
 
 
-def _scale(found: Extremes) -> float:
+def _scale(extremes: Extremes) -> float:
     """Peak absolute value."""
-    return max((abs(each) for each in (found.minimum, found.maximum) if each is not None), default=0.0)
+    return max((abs(each) for each in (extremes.minimum, extremes.maximum) if each is not None), default=0.0)

@@ -150,7 +150,7 @@ class Transient(Result):
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """As any result, with the parts as tables by name."""
-        return super().to_dict(curves=curves) | {"methods": [each._asdict() for each in self.methods]}
+        return super().to_dict(curves=curves) | {"methods": [method._asdict() for method in self.methods]}
 
     @property
     def turns(self) -> Annotated[float, Shown("revolutions of the crank", "n", "")]:

@@ -195,7 +195,7 @@ def _type_words(hint: Any) -> str:
     if len(kinds) > 1 or NoneType in get_args(hint):
         optional = " or None" if NoneType in get_args(hint) else ""
         return " or ".join(_type_words(kind) for kind in kinds) + optional
-    origin, parts = get_origin(hint), [each for each in get_args(hint) if each is not Ellipsis]
+    origin, parts = get_origin(hint), [arg for arg in get_args(hint) if arg is not Ellipsis]
     if origin is np.ndarray:
         return "ndarray"
     if origin is dict:

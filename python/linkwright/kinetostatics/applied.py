@@ -124,9 +124,9 @@ def applied(scene: Scene, load: Any) -> Applied:
 def together(scene: Scene, sources: Iterable[Applied]) -> Applied:
     """The sum of several loads."""
     found = Applied(Wrenches(scene), np.zeros(scene.n))
-    for each in sources:
-        found.wrenches.values += each.wrenches.values
-        found.resisting += each.resisting
+    for source in sources:
+        found.wrenches.values += source.wrenches.values
+        found.resisting += source.resisting
     return found
 
 
@@ -171,10 +171,10 @@ def _torque(scene: Scene, load: ConstantTorque) -> Wrenches:
 
 def _weight(scene: Scene, load: Gravity) -> Wrenches:
     fall = load.acceleration * np.array([np.cos(load.direction), np.sin(load.direction)])
-    found = Wrenches(scene)
-    for each in masses(scene):
-        found.force(each.member, np.broadcast_to(each.mass * fall, (scene.n, 2)), each.centre)
-    return found
+    wrenches = Wrenches(scene)
+    for mass in masses(scene):
+        wrenches.force(mass.member, np.broadcast_to(mass.mass * fall, (scene.n, 2)), mass.centre)
+    return wrenches
 
 
 def along_line(scene: Scene, between: tuple[str, str], pull: Callable[[Floats, Floats], Floats]) -> Wrenches:

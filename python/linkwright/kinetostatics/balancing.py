@@ -160,8 +160,8 @@ def _unit_forces(scene: Scene, link: str) -> list[Floats]:
 def _time_weights(motion: Motion) -> Floats:
     """Weights of the trapezoidal rule over time."""
     step = np.abs(np.diff(motion.time))
-    found: Floats = 0.5 * (np.append(step, 0.0) + np.append(0.0, step))
-    return found
+    time_weights: Floats = 0.5 * (np.append(step, 0.0) + np.append(0.0, step))
+    return time_weights
 
 
 def with_counterweights(

@@ -22,9 +22,9 @@ Follower = TranslatingFollower | OscillatingFollower
 
 def follower_at(scene: Scene, name: str) -> Follower:
     """The follower of a cam that drives a member."""
-    found = scene.mechanism.linear_drivers.get(name) or scene.mechanism.cranks[name]
-    assert isinstance(found, Follower)
-    return found
+    follower = scene.mechanism.linear_drivers.get(name) or scene.mechanism.cranks[name]
+    assert isinstance(follower, Follower)
+    return follower
 
 
 @dataclass

@@ -72,7 +72,7 @@ class Collector:
         pairs = {m.name: self._pair(m, span, total) for m, span in spans if m.kind not in _DRIVES}
         drives = {m.name: total[:, span.start] for m, span in spans if m.kind in _DRIVES}
         motion = self.scene.motion
-        torque = np.sum([each.torque_drive for each in shares.values()], axis=0)
+        torque = np.sum([share.torque_drive for share in shares.values()], axis=0)
         return Forces(
             crank_angle=motion.crank_angle,
             time=motion.time,
@@ -80,8 +80,8 @@ class Collector:
             acceleration=motion.acceleration,
             torque_drive=torque,
             **self._powers(torque, total),
-            shaking_moment=np.sum([each.shaking_moment for each in shares.values()], axis=0),
-            shaking_force=np.sum([each.shaking_force for each in shares.values()], axis=0),
+            shaking_moment=np.sum([share.shaking_moment for share in shares.values()], axis=0),
+            shaking_force=np.sum([share.shaking_force for share in shares.values()], axis=0),
             pairs=pairs,
             drives=drives,
             contributions=shares,
@@ -92,24 +92,24 @@ class Collector:
     def _passed(self, model: PairModel, span: slice, x: Floats, member: str) -> Floats:
         """What a pair does to a member for values (n, unknowns) of all unknowns: force and moment, (n, 3)."""
         i = self.scene.index[member]
-        found = np.zeros((self.scene.n, 3))
+        passed = np.zeros((self.scene.n, 3))
         for j, unknown in enumerate(model.unknowns):
-            found += x[:, span.start + j, None] * unknown.values[:, i]
+            passed += x[:, span.start + j, None] * unknown.values[:, i]
         if model.is_nonlinear and model.extra is not None:
-            found += self._dry(span, x)[:, None] * model.extra.values[:, i]
-        return found
+            passed += self._dry(span, x)[:, None] * model.extra.values[:, i]
+        return passed
 
     def _viscous(self, model: PairModel) -> Floats:
         """Viscous friction of a pair on its second member, (n, 3)."""
         if model.extra is None or not model.friction.viscous:
             return np.zeros((self.scene.n, 3))
-        found: Floats = model.viscous[:, None] * model.extra.on_member(model.second)
-        return found
+        viscous: Floats = model.viscous[:, None] * model.extra.on_member(model.second)
+        return viscous
 
     def _dry(self, span: slice, x: Floats) -> Floats:
         """Extra force of a pair that goes with its unknowns."""
-        found: Floats = (self.solution.slopes[:, span] * x[:, span]).sum(axis=1)
-        return found
+        dry: Floats = (self.solution.slopes[:, span] * x[:, span]).sum(axis=1)
+        return dry
 
     def _pair(self, model: PairModel, span: slice, total: Floats) -> PairForce:
         """The force of one pair."""
@@ -160,43 +160,43 @@ class Collector:
 
     def _power(self, source: Applied) -> Floats:
         """Work of a source in a radian of the crank."""
-        found: Floats = source.wrenches.power() - source.resisting
-        return found
+        power: Floats = source.wrenches.power() - source.resisting
+        return power
 
     def _slack(self, pairs: dict[str, PairForce]) -> list[str]:
         """Cables that would have to push."""
-        found = []
+        slack = []
         for pair in pairs.values():
             if pair.kind != "cable" or np.isnan(pair.normal).all():
                 continue
             worst = int(np.nanargmin(pair.normal))
             if pair.normal[worst] < -_SLACK * np.nanmax(np.abs(pair.normal)):
                 at = np.degrees(self.scene.motion.crank_angle[worst])
-                found.append(
+                slack.append(
                     f"The cable {pair.second} is slack: at crank angle {at:.4g}° it would have to push with "
                     f"{-pair.normal[worst]:.4g} N; load its end more, or move it more slowly."
                 )
-        return found
+        return slack
 
 
 def _where(solution: Solution, phi: Floats) -> list[str]:
     """Sentences about angles without an answer."""
-    found = []
+    where = []
     if solution.singular.any():
-        found.append(
+        where.append(
             f"Forces are unbounded or not determined at crank angle {_angles(phi[solution.singular])}: the "
             "mechanism is in a dead or change point there, and its pairs cannot keep it in equilibrium; "
             "values at these angles are left out."
         )
     if solution.locked.any():
-        found.append(
+        where.append(
             f"Friction locks the mechanism at crank angle {_angles(phi[solution.locked])}: no driving torque "
             "moves it there; less friction or a better transmission angle is needed."
         )
-    return found
+    return where
 
 
 def _angles(phi: Floats) -> str:
     """Crank angles in degrees; of many the first and the last."""
-    shown = [f"{each:.4g}°" for each in np.degrees(phi)]
+    shown = [f"{degree:.4g}°" for degree in np.degrees(phi)]
     return ", ".join(shown) if len(shown) <= 4 else f"{shown[0]} to {shown[-1]} ({len(shown)} angles)"

@@ -104,7 +104,9 @@ def _answer(machine: Machine, cases: dict[str, Forces], speeds: dict[str, dict[s
     return Answer(
         machine=machine.name,
         results=partial(_results, cases, speeds),
-        findings=[_named(name, each, cases) for name, result in cases.items() for each in result.findings],
+        findings=[
+            _named(name, finding, cases) for name, result in cases.items() for finding in result.findings
+        ],
         head=partial(_head, speeds),
         tables=partial(_tables, cases),
         files=partial(_files, cases),
@@ -183,7 +185,7 @@ def _frictions(machine: Machine, texts: list[str]) -> dict[str, Friction]:
     if not texts:
         return {}
     pairs = structure(machine.linkage).pairs
-    found = {}
+    frictions = {}
     for text in texts:
         # The last colon with a blank: a pin's name may hold one.
         name, colon, entries = text.rpartition(": ")
@@ -191,8 +193,8 @@ def _frictions(machine: Machine, texts: list[str]) -> dict[str, Friction]:
             example = '"A: radius=20 mm, coefficient=0.1"'
             raise InputError(f'--friction: found "{text}", expected pair, colon and entries, as in {example}')
         is_pin = name in pairs and pairs[name].kind == "pin"
-        found[name] = _friction(entries, is_pin=is_pin)
-    return found
+        frictions[name] = _friction(entries, is_pin=is_pin)
+    return frictions
 
 
 def _friction(entries: str, *, is_pin: bool) -> Friction:
@@ -338,7 +340,8 @@ def _balance_answer(machine: Machine, found: Balance, speeds: dict[str, Any]) ->
 
     measures = {name: {"before": a, "after": b} for name, (a, b) in found.measures().items()}
     weights = {
-        each.link: {k: v for k, v in vars(each).items() if k != "link"} for each in found.counterweights
+        counterweight.link: {k: v for k, v in vars(counterweight).items() if k != "link"}
+        for counterweight in found.counterweights
     }
     return Answer(
         machine=machine.name,

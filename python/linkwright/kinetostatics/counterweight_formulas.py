@@ -123,9 +123,9 @@ def four_bar_moments(machine: Machine, rocker: str) -> dict[str, complex]:
 
 def _first_moments(scene: Scene) -> list[tuple[str, float, Floats]]:
     """Member, mass, and place of each mass along and across its member."""
-    found = []
-    for each in masses(scene):
-        arm = each.centre[0] - scene.reference(each.member)[0]
-        e = unit(scene.angle(scene.structure.members[each.member].link))[0]
-        found.append((each.member, each.mass, np.array([arm @ e, arm @ left(e)])))
-    return found
+    first_moments = []
+    for mass in masses(scene):
+        arm = mass.centre[0] - scene.reference(mass.member)[0]
+        e = unit(scene.angle(scene.structure.members[mass.member].link))[0]
+        first_moments.append((mass.member, mass.mass, np.array([arm @ e, arm @ left(e)])))
+    return first_moments

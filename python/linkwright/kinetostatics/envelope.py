@@ -60,7 +60,7 @@ def envelope(result: Forces) -> list[Extent]:
     within 1 % of those of 14 400 on the machines that are shipped, where dry friction jumps beside a peak;
     within 0.01 % where nothing jumps. Root mean squares are within 0.02 %, means within 1e-5 of these.
     """
-    return [_extent(result, *each) for each in _quantities(result)]
+    return [_extent(result, *quantity) for quantity in _quantities(result)]
 
 
 def _quantities(result: Forces) -> Iterator[tuple[str, str, Floats]]:

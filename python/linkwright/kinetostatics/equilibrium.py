@@ -79,9 +79,11 @@ class Equilibrium:
         self.rows, row_scale = _rows(scene)
         sizes = [len(model.unknowns) for model in models]
         self.spans = [slice(end - size, end) for size, end in zip(sizes, np.cumsum(sizes), strict=True)]
-        moments = np.array([each for model in models for each in model.moments])
+        moments = np.array([moment for model in models for moment in model.moments])
         self.column_scale = np.where(moments, scene.size, 1.0)
-        self.base = self._matrix([each.values for model in models for each in model.unknowns], row_scale)
+        self.base = self._matrix(
+            [unknown.values for model in models for unknown in model.unknowns], row_scale
+        )
         self.extras = [
             None
             if model.extra is None or not model.is_nonlinear
@@ -92,7 +94,9 @@ class Equilibrium:
 
     def _matrix(self, columns: list[Floats], row_scale: Floats) -> Floats:
         """Wrenches as columns, (n, equations, columns)."""
-        found: Floats = np.stack([each.reshape(len(each), -1)[:, self.rows] for each in columns], axis=-1)
+        found: Floats = np.stack(
+            [column.reshape(len(column), -1)[:, self.rows] for column in columns], axis=-1
+        )
         return found * row_scale[:, None]
 
     def solve(self) -> Solution:

@@ -112,7 +112,7 @@ def forces(
     models = pair_models(scene, checked(friction or {}, scene.structure.pairs), pressure_angle)
     sources = _sources(scene, models)
     columns = sources if contributions else {"": together(scene, sources.values())}
-    loads = np.stack([each.wrenches.values for each in columns.values()], axis=-1)
+    loads = np.stack([column.wrenches.values for column in columns.values()], axis=-1)
     solution = Equilibrium(scene, models, loads).solve()
     if with_pulls(scene, models, solution.x.sum(axis=-1)):
         solution = Equilibrium(scene, models, loads).solve()

@@ -61,11 +61,11 @@ def _on_link(scene: Scene, link: str, along: float, across: float) -> tuple[Floa
 
 def inertia_forces(scene: Scene) -> Wrenches:
     """The forces of all masses. Returns: −m a at the centre and −J ψ̈ on each member."""
-    found = Wrenches(scene)
+    wrenches = Wrenches(scene)
     speed, acceleration = scene.motion.speed, scene.motion.acceleration
-    for each in masses(scene):
-        found.force(each.member, -each.mass * each.acceleration(scene), each.centre)
-        if each.inertia:
-            turning = scene.turning(each.member, 2) * speed**2 + scene.turning(each.member) * acceleration
-            found.couple(each.member, -each.inertia * turning)
-    return found
+    for mass in masses(scene):
+        wrenches.force(mass.member, -mass.mass * mass.acceleration(scene), mass.centre)
+        if mass.inertia:
+            turning = scene.turning(mass.member, 2) * speed**2 + scene.turning(mass.member) * acceleration
+            wrenches.couple(mass.member, -mass.inertia * turning)
+    return wrenches

@@ -167,9 +167,9 @@ def _guide(scene: Scene, pair: Pair, friction: Friction) -> PairModel:
         unknowns.append(Wrenches(scene).on_guide(pair, 0 * t, np.ones(scene.n)))
     moments = (False, True)[: len(unknowns)]
     if not friction.acts:
-        found = _without_friction(scene, pair.name, "guide", pair.second, *unknowns)
-        found.moments = moments
-        return found
+        without_friction = _without_friction(scene, pair.name, "guide", pair.second, *unknowns)
+        without_friction.moments = moments
+        return without_friction
     extra = Wrenches(scene).on_guide(pair, t, none)
     # The speed along the guide is the power of a unit of force between block and guide.
     rate, sense = _moving(scene, extra.power(), scene.size)
@@ -203,9 +203,9 @@ def _drive(scene: Scene, drive: Drive) -> PairModel:
     if drive.guide is None:
         one = np.ones(scene.n)
         torque = Wrenches(scene).couple(drive.member, one).couple(FRAME, -one)
-        found = _without_friction(scene, drive.name, "torque", drive.member, torque)
-        found.moments = (True,)
-        return found
+        without_friction = _without_friction(scene, drive.name, "torque", drive.member, torque)
+        without_friction.moments = (True,)
+        return without_friction
     pair = scene.structure.pairs[f"{drive.member}.guide"]
     push = Wrenches(scene).on_guide(pair, scene.direction(drive.guide), np.zeros(scene.n))
     return _without_friction(scene, drive.name, "force", drive.member, push)
@@ -216,10 +216,10 @@ def _cam_contact(scene: Scene, drive: Drive) -> PairModel:
 
     follower = follower_at(scene, drive.name)
     push, pull = pushes(scene, follower, drive.name)
-    found = _without_friction(scene, drive.name, "contact", drive.member, push.normal)
-    found.friction = Friction(coefficient=follower.cam.sliding_friction)
-    found.push, found.pull = push, pull
-    return _sliding(scene, found, push)
+    without_friction = _without_friction(scene, drive.name, "contact", drive.member, push.normal)
+    without_friction.friction = Friction(coefficient=follower.cam.sliding_friction)
+    without_friction.push, without_friction.pull = push, pull
+    return _sliding(scene, without_friction, push)
 
 
 def _sliding(scene: Scene, model: PairModel, push: Push) -> PairModel:
@@ -269,9 +269,9 @@ def _mesh(scene: Scene, pair: Pair, spread: float) -> PairModel:
     one = np.ones(scene.n)
     torque = Wrenches(scene).couple(pair.second, one).couple(pair.first, -ratio * one)
     torque.couple(carrier, (ratio - 1.0) * one)
-    found = _without_friction(scene, pair.name, "couple", pair.second, torque)
-    found.moments = (True,)
-    return found
+    without_friction = _without_friction(scene, pair.name, "couple", pair.second, torque)
+    without_friction.moments = (True,)
+    return without_friction
 
 
 def _ratio(gear: Gear) -> float:
@@ -309,10 +309,10 @@ def _is_rolling(scene: Scene, pair: Pair, place: Floats, along: Floats) -> bool:
 def _teeth(scene: Scene, pair: Pair, pitch: Floats, along: Floats, apart: Floats, spread: float) -> PairModel:
     """Teeth that press along their path, and apart from each other."""
     press = Wrenches(scene).between(pair.first, pair.second, along, pitch)
-    found = _without_friction(scene, pair.name, pair.kind, pair.second, press)
-    found.extra = Wrenches(scene).between(pair.first, pair.second, apart, pitch)
-    found.spread = spread
-    return found
+    without_friction = _without_friction(scene, pair.name, pair.kind, pair.second, press)
+    without_friction.extra = Wrenches(scene).between(pair.first, pair.second, apart, pitch)
+    without_friction.spread = spread
+    return without_friction
 
 
 def _rack(scene: Scene, pair: Pair, spread: float) -> PairModel:

@@ -114,8 +114,8 @@ class Forces(Result):
     @property
     def power_residual(self) -> Annotated[Floats, Shown("power-balance residual", "", "W")]:
         """Driving, load and friction power less the change of kinetic energy: rounding."""
-        found: Floats = self.power_drive + self.power_load + self.power_friction - self.power_kinetic
-        return found
+        residual: Floats = self.power_drive + self.power_load + self.power_friction - self.power_kinetic
+        return residual
 
     @property
     def reactions(self) -> dict[str, Floats]:

@@ -46,10 +46,10 @@ def _row(each: Extent, forces: Forces, scale: float) -> Row:
     return word, symbol, peak, degrees(each.peak_angle), rms, mean
 
 
-def _scales(found: Iterable[Extent]) -> dict[str, float]:
+def _scales(extents: Iterable[Extent]) -> dict[str, float]:
     """Unit → peak absolute value of all forces, or moments, of a machine."""
     scales: dict[str, float] = {}
-    for each in found:
+    for each in extents:
         scales[each.unit] = max(scales.get(each.unit, 0.0), abs(each.peak))
     return scales
 
@@ -138,14 +138,14 @@ def balance_tables(balance: Balance) -> list[Table]:
     """
     weights: list[Row] = [
         (
-            each.link,
+            counterweight.link,
             "",
-            with_unit(each.mass, "kg"),
-            with_unit(each.radius, "m"),
-            degrees(each.angle),
-            with_unit(each.moment, "kg m"),
+            with_unit(counterweight.mass, "kg"),
+            with_unit(counterweight.radius, "m"),
+            degrees(counterweight.angle),
+            with_unit(counterweight.moment, "kg m"),
         )
-        for each in balance.counterweights
+        for counterweight in balance.counterweights
     ]
     heads = ("link", "", "mass", "radius", "direction from the link", "moment")
     rows: list[Row] = []

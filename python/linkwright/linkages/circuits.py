@@ -96,7 +96,7 @@ def _slots(compiled: Compiled, machine: Machine) -> dict[str, int]:
     """Slot of the sign of each dyad that has two assemblies. Raises InputError: they cannot be exchanged, or
     are too many.
     """
-    if any(_is_tied(each) for each in compiled.elements):
+    if any(_is_tied(element) for element in compiled.elements):
         raise InputError(
             f"{machine.name}: circuits are found for linkages of cranks and dyads; this one has "
             f"{_tied(compiled)}, followed in the given assembly alone; change a length by more than 1e-8 to "
@@ -153,11 +153,11 @@ def _joined(branches: list[Ended]) -> list[list[Ended]]:
     """Branches in groups that meet at limits."""
     groups: list[list[Ended]] = []
     for branch in branches:
-        meeting = [group for group in groups if any(_meet(branch, each) for each in group)]
+        meeting = [group for group in groups if any(_meet(branch, member) for member in group)]
         groups = [group for group in groups if group not in meeting]
-        groups.append([each for group in meeting for each in group] + [branch])
+        groups.append([member for group in meeting for member in group] + [branch])
     # The given assembly is the first branch.
-    return sorted(groups, key=lambda group: min(branches.index(each) for each in group))
+    return sorted(groups, key=lambda group: min(branches.index(member) for member in group))
 
 
 def _meet(first: Ended, second: Ended) -> bool:

@@ -267,7 +267,7 @@ class _Search:
 
 def _endless(compiled: Compiled) -> Closure:
     """A motion that never repeats: from where it is at angle zero as far as it goes, both ways."""
-    reach, found = 2 * np.pi, Closure(((0.0, 2 * np.pi),), "", turns=None)
+    reach, endless = 2 * np.pi, Closure(((0.0, 2 * np.pi),), "", turns=None)
     for _ in range(_DOUBLINGS if compiled.dyads else 0):
         angles = np.linspace(-reach, reach, 2 * _ANGLES + 1)
         gaps = compiled.gaps(angles)
@@ -281,11 +281,11 @@ def _endless(compiled: Compiled) -> Closure:
         if ends != [None, None]:
             low = -reach if ends[0] is None else ends[0]
             high = reach if ends[1] is None else ends[1]
-            found = Closure(((low, high),), element, turns=None)
+            endless = Closure(((low, high),), element, turns=None)
         if None not in ends:
             break
         reach *= 2
-    return found
+    return endless
 
 
 def _first_end(compiled: Compiled, angles: Floats, closes: Flags) -> float | None:
@@ -385,7 +385,7 @@ def require_closed(compiled: Compiled, machine: Machine, angles: Floats) -> None
 
 def has_levers(compiled: Compiled) -> bool:
     """Whether there is a dyad that is not carried on through a change point: levers turn about there."""
-    return any(isinstance(each, Element.SlottedLever) for each in compiled.elements)
+    return any(isinstance(element, Element.SlottedLever) for element in compiled.elements)
 
 
 def _meets_change_point(found: Closure, angles: Floats) -> bool:

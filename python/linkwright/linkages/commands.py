@@ -127,17 +127,17 @@ def _pose(machine: Machine, at: str, speed: CrankSpeed, *, json: bool, csv: bool
     return "\n".join(lines) + "\n"
 
 
-def _pose_rows(found: Pose) -> list[tuple[str, str, tuple[float, ...]]]:
+def _pose_rows(pose: Pose) -> list[tuple[str, str, tuple[float, ...]]]:
     """Name, quantity with its unit, and position, velocity, acceleration."""
     rows: list[tuple[str, str, tuple[float, ...]]] = []
-    for name, point in found.points.items():
+    for name, point in pose.points.items():
         for k, axis in enumerate("xy"):
             numbers = (point.position[k], point.velocity[k], point.acceleration[k])
             rows.append((name, f"{axis} [m]", numbers))
-    for unit, part in (("angle [rad]", found.links), ("place [m]", found.slides)):
+    for unit, part in (("angle [rad]", pose.links), ("place [m]", pose.slides)):
         for name, each in part.items():
             rows.append((name, unit, (each.position, each.velocity, each.acceleration)))
-    for name, mu in found.transmission_angles.items():
+    for name, mu in pose.transmission_angles.items():
         rows.append((name, "μ [rad]", (mu,)))
     return rows
 

@@ -186,7 +186,7 @@ class _Path:
         """Whether the point moves by rounding alone: then its path is noise, full of crossings."""
         every = [(POINT, index) for index in self.compiled.points.values()]
         places = evaluate(self.compiled, every, self.cycle.angles[:1])
-        size = max(float(np.abs(each[:2]).max()) for each in places)
+        size = max(float(np.abs(place[:2]).max()) for place in places)
         return bool(np.ptp(self.place, axis=0).max() <= _ROUNDING * size)
 
     def standing(self, point: str) -> CouplerCurve:
@@ -237,16 +237,16 @@ class _Path:
 
     def _double_points(self) -> list[DoublePoint]:
         """Crossings of the polygon through the samples, then Newton on p(φ₁) = p(φ₂)."""
-        found: list[DoublePoint] = []
+        points: list[DoublePoint] = []
         size = float(np.ptp(self.place, axis=0).max())
         for first, second in _crossings(self.place, closed=self.cycle.repeats):
             angles = self.cycle.angles[[first, second]] + 0.5 * (self.cycle.angles[1] - self.cycle.angles[0])
             point = self._double_point(angles, size)
             if point is not None and not any(
-                np.hypot(point.x - p.x, point.y - p.y) < 1e-9 * size for p in found
+                np.hypot(point.x - p.x, point.y - p.y) < 1e-9 * size for p in points
             ):
-                found.append(point)
-        return found
+                points.append(point)
+        return points
 
     def _double_point(self, angles: Floats, size: float) -> DoublePoint | None:
         for _ in range(_ROUNDS):
@@ -282,8 +282,8 @@ class _Path:
             return np.empty(0)
         angles = self.cycle.angles
         at, least = minima(lambda phi: np.hypot(*self.at(phi)[2:4]), angles[inner - 1], angles[inner + 1])
-        found: Floats = at[least <= _STANDS * speed.max()]
-        return found
+        stops: Floats = at[least <= _STANDS * speed.max()]
+        return stops
 
 
 def _crossings(place: Floats, *, closed: bool) -> list[tuple[int, int]]:

@@ -149,13 +149,13 @@ class Linkage(Result):
         SI numbers. An element with two outputs has the second under that one's name.
         """
         elements: dict[str, Any] = {}
-        for each in self.elements:
-            elements[each.output if each.element in elements else each.element] = each.to_dict()
+        for element in self.elements:
+            elements[element.output if element.element in elements else element.element] = element.to_dict()
         found: dict[str, Any] = {
             "turns_fully": self.closure.turns_fully,
             "period_turns": self.period_turns,
             "elements": elements,
-            "dead_points": [each._asdict() for each in self.dead_points],
+            "dead_points": [point._asdict() for point in self.dead_points],
         }
         if curves:
             found |= {name: curve.tolist() for name, curve in self.curves().items()}
@@ -165,7 +165,7 @@ class Linkage(Result):
         """The curves by name: ``R.transmission_angle``, ``R.rocker.velocity_ratio``, ``S.stroke_ratio``."""
         found = {"crank_angle": self.crank_angle}
         found |= {f"{name}.transmission_angle": curve for name, curve in self.transmission_angles.items()}
-        slides = {each.output for each in self.elements if each.stroke is not None}
+        slides = {element.output for element in self.elements if element.stroke is not None}
         for name, curve in self.velocity_ratios.items():
             found[f"{name}.stroke_ratio" if name in slides else f"{name}.velocity_ratio"] = curve
         return found
@@ -211,7 +211,7 @@ def linkage(machine: Machine) -> Linkage:
     period = turns_to_repeat(compiled) if where.turns_fully else None
     cycle = Cycle.of(where, period)
     swept = sweep(compiled, machine.linkage, cycle)
-    loops = {each.element: each for each in four_bars(compiled)}
+    loops = {bar.element: bar for bar in four_bars(compiled)}
     return Linkage(
         crank_angle=cycle.angles,
         transmission_angles={each.name: swept.mu[k] for k, each in enumerate(swept.dyads)},

@@ -76,7 +76,7 @@ class Dyad:
 
 def dyads_of(compiled: Compiled) -> list[Dyad]:
     """The dyads and groups of a machine in build order."""
-    return [_dyad(compiled, each) for each in compiled.elements if isinstance(each, Closing)]
+    return [_dyad(compiled, element) for element in compiled.elements if isinstance(element, Closing)]
 
 
 def _dyad(compiled: Compiled, element: Closing) -> Dyad:

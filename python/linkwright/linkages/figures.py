@@ -75,21 +75,21 @@ def coupler_figure(curves: list[CouplerCurve], links: list[tuple[np.ndarray, boo
 _PATHS_MAX = 6
 
 
-def linkage_figures(machine: Machine, found: Linkage) -> Iterator[Captioned]:
+def linkage_figures(machine: Machine, linkage: Linkage) -> Iterator[Captioned]:
     """The figures of a machine's linkage over its cycle."""
-    worst = [each for each in found.elements if each.transmission_angle_worst is not None]
+    worst = [element for element in linkage.elements if element.transmission_angle_worst is not None]
     if worst:
         least = min(worst, key=lambda each: each.transmission_angle_worst or 0.0)
         caption = (
             "90° is ideal. The poorest transmission is that of "
             f"{least.element}, {degrees(least.transmission_angle_worst or 0.0)} from being in line."
         )
-        yield Captioned("transmission", "Transmission angles", caption, transmission_figure(found))
+        yield Captioned("transmission", "Transmission angles", caption, transmission_figure(linkage))
     mechanism = machine.linkage
     points = [name for name in mechanism.rigid_points if name not in _on_ground(machine)]
-    if points and found.closure.change_point is None:
+    if points and linkage.closure.change_point is None:
         curves = [coupler_curve(machine, name) for name in points[:_PATHS_MAX]]
-        links = _links(machine, float(found.crank_angle[len(found.crank_angle) // 8]))
+        links = _links(machine, float(linkage.crank_angle[len(linkage.crank_angle) // 8]))
         yield Captioned("coupler_curves", "Paths of points", _words(curves), coupler_figure(curves, links))
 
 
@@ -104,13 +104,13 @@ def _links(machine: Machine, angle: float) -> list[tuple[np.ndarray, bool]]:
     """Ends of the links at a crank angle, with the points that they carry."""
     places = {name: np.array(each.position) for name, each in pose(machine, angle).points.items()}
     fixed = machine.linkage.fixed_points()
-    found = []
+    links = []
     for link in machine.linkage.links().values():
         if link.start != link.end and link.length:
-            found.append((np.array([places[link.start], places[link.end]]), link.start in fixed))
+            links.append((np.array([places[link.start], places[link.end]]), link.start in fixed))
     for name, part in machine.linkage.rigid_points.items():
-        found.append((np.array([places[machine.linkage.links()[part.link].start], places[name]]), False))
-    return found
+        links.append((np.array([places[machine.linkage.links()[part.link].start], places[name]]), False))
+    return links
 
 
 def _words(curves: list[CouplerCurve]) -> str:

@@ -100,11 +100,11 @@ def four_bars(compiled: Compiled) -> list[FourBar]:
     """
     grounds = {fixed.point: compiled.parameters[[fixed.x, fixed.y]] for fixed in compiled.ground}
     arms = _arms(compiled, grounds)
-    found = []
+    bars = []
     for dyad in dyads_of(compiled):
         if isinstance(dyad.element, Element.Rocker):
-            found += _loops(compiled, dyad.name, dyad.element, grounds, arms)
-    return found
+            bars += _loops(compiled, dyad.name, dyad.element, grounds, arms)
+    return bars
 
 
 def _loops(
@@ -117,15 +117,15 @@ def _loops(
     """Loops that a dyad closes: one, or none if neither of its ends is at rest."""
     pin, pivot = dyad.pin, dyad.pivot
     lengths = compiled.parameters[[dyad.coupler, dyad.rocker]]
-    found = []
+    loops = []
     for moving, fixed, order in ((pin, pivot, (0, 1)), (pivot, pin, (1, 0))):
         if fixed in grounds and moving in arms:
             centre, driver = arms[moving]
             ground = float(np.hypot(*(grounds[fixed] - grounds[centre])))
             if ground > 0:
                 coupler, follower = (float(lengths[k]) for k in order)
-                found.append(FourBar(name, driver, coupler, follower, ground))
-    return found
+                loops.append(FourBar(name, driver, coupler, follower, ground))
+    return loops
 
 
 def _arms(compiled: Compiled, grounds: dict[int, Floats]) -> dict[int, tuple[int, float]]:
@@ -142,12 +142,12 @@ def _arms(compiled: Compiled, grounds: dict[int, Floats]) -> dict[int, tuple[int
 def _centred(elements: tuple[Element, ...], grounds: dict[int, Floats]) -> list[tuple[int, int]]:
     """Links that turn about a fixed point, with that point."""
     ends = []
-    for each in elements:
-        match each:
+    for element in elements:
+        match element:
             case Element.Crank(link=link, pivot=pivot) | Element.SlottedLever(link=link, pivot=pivot):
                 ends.append((link, pivot))
             case Element.Rocker():
-                ends += [(each.coupler_link, each.pin), (each.rocker_link, each.pivot)]
+                ends += [(element.coupler_link, element.pin), (element.rocker_link, element.pivot)]
             case Element.Link(bar=bar):
                 ends += [(bar.link, bar.start), (bar.link, bar.end)]
     return [(link, point) for link, point in ends if point in grounds]

@@ -107,16 +107,16 @@ def kinematics(machine: Machine, angles: ArrayLike | None = None, *, third: bool
     if np.isnan(out).any() or has_levers(compiled):
         require_closed(compiled, machine, phi)
     single = compiled.n_rows == 1 and not len(compiled.slots)
-    found = _collect(phi, out[0] if single else out, what)
-    return with_third(compiled, found, what) if third else found
+    collect = _collect(phi, out[0] if single else out, what)
+    return with_third(compiled, collect, what) if third else collect
 
 
 def kinematics_of(
     compiled: Compiled, angles: Floats, what: list[tuple[str, str]], *, third: bool = False
 ) -> Kinematics:
     """`kinematics` of one compiled machine where it closes; ``what`` holds pairs of part and name."""
-    found = _collect(angles, motion_arrays(compiled, angles, what)[0], what)
-    return with_third(compiled, found, what) if third else found
+    collect = _collect(angles, motion_arrays(compiled, angles, what)[0], what)
+    return with_third(compiled, collect, what) if third else collect
 
 
 def everything(compiled: Compiled) -> list[tuple[str, str]]:

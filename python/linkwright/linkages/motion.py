@@ -142,7 +142,7 @@ def motion(
     )
     in_range(**{f"crank {name} by the law": (rates[n], kind) for n, (name, kind) in enumerate(given)})
     _require_within(compiled, machine, driver, t)
-    found = kinematics_of(compiled, np.ascontiguousarray(rates[0]), everything(compiled), third=True)
+    kinematics = kinematics_of(compiled, np.ascontiguousarray(rates[0]), everything(compiled), third=True)
     columns = rates[:, :, None]
     return Motion(
         time=t,
@@ -150,9 +150,9 @@ def motion(
         speed=rates[1],
         acceleration=rates[2],
         crank_jerk=rates[3],
-        points={name: _path(each.position, each, columns) for name, each in found.points.items()},
-        links={name: _path(each.angle, each, rates) for name, each in found.links.items()},
-        slides={name: _path(each.position, each, rates) for name, each in found.slides.items()},
+        points={name: _path(each.position, each, columns) for name, each in kinematics.points.items()},
+        links={name: _path(each.angle, each, rates) for name, each in kinematics.links.items()},
+        slides={name: _path(each.position, each, rates) for name, each in kinematics.slides.items()},
     )
 
 
@@ -176,7 +176,7 @@ def motion_along(
     compiled = compile_machine(machine).first()
     phi = np.ascontiguousarray(angle)
     require_closed(compiled, machine, phi)
-    found = kinematics_of(compiled, phi, everything(compiled))
+    kinematics = kinematics_of(compiled, phi, everything(compiled))
     rates = np.array([speed, acceleration])
     columns = rates[:, :, None]
     return Motion(
@@ -185,9 +185,9 @@ def motion_along(
         speed=speed,
         acceleration=acceleration,
         crank_jerk=None,
-        points={name: _rates(each.position, each, columns) for name, each in found.points.items()},
-        links={name: _rates(each.angle, each, rates) for name, each in found.links.items()},
-        slides={name: _rates(each.position, each, rates) for name, each in found.slides.items()},
+        points={name: _rates(each.position, each, columns) for name, each in kinematics.points.items()},
+        links={name: _rates(each.angle, each, rates) for name, each in kinematics.links.items()},
+        slides={name: _rates(each.position, each, rates) for name, each in kinematics.slides.items()},
     )
 
 

@@ -104,7 +104,7 @@ def pose(machine: Machine, crank_angle: float, *, speed: float = 1.0, accelerati
     compiled = compile_machine(machine).first()
     at = np.array([crank_angle], dtype=np.float64)
     require_closed(compiled, machine, at)
-    found = kinematics_of(compiled, at, everything(compiled))
+    kinematics = kinematics_of(compiled, at, everything(compiled))
     rates = (speed, acceleration)
     mu = {}
     for dyad in dyads_of(compiled):
@@ -115,9 +115,9 @@ def pose(machine: Machine, crank_angle: float, *, speed: float = 1.0, accelerati
         crank_angle=float(crank_angle),
         speed=float(speed),
         acceleration=float(acceleration),
-        points={name: _point(each, *rates) for name, each in found.points.items()},
-        links={name: _coordinate(each.angle, each, *rates) for name, each in found.links.items()},
-        slides={name: _coordinate(each.position, each, *rates) for name, each in found.slides.items()},
+        points={name: _point(each, *rates) for name, each in kinematics.points.items()},
+        links={name: _coordinate(each.angle, each, *rates) for name, each in kinematics.links.items()},
+        slides={name: _coordinate(each.position, each, *rates) for name, each in kinematics.slides.items()},
         transmission_angles=mu,
         near_limit=tuple(name for name, angle in mu.items() if np.sin(angle) < _NEAR),
     )

@@ -77,10 +77,10 @@ def _series(mechanism: Mechanism) -> dict[str, int]:
     """Number of the driver that moves each element, so that what moves together looks alike."""
     topology = Topology.of(mechanism)
     makers = {name: name for name in topology.moving_points} | topology.links
-    references = {each.name: each.references.values() for each in topology.elements}
+    references = {element.name: element.references.values() for element in topology.elements}
     number = {name: n for n, name in enumerate([*mechanism.cranks, *mechanism.linear_drivers])}
     for name in mechanism.build_order():
-        movers = [makers[each] for each in references[name] if makers.get(each) in number]
+        movers = [makers[reference] for reference in references[name] if makers.get(reference) in number]
         number.setdefault(name, number[movers[0]] if movers else 0)
     return number
 

@@ -112,10 +112,10 @@ class LinkageSweep:
         self.compiled, self.cycle = compiled, cycle
         self.dyads: list[Dyad] = [each for each in dyads_of(compiled) if each.kind != "group"]
         self.outputs: list[Output] = outputs_of(compiled, mechanism)
-        channels = [transmission_channels(compiled, each) for each in self.dyads]
-        self._ends = np.cumsum([0, *(len(each) for each in channels)])
+        channels = [transmission_channels(compiled, dyad) for dyad in self.dyads]
+        self._ends = np.cumsum([0, *(len(channel) for channel in channels)])
         self._channels = [each for part in channels for each in part]
-        self._channels += [(each.part, each.number) for each in self.outputs]
+        self._channels += [(output.part, output.number) for output in self.outputs]
         self.mu, self.position, slopes = self._at(cycle.angles)
         for k, output in enumerate(self.outputs):
             if output.part == LINK:
@@ -131,7 +131,7 @@ class LinkageSweep:
             for k, dyad in enumerate(self.dyads)
         ]
         rest = found[self._ends[-1] :]
-        links = [each.part == LINK for each in self.outputs]
+        links = [output.part == LINK for output in self.outputs]
         place = [np.arctan2(f[1], f[0]) if link else f[0] for f, link in zip(rest, links, strict=True)]
         d1 = [f[2] if link else f[1] for f, link in zip(rest, links, strict=True)]
         d2 = [f[3] if link else f[2] for f, link in zip(rest, links, strict=True)]
@@ -143,7 +143,7 @@ class LinkageSweep:
     def _locate(self, slopes: Floats) -> list[Floats]:
         """Angles of the zeros of each slope."""
         largest = np.nan_to_num(np.abs(slopes)).max(axis=1, initial=0.0)
-        kinds = [0] * len(self.dyads) + [1 + each.part for each in self.outputs] * 2
+        kinds = [0] * len(self.dyads) + [1 + output.part for output in self.outputs] * 2
         sizes = {kind: max(x for x, k in zip(largest, kinds, strict=True) if k == kind) for kind in kinds}
         moves = np.array([x > _FLAT * sizes[k] for x, k in zip(largest, kinds, strict=True)], dtype=bool)
         row, column = brackets(np.where(moves[:, None], slopes, 1.0))
@@ -182,8 +182,8 @@ class LinkageSweep:
         if self.outputs[k].part == LINK:
             near = np.interp(at, self.cycle.angles, self.position[k])
             values = near + (values - near + np.pi) % (2 * np.pi) - np.pi
-        found: Floats = values
-        return found
+        positions: Floats = values
+        return positions
 
     def ratios(self, k: int) -> tuple[float, float] | tuple[None, None]:
         """Extremes of the output's speed over the crank's; None where a limit lets them grow."""

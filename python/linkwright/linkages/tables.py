@@ -11,28 +11,30 @@ from linkwright.linkages.cycle import ElementMotion, Linkage
 _DEAD_POINTS_MAX = 24
 
 
-def travel_tables(found: Linkage) -> list[Table]:
+def travel_tables(linkage: Linkage) -> list[Table]:
     """Strokes, swings and time ratios, if there are outputs."""
-    return _with_rows(_travel(found))
+    return _with_rows(_travel(linkage))
 
 
-def transmission_tables(found: Linkage) -> list[Table]:
+def transmission_tables(linkage: Linkage) -> list[Table]:
     """Transmission angles, if there are dyads."""
-    return _with_rows(_transmission(found))
+    return _with_rows(_transmission(linkage))
 
 
-def loop_tables(found: Linkage) -> list[Table]:
+def loop_tables(linkage: Linkage) -> list[Table]:
     """Four-bar loops and dead points, where there are such."""
-    return _with_rows(_loops(found), _dead(found))
+    return _with_rows(_loops(linkage), _dead(linkage))
 
 
 def _with_rows(*tables: Table) -> list[Table]:
     return [table for table in tables if table.rows]
 
 
-def _travel(found: Linkage) -> Table:
+def _travel(linkage: Linkage) -> Table:
     heads = ("output", "", "travel", "from φ", "to φ", "time ratio", "velocity ratio", "mechanical advantage")
-    return Table("linkage", "Linkage over its cycle", heads, [_travel_row(each) for each in found.elements])
+    return Table(
+        "linkage", "Linkage over its cycle", heads, [_travel_row(element) for element in linkage.elements]
+    )
 
 
 def _travel_row(each: ElementMotion) -> Row:
@@ -54,15 +56,15 @@ def _travel_row(each: ElementMotion) -> Row:
     return each.output, "", travel, *ends, number(each.time_ratio, 4), ratios, gain
 
 
-def _transmission(found: Linkage) -> Table:
+def _transmission(linkage: Linkage) -> Table:
     heads = ("dyad", "", "minimum", "at φ", "maximum", "at φ")
     rows: dict[str, Row] = {}
-    for each in found.elements:
-        low, high = each.transmission_angle_min, each.transmission_angle_max
-        at = each.transmission_angle_min_angle, each.transmission_angle_max_angle
+    for element in linkage.elements:
+        low, high = element.transmission_angle_min, element.transmission_angle_max
+        at = element.transmission_angle_min_angle, element.transmission_angle_max_angle
         if low is not None and high is not None and at[0] is not None and at[1] is not None:
-            rows[each.element] = (
-                each.element,
+            rows[element.element] = (
+                element.element,
                 "μ",
                 measured(low, "rad"),
                 crank_angle(at[0]),
@@ -72,21 +74,21 @@ def _transmission(found: Linkage) -> Table:
     return Table("transmission", "Transmission angle", heads, list(rows.values()))
 
 
-def _loops(found: Linkage) -> Table:
+def _loops(linkage: Linkage) -> Table:
     heads = ("four-bar loop", "", "driver", "coupler", "follower", "ground", "s + l", "p + q")
     rows = []
-    for each in found.elements:
-        loop = each.four_bar
+    for element in linkage.elements:
+        loop = element.four_bar
         if loop is not None:
             lengths = (loop.driver, loop.coupler, loop.follower, loop.ground)
             sums = (loop.sum_extremes, loop.sum_others)
             rows.append(
-                (f"{each.element}: {loop.grashof}", "", *(measured(x, "m") for x in (*lengths, *sums)))
+                (f"{element.element}: {loop.grashof}", "", *(measured(x, "m") for x in (*lengths, *sums)))
             )
     return Table("grashof", "Four-bar loops", heads, rows)
 
 
-def _dead(found: Linkage) -> Table:
-    points = found.dead_points if len(found.dead_points) <= _DEAD_POINTS_MAX else ()
-    rows: list[Row] = [(f"{each.element}: {each.kind}", "φ", crank_angle(each.angle)) for each in points]
+def _dead(linkage: Linkage) -> Table:
+    points = linkage.dead_points if len(linkage.dead_points) <= _DEAD_POINTS_MAX else ()
+    rows: list[Row] = [(f"{point.element}: {point.kind}", "φ", crank_angle(point.angle)) for point in points]
     return Table("dead_points", "Dead points", ("element", "", "crank angle"), rows)

@@ -80,8 +80,8 @@ def _parts(where: str) -> tuple[str, str]:
 
 def _output(machine: Machine, name: str) -> ElementMotion:
     """The output that is named, or the only one."""
-    outputs = [each for each in linkage(machine).elements if each.turns is None]
-    names = list(dict.fromkeys(each.output for each in outputs))
+    outputs = [element for element in linkage(machine).elements if element.turns is None]
+    names = list(dict.fromkeys(output.output for output in outputs))
     if not names:
         raise InputError(
             "zero: no link or slide of the machine moves back and forth, so it has no dead centre"
@@ -90,9 +90,9 @@ def _output(machine: Machine, name: str) -> ElementMotion:
         listed = ", ".join(names)
         raise InputError(f'zero: several outputs have dead centres ({listed}): name one, "{names[0]} inner"')
     wanted = name or names[0]
-    for each in outputs:
-        if wanted in (each.output, each.element):
-            return each
+    for output in outputs:
+        if wanted in (output.output, output.element):
+            return output
     raise InputError(f'zero: found "{wanted}", expected one of {", ".join(names)}')
 
 

@@ -37,7 +37,7 @@ def parse_all(overrides: Sequence[str] | Mapping[str, Any]) -> list[Override]:
         return [_of(address, value) for address, value in overrides.items()]
     if isinstance(overrides, str):
         return [parse(overrides)]
-    return [parse(each) for each in overrides]
+    return [parse(override) for override in overrides]
 
 
 def parse(text: str) -> Override:

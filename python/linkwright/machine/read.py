@@ -268,7 +268,7 @@ def _located(
     lines = key_lines(text)
     in_columns, others = _of_columns(problems, columns)
     # A file of points that is no such file has its place already.
-    found = [each if each.path else _placed(each, lines, path, places) for each in others]
+    found = [other if other.path else _placed(other, lines, path, places) for other in others]
     return [*sorted(found, key=lambda each: (each.line is None, each.line or 0)), *in_columns]
 
 
@@ -278,14 +278,14 @@ def _of_columns(
     """Problems of lists from files of points, each kind of them once a column; and all others."""
     others: list[Problem] = []
     first: dict[tuple[object, ...], Problem] = {}
-    for each in problems:
-        key = split(each.key) if each.key else ()
+    for problem in problems:
+        key = split(problem.key) if problem.key else ()
         column = next((one for one in columns if one.holds(key)), None)
         if column is None:
-            others.append(each)
+            others.append(problem)
         else:
-            placed = replace(each, path=str(column.path), line=column.line(key))
-            first.setdefault((column.place, each.expected, each.remedy), placed)
+            placed = replace(problem, path=str(column.path), line=column.line(key))
+            first.setdefault((column.place, problem.expected, problem.remedy), placed)
     return list(first.values()), others
 
 

@@ -154,7 +154,7 @@ def cell_of(claim: Mapping[str, Any], values: Mapping[str, Any]) -> Cell:
 
 def judged(claim: Mapping[str, Any], values: Mapping[str, Any]) -> Row:
     """Judge a claim, as the table above has it, by printed and computed values."""
-    form = next((each for each in _FORMS if each in claim), "")
+    form = next((form for form in _FORMS if form in claim), "")
     printed, computed, verdict, kind = _FORMS.get(form, _taken)(claim, values)
     printed, computed = (
         filled(claim[key], values) if key in claim else usual

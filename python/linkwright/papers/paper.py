@@ -86,7 +86,7 @@ class Paper:
     @cached_property
     def values(self) -> dict[str, Any]:
         """All that claims, conclusions and tables may name: ``paper``, ``printed``, fields, quantities."""
-        own = {each.name: getattr(self, each.name) for each in fields(self)}
+        own = {field.name: getattr(self, field.name) for field in fields(self)}
         return {"paper": self, "printed": self.published} | own | dict(self.quantities())
 
     @property
@@ -122,8 +122,8 @@ def _tables(data: Mapping[str, Any], values: Mapping[str, Any]) -> Iterator[Tabl
         yield Table(
             filled(data["title"], item),
             filled(data.get("about", ""), item),
-            [filled(each["head"], values) for each in columns],
-            [[_cell(each, row) for each in columns] for row in named(item, data["rows"])],
+            [filled(column["head"], values) for column in columns],
+            [[_cell(column, row) for column in columns] for row in named(item, data["rows"])],
             notes,
         )
 

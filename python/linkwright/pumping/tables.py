@@ -54,6 +54,6 @@ def _gear(gear: GearTorque) -> Table:
 
 
 def _rotator(rotator: RodRotatorMotion) -> Table:
-    where = " and ".join(degrees(each) for each in rotator.change_points)
+    where = " and ".join(degrees(point) for point in rotator.change_points)
     rows = [*known_rows(rotator, "rotator"), ("change points", "", where or "none", "")]
     return Table("rotator", f"Rotator: the lever {rotator.verdict.split(':')[0]}", _HEADS, rows)

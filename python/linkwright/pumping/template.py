@@ -49,12 +49,12 @@ counterbalance = "optimal"               # or the maximum moment of cranks and c
 """
 
 
-def _dimensions(found: CatalogueUnit, hole: int) -> str:
+def _dimensions(unit: CatalogueUnit, hole: int) -> str:
     """The letters in inches, as the catalogue prints them."""
-    values = {name: getattr(found, name) for name in _WORDS}
+    values = {name: getattr(unit, name) for name in _WORDS}
     lines = [_line(name, value, _WORDS[name]) for name, value in values.items()]
-    others = ", ".join(f"{radius / INCH:.6g}" for radius in found.holes)
-    return "\n".join([*lines, _line("R", found.holes[hole - 1], f"crank; holes at {others} in")])
+    others = ", ".join(f"{radius / INCH:.6g}" for radius in unit.holes)
+    return "\n".join([*lines, _line("R", unit.holes[hole - 1], f"crank; holes at {others} in")])
 
 
 def _line(name: str, value: float, words: str) -> str:
@@ -62,7 +62,7 @@ def _line(name: str, value: float, words: str) -> str:
     return f"{entry:<40} # {words}"
 
 
-def _loads(found: CatalogueUnit, *shares: float) -> str:
+def _loads(unit: CatalogueUnit, *shares: float) -> str:
     """Loads as shares of the rating of the structure."""
-    texts = (f'"{share * found.rating.load / 1e3:.1f} kN"' for share in shares)
+    texts = (f'"{share * unit.rating.load / 1e3:.1f} kN"' for share in shares)
     return f"[{', '.join(texts)}]"

@@ -79,10 +79,10 @@ def sensitivity(
     )
 
 
-def _few(found: Gradient) -> Gradient:
+def _few(gradient: Gradient) -> Gradient:
     """What people are shown without --of."""
-    few = found.only([f"steady_state.{name}" for name in _SHOWN])
-    return few if few.responses else found
+    few = gradient.only([f"steady_state.{name}" for name in _SHOWN])
+    return few if few.responses else gradient
 
 
 def _figures(gradient: Gradient) -> dict[str, Figure]:

@@ -163,16 +163,16 @@ def _named(of: Source, name: str) -> list[str]:
     """The responses that a name means."""
     if name in SOURCES:
         return list(of.usual)
-    found = chosen(of.tangents, name)
-    if not found:
+    named = chosen(of.tangents, name)
+    if not named:
         raise InputError(f'no response "{name}" with a derivative: {suggestion(name, of.tangents)}')
-    return found
+    return named
 
 
 def _row(of: Source, name: str, variables: Sequence[str]) -> Floats:
     """Derivatives of a response by some of the variables of its source."""
     by = dict(zip(of.variables, of.tangents[name].d, strict=True))
-    return np.array([by[each] for each in variables])
+    return np.array([by[variable] for variable in variables])
 
 
 def _unit(machine: Machine, address: str) -> str:

@@ -98,19 +98,23 @@ def _free(machine: Machine, variables: Sequence[str]) -> Source:
     """Natural frequencies and mode shapes."""
     from linkwright.torsion.gradient.modes import mode_tangents
 
-    found = mode_tangents(machine, variables)
+    tangents = mode_tangents(machine, variables)
     frequencies = {
-        f"free_vibration.natural_frequencies.{i}": each for i, each in found.natural_frequencies.items()
+        f"free_vibration.natural_frequencies.{i}": each for i, each in tangents.natural_frequencies.items()
     }
-    shapes = {f"free_vibration.mode_shapes.{i}.{disc}": each for (i, disc), each in found.mode_shapes.items()}
+    shapes = {
+        f"free_vibration.mode_shapes.{i}.{disc}": each for (i, disc), each in tangents.mode_shapes.items()
+    }
     words = {name: f"natural frequency of mode {name.rsplit('.', 1)[-1]}" for name in frequencies}
     words |= {
         f"free_vibration.mode_shapes.{i}.{disc}": f"amplitude of {disc} in mode {i}"
-        for i, disc in found.mode_shapes
+        for i, disc in tangents.mode_shapes
     }
     units = dict.fromkeys(frequencies, "Hz") | dict.fromkeys(shapes, "")
-    ties = {f"free_vibration.natural_frequencies.{i}": reason for i, reason in found.ties.items()}
-    return Source(found.variables, frequencies | shapes, words, units, ties, found.refused, list(frequencies))
+    ties = {f"free_vibration.natural_frequencies.{i}": reason for i, reason in tangents.ties.items()}
+    return Source(
+        tangents.variables, frequencies | shapes, words, units, ties, tangents.refused, list(frequencies)
+    )
 
 
 def _forced(machine: Machine, variables: Sequence[str]) -> Source:

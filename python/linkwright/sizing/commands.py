@@ -118,13 +118,13 @@ def _inertias(texts: Sequence[str]) -> dict[str, float]:
     from linkwright.kernel.errors import InputError
     from linkwright.kernel.units import INERTIA
 
-    found = {}
+    inertias = {}
     for text in texts:
         type, equals, value = text.rpartition("=")
         if not equals:
             raise InputError(f'--inertia {text}\n  expected: TYPE=VALUE, such as 4A132S6U3="0.04 kg m^2"')
-        found[type.strip()] = option_value("--inertia", value.strip().strip("\"'"), INERTIA)
-    return found
+        inertias[type.strip()] = option_value("--inertia", value.strip().strip("\"'"), INERTIA)
+    return inertias
 
 
 def _tracked(types: Sequence[CatalogueMotor]) -> Iterator[CatalogueMotor]:
@@ -247,7 +247,9 @@ def _shown(motor: MotorChoice) -> list[Candidate]:
 
 def _suited(motor: MotorChoice) -> list[Candidate]:
     """Motors whose speed suits the ratio; all, if there is none."""
-    return [each for each in motor.candidates if each.checks[0].passed] or list(motor.candidates)
+    return [candidate for candidate in motor.candidates if candidate.checks[0].passed] or list(
+        motor.candidates
+    )
 
 
 def _verdict(each: Candidate, motor: MotorChoice) -> str | Text:
@@ -287,12 +289,12 @@ def motors(poles: Poles = None, power_min: PowerMin = "0 W", series: Series = ""
     An inertia with ~ is estimated by similarity, since its source prints none; a dash is a number that
     the source does not give. A machine file takes one by drive.motor.catalogue.
     """
-    found = _chosen(poles, power_min, series)
+    chosen = _chosen(poles, power_min, series)
     hand_over(
         Answer(
             machine=None,
-            results=lambda curves: {"motors": [_entries(each) for each in found]},
-            tables=partial(_tables, found),
+            results=lambda curves: {"motors": [_entries(each) for each in chosen]},
+            tables=partial(_tables, chosen),
         ),
         json=json,
     )

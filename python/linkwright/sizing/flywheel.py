@@ -220,9 +220,9 @@ def _searched(bare: Machine, wanted: float, guess: float) -> tuple[float, int]:
     def lacking(inertia: float) -> float:
         nonlocal count
         count += 1
-        found = _unevenness(with_flywheel(bare, inertia))
+        unevenness = _unevenness(with_flywheel(bare, inertia))
         # Without steady motion the speed fluctuation counts as infinite.
-        return (1 / found if found else 0.0) - 1 / wanted
+        return (1 / unevenness if unevenness else 0.0) - 1 / wanted
 
     assert bare.drive is not None
     least = 1e-3 * float(drive_inertia(bare.drive)) or 1e-3

@@ -131,9 +131,11 @@ class MotorChoice(Record):
     def _shortfall(self) -> str:
         """What the best of the candidates that fail lacks."""
         need = self.required.power * self.reserve
-        suited = [each for each in self.candidates if each.checks[0].passed]
+        suited = [candidate for candidate in self.candidates if candidate.checks[0].passed]
         if not suited:
-            ratios = sorted(each.known.speed_rated / self.required.speed for each in self.candidates)
+            ratios = sorted(
+                candidate.known.speed_rated / self.required.speed for candidate in self.candidates
+            )
             return (
                 f"no motor of the catalogue suits the ratio at {self.required.speed:.4g} rad/s: ratios from "
                 f"{ratios[0]:.3g} to {ratios[-1]:.3g} would, see free_ratio"
@@ -152,7 +154,9 @@ class MotorChoice(Record):
             "by": self.by,
             "power_reserve": self.reserve,
             "present": [check.to_dict() for check in self.present],
-            "considered": [each.to_dict() for each in self.candidates if each is not self.chosen],
+            "considered": [
+                candidate.to_dict() for candidate in self.candidates if candidate is not self.chosen
+            ],
         }
 
 
@@ -225,11 +229,11 @@ def choose_motor(
     return MotorChoice(required, reserve, by, tuple(found), chosen, present, warnings)
 
 
-def _smaller(found: Sequence[Candidate], chosen: Candidate | None, by: By) -> list[str]:
+def _smaller(candidates: Sequence[Candidate], chosen: Candidate | None, by: By) -> list[str]:
     """The smaller motor that would do if the machine need not start from its worst angle."""
     if by != "all":
         return []
-    would = [replace(each, decisive=DECISIVE["fixed-start"]) for each in found]
+    would = [replace(each, decisive=DECISIVE["fixed-start"]) for each in candidates]
     least = min((each for each in would if each.passes), key=_rank, default=None)
     if least is None or (chosen and least.known.power_rated >= chosen.known.power_rated):
         return []

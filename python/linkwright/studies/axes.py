@@ -68,7 +68,7 @@ class Axis:
     @property
     def is_number(self) -> bool:
         """Whether all its values are numbers, which vary in a batch."""
-        return not self.choices or all(isinstance(each, int | float) for each in self.choices)
+        return not self.choices or all(isinstance(choice, int | float) for choice in self.choices)
 
     @property
     def n_levels(self) -> int:
@@ -114,8 +114,8 @@ def axis(machine: Machine, name: str, variable: Variable) -> Axis:
     """
     units = [_kind(machine, name, each) for each in variable.address]
     found = units[0]
-    if any(each is not None and found is not None and each.unit != found.unit for each in units):
-        words = " and ".join(each.word for each in units if each is not None)
+    if any(unit is not None and found is not None and unit.unit != found.unit for unit in units):
+        words = " and ".join(unit.word for unit in units if unit is not None)
         raise _problem(name, "address", words, "entries of one quantity")
     known: dict[str, Any] = {"name": name, "addresses": variable.address, "unit": found.unit if found else ""}
     if variable.values is not None:
@@ -253,8 +253,8 @@ def _scatter(name: str, given: Distribution, found: Kind) -> tuple[tuple[str, fl
 
 def _middles(n: int) -> Floats:
     """Middles of n equal parts from 0 to 1."""
-    found: Floats = (np.arange(n) + 0.5) / max(n, 1)
-    return found
+    middles: Floats = (np.arange(n) + 0.5) / max(n, 1)
+    return middles
 
 
 def _scattered(kind: str, mean: float, deviation: float, low: float, high: float, shares: Floats) -> Floats:

@@ -106,19 +106,19 @@ def evaluate(plan: StudyPlan, variables: Mapping[str, Floats]) -> Rows:
 
 def _entries(plan: StudyPlan, columns: Mapping[str, Floats]) -> dict[str, Floats]:
     """Address → its values, of all that are numbers."""
-    numbers = [(each.name, each.addresses) for each in plan.axes if each.is_number]
+    numbers = [(axis.name, axis.addresses) for axis in plan.axes if axis.is_number]
     numbers += [(each.name, each.addresses) for each in plan.derived]
     return {place: columns[name] for name, addresses in numbers for place in addresses}
 
 
 def _machines(plan: StudyPlan, rows: Rows) -> Any:
     """Machines that differ in what is no number, each with the rows that it counts for."""
-    choices = [each for each in plan.axes if not each.is_number]
+    choices = [axis for axis in plan.axes if not axis.is_number]
     sound = np.flatnonzero(rows.status == SOLVED)
     if not choices:
         yield plan.machine, sound
         return
-    places = np.stack([rows.columns[each.name] for each in choices], axis=1).astype(int)[sound]
+    places = np.stack([rows.columns[choice.name] for choice in choices], axis=1).astype(int)[sound]
     kinds, members = np.unique(places, axis=0, return_inverse=True)
     for nth, kind in enumerate(kinds):
         changes = [
@@ -184,10 +184,10 @@ def _steady(
     machine: Machine, entries: dict[str, Floats], wanted: list[Asked], rows: Rows, members: NDArray[np.intp]
 ) -> None:
     """Steady motion of all rows at once."""
-    found = steady_states(machine, _with_first(machine, entries))
-    status = found.status[1:]
+    states = steady_states(machine, _with_first(machine, entries))
+    status = states.status[1:]
     for each in wanted:
-        rows.columns[each.name][members] = getattr(found, each.quantity)[1:]
+        rows.columns[each.name][members] = getattr(states, each.quantity)[1:]
     for code in np.unique(status[status != 0]):
         rows.fail(members[status == code], FAILED, STATUS[int(code)])
 
@@ -257,21 +257,21 @@ def _place(machine: Machine, each: Asked) -> float:
     turn = np.linspace(0.0, 2 * np.pi, SAMPLES, endpoint=False)
     angles = turn if each.at is None else np.array([each.at])
     curve = motions(machine, angles, points=each.of)[0, "xy".index(each.quantity), :]
-    found = float(taken(curve, each.extreme) if each.extreme else curve[0])
-    if not np.isfinite(found):
+    place = float(taken(curve, each.extreme) if each.extreme else curve[0])
+    if not np.isfinite(place):
         raise FindingError("the links do not close at every crank angle that is asked for")
-    return found
+    return place
 
 
 def _add_formulas(rows: Rows, formulas: tuple[Formula, ...], status: int) -> None:
     """Numbers that follow from others, one after the other."""
     n = len(rows)
-    for each in formulas:
+    for formula in formulas:
         with np.errstate(all="ignore"):
-            found = value(each.tree, {**NUMBERS, **rows.columns})
+            found = value(formula.tree, {**NUMBERS, **rows.columns})
         column = np.array(np.broadcast_to(np.asarray(found, dtype=float), (n,)))
-        rows.columns[each.name] = column
-        rows.fail(~np.isfinite(column), status, _NO_NUMBER.format(each.name))
+        rows.columns[formula.name] = column
+        rows.fail(~np.isfinite(column), status, _NO_NUMBER.format(formula.name))
 
 
 def _require_finite(rows: Rows, plan: StudyPlan) -> None:

@@ -120,17 +120,17 @@ def parallel_figure(shown: Shown) -> Figure:
 
     names = _chosen(shown)
     figure, (panel,) = panels(1, height=4.2)
-    solved = np.isfinite(np.stack([shown.columns[each] for each in names])).all(axis=0)
+    solved = np.isfinite(np.stack([shown.columns[name] for name in names])).all(axis=0)
     rows = np.flatnonzero(solved)
     rows = rows[_spread(len(rows), _LINES)]
-    scaled = np.stack([_scaled(shown.columns[each][rows]) for each in names], axis=1)
+    scaled = np.stack([_scaled(shown.columns[name][rows]) for name in names], axis=1)
     order = np.argsort(scaled[:, -1])
     places = np.arange(len(names))
     lines = [np.column_stack([places, row]) for row in scaled[order]]
     colours = colormaps["viridis"](np.linspace(0, 1, max(len(lines), 1)))
     panel.add_collection(LineCollection(lines, colors=colours, linewidths=0.6, alpha=0.7))
     panel.set(xlim=(0, max(len(names) - 1, 1)), ylim=(-0.08, 1.08), yticks=[])
-    panel.set_xticks(places, [named(shown.labels[each]) for each in names], rotation=20, ha="right")
+    panel.set_xticks(places, [named(shown.labels[name]) for name in names], rotation=20, ha="right")
     for place, name in enumerate(names):
         values = shown.columns[name][rows]
         for text, height in ((f"{values.min():.4g}", -0.06), (f"{values.max():.4g}", 1.03)):

@@ -177,14 +177,14 @@ def plan_of(manifest: dict[str, Any]) -> StudyPlan:
     return plan(loads(manifest["machine"]), study)
 
 
-def _require_same(found: SweepFolder, wanted: SweepFolder) -> None:
+def _require_same(folder: SweepFolder, wanted: SweepFolder) -> None:
     """Refuse a folder of another study."""
-    if found.manifest["hash"] == wanted.manifest["hash"]:
+    if folder.manifest["hash"] == wanted.manifest["hash"]:
         return
     words = {"machine": "the machine", "study": "the study", "version": "the version of Linkwright"}
-    other = [word for key, word in words.items() if found.manifest.get(key) != wanted.manifest[key]]
+    other = [word for key, word in words.items() if folder.manifest.get(key) != wanted.manifest[key]]
     raise InputError(
-        f"{found.path}: found the results of another sweep ({' and '.join(other) or 'the list'} differs); "
+        f"{folder.path}: found the results of another sweep ({' and '.join(other) or 'the list'} differs); "
         "nothing was changed; name another folder"
     )
 

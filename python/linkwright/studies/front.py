@@ -53,7 +53,7 @@ class Front(Result):
         dict
             Ready for JSON.
         """
-        machines = [each.to_dict() for each in self.machines]
+        machines = [machine.to_dict() for machine in self.machines]
         return {
             **super().to_dict(),
             "goals": list(self.goals),
@@ -120,7 +120,7 @@ def front(
         except FindingError as error:
             word = "at most" if way == "minimise" else "at least"
             failed[f"{second} {word} {limit:.6g} {plan.units[second]}".rstrip()] = str(error)
-    signs = np.array([1.0 if each == "minimise" else -1.0 for each in plan.study.goals.values()])
+    signs = np.array([1.0 if goal == "minimise" else -1.0 for goal in plan.study.goals.values()])
     return Front(
         (first, second),
         _best(found, (first, second), signs),
@@ -140,13 +140,13 @@ def _of_one(plan: StudyPlan, goal: str, second: str, limit: float | None) -> Stu
     return replace(plan, study=study, limits=limits)
 
 
-def _best(found: list[Optimum], goals: tuple[str, str], signs: Any) -> tuple[Optimum, ...]:
+def _best(optimums: list[Optimum], goals: tuple[str, str], signs: Any) -> tuple[Optimum, ...]:
     """Those that none of the others beats in both goals, in the order of the first."""
-    table = signs * np.array([[each.responses[goal] for goal in goals] for each in found])
+    table = signs * np.array([[each.responses[goal] for goal in goals] for each in optimums])
     order = np.lexsort((table[:, 1], table[:, 0]))
     slack = _SAME * np.ptp(table[:, 1])
     kept: list[int] = []
     for at in order.tolist():
         if not kept or table[at, 1] < table[kept[-1], 1] - slack:
             kept.append(at)
-    return tuple(found[at] for at in kept)
+    return tuple(optimums[at] for at in kept)

@@ -66,8 +66,8 @@ def deviations(size: float, letter: str, grade: int) -> tuple[float, float] | No
     # Sizes belong to the range that they end, also when 18 mm is 17.999999999999996.
     at = bisect_left(_SIZES, round(millimetres, 9))
     width = GRADES[grade][at]
-    found = _limits(letter, grade, at, width)
-    return None if found is None else (1e-6 * found[0], 1e-6 * found[1])
+    limits = _limits(letter, grade, at, width)
+    return None if limits is None else (1e-6 * limits[0], 1e-6 * limits[1])
 
 
 def _limits(letter: str, grade: int, at: int, width: int) -> tuple[float, float] | None:

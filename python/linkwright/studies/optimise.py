@@ -132,8 +132,8 @@ def optimise(
     """
     _check(plan, evaluations, method, starts)
     search = _Search(plan, *next(iter(plan.study.goals.items())), watch)
-    choices = [each for each in plan.axes if each.choices]
-    for shares in product(*(each.levels for each in choices)):
+    choices = [axis for axis in plan.axes if axis.choices]
+    for shares in product(*(choice.levels for choice in choices)):
         fixed = {each.name: float(s) for each, s in zip(choices, shares, strict=True)}
         search.run(fixed, evaluations, seed, method, starts)
     return search.result()
@@ -148,17 +148,17 @@ def _check(plan: StudyPlan, evaluations: int, method: str, starts: int) -> None:
     if method not in get_args(Method) or not 1 <= starts <= 1000:
         expected = "both, global or gradient, and 1 to 1000 starts"
         raise InputError(f"method {method}, starts {starts}: expected {expected}")
-    whole = [each.name for each in plan.axes if each.is_whole]
+    whole = [axis.name for axis in plan.axes if axis.is_whole]
     if method == "gradient" and whole:
         raise InputError(
             f"variables.{whole[0]}: found whole numbers, which have no derivatives; leave out --method"
         )
-    for each in plan.axes:
-        if each.distribution is not None:
+    for axis in plan.axes:
+        if axis.distribution is not None:
             raise InputError(
-                f"variables.{each.name}: found a scatter, expected a range or values to choose from"
+                f"variables.{axis.name}: found a scatter, expected a range or values to choose from"
             )
-    combinations = np.prod([len(each.choices) for each in plan.axes if each.choices], dtype=float)
+    combinations = np.prod([len(axis.choices) for axis in plan.axes if axis.choices], dtype=float)
     if combinations > _COMBINATIONS:
         raise InputError(f"values: found {combinations:.0f} combinations, expected at most {_COMBINATIONS}")
     if method == "gradient":
@@ -185,7 +185,7 @@ class _Search:
     ) -> None:
         """One combination of choices."""
         free = [i for i, each in enumerate(self.plan.axes) if not each.choices]
-        shares = np.array([fixed.get(each.name, 0.5) for each in self.plan.axes])
+        shares = np.array([fixed.get(axis.name, 0.5) for axis in self.plan.axes])
         before, self.best = self.best, None
         if not free:
             self._told(shares[None])
@@ -198,7 +198,7 @@ class _Search:
         own = (3, 0.0) if self.best is None else self.best[0]
         if before is not None and (self.best is None or before[0] <= own):
             self.best = before
-        chosen = {each.name: _chosen(each, fixed[each.name]) for each in self.plan.axes if each.choices}
+        chosen = {axis.name: _chosen(axis, fixed[axis.name]) for axis in self.plan.axes if axis.choices}
         self.tried.append({**chosen, self.goal: self.sign * own[1] if own[0] == 0 else None})
 
     def _evolve(self, shares: Floats, free: list[int], evaluations: int, seed: int) -> None:
@@ -284,7 +284,7 @@ class _Search:
         return Optimum(
             machine=machine_of(plan, rows),
             goal=self.goal,
-            variables={each.name: kind.get(each.name, float(values[each.name][0])) for each in plan.axes},
+            variables={axis.name: kind.get(axis.name, float(values[axis.name][0])) for axis in plan.axes},
             responses=responses,
             active=(*_active(plan, responses), *_ends(plan, self.best[1])),
             multipliers={each.what: each.multiplier for each in worth},
@@ -347,13 +347,13 @@ def _in_words(plan: StudyPlan, goal: str, sign: float, price: Price) -> str:
 def machine_of(plan: StudyPlan, rows: Rows) -> Machine:
     """The machine of the first row."""
     changes = [
-        (address, each.choices[int(rows.columns[each.name][0])])
-        for each in plan.axes
-        if not each.is_number
-        for address in each.addresses
+        (address, axis.choices[int(rows.columns[axis.name][0])])
+        for axis in plan.axes
+        if not axis.is_number
+        for address in axis.addresses
     ]
     base = variant(plan.machine, changes) if changes else plan.machine
-    named = [(each.name, each.addresses) for each in plan.axes if each.is_number]
+    named = [(axis.name, axis.addresses) for axis in plan.axes if axis.is_number]
     named += [(each.name, each.addresses) for each in plan.derived]
     return sound_variant(
         base, {place: float(rows.columns[name][0]) for name, places in named for place in places}

@@ -154,7 +154,7 @@ def plan(machine: Machine, study: StudyFile, listed: Floats | None = None) -> St
     MachineError
         Something in it is wrong; all problems are listed, with keys from the top of the study.
     """
-    found: list[Problem] = []
+    problems: list[Problem] = []
 
     def gather(items: Iterable[tuple[str, Any]], read: Any) -> tuple[Any, ...]:
         """All that can be read; problems are kept for the end."""
@@ -163,7 +163,7 @@ def plan(machine: Machine, study: StudyFile, listed: Floats | None = None) -> St
             try:
                 results.append(read(name, each))
             except MachineError as error:
-                found.extend(error.problems)
+                problems.extend(error.problems)
         return tuple(results)
 
     axes = gather(study.variables.items(), lambda name, each: axis(machine, name, each))
@@ -174,11 +174,11 @@ def plan(machine: Machine, study: StudyFile, listed: Floats | None = None) -> St
     responses = gather(plain, lambda name, each: asked(machine, name, each))
     known += [*study.derived, *(name for name, _ in plain)]
     formulas = gather(made, lambda name, each: _formula(known, f"responses.{name}", name, each.formula or ""))
-    units = {each.name: each.unit for each in responses}
+    units = {response.name: response.unit for response in responses}
     limits = gather(study.constraints.items(), lambda name, each: (name, _limits(study, units, name, each)))
-    found += _further_problems(study, listed)
-    if found:
-        raise MachineError(found)
+    problems += _further_problems(study, listed)
+    if problems:
+        raise MachineError(problems)
     ready = StudyPlan(machine, study, axes, derived, responses, formulas, dict(limits), listed)
     _check_rows(ready)
     return ready
@@ -212,7 +212,7 @@ def _further_problems(study: StudyFile, listed: Floats | None) -> Iterable[Probl
 
 def _is_swept(study: StudyFile) -> bool:
     """Whether a sweep is described, and not only what scatters or is sought."""
-    return "sweep" in study.model_fields_set or any(each.steps for each in study.variables.values())
+    return "sweep" in study.model_fields_set or any(variable.steps for variable in study.variables.values())
 
 
 def _taken_twice(study: StudyFile) -> Iterable[Problem]:
@@ -238,7 +238,7 @@ def _check_rows(ready: StudyPlan) -> None:
 
 def _derived(machine: Machine, known: list[str], name: str, each: Any) -> Formula:
     """A derived number; from then on it is known."""
-    found = _formula(known, f"derived.{name}", name, each.formula)
+    formula = _formula(known, f"derived.{name}", name, each.formula)
     for address in each.address:
         try:
             known_place(machine, address)
@@ -251,7 +251,7 @@ def _derived(machine: Machine, known: list[str], name: str, each: Any) -> Formul
                 [Problem(f"derived.{name}.address", show(address), "an entry that is a number")]
             )
     known.append(name)
-    return Formula(name, found.tree, each.address)
+    return Formula(name, formula.tree, each.address)
 
 
 def _formula(known: list[str], key: str, name: str, text: str) -> Formula:
@@ -260,7 +260,7 @@ def _formula(known: list[str], key: str, name: str, text: str) -> Formula:
         tree = parse(text)
     except FormulaError as error:
         raise MachineError([Problem(f"{key}.formula", show(text), error.expected, error.remedy)]) from None
-    strange = [each for each in names(tree) if each not in (*known, *NUMBERS)]
+    strange = [name for name in names(tree) if name not in (*known, *NUMBERS)]
     if strange:
         expected = "names of variables, of derived numbers before it, and in a response of other responses"
         raise MachineError(
@@ -288,7 +288,7 @@ def _limits(study: StudyFile, units: Mapping[str, str], name: str, each: Any) ->
 def _kind_of(unit: str) -> Kind | None:
     """The quantity that a unit as it is printed belongs to; None for none of those of a machine file."""
     plain = unit.replace("²", "^2").replace("³", "^3").replace("·", " ")
-    return next((each for each in KINDS if each.unit == plain), None)
+    return next((kind for kind in KINDS if kind.unit == plain), None)
 
 
 def _quantity(key: str, value: object, kind: Kind | None) -> float:

@@ -101,9 +101,11 @@ def _divided(changes: Sequence[Override]) -> tuple[list[Override], list[Override
     """Overrides of the study, without the name of its table, and those of the machine."""
     mark = f"{TABLE}."
     own = [
-        replace(each, address=each.address[len(mark) :]) for each in changes if each.address.startswith(mark)
+        replace(change, address=change.address[len(mark) :])
+        for change in changes
+        if change.address.startswith(mark)
     ]
-    return own, [each for each in changes if not each.address.startswith(mark)]
+    return own, [change for change in changes if not change.address.startswith(mark)]
 
 
 def _machine_of(path: Path, study: StudyFile) -> Path:
@@ -123,11 +125,11 @@ def _listed(path: Path, machine: Machine, study: StudyFile) -> Floats | None:
     place = path.parent / study.sweep.file
     names = list(study.variables)
     if place.suffix == ".parquet":
-        found = parquet_columns(place, names)
+        columns = parquet_columns(place, names)
     else:
         kinds = {name: kind(machine, each.address[0]) or COUNT for name, each in study.variables.items()}
-        found = read_columns(place, kinds)
-    rows = np.stack([found[name] for name in names], axis=1)
+        columns = read_columns(place, kinds)
+    rows = np.stack([columns[name] for name in names], axis=1)
     if not len(rows):
         raise InputError(f"{place}: found no rows, expected at least one")
     if not np.isfinite(rows).all():
@@ -140,8 +142,8 @@ def _located(problems: Sequence[Problem], text: str, path: str, at: tuple[str, .
     """Problems of the study with file and line."""
     lines = key_lines(text)
     found = []
-    for each in problems:
-        place = (*at, *(split(each.key) if each.key else ()))
-        key = ".".join((*at, each.key)) if each.key else ".".join(at)
-        found.append(replace(each, key=key, path=path, line=line_of(lines, place)))
+    for problem in problems:
+        place = (*at, *(split(problem.key) if problem.key else ()))
+        key = ".".join((*at, problem.key)) if problem.key else ".".join(at)
+        found.append(replace(problem, key=key, path=path, line=line_of(lines, place)))
     return sorted(found, key=lambda each: each.line or 0)

@@ -49,7 +49,7 @@ def slopes(plan: StudyPlan, at: Floats, steps: Floats) -> Slopes:
     there is no other way, likewise. Raises FindingError: the machine there, or one a step beside it, has no
     answer.
     """
-    names = [each.name for each in plan.axes]
+    names = [axis.name for axis in plan.axes]
     known: dict[str, Any] = {
         name: Tangent(x, unit) for name, x, unit in zip(names, at, np.eye(len(at)), strict=True)
     }
@@ -64,11 +64,11 @@ def slopes(plan: StudyPlan, at: Floats, steps: Floats) -> Slopes:
         differenced = _differences(plan, at, steps)
     known |= {name: differenced[name] for name in missing}
     rough = set(missing)
-    for each in plan.formulas:
-        found = _worked(each, known) if is_followed else None
-        known[each.name] = differenced[each.name] if found is None else found
-        if found is None or rough & set(names_in(each.tree)):
-            rough.add(each.name)
+    for formula in plan.formulas:
+        found = _worked(formula, known) if is_followed else None
+        known[formula.name] = differenced[formula.name] if found is None else found
+        if found is None or rough & set(names_in(formula.tree)):
+            rough.add(formula.name)
     responses = {name: _tangent(known[name], len(at)) for name in plan.responses}
     return Slopes(
         {name: each.value for name, each in responses.items()},
@@ -95,17 +95,17 @@ def _worked(formula: Formula, known: Mapping[str, Any]) -> Any:
 
 def _worked_all(plan: StudyPlan, known: Mapping[str, Any]) -> dict[str, Any] | None:
     """All formulas of a study; None if one has no derivatives."""
-    found = dict(known)
-    for each in plan.formulas:
-        found[each.name] = _worked(each, found)
-        if found[each.name] is None:
+    worked_all = dict(known)
+    for formula in plan.formulas:
+        worked_all[formula.name] = _worked(formula, worked_all)
+        if worked_all[formula.name] is None:
             return None
-    return found
+    return worked_all
 
 
 def _analysed(plan: StudyPlan, known: Mapping[str, Any]) -> tuple[dict[str, Tangent], dict[str, str]]:
     """Responses of analyses that have exact derivatives, and which of them tie."""
-    named = [(each.name, each.addresses) for each in plan.axes]
+    named = [(axis.name, axis.addresses) for axis in plan.axes]
     named += [(each.name, each.addresses) for each in plan.derived]
     entries = {place: known[name] for name, places in named for place in places}
     machine = sound_variant(plan.machine, {place: float(plain(x)) for place, x in entries.items()})
@@ -157,9 +157,9 @@ def _differences(plan: StudyPlan, at: Floats, steps: Floats) -> dict[str, Tangen
         worst = int(np.flatnonzero(rows.status)[0])
         place = "there" if not worst else f"a step beside in {plan.axes[(worst - 1) % n].name}"
         raise FindingError(f"the machine {place} has no answer: {rows.reasons[rows.reason[worst]]}")
-    found = {}
+    differences = {}
     for name in plan.responses:
         f = rows.columns[name]
         one, two = (f[1 + k * n : 1 + (k + 1) * n] - f[1 + (k + 1) * n : 1 + (k + 2) * n] for k in (0, 2))
-        found[name] = Tangent(float(f[0]), (8 * one - two) / (12 * steps))
-    return found
+        differences[name] = Tangent(float(f[0]), (8 * one - two) / (12 * steps))
+    return differences

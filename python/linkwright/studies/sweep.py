@@ -137,7 +137,7 @@ def _missing(folder: SweepFolder, chunks: tuple[int, int] | None) -> tuple[list[
             f"chunks {first}:{last}: expected numbers from 0 to {folder.n_parts}, the first smaller"
         )
     numbers = [number for number in range(first, min(last, folder.n_parts)) if not folder.is_done(number)]
-    return numbers, tuple(folder.part(each).name for each in numbers if folder.part(each).exists())
+    return numbers, tuple(folder.part(number).name for number in numbers if folder.part(number).exists())
 
 
 def compute_part(plan: StudyPlan, folder: SweepFolder, number: int) -> None:

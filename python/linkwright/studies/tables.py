@@ -13,7 +13,7 @@ from linkwright.studies.tolerance import Tolerance
 _REASONS = 8
 
 
-def sweep_tables(found: Sweep, units: dict[str, str]) -> list[Table]:
+def sweep_tables(sweep: Sweep, units: dict[str, str]) -> list[Table]:
     """Extremes of the responses, and why rows have no answer."""
     rows: list[Row] = [
         (
@@ -24,15 +24,15 @@ def sweep_tables(found: Sweep, units: dict[str, str]) -> list[Table]:
             with_unit(each["max"], units[name]),
             str(each["max_row"]),
         )
-        for name, each in found.extremes.items()
+        for name, each in sweep.extremes.items()
     ]
     heads = ("response", "", "minimum", "in row", "maximum", "in row")
     tables = [Table("sweep", "Responses", heads, rows)] if rows else []
-    if found.reasons:
-        listed: list[Row] = [(text, "", str(count)) for text, count in list(found.reasons.items())[:_REASONS]]
-        if len(found.reasons) > _REASONS:
-            rest = sum(list(found.reasons.values())[_REASONS:])
-            listed.append((f"{len(found.reasons) - _REASONS} further reasons", "", str(rest)))
+    if sweep.reasons:
+        listed: list[Row] = [(text, "", str(count)) for text, count in list(sweep.reasons.items())[:_REASONS]]
+        if len(sweep.reasons) > _REASONS:
+            rest = sum(list(sweep.reasons.values())[_REASONS:])
+            listed.append((f"{len(sweep.reasons) - _REASONS} further reasons", "", str(rest)))
         tables.append(Table("failed", "Rows without an answer", ("reason", "", "rows"), listed))
     return tables
 
@@ -44,10 +44,10 @@ def with_unit(value: float, unit: str) -> str:
     return f"{number(value)} {unit}".rstrip()
 
 
-def tolerance_tables(found: Tolerance, units: dict[str, str]) -> list[Table]:
+def tolerance_tables(tolerance: Tolerance, units: dict[str, str]) -> list[Table]:
     """Scatter of the responses, and what contributes to it."""
     scatter: list[Row] = []
-    for name, each in found.responses.items():
+    for name, each in tolerance.responses.items():
         keys = (
             "mean",
             "deviation",
@@ -61,10 +61,10 @@ def tolerance_tables(found: Tolerance, units: dict[str, str]) -> list[Table]:
     heads = ("response", "", "mean", "standard deviation", "to first order", "99.73 % from", "to")
     tables = [Table("scatter", "Scatter", (*heads, "worst case from", "to"), scatter)]
     shares: list[Row] = []
-    for name, parts in found.contributions.items():
+    for name, parts in tolerance.contributions.items():
         for variable, share in parts.items():
-            first, total = found.indices.get(name, {}).get(variable, (None, None))
-            slope = number(found.slopes[name][variable])
+            first, total = tolerance.indices.get(name, {}).get(variable, (None, None))
+            slope = number(tolerance.slopes[name][variable])
             shares.append(
                 (name, "", variable, f"{100 * share:.3g} %", slope, number(first, 3), number(total, 3))
             )
@@ -72,29 +72,29 @@ def tolerance_tables(found: Tolerance, units: dict[str, str]) -> list[Table]:
     return [*tables, Table("contributions", "Contributions", heads, shares)]
 
 
-def optimum_tables(found: Optimum, units: dict[str, str]) -> list[Table]:
+def optimum_tables(optimum: Optimum, units: dict[str, str]) -> list[Table]:
     """The best machine, and the best of each combination of choices."""
     rows: list[Row] = []
-    for name, value in (*found.variables.items(), *found.responses.items()):
+    for name, value in (*optimum.variables.items(), *optimum.responses.items()):
         is_number = isinstance(value, float)
         rows.append((name, "", with_unit(value, units[name]) if is_number else str(value)))
-    tables = [Table("optimum", f"Best by {found.goal}", ("name", "", "value"), rows)]
-    if found.tried:
-        heads = [*found.tried[0]]
+    tables = [Table("optimum", f"Best by {optimum.goal}", ("name", "", "value"), rows)]
+    if optimum.tried:
+        heads = [*optimum.tried[0]]
         listed: list[Row] = [
             (str(each[heads[0]]), "", *("–" if each[key] is None else str(each[key]) for key in heads[1:]))
-            for each in found.tried
+            for each in optimum.tried
         ]
         tables.append(Table("tried", "Choices", (heads[0], "", *heads[1:]), listed))
     return tables
 
 
-def front_tables(found: Front, units: dict[str, str]) -> list[Table]:
+def front_tables(front: Front, units: dict[str, str]) -> list[Table]:
     """A row for each machine of a front: goals first, then variables, and what is active."""
-    first = found.machines[0]
-    names = [*found.goals, *first.variables, *(name for name in first.responses if name not in found.goals)]
+    first = front.machines[0]
+    names = [*front.goals, *first.variables, *(name for name in first.responses if name not in front.goals)]
     rows: list[Row] = []
-    for nth, each in enumerate(found.machines, start=1):
+    for nth, each in enumerate(front.machines, start=1):
         values = {**each.variables, **each.responses}
         shown = [
             with_unit(values[name], units[name]) if isinstance(values[name], float) else str(values[name])

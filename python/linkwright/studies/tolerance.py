@@ -140,20 +140,20 @@ def tolerance(
         )
     if not 0 < level < 1:
         raise InputError(f"level {level}: expected a number between 0 and 1, such as 0.95")
-    listed = [each.name for each in plan.axes if each.choices]
+    listed = [axis.name for axis in plan.axes if axis.choices]
     if listed:
         raise InputError(
             f"variables.{listed[0]}: found a list, expected a tolerance, a distribution or a range"
         )
     middle, bends = _bends(plan)
-    spreads = [_spread(each) for each in plan.axes]
+    spreads = [_spread(axis) for axis in plan.axes]
     place = slopes(
-        plan, np.array([each[0] for each in spreads]), np.array([_STEP * each[1] for each in spreads])
+        plan, np.array([spread[0] for spread in spreads]), np.array([_STEP * spread[1] for spread in spreads])
     )
     drawn = evaluate(plan, plan.values(sampling.random(len(plan.axes), seed, 0, rows)))
-    deviations = np.array([each[1] for each in spreads])
+    deviations = np.array([spread[1] for spread in spreads])
     sobol, n_dropped = _indices(plan, seed, indices) if indices else ({}, 0)
-    names = [each.name for each in plan.axes]
+    names = [axis.name for axis in plan.axes]
     solved = drawn.status == SOLVED
     if solved.sum() < 2:
         raise FindingError(f"only {int(solved.sum())} of {rows} machines have an answer: {drawn.reasons[-1]}")
@@ -186,9 +186,9 @@ def _spread(axis: Axis) -> tuple[float, float, float]:
 
 def _bends(plan: StudyPlan) -> tuple[dict[str, float], dict[str, Floats]]:
     """Value in the middle, and second derivatives by each variable, of each response."""
-    spreads = [_spread(each) for each in plan.axes]
-    middles = np.array([each[0] for each in spreads])
-    steps = np.array([_STEP * each[1] for each in spreads])
+    spreads = [_spread(axis) for axis in plan.axes]
+    middles = np.array([spread[0] for spread in spreads])
+    steps = np.array([_STEP * spread[1] for spread in spreads])
     n = len(middles)
     points = np.vstack([middles, middles + np.diag(steps), middles - np.diag(steps)])
     rows = evaluate(plan, {each.name: points[:, i].copy() for i, each in enumerate(plan.axes)})
@@ -207,7 +207,7 @@ def _bends(plan: StudyPlan) -> tuple[dict[str, float], dict[str, Floats]]:
 
 def _row(plan: StudyPlan, drawn: Floats, middle: float, slopes: Floats, bends: Floats) -> dict[str, float]:
     """What is known of the scatter of a response."""
-    spreads = np.array([_spread(each) for each in plan.axes])
+    spreads = np.array([_spread(axis) for axis in plan.axes])
     low, high = np.quantile(drawn, _BAND)
     # What a variable without ends may do is without end, unless the response does not depend on it.
     with np.errstate(invalid="ignore"):

@@ -159,7 +159,7 @@ class Answers:
 
     def body(self) -> dict[str, Any]:
         """All of it for a message."""
-        return {each.name: getattr(self, each.name) for each in fields(self)}
+        return {field.name: getattr(self, field.name) for field in fields(self)}
 
 
 def fast(machine: Machine, *, held: bool) -> Answers:
@@ -179,15 +179,15 @@ def fast(machine: Machine, *, held: bool) -> Answers:
     """
     if not machine.has_crank:
         return Answers([])
-    found = Findings()
-    steady = found.of(steady_state, machine, n=_INTERVALS) if has_motor(machine) else None
+    findings = Findings()
+    steady = findings.of(steady_state, machine, n=_INTERVALS) if has_motor(machine) else None
     acting = None
     if steady is not None and _is_loaded(machine):
-        acting = found.beside_of(_forces, machine, steady, _EVERY if held else 1)
-    scene = found.of(drawing, machine, steady, acting)
+        acting = findings.beside_of(_forces, machine, steady, _EVERY if held else 1)
+    scene = findings.of(drawing, machine, steady, acting)
     results: dict[str, Result | None] = {"steady_state": steady, "forces": acting}
     known = [shown(name, result) for name, result in results.items() if result is not None]
-    return Answers(known, found.findings, found.warnings, scene)
+    return Answers(known, findings.findings, findings.warnings, scene)
 
 
 def _forces(machine: Machine, steady: SteadyState, every: int) -> Any:
@@ -227,7 +227,7 @@ def _study(machine: Machine) -> Answers:
 
     found = study(machine)
     known = [shown(name, result) for name, result in _new_results(found)]
-    drawn = [each for each in figures(found) if each.name not in _CURVES]
+    drawn = [figure for figure in figures(found) if figure.name not in _CURVES]
     return Answers(known, found.findings, found.warnings, figures=tuple(map(_svg, drawn)))
 
 
@@ -246,7 +246,7 @@ def _torsion(machine: Machine) -> Answers:
     from linkwright.torsion.study import torsion_study
 
     found = torsion_study(machine)
-    parts = {each.name: getattr(found, each.name) for each in fields(found)}
+    parts = {field.name: getattr(found, field.name) for field in fields(found)}
     known = [shown(name, part) for name, part in parts.items() if isinstance(part, Result)]
     return Answers(known, figures=tuple(map(_svg, torsion_figures(found))))
 

@@ -146,16 +146,16 @@ class _Search:
         if self.point in self.machine.mechanism.points:
             return self._fixed(rows)
         batch = replace(self.machine, {address: rows[:, n] for n, address in enumerate(self.free)})
-        found: Floats = motions(batch, [self.angle], points=[self.point])[:, :2, 0]
-        return found
+        placed: Floats = motions(batch, [self.angle], points=[self.point])[:, :2, 0]
+        return placed
 
     def _fixed(self, rows: Floats) -> Floats:
         """A fixed point is where its entries say."""
         own = self.machine.mechanism.points[self.point]
-        found = np.tile(np.array([float(own.x), float(own.y)]), (len(rows), 1))
+        fixed = np.tile(np.array([float(own.x), float(own.y)]), (len(rows), 1))
         for n, address in enumerate(self.free):
-            found[:, 0 if address.endswith(".x") else 1] = rows[:, n]
-        return found
+            fixed[:, 0 if address.endswith(".x") else 1] = rows[:, n]
+        return fixed
 
     def moved(self, row: Floats) -> Machine:
         """The machine with other entries."""

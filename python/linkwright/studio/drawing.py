@@ -86,8 +86,8 @@ def thumbnail(folder: Folder, place: str, name: str) -> dict[str, Any] | None:
 def _along(scene: dict[str, Any], steady: SteadyState) -> Floats:
     """Angular acceleration of the crank at the angles of the scene [rad/s²]."""
     within = np.mod(scene["angles"], 2 * np.pi)
-    found: Floats = np.interp(within, steady.crank_angle, steady.acceleration)
-    return found
+    along: Floats = np.interp(within, steady.crank_angle, steady.acceleration)
+    return along
 
 
 def _acting(machine: Machine, scene: dict[str, Any], acting: Forces) -> list[dict[str, Any]]:

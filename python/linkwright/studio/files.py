@@ -139,7 +139,9 @@ class Folder:
         """TOML files from the top down, hidden folders and links left out."""
         for n, (at, folders, names) in enumerate(os.walk(self.root)):
             deep = len(Path(at).relative_to(self.root).parts)
-            folders[:] = sorted(each for each in folders if each[0] not in "._" and each not in _NOT_OURS)
+            folders[:] = sorted(
+                folder for folder in folders if folder[0] not in "._" and folder not in _NOT_OURS
+            )
             if deep >= _DEPTH or n >= _FOLDERS:
                 folders.clear()
             for name in sorted(names):

@@ -141,7 +141,10 @@ def _with_headers(send: Send) -> Send:
         if message["type"] == "http.response.start":
             given = list(message.get("headers", ()))
             names = {name.lower() for name, _ in given}
-            message = {**message, "headers": [*given, *(each for each in _HEADERS if each[0] not in names)]}
+            message = {
+                **message,
+                "headers": [*given, *(header for header in _HEADERS if header[0] not in names)],
+            }
         await send(message)
 
     return guarded

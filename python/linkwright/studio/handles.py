@@ -58,8 +58,8 @@ def _handles(mechanism: Mechanism) -> Iterator[tuple[str, list[str]]]:
     for table, names in _PLACES.items():
         for name, element in getattr(mechanism, table).items():
             if name != ORIGIN or table != "points":
-                given = [each for each in names if getattr(element, each) is not None]
+                given = [name for name in names if getattr(element, name) is not None]
                 yield name, [join(("mechanism", table, name, each)) for each in given]
     for name in mechanism.joints:
         bars = [each for each, bar in mechanism.bars.items() if name in (bar.start, bar.end)]
-        yield name, [join(("mechanism", "bars", each, "length")) for each in bars]
+        yield name, [join(("mechanism", "bars", bar, "length")) for bar in bars]

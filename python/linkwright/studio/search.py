@@ -71,22 +71,22 @@ def _plan(machine: Machine, asked: Body, **more: Any) -> StudyPlan:
 def _sweep(machine: Machine, asked: Body, tell: Tell) -> Body:
     """A grid over one entry or two."""
     entries, most = asked["entries"], _VALUES if len(asked["entries"]) == 1 else _SIDE
-    if len(entries) > 2 or any(not 2 <= int(each["steps"]) <= most for each in entries):
+    if len(entries) > 2 or any(not 2 <= int(entry["steps"]) <= most for entry in entries):
         raise InputError(f"steps: expected 2 to {most} of each of at most two entries")
     study = _plan(machine, asked)
     values = np.full(study.n_rows, np.nan)
     reasons: dict[str, int] = {}
     axes = [
-        {"address": each["address"], "values": np.linspace(each["low"], each["high"], int(each["steps"]))}
-        for each in entries
+        {"address": entry["address"], "values": np.linspace(entry["low"], entry["high"], int(entry["steps"]))}
+        for entry in entries
     ]
     done = 0
     while True:
-        found = {"of": "search", "kind": "sweep", "response": asked["response"], "axes": axes}
-        found |= {"values": values, "done": done, "rows": len(values), "reasons": reasons}
+        sweep = {"of": "search", "kind": "sweep", "response": asked["response"], "axes": axes}
+        sweep |= {"values": values, "done": done, "rows": len(values), "reasons": reasons}
         if done == len(values):
-            return found
-        tell(found)
+            return sweep
+        tell(sweep)
         end = min(done + _ROWS, len(values))
         rows = evaluate(study, study.rows(done, end))
         values[done:end] = rows.columns["y"]

@@ -77,7 +77,7 @@ def _plots(name: str, result: Result, declared: list[DeclaredQuantity]) -> Itera
             groups.setdefault((each.over, each.unit), []).append(each)
     for (over, unit), curves in groups.items():
         x = _list_of(result, over)
-        listed = [(each, _list_of(result, each.name)) for each in curves]
+        listed = [(curve, _list_of(result, curve.name)) for curve in curves]
         drawn = [(each, y) for each, y in listed if y is not None and x is not None and y.shape == x.shape]
         if x is not None and drawn and len(x) > 1:
             yield {

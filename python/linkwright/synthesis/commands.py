@@ -124,8 +124,8 @@ def function(
     from linkwright.synthesis.function_generator import function_generator
     from linkwright.synthesis.task import FunctionTask
 
-    found = function_generator(read_as(FunctionTask, task, set or (), allow_outside=allow_outside))
-    _finish("function_generator", found, json, out, force, curves=curves)
+    generator = function_generator(read_as(FunctionTask, task, set or (), allow_outside=allow_outside))
+    _finish("function_generator", generator, json, out, force, curves=curves)
 
 
 def path(
@@ -144,8 +144,8 @@ def path(
 
     read = read_as(PathTask, task, set or (), allow_outside=allow_outside)
     with _tracked() as track:
-        found = path_generator(read, track=track)
-    _finish("path_generator", found, json, out, force, curves=curves)
+        generator = path_generator(read, track=track)
+    _finish("path_generator", generator, json, out, force, curves=curves)
 
 
 def motion(
@@ -162,8 +162,8 @@ def motion(
     from linkwright.synthesis.pose import pose_guide
     from linkwright.synthesis.task import PoseTask
 
-    found = pose_guide(read_as(PoseTask, task, set or (), allow_outside=allow_outside))
-    _finish("pose_guide", found, json, out, force, curves=curves)
+    guide = pose_guide(read_as(PoseTask, task, set or (), allow_outside=allow_outside))
+    _finish("pose_guide", guide, json, out, force, curves=curves)
 
 
 def line(
@@ -201,16 +201,16 @@ def line(
 
 def _proportions(texts: list[str]) -> dict[str, float]:
     """Name → value, of ``NAME=X``."""
-    found = {}
+    proportions = {}
     for text in texts:
         name, _, value = text.partition("=")
         try:
-            found[name.strip()] = float(value)
+            proportions[name.strip()] = float(value)
         except ValueError:
             raise InputError(
                 f"--proportion {text}: expected NAME=X with a plain number, such as arm=2.5"
             ) from None
-    return found
+    return proportions
 
 
 @contextmanager

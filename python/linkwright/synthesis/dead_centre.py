@@ -133,7 +133,7 @@ def crank_rocker(
     delta = delta_of(time_ratio)
     families = [_Family(swing, delta, side) for side in (1.0, -1.0)]
     low = max(np.sin(abs(delta) / 2), np.sin(swing / 2) / coupler_max)
-    found = [(each, *best(each.transmission, low)) for each in families]
+    found = [(family, *best(family.transmission, low)) for family in families]
     family, t, mu = max(found, key=lambda each: np.nan_to_num(each[2]))
     if not mu > 0:
         raise SynthesisError(_no_crank_rocker(swing, time_ratio, coupler_max))
@@ -142,10 +142,10 @@ def crank_rocker(
 
 def _verified(made: CrankRocker) -> CrankRocker:
     """The crank-rocker, if its machine has the dead centres that were asked for."""
-    found = element_of(made.machine, "B.rocker")
-    require_met("a swing", made.swing, found.swing, "rad")
-    require_met("a time ratio", *slow_over_quick(made.time_ratio, found.time_ratio))
-    require_transmission(made.transmission_angle_min, found)
+    element = element_of(made.machine, "B.rocker")
+    require_met("a swing", made.swing, element.swing, "rad")
+    require_met("a time ratio", *slow_over_quick(made.time_ratio, element.time_ratio))
+    require_transmission(made.transmission_angle_min, element)
     return made
 
 
@@ -207,7 +207,7 @@ class _Family:
 
     def result(self, t: float, time_ratio: float, frame: float) -> CrankRocker:
         """The linkage in its wanted size, with its frame along x."""
-        crank, coupler, outer, inner, pivot = (each[0] for each in self.places(np.array([t])))
+        crank, coupler, outer, inner, pivot = (place[0] for place in self.places(np.array([t])))
         scale = frame / abs(pivot)
         outer, inner = outer / pivot * frame, inner / pivot * frame
         side = "left" if outer.imag > 0 else "right"

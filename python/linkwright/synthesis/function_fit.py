@@ -86,7 +86,7 @@ def _starts(task: FunctionTask, scale: Scale, model: FunctionModel) -> Rows:
     """The best trial of each group, and the best linkages of Freudenstein's equation."""
     groups = [_trials(task, model), _of_equation(task, scale, model)]
     return Rows(
-        *(np.concatenate([getattr(each, name) for each in groups]) for name in ("x", "side", "turned"))
+        *(np.concatenate([getattr(group, name) for group in groups]) for name in ("x", "side", "turned"))
     )
 
 
@@ -127,7 +127,7 @@ def _of_equation(task: FunctionTask, scale: Scale, model: FunctionModel) -> Rows
     x = np.column_stack([logs, starts])[real]
     turned = np.column_stack([r < 0, b < 0])[real]
     sides = [Rows(x, np.full(len(x), side), turned) for side in (1.0, -1.0)]
-    merit = np.array([(model.errors(each)[0] ** 2).sum(axis=1) for each in sides])
+    merit = np.array([(model.errors(side)[0] ** 2).sum(axis=1) for side in sides])
     chosen = np.argsort(merit.min(axis=0), kind="stable")[:_MOST]
     side = np.where(merit[0] <= merit[1], 1.0, -1.0)
     return Rows(x, side, turned).take(chosen)

@@ -278,7 +278,7 @@ class PathModel:
         lengths, _ = shape(row.p[:, :3], row.is_double)
         s, z, t = (complex(each[0, 0]) * self.size for each in self.pose(row.p))
         A0 = t + self.middle
-        crank, coupler, rocker = (abs(s) * float(each) for each in lengths[0])
+        crank, coupler, rocker = (abs(s) * float(length) for length in lengths[0])
         way = float(np.angle(s))
         turned = 0.0 if self.timed is None else float(np.angle(np.exp(1j * (row.p[0, 9] + way))))
         bar = FourBar(A0, A0 + s, crank, coupler, rocker, "left" if row.side[0] > 0 else "right", turned)

@@ -164,7 +164,7 @@ def _hull(x: Floats, y: Floats) -> NDArray[np.complex128]:
     """Corners of the convex hull counter-clockwise, by Andrew's chain."""
     points = sorted(set(zip(x.tolist(), y.tolist(), strict=True)))
     if len(points) < 3:
-        return np.array([complex(*each) for each in points])
+        return np.array([complex(*point) for point in points])
     chain: list[complex] = []
     for listed in (points, points[::-1]):
         part: list[complex] = []

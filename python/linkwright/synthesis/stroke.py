@@ -112,10 +112,10 @@ def slider_crank(stroke: float, time_ratio: float = 1.0, *, rod: float | None = 
 
 def _verified(made: StrokeCrank) -> StrokeCrank:
     """The slider-crank, if its machine has the dead centres that were asked for."""
-    found = element_of(made.machine, "B")
-    require_met("a stroke", made.stroke, found.stroke, "m")
-    require_met("a time ratio", *slow_over_quick(made.time_ratio, found.time_ratio))
-    require_transmission(made.transmission_angle_min, found)
+    element = element_of(made.machine, "B")
+    require_met("a stroke", made.stroke, element.stroke, "m")
+    require_met("a time ratio", *slow_over_quick(made.time_ratio, element.time_ratio))
+    require_transmission(made.transmission_angle_min, element)
     return made
 
 
@@ -131,7 +131,7 @@ def _slide_transmission(t: Floats, delta: float) -> Floats:
 
 def _stroke_crank(stroke: float, time_ratio: float, delta: float, t: float, mu: float) -> StrokeCrank:
     """The slider-crank in its wanted size, with its guide along x."""
-    crank, rod, outer, inner = (0.5 * stroke * each[0] for each in joints(np.array([t]), delta))
+    crank, rod, outer, inner = (0.5 * stroke * joint[0] for joint in joints(np.array([t]), delta))
     along = (outer - inner) / abs(outer - inner)
     outer, inner = outer / along, inner / along
     offset = float(outer.imag)

@@ -105,15 +105,15 @@ def element_of(machine: Machine, output: str) -> ElementMotion:
 
     `output`: name of the link or slide.
     """
-    return next(each for each in linkage(machine).elements if each.output == output)
+    return next(element for element in linkage(machine).elements if element.output == output)
 
 
-def require_transmission(wanted: float, found: ElementMotion) -> None:
+def require_transmission(wanted: float, motion: ElementMotion) -> None:
     """Raise unless the minimum transmission angle over a revolution is the one that is returned.
 
-    `wanted`: the one that is returned [rad]; `found`: by the analysis of the machine.
+    `wanted`: the one that is returned [rad]; `motion`: by the analysis of the machine.
     """
-    low, high = found.transmission_angle_min, found.transmission_angle_max
+    low, high = motion.transmission_angle_min, motion.transmission_angle_max
     least = None if low is None or high is None else min(low, np.pi - high)
     require_met("a minimum transmission angle", wanted, least, "rad", size=1.0)
 

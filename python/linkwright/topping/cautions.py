@@ -21,36 +21,36 @@ from linkwright.topping.topper import TopperStudy, leaves
 _SAME = 1e-12
 
 
-def topper_findings(described: Topper, found: TopperStudy) -> Iterator[str]:
+def topper_findings(described: Topper, study: TopperStudy) -> Iterator[str]:
     """What the knife does not do."""
     length = described.edge_length
-    if found.obstacle:
-        yield found.obstacle
-    elif not np.isfinite(found.length_exact):
+    if study.obstacle:
+        yield study.obstacle
+    elif not np.isfinite(study.length_exact):
         yield "The edge moves along itself and cuts nothing: no length is enough."
-    elif found.length_exact > length * (1 + _SAME) and leaves(found):
+    elif study.length_exact > length * (1 + _SAME) and leaves(study):
         yield (
             f"The edge of {length:.6g} m does not cut through every head: it leaves up to "
-            f"{100 * found.uncut_share:.3g} % of {_head(found)}; it needs {found.length_exact:.6g} m."
+            f"{100 * study.uncut_share:.3g} % of {_head(study)}; it needs {study.length_exact:.6g} m."
         )
 
 
-def _head(found: TopperStudy) -> str:
+def _head(study: TopperStudy) -> str:
     """The head of which most is left."""
-    place, side = abs(found.uncut_offset), "left" if found.uncut_offset > 0 else "right"
+    place, side = abs(study.uncut_offset), "left" if study.uncut_offset > 0 else "right"
     where = f"a head {place:.4g} m to the {side} of the row" if place else "a head on the row"
-    return f"{where}, at the phase {round(np.degrees(found.uncut_phase), 3):.6g}°" if found.stroke else where
+    return f"{where}, at the phase {round(np.degrees(study.uncut_phase), 3):.6g}°" if study.stroke else where
 
 
-def topper_cautions(described: Topper, found: TopperStudy) -> Iterator[str]:
+def topper_cautions(described: Topper, study: TopperStudy) -> Iterator[str]:
     """What should be known although every head is cut."""
     if described.cut_height > 0.5 * described.root_diameter:
         yield (
             f"The cut passes below the middle of the root, {described.cut_height:.4g} m below its top: the "
             "head is narrower there than the root above it."
         )
-    if found.edge_retreats:
-        speed = -found.least_advance
+    if study.edge_retreats:
+        speed = -study.least_advance
         yield (
             f"The edge runs backwards at times, by up to {speed:.4g} m/s along its normal: there its back "
             "meets the head; reduce the edge angle or the knife speed."
@@ -62,40 +62,40 @@ def topper_cautions(described: Topper, found: TopperStudy) -> Iterator[str]:
 _FEW, _WANDER, _SHARING = 4, 0.25, 4
 
 
-def field_findings(found: TopperField, topper: Topper) -> Iterator[str]:
+def field_findings(field: TopperField, topper: Topper) -> Iterator[str]:
     """Limits of the machine file that are not kept; without any in the file, none."""
     if "limits" not in topper.model_fields_set:
         return
     limits = topper.limits
-    if found.share_complete < limits.complete_min:
-        least = found.length_at(limits.complete_min)
+    if field.share_complete < limits.complete_min:
+        least = field.length_at(limits.complete_min)
         remedy = f"; {least:.4g} m would do" if least < float("inf") else ""
         yield (
-            f"Of the heads {100 * found.share_complete:.4g} % are cut right through, "
+            f"Of the heads {100 * field.share_complete:.4g} % are cut right through, "
             f"{100 * limits.complete_min:.4g} % are asked for{remedy}."
         )
-    if limits.haulm_max is not None and found.haulm_mean > limits.haulm_max:
+    if limits.haulm_max is not None and field.haulm_mean > limits.haulm_max:
         yield (
-            f"Of the head {100 * found.haulm_mean:.3g} % is left on average, {100 * limits.haulm_max:.3g} % "
+            f"Of the head {100 * field.haulm_mean:.3g} % is left on average, {100 * limits.haulm_max:.3g} % "
             "are allowed."
         )
-    if limits.slicing_min is not None and found.slicing_ratio_mean < limits.slicing_min:
+    if limits.slicing_min is not None and field.slicing_ratio_mean < limits.slicing_min:
         yield (
-            f"The mean draw-cut ratio is {found.slicing_ratio_mean:.4g}; {limits.slicing_min:.4g} is asked."
+            f"The mean draw-cut ratio is {field.slicing_ratio_mean:.4g}; {limits.slicing_min:.4g} is asked."
         )
-    if limits.length_max is not None and found.edge_length > limits.length_max:
-        yield f"The edge is {found.edge_length:.4g} m long, {limits.length_max:.4g} m are allowed."
+    if limits.length_max is not None and field.edge_length > limits.length_max:
+        yield f"The edge is {field.edge_length:.4g} m long, {limits.length_max:.4g} m are allowed."
 
 
-def field_cautions(found: TopperField, topper: Topper, knife: Knife) -> Iterator[str]:
+def field_cautions(field: TopperField, topper: Topper, knife: Knife) -> Iterator[str]:
     """What the designer should know of a field."""
     if topper.field is None:
         yield "There is no [topper.field]: all roots are alike, their axes even within the offset."
-    if found.n_missed:
-        share = 100 * found.n_missed / found.n_roots
+    if field.n_missed:
+        share = 100 * field.n_missed / field.n_roots
         yield f"The knife passes above {share:.3g} % of the heads: no length of the edge cuts them."
-    if found.n_lost:
-        share = 100 * found.n_lost / found.n_roots
+    if field.n_lost:
+        share = 100 * field.n_lost / field.n_roots
         yield f"The cut passes below {share:.3g} % of the roots, which are lost as a whole."
     if isinstance(topper.field, RandomField):
         yield from _locked(topper.field, topper.forward_speed, knife)

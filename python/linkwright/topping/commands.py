@@ -231,18 +231,18 @@ def best(
     folder = output_folder(out, force=force)
     machine = read(file, set or [], allow_outside=allow_outside)
     with bar("knives") as watch:
-        found = best_knife(machine, objective=objective.value, seed=seed, watch=watch)
-    hand_over(_answer(machine.name, found), json=json, folder=folder)
+        knife = best_knife(machine, objective=objective.value, seed=seed, watch=watch)
+    hand_over(_answer(machine.name, knife), json=json, folder=folder)
 
 
-def _answer(name: str, found: KnifeSearch) -> Answer:
+def _answer(name: str, search: KnifeSearch) -> Answer:
     """The best knife, also as lines of a machine file; or that none keeps the limits."""
     from linkwright.topping.tables.field import best_lines, best_table, best_warnings
 
-    best, failing = found.best, found.failing
+    best, failing = search.best, search.failing
     results: dict[str, Any] = {
-        "objective": found.objective,
-        "tried": found.tried,
+        "objective": search.objective,
+        "tried": search.tried,
         **({} if best is None else best.to_dict()),
         "failing": failing and {key: getattr(failing, key) for key in ("limit", "wanted", "reached")},
     }
@@ -250,31 +250,31 @@ def _answer(name: str, found: KnifeSearch) -> Answer:
         machine=name,
         results=lambda _: {"topper_best": results},
         findings=[] if failing is None else [failing.words + "."],
-        warnings=[] if failing else list(best_warnings(found)),
+        warnings=[] if failing else list(best_warnings(search)),
         head=lambda: name,
-        tables=lambda: [] if best is None else [best_table(found, best)],
+        tables=lambda: [] if best is None else [best_table(search, best)],
         tail=lambda: "" if best is None else best_lines(best),
-        files=partial(_best_files, found),
-        figures=partial(_best_figures, found),
+        files=partial(_best_files, search),
+        figures=partial(_best_figures, search),
     )
 
 
-def _best_files(found: KnifeSearch) -> dict[str, str]:
+def _best_files(search: KnifeSearch) -> dict[str, str]:
     """The map, and the knife as lines of a machine file."""
     from linkwright.topping.tables.field import best_lines, map_csv
 
-    texts = {"map.csv": map_csv(found)}
-    if found.best is not None:
-        texts["topper.toml"] = best_lines(found.best)
+    texts = {"map.csv": map_csv(search)}
+    if search.best is not None:
+        texts["topper.toml"] = best_lines(search.best)
     return texts
 
 
-def _best_figures(found: KnifeSearch) -> dict[str, Figure]:
+def _best_figures(search: KnifeSearch) -> dict[str, Figure]:
     """The map; a line is none, nor is a plane without any edge that would do."""
     import numpy as np
 
-    if min(found.map_length.shape) < 2 or not np.isfinite(found.map_length).any():
+    if min(search.map_length.shape) < 2 or not np.isfinite(search.map_length).any():
         return {}
     from linkwright.topping.figures.field import best_knife_figure
 
-    return {"map": best_knife_figure(found)}
+    return {"map": best_knife_figure(search)}

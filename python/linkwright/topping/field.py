@@ -265,14 +265,14 @@ def field_result(
     )
 
 
-def _named(name: str, found: Interval) -> dict[str, Any]:
+def _named(name: str, interval: Interval) -> dict[str, Any]:
     """An estimate and the ends of its interval as entries."""
     keys = (name, f"{name}_low", f"{name}_high")
-    return {key: float(np.squeeze(each)) for key, each in zip(keys, found, strict=True)}
+    return {key: float(np.squeeze(each)) for key, each in zip(keys, interval, strict=True)}
 
 
 def _quantiles(curve: ShareCurve) -> dict[str, Any]:
     """Lengths for the usual shares, with what holds the true ones."""
     keys = ("quantile_length", "quantile_length_low", "quantile_length_high")
-    found = (tuple(each.tolist()) for each in curve.lengths(QUANTILES))
+    found = (tuple(length.tolist()) for length in curve.lengths(QUANTILES))
     return {"quantile": QUANTILES, **dict(zip(keys, found, strict=True))}

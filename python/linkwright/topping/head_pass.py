@@ -79,7 +79,7 @@ class HeadPass(Result):
     @property
     def uncut_area(self) -> Annotated[float, Shown("area inside the outlines", "", "m²")]:
         """Area inside the outlines."""
-        return float(sum(_area(each) for each in self.outlines))
+        return float(sum(_area(outline) for outline in self.outlines))
 
 
 def head_pass(edge: Edge, diameter: float, offset: float, phase: float, length: float) -> HeadPass:
@@ -164,7 +164,7 @@ def _chains(parts: Sequence[Part]) -> list[list[Part]]:
     """Parts of neighbouring chords that touch, each with the next."""
     chains: list[list[Part]] = []
     for part in parts:
-        chain = next((each for each in chains if _touch(each[-1], part)), None)
+        chain = next((chain for chain in chains if _touch(chain[-1], part)), None)
         if chain is None:
             chains.append([part])
         else:

@@ -107,7 +107,7 @@ class Knife:
     @cached_property
     def speeds(self) -> tuple[float, float]:
         """Minimum and maximum velocity across the row [m/s]."""
-        least, greatest = (each.value * self.rate + self.drift for each in self.law.extremes(1))
+        least, greatest = (extreme.value * self.rate + self.drift for extreme in self.law.extremes(1))
         return least, greatest
 
     @property
@@ -150,7 +150,7 @@ class Knife:
     @cached_property
     def way(self) -> KnifeWay:
         """The knife in the core's terms."""
-        reach = max(abs(each.value) for each in self.law.extremes())
+        reach = max(abs(extreme.value) for extreme in self.law.extremes())
         law = self.law if self.harmonics is None else self.harmonics
         return KnifeWay(law, self.corners, self.rate, self.drift, reach, *self.speeds)
 

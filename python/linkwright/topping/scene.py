@@ -53,19 +53,19 @@ _SECONDS = 2.0
 _FINE = 1e-5
 
 
-def topper_scene(machine: Machine, described: Topper, found: TopperStudy) -> Scene | None:
+def topper_scene(machine: Machine, described: Topper, study: TopperStudy) -> Scene | None:
     """All that the moving top view needs, ready for JSON."""
-    if found.obstacle:
+    if study.obstacle:
         return None
-    offset, phase = shown_head(found)
+    offset, phase = shown_head(study)
     edges = edges_of(machine, described)
-    edge = worse_edge(edges, found.head_diameter, offset, phase, described.edge_length)
+    edge = worse_edge(edges, study.head_diameter, offset, phase, described.edge_length)
     places = np.linspace(0.0, 2 * math.pi, (_PLACES if edge.knife.rate else 1) + 1)
-    heads = _row(edge, found, described, offset)
-    reach = _reach(edge, found, described)
-    x = [each[0] for each in heads]
+    heads = _row(edge, study, described, offset)
+    reach = _reach(edge, study, described)
+    x = [head[0] for head in heads]
     ends = (x[0] - reach, x[-1] + reach)
-    d = found.head_diameter
+    d = study.head_diameter
     return {
         "law": _rounded(edge.knife.law.at(places), _FINE * d),
         "rate": edge.knife.rate,
@@ -76,26 +76,26 @@ def topper_scene(machine: Machine, described: Topper, found: TopperStudy) -> Sce
         "speed": described.forward_speed,
         "diameter": d,
         "offset": described.offset,
-        "heads": [_rounded(np.array(each), _FINE * d) for each in heads],
+        "heads": [_rounded(np.array(head), _FINE * d) for head in heads],
         "span": [end / described.forward_speed for end in ends],
-        "box": _box(edge, found, described, ends, x),
+        "box": _box(edge, study, described, ends, x),
         "seconds": _SECONDS * len(heads),
     }
 
 
-def _row(edge: Edge, found: TopperStudy, described: Topper, offset: float) -> list[tuple[float, float]]:
+def _row(edge: Edge, study: TopperStudy, described: Topper, offset: float) -> list[tuple[float, float]]:
     """Centres of heads, the worst in the middle, the others to both sides of the row."""
-    delta, pitch = described.offset, _pitch(edge, found, described)
-    if edge.knife.drift or pitch > _FAR * found.head_diameter:
+    delta, pitch = described.offset, _pitch(edge, study, described)
+    if edge.knife.drift or pitch > _FAR * study.head_diameter:
         return [(0.0, offset)]
     other = -math.copysign(delta, offset)
     sides = [-0.5 * offset, other, offset, other, 0.5 * offset]
     return [((nth - len(sides) // 2) * pitch, y) for nth, y in enumerate(sides)]
 
 
-def _pitch(edge: Edge, found: TopperStudy, described: Topper) -> float:
+def _pitch(edge: Edge, study: TopperStudy, described: Topper) -> float:
     """Distance of heads along the row."""
-    d = found.head_diameter
+    d = study.head_diameter
     if not edge.knife.rate:
         return _APART[0] * d
     stroke = described.forward_speed / edge.knife.frequency
@@ -108,9 +108,9 @@ def _pitch(edge: Edge, found: TopperStudy, described: Topper) -> float:
     return _APART[0] * d
 
 
-def _reach(edge: Edge, found: TopperStudy, described: Topper) -> float:
+def _reach(edge: Edge, study: TopperStudy, described: Topper) -> float:
     """How far before the first head the edge starts, so that it has not met it yet."""
-    half = 0.5 * found.head_diameter
+    half = 0.5 * study.head_diameter
     aside = 0.5 * edge.knife.stroke + described.offset
     along = half * (1 + 2 * _ROOM) + aside * abs(math.sin(described.edge_angle))
     if edge.stands:
@@ -119,7 +119,7 @@ def _reach(edge: Edge, found: TopperStudy, described: Topper) -> float:
 
 
 def _box(
-    edge: Edge, found: TopperStudy, described: Topper, ends: tuple[float, float], heads: list[float]
+    edge: Edge, study: TopperStudy, described: Topper, ends: tuple[float, float], heads: list[float]
 ) -> list[float]:
     """Minimum x, minimum y, maximum x, maximum y of the edge over its way, and of the heads."""
     lean, across = (
@@ -128,8 +128,8 @@ def _box(
     )
     drifts = abs(edge.knife.drift) * ends[1] / described.forward_speed
     knife = across + 0.5 * edge.knife.stroke + drifts
-    high = max(knife, 0.5 * found.head_diameter + described.offset)
-    far = _SEEN * found.head_diameter
+    high = max(knife, 0.5 * study.head_diameter + described.offset)
+    far = _SEEN * study.head_diameter
     least, greatest = max(ends[0] - lean, heads[0] - far), min(ends[1] + lean, heads[-1] + far)
     return [least, -min(high, far), greatest, min(high, far)]
 

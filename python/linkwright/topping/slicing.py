@@ -148,5 +148,5 @@ def _use(edge: Edge, diameter: float, offset: float) -> tuple[Floats, Floats]:
     # Each chord adds its pace to the places between its ends.
     weight = np.broadcast_to(pace, chord.shape)[chord > 0]
     bounds = [np.searchsorted(place, (sign * chord - q)[chord > 0]) for sign in (-1, 1)]
-    ends = [np.bincount(each, weight, _PLACES + 1)[:_PLACES] for each in bounds]
+    ends = [np.bincount(bound, weight, _PLACES + 1)[:_PLACES] for bound in bounds]
     return place, np.cumsum(ends[0] - ends[1])

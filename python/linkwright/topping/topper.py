@@ -208,7 +208,7 @@ def topper(machine: Machine, *, charts: bool = True) -> TopperStudy:
     d = float(head_diameter(described.root_diameter, described.cut_height))
     edges = edges_of(machine, described)
     reasons = [hardly_goes_on(edge, d, described.offset) for edge in edges]
-    obstacle = next((each for each in reasons if each), None)
+    obstacle = next((reason for reason in reasons if reason), None)
     cut = _closed(described, edges[0], d) if obstacle else every_head(described, edges, d, charts=charts)
     return TopperStudy(
         head_diameter=d,
@@ -222,9 +222,9 @@ def topper(machine: Machine, *, charts: bool = True) -> TopperStudy:
     )
 
 
-def leaves(found: TopperStudy) -> bool:
+def leaves(study: TopperStudy) -> bool:
     """Whether anything is left of a head."""
-    return found.uncut_share > NOTHING
+    return study.uncut_share > NOTHING
 
 
 def _closed(described: Topper, edge: Edge, d: float) -> dict[str, Any]:

@@ -135,7 +135,7 @@ class LengthVerdict(Result):
     @property
     def ways(self) -> tuple[dict[str, Any], ...]:
         """The demands, ready for JSON; None for a length without bounds."""
-        return tuple(finite(each.to_dict()) for each in self.demands)
+        return tuple(finite(demand.to_dict()) for demand in self.demands)
 
 
 @public
@@ -214,10 +214,10 @@ def lengths_over(
     ndarray, shape (2, ...)
         [m]; infinite where no edge does, and for ``"every_phase"`` where the edge retreats.
     """
-    ends = np.stack([_length(way, each, edge_angle, diameter, offset, stroke) for each in claim.ratios])
+    ends = np.stack([_length(way, ratio, edge_angle, diameter, offset, stroke) for ratio in claim.ratios])
     greatest = ends.max(axis=0)
     if way == "constant_speed":
-        low, high = (each * np.abs(np.tan(edge_angle)) for each in claim.ratios)
+        low, high = (ratio * np.abs(np.tan(edge_angle)) for ratio in claim.ratios)
         greatest = np.where((low <= 1) & (high >= 1), np.inf, greatest)
     return np.stack([ends.min(axis=0), greatest])
 
@@ -251,7 +251,7 @@ def bands_of(
     does = np.isfinite(unit)
     start = np.where(does, none, 0.0)
     per_band = np.where(does, unit, np.inf) - start
-    return np.stack([np.clip((each - start) / per_band, 0.0, None) for each in claim.lengths])
+    return np.stack([np.clip((length - start) / per_band, 0.0, None) for length in claim.lengths])
 
 
 def _length(

@@ -33,42 +33,46 @@ if TYPE_CHECKING:
 _TICKS = 12
 
 
-def turning_figures(found: TurningMomentDiagram) -> Iterator[Captioned]:
+def turning_figures(diagram: TurningMomentDiagram) -> Iterator[Captioned]:
     """The diagram with its energy, and the speed; nothing where areas alone are given."""
-    if not len(found.crank_angle):
+    if not len(diagram.crank_angle):
         return
     coefficient = ""
-    if found.energy_coefficient is not None:
-        coefficient = f", {number(found.energy_coefficient)} of the work per cycle"
+    if diagram.energy_coefficient is not None:
+        coefficient = f", {number(diagram.energy_coefficient)} of the work per cycle"
     caption = (
         f"Driver against load over a cycle. The energy of the shaft changes by "
-        f"{number(found.energy_fluctuation)} J{coefficient}."
+        f"{number(diagram.energy_fluctuation)} J{coefficient}."
     )
-    yield Captioned("turning_moment", "Turning-moment diagram", caption, diagram_figure(found))
-    if found.inertia is not None and found.speed_max_angle is not None and found.speed_min_angle is not None:
+    yield Captioned("turning_moment", "Turning-moment diagram", caption, diagram_figure(diagram))
+    if (
+        diagram.inertia is not None
+        and diagram.speed_max_angle is not None
+        and diagram.speed_min_angle is not None
+    ):
         caption = (
-            f"With {number(found.inertia)} kg m² the shaft turns at {number(found.speed_min)} to "
-            f"{number(found.speed_max)} rad/s: fastest at {degrees(found.speed_max_angle)}, slowest at "
-            f"{degrees(found.speed_min_angle)}."
+            f"With {number(diagram.inertia)} kg m² the shaft turns at {number(diagram.speed_min)} to "
+            f"{number(diagram.speed_max)} rad/s: fastest at {degrees(diagram.speed_max_angle)}, slowest at "
+            f"{degrees(diagram.speed_min_angle)}."
         )
-        yield Captioned("turning_speed", "Speed over the cycle", caption, speed_figure(found))
+        yield Captioned("turning_speed", "Speed over the cycle", caption, speed_figure(diagram))
 
 
 @styled
-def diagram_figure(found: TurningMomentDiagram) -> Figure:
+def diagram_figure(diagram: TurningMomentDiagram) -> Figure:
     """Torques of driver and load, and the energy that the shaft takes up between them."""
     figure, (torque, energy) = panels(2, height=4.6)
-    angle = np.degrees(found.crank_angle)
-    torque.fill_between(angle, found.torque_driver, found.torque_load, color=GRID, linewidth=0)
-    torque.plot(angle, found.torque_driver, color=DRIVE, label="driver")
-    torque.plot(angle, found.torque_load, color=LOAD, label="load")
+    angle = np.degrees(diagram.crank_angle)
+    torque.fill_between(angle, diagram.torque_driver, diagram.torque_load, color=GRID, linewidth=0)
+    torque.plot(angle, diagram.torque_driver, color=DRIVE, label="driver")
+    torque.plot(angle, diagram.torque_load, color=LOAD, label="load")
     torque.set_ylabel("torque\n[N m]")
-    roomy(torque, found.torque_driver, found.torque_load)
+    roomy(torque, diagram.torque_driver, diagram.torque_load)
     zero_line(torque)
     legend_above(torque)
-    energy.plot(angle, found.energy, color=INERTIA)
+    energy.plot(angle, diagram.energy, color=INERTIA)
     energy.set_ylabel("excess energy E\n[J]")
-    roomy(energy, found.energy)
+    roomy(energy, diagram.energy)
     zero_line(energy)
     _angle_axis(torque, angle, label=False)
     _angle_axis(energy, angle)
@@ -76,14 +80,14 @@ def diagram_figure(found: TurningMomentDiagram) -> Figure:
 
 
 @styled
-def speed_figure(found: TurningMomentDiagram) -> Figure:
+def speed_figure(diagram: TurningMomentDiagram) -> Figure:
     """Speed of the shaft over the cycle."""
     figure, (speed,) = panels(1, height=2.4)
-    angle = np.degrees(found.crank_angle)
-    speed.plot(angle, found.speed, color=SPEED, label="speed")
-    level(speed, found.speed_mean, f"mean of the extremes {found.speed_mean:.5g} rad/s")
+    angle = np.degrees(diagram.crank_angle)
+    speed.plot(angle, diagram.speed, color=SPEED, label="speed")
+    level(speed, diagram.speed_mean, f"mean of the extremes {diagram.speed_mean:.5g} rad/s")
     speed.set_ylabel("speed ω\n[rad/s]")
-    roomy(speed, found.speed)
+    roomy(speed, diagram.speed)
     legend_above(speed)
     _angle_axis(speed, angle)
     return figure

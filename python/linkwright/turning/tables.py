@@ -26,42 +26,42 @@ ASSUMPTIONS = (
 )
 
 
-def turning_headline(found: TurningMomentDiagram) -> Iterator[tuple[str, str, str]]:
+def turning_headline(diagram: TurningMomentDiagram) -> Iterator[tuple[str, str, str]]:
     """Word, value and unit of what one looks for first."""
-    yield "fluctuation of energy ΔE", number(found.energy_fluctuation, 4), "J"
-    if found.unevenness is not None:
-        yield "speed fluctuation δ", number(found.unevenness, 4), ""
-    if found.flywheel_inertia is not None:
-        yield "inertia of the flywheel", number(found.flywheel_inertia, 4), "kg m²"
-    if found.flywheel_mass is not None:
-        yield "mass of the flywheel", number(found.flywheel_mass, 4), "kg"
-    if found.power_mean is not None:
-        yield "mean power", number(found.power_mean, 4), "W"
+    yield "fluctuation of energy ΔE", number(diagram.energy_fluctuation, 4), "J"
+    if diagram.unevenness is not None:
+        yield "speed fluctuation δ", number(diagram.unevenness, 4), ""
+    if diagram.flywheel_inertia is not None:
+        yield "inertia of the flywheel", number(diagram.flywheel_inertia, 4), "kg m²"
+    if diagram.flywheel_mass is not None:
+        yield "mass of the flywheel", number(diagram.flywheel_mass, 4), "kg"
+    if diagram.power_mean is not None:
+        yield "mean power", number(diagram.power_mean, 4), "W"
 
 
-def turning_tables(found: TurningMomentDiagram) -> Iterator[Table]:
+def turning_tables(diagram: TurningMomentDiagram) -> Iterator[Table]:
     """The diagram, the flywheel, and the areas between driver and load."""
     heads = ("quantity", "", "value", "where")
-    yield Table("turning_moment", "Turning-moment diagram", heads, _rows(found, "turning_moment"))
+    yield Table("turning_moment", "Turning-moment diagram", heads, _rows(diagram, "turning_moment"))
     # Without a moment of inertia, the mean speed alone says nothing of the motion.
-    evened = _rows(found, "flywheel", without=() if found.inertia is not None else ("speed_mean",))
+    evened = _rows(diagram, "flywheel", without=() if diagram.inertia is not None else ("speed_mean",))
     if evened:
         yield Table("flywheel", "Speed and flywheel", heads, evened)
-    if found.areas:
-        yield _areas(found)
+    if diagram.areas:
+        yield _areas(diagram)
 
 
-def _rows(found: TurningMomentDiagram, table: str, *, without: Collection[str] = ()) -> list[Row]:
+def _rows(diagram: TurningMomentDiagram, table: str, *, without: Collection[str] = ()) -> list[Row]:
     """The rows of a table; of an extreme, with the angle where it is."""
-    angles = {name: getattr(found, f"{name}_angle", None) for name in in_table(type(found), table)}
+    angles = {name: getattr(diagram, f"{name}_angle", None) for name in in_table(type(diagram), table)}
     places = {name: f"at φ = {degrees(angle)}" for name, angle in angles.items() if angle is not None}
-    return known_rows(found, table, places, without=without)
+    return known_rows(diagram, table, places, without=without)
 
 
-def _areas(found: TurningMomentDiagram) -> Table:
+def _areas(diagram: TurningMomentDiagram) -> Table:
     """Energies between the crossings, and the excess after each."""
     rows: list[Row] = []
-    for n, area in enumerate(found.areas, start=1):
+    for n, area in enumerate(diagram.areas, start=1):
         start, end = area["start"], area["end"]
         place = "" if start is None or end is None else f", {degrees(start)} to {degrees(end)}"
         energies = (with_unit(area[name], "J") for name in ("energy", "energy_after"))

@@ -72,7 +72,7 @@ def _units() -> list[str]:
     from linkwright.pumping.model.unit_catalogue import pumping_units
 
     return [
-        f"  {each.designation:<14} strokes "
-        + ", ".join(f"{float(each.unit(n).stroke):.3f} m" for n in range(1, len(each.holes) + 1))
-        for each in pumping_units()
+        f"  {unit.designation:<14} strokes "
+        + ", ".join(f"{float(unit.unit(n).stroke):.3f} m" for n in range(1, len(unit.holes) + 1))
+        for unit in pumping_units()
     ]

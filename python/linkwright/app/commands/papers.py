@@ -85,7 +85,7 @@ def _print(paper: Paper) -> None:
 
 def _numbers(table: Table) -> Grid:
     """A table of numbers: all columns but the first stand to the right."""
-    rows = [[_cell(each) for each in row] for row in table.rows]
+    rows = [[_cell(value) for value in row] for row in table.rows]
     grid = _grid(table.heads, rows, padding=1)
     grid.title, grid.title_justify, grid.title_style = table.title or None, "left", "bold"
     for column in grid.columns[1:]:

@@ -104,18 +104,18 @@ def plot(
     hand_over(answer, json=json)
 
 
-def _list_of(found: Study, curves: dict[str, Curve]) -> Answer:
+def _list_of(study: Study, curves: dict[str, Curve]) -> Answer:
     """The names of all curves."""
     from linkwright.kernel.page.table import Table
 
-    rows: list[Row] = [(each.name, each.unit or "–", each.over) for each in curves.values()]
+    rows: list[Row] = [(curve.name, curve.unit or "–", curve.over) for curve in curves.values()]
     return Answer(
-        machine=found.machine.name,
+        machine=study.machine.name,
         results=lambda _: {
-            "curves": {each.name: {"unit": each.unit, "over": each.over} for each in curves.values()}
+            "curves": {curve.name: {"unit": curve.unit, "over": curve.over} for curve in curves.values()}
         },
-        findings=found.findings,
-        warnings=found.warnings,
+        findings=study.findings,
+        warnings=study.warnings,
         tables=lambda: [Table("curves", "Curves that can be drawn", ("curve", "", "over"), rows)],
     )
 
@@ -127,15 +127,15 @@ def _told(study: Study, curves: Sequence[Curve], zero: float) -> dict[str, Any]:
     return {
         "angle_zero": zero,
         "curves": {
-            each.name: {
-                "unit": each.unit,
-                "over": each.over,
-                "over_unit": each.over_unit,
-                "x": each.x.tolist(),
-                "values": each.values.tolist(),
-                **extremes(study, each, zero)._asdict(),
+            curve.name: {
+                "unit": curve.unit,
+                "over": curve.over,
+                "over_unit": curve.over_unit,
+                "x": curve.x.tolist(),
+                "values": curve.values.tolist(),
+                **extremes(study, curve, zero)._asdict(),
             }
-            for each in curves
+            for curve in curves
         },
     }
 
@@ -175,19 +175,19 @@ def _csv(curves: Sequence[Curve], units: OutUnits) -> str:
 
     from linkwright.kernel.page.csv import columns_csv
 
-    most = max(len(each.x) for each in curves)
+    most = max(len(curve.x) for curve in curves)
     columns: dict[str, Any] = {}
     last = None
-    for each in curves:
-        unit, factor = units.shown(each.over_unit)
-        if last is None or len(each.x) != len(last) or not np.array_equal(each.x, last):
-            name = f"{each.over} [{unit or '-'}]"
-            columns[name if name not in columns else f"{each.over} of {each.name} [{unit or '-'}]"] = _long(
-                each.x / factor, most
+    for curve in curves:
+        unit, factor = units.shown(curve.over_unit)
+        if last is None or len(curve.x) != len(last) or not np.array_equal(curve.x, last):
+            name = f"{curve.over} [{unit or '-'}]"
+            columns[name if name not in columns else f"{curve.over} of {curve.name} [{unit or '-'}]"] = _long(
+                curve.x / factor, most
             )
-            last = each.x
-        unit, factor = units.shown(each.unit)
-        columns[f"{each.name} [{unit or '-'}]"] = _long(each.values / factor, most)
+            last = curve.x
+        unit, factor = units.shown(curve.unit)
+        columns[f"{curve.name} [{unit or '-'}]"] = _long(curve.values / factor, most)
     return columns_csv(columns)
 
 
@@ -205,14 +205,14 @@ def _extremes(study: Study, curves: Sequence[Curve], zero: float, units: OutUnit
 
     rows: list[Row] = []
     rough = []
-    for each in curves:
-        found = extremes(study, each, zero)
+    for curve in curves:
+        found = extremes(study, curve, zero)
         if not found.is_exact:
-            rough.append(each.name)
+            rough.append(curve.name)
         scale = max(abs(found.minimum), abs(found.maximum))
-        values = [_shown(value, each.unit, units, scale) for value in (found.minimum, found.maximum)]
-        places = [_shown(at, each.over_unit, units, _PLACE) for at in (found.minimum_at, found.maximum_at)]
-        rows.append((each.name, "", values[0], places[0], values[1], places[1]))
+        values = [_shown(value, curve.unit, units, scale) for value in (found.minimum, found.maximum)]
+        places = [_shown(at, curve.over_unit, units, _PLACE) for at in (found.minimum_at, found.maximum_at)]
+        rows.append((curve.name, "", values[0], places[0], values[1], places[1]))
     heads = ("curve", "", "minimum", f"at {curves[0].over}", "maximum", f"at {curves[0].over}")
     title = f"Extremes; of {', '.join(rough)} among the points of the curve" if rough else "Extremes"
     return Table("extremes", title, heads, rows)
@@ -225,7 +225,7 @@ def _values(curves: Sequence[Curve], units: OutUnits) -> Table:
     from linkwright.kernel.page.table import Table
 
     first = curves[0]
-    same = [each for each in curves if len(each.x) == len(first.x) and np.array_equal(each.x, first.x)]
+    same = [curve for curve in curves if len(curve.x) == len(first.x) and np.array_equal(curve.x, first.x)]
     at = np.unique(np.linspace(0, len(first.x) - 1, _ROWS + 1).round().astype(int))
     rows: list[Row] = [
         (

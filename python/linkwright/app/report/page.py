@@ -63,7 +63,7 @@ def report_html(study: Study, *, command: str = "") -> str:
 
 def _context(study: Study, command: str) -> dict[str, Any]:
     """All that the template asks for."""
-    drawn = [(each, picture(each.figure, each.name, each.title)) for each in figures(study)]
+    drawn = [(figure, picture(figure.figure, figure.name, figure.title)) for figure in figures(study)]
     moving = [each for each in drawn if each[0].name.startswith(_MOTION_FIGURES)]
     listed = tables(study)
     return {
@@ -139,7 +139,7 @@ def _motion_headline(study: Study) -> Iterator[tuple[str, str, str]]:
     """Strokes, swings and time ratios, and the worst transmission angle."""
     if study.linkage is None:
         return
-    moving = [each for each in study.linkage.elements if each.turns is None]
+    moving = [element for element in study.linkage.elements if element.turns is None]
     for each in {each.output: each for each in moving[::-1]}.values() if len(moving) <= _OUTPUTS else ():
         if each.stroke is not None:
             yield f"stroke of {each.output}", number(each.stroke, 4), "m"
@@ -147,7 +147,7 @@ def _motion_headline(study: Study) -> Iterator[tuple[str, str, str]]:
             yield f"swing of {each.output}", degrees(each.swing), ""
         if each.time_ratio is not None:
             yield f"time ratio of {each.output}", number(each.time_ratio, 4), ""
-    worst = [each.transmission_angle_worst for each in study.linkage.elements]
+    worst = [element.transmission_angle_worst for element in study.linkage.elements]
     known = [angle for angle in worst if angle is not None]
     if known:
         yield "worst transmission angle", degrees(min(known)), ""

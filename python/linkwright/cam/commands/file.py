@@ -125,7 +125,7 @@ def _drawn(study: Study, options: dict[str, Any]) -> tuple[dict[str, _Drawn], li
     from linkwright.kernel.files.output import file_names
 
     sound = [profile for profile in study.cams if not cam_faults(profile)]
-    drawings = [(profile, each) for profile in sound for each in cam_drawings(profile)]
+    drawings = [(profile, drawing) for profile in sound for drawing in cam_drawings(profile)]
     # Names may differ in letters alone that no file can have.
     stems = file_names({drawing.name: "" for _, drawing in drawings})
     findings: list[str] = []
@@ -196,8 +196,8 @@ def _files(study: Study, drawn: dict[str, _Drawn]) -> dict[str, str | bytes]:
 
 def _measured(name: str, drawn: _Drawn) -> str:
     """What was measured in a drawing."""
-    most = max(each.deviation.largest for each in drawn.outlines)
-    sides = "+".join(str(each.deviation.sides) for each in drawn.outlines)
+    most = max(outline.deviation.largest for outline in drawn.outlines)
+    sides = "+".join(str(outline.deviation.sides) for outline in drawn.outlines)
     if name.endswith(".csv"):
         return f"{sides} rows, chords between them within {1e3 * most:.3g} mm"
     return f"{sides} pieces, read back within {1e3 * most:.3g} mm"

@@ -87,14 +87,14 @@ def search(
     if curvature_radius is not None:
         tight = option_value("--curvature-radius", curvature_radius, LENGTH)
     columns = _columns(vary or [])
-    found = search_cams(machine, name, entries=columns, laws=law or [])
-    keeps = found.keeps(steep, tight)
-    best = _smallest(machine, name, found, keeps, count, lambda cam: _keeps(cam, steep, tight))
+    cams = search_cams(machine, name, entries=columns, laws=law or [])
+    keeps = cams.keeps(steep, tight)
+    best = _smallest(machine, name, cams, keeps, count, lambda cam: _keeps(cam, steep, tight))
     answer = Answer(
         machine=machine.name,
-        results=lambda _: {"cam_search": _results(found, keeps, best)},
+        results=lambda _: {"cam_search": _results(cams, keeps, best)},
         findings=_findings(keeps, best),
-        show=partial(_print, found, keeps, best),
+        show=partial(_print, cams, keeps, best),
     )
     hand_over(answer, json=json)
 
@@ -126,7 +126,7 @@ def _axis(text: str) -> tuple[str, NDArray[np.float64]]:
     kinds = {"face_tilt": ANGLE, "lift_factor": RATIO}
     parts = [part.strip().strip('"') for part in values.split(":")]
     if name not in ENTRIES or name == "distance":
-        known = suggestion(name, (each for each in ENTRIES if each != "distance"))
+        known = suggestion(name, (entry for entry in ENTRIES if entry != "distance"))
         raise InputError(f'--vary {text}: found "{name}", expected a size of the cam; {known}')
     if len(parts) != 3 or not parts[2].isdigit() or int(parts[2]) < 1:
         remedy = "such as base_radius=20mm:60mm:200 for 200 values from 20 to 60 mm"
@@ -141,15 +141,15 @@ def _axis(text: str) -> tuple[str, NDArray[np.float64]]:
 def _smallest(
     machine: Machine,
     name: str,
-    found: Cams,
+    cams: Cams,
     keeps: NDArray[np.bool_],
     count: int,
     is_kept: Callable[[CamProfile], bool],
 ) -> list[tuple[int, CamProfile]]:
     """The smallest cams that keep the limits exactly: between the angles of a search they may not."""
     best: list[tuple[int, CamProfile]] = []
-    for i in found.smallest(keeps, SHOWN.most):
-        profile = _exact(machine, name, found, int(i))
+    for i in cams.smallest(keeps, SHOWN.most):
+        profile = _exact(machine, name, cams, int(i))
         best += [(int(i), profile)] if is_kept(profile) else []
         if len(best) == count:
             break
@@ -165,18 +165,18 @@ def _keeps(profile: CamProfile, steep: float, tight: float) -> bool:
     return gentle and (convex is None or convex >= tight * (1 - _ROUNDING)) and not cam_faults(profile)
 
 
-def _exact(machine: Machine, name: str, found: Cams, i: int) -> CamProfile:
+def _exact(machine: Machine, name: str, cams: Cams, i: int) -> CamProfile:
     """One of the cams, looked at exactly."""
     from linkwright.cam.profile.profile import cam_profile
     from linkwright.cam.search import variant
 
-    return cam_profile(variant(machine, name, found, i), name)
+    return cam_profile(variant(machine, name, cams, i), name)
 
 
-def _row(found: Cams, i: int, profile: CamProfile) -> dict[str, Any]:
+def _row(cams: Cams, i: int, profile: CamProfile) -> dict[str, Any]:
     """What is said of one cam."""
-    law = found.laws[int(found.law[i])] if found.laws else None
-    entries = {key: float(column[i]) for key, column in found.entries.items()}
+    law = cams.laws[int(cams.law[i])] if cams.laws else None
+    entries = {key: float(column[i]) for key, column in cams.entries.items()}
     return {
         "law": law,
         **entries,
@@ -186,13 +186,13 @@ def _row(found: Cams, i: int, profile: CamProfile) -> dict[str, Any]:
     }
 
 
-def _results(found: Cams, keeps: NDArray[np.bool_], best: list[Any]) -> dict[str, Any]:
+def _results(cams: Cams, keeps: NDArray[np.bool_], best: list[Any]) -> dict[str, Any]:
     """How many there are of what kind, and the smallest."""
     return {
         "n_cams": len(keeps),
-        "n_sound": int(found.is_sound.sum()),
+        "n_sound": int(cams.is_sound.sum()),
         "n_kept": int(keeps.sum()),
-        "smallest": [_row(found, i, profile) for i, profile in best],
+        "smallest": [_row(cams, i, profile) for i, profile in best],
     }
 
 
@@ -208,26 +208,26 @@ def _findings(keeps: NDArray[np.bool_], best: list[Any]) -> list[str]:
     ]
 
 
-def _print(found: Cams, keeps: NDArray[np.bool_], best: list[Any]) -> None:
+def _print(cams: Cams, keeps: NDArray[np.bool_], best: list[Any]) -> None:
     """The smallest cams as a table."""
     import numpy as np
     from rich.table import Table
 
     out = console()
     out.print(
-        f"{len(keeps)} cams looked at, {int(found.is_sound.sum())} sound, {int(keeps.sum())} keep the limits"
+        f"{len(keeps)} cams looked at, {int(cams.is_sound.sum())} sound, {int(keeps.sum())} keep the limits"
     )
     if not best:
         out.print(f"FINDING  {_findings(keeps, best)[0]}")
         return
     units = {"face_tilt": ("deg", 180 / np.pi), "lift_factor": ("", 1.0)}
     table = Table(box=None, header_style="", pad_edge=False)
-    heads = [*(["law"] if found.laws else []), *found.entries, "pressure angle", "radius of curvature"]
+    heads = [*(["law"] if cams.laws else []), *cams.entries, "pressure angle", "radius of curvature"]
     for head in heads:
         table.add_column(head, justify="left" if head == "law" else "right")
     for i, profile in best:
-        cells = [found.laws[int(found.law[i])]] if found.laws else []
-        for key, column in found.entries.items():
+        cells = [cams.laws[int(cams.law[i])]] if cams.laws else []
+        for key, column in cams.entries.items():
             unit, factor = units.get(key, ("mm", 1e3))
             cells.append(f"{factor * column[i]:.5g} {unit}".strip())
         convex = profile.curvature_radius_convex_min

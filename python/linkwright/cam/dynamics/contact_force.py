@@ -211,7 +211,7 @@ def contact_force(
         findings=(
             *_jams(course, bearing, friction, side, jammed),
             *_losses(course, force, lost),
-            *(str(each) for each in changes),
+            *(str(change) for change in changes),
         ),
     )
 

@@ -131,7 +131,7 @@ class CamCourse:
 
     def __post_init__(self) -> None:
         """Bring all to one length; refuse what is no course."""
-        given = {each.name: getattr(self, each.name) for each in fields(self)}
+        given = {field.name: getattr(self, field.name) for field in fields(self)}
         in_range(**{name: (value, _COURSE[name]) for name, value in given.items()})
         for name, array in alike(**given).items():
             object.__setattr__(self, name, array)
@@ -157,8 +157,8 @@ class CamCourse:
     @property
     def lift_ddot(self) -> Floats:
         """s̈ = s″ω² + s′ε, (n,) [m/s² or rad/s²]."""
-        found: Floats = self.lift_d2 * self.speed**2 + self.lift_d1 * self.acceleration
-        return found
+        ddot: Floats = self.lift_d2 * self.speed**2 + self.lift_d1 * self.acceleration
+        return ddot
 
 
 @public
@@ -236,11 +236,11 @@ def force_along(course: CamCourse, follower: FollowerLoad) -> Floats:
         The load has another length than the course.
     """
     load = alike(cam_angle=course.cam_angle, load=follower.load)["load"]
-    found: Floats = (
+    along: Floats = (
         follower.mass * course.lift_ddot
         + follower.damping * course.velocity
         + follower.spring_rate * course.lift
         + follower.preload
         + load
     )
-    return found
+    return along

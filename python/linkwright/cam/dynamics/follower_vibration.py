@@ -138,8 +138,8 @@ class Train:
         gap, gap_d1 = (
             (1 - model.share) * self._lift(order + k, step, phi) - parts[order + k] for k in range(2)
         )
-        found: Floats = model.stiffness * gap + model.damping * self.speed * gap_d1
-        return found
+        force: Floats = model.stiffness * gap + model.damping * self.speed * gap_d1
+        return force
 
     def departure_extremes(self) -> tuple[Extreme, Extreme]:
         """Minimum and maximum departure e [m]."""
@@ -225,15 +225,15 @@ def follower_vibration(lift: MotionLaw, model: OneMass, speed: float, n: int = 7
 
 def _size(extremes: tuple[Extreme, Extreme]) -> float:
     """The larger size of minimum and maximum."""
-    return max(abs(each.value) for each in extremes)
+    return max(abs(extreme.value) for extreme in extremes)
 
 
 def _findings(impulses: tuple[Impulse, ...], low: Extreme) -> tuple[str, ...]:
     """What a designer must know."""
     found = [
-        f"the velocity of the lift jumps by {each.velocity_step:.4g} m/s at "
-        f"{np.degrees(each.cam_angle):.4g}°: the cam strikes"
-        for each in impulses
+        f"the velocity of the lift jumps by {impulse.velocity_step:.4g} m/s at "
+        f"{np.degrees(impulse.cam_angle):.4g}°: the cam strikes"
+        for impulse in impulses
     ]
     if low.value <= 0:
         found.append(

@@ -137,10 +137,10 @@ def _least(lift: MotionLaw, follower: FollowerLoad, held: MotionLaw) -> LiftOff:
         if math.isinf(speed):
             break
         low = combined((1.0, _needed(lift, follower, speed)), (1.0, held)).extremes()[0]
-        found = _speed_at(lift, follower, held, low)
-        if found >= speed * (1 - _ROUNDING):
+        speed_at = _speed_at(lift, follower, held, low)
+        if speed_at >= speed * (1 - _ROUNDING):
             break
-        at, speed = low, found
+        at, speed = low, speed_at
     return LiftOff(
         speed=speed,
         cam_angle=at.at,
@@ -154,7 +154,7 @@ def _start(lift: MotionLaw, follower: FollowerLoad, held: MotionLaw) -> tuple[Ex
     places = [lift.extremes(2)[0], lift.extremes(1)[0]]
     for low, high in zip(lift.breaks, lift.breaks[1:], strict=False):
         places += [Extreme(float(x), 0.0, "after") for x in np.linspace(low, high, _STARTS)[:-1]]
-    speeds = [_speed_at(lift, follower, held, each) for each in places]
+    speeds = [_speed_at(lift, follower, held, place) for place in places]
     best = int(np.argmin(speeds))
     return places[best], speeds[best]
 

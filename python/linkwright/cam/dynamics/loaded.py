@@ -186,8 +186,8 @@ def _angles(profile: CamProfile) -> Floats:
     cam_angles[twice + 1] += _BESIDE
     cam_angles[0] += _BESIDE
     cam_angles[-1] -= _BESIDE
-    found: Floats = np.sort(np.mod(cam_angles + profile.cam.phase, 2 * np.pi))
-    return found
+    angles: Floats = np.sort(np.mod(cam_angles + profile.cam.phase, 2 * np.pi))
+    return angles
 
 
 def _pressed(machine: Machine, speed: float | None, angles: Floats) -> Forces:

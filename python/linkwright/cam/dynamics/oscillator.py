@@ -174,8 +174,8 @@ def _integral(
     """∫ exp(μ(Δ − t)) g(x + t) dt over stretches inside pieces."""
     g = in_pieces(drive, pieces, low[:, None] + length[:, None] * nodes)
     rotation = np.exp(pole * length[:, None] * (1 - nodes))
-    found: Complexes = length * ((g * rotation) @ weights)
-    return found
+    integral: Complexes = length * ((g * rotation) @ weights)
+    return integral
 
 
 def _run(start: complex, growth: Complexes, inner: Complexes, kick: Floats) -> tuple[Complexes, complex]:

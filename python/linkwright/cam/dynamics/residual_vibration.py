@@ -237,8 +237,8 @@ def _height(rise: MotionLaw) -> float:
 def _primary(course: MotionLaw, unit: OneMass, tau: float) -> tuple[float, float]:
     """Largest departure and acceleration during a rise from u = 0 to 1 that takes τ natural periods."""
     train = Train(course, unit, 1 / tau, "dwell")
-    departure = max(abs(each.value) for each in train.departure_extremes())
-    acceleration = max(abs(each.value) for each in train.acceleration_extremes())
+    departure = max(abs(extreme.value) for extreme in train.departure_extremes())
+    acceleration = max(abs(extreme.value) for extreme in train.acceleration_extremes())
     return departure, acceleration * tau**2
 
 

@@ -160,8 +160,8 @@ def cam_force_figure(loaded: LoadedCam) -> Figure:
         axes[1].plot(angle, 1e-6 * loaded.pressure, color=RED)
         axes[1].set_ylabel("contact pressure [MPa]")
         axes[1].set_ylim(bottom=0)
-    for each in axes:
-        turn_axis(each, label=each is axes[-1])
+    for axis in axes:
+        turn_axis(axis, label=axis is axes[-1])
     return figure
 
 
@@ -175,15 +175,15 @@ def _most(profile: CamProfile) -> float:
 
 def _curvature_limits(profile: CamProfile) -> list[Limit]:
     """Values [1/mm], words and colours of what the curvature may be."""
-    cam, found = profile.cam, []
+    cam, curvature_limits = profile.cam, []
     if cam.curvature_limit is not None:
-        found.append(
+        curvature_limits.append(
             (1e-3 / cam.curvature_limit, f"convex limit ρ = {1e3 * cam.curvature_limit:.4g} mm", RED)
         )
     if cam.cutter_radius is not None and profile.curvature_radius_concave_min is not None:
         words = f"cutter of {1e3 * cam.cutter_radius:.4g} mm in hollow parts"
-        found.append((-1e-3 / cam.cutter_radius, words, LINES[3]))
-    return found
+        curvature_limits.append((-1e-3 / cam.cutter_radius, words, LINES[3]))
+    return curvature_limits
 
 
 def _near(limits: list[Limit], drawn: Floats) -> list[Limit]:

@@ -89,18 +89,18 @@ def pressure_figure(cam_angle: Floats, contact: LineContact, limit: float | None
 
 
 @styled
-def vibration_figure(found: FollowerVibration) -> Figure:
+def vibration_figure(vibration: FollowerVibration) -> Figure:
     """Draw how far the follower's mass is from the lift, and the force of its train on the cam."""
     figure, (place, force) = panels(2, height=4.2)
-    degrees = np.degrees(found.cam_angle)
-    place.plot(degrees, 1e3 * (found.position - found.lift), color=BLUE)
+    degrees = np.degrees(vibration.cam_angle)
+    place.plot(degrees, 1e3 * (vibration.position - vibration.lift), color=BLUE)
     place.set_ylabel("mass less lift x − s\n[mm]")
     zero_line(place)
-    force.plot(degrees, found.force, color=RED)
+    force.plot(degrees, vibration.force, color=RED)
     force.set_ylabel("force on the cam\n[N]")
-    roomy(force, found.force)
+    roomy(force, vibration.force)
     zero_line(force)
-    for impulse in found.impulses:
+    for impulse in vibration.impulses:
         force.axvline(np.degrees(impulse.cam_angle), color=SOFT, linewidth=0.8, linestyle=":")
     turn_axis(force)
     force.set_xlabel("cam angle φ [°]")

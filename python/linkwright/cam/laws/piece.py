@@ -108,7 +108,7 @@ class Piece(NamedTuple):
     def integral(self, length: float, start: float = 0.0) -> Piece:
         """Integral over x = length·u that begins with a value."""
         harmonics = tuple(Harmonic(k, -b * length / k, a * length / k) for k, a, b in self.harmonics)
-        constant = start - math.fsum(each.cosine for each in harmonics)
+        constant = start - math.fsum(harmonic.cosine for harmonic in harmonics)
         return Piece((constant, *(c * length / (i + 1) for i, c in enumerate(self.polynomial))), harmonics)
 
     def scaled(self, factor: float, shift: float = 0.0) -> Piece:
@@ -127,7 +127,7 @@ class Piece(NamedTuple):
             math.fsum(self.polynomial[j] * math.comb(j, i) * low ** (j - i) for j in range(i, n)) * width**i
             for i in range(n)
         )
-        return Piece(shifted, tuple(_shifted(each, low, width) for each in self.harmonics))
+        return Piece(shifted, tuple(_shifted(harmonic, low, width) for harmonic in self.harmonics))
 
     def plus(self, other: Piece) -> Piece:
         """The sum of two pieces over the same stretch."""
@@ -139,12 +139,12 @@ class Piece(NamedTuple):
     @property
     def waves(self) -> float:
         """The highest frequency [rad over the piece]."""
-        return max((abs(each.frequency) for each in self.harmonics), default=0.0)
+        return max((abs(harmonic.frequency) for harmonic in self.harmonics), default=0.0)
 
     def vanishes(self, scale: float) -> bool:
         """Whether all coefficients are zero within rounding of a scale."""
-        sizes = [*self.polynomial, *(x for each in self.harmonics for x in each[1:])]
-        return all(abs(each) <= 64 * np.finfo(float).eps * scale for each in sizes)
+        sizes = [*self.polynomial, *(x for harmonic in self.harmonics for x in harmonic[1:])]
+        return all(abs(size) <= 64 * np.finfo(float).eps * scale for size in sizes)
 
 
 def _shifted(harmonic: Harmonic, low: float, width: float) -> Harmonic:

@@ -218,14 +218,14 @@ def _said(own: float | None, other: float | None) -> float | None:
 
 def _closed(sections: Sequence[Section]) -> list[Section]:
     """The sections with what rounding leaves of revolution and lift shared out."""
-    turn = math.fsum(each.angle for each in sections)
-    left = math.fsum(each.lift for each in sections)
+    turn = math.fsum(section.angle for section in sections)
+    left = math.fsum(section.lift for section in sections)
     largest = max(range(len(sections)), key=lambda i: abs(sections[i].lift))
     if abs(turn - TURN) > CLOSES * TURN:
         raise InputError(f"the angles of a programme add to {math.degrees(turn):.10g}°, expected 360°")
     if abs(left) > CLOSES * abs(sections[largest].lift):
         raise InputError(f"the lifts of a programme add to {left:.10g}, expected 0")
-    closed = [replace(each, angle=each.angle * TURN / turn) for each in sections]
+    closed = [replace(section, angle=section.angle * TURN / turn) for section in sections]
     if left:
         closed[largest] = replace(closed[largest], lift=closed[largest].lift - left)
     return closed

@@ -30,7 +30,7 @@ _PLANE = 1e-6
 def _kernel(module: str) -> Any:
     """A module of Open CASCADE; the error says how to install it."""
     try:
-        found = import_module(f"OCP.{module}")
+        kernel = import_module(f"OCP.{module}")
         message = import_module("OCP.Message")
     except ImportError as error:
         raise InputError(
@@ -39,7 +39,7 @@ def _kernel(module: str) -> Any:
     # It would print what it does, into the output of whoever called.
     printers = message.Message_PrinterOStream.get_type_descriptor_s()
     message.Message.DefaultMessenger_s().RemovePrinters(printers)
-    return found
+    return kernel
 
 
 def write_step(file: File, name: str, path: Spline, width: float) -> None:

@@ -108,7 +108,7 @@ def _refuse_scale(file: File, root: ElementTree.Element) -> None:
 def _outline(file: File, layer: str, data: str) -> Outline:
     """Corners and bulges of path data; the end of the path must be its start."""
     steps = list(_steps(data))
-    if [each[0] for each in steps[:1]] != ["M"] or steps[-1][0] != "Z" or len(steps) < 3:
+    if [step[0] for step in steps[:1]] != ["M"] or steps[-1][0] != "Z" or len(steps) < 3:
         raise ExchangeError(f'{file}: the path "{layer}" is not one closed path')
     ends = np.array([step[1][-2:] for step in steps[:-1]]) * [1e-3, -1e-3]
     gap = float(np.linalg.norm(ends[-1] - ends[0]))

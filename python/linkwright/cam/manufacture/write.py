@@ -86,10 +86,10 @@ def read_back(
 _READERS = {".dxf": read_dxf, ".svg": read_svg}
 
 
-def _compare(file: File, layer: str, found: FileOutline, track: Track, tolerance: float) -> MeasuredOutline:
+def _compare(file: File, layer: str, outline: FileOutline, track: Track, tolerance: float) -> MeasuredOutline:
     """The deviation of an outline; refused if larger than the tolerance."""
     try:
-        measured = deviation(found.path, track)
+        measured = deviation(outline.path, track)
     except ExchangeError as error:
         raise ExchangeError(f"{file}: the outline of layer {layer} is not the curve: {error}") from None
     if not measured.largest <= tolerance:
@@ -98,7 +98,7 @@ def _compare(file: File, layer: str, found: FileOutline, track: Track, tolerance
             "cam angle "
             f"{np.degrees(measured.angle):.6g}°; the tolerance is {1e3 * tolerance:.6g} mm"
         )
-    return MeasuredOutline(layer, found.form, measured, tolerance)
+    return MeasuredOutline(layer, outline.form, measured, tolerance)
 
 
 def _compare_rows(file: File, track: Track, layer: str) -> MeasuredOutline:

@@ -136,7 +136,7 @@ class MotionSection(Description):
         if self.law is None:
             return 0.0
         slopes = [self.end(name, family) for name in ENDS[:2]] if self.is_steady else []
-        slope = next((each for each in slopes if each is not None), None)
+        slope = next((slope for slope in slopes if slope is not None), None)
         if slope is not None:
             return slope * self.angle
         return self.law.own_lift(self.angle, swing=family == "swing")
@@ -151,7 +151,7 @@ def programme(sections: Sequence[MotionSection], expected: Family = "lift") -> P
     """The motion that sections describe."""
     from linkwright.cam.laws.programme import programme as joined
 
-    return joined([stretch(each, expected) for each in sections])
+    return joined([stretch(section, expected) for section in sections])
 
 
 def stretch(section: MotionSection, family: Family) -> Section:

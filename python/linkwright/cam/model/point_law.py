@@ -71,7 +71,7 @@ class PointLaw(Law):
             expected = f"points that go as far as the section, {task.lift:.10g}"
             raise LawError(Problem("swing" if swing else "lift", found, expected))
         places = [0.0, *(each / span for each in self.angle[1:-1]), 1.0]
-        ways = [each - values[0] for each in values[:-1]]
+        ways = [value - values[0] for value in values[:-1]]
         return spline(places, [*ways, task.lift], task, self._degree)
 
     @property

@@ -82,7 +82,7 @@ def _ends_other_than(
 
 def _turn_faults(sections: Sequence[MotionSection], key: str) -> Iterator[InitErrorDetails]:
     """Angles that do not add to a revolution."""
-    turn = math.fsum(each.angle for each in sections)
+    turn = math.fsum(section.angle for section in sections)
     over = turn - TURN
     if abs(over) <= CLOSES * TURN:
         return
@@ -102,7 +102,7 @@ def _turn_faults(sections: Sequence[MotionSection], key: str) -> Iterator[InitEr
 
 def _lift_faults(sections: Sequence[MotionSection], family: Family, key: str) -> Iterator[InitErrorDetails]:
     """Lifts that do not come back to zero."""
-    lifts = [each.change(family) or 0.0 for each in sections]
+    lifts = [section.change(family) or 0.0 for section in sections]
     over, largest = math.fsum(lifts), max(map(abs, lifts))
     if abs(over) <= CLOSES * largest:
         return
@@ -117,7 +117,7 @@ def _lift_faults(sections: Sequence[MotionSection], family: Family, key: str) ->
 
 def _law_faults(sections: Sequence[MotionSection], family: Family, key: str) -> Iterator[InitErrorDetails]:
     """Laws that cannot do what their section asks."""
-    stretches = [stretch(each, family) for each in sections]
+    stretches = [stretch(section, family) for section in sections]
     for i, (section, task) in enumerate(zip(stretches, boundaries(stretches), strict=True)):
         try:
             section_law(section, task)

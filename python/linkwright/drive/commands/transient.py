@@ -183,9 +183,9 @@ def _results(of: _Followed, curves: bool) -> dict[str, Any]:
         "torque_load_end": of.motion.torque_load_end,
         "evaluations": of.motion.evaluations,
         "steps": of.motion.steps,
-        "methods": [each._asdict() for each in of.motion.methods],
-        "extremes": [each._asdict() for each in of.extremes],
-        "events": [each._asdict() for each in of.events],
+        "methods": [method._asdict() for method in of.motion.methods],
+        "extremes": [extreme._asdict() for extreme in of.extremes],
+        "events": [event._asdict() for event in of.events],
     }
     if curves:
         told |= {name: values.tolist() for name, values in _course(of).curves().items()}

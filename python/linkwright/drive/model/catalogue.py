@@ -178,7 +178,7 @@ def _motor(row: dict[str, Any]) -> CatalogueMotor:
     known.setdefault("torque_rated", known.get("power_rated", 0.0) / known["speed_rated"])
     known.setdefault("power_rated", known["torque_rated"] * known["speed_rated"])
     return CatalogueMotor(
-        **{each.name: known[each.name] for each in fields(CatalogueMotor) if each.name in known}
+        **{field.name: known[field.name] for field in fields(CatalogueMotor) if field.name in known}
     )
 
 
@@ -199,7 +199,7 @@ def _given(row: dict[str, Any]) -> dict[str, Any]:
     """The entries of a row in SI, under the names of `CatalogueMotor`."""
     known: dict[str, Any] = {}
     for key, value in row.items():
-        suffix = next((each for each in _FACTORS if key.endswith(each)), None)
+        suffix = next((factor for factor in _FACTORS if key.endswith(factor)), None)
         if suffix is not None:
             known[key.removesuffix(suffix)] = value * _FACTORS[suffix]
         elif not key.endswith("_ratio"):

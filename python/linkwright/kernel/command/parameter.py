@@ -91,7 +91,9 @@ def command(function: Callable[..., Any], name: str | None = None) -> click.Comm
         A parameter has no mark.
     """
     hints = get_type_hints(function, include_extras=True)
-    params = [_param(hints[each.name], each) for each in signature(function).parameters.values()]
+    params = [
+        _param(hints[parameter.name], parameter) for parameter in signature(function).parameters.values()
+    ]
     about = cleandoc(function.__doc__ or "")
     words = name or function.__name__.replace("_", "-")
     return click.Command(words, params=params, help=about, callback=function, context_settings=HELP)
@@ -100,7 +102,7 @@ def command(function: Callable[..., Any], name: str | None = None) -> click.Comm
 def _param(hint: Any, parameter: Parameter) -> click.Parameter:
     """Option or argument of the command line for a parameter."""
     marks = getattr(hint, "__metadata__", ())
-    mark = next((each for each in marks if isinstance(each, Option | Argument)), None)
+    mark = next((mark for mark in marks if isinstance(mark, Option | Argument)), None)
     if mark is None or get_origin(hint) is not Annotated:
         raise TypeError(f"{parameter.name}: its type has no mark Option or Argument")
     kind, several = _kind(hint.__origin__)
@@ -133,7 +135,7 @@ def _param(hint: Any, parameter: Parameter) -> click.Parameter:
 def _kind(hint: Any) -> tuple[Any, bool]:
     """The type of one value, and whether there are several."""
     if NoneType in get_args(hint):
-        hint = next(each for each in get_args(hint) if each is not NoneType)
+        hint = next(arg for arg in get_args(hint) if arg is not NoneType)
     return (get_args(hint)[0], True) if get_origin(hint) is list else (hint, False)
 
 

@@ -116,7 +116,7 @@ def close_match(name: str, known: Iterable[str]) -> str:
 
     names = list(known)
     words = sorted(name.split("_"))
-    reordered = [each for each in names if sorted(each.split("_")) == words]
+    reordered = [name for name in names if sorted(name.split("_")) == words]
     close = reordered or get_close_matches(name, names, n=3, cutoff=0.6)
     return "did you mean " + " or ".join(f'"{each}"' for each in close) + "?" if close else ""
 

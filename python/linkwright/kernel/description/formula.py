@@ -112,8 +112,8 @@ def parse(text: str) -> Node:
 def names(node: Node) -> dict[str, int]:
     """Names in a formula and the character at which each stands first, without its functions."""
     found = {str(node.value): node.position} if node.op == "name" else {}
-    for each in node.args:
-        found = {**names(each), **found}
+    for arg in node.args:
+        found = {**names(arg), **found}
     return found
 
 
@@ -125,11 +125,11 @@ def terms(node: Node) -> tuple[Node, ...]:
     """
     alone: list[Node] = []
     together: Node | None = None
-    for each in _summands(node):
-        if names(each).keys() & (SPEEDS | {"t"}):
-            alone.append(each)
+    for summand in _summands(node):
+        if names(summand).keys() & (SPEEDS | {"t"}):
+            alone.append(summand)
         else:
-            together = each if together is None else Node("+", (together, each))
+            together = summand if together is None else Node("+", (together, summand))
     return (*alone, together) if together is not None else tuple(alone)
 
 
@@ -168,8 +168,8 @@ def _summands(node: Node) -> Iterator[Node]:
     """What is added up, each with its sign."""
     if node.op in "+-" and len(node.args) == 2:
         yield from _summands(node.args[0])
-        for each in _summands(node.args[1]):
-            yield each if node.op == "+" else Node("negative", (each,), position=each.position)
+        for summand in _summands(node.args[1]):
+            yield summand if node.op == "+" else Node("negative", (summand,), position=summand.position)
     elif node.op == "negative":
         for each in _summands(node.args[0]):
             yield Node("negative", (each,), position=each.position)

@@ -95,7 +95,7 @@ def text_faults(
             yield fault(key, found=text, expected=expected, remedy=_meant(name, known))
     # A law of a driver is worked as a whole, a load summand by summand.
     parts = terms(tree) if set(variables) >= SPEEDS else (tree,)
-    if any(depth(program(each)) > DEPTH for each in parts):
+    if any(depth(program(part)) > DEPTH for part in parts):
         expected = f"at most {DEPTH} numbers at once before an operator joins them"
         yield fault(key, found=text, expected=expected, remedy="write it as a sum of shorter parts")
 

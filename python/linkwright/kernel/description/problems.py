@@ -38,9 +38,9 @@ def problems(
         Without file and line, each once.
     """
     details = error.errors(include_url=False)
-    for each in details:
-        each["loc"] = (*at, *each["loc"])
-    return list(dict.fromkeys(_problem(each, model, data) for each in details))
+    for detail in details:
+        detail["loc"] = (*at, *detail["loc"])
+    return list(dict.fromkeys(_problem(detail, model, data) for detail in details))
 
 
 def _problem(error: ErrorDetails, model: type[BaseModel], data: object) -> Problem:

@@ -47,18 +47,18 @@ def model_of(annotation: Any, data: object = None) -> type[BaseModel] | None:
     if len(models) == 1:
         only: type[BaseModel] = models[0]
         return only
-    return next((each for each in models if look(data, "kind") in kinds_of(each)), None)
+    return next((model for model in models if look(data, "kind") in kinds_of(model)), None)
 
 
 def models_in(annotation: Any) -> list[type[BaseModel]]:
     """All models that an entry may hold, in tables and lists too."""
-    found: list[type[BaseModel]] = []
+    models: list[type[BaseModel]] = []
     for each in map(_bare, _branches(annotation)):
         if _is_model(each):
-            found.append(each)
+            models.append(each)
         elif get_origin(each) in (dict, tuple):
-            found += [model for inner in get_args(each) if inner is not ... for model in models_in(inner)]
-    return found
+            models += [model for inner in get_args(each) if inner is not ... for model in models_in(inner)]
+    return models
 
 
 def kinds_of(model: type[BaseModel]) -> tuple[str, ...]:
@@ -72,17 +72,17 @@ def words_of(annotation: Any) -> str:
     mark = mark_of(annotation)
     if mark is not None:
         return mark.expected
-    bare = [_bare(each) for each in _branches(annotation)]
+    bare = [_bare(branch) for branch in _branches(annotation)]
     if any(get_origin(each) is Literal for each in bare):
         choices = [choice for each in bare if get_origin(each) is Literal for choice in get_args(each)]
-        quoted = [f'"{each}"' if isinstance(each, str) else str(each) for each in choices]
+        quoted = [f'"{choice}"' if isinstance(choice, str) else str(choice) for choice in choices]
         return quoted[0] if len(quoted) == 1 else "one of " + ", ".join(quoted)
     if any(_is_model(each) or get_origin(each) is dict for each in bare):
         return "a table"
     lists = [each for each in bare if get_origin(each) is tuple]
     if lists:
         inner = get_args(lists[0])[0]
-        if any(_is_model(_bare(each)) for each in _branches(inner)):
+        if any(_is_model(_bare(branch)) for branch in _branches(inner)):
             return "a list of tables"
         entry = mark_of(inner)
         if entry is not None:
@@ -115,7 +115,7 @@ def _branches(annotation: Any) -> tuple[Any, ...]:
     """The alternatives of a union but for None; the annotation itself if it is none."""
     bare = _bare(annotation)
     if get_origin(bare) in (Union, types.UnionType):
-        return tuple(branch for each in get_args(bare) for branch in _branches(each))
+        return tuple(branch for arg in get_args(bare) for branch in _branches(arg))
     return () if bare is types.NoneType else (annotation,)
 
 
@@ -135,4 +135,4 @@ def _is_model(annotation: Any) -> bool:
 def kinds_at(annotation: Any) -> list[str]:
     """All words for ``kind`` that a table may have."""
     models = [each for each in map(_bare, _branches(annotation)) if _is_model(each)]
-    return [word for each in models for word in kinds_of(each)]
+    return [word for model in models for word in kinds_of(model)]

@@ -163,8 +163,8 @@ def zero_line(axes: Axes) -> None:
 
 def roomy(axes: Axes, *values: Floats, share: float = 0.12) -> None:
     """Limits in y that hold values with room around them, also where they are all the same."""
-    low = min(float(np.min(each)) for each in values)
-    high = max(float(np.max(each)) for each in values)
+    low = min(float(np.min(value)) for value in values)
+    high = max(float(np.max(value)) for value in values)
     # A constant gets a tenth of itself to both sides, so that rounding does not fill the picture.
     span = high - low if high - low > 1e-6 * max(abs(low), abs(high)) else 0.2 * (abs(high) or 1.0)
     middle = 0.5 * (low + high)

@@ -55,15 +55,15 @@ def size_problems(tables: dict[str, Any]) -> list[Problem]:
     list of Problem
         With their keys; not all, if they are many.
     """
-    found: list[Problem] = []
+    problems: list[Problem] = []
     places: list[tuple[tuple[str, ...], Any]] = [((), tables)]
-    while places and len(found) < _ENOUGH:
+    while places and len(problems) < _ENOUGH:
         place, node = places.pop()
-        found += _problems(place, node)
+        problems += _problems(place, node)
         if len(place) < DEPTH.most and isinstance(node, dict | list) and len(node) <= _most(node):
             below = node.items() if isinstance(node, dict) else enumerate(node)
             places += [((*place, str(key)), each) for key, each in below]
-    return found
+    return problems
 
 
 def _most(node: dict[str, Any] | list[Any]) -> int:

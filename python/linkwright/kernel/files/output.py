@@ -174,7 +174,7 @@ class OutputFolder:
 
     def _require_no_file_above(self) -> None:
         """A file where a folder above should be."""
-        above = next((each for each in self.path.parents if each.exists()), None)
+        above = next((parent for parent in self.path.parents if parent.exists()), None)
         if above is not None and not above.is_dir():
             raise InputError(f"{self.path}: found a file {above}, expected a folder for --out")
 
@@ -230,14 +230,14 @@ def file_names(words: Mapping[str, str]) -> dict[str, str]:
     dict of str to str
         Text → name with its ending, no two the same, not even in letters of the other case.
     """
-    found: dict[str, str] = {}
+    names: dict[str, str] = {}
     taken: set[str] = set()
     for text, ending in words.items():
         stem = file_name(text) or "file"
         tries = (f"{stem}{f'_{n}' if n > 1 else ''}{ending}" for n in range(1, len(words) + 2))
-        found[text] = next(each for each in tries if each.casefold() not in taken)
-        taken.add(found[text].casefold())
-    return found
+        names[text] = next(each for each in tries if each.casefold() not in taken)
+        taken.add(names[text].casefold())
+    return names
 
 
 def _write_all(contents: Mapping[Path, str | bytes]) -> None:

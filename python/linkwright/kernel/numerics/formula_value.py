@@ -60,4 +60,4 @@ def value(
         return float(node.value)
     if node.op == "name":
         return names[str(node.value)]
-    return operations[node.op](*(value(each, names, operations) for each in node.args))
+    return operations[node.op](*(value(arg, names, operations) for arg in node.args))

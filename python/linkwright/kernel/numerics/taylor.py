@@ -159,10 +159,10 @@ def _power(a: Taylor, b: Taylor) -> Taylor:
     if (b.c[1:] == 0).all() and np.ptp(b.c[0]) == 0:
         exponent = float(b.c[0].flat[0])
         if exponent == int(exponent) and 0 <= exponent <= 64:
-            found = a._like(1.0)
+            power = a._like(1.0)
             for _ in range(int(exponent)):
-                found = _product(found, a)
-            return found
+                power = _product(power, a)
+            return power
         # x y′ = p y
         return _solution(lambda v: v**exponent, lambda x, y: _quotient(_product(b, y), x), a)
     return _exp(_product(b, _log(a)))

@@ -205,8 +205,8 @@ class _Pieces(NamedTuple):
 
 def _size(values: Floats, low: Floats, high: Floats) -> Floats:
     """Integrals of the absolute values of quantities (p, k, N), to some digits."""
-    found: Floats = (high - low) @ np.abs(values).mean(axis=2)
-    return found
+    size: Floats = (high - low) @ np.abs(values).mean(axis=2)
+    return size
 
 
 def _flat(pairs: Floats) -> Floats:

@@ -105,7 +105,7 @@ def matching(word: str, language: str = "en") -> tuple[Term, ...]:
         """Whether the word is one of those that lead to a term."""
         words = (term.term.casefold(), *(name.casefold() for name in term.names))
         return (
-            any(wanted in each for each in words)
+            any(wanted in word for word in words)
             or word == term.symbol
             or any(re.fullmatch(each, word, re.IGNORECASE) for each in term.retired)
         )

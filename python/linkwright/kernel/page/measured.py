@@ -72,7 +72,7 @@ def crank_angle(angle: float | None, before: str = "") -> str:
 def _marked(
     text: str, value: float, unit: str, digits: int, before: str, *, is_crank_angle: bool = False
 ) -> Measured:
-    found = Measured(text)
-    found.value, found.unit, found.digits, found.before = value, unit, digits, before
-    found.is_crank_angle = is_crank_angle
-    return found
+    marked = Measured(text)
+    marked.value, marked.unit, marked.digits, marked.before = value, unit, digits, before
+    marked.is_crank_angle = is_crank_angle
+    return marked

@@ -116,8 +116,8 @@ def shown_columns(
     dict of str to ndarray, shape (n,)
         Head with the unit → values.
     """
-    found = {}
+    columns = {}
     for name, curve in curves.items():
         unit, factor = units.shown(unit_of(name))
-        found[f"{name} [{unit or '-'}]"] = curve / factor
-    return found
+        columns[f"{name} [{unit or '-'}]"] = curve / factor
+    return columns

@@ -220,7 +220,7 @@ def checks_of(function: Callable[..., Any]) -> dict[str, Check]:
         Name of the argument → what takes its name and value, and returns the value.
     """
     parameters = inspect.signature(function).parameters.values()
-    found = {each.name: _check(str(each.annotation), each.default) for each in parameters}
+    found = {parameter.name: _check(str(parameter.annotation), parameter.default) for parameter in parameters}
     return {name: check for name, check in found.items() if check is not None}
 
 

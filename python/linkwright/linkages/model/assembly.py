@@ -140,7 +140,7 @@ class _Builder:
             hangs = [self._joints_of(need) for need in part.needs]
             own = {name} if part.role == "joint" else set[str]()
             if None not in hangs:
-                held = own.union(*(each for each in hangs if each is not None))
+                held = own.union(*(hang for hang in hangs if hang is not None))
                 if held:
                     system[name] = held
         return system
@@ -157,7 +157,7 @@ class _Builder:
             return {maker}
         if part.role == "element":
             return None
-        below = [self._joints_of(each, depth + 1) for each in part.needs]
+        below = [self._joints_of(need, depth + 1) for need in part.needs]
         return None if None in below else set().union(*(each for each in below if each is not None))
 
     def _group(self, joints: list[str], conditions: list[str]) -> None:
@@ -211,10 +211,10 @@ def _smallest(depends: Mapping[str, set[str]], full: set[str]) -> Iterator[set[s
 
 def _reach(joint: str, depends: Mapping[str, set[str]]) -> set[str]:
     """All joints that one depends on, itself included."""
-    found, open_ = {joint}, [joint]
+    reach, open_ = {joint}, [joint]
     while open_:
         for other in depends.get(open_.pop(), ()):
-            if other not in found:
-                found.add(other)
+            if other not in reach:
+                reach.add(other)
                 open_.append(other)
-    return found
+    return reach

@@ -34,18 +34,24 @@ def guide_faults(topology: Topology) -> Iterator[InitErrorDetails]:
 
     `topology`: a topology whose names all refer to something.
     """
-    for each in topology.elements:
-        for before in [key[: -len("through")] for key in each.kind.references if key.endswith("through")]:
-            yield from _through(each, before, topology)
-        if each.kind.table == "crossings" and not set(each.references.values()) - set(topology.fixed_points):
+    for element in topology.elements:
+        for before in [key[: -len("through")] for key in element.kind.references if key.endswith("through")]:
+            yield from _through(element, before, topology)
+        if element.kind.table == "crossings" and not set(element.references.values()) - set(
+            topology.fixed_points
+        ):
             remedy = "put a guide on a link that moves"
             yield fault(
-                "crossings", each.name, found="two guides at rest", expected="one that moves", remedy=remedy
+                "crossings",
+                element.name,
+                found="two guides at rest",
+                expected="one that moves",
+                remedy=remedy,
             )
-        if each.kind.table == "gears" and not {"meshes", "carrier"} & set(each.references):
+        if element.kind.table == "gears" and not {"meshes", "carrier"} & set(element.references):
             expected = "the other gear, a carrier, or both"
             remedy = "a gear that meshes with one at rest and has no carrier does not turn"
-            yield fault("gears", each.name, "meshes", expected=expected, remedy=remedy)
+            yield fault("gears", element.name, "meshes", expected=expected, remedy=remedy)
 
 
 def _through(each: Element, before: str, topology: Topology) -> Iterator[InitErrorDetails]:
@@ -66,19 +72,19 @@ def _through(each: Element, before: str, topology: Topology) -> Iterator[InitErr
 def _sliding(topology: Topology) -> list[str]:
     """Names of what slides without turning: its own guide is on no link."""
     return [
-        each.name
-        for each in topology.elements
-        if each.kind.table in _SLIDING
-        and each.kind.slides
-        and not any(key.split(".")[-1] == "on" for key in each.references)
+        element.name
+        for element in topology.elements
+        if element.kind.table in _SLIDING
+        and element.kind.slides
+        and not any(key.split(".")[-1] == "on" for key in element.references)
     ]
 
 
 def points_of(link: str, topology: Topology) -> list[str]:
     """Names of the points that a link carries. Returns: its ends first, then the points fixed to it."""
-    maker = next(each for each in topology.elements if each.name == topology.links[link])
+    maker = next(element for element in topology.elements if element.name == topology.links[link])
     ends = [maker.references.get(key, "O") for key in _ENDS[maker.kind.table][link.removeprefix(maker.name)]]
     made = maker.made(maker.kind.points)
-    fixed = [each.name for each in topology.elements if each.references.get("link") == link]
+    fixed = [element.name for element in topology.elements if element.references.get("link") == link]
     carried = [name for name in fixed if name in topology.names("rigid_points")]
     return [*ends, *made, *carried]

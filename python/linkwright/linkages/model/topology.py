@@ -171,7 +171,7 @@ class Topology:
         known = _known.get(id(mechanism))
         if known is not None and known[0] is mechanism:
             return known[1]
-        found = cls([each for kind in KINDS for each in _elements(kind, look(mechanism, kind.table))])
+        found = cls([element for kind in KINDS for element in _elements(kind, look(mechanism, kind.table))])
         if isinstance(mechanism, BaseModel):
             # A checked mechanism is frozen: the same object has the same topology.
             if len(_known) >= _KNOWN_MAX:
@@ -181,31 +181,35 @@ class Topology:
 
     def names(self, *tables: str) -> list[str]:
         """Names of the elements in some tables."""
-        return [each.name for each in self.elements if each.kind.table in tables]
+        return [element.name for element in self.elements if element.kind.table in tables]
 
     @property
     def fixed_points(self) -> list[str]:
         """Names of the points at rest; the origin first."""
-        origin = [] if any(each.name == ORIGIN for each in self.elements) else [ORIGIN]
+        origin = [] if any(element.name == ORIGIN for element in self.elements) else [ORIGIN]
         return origin + self.names("points")
 
     @property
     def moving_points(self) -> list[str]:
         """Names of the points that move."""
-        moving = (each for each in self.elements if each.kind.table != "points")
+        moving = (element for element in self.elements if element.kind.table != "points")
         return [name for each in moving for name in each.made(each.kind.points)]
 
     @property
     def slides(self) -> list[str]:
         """Names of the coordinates along guides."""
-        free = {each.name for each in self.elements if each.kind.table == "joints" and not each.references}
-        listed = (each for each in self.elements if each.name not in free)
+        free = {
+            element.name
+            for element in self.elements
+            if element.kind.table == "joints" and not element.references
+        }
+        listed = (element for element in self.elements if element.name not in free)
         return [name for each in listed for name in each.made(each.kind.slides)]
 
     @property
     def links(self) -> dict[str, str]:
         """Name of each link → name of the element that makes it."""
-        return {name: each.name for each in self.elements for name in each.made(each.kind.links)}
+        return {name: element.name for element in self.elements for name in element.made(element.kind.links)}
 
     def candidates(self, wanted: Wanted) -> list[str]:
         """Names that a reference may have."""
@@ -216,8 +220,10 @@ class Topology:
 
     def build(self) -> Build:
         """The steps in which the mechanism is built, and what stands in their way."""
-        parts = {each.name: self._part(each) for each in self.elements if each.kind.table != "points"}
-        ignored = [each.name for each in self.elements if each.redundant]
+        parts = {
+            element.name: self._part(element) for element in self.elements if element.kind.table != "points"
+        }
+        ignored = [element.name for element in self.elements if element.redundant]
         return build(parts, self.fixed_points, ignored)
 
     def _part(self, element: Element) -> Part:
@@ -240,7 +246,7 @@ class Topology:
         values_fit : bool
             Whether every element is sound by itself; otherwise the mobility is left for later.
         """
-        driven = [each for each in self.elements if each.kind.table not in ("points", *DRIVERS)]
+        driven = [element for element in self.elements if element.kind.table not in ("points", *DRIVERS)]
         if driven and not self.names(*DRIVERS):
             remedy = "a linear driver would do as well"
             expected = "at least one crank, which moves the others"
@@ -252,7 +258,7 @@ class Topology:
     def _mobility(self) -> Iterator[InitErrorDetails]:
         """Joints that can still move, and bars that are too many."""
         found = self.build()
-        kinds = {each.name: each.kind for each in self.elements}
+        kinds = {element.name: element.kind for element in self.elements}
         for joint in found.loose:
             if found.stuck and (circle := self._mixed_circle(joint, found.stuck)):
                 yield fault(
@@ -264,9 +270,9 @@ class Topology:
                 )
                 continue
             holds = [
-                each.name
-                for each in self.elements
-                if joint in each.references.values() and not each.redundant
+                element.name
+                for element in self.elements
+                if joint in element.references.values() and not element.redundant
             ]
             yield fault(
                 "joints",
@@ -301,7 +307,9 @@ class Topology:
         """Each element → the moving elements that it hangs on, joints by the bars that hold them."""
         makers = {point: point for point in self.moving_points} | self.links
         needs = {e.name: [makers[n] for n in e.references.values() if n in makers] for e in self.elements}
-        for bar in (each for each in self.elements if each.kind.table == "bars" and not each.redundant):
+        for bar in (
+            element for element in self.elements if element.kind.table == "bars" and not element.redundant
+        ):
             for joint in set(needs[bar.name]) & set(self.names("joints")):
                 needs[joint] += [end for end in needs[bar.name] if end != joint]
         return needs
@@ -313,7 +321,7 @@ class Topology:
             fresh = set(needs.get(open_.pop(), ())) - found
             found |= fresh
             open_ += fresh
-        return [each for each in self.names(*DRIVERS) if each in found]
+        return [name for name in self.names(*DRIVERS) if name in found]
 
     def _mixed_circle(self, joint: str, stuck: list[str]) -> str:
         """A circle from a joint through an element that waits for it; empty if there is none."""
@@ -328,19 +336,21 @@ class Topology:
     def _twice(self) -> Iterator[InitErrorDetails]:
         """Names that an earlier element has."""
         first: dict[str, ElementKind] = {}
-        for each in self.elements:
-            before = first.setdefault(each.name, each.kind)
-            if before is not each.kind:
-                remedy = f'"{each.name}" is the name of a {before.word} already'
-                yield fault(each.kind.table, each.name, found=each.name, expected="a new name", remedy=remedy)
+        for element in self.elements:
+            before = first.setdefault(element.name, element.kind)
+            if before is not element.kind:
+                remedy = f'"{element.name}" is the name of a {before.word} already'
+                yield fault(
+                    element.kind.table, element.name, found=element.name, expected="a new name", remedy=remedy
+                )
 
     def _unknown(self) -> Iterator[InitErrorDetails]:
         """References to names that do not exist or are something else."""
-        for each in self.elements:
-            for key, wanted in each.kind.references.items():
-                name = each.references.get(key)
+        for element in self.elements:
+            for key, wanted in element.kind.references.items():
+                name = element.references.get(key)
                 if name is not None and name not in self.candidates(wanted):
-                    yield self.unknown(name, wanted, each.kind.table, each.name, *key.split("."))
+                    yield self.unknown(name, wanted, element.kind.table, element.name, *key.split("."))
 
     def unknown(self, name: str, wanted: Wanted, *place: str) -> InitErrorDetails:
         """The fault of a name that is not what is wanted at a place."""
@@ -352,28 +362,30 @@ class Topology:
         """What a name stands for; empty if it stands for nothing."""
         if name in self.fixed_points:
             return f'"{name}" is a fixed point'
-        word = next((each.kind.word for each in self.elements if each.name == name), "")
+        word = next((element.kind.word for element in self.elements if element.name == name), "")
         word = "link" if name in self.links and not word else word
         return f'"{name}" is a {word}' if word else ""
 
     def _graph(self) -> dict[str, list[str]]:
         """Each moving element → the moving elements that it is built on; joints hang on their bars."""
         makers = {name: name for name in self.moving_points} | self.links
-        for each in self.elements:
-            makers.update(dict.fromkeys(each.made(each.kind.points), each.name))
+        for element in self.elements:
+            makers.update(dict.fromkeys(element.made(element.kind.points), element.name))
         free = ("points", "joints", "bars")
-        jointed = {each.name for each in self.elements if each.kind.table in free}
+        jointed = {element.name for element in self.elements if element.kind.table in free}
         return {
-            each.name: [m for n in each.references.values() if (m := makers.get(n)) and m not in jointed]
-            for each in self.elements
-            if each.kind.table not in free
+            element.name: [
+                m for n in element.references.values() if (m := makers.get(n)) and m not in jointed
+            ]
+            for element in self.elements
+            if element.kind.table not in free
         }
 
     def _circles(self) -> Iterator[InitErrorDetails]:
         """Elements that are built on one another in a circle."""
         graph = self._graph()
         while (circle := _circle(graph)) is not None:
-            kind = next(each.kind for each in self.elements if each.name == circle[0])
+            kind = next(element.kind for element in self.elements if element.name == circle[0])
             yield fault(
                 kind.table,
                 circle[0],

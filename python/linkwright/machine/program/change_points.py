@@ -47,10 +47,10 @@ def in_line(
     `plan`: what comes before the element is settled; `parameters` (n_parameters,): of the first machine;
     `slots` (k,): which of them vary; `values` (k, n): their values.
     """
-    found: list[list[_core.InLine]] = [[] for _ in range(values.shape[1])]
+    line: list[list[_core.InLine]] = [[] for _ in range(values.shape[1])]
     for point in _core.in_line(plan, parameters, slots, values, element):
-        found[point.row].append(point)
-    return found
+        line[point.row].append(point)
+    return line
 
 
 def undecided(points: list[_core.InLine], sign: float) -> _core.InLine | None:

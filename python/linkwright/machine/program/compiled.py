@@ -237,12 +237,12 @@ class Compiled:
 
         Raises ConvergenceError: there is no steady motion to that accuracy.
         """
-        found = _core.steady_gradient(self.plan, self.one, accuracy, directions, angles)
-        if found is None:
+        gradient = _core.steady_gradient(self.plan, self.one, accuracy, directions, angles)
+        if gradient is None:
             raise ConvergenceError(
                 "the derivatives of steady motion were not found", method="collocation", iterations=0
             )
-        return found
+        return gradient
 
     def steady_rows(self, accuracy: float) -> _core.SteadyRows:
         """Steady motion of every row; see `_core.steady_rows`."""
@@ -294,7 +294,9 @@ def compile_machine(machine: Machine, *, motor: bool = True, brake: bool = False
         return compiled
     if len(_known) >= _KNOWN_MAX:
         _known.pop(next(iter(_known)), None)
-    _known[key] = _Known(machine, tuple((each, dict(each)) for each in _constants(machine)), compiled)
+    _known[key] = _Known(
+        machine, tuple((constant, dict(constant)) for constant in _constants(machine)), compiled
+    )
     return compiled
 
 
@@ -317,8 +319,8 @@ def _require_mechanism(machine: Machine) -> None:
 
 
 def _translate(machine: Machine, *, motor: bool, brake: bool) -> Compiled:
-    found = Translation(machine, motor=motor, brake=brake)
-    program, settled, drive = found.program, found.settled, found.drive
+    translation = Translation(machine, motor=motor, brake=brake)
+    program, settled, drive = translation.program, translation.settled, translation.drive
     parameters = settled.parameters
     factors = (drive.ratio, drive.forward, drive.reverse)
     ratio, forward, reverse = (float(parameters[slot]) for slot in factors)
@@ -332,7 +334,9 @@ def _translate(machine: Machine, *, motor: bool, brake: bool) -> Compiled:
         slides=program.slides,
         dyads=tuple(program.dyads),
         two_turns=settled.odd,
-        one_turn=not (settled.odd.any() or any(isinstance(each, _RUNNING) for each in program.elements)),
+        one_turn=not (
+            settled.odd.any() or any(isinstance(element, _RUNNING) for element in program.elements)
+        ),
         speed_guess=float(parameters[drive.speed_start]),
         ratio_slot=drive.ratio,
         gear_factors=(ratio, forward, reverse),

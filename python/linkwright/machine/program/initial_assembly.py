@@ -231,18 +231,18 @@ class InitialAssembly:
 
     def _fold(self, each: Foldable) -> None:
         """Finds the change points of a dyad in every machine, and gives it their series."""
-        found = in_line(self.plan, self.parameters, *self._mechanisms(), each.element)
-        if not any(found):
+        line = in_line(self.plan, self.parameters, *self._mechanisms(), each.element)
+        if not any(line):
             return
-        signs = np.array([self._sign(each, points) for points in found])
-        for row, points in enumerate(found):
+        signs = np.array([self._sign(each, points) for points in line])
+        for row, points in enumerate(line):
             at = undecided(points, signs[row])
-            if at is not None and len(found) == 1:
+            if at is not None and len(line) == 1:
                 raise undecided_error(each.name, at)
             if at is not None:
                 # A machine of a batch that has no answer, and shows it.
-                found[row], signs[row] = [], np.nan
-        self._give_change_points(each, found, signs)
+                line[row], signs[row] = [], np.nan
+        self._give_change_points(each, line, signs)
 
     def _mechanisms(self) -> tuple[NDArray[np.int32], Floats]:
         """What varies from one mechanism to the next: where masses and the like vary, nothing."""

@@ -81,17 +81,17 @@ class Loads:
 
     def all(self, *, brake: bool) -> list[_core.Load]:
         """Forces and torques; a brake resists on the crankshaft."""
-        found: list[_core.Load] = []
+        loads: list[_core.Load] = []
         for load in self.machine.loads.values():
             if isinstance(load, FormulaLoad):
-                found += self._formula_load(load)
+                loads += self._formula_load(load)
             else:
-                found.append(self._load(load))
+                loads.append(self._load(load))
         drive = self.machine.drive
         if brake and drive and drive.brake:
             ratio = drive.gearbox.ratio if drive.brake.on == "motor" else 1.0
-            found.append(_core.Load.DryCrank(torque=self.slot(drive.brake.torque * ratio)))
-        return found
+            loads.append(_core.Load.DryCrank(torque=self.slot(drive.brake.torque * ratio)))
+        return loads
 
     def _table(self, x: Sequence[Any], y: Sequence[Any]) -> _core.Table:
         return table_of(self.machine, x, y)

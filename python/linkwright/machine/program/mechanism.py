@@ -99,7 +99,7 @@ class MechanismProgram(Elements):
 
     def _carried(self, bars: list[str], step: Step) -> list[str]:
         """Points fixed to bars of the group that its conditions refer to, each after those it hangs on."""
-        found: list[str] = []
+        carried: list[str] = []
 
         def need(name: str) -> None:
             part = self.mechanism.rigid_points.get(name)
@@ -107,7 +107,7 @@ class MechanismProgram(Elements):
                 for end in (self.mechanism.bars[part.link].start, self.mechanism.bars[part.link].end):
                     need(end)
                 self._point(name)
-                found.append(name)
+                carried.append(name)
 
         for bar in bars:
             need(self.mechanism.bars[bar].start)
@@ -116,7 +116,7 @@ class MechanismProgram(Elements):
             guide = self.mechanism.joints[name].guide if name in self.mechanism.joints else None
             if guide is not None and guide.through is not None:
                 need(guide.through)
-        return found
+        return carried
 
     def _carried_point(self, name: str) -> _core.Carried:
         part = self.mechanism.rigid_points[name]

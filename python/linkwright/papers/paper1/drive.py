@@ -180,9 +180,9 @@ class Drive:
         here = {"way": way, "quantity": quantity, "carts": row.carts}
         known = {"phase": row.phase, "ratio": self.ratio, "motor_printed": row.motor_printed}
         suits = (
-            each["text"]
-            for each in printed_values(1)["reason"]
-            if all(each[key] == here[key] for key in here.keys() & each.keys())
+            value["text"]
+            for value in printed_values(1)["reason"]
+            if all(value[key] == here[key] for key in here.keys() & value.keys())
         )
         return filled(next(suits), known)
 

@@ -35,7 +35,7 @@ _TORQUE_SHOWN, _INERTIA_SHOWN = 1400.0, 120.0
 
 def figures(paper: Paper1) -> dict[str, Figure]:
     """Speed fluctuation of all drives, then figures 5 to 12 of the paper by machine, by names of files."""
-    drawn = {each.published.machine: _drive(each) for each in paper.drives}
+    drawn = {drive.published.machine: _drive(drive) for drive in paper.drives}
     return {"evenness": _evenness(paper)} | drawn
 
 
@@ -150,7 +150,7 @@ def _evenness(paper: Paper1) -> Figure:
     axes = figure.add_subplot()
     places = np.arange(len(paper.drives))
     groups = {
-        "published": (SOFT, [each.published.values["motion_coefficient"] for each in paper.drives]),
+        "published": (SOFT, [drive.published.values["motion_coefficient"] for drive in paper.drives]),
         "solution of (1)": (SOLUTION, _coefficients(paper, "solution")),
         "published scheme": (SCHEME, _coefficients(paper, "scheme")),
         "constant energy": (LIMIT, _coefficients(paper, "limit")),
@@ -158,7 +158,7 @@ def _evenness(paper: Paper1) -> Figure:
     for n, (name, (colour, values)) in enumerate(groups.items()):
         bars = axes.bar(places + 0.2 * (n - 1.5), values, 0.18, color=colour, label=name)
         axes.bar_label(bars, fmt="%.2f", fontsize=7.5, padding=1.5)
-    axes.set_xticks(places, [_carts(each.published.carts) for each in paper.drives])
+    axes.set_xticks(places, [_carts(drive.published.carts) for drive in paper.drives])
     axes.set_title("combined non-uniformity index $k_p = δ^2 + H$; less is more even", loc="left", **MATH)
     axes.grid(visible=False, axis="x")
     axes.legend(ncols=2, loc="upper right")
@@ -166,7 +166,7 @@ def _evenness(paper: Paper1) -> Figure:
 
 
 def _coefficients(paper: Paper1, way: str) -> list[float]:
-    return [each.values[way]["motion_coefficient"] for each in paper.drives]
+    return [drive.values[way]["motion_coefficient"] for drive in paper.drives]
 
 
 def _carts(count: int) -> str:

@@ -128,7 +128,7 @@ class Paper1(Paper):
             for one in self.drives
             for each in one.recomputed
         ]
-        wrong = [each for each in rows if not each["agrees"]]
+        wrong = [row for row in rows if not row["agrees"]]
         four = self.drives[3].published.values
         follows = {each.quantity: each.follows for each in self.drives[3].recomputed}
         k_p = follows["unevenness"] ** 2 + four["dynamism"]
@@ -166,7 +166,7 @@ class Paper1(Paper):
         claims = self.published["claim"]
         return {
             "drives": [each.to_dict() for each in self.drives],
-            "intermediates": {each["name"]: cell_of(each, self.values).to_dict() for each in claims},
+            "intermediates": {claim["name"]: cell_of(claim, self.values).to_dict() for claim in claims},
             "scheme_step_deviation": {f"{step:g} deg": off for step, off in self.steps.items()},
             "rankings": self.rankings,
         }
@@ -187,8 +187,8 @@ def load_by_steps(reduced: Reduction, degrees: float) -> float:
 
 def _load_in_closed_form(two: Drive) -> float:
     """Each cart travels 4r per revolution against its resistance; gravity does no net work [N m]."""
-    loads = [each.force for each in two.machine.loads.values() if isinstance(each, DryFriction)]
-    radii = [each.radius for each in two.machine.mechanism.cranks.values()]
+    loads = [load.force for load in two.machine.loads.values() if isinstance(load, DryFriction)]
+    radii = [crank.radius for crank in two.machine.mechanism.cranks.values()]
     return sum(4 * r * float(F or 0.0) for r, F in zip(radii, loads, strict=True)) / (2 * np.pi)
 
 

@@ -76,10 +76,10 @@ def fitted_inertia(reduced: Reduction, now: float, unevenness: float, dynamism: 
     """
 
     def tried(wanted: float) -> Fit:
-        found = constant_energy_of(with_drive_inertia(reduced, now, wanted))
-        off = (found.unevenness / unevenness - 1, found.dynamism / dynamism - 1)
+        constant_energy = constant_energy_of(with_drive_inertia(reduced, now, wanted))
+        off = (constant_energy.unevenness / unevenness - 1, constant_energy.dynamism / dynamism - 1)
         misfit = float(np.sqrt(0.5 * (off[0] ** 2 + off[1] ** 2)))
-        return Fit(wanted, found.unevenness, found.dynamism, misfit)
+        return Fit(wanted, constant_energy.unevenness, constant_energy.dynamism, misfit)
 
     coarse = _nearest([tried(x * now) for x in np.linspace(0.0, 10.0, 1001)])
     width = 0.01 * now
@@ -91,9 +91,9 @@ def _nearest(tried: list[Fit]) -> Fit:
     return min(tried, key=lambda each: each.misfit)
 
 
-def scaled_to(found: ConstantEnergy, reduced: Reduction, speed_mean: float) -> dict[str, float]:
+def scaled_to(energy: ConstantEnergy, reduced: Reduction, speed_mean: float) -> dict[str, float]:
     """The limit's row of the table of results at a mean of the extremes of the speed [rad/s]; SI."""
-    half = 0.5 * found.unevenness * speed_mean
+    half = 0.5 * energy.unevenness * speed_mean
     _, epsilon = limit_curves(reduced, speed_mean)
     return {
         "speed_min": speed_mean - half,
@@ -101,9 +101,9 @@ def scaled_to(found: ConstantEnergy, reduced: Reduction, speed_mean: float) -> d
         "speed_mean": speed_mean,
         "acceleration_min": float(epsilon.min()),
         "acceleration_max": float(epsilon.max()),
-        "unevenness": found.unevenness,
-        "dynamism": found.dynamism,
-        "motion_coefficient": found.motion_coefficient,
+        "unevenness": energy.unevenness,
+        "dynamism": energy.dynamism,
+        "motion_coefficient": energy.motion_coefficient,
     }
 
 

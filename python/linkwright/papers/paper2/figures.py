@@ -210,13 +210,13 @@ def _start(paper: Paper2) -> Figure:
 def _alternatives(paper: Paper2) -> Figure:
     """Velocity, acceleration and torque of some drives over one stroke."""
     figure, every = panels(3, height=6.6)
-    for each in paper.alternatives:
-        if each.short not in _SHOWN:
+    for alternative in paper.alternatives:
+        if alternative.short not in _SHOWN:
             continue
-        phi, curves = _outwards(each)
+        phi, curves = _outwards(alternative)
         for axes, values in zip(every, curves, strict=True):
-            width = 2.2 if each.short == "as printed" else 1.5
-            axes.plot(phi, values, color=_SHOWN[each.short], label=each.short, linewidth=width)
+            width = 2.2 if alternative.short == "as printed" else 1.5
+            axes.plot(phi, values, color=_SHOWN[alternative.short], label=alternative.short, linewidth=width)
     for axes, title in zip(
         every,
         (

@@ -101,10 +101,10 @@ class Paper2(Paper):
 
     def _of_drives(self) -> dict[str, Any]:
         """Drives side by side, and the cart in steady motion."""
-        laws = {each.short: each for each in self.alternatives}
+        laws = {alternative.short: alternative for alternative in self.alternatives}
         cam, crank = laws["as printed"], laws["crank"]
         free, smooth = laws["free at the reversal"], laws["continuous jerk"]
-        whole = [each for each in laws.values() if each.steady_share < _NOTHING and each is not crank]
+        whole = [law for law in laws.values() if law.steady_share < _NOTHING and law is not crank]
         low, high = self.course.steady_range
         peaks = ("velocity_max", "acceleration_max", "jerk_max", "torque_max")
         lower = all(getattr(free, name) < getattr(cam, name) for name in peaks)
@@ -134,7 +134,7 @@ class Paper2(Paper):
             "start_section": {name: start.to_dict() for name, start in self.starts.items()},
             "rollers": rolled | {"cam": self.rollers.offset.to_dict()},
             "two_cams": self.pair,
-            "alternatives": [each.to_dict() for each in self.alternatives],
+            "alternatives": [alternative.to_dict() for alternative in self.alternatives],
             "steady_motion": self.course.to_dict(),
         }
 

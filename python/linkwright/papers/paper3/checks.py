@@ -57,8 +57,8 @@ def weak_checks(trial: TrialEngine, cylinder: int, factor: float, discs: tuple[s
     weak = weakened(trial.machine, trial.service, cylinder, factor)
     sound = responded(at)
 
-    def told(found: ForcedVibration, *, rigid: bool) -> Floats:
-        measured = (_measured(found, disc, trial.order) for disc in discs)
+    def told(vibration: ForcedVibration, *, rigid: bool) -> Floats:
+        measured = (_measured(vibration, disc, trial.order) for disc in discs)
         return np.array([diagnosis(at, sources, each, rigid=rigid).factor for each in measured])
 
     rigid = told(weak, rigid=True)
@@ -67,11 +67,11 @@ def weak_checks(trial: TrialEngine, cylinder: int, factor: float, discs: tuple[s
     return WeakChecks(cylinder, discs, told(weak, rigid=False), rigid, 1 + change)
 
 
-def _measured(found: ForcedVibration, disc: str, below: float) -> MeasuredSpeed:
+def _measured(vibration: ForcedVibration, disc: str, below: float) -> MeasuredSpeed:
     """Speed of a disc by its orders below one."""
-    orders = found.orders[found.orders < below]
-    theta = found.amplitudes[: len(orders), found.discs.index(disc), 0]
-    return MeasuredSpeed(disc, orders, 1j * orders * found.speeds[0] * theta, None)
+    orders = vibration.orders[vibration.orders < below]
+    theta = vibration.amplitudes[: len(orders), vibration.discs.index(disc), 0]
+    return MeasuredSpeed(disc, orders, 1j * orders * vibration.speeds[0] * theta, None)
 
 
 def _sources(trial: TrialEngine, at: ExcitedTrain) -> Complexes:
@@ -79,10 +79,10 @@ def _sources(trial: TrialEngine, at: ExcitedTrain) -> Complexes:
     engine, orders = trial.engine, at.torques.orders
     gas = cylinder_torques(engine, at.torques.speeds, float(orders[-1]))
     rows = np.abs(orders[:, None] - gas.orders).argmin(axis=1)
-    found = np.zeros((engine.n_cylinders, len(orders), len(at.train.discs)), complex)
+    sources = np.zeros((engine.n_cylinders, len(orders), len(at.train.discs)), complex)
     for number, place in enumerate(engine.places):
-        found[number, :, place.throw] = (gas.firing - gas.motored)[number, rows, 0]
-    return found
+        sources[number, :, place.throw] = (gas.firing - gas.motored)[number, rows, 0]
+    return sources
 
 
 # Orders whose swing is reported one by one.
@@ -186,7 +186,7 @@ def weakened(machine: Machine, speed: float, number: int, factor: float) -> Forc
     return forced_vibration(weak, np.array([speed]))
 
 
-def _along(found: ForcedVibration, throws: tuple[str, ...]) -> tuple[str, ...]:
+def _along(vibration: ForcedVibration, throws: tuple[str, ...]) -> tuple[str, ...]:
     """Discs from the free end: what hangs before the first throw, the throws, what they drive."""
-    rest = [name for name in found.discs if name not in throws]
+    rest = [name for name in vibration.discs if name not in throws]
     return (rest[0], *throws, *rest[1:])

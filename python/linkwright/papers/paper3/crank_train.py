@@ -139,7 +139,7 @@ def inertia_checks(trial: TrialEngine, printed: dict[str, Any]) -> dict[str, Any
         "articulated_printed": articulated_inertia(rod.moment_small_end, rod.mass, trial.articulated.mass),
         "articulated_share": _without_piston(trial) - exact,
         # Of both banks [m].
-        "strokes": tuple(each.stroke for each in dead_centres(R, trial.gears)),
+        "strokes": tuple(centre.stroke for centre in dead_centres(R, trial.gears)),
         "shifts": tuple(_inertia_shifts(trial, printed)),
     }
 

@@ -97,10 +97,10 @@ def _disc(paper: Paper3) -> Figure:
 def _formulas(paper: Paper3) -> Figure:
     """Speeds at which the firing meets the first mode of the crankshaft, formula by formula."""
     trial, shifts = paper.trial, paper.shifts
-    names = ["exact, (17) with k by Castigliano", *(each.name for each in shifts)]
+    names = ["exact, (17) with k by Castigliano", *(shift.name for shift in shifts)]
     exact = trial.critical(float(trial.frequencies[1]))
-    speeds = [each * 30 / math.pi for each in (exact, *(each.critical for each in shifts))]
-    colours = [INK, *(BLUE if each.what == "J" else ORANGE for each in shifts)]
+    speeds = [each * 30 / math.pi for each in (exact, *(shift.critical for shift in shifts))]
+    colours = [INK, *(BLUE if shift.what == "J" else ORANGE for shift in shifts)]
     figure, (axes,) = panels(1, height=3.6)
     rows = range(len(names))
     axes.hlines(rows, speeds[0], speeds, color=colours, linewidth=1.2)

@@ -85,11 +85,11 @@ class Paper3(Paper):
         trial, found = self.trial, self.throw
         first, *others = found["stiffness"].values()
         off = (min(others) / first - 1, max(others) / first - 1)
-        stiff = sorted((each for each in self.shifts if each.what == "k"), key=lambda each: each.critical)
-        discs = max(abs(each.changes[1]) for each in self.shifts[1:] if each.what == "J")
+        stiff = sorted((shift for shift in self.shifts if shift.what == "k"), key=lambda each: each.critical)
+        discs = max(abs(shift.changes[1]) for shift in self.shifts[1:] if shift.what == "J")
         words, kind = holding(found["inertia"], tolerance("digits"))
         return {
-            "trains": [self._exact_train(), *(_train(each) for each in self.shifts)],
+            "trains": [self._exact_train(), *(_train(shift) for shift in self.shifts)],
             "critical": trial.critical(float(trial.frequencies[1])),
             "rebuilt_inertia": words,
             "rebuilt_inertia_holds": kind != "far",
@@ -107,7 +107,7 @@ class Paper3(Paper):
         return {
             "name": "exact mean of J(φ), (17) with k by Castigliano",
             "throw": f"J = {trial.inertia:.4f} kg m², k = {1e-6 * trial.stiffness:.3f} MN m/rad",
-            "frequencies": [f"{each:.1f}" for each in trial.frequencies],
+            "frequencies": [f"{frequency:.1f}" for frequency in trial.frequencies],
             "critical": trial.critical(float(trial.frequencies[1])),
         }
 
@@ -155,7 +155,7 @@ class Paper3(Paper):
                 "throw_stiffness": self.trial.stiffness,
                 "natural_frequencies": self.trial.frequencies.tolist(),
             },
-            "formulas": [_plain(each) for each in self.shifts],
+            "formulas": [_plain(shift) for shift in self.shifts],
             "restraint_length": self.throw["restraint"],
             "stiffness": self.throw["stiffness"],
             "unevenness": {

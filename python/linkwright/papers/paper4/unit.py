@@ -105,7 +105,7 @@ def _place(unit: Unit) -> Place:
         (unit.L**2 + unit.k**2 - reach**2) / (2 * unit.L * unit.k) for reach in (K - unit.r, K + unit.r)
     ]
     (top, _), (bottom, _) = unit.ends()
-    return Place(unit, float(min(np.arccos(abs(each)) for each in cosines)), (top - bottom) % (2 * np.pi))
+    return Place(unit, float(min(np.arccos(abs(cosine)) for cosine in cosines)), (top - bottom) % (2 * np.pi))
 
 
 def rounded_lengths(data: dict[str, Any]) -> tuple[float, float]:

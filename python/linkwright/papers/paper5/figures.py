@@ -71,7 +71,7 @@ def _figure3(paper: Paper5) -> Figure:
             each.set_xticks(_MILLI * surface.root_diameters[:: len(surface.root_diameters) // 3])
     for each in (axes[0], axes[count]):
         each.set_ylabel("knife speed $v_h$ [m/s]", **MATH)
-    low, high = (_MILLI * each for each in paper.verdict.claim.lengths)
+    low, high = (_MILLI * length for length in paper.verdict.claim.lengths)
     lines = [_line(ORANGE, "L by (10) [mm]"), _line(BLUE, "L exact, constant speed [mm]")]
     handles = [*lines, _patch(GREEN, f"{low:.0f}…{high:.0f} mm")]
     figure.legend(handles=handles, loc="outside upper center", ncols=3)
@@ -81,7 +81,7 @@ def _figure3(paper: Paper5) -> Figure:
 def _contours(axes: Axes, surface: Surface, lengths: Floats, colour: str, paper: Paper5) -> None:
     """Lines of equal length in mm; what lies in the range of the result is shaded."""
     D, v_h, L = _MILLI * surface.root_diameters, surface.knife_speeds, _MILLI * lengths
-    low, high = (_MILLI * each for each in paper.verdict.claim.lengths)
+    low, high = (_MILLI * length for length in paper.verdict.claim.lengths)
     if L.max() > low:
         axes.contourf(D, v_h, L, levels=[low, high], colors=[GREEN], alpha=0.25)
     levels = np.arange(_STEP * np.ceil(L.min() / _STEP), L.max(), _STEP)

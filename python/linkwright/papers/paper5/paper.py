@@ -97,7 +97,7 @@ class Paper5(Paper):
         ten = 2 * (np.sqrt(D * h_p - h_p**2) + delta) * (rho * np.cos(a) + np.sin(a))
         nine = length_published(self.verdict.diameters[1] + 2 * delta, a, rho)
         lengths = [each for surface in self.surfaces for each in (surface.published, surface.exact)]
-        grows = all((np.diff(each, axis=axis) > 0).all() for each in lengths for axis in (0, 1))
+        grows = all((np.diff(length, axis=axis) > 0).all() for length in lengths for axis in (0, 1))
         falls = all(
             (slow.published > fast.published).all() and (slow.exact > fast.exact).all()
             for slow, fast in zip(self.surfaces, self.surfaces[1:], strict=False)
@@ -114,11 +114,11 @@ class Paper5(Paper):
     def _of_result(self) -> dict[str, Any]:
         """Bands and offsets for which the result holds, in every way."""
         found = self.verdict
-        angles = [each.edge_angle for each in found.angles]
-        bands = [{each.way: _band(each) for each in verdict.demands} for verdict in found.angles]
+        angles = [angle.edge_angle for angle in found.angles]
+        bands = [{demand.way: _band(demand) for demand in verdict.demands} for verdict in found.angles]
         offsets = {way: [_heads(*pair) for pair in each.tolist()] for way, each in found.offsets.items()}
         nearest = int(np.abs(np.array(angles) - found.chosen.edge_angle).argmin())
-        demands = {each.way: _demand(each) for each in found.chosen.demands}
+        demands = {demand.way: _demand(demand) for demand in found.chosen.demands}
         return {
             "bands": {
                 # Every other angle of the table is enough in a sentence.
@@ -150,7 +150,7 @@ class Paper5(Paper):
                 for key, each in self.step.items()
             },
             "exact_over_published": self.short,
-            "figure3": [each.to_dict() for each in self.surfaces],
+            "figure3": [surface.to_dict() for surface in self.surfaces],
             "verdict": self.verdict.to_dict(),
         }
 
@@ -176,7 +176,7 @@ def _demand(demand: Demand) -> dict[str, Any]:
 
 def _angles(ends: tuple[float, float] | None) -> str:
     """A range of angles in words."""
-    return "at no angle" if ends is None else "for α = " + "…".join(shown(each, ".1f °") for each in ends)
+    return "at no angle" if ends is None else "for α = " + "…".join(shown(end, ".1f °") for end in ends)
 
 
 def paper5() -> Paper5:

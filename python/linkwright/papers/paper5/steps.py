@@ -167,7 +167,7 @@ def step_checks(angles: Floats, ratio: float) -> dict[str, Any]:
         "angles": angles,
         # What (4) has before v_h/v over what (5) has there; t_y/t_x of an edge as long as (5) says.
         "factors": factors(angles),
-        "times": np.array([_at_printed_length(each, ratio) for each in angles.tolist()]),
+        "times": np.array([_at_printed_length(angle, ratio) for angle in angles.tolist()]),
         # The length by (4) over that by (5); S_x over the travel that passes the head, knife at rest.
         "longer": length_consistent(1.0, angles, ratio) / length_published(1.0, angles, ratio),
         "travels": _travels(angles),
@@ -175,7 +175,7 @@ def step_checks(angles: Floats, ratio: float) -> dict[str, Any]:
         "identity": float(np.abs(factors(_STEP_ANGLES) / closed - 1).max()),
         "travel_identity": float(np.abs(_travels(_STEP_ANGLES) - travel).max()),
         # Whether (1) breaks a hair below the length by (4), and holds a hair above, at every angle.
-        "flips": all(_flips(each, ratio) for each in _STEP_ANGLES.tolist()),
+        "flips": all(_flips(angle, ratio) for angle in _STEP_ANGLES.tolist()),
     }
 
 
@@ -188,7 +188,7 @@ def factors(angles: Floats) -> Floats:
 
 
 def _travels(angles: Floats) -> Floats:
-    return np.array([_edge(each, 1.0, 1.0).travel_along * np.cos(each) for each in angles.tolist()])
+    return np.array([_edge(angle, 1.0, 1.0).travel_along * np.cos(angle) for angle in angles.tolist()])
 
 
 def _edge(angle: float, length: float, ratio: float) -> PublishedLengths:
@@ -197,8 +197,8 @@ def _edge(angle: float, length: float, ratio: float) -> PublishedLengths:
 
 
 def _at_printed_length(angle: float, ratio: float) -> float:
-    found = _edge(angle, float(length_published(1.0, angle, ratio)), ratio)
-    return found.time_across / found.time_along
+    edge = _edge(angle, float(length_published(1.0, angle, ratio)), ratio)
+    return edge.time_across / edge.time_along
 
 
 def _flips(angle: float, ratio: float) -> bool:

@@ -80,7 +80,7 @@ class ClaimVerdict:
             "stroke": vars(self.stroke),
             "head_diameters": list(self.diameters),
             "offset": self.offset,
-            "angles": [each.to_dict() for each in self.angles],
+            "angles": [angle.to_dict() for angle in self.angles],
             "offsets": finite({way: each.tolist() for way, each in self.offsets.items()}),
             "chosen": self.chosen.to_dict(),
             "least_band_published": self.least_band,
@@ -101,7 +101,7 @@ def claim_verdict(data: dict[str, Any]) -> ClaimVerdict:
         stroke,
         (small, large),
         offset,
-        tuple(of_large(each) for each in angles.tolist()),
+        tuple(of_large(angle) for angle in angles.tolist()),
         {way: _offsets(claim, way, angles, large, stroke) for way in WAYS},
         of_large(float(np.radians(chosen["edge_angle"]))),
         float(bands_of(claim, "published", _ANGLES, 0.0)[0].min()),
@@ -122,7 +122,7 @@ def _offsets(claim: Claim, way: str, angles: Floats, diameter: float, stroke: St
     none, one = (lengths_over(claim, way, angles, diameter, each, stroke)[1] for each in (0.0, 1.0))
     does = np.isfinite(none)
     per_offset = np.where(does, one, np.nan) - np.where(does, none, 0.0)
-    return np.stack([(each - none) / per_offset for each in claim.lengths], axis=-1)
+    return np.stack([(length - none) / per_offset for length in claim.lengths], axis=-1)
 
 
 def _throughout(claim: Claim, diameter: float, offset: float) -> Iterator[tuple[str, tuple[float, float]]]:

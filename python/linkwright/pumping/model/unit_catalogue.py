@@ -118,11 +118,11 @@ def catalogue_unit(designation: str) -> CatalogueUnit:
     1.8288
     """
     wanted = designation.strip().upper()
-    found = _units().get(wanted)
-    if found is None:
+    unit = _units().get(wanted)
+    if unit is None:
         expected, remedy = "a designation of the catalogue of pumping units", suggestion(wanted, _units())
         raise MachineError([Problem(found=show(designation), expected=expected, remedy=remedy)])
-    return found
+    return unit
 
 
 @cache

@@ -106,8 +106,8 @@ def _hand_over_front(
     hand_over(answer, json=json, out=Path(out) if out else None, force=force)
 
 
-def _head(name: str, found: Optimum) -> str:
+def _head(name: str, optimum: Optimum) -> str:
     """What was done, and what limits the answer."""
-    failed = f", {found.n_failed} without an answer" if found.n_failed else ""
-    limits = "; ".join(found.active) or "no limit is active"
-    return "\n".join([name, f"{found.n_evaluations} machines computed{failed}", limits, *found.worth])
+    failed = f", {optimum.n_failed} without an answer" if optimum.n_failed else ""
+    limits = "; ".join(optimum.active) or "no limit is active"
+    return "\n".join([name, f"{optimum.n_evaluations} machines computed{failed}", limits, *optimum.worth])

@@ -135,7 +135,7 @@ def shown_of(folder: SweepFolder) -> Shown:
     from linkwright.studies.show import rows_of
 
     plan, rows = plan_of(folder.manifest), rows_of(folder)
-    names = [*(each.name for each in plan.axes), *plan.responses]
+    names = [*(axis.name for axis in plan.axes), *plan.responses]
     units = {name: "°" if unit == "rad" else unit for name, unit in folder.units.items()}
     columns: dict[str, Any] = {
         name: np.degrees(rows[name]) if folder.units[name] == "rad" else rows[name] for name in names
@@ -143,7 +143,7 @@ def shown_of(folder: SweepFolder) -> Shown:
     return Shown(
         columns,
         {name: f"{name} [{units[name] or '–'}]" for name in names},
-        tuple(each.name for each in plan.axes),
+        tuple(axis.name for axis in plan.axes),
         plan.responses,
         plan.sweep.method == "grid",
     )

@@ -209,7 +209,7 @@ def best_knife(
     speed = topper.forward_speed if chosen is None else chosen.forward_speed
     table = search.grid(speed, MAP, search.low, search.high)
     if chosen is None:
-        chosen = search.shortest(speed, [each for row in table for each in row])
+        chosen = search.shortest(speed, [value for row in table for value in row])
     if trials.roots is not roots:
         trials = Trials(machine, topper, roots, trials.count)
         search = KnifeGrid(trials, length_max, objective, watch)
@@ -218,8 +218,8 @@ def best_knife(
     return KnifeSearch(
         map_angle=np.array([row[0].edge_angle for row in table]),
         map_speed=np.array([each.knife_speed for each in table[0]]),
-        map_length=np.array([[each.length for each in row] for row in table]),
-        map_slicing=np.array([[each.slicing for each in row] for row in table]),
+        map_length=np.array([[value.length for value in row] for row in table]),
+        map_slicing=np.array([[value.slicing for value in row] for row in table]),
         objective=objective,
         limits=limits,
         length_max=length_max,

@@ -143,4 +143,4 @@ class KnifeGrid:
 
 
 def _listed(table: list[list[Trial]]) -> list[Trial]:
-    return [each for row in table for each in row]
+    return [value for row in table for value in row]

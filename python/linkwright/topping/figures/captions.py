@@ -55,9 +55,9 @@ class _Cut:
         return shown_head(self.found)
 
 
-def topper_figures(machine: Machine, described: Topper, found: TopperStudy) -> Iterator[Captioned]:
+def topper_figures(machine: Machine, described: Topper, study: TopperStudy) -> Iterator[Captioned]:
     """The figures of the knife over heads."""
-    cut = _Cut(machine, described, found)
+    cut = _Cut(machine, described, study)
     moves = cut.edges[0].knife.rate > 0
     if not cut.found.obstacle:
         yield _view(cut)
@@ -113,7 +113,7 @@ def _phases(cut: _Cut) -> Captioned:
 
 def _chart(cut: _Cut) -> Captioned:
     chart = length_chart(cut.described, cut.edges)
-    slow, own, fast = (number(each, 3) for each in chart.forward_speeds)
+    slow, own, fast = (number(speed, 3) for speed in chart.forward_speeds)
     words = (
         f"The chart of paper 5 (its figure 3) for α = {degrees(cut.described.edge_angle)}, cut height "
         f"{mm(cut.described.cut_height)} and Δ = {mm(cut.described.offset)}, at v = {slow}, {own} and {fast} "
@@ -134,7 +134,7 @@ def _verdict(cut: _Cut) -> Captioned:
     low, high = PAPER.lengths
     (slow, fast), (least, most) = PAPER.forward_speeds, PAPER.knife_speeds
     judged = length_verdict(PAPER, described.edge_angle, cut.found.head_diameter, described.offset, stroke)
-    ways = [WAYS[each.way] for each in judged.demands if each.holds]
+    ways = [WAYS[demand.way] for demand in judged.demands if demand.holds]
     words = (
         f"Paper 5 gives {low:.2f} to {high:.2f} m for v from {slow:g} to {fast:g} m/s and knife speeds from "
         f"{least:g} to {most:g} m/s, and does not print angle, cut height and offset. Shaded: for which of "

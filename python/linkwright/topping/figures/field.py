@@ -44,22 +44,22 @@ _BINS = 60
 
 
 @styled
-def field_share_figure(found: TopperField) -> Figure:
+def field_share_figure(field: TopperField) -> Figure:
     """Draw the share of heads that are cut right through against the length of the edge."""
     figure, (axes,) = panels(1, height=3.8)
-    length = 1e3 * found.length
+    length = 1e3 * field.length
     axes.fill_between(
-        length, 100 * found.share_low, 100 * found.share_high, color=BLUE, alpha=0.25, linewidth=0
+        length, 100 * field.share_low, 100 * field.share_high, color=BLUE, alpha=0.25, linewidth=0
     )
-    axes.plot(length, 100 * found.share, color=BLUE, label=f"share, {100 * found.level:.3g} % interval")
-    _edge(axes, found.edge_length)
-    for share, value in zip(found.quantile, found.quantile_length, strict=True):
+    axes.plot(length, 100 * field.share, color=BLUE, label=f"share, {100 * field.level:.3g} % interval")
+    _edge(axes, field.edge_length)
+    for share, value in zip(field.quantile, field.quantile_length, strict=True):
         if share in _MARKED and np.isfinite(value):
             axes.plot(1e3 * value, 100 * share, "o", color=INK, markersize=3.5)
             text = f"{100 * share:.3g} %: {1e3 * value:.0f} mm"
             place = (1e3 * value, 100 * share)
             axes.annotate(text, place, (6, -2), textcoords="offset points", va="top", fontsize=8)
-    axes.set_xlim(_start(found), 1.06 * length[-1])
+    axes.set_xlim(_start(field), 1.06 * length[-1])
     axes.set_ylim(0, 103)
     axes.set_xlabel(AXES["edge_length"][0])
     axes.set_ylabel("heads cut right through [%]")
@@ -67,10 +67,10 @@ def field_share_figure(found: TopperField) -> Figure:
     return figure
 
 
-def _start(found: TopperField) -> float:
+def _start(field: TopperField) -> float:
     """Where the share begins to rise, with room for the words beside the marks [mm]."""
-    finite = found.length_needed[np.isfinite(found.length_needed)]
-    least, span = float(finite.min(initial=found.length[-1])), float(found.length[-1])
+    finite = field.length_needed[np.isfinite(field.length_needed)]
+    least, span = float(finite.min(initial=field.length[-1])), float(field.length[-1])
     return 1e3 * max(0.0, least - 0.35 * (span - least) - 0.02 * span)
 
 
@@ -80,12 +80,12 @@ def _edge(axes: Axes, length: float) -> None:
 
 
 @styled
-def field_length_figure(found: TopperField) -> Figure:
+def field_length_figure(field: TopperField) -> Figure:
     """Draw how the lengths that heads need are distributed."""
     figure, (axes,) = panels(1, height=3.0)
-    finite = 1e3 * found.length_needed[np.isfinite(found.length_needed)]
-    _histogram(axes, finite, found.n_roots)
-    _edge(axes, found.edge_length)
+    finite = 1e3 * field.length_needed[np.isfinite(field.length_needed)]
+    _histogram(axes, finite, field.n_roots)
+    _edge(axes, field.edge_length)
     axes.set_xlabel("length that a head needs [mm]")
     legend_above(axes)
     return figure
@@ -104,7 +104,7 @@ def _histogram(axes: Axes, values: Floats, total: int) -> None:
 
 
 @styled
-def field_haulm_figure(found: TopperField, over: FieldSweep) -> Figure:
+def field_haulm_figure(field: TopperField, over: FieldSweep) -> Figure:
     """Draw what is left of the heads against the length, and what the roots lose."""
     figure, (left, lost) = panels(1, height=3.0, columns=2, shared=False)
     length = 1e3 * over.entries["edge_length"]
@@ -112,13 +112,13 @@ def field_haulm_figure(found: TopperField, over: FieldSweep) -> Figure:
         length, 100 * over.haulm_mean_low, 100 * over.haulm_mean_high, color=GREEN, alpha=0.25, linewidth=0
     )
     left.plot(length, 100 * over.haulm_mean, color=GREEN, label="haulm left")
-    _edge(left, found.edge_length)
+    _edge(left, field.edge_length)
     left.set_ylim(bottom=0)
     left.set_xlabel(AXES["edge_length"][0])
     left.set_ylabel("left of the head, mean [%]")
     legend_above(left)
-    _histogram(lost, 1e6 * found.root_loss, found.n_roots)
-    lost.axvline(1e6 * found.loss_mean, color=ORANGE, linewidth=1.4, label="mean")
+    _histogram(lost, 1e6 * field.root_loss, field.n_roots)
+    lost.axvline(1e6 * field.loss_mean, color=ORANGE, linewidth=1.4, label="mean")
     lost.set_xlabel("root above the cut [cm³]")
     legend_above(lost)
     return figure
@@ -151,8 +151,8 @@ def sweep_figure(swept: FieldSweep) -> Figure:
         axes[2].plot(x, 1e3 * _drawable(swept.length_for_95), color=PURPLE)
         axes[2].set_ylabel("length for 95 % of heads [mm]")
         _other(axes[3], x, swept, is_cut=name == "cut_height")
-    for each in axes[-2:]:
-        each.set_xlabel(label, **MATH)
+    for axis in axes[-2:]:
+        axis.set_xlabel(label, **MATH)
     for each in axes[1:]:
         each.set_ylim(bottom=0)
     return figure
@@ -231,23 +231,23 @@ def sweep_figures(swept: FieldSweep) -> dict[str, Figure]:
 
 
 @styled
-def best_knife_figure(found: KnifeSearch) -> Figure:
+def best_knife_figure(search: KnifeSearch) -> Figure:
     """Draw the minimum length over angle and speed of the knife, with the limits and the best."""
     figure, (axes,) = panels(1, height=4.0)
-    at = (np.degrees(found.map_angle), found.map_speed)
-    share = 100 * found.limits.complete_min
-    _map(axes, at, 1e3 * _drawable(found.map_length), f"minimum edge [mm] for {share:.4g} % of the heads")
+    at = (np.degrees(search.map_angle), search.map_speed)
+    share = 100 * search.limits.complete_min
+    _map(axes, at, 1e3 * _drawable(search.map_length), f"minimum edge [mm] for {share:.4g} % of the heads")
     lines = [
-        (found.map_slicing, found.limits.slicing_min, RED, "minimum draw-cut ratio"),
-        (found.map_length, found.length_max, PURPLE, "maximum length"),
+        (search.map_slicing, search.limits.slicing_min, RED, "minimum draw-cut ratio"),
+        (search.map_length, search.length_max, PURPLE, "maximum length"),
     ]
     for values, limit, colour, label in lines:
         finite = values[np.isfinite(values)]
         if limit is not None and len(finite) and finite.min() < limit < finite.max():
             axes.contour(*at, _drawable(values).T, [limit], colors=colour, linewidths=1.8)
             axes.plot([], [], color=colour, label=label)
-    if found.best is not None:
-        x, y = np.degrees(found.best.edge_angle), found.best.knife_speed
+    if search.best is not None:
+        x, y = np.degrees(search.best.edge_angle), search.best.knife_speed
         axes.plot(x, y, "o", color=ORANGE, markeredgecolor=INK, markersize=8, clip_on=False, label="best")
     if axes.get_legend_handles_labels()[0]:
         axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=3, borderaxespad=0.2)

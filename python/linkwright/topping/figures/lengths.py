@@ -171,7 +171,7 @@ def phase_figure(study: TopperStudy, edge_length: float, phase: float | None = N
         (study.length_published, "printed (10)", ORANGE),
     ]
     far = _FAR_BEHIND * max(edge_length, float(needed[np.isfinite(needed)].max(initial=0.0)) / _MILLI)
-    shown = [each for each in lines if each[0] <= far]
+    shown = [line for line in lines if line[0] <= far]
     for value, words, colour in shown:
         level(axes[0], _MILLI * value, words, colour)
     finite = needed[np.isfinite(needed)]
@@ -180,9 +180,9 @@ def phase_figure(study: TopperStudy, edge_length: float, phase: float | None = N
     axes[0].legend(loc="lower left", bbox_to_anchor=(0, 1.0), ncols=5, borderaxespad=0.2, handlelength=1.8)
     if leaves:
         _share(axes[1], degrees, 100 * study.uncut_by_phase)
-    for each in axes:
-        _only(each, phase)
-        turn_axis(each, label=False)
+    for axis in axes:
+        _only(axis, phase)
+        turn_axis(axis, label=False)
     axes[-1].set_xlabel(_PHASE)
     figure.align_ylabels()
     return figure

@@ -46,52 +46,52 @@ _UNITS = {
 }
 
 
-def field_tables(found: TopperField) -> Iterator[Table]:
+def field_tables(field: TopperField) -> Iterator[Table]:
     """Shares, haulm, loss, and lengths."""
-    each = "rows" if found.clusters == "rows" else "measured roots, each in many phases"
+    each = "rows" if field.clusters == "rows" else "measured roots, each in many phases"
     title = (
-        f"Field: {found.n_roots} heads of {found.n_clusters} {each}; edge of {number(found.edge_length)} m"
+        f"Field: {field.n_roots} heads of {field.n_clusters} {each}; edge of {number(field.edge_length)} m"
     )
-    yield Table("topper_field", title, ("", "", "value", _interval(found.level)), list(_rows(found)))
+    yield Table("topper_field", title, ("", "", "value", _interval(field.level)), list(_rows(field)))
     rows: list[Row] = [
         (f"for {100 * share:.4g} % of the heads", "L", _length(value), _between(_length(low), _length(high)))
         for share, value, low, high in zip(
-            found.quantile,
-            found.quantile_length,
-            found.quantile_length_low,
-            found.quantile_length_high,
+            field.quantile,
+            field.quantile_length,
+            field.quantile_length_low,
+            field.quantile_length_high,
             strict=True,
         )
     ]
-    yield Table("topper_lengths", "Length of the edge", ("", "", "value", _interval(found.level)), rows)
+    yield Table("topper_lengths", "Length of the edge", ("", "", "value", _interval(field.level)), rows)
 
 
 def _interval(level: float) -> str:
     return f"{100 * level:.4g} % within"
 
 
-def _rows(found: TopperField) -> Iterator[Row]:
+def _rows(field: TopperField) -> Iterator[Row]:
     shares = (
         ("heads cut right through", "", "share_complete"),
         ("left of the head, mean", "", "haulm_mean"),
         ("loss: share of the roots above the cut", "", "loss_share"),
     )
     for word, symbol, key in shares:
-        value, low, high = (100 * each for each in _three(found, key))
+        value, low, high = (100 * each for each in _three(field, key))
         yield word, symbol, f"{number(value)} %", _between(number(low), f"{number(high)} %")
-    value, low, high = (1e6 * each for each in _three(found, "loss_mean"))
+    value, low, high = (1e6 * each for each in _three(field, "loss_mean"))
     yield "loss of a root, mean", "V", f"{number(value)} cm³", _between(number(low), f"{number(high)} cm³")
-    if found.loss_mass_mean is not None:
-        yield "mass of it", "m", f"{number(1e3 * found.loss_mass_mean)} g", ""
-    yield "mean draw-cut ratio", "", number(found.slicing_ratio_mean), ""
-    counts = (("heads that the knife passes above", found.n_missed), ("roots lost as a whole", found.n_lost))
+    if field.loss_mass_mean is not None:
+        yield "mass of it", "m", f"{number(1e3 * field.loss_mass_mean)} g", ""
+    yield "mean draw-cut ratio", "", number(field.slicing_ratio_mean), ""
+    counts = (("heads that the knife passes above", field.n_missed), ("roots lost as a whole", field.n_lost))
     for word, count in counts:
         if count:
             yield word, "", str(count), ""
 
 
-def _three(found: TopperField, key: str) -> tuple[float, float, float]:
-    value, low, high = (getattr(found, f"{key}{end}") for end in ("", "_low", "_high"))
+def _three(field: TopperField, key: str) -> tuple[float, float, float]:
+    value, low, high = (getattr(field, f"{key}{end}") for end in ("", "_low", "_high"))
     return value, low, high
 
 
@@ -116,7 +116,7 @@ def sweep_table(swept: FieldSweep) -> Table:
         varied = tuple(_shown(name, float(swept.entries[name][i])) for name in names)
         lengths = _length(float(swept.length_for_95[i]))
         shares = (swept.share_complete[i], swept.share_complete_low[i], swept.share_complete_high[i])
-        value, low, high = (number(100 * float(each), 4) for each in shares)
+        value, low, high = (number(100 * float(share), 4) for share in shares)
         rows.append(
             (
                 *(varied if len(varied) == 2 else (*varied, "")),
@@ -144,12 +144,12 @@ def field_csv(columns: Mapping[str, Floats]) -> str:
     return columns_csv({f"{name} [{_UNITS.get(name, '-')}]": column for name, column in columns.items()})
 
 
-def best_table(found: KnifeSearch, best: BestKnife) -> Table:
+def best_table(search: KnifeSearch, best: BestKnife) -> Table:
     """The best knife, over the roots that it was sought with and over others."""
-    limits = found.limits
+    limits = search.limits
     rows: list[Row] = [
         ("edge angle", "α", f"{number(math.degrees(best.edge_angle))}°", "", ""),
-        ("length of the edge", "L", f"{number(best.edge_length)} m", "", _at_most(found.length_max, "m")),
+        ("length of the edge", "L", f"{number(best.edge_length)} m", "", _at_most(search.length_max, "m")),
         ("speed of the knife", "v_h", f"{number(best.knife_speed)} m/s", "", ""),
         ("speed along the row", "v", f"{number(best.forward_speed)} m/s", "", ""),
     ]
@@ -163,10 +163,10 @@ def best_table(found: KnifeSearch, best: BestKnife) -> Table:
     other = _with_ends(best.haulm_verified, best.haulm_verified_low, best.haulm_verified_high)
     most = math.inf if limits.haulm_max is None else 100 * limits.haulm_max
     rows.append(("left of the head, mean", "", _percent(best.haulm_mean), other, _at_most(most, "%")))
-    title = {"shortest": "Shortest edge", "fastest": "Fastest along the row"}[found.objective]
+    title = {"shortest": "Shortest edge", "fastest": "Fastest along the row"}[search.objective]
     return Table(
         "topper_best",
-        f"{title}; {found.tried} knives looked at",
+        f"{title}; {search.tried} knives looked at",
         ("", "", "found", "over other roots", "limit"),
         rows,
     )
@@ -184,9 +184,9 @@ def _at_most(value: float, unit: str) -> str:
     return f"≤ {number(value)} {unit}" if math.isfinite(value) else ""
 
 
-def best_warnings(found: KnifeSearch) -> Iterator[str]:
+def best_warnings(search: KnifeSearch) -> Iterator[str]:
     """What to know of the best knife."""
-    best = found.best
+    best = search.best
     if best is None:
         return
     if not best.is_verified:
@@ -194,7 +194,7 @@ def best_warnings(found: KnifeSearch) -> Iterator[str]:
             f"Over other roots it cuts {_percent(best.share_verified)} of the heads and leaves "
             f"{_percent(best.haulm_verified)}, which is beyond chance: take more roots."
         )
-    if found.limits.slicing_min is None:
+    if search.limits.slicing_min is None:
         yield (
             "No slicing_min is asked for: nothing then speaks for a slanted or a moving edge, and the "
             "shortest one rests across the row as far as the bounds allow."
@@ -229,9 +229,9 @@ def best_lines(best: BestKnife) -> str:
     return "\n".join(lines) + "\n"
 
 
-def map_csv(found: KnifeSearch) -> str:
+def map_csv(search: KnifeSearch) -> str:
     """The map of a search as CSV."""
-    angle, speed = np.meshgrid(found.map_angle, found.map_speed, indexing="ij")
-    columns = {"edge_angle": angle, "knife_speed": speed, "length": found.map_length}
-    columns["slicing_ratio_mean"] = found.map_slicing
+    angle, speed = np.meshgrid(search.map_angle, search.map_speed, indexing="ij")
+    columns = {"edge_angle": angle, "knife_speed": speed, "length": search.map_length}
+    columns["slicing_ratio_mean"] = search.map_slicing
     return field_csv({name: column.ravel() for name, column in columns.items()})

@@ -22,22 +22,22 @@ _SAME = 1e-12
 _NO_BOUND = 1e9
 
 
-def topper_tables(described: Topper, found: TopperStudy) -> Iterator[Table]:
+def topper_tables(described: Topper, study: TopperStudy) -> Iterator[Table]:
     """Tables of lengths, of what is left, of the motion of the knife, of slicing, of its drive, and of the
     published lengths.
     """
-    yield _lengths(found, described)
-    yield _head(found, described)
-    yield _motion(found)
-    yield _slicing(found)
-    if found.knife_mass is not None:
-        yield _drive(found)
-    yield _verdict(found, described)
+    yield _lengths(study, described)
+    yield _head(study, described)
+    yield _motion(study)
+    yield _slicing(study)
+    if study.knife_mass is not None:
+        yield _drive(study)
+    yield _verdict(study, described)
 
 
-def edge_csv(found: TopperStudy) -> str:
+def edge_csv(study: TopperStudy) -> str:
     """The use of a topper's edge along its length as CSV: a curve of its own length."""
-    return columns_csv({head(found, name): getattr(found, name) for name in ("edge_place", "edge_use")})
+    return columns_csv({head(study, name): getattr(study, name) for name in ("edge_place", "edge_use")})
 
 
 def mm(value: float) -> str:
@@ -50,42 +50,42 @@ def percent(share: float) -> str:
     return f"{number(100 * share, 3)} %"
 
 
-def stroke_of(found: TopperStudy) -> Stroke | None:
+def stroke_of(study: TopperStudy) -> Stroke | None:
     """The knife's stroke, as lengths for every phase need it; None if it has none, or rests."""
-    if not found.stroke or not found.knife_speed:
+    if not study.stroke or not study.knife_speed:
         return None
-    return Stroke(found.stroke, found.knife_speed_max / found.knife_speed)
+    return Stroke(study.stroke, study.knife_speed_max / study.knife_speed)
 
 
-def _lengths(found: TopperStudy, described: Topper) -> Table:
+def _lengths(study: TopperStudy, described: Topper) -> Table:
     """All lengths beside what they mean, and whether the edge has them."""
     own = described.edge_length
-    steady = found.length_exact_constant_speed
+    steady = study.length_exact_constant_speed
     listed = [
-        ("printed in paper 5", "(10)", found.length_published, "compares times, not what is covered"),
-        ("what its condition (4) gives", "(4)", found.length_consistent, "step from (4) to (5) put right"),
-        ("knife at rest", "v_h = 0", found.length_at_rest, "(d + 2Δ)/cos α"),
+        ("printed in paper 5", "(10)", study.length_published, "compares times, not what is covered"),
+        ("what its condition (4) gives", "(4)", study.length_consistent, "step from (4) to (5) put right"),
+        ("knife at rest", "v_h = 0", study.length_at_rest, "(d + 2Δ)/cos α"),
         ("exact at constant speed", "", steady, "no reversal over a head, worse direction"),
-        *(() if found.obstacle else _moved(found, described)),
+        *(() if study.obstacle else _moved(study, described)),
     ]
     rows: list[Row] = [
         (word, symbol, _length(value), _is_met(own, value), remark) for word, symbol, value, remark in listed
     ]
-    if found.obstacle:
+    if study.obstacle:
         rows.append(("exact", "L", "–", "–", "not computed: too many strokes over a head"))
     title = f"Length of the edge; it has {mm(own)}"
     return Table("topper_lengths", title, ("minimum length", "", "value", "is met", "remark"), rows)
 
 
-def _moved(found: TopperStudy, described: Topper) -> Iterator[tuple[str, str, float, str]]:
+def _moved(study: TopperStudy, described: Topper) -> Iterator[tuple[str, str, float, str]]:
     """Exact lengths for the motion of the knife: word, symbol, value, remark."""
-    if not found.stroke:
-        yield "exact", "L", found.length_exact, "worst offset"
+    if not study.stroke:
+        yield "exact", "L", study.length_exact, "worst offset"
         return
-    best = f"φ = {degrees(found.best_phase)}"
-    yield "exact, best phase", best, found.length_best_phase, "worst offset"
+    best = f"φ = {degrees(study.best_phase)}"
+    yield "exact, best phase", best, study.length_best_phase, "worst offset"
     word = "exact, every phase" if described.motion.phase is None else "exact, phase given"
-    yield word, "L", found.length_exact, f"worst offset, phase {degrees(found.worst_phase)}"
+    yield word, "L", study.length_exact, f"worst offset, phase {degrees(study.worst_phase)}"
 
 
 def _length(value: float) -> str:
@@ -96,112 +96,112 @@ def _is_met(own: float, value: float) -> str:
     return "yes" if value <= own * (1 + _SAME) else "no"
 
 
-def shown_head(found: TopperStudy) -> tuple[float, float]:
+def shown_head(study: TopperStudy) -> tuple[float, float]:
     """Offset and phase of the head of which most is left, or else of that which needs most."""
-    if leaves(found):
-        return found.uncut_offset, found.uncut_phase
-    return found.worst_offset, found.worst_phase
+    if leaves(study):
+        return study.uncut_offset, study.uncut_phase
+    return study.worst_offset, study.worst_phase
 
 
-def _head(found: TopperStudy, described: Topper) -> Table:
+def _head(study: TopperStudy, described: Topper) -> Table:
     """The head, and what is left of it."""
-    volume = f"{number(1e6 * found.cap_volume, 4)} cm³"
+    volume = f"{number(1e6 * study.cap_volume, 4)} cm³"
     rows: list[Row] = [
-        _told("head_diameter", mm(found.head_diameter), "in the plane of the cut"),
+        _told("head_diameter", mm(study.head_diameter), "in the plane of the cut"),
         _told("cap_volume", volume, "of the root above the cut"),
-        ("band of the heads", "d + 2Δ", mm(found.head_diameter + 2 * described.offset), ""),
+        ("band of the heads", "d + 2Δ", mm(study.head_diameter + 2 * described.offset), ""),
     ]
-    if leaves(found):
-        rows += _left(found, described)
-    elif not found.obstacle:
-        is_free = found.stroke and described.motion.phase is None
+    if leaves(study):
+        rows += _left(study, described)
+    elif not study.obstacle:
+        is_free = study.stroke and described.motion.phase is None
         rows.append(
             ("left of a head at worst", "", "nothing", "at every offset" + (" and phase" if is_free else ""))
         )
-        at = f"x = {mm(_settled(found.last_x, found))}, y = {mm(_settled(found.last_y, found))}"
+        at = f"x = {mm(_settled(study.last_x, study))}, y = {mm(_settled(study.last_y, study))}"
         rows.append(("point farthest from the edge's middle", "", at, "from the head's centre"))
     return Table("topper_head", "Head and cut", _HEADS, rows)
 
 
-def _settled(value: float, found: TopperStudy) -> float:
+def _settled(value: float, study: TopperStudy) -> float:
     """A place without what rounding leaves of zero."""
-    return 0.0 if abs(value) < 1e-6 * found.head_diameter else value
+    return 0.0 if abs(value) < 1e-6 * study.head_diameter else value
 
 
-def _left(found: TopperStudy, described: Topper) -> Iterator[Row]:
+def _left(study: TopperStudy, described: Topper) -> Iterator[Row]:
     """The head of which most is left, on which side of the edge, and the mean."""
-    side = "left" if found.uncut_offset > 0 else "right"
-    at = f"head {mm(abs(found.uncut_offset))} to the {side}" if found.uncut_offset else "head on the row"
-    moves = f", phase {degrees(found.uncut_phase)}" if found.stroke else ""
-    yield "left of a head at worst", "", percent(found.uncut_share), at + moves
+    side = "left" if study.uncut_offset > 0 else "right"
+    at = f"head {mm(abs(study.uncut_offset))} to the {side}" if study.uncut_offset else "head on the row"
+    moves = f", phase {degrees(study.uncut_phase)}" if study.stroke else ""
+    yield "left of a head at worst", "", percent(study.uncut_share), at + moves
     sides = (
-        ("of that, to the right of the edge", found.uncut_right),
-        ("of that, to the left of the edge", found.uncut_left),
-        ("of that, between two passes of it", found.uncut_between),
+        ("of that, to the right of the edge", study.uncut_right),
+        ("of that, to the left of the edge", study.uncut_left),
+        ("of that, between two passes of it", study.uncut_between),
     )
     # An edge that moves along itself has no sides.
-    for word, share in sides if math.isfinite(found.length_exact) else ():
+    for word, share in sides if math.isfinite(study.length_exact) else ():
         if share > 0:
             yield word, "", percent(share), "of the head"
-    yield "left of a head on average", "", percent(found.uncut_share_mean), _mean_over(found, described)
+    yield "left of a head on average", "", percent(study.uncut_share_mean), _mean_over(study, described)
 
 
-def _mean_over(found: TopperStudy, described: Topper) -> str:
+def _mean_over(study: TopperStudy, described: Topper) -> str:
     """What a mean is taken over."""
-    if found.stroke:
+    if study.stroke:
         return "over even offsets" + (" and phases" if described.motion.phase is None else "")
-    return "over even offsets" + (" and both directions" if found.knife_speed else "")
+    return "over even offsets" + (" and both directions" if study.knife_speed else "")
 
 
-def _way(found: TopperStudy) -> str:
+def _way(study: TopperStudy) -> str:
     """What a mean speed is a mean of."""
-    if not found.knife_speed:
+    if not study.knife_speed:
         return "at rest"
-    return "over the time" if found.stroke else "one direction over the head"
+    return "over the time" if study.stroke else "one direction over the head"
 
 
-def _motion(found: TopperStudy) -> Table:
+def _motion(study: TopperStudy) -> Table:
     rows: list[Row] = []
-    if found.stroke:
-        rows.append(_told("stroke", mm(found.stroke), ""))
-        rows += rows_of(found, "frequency")
-        rows.append(row(found, "strokes_per_head", "while the edge passes a head on the row"))
-    rows.append(row(found, "knife_speed", _way(found)))
-    if found.stroke:
-        rows += rows_of(found, "knife_speed_max")
-        jumps = not math.isfinite(found.knife_acceleration_max)
+    if study.stroke:
+        rows.append(_told("stroke", mm(study.stroke), ""))
+        rows += rows_of(study, "frequency")
+        rows.append(row(study, "strokes_per_head", "while the edge passes a head on the row"))
+    rows.append(row(study, "knife_speed", _way(study)))
+    if study.stroke:
+        rows += rows_of(study, "knife_speed_max")
+        jumps = not math.isfinite(study.knife_acceleration_max)
         told = _told("knife_acceleration_max", "no bound", "it turns back at once")
-        rows.append(told if jumps else row(found, "knife_acceleration_max"))
-    holds = "not less than along it: (1) holds" if found.condition_holds else "less than along it: (1) fails"
-    rows += [row(found, name, "paper 5 (2), (8)") for name in ("travel_along", "travel_across")]
-    rows.append(row(found, "time_along"))
-    is_endless = math.isinf(found.time_across)
-    rows.append(_told("time_across", "no bound", holds) if is_endless else row(found, "time_across", holds))
+        rows.append(told if jumps else row(study, "knife_acceleration_max"))
+    holds = "not less than along it: (1) holds" if study.condition_holds else "less than along it: (1) fails"
+    rows += [row(study, name, "paper 5 (2), (8)") for name in ("travel_along", "travel_across")]
+    rows.append(row(study, "time_along"))
+    is_endless = math.isinf(study.time_across)
+    rows.append(_told("time_across", "no bound", holds) if is_endless else row(study, "time_across", holds))
     return Table("topper_motion", "Motion of the knife", _HEADS, rows)
 
 
-def _slicing(found: TopperStudy) -> Table:
+def _slicing(study: TopperStudy) -> Table:
     words = "speed along the edge over speed normal to it"
-    rows = [row(found, "slicing_ratio_min", words), _ratio(found, "slicing_ratio_mean", "over what is cut")]
-    rows.append(_ratio(found, "slicing_ratio_max", ""))
-    rows += rows_of(found, "cutting_speed_min", "cutting_speed_max")
-    rows.append(_advance(found))
+    rows = [row(study, "slicing_ratio_min", words), _ratio(study, "slicing_ratio_mean", "over what is cut")]
+    rows.append(_ratio(study, "slicing_ratio_max", ""))
+    rows += rows_of(study, "cutting_speed_min", "cutting_speed_max")
+    rows.append(_advance(study))
     return Table("topper_slicing", "Slicing", _HEADS, rows)
 
 
-def _advance(found: TopperStudy) -> Row:
+def _advance(study: TopperStudy) -> Row:
     """Zero but for rounding where the edge moves along itself."""
-    if abs(found.least_advance) * _NO_BOUND < found.cutting_speed_max:
+    if abs(study.least_advance) * _NO_BOUND < study.cutting_speed_max:
         return _told("least_advance", "0 m/s", "it moves along itself")
     return row(
-        found, "least_advance", "its back meets the head" if found.edge_retreats else "it never retreats"
+        study, "least_advance", "its back meets the head" if study.edge_retreats else "it never retreats"
     )
 
 
-def _ratio(found: TopperStudy, name: str, remark: str) -> Row:
+def _ratio(study: TopperStudy, name: str, remark: str) -> Row:
     """A ratio that may have no bound."""
-    if getattr(found, name) < _NO_BOUND:
-        return row(found, name, remark)
+    if getattr(study, name) < _NO_BOUND:
+        return row(study, name, remark)
     return _told(name, "no bound", "the edge moves along itself")
 
 
@@ -211,22 +211,22 @@ def _told(name: str, value: str, remark: str) -> Row:
     return mark.word, mark.symbol, value, remark
 
 
-def _drive(found: TopperStudy) -> Table:
-    rows = rows_in(found, "topper_drive", {"drive_torque_max": "at the crank"})
+def _drive(study: TopperStudy) -> Table:
+    rows = rows_in(study, "topper_drive", {"drive_torque_max": "at the crank"})
     # Without losses the means are zero but for rounding.
-    if abs(found.drive_torque_mean or 0.0) * _NO_BOUND < abs(found.drive_torque_max or 0.0):
+    if abs(study.drive_torque_mean or 0.0) * _NO_BOUND < abs(study.drive_torque_max or 0.0):
         means = ("drive_torque_mean", "drive_power_mean")
-        rows = rows_in(found, "topper_drive", {"drive_torque_max": "at the crank"}, without=means)
-        rows += [_told(name, f"0 {found.unit_of(name)}", "nothing is lost") for name in means]
+        rows = rows_in(study, "topper_drive", {"drive_torque_max": "at the crank"}, without=means)
+        rows += [_told(name, f"0 {study.unit_of(name)}", "nothing is lost") for name in means]
     return Table("topper_drive", "Drive of the knife at the design speed", _HEADS, rows)
 
 
-def _verdict(found: TopperStudy, described: Topper) -> Table:
+def _verdict(study: TopperStudy, described: Topper) -> Table:
     """The published lengths for the speeds of the paper and the heads of this machine."""
     verdict = length_verdict(
-        PAPER, described.edge_angle, found.head_diameter, described.offset, stroke_of(found)
+        PAPER, described.edge_angle, study.head_diameter, described.offset, stroke_of(study)
     )
-    rows = [_judged(each) for each in verdict.demands]
+    rows = [_judged(demand) for demand in verdict.demands]
     low, high = PAPER.lengths
     title = f"Published {low:.2f} to {high:.2f} m, for the paper's speeds and this machine's heads"
     heads = ("length", "", "over the speeds", "within", "would be for d + 2Δ of")

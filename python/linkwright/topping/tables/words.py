@@ -61,25 +61,25 @@ _SLICING = formula(
 )
 
 
-def topper_headline(described: Topper, found: TopperStudy) -> Iterator[tuple[str, str, str]]:
+def topper_headline(described: Topper, study: TopperStudy) -> Iterator[tuple[str, str, str]]:
     """The few numbers that one looks for first: word, value, unit."""
-    yield "head diameter d", number(1e3 * found.head_diameter, 4), "mm"
-    needed = found.length_exact
-    if not found.obstacle:
+    yield "head diameter d", number(1e3 * study.head_diameter, 4), "mm"
+    needed = study.length_exact
+    if not study.obstacle:
         yield (
             "edge needed",
             *((number(1e3 * needed, 4), "mm") if math.isfinite(needed) else ("none does", "")),
         )
     yield "edge L", number(1e3 * described.edge_length, 4), "mm"
-    if not found.obstacle:
-        yield "left at worst", number(100 * found.uncut_share, 3), "%"
-    if found.stroke:
-        yield "double strokes", number(found.frequency, 3), "1/s"
+    if not study.obstacle:
+        yield "left at worst", number(100 * study.uncut_share, 3), "%"
+    if study.stroke:
+        yield "double strokes", number(study.frequency, 3), "1/s"
 
 
-def topper_formulas(described: Topper, found: TopperStudy | None) -> list[Formula]:
+def topper_formulas(described: Topper, study: TopperStudy | None) -> list[Formula]:
     """Formulas of the lengths and of slicing."""
-    moves = described.motion.phase is None and found is not None and found.stroke > 0
+    moves = described.motion.phase is None and study is not None and study.stroke > 0
     return [*_FORMULAS, *([_EVERY_PHASE] if moves else []), _SLICING]
 
 

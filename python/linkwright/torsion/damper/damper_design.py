@@ -340,7 +340,7 @@ def _require(ring_inertia: float, kind: str, loss_factor: float | None) -> None:
     in_range(ring_inertia=(ring_inertia, positive(INERTIA)), loss_factor=(loss_factor, positive(RATIO)))
     if kind not in _RULES:
         raise InputError(
-            f'kind: found "{kind}", expected one of ' + ", ".join(f'"{each}"' for each in _RULES)
+            f'kind: found "{kind}", expected one of ' + ", ".join(f'"{rule}"' for rule in _RULES)
         )
     if loss_factor is not None and kind != "rubber":
         raise InputError(f'loss_factor: found {loss_factor:g} with kind "{kind}", expected kind "rubber"')

@@ -181,7 +181,7 @@ class _Placing:
 
     def _cost(self, base: int, row: int, line: _Line, others: Sequence[_Line]) -> int:
         """What speaks against a row: crossings most, then the way there, then another row for the drawing."""
-        rows = [each.row for each in others]
+        rows = [other.row for other in others]
         new = max(row - max(rows), min(rows) - row, 0)
         return 4 * self._crossed(base, row, line, others) + abs(row - base) + new
 
@@ -189,21 +189,21 @@ class _Placing:
     def _taken(row: int, line: _Line, others: Sequence[_Line]) -> bool:
         """Whether another line is in the way in a row."""
         return any(
-            each.row == row and line.low < each.high + _APART and each.low < line.high + _APART
-            for each in others
+            other.row == row and line.low < other.high + _APART and other.low < line.high + _APART
+            for other in others
         )
 
     def _crossed(self, base: int, row: int, line: _Line, others: Sequence[_Line]) -> int:
         """How many lines the way to a row, and how many ways the line there, would cross."""
         between = range(min(base, row) + 1, max(base, row))
-        count = sum(each.row in between and each.low < line.x < each.high for each in others)
-        for each in others:
-            if each.parent is not None:
-                low, high = sorted((each.row, self.lines[each.parent].row))
-                count += low < row < high and line.low < each.x < line.high
+        count = sum(other.row in between and other.low < line.x < other.high for other in others)
+        for other in others:
+            if other.parent is not None:
+                low, high = sorted((other.row, self.lines[other.parent].row))
+                count += low < row < high and line.low < other.x < line.high
                 # Two ways at one place, over one another.
                 both = max(low, min(base, row)) < min(high, max(base, row))
-                count += 3 * (both and abs(each.x - line.x) < _ASIDE / 2)
+                count += 3 * (both and abs(other.x - line.x) < _ASIDE / 2)
         return count
 
     def _layout(self) -> Layout:

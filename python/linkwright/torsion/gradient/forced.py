@@ -126,11 +126,11 @@ def _refuse_moved(
 ) -> None:
     """Entries that change the speeds of discs, so orders; and those that move a coupling along its curve."""
     assert machine.train is not None
-    is_curved = any(each.twist is not None for each in machine.train.couplings.values())
+    is_curved = any(coupling.twist is not None for coupling in machine.train.couplings.values())
     for n, name in enumerate(d.variables):
         if d.speed[:, n].any():
             refused[name] = "it changes the speeds of discs, and with them the orders that meet"
-        elif is_curved and any(each.mean[:, n].any() for each in torques):
+        elif is_curved and any(torque.mean[:, n].any() for torque in torques):
             refused[name] = "it changes the mean torque of a coupling, whose stiffness is that of a curve"
 
 
@@ -141,7 +141,7 @@ def _peaks(at: ExcitedTrain, *, has_engine: bool) -> list[tuple[str, int, int, s
     # What an engine gives beyond its loads goes into all inertias, and loops share by stiffness.
     if tree_of(at.referred) is not None and not has_engine:
         curves["greatest"] = response.shaft_torque_max
-    found = []
+    peaks = []
     for kind, table in curves.items():
         for shaft, row in enumerate(table):
             if not np.isfinite(row).all() or not row.any() or _is_rigid(at, response.shaft_torques, shaft):
@@ -149,8 +149,8 @@ def _peaks(at: ExcitedTrain, *, has_engine: bool) -> list[tuple[str, int, int, s
             best = int(row.argmax())
             others = np.flatnonzero(row >= row[best] * (1 - _TIE))
             speeds = " and ".join(f"{at.torques.speeds[k] * 30 / np.pi:.5g} rpm" for k in others)
-            found.append((kind, shaft, best, f"it is reached at {speeds}" if len(others) > 1 else ""))
-    return found
+            peaks.append((kind, shaft, best, f"it is reached at {speeds}" if len(others) > 1 else ""))
+    return peaks
 
 
 def _is_rigid(at: ExcitedTrain, torques: Complexes, shaft: int) -> bool:
@@ -166,8 +166,8 @@ def _stiffness(at: ExcitedTrain, shaft: int, speed: Any) -> Complexes:
     """k(1 + iη) + iωc of a shaft, (orders, speeds)."""
     omega = at.torques.orders[:, None] * at.torques.speeds[speed]
     k, c = at.operating.stiffness[shaft, speed], at.referred.damping[shaft]
-    found: Complexes = k * (1 + 1j * at.referred.loss_factor[shaft]) + 1j * omega * c
-    return found
+    stiffness: Complexes = k * (1 + 1j * at.referred.loss_factor[shaft]) + 1j * omega * c
+    return stiffness
 
 
 def _twist(referred: ReferredTrain, q: Complexes, shaft: int) -> Complexes:
@@ -303,7 +303,7 @@ class _Adjoint:
         """Maximum and minimum over the angle, each with weights of the orders at the angles that have it."""
         orders = self._orders
         top, at_top, bottom, at_bottom = (
-            float(each) for each in extremes(coefficients(orders, t[:, None], mean))[:, 0]
+            float(extreme) for extreme in extremes(coefficients(orders, t[:, None], mean))[:, 0]
         )
         rest = float(np.abs(t[~orders.together]).sum())
         wave = waveform(orders, t[:, None], mean)[:, 0]
@@ -321,8 +321,8 @@ class _Adjoint:
         orders = self._orders
         size = np.abs(t)
         alone = sign * np.conj(t) / np.where(size > 0, size, 1.0)
-        found: Complexes = np.where(orders.together, np.exp(1j * orders.harmonic * tau), alone)
-        return found
+        weights: Complexes = np.where(orders.together, np.exp(1j * orders.harmonic * tau), alone)
+        return weights
 
     def _slope(self, shaft: int, place: int, w: Complexes) -> Floats:
         """Re Σ (w ds Δ + λᵀ(dM − dH q)) by the variables."""

@@ -45,7 +45,7 @@ class TrainTangents:
         return TrainTangents(tuple(variables), *(getattr(self, name)[:, at] for name in _NUMBERS))
 
 
-_NUMBERS = tuple(each.name for each in fields(TrainTangents))[1:]
+_NUMBERS = tuple(field.name for field in fields(TrainTangents))[1:]
 
 
 def train_tangents(

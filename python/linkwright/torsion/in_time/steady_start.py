@@ -198,7 +198,9 @@ def loaded_angles(train: MovingTrain, angle: Floats, speed: Floats) -> Floats:
     steepest = train.lead**2 * (train.stiffness + _steepest(train))
     allowed = _TWIST_ROUNDING * steepest.max(initial=0.0)
     for _ in range(_STEPS):
-        torque, inertia = (each.mean(axis=0) for each in train.net_torques(BEFORE, q + turns[:, None], speed))
+        torque, inertia = (
+            torque.mean(axis=0) for torque in train.net_torques(BEFORE, q + turns[:, None], speed)
+        )
         left = torque - inertia * (torque.sum() / inertia.sum()) if is_free else torque
         # What only a fluid holds follows without twist.
         stiffness = _stiffness(train, q, speed)

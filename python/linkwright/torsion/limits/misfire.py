@@ -121,7 +121,7 @@ def misfires(machine: Machine, at: ExcitedTrain) -> Iterator[MisfireCase]:
             factors = sound_factors(one.engine)
             factors[number] = 0.0
             every = [*sound[:k], sources(k, factors), *sound[k + 1 :]]
-            torques = [each for group in every for each in group]
+            torques = [member for group in every for member in group]
             yield MisfireCase(
                 f"{one.name} {number + 1}".strip(), under(machine, at.train, at.referred, speeds, torques)
             )

@@ -220,5 +220,7 @@ class ShaftLimit(CheckedDescription):
         if self.diameter is not None:
             modulus = polar_moment(self.diameter, self.inner_diameter) / (self.diameter / 2)
             return StressedSection(modulus, self.diameter)
-        known = [StressedSection(each.section_modulus, min(each.diameters)) for each in sections or ()]
+        known = [
+            StressedSection(section.section_modulus, min(section.diameters)) for section in sections or ()
+        ]
         return max(known, key=self._severity, default=None)

@@ -68,8 +68,8 @@ class CylinderStates:
     def torque(self, gas: CylinderTorques) -> Complexes:
         """Gas torques of the cylinders, (cylinders, orders, states). M_ν [N m]."""
         combustion, delay, compression = (
-            each[:, None]
-            for each in np.broadcast_arrays(self.combustion, np.asarray(self.delay), self.compression)
+            array[:, None]
+            for array in np.broadcast_arrays(self.combustion, np.asarray(self.delay), self.compression)
         )
         late = np.exp(-1j * gas.orders[:, None] * delay)
         M: Complexes = compression * gas.motored + combustion * late * (gas.firing - gas.motored)

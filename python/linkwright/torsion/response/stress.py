@@ -107,7 +107,7 @@ class ShaftStress(Result):
 
 @public
 def shaft_stress(
-    machine: Machine, found: TorsionResponse | None = None, service: float | None = None
+    machine: Machine, response: TorsionResponse | None = None, service: float | None = None
 ) -> ShaftStress:
     """Stresses in the shafts of a train over its speeds.
 
@@ -115,7 +115,7 @@ def shaft_stress(
     ----------
     machine : Machine
         With a [train] that something excites.
-    found : TorsionResponse, optional
+    response : TorsionResponse, optional
         What its shafts carry, as `forced_vibration` tells, if that is there already.
     service : float, optional
         Speed of the first disc that λ = 1 stands for; without it that of `service_speed` [rad/s].
@@ -135,23 +135,23 @@ def shaft_stress(
     .. [1] IACS, UR M68, 2021, M68.5.
     """
     in_range(service=(service, positive(SPEED)))
-    found = torsion_response(excited_train(machine)) if found is None else found
+    response = torsion_response(excited_train(machine)) if response is None else response
     known = stressed(train_of(machine).shafts)
-    rows = [found.shafts.index(name) for name in known]
+    rows = [response.shafts.index(name) for name in known]
     W = np.array([section.section_modulus for section, _ in known.values()])
     K = np.array([limit.concentration for _, limit in known.values()])
     factor = (K / W)[:, None]
-    ratio = found.speeds / (service_speed(machine, found.speeds) if service is None else service)
+    ratio = response.speeds / (service_speed(machine, response.speeds) if service is None else service)
     permitted = [limit.permitted_stress(ratio, section.diameter) for section, limit in known.values()]
     both = np.array(permitted).reshape(len(known), 2, len(ratio))
     return ShaftStress(
-        speeds=found.speeds,
+        speeds=response.speeds,
         shafts=tuple(known),
         section_modulus=W,
         concentration=K,
-        mean=factor * np.abs(found.mean_torques[rows]),
-        vibratory=factor * found.shaft_torque_vibratory[rows],
-        greatest=factor * found.shaft_torque_max[rows],
+        mean=factor * np.abs(response.mean_torques[rows]),
+        vibratory=factor * response.shaft_torque_vibratory[rows],
+        greatest=factor * response.shaft_torque_max[rows],
         continuous=both[:, 0],
         transient=both[:, 1],
     )

@@ -205,10 +205,12 @@ def _highest(ratio: Floats) -> list[int]:
     return sorted({int(np.argmax(ratio)), *near}) if ratio.max(initial=0.0) > 0 else []
 
 
-def survey(machine: Machine, at: ExcitedTrain | None = None, found: TorsionResponse | None = None) -> Survey:
+def survey(
+    machine: Machine, at: ExcitedTrain | None = None, response: TorsionResponse | None = None
+) -> Survey:
     """Look at a train closely. Nothing of it is computed before it is asked for."""
     at = excited_train(machine) if at is None else at
-    return Survey(machine, at, torsion_response(at) if found is None else found)
+    return Survey(machine, at, torsion_response(at) if response is None else response)
 
 
 def between(machine: Machine, at: ExcitedTrain, speeds: Floats) -> ExcitedTrain:

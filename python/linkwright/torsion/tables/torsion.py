@@ -80,7 +80,7 @@ def _judgements(verdict: Verdict) -> Table:
     return Table("limits", "Limits", ("limit", "", "found", "permitted", "at rpm", "verdict"), rows)
 
 
-def _misfire(found: MisfireVerdict) -> Table:
+def _misfire(verdict: MisfireVerdict) -> Table:
     """Each limit with the worst single misfire."""
     rows: list[Row] = [
         (
@@ -92,7 +92,7 @@ def _misfire(found: MisfireVerdict) -> Table:
             row.cylinder,
             "within limit" if row.is_kept else "restricted operation",
         )
-        for row in found.judgements
+        for row in verdict.judgements
     ]
     heads = ("limit", "", "found", "permitted", "at rpm", "cylinder", "verdict")
     return Table("misfire", "Limits with one cylinder misfiring, the worst of all", heads, rows)

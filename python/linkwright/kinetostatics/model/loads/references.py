@@ -105,7 +105,7 @@ def _carrier_faults(
 ) -> Iterator[InitErrorDetails]:
     """A load on nothing, or with an entry that does not belong to its carrier."""
     wants = [(key, want) for (of, key), want in _ENTRY_WANTS.items() if of == kind]
-    known = list(dict.fromkeys(each for _, want in wants for each in topology.candidates(want)))
+    known = list(dict.fromkeys(candidate for _, want in wants for candidate in topology.candidates(want)))
     if wants and on not in known:
         expected = "the name of a " + " or a ".join(dict.fromkeys(want for _, want in wants))
         remedy = topology.instead(on) or suggestion(on, known)
