@@ -324,6 +324,7 @@ _OWN = {
     "Ends",
     "Form",
     "Kind",
+    "Method",
     "Law | Callable[[Any], Any] | Sequence[ArrayLike]",
     "NDArray[np.float64] | None",
     "Objective",
@@ -351,7 +352,7 @@ def test_no_argument_goes_unchecked() -> None:
     assert {each for each in found if each.partition(": ")[2] not in _OWN} == set()
 
 
-@pytest.mark.parametrize("wrong", [3, 1j, object(), [3], b"abc"], ids=repr)
+@pytest.mark.parametrize("wrong", [3, 1j, object(), [3], b"abc"], ids=lambda value: type(value).__name__)
 def test_what_is_of_another_class_is_named(wrong: Any) -> None:
     """A number in place of a study, a motion, a profile, a list of names."""
     classes = ("Machine", "Study", "StudyPlan", "Transient", "CamProfile", "Sequence[str]", "Iterable[str]")

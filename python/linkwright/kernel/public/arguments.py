@@ -25,7 +25,7 @@ import math
 import numbers
 import operator
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -226,12 +226,13 @@ def checks_of(function: Callable[..., Any]) -> dict[str, Check]:
 
 def _check(annotation: str, default: Any) -> Check | None:
     """The check that an annotation asks for; None if it asks for none."""
-    kinds = set(annotation.split(" | "))
+    kinds = {annotation} if annotation in _CHECKS else set(annotation.split(" | "))
     if kinds & _KINDS.keys() and kinds <= _KINDS.keys() | {"None"}:
         return _of_kinds(kinds)
     if {"float", "Floats"} <= kinds:
         kinds |= {"Column"}
-    check = next((_CHECKS[kind] for kind in _CHECKS if kind in kinds), None)
+    asked = [_CHECKS[kind] for kind in _CHECKS if kind in kinds]
+    check = _named_or(asked[1]) if _mapping in asked[:-1] else next(iter(asked), None)
     if check is number and isinstance(default, float) and math.isinf(default):
         check = _any_number
     others = kinds - _CHECKS.keys() - {"None"}
@@ -291,6 +292,11 @@ def _mapping(name: str, value: Any) -> Any:
     return value
 
 
+def _named_or(other: Check) -> Check:
+    """Something by name, or what stands for all names."""
+    return lambda name, value: (_mapping if isinstance(value, Mapping) else other)(name, value)
+
+
 def _truth(name: str, value: Any) -> bool:
     if not isinstance(value, bool | np.bool_):
         raise _wrong(name, value, "true or false")
@@ -329,6 +335,13 @@ def _texts(name: str, value: Any) -> Any:
     if found is None or not all(map(_is_text, found)):
         raise _wrong(name, value, "a list of texts")
     return found
+
+
+def _numbers_or_texts(name: str, value: Any) -> Any:
+    """Several of them; what a text says is read where it is used."""
+    if isinstance(value, str | bytes) or not isinstance(value, Iterable):
+        raise _wrong(name, value, "a list of numbers or texts")
+    return tuple(part if _is_text(part) else number(name, part) for part in value)
 
 
 def _is_text(value: Any) -> bool:
@@ -388,6 +401,7 @@ _CHECKS: dict[str, Check] = {
     "Mapping[str, float]": _mapping,
     "Mapping[str, Friction]": _mapping,
     "Sequence[str]": _texts,
+    "Sequence[float | str]": _numbers_or_texts,
     "Iterable[str]": _texts,
     "ArrayLike": _one_or_more,
     "tuple[ArrayLike, ArrayLike, ArrayLike]": _three,
