@@ -25,7 +25,7 @@ import math
 import numbers
 import operator
 import os
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -339,9 +339,13 @@ def _texts(name: str, value: Any) -> Any:
 
 def _numbers_or_texts(name: str, value: Any) -> Any:
     """Several of them; what a text says is read where it is used."""
-    if isinstance(value, str | bytes) or not isinstance(value, Iterable):
+    try:
+        parts = None if isinstance(value, str | bytes) else tuple(value)
+    except TypeError:
+        parts = None
+    if parts is None:
         raise _wrong(name, value, "a list of numbers or texts")
-    return tuple(part if _is_text(part) else number(name, part) for part in value)
+    return tuple(part if _is_text(part) else number(name, part) for part in parts)
 
 
 def _is_text(value: Any) -> bool:
