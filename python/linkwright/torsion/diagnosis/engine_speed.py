@@ -94,7 +94,7 @@ class EngineSpeed:
         train = machine.train
         if train is None or train.engine is None or train.engines:
             raise InputError(
-                f"{machine.name} has not one [train.engine]: expected a single one, whose cylinders "
+                f"{machine.name} has no [train.engine] alone: expected one engine, whose cylinders "
                 "are to be judged"
             )
         self.machine, self.engine, self.disc, self.rigid = machine, train.engine, disc, rigid

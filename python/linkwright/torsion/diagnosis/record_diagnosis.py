@@ -171,7 +171,7 @@ def _engine(machine: Machine) -> ReciprocatingEngine:
     """The engine of a machine."""
     if machine.train is None or machine.train.engine is None or machine.train.engines:
         raise InputError(
-            f"{machine.name} has not one [train.engine]: expected a single one, whose cylinders "
+            f"{machine.name} has no [train.engine] alone: expected one engine, whose cylinders "
             "are to be judged"
         )
     return machine.train.engine
