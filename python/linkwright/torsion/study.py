@@ -20,7 +20,7 @@ from linkwright.torsion.model.engine.engine import firing_angles
 from linkwright.torsion.model.train import Train
 from linkwright.torsion.modes.campbell import CampbellDiagram, campbell
 from linkwright.torsion.modes.damped import DampedVibration, damped_vibration
-from linkwright.torsion.modes.free import FreeVibration, free_vibration, train_of
+from linkwright.torsion.modes.free import FreeVibration, ShaftShapes, free_vibration, train_of
 from linkwright.torsion.modes.holzer import HolzerTable, holzer_frequency, holzer_table
 from linkwright.torsion.modes.scheme import Scheme, scheme
 from linkwright.torsion.response.engine_torques import EngineData, engine_data
@@ -120,6 +120,7 @@ class TorsionStudy:
         """Results by name, ready for JSON but for numbers that it does not know."""
         free = self.free.to_dict(curves=True)
         free["nodes"] = [[node._asdict() for node in nodes] for nodes in self.free.nodes]
+        free["along"] = [_listed(shapes) for shapes in self.free.along]
         results: dict[str, Any] = {"free": free}
         if self.holzer:
             results["holzer"] = [table.to_dict(curves=True) for table in self.holzer]
@@ -144,6 +145,14 @@ class TorsionStudy:
         if self.along is not None:
             results["unevenness_along"] = self.along.to_dict(curves=True)
         return results | {"scheme": self.scheme.to_dict(curves=True)}
+
+
+def _listed(shapes: ShaftShapes) -> dict[str, Any]:
+    """Shapes along a shaft, as lists."""
+    arrays = {
+        name: value.tolist() for name, value in shapes._asdict().items() if isinstance(value, np.ndarray)
+    }
+    return {"name": shapes.name, "distance": None} | arrays
 
 
 @public

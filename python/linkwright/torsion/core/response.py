@@ -8,11 +8,13 @@ The core takes trees; a train with loops, or with damping ratios of its modes, i
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright import _core
+from linkwright.torsion.core.distributed import dynamic
 from linkwright.torsion.core.train import HELD, ReferredTrain
 
 Floats = NDArray[np.float64]
@@ -107,6 +109,8 @@ def respond(referred: ReferredTrain, at: Operating, orders: Floats, torques: Com
     tree = tree_of(referred)
     if tree is None or at.modal is not None:
         return _whole(referred, at, orders, torques)
+    if referred.rods:
+        return _distributed(tree, at, dynamic_orders(referred, at, orders), orders, torques)
     n, speeds = len(referred.inertia), len(at.speeds)
 
     def table(values: Floats) -> Floats:
@@ -122,6 +126,53 @@ def respond(referred: ReferredTrain, at: Operating, orders: Floats, torques: Com
     J = np.ascontiguousarray(referred.inertia[tree.order])
     _core.torsion_forced(tree.parent, J, at.speeds, tables, orders, q.view(np.float64).reshape(-1))
     return q if (tree.order[1:] > tree.order[:-1]).all() else np.take(q, np.argsort(tree.order), axis=1)
+
+
+class DynamicOrders(NamedTuple):
+    """A train with distributed inertia at each order and speed."""
+
+    stiffness: Complexes  # (orders, shafts, speeds) of springs, with losses [N m/rad]
+    inertia: Complexes  # (orders, masses, speeds) [kg m²]
+    # `first`, `second`: (orders, rods, speeds) inertia of each rod at its ends [kg m²].
+    first: Complexes
+    second: Complexes
+
+
+def dynamic_orders(referred: ReferredTrain, at: Operating, orders: Floats) -> DynamicOrders:
+    """What a train with distributed inertia is where orders excite it."""
+    shape = (-1, len(orders), len(at.speeds))
+    omega = np.outer(orders, at.speeds).ravel()
+    stiffness = np.tile(at.stiffness, len(orders))
+    there = dynamic(referred, stiffness, omega)
+
+    def by_order(rows: Complexes) -> Complexes:
+        return np.ascontiguousarray(rows.reshape(shape).transpose(1, 0, 2))
+
+    first, second = (np.array([getattr(one, name) for one in there.rods]) for name in ("first", "second"))
+    return DynamicOrders(*map(by_order, (there.stiffness, there.inertia, first, second)))
+
+
+def _distributed(
+    tree: Tree, at: Operating, there: DynamicOrders, orders: Floats, torques: Complexes
+) -> Complexes:
+    """Amplitudes of the masses of a tree with distributed inertia, all orders and speeds at once."""
+    omega = orders[:, None, None] * at.speeds
+    own = -(omega**2) * there.inertia + 1j * omega * at.disc_damping
+    own, f = np.take(own, tree.order, axis=1), np.take(torques, tree.order, axis=1)
+    n = len(tree.order)
+    k = np.zeros((len(orders), n + 1, len(at.speeds)), complex)
+    for s, row in enumerate(tree.row.tolist()):
+        k[:, row] += there.stiffness[:, s]
+    # Leaves first: what hangs on a shaft is a spring k behind which a stiffness d lies, k d/(k + d).
+    for row in range(n - 1, 0, -1):
+        share = k[:, row] / (k[:, row] + own[:, row])
+        own[:, tree.parent[row]] += share * own[:, row]
+        f[:, tree.parent[row]] += share * f[:, row]
+    q = np.empty_like(f)
+    q[:, 0] = f[:, 0] / (own[:, 0] + k[:, 0])
+    for row in range(1, n):
+        q[:, row] = (f[:, row] + k[:, row] * q[:, tree.parent[row]]) / (own[:, row] + k[:, row])
+    return np.take(q, np.argsort(tree.order), axis=1)
 
 
 def shaft_torques(
@@ -184,13 +235,20 @@ def _whole(referred: ReferredTrain, at: Operating, orders: Floats, torques: Comp
         stiffness = at.stiffness[:, part] * (1 + 1j * referred.loss_factor[:, None])
         K = _between(referred, stiffness)
         C = _between(referred, np.broadcast_to(referred.damping[:, None], stiffness.shape))
+        if referred.rods:
+            C = np.zeros_like(C)
         C[:, diagonal, diagonal] += at.disc_damping[:, part].T
         if at.modal is not None:
             C = C + at.modal.matrices[at.modal.kind[part]]
         for m, order in enumerate(orders):
             omega = order * at.speeds[part]
+            inertia: Floats | Complexes = referred.inertia
+            if referred.rods:
+                # Losses of the shafts are in their springs.
+                there = dynamic(referred, at.stiffness[:, part], omega)
+                K, inertia = _between(referred, there.stiffness), there.inertia.T
             matrix = K + 1j * omega[:, None, None] * C
-            matrix[:, diagonal, diagonal] -= omega[:, None] ** 2 * referred.inertia
+            matrix[:, diagonal, diagonal] -= omega[:, None] ** 2 * inertia
             q[m, :, part] = _solved(matrix, torques[m, :, part].T).T
     return q
 

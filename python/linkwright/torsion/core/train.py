@@ -11,7 +11,7 @@ shaft held at both ends has; then the matrices are solved as a whole.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from numbers import Real
@@ -22,9 +22,10 @@ from numpy.typing import NDArray
 from linkwright import _core
 from linkwright.kernel.errors import MachineError, Problem
 from linkwright.kernel.numerics.tangent import plain
+from linkwright.torsion.core.rod import Rod
 from linkwright.torsion.model.modal_damping import ModalDamping
 from linkwright.torsion.model.train import GROUND, Shaft, Train, TrainGear
-from linkwright.torsion.model.whole_train import parts_of, speeds, whole_train
+from linkwright.torsion.model.whole_train import RodShaft, parts_of, speeds, whole_train
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
@@ -50,6 +51,8 @@ class ReferredTrain:
     loss_factor: Floats  # (shafts,) η of the complex stiffness k (1 + iη)
     # (masses,) ζ of the modes of vibration by frequency, beyond what damps the parts; empty for none.
     ratios: Floats = field(default_factory=lambda: np.empty(0))
+    # Shafts whose inertia is distributed; the inertias of the masses count it at the ends.
+    rods: tuple[Rod, ...] = ()
 
     @property
     def is_free(self) -> bool:
@@ -162,8 +165,19 @@ def refer(train: Train) -> ReferredTrain:
         disc_damping=summed("damping"),
         damping=factor * np.array([part.damping for part in twisting.values()]),
         loss_factor=np.array([part.loss_factor for part in twisting.values()]),
+        rods=tuple(_rods(list(twisting.values()), factor)),
     )
     return referred if train.modal_damping is None else _with_ratios(referred, train.modal_damping)
+
+
+def _rods(twisting: list[Shaft | TrainGear], factor: Floats) -> Iterator[Rod]:
+    """Shafts whose inertia is distributed."""
+    for n, part in enumerate(twisting):
+        if isinstance(part, RodShaft):
+            k = np.array([piece.stiffness for piece in part.pieces])
+            j = np.array([piece.inertia for piece in part.pieces])
+            first, second = (float(factor[n]) * end for end in part.end_inertias)
+            yield Rod(n, factor[n] * k, factor[n] * j, (first, second))
 
 
 def _with_ratios(referred: ReferredTrain, given: ModalDamping) -> ReferredTrain:

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.kernel.errors import InputError
 from linkwright.machine.machine import Machine
 from linkwright.machine.tangents import columns
 from linkwright.torsion.core.train import ReferredTrain, refer
@@ -56,6 +57,11 @@ def train_tangents(
     """
     whole = whole_train(_described(machine))
     referred = refer(whole)
+    if referred.rods:
+        raise InputError(
+            f"train.inertia: {machine.name} has shafts with distributed inertia, which have no exact "
+            'derivatives; set it to "ends" for sensitivities, or sweep the entry'
+        )
     J = mean_inertia(machine) if machine.train is None else 0.0
     if machine.train is None:
         moving = ("mechanism.", "bodies.", "pumping_unit.", "rod_rotator.")

@@ -203,7 +203,7 @@ class ShaftLimit(CheckedDescription):
         )
         return np.full_like(speed_ratio, low), np.full_like(speed_ratio, high)
 
-    def _severity(self, section: StressedSection) -> float:
+    def severity(self, section: StressedSection) -> float:
         """Stress over permitted stress, but for a factor, at a section."""
         size = 1.0
         if self.kind == "iacs_m68" and section.diameter is not None:
@@ -223,4 +223,4 @@ class ShaftLimit(CheckedDescription):
         known = [
             StressedSection(section.section_modulus, min(section.diameters)) for section in sections or ()
         ]
-        return max(known, key=self._severity, default=None)
+        return max(known, key=self.severity, default=None)

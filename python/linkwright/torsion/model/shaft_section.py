@@ -242,7 +242,7 @@ class ShaftSection(CheckedDescription):
             a = b = math.sqrt((self.diameter**2 + a**2) / 2)
         if self.bolt_circle is not None:
             a = b = self.bolt_circle
-        return density * self.length * math.pi / 32 * (_mean_fourth(a, b) - _mean_fourth(p, q))
+        return density * self.length * math.pi / 32 * (mean_fourth(a, b) - mean_fourth(p, q))
 
     def place(self, share: float) -> float:
         """How far from where it begins a share of its twist lies [m]."""
@@ -251,7 +251,7 @@ class ShaftSection(CheckedDescription):
         return self.length * share
 
 
-def _mean_fourth(a: float, b: float) -> float:
+def mean_fourth(a: float, b: float) -> float:
     """Mean of the fourth power of a length that goes from a to b in proportion."""
     mean: float = total(a ** (4 - n) * b**n for n in range(5)) / 5
     return mean

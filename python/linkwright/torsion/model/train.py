@@ -49,6 +49,8 @@ _ORDER = Bound(
 
 Floats = NDArray[np.float64]
 
+ShaftInertia = Literal["ends", "distributed"]
+
 
 class TrainRun(CheckedDescription):
     """The range of speeds of the first disc, and how far orders count."""
@@ -159,15 +161,36 @@ class Shaft(ElasticShaft):
         description='The two discs that it joins; one end may be "ground", which is held.'
     )
     density: Density | None = Field(
+        None, description="Of the sections. With it, their own inertia counts, as `inertia` says."
+    )
+    own_inertia: Annotated[float, positive(INERTIA)] | None = Field(
+        None, description="Of a uniform shaft about its axis, beside its stiffness, in place of a density."
+    )
+    inertia: ShaftInertia | None = Field(
         None,
-        description="Of the sections. With it, their own inertia counts with the discs at the two ends.",
+        description='How its own inertia counts: "ends" with the discs at its two ends, "distributed" where '
+        "it is, exactly. Without it, as [train] says.",
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         yield from super()._faults()
         if self.density is not None and self.sections is None:
             expected = "the sections whose inertia it gives"
-            yield fault("density", found=self.density, expected=expected, remedy="leave density out")
+            remedy = "leave density out, or give own_inertia beside the stiffness"
+            yield fault("density", found=self.density, expected=expected, remedy=remedy)
+        if self.own_inertia is not None and self.stiffness is None:
+            remedy = "give the density of the sections instead"
+            yield fault(
+                "own_inertia", found=self.own_inertia, expected="the stiffness beside it", remedy=remedy
+            )
+        if self.inertia is not None and not self.is_heavy:
+            expected = "an inertia of the shaft: the density of its sections, or own_inertia"
+            yield fault("inertia", found=self.inertia, expected=expected)
+
+    @property
+    def is_heavy(self) -> bool:
+        """Whether it has an inertia of its own."""
+        return self.density is not None or self.own_inertia is not None
 
 
 class TrainGear(CheckedDescription):
@@ -236,6 +259,18 @@ class Train(Description):
     drivers: dict[Name, TrainDriver] = Field(
         default_factory=dict,
         description="Several turbines or motors that drive the loads, by name, in place of one driver.",
+    )
+    inertia: ShaftInertia = Field(
+        "ends",
+        description="How the inertia of shafts with a density, or with own_inertia, counts where they do not "
+        'say it themselves: "ends" with the discs at their ends, "distributed" along them, exactly.',
+    )
+    modes: Whole | None = Field(
+        None,
+        ge=1,
+        le=200,
+        description="How many modes are sought where inertia is distributed. Without it, as many as discs "
+        "and sections of such shafts, and two.",
     )
     modal_damping: ModalDamping | None = Field(
         None, description="Damping ratios of the modes, in addition to what damps single parts."

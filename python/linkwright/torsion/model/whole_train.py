@@ -2,8 +2,8 @@
 
 An engine is a disc a throw, with the mean of its inertia over the revolution, and shafts between them. A
 coupling is a shaft with the slope of its curve without torque; a damper is a disc, its ring, on a shaft
-without stiffness or with that of its spring. A shaft with a density gives its own inertia to the discs at its
-ends.
+without stiffness or with that of its spring. A shaft with an inertia of its own gives it to the discs at its
+ends; where it is distributed, the shaft keeps its pieces, from which exact vibration follows.
 """
 
 from __future__ import annotations
@@ -14,8 +14,9 @@ from typing import NamedTuple, TypeVar
 
 from linkwright.torsion.model.coupling import Coupling, Damper
 from linkwright.torsion.model.engine.engine_motion import mean_throw_inertia, throw_stiffness
+from linkwright.torsion.model.shaft_rod import RodPiece, rod_pieces
 from linkwright.torsion.model.shaft_row import end_inertias
-from linkwright.torsion.model.train import GROUND, Disc, Shaft, Train
+from linkwright.torsion.model.train import GROUND, Disc, Shaft, ShaftInertia, Train
 from linkwright.torsion.model.train_drivers import InstalledEngine
 
 
@@ -24,7 +25,7 @@ def whole_train(train: Train) -> Train:
 
     Of the same vibration: discs, then rings of dampers; shafts, then couplings, then what holds the rings.
     """
-    heavy = any(shaft.density is not None for shaft in train.shafts.values())
+    heavy = any(shaft.is_heavy for shaft in train.shafts.values())
     if not (train.couplings or train.dampers or train.installed or heavy):
         return train
     throws: dict[str, Disc] = {}
@@ -42,7 +43,7 @@ def whole_train(train: Train) -> Train:
     return train.model_copy(
         update={
             "discs": _loaded({**throws, **train.discs, **rings}, train.shafts),
-            "shafts": {**cranks, **_light(train.shafts), **couplings, **held},
+            "shafts": {**cranks, **_light(train), **couplings, **held},
             "engine": None,
             "engines": {},
             "couplings": {},
@@ -69,20 +70,43 @@ def _crankshaft(installed: InstalledEngine) -> tuple[dict[str, Disc], dict[str, 
 def _loaded(discs: dict[str, Disc], shafts: Mapping[str, Shaft]) -> dict[str, Disc]:
     """Discs with the inertia of the shafts between them."""
     for shaft in shafts.values():
-        if shaft.density is None or shaft.sections is None:
-            continue
-        for name, J in zip(shaft.between, end_inertias(shaft.sections, shaft.density), strict=True):
-            if name in discs:
+        for name, J in zip(shaft.between, _end_inertias(shaft), strict=True):
+            if name in discs and J:
                 discs[name] = discs[name].model_copy(update={"inertia": discs[name].inertia + J})
     return discs
 
 
-def _light(shafts: Mapping[str, Shaft]) -> dict[str, Shaft]:
+def _end_inertias(shaft: Shaft) -> tuple[float, float]:
+    """What a shaft with an inertia of its own gives to the discs at its ends [kg m²]."""
+    if shaft.own_inertia is not None:
+        return shaft.own_inertia / 2, shaft.own_inertia / 2
+    if shaft.density is None or shaft.sections is None:
+        return 0.0, 0.0
+    return end_inertias(shaft.sections, shaft.density)
+
+
+class RodShaft(Shaft):
+    """A shaft whose inertia is distributed, and counted with the discs at its ends as well."""
+
+    pieces: tuple[RodPiece, ...]
+    end_inertias: tuple[float, float]
+
+
+def _light(train: Train) -> dict[str, Shaft]:
     """Shafts whose inertia is counted with the discs."""
     return {
-        name: shaft if shaft.density is None else shaft.model_copy(update={"density": None})
-        for name, shaft in shafts.items()
+        name: _counted(shaft, shaft.inertia or train.inertia) if shaft.is_heavy else shaft
+        for name, shaft in train.shafts.items()
     }
+
+
+def _counted(shaft: Shaft, inertia: ShaftInertia) -> Shaft:
+    """A shaft whose inertia is counted with the discs; a rod as well where it is distributed."""
+    if inertia == "ends":
+        return shaft.model_copy(update={"density": None, "own_inertia": None})
+    entries = {name: getattr(shaft, name) for name in type(shaft).model_fields}
+    entries |= {"density": None, "own_inertia": None, "pieces": rod_pieces(shaft)}
+    return RodShaft.model_construct(**entries, end_inertias=_end_inertias(shaft))
 
 
 def _coupling(coupling: Coupling) -> Shaft:

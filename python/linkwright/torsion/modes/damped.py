@@ -47,8 +47,9 @@ from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import SPEED, positive
 from linkwright.machine.machine import Machine
+from linkwright.torsion.core.distributed import cut_up, dynamic, natural_frequencies
 from linkwright.torsion.core.train import ReferredTrain, refer
-from linkwright.torsion.modes.free import lead_speeds, train_of, twists_of
+from linkwright.torsion.modes.free import modes_wanted, train_of
 from linkwright.torsion.response.excited_train import prepared
 
 Floats = NDArray[np.float64]
@@ -176,15 +177,21 @@ def damped_vibration(machine: Machine, speed: float | None = None) -> DampedVibr
         The machine has no train, or the speed is none above zero.
     """
     in_range(speed=(speed, positive(SPEED)))
-    referred, disc_damping = _at(machine, speed)
-    eigenvalues, masses = damped_modes(referred)
+    train, disc_damping = _at(machine, speed)
+    count = modes_wanted(machine, train_of(machine))
+    referred = _cut(train, count) if train.rods else train
+    eigenvalues, masses = damped_modes(replace(referred, rods=()))
+    if train.rods:
+        eigenvalues, masses = eigenvalues[:count], masses[:count]
+        swings = zip(eigenvalues.tolist(), masses, strict=True)
+        eigenvalues = np.array([_exact(referred, s, q) for s, q in swings])
     shapes = _scaled(referred.speed * masses[:, referred.mass])
-    own = np.array([disc.inertia for disc in train_of(machine).discs.values()])
-    inertia = 2 * (own * np.abs(shapes) ** 2).sum(axis=1)
-    shafts, discs = _damping(referred, disc_damping, shapes, eigenvalues.imag)
+    size = np.abs(shapes).max(axis=1) / np.abs(referred.speed * masses[:, referred.mass]).max(axis=1)
+    inertia = 2 * size**2 * (referred.inertia * np.abs(masses) ** 2).sum(axis=1)
+    shafts = _of_shafts(train, referred, size[:, None] * masses, eigenvalues.imag)
+    discs = disc_damping * np.abs(shapes) ** 2
     # Divided by their own sum, which σ is but for rounding.
     modal = np.einsum("ma,ab,mb->m", masses.conj(), referred.modal_damping, masses).real
-    size = np.abs(shapes).max(axis=1) / np.abs(referred.speed * masses[:, referred.mass]).max(axis=1)
     whole = (shafts.sum(axis=1) + discs.sum(axis=1) + modal * size**2)[:, None]
     damped = (-eigenvalues.real * inertia)[:, None] > 0
     whole = np.where(damped & (whole > 0), whole, np.inf)
@@ -193,7 +200,7 @@ def damped_vibration(machine: Machine, speed: float | None = None) -> DampedVibr
         eigenvalues=eigenvalues,
         discs=referred.discs,
         mode_shapes=shapes,
-        shafts=referred.shafts,
+        shafts=train.shafts,
         shaft_shares=shafts / whole,
         disc_shares=discs / whole,
     )
@@ -209,15 +216,61 @@ def _at(machine: Machine, speed: float | None) -> tuple[ReferredTrain, Floats]:
     return replace(at.referred, stiffness=stiffness, disc_damping=damping), at.disc_damping[:, 0]
 
 
-def _damping(
-    referred: ReferredTrain, disc_damping: Floats, shapes: Complexes, omega: Floats
-) -> tuple[Floats, Floats]:
-    """What shafts and discs add to 2σ Σ J|θ|², (modes, shafts) and (modes, discs)."""
-    twists = twists_of(referred, shapes.real) + 1j * twists_of(referred, shapes.imag)
-    square = np.abs(twists) ** 2 / lead_speeds(referred) ** 2
+def _of_shafts(train: ReferredTrain, referred: ReferredTrain, masses: Complexes, omega: Floats) -> Floats:
+    """What shafts add to 2σ Σ J|θ|², (modes, shafts); of a shaft in pieces all of them."""
+    square = np.abs(masses @ referred.joins.T) ** 2
     loss = referred.loss_factor * referred.stiffness
     hysteresis = np.divide(loss, omega[:, None], out=np.zeros(square.shape), where=omega[:, None] > 0)
-    return (referred.damping + hysteresis) * square, disc_damping * np.abs(shapes) ** 2
+    added = (referred.damping + hysteresis) * square
+    shafts = np.zeros((len(masses), len(train.shafts)))
+    for n, name in enumerate(referred.shafts):
+        shafts[:, train.shafts.index(name)] += added[:, n]
+    return shafts
+
+
+# Largest β of a piece of which damped modes are found at first.
+_PIECE = 0.3
+
+# Newton steps to a damped mode of a train with distributed inertia, and the share of it that is none.
+_STEPS, _NO_STEP = 12, 1e-11
+
+# Share of an eigenvalue by which its derivative is looked at; it changes the way there, not the end.
+_ASIDE = 1e-6
+
+
+def _cut(referred: ReferredTrain, count: int) -> ReferredTrain:
+    """A train with distributed inertia, cut into pieces short at the frequencies of its modes."""
+    highest = float(natural_frequencies(referred, count)[-1])
+    fine = (rod.refined(highest, _PIECE)[0] for rod in referred.rods)
+    return cut_up(referred, [rod.parts(highest, _PIECE) for rod in fine])
+
+
+def _exact(referred: ReferredTrain, start: complex, shape: Complexes) -> complex:
+    """Eigenvalue of a train with distributed inertia from that of its pieces with inertia at their ends.
+
+    Newton on D(s) q = 0. Where it leaves the neighbourhood the start stays.
+    """
+    s, q = start, shape
+    if s.imag == 0:
+        return start
+    for _ in range(_STEPS):
+        D = _dynamic_matrix(referred, s)
+        slope = (_dynamic_matrix(referred, s * (1 + _ASIDE)) - D) / (s * _ASIDE)
+        u = np.linalg.solve(D, slope @ q)
+        step = complex((q.conj() @ q) / (q.conj() @ u))
+        s, q = s - step, u / np.abs(u).max()
+        if abs(step) <= _NO_STEP * abs(s):
+            break
+    return s if abs(s - start) < _PIECE**2 * abs(start) else start
+
+
+def _dynamic_matrix(referred: ReferredTrain, s: complex) -> Complexes:
+    """D(s) of a train whose shafts are rods [N m/rad]. `s`: [1/s]."""
+    omega = np.array([s / 1j])
+    at = dynamic(referred, referred.stiffness[:, None], omega)
+    D: Complexes = (referred.joins.T * at.stiffness[:, 0]) @ referred.joins + s * referred.modal_damping
+    D += np.diag(s**2 * at.inertia[:, 0] + s * referred.disc_damping)
+    return D
 
 
 def _scaled(shapes: Complexes) -> Complexes:

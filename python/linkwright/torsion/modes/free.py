@@ -23,7 +23,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, NamedTuple
 
 import numpy as np
@@ -33,9 +33,11 @@ from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
+from linkwright.torsion.core.distributed import ExactMode, RodShape, exact_modes
+from linkwright.torsion.core.rod import along, ends, energies, node_shares, stations
 from linkwright.torsion.core.train import HELD, ReferredTrain, refer
 from linkwright.torsion.model.train import Train
-from linkwright.torsion.model.whole_train import whole_train
+from linkwright.torsion.model.whole_train import RodShaft, whole_train
 from linkwright.torsion.response.drive_line import drive_line
 
 Floats = NDArray[np.float64]
@@ -62,9 +64,30 @@ class Node(NamedTuple):
     distance: float | None
 
 
+class ShaftShapes(NamedTuple):
+    """How a shaft with distributed inertia swings in every mode.
+
+    Attributes
+    ----------
+    name : str
+        Of the shaft.
+    share : ndarray, shape (stations,)
+        Of the flexibility of the shaft before each station, 0 to 1.
+    distance : ndarray or None, shape (stations,)
+        From the first end of a shaft of sections [m].
+    angles : ndarray, shape (modes, stations)
+        As `mode_shapes`, of the shaft in the sense of its first end.
+    """
+
+    name: str
+    share: Floats
+    distance: Floats | None
+    angles: Floats
+
+
 _MODE_SHAPES = (
-    "The largest amplitude is 1; of several, the first in the file. Each disc counts in the sense in "
-    "which it turns with the train."
+    "The largest amplitude is 1, along shafts of distributed inertia too; of several, the first in the file. "
+    "Each disc counts in the sense in which it turns with the train."
 )
 _TWISTS = "Angle of the first end less that of the second; of a mesh, as angle of its first disc."
 
@@ -113,6 +136,19 @@ class FreeVibration(Result):
     ]
     modal_inertia: Annotated[Floats, Shown("modal inertia", "Σ J θ²", "kg m²")]
     joined: Annotated[tuple[tuple[str, str], ...], About("The two ends of every shaft and gear stage.")]
+    shaft_kinetic_shares: Annotated[
+        Floats,
+        Shown(
+            "share of each shaft in the kinetic energy",
+            "",
+            "",
+            "Of those with distributed inertia.",
+            shape="(modes, shafts)",
+        ),
+    ]
+    along: Annotated[
+        tuple[ShaftShapes, ...], About("Shapes along the shafts whose inertia is distributed.")
+    ] = ()
 
     @property
     def angular_frequencies(self) -> Annotated[Floats, Shown("angular natural frequencies", "ω", "rad/s")]:
@@ -168,25 +204,125 @@ def free_vibration(machine: Machine) -> FreeVibration:
     """
     train = train_of(machine)
     referred = refer(train)
-    omega, masses = referred.modes()
-    shapes = _scaled(referred.speed * masses[:, referred.mass])
-    J = np.array([disc.inertia for disc in train.discs.values()])
+    modes = train_modes(referred, modes_wanted(machine, train))
+    shapes, size = _sized(referred, modes)
     twists = twists_of(referred, shapes)
-    kinetic, potential = J * shapes**2, own_stiffness(referred) * twists**2
-    moving = omega[:, None] > 0
+    kinetic = disc_inertias(train, referred) * shapes**2
+    potential = own_stiffness(referred) * twists**2
+    of_shafts = np.zeros_like(potential)
+    for n, rod in enumerate(referred.rods):
+        energy = [_energies(each, n, factor) for each, factor in zip(modes.exact, size, strict=True)]
+        of_shafts[:, rod.shaft], potential[:, rod.shaft] = np.array(energy).T
+    moving = modes.omega[:, None] > 0
     total = np.where(moving, potential.sum(axis=1, keepdims=True), 1.0)
+    inertia = kinetic.sum(axis=1) + of_shafts.sum(axis=1)
     return FreeVibration(
-        natural_frequencies=omega / (2 * math.pi),
+        natural_frequencies=modes.omega / (2 * math.pi),
         discs=referred.discs,
         mode_shapes=shapes,
         shafts=referred.shafts,
         twists=twists,
-        nodes=tuple(tuple(_nodes(train, referred, shape)) for shape in shapes),
-        kinetic_shares=kinetic / kinetic.sum(axis=1, keepdims=True),
+        nodes=tuple(tuple(_nodes(train, referred, shape, modes, k)) for k, shape in enumerate(shapes)),
+        kinetic_shares=kinetic / inertia[:, None],
+        shaft_kinetic_shares=of_shafts / inertia[:, None],
         potential_shares=np.where(moving, potential, 0.0) / total,
-        modal_inertia=kinetic.sum(axis=1),
+        modal_inertia=inertia,
         joined=tuple(each.between for table in (train.shafts, train.gears) for each in table.values()),
+        along=tuple(_along(train, referred, modes, n, size) for n in range(len(referred.rods))),
     )
+
+
+# Modes beyond those that a train has with the inertia of each section at its ends.
+_FURTHER = 2
+
+
+def modes_wanted(machine: Machine, train: Train) -> int:
+    """How many modes of a train with distributed inertia are sought."""
+    if machine.train is not None and machine.train.modes is not None:
+        return machine.train.modes
+    sections = [
+        len(shaft.sections or (None,)) for shaft in train.shafts.values() if isinstance(shaft, RodShaft)
+    ]
+    return len(train.discs) + sum(sections) + _FURTHER
+
+
+def disc_inertias(train: Train, referred: ReferredTrain) -> Floats:
+    """Inertia of each disc at its own speed, without that of shafts that have it distributed, (discs,)."""
+    J: Floats = np.array([disc.inertia for disc in train.discs.values()], dtype=float)
+    for rod in referred.rods:
+        for disc, lumped in zip(referred.tip[rod.shaft], rod.ends, strict=True):
+            if disc != HELD:
+                J[disc] -= lumped / referred.speed[disc] ** 2
+    own: Floats = np.maximum(J, 0.0)
+    return own
+
+
+class TrainModes(NamedTuple):
+    """Modes of a train, lumped or exact."""
+
+    omega: Floats  # (modes,) [rad/s]
+    masses: Floats  # (modes, masses) the kinetic energy of each is ½ ω²
+    exact: tuple[ExactMode, ...]  # of a train with distributed inertia; else empty
+
+
+def train_modes(referred: ReferredTrain, count: int) -> TrainModes:
+    """Modes of a train: all of a lumped one, the lowest of one with distributed inertia."""
+    if not referred.rods:
+        return TrainModes(*referred.modes(), ())
+    modes = exact_modes(referred, count)
+    return TrainModes(
+        np.array([each.omega for each in modes]), np.array([each.masses for each in modes]), modes
+    )
+
+
+def _sized(referred: ReferredTrain, modes: TrainModes) -> tuple[Floats, Floats]:
+    """Shapes of the discs, the largest amplitude 1, and what each mode was multiplied by."""
+    angles = referred.speed * modes.masses[:, referred.mass]
+    if not modes.exact:
+        return _scaled(angles), np.ones(len(angles))
+    lead = lead_speeds(referred)
+    inside = [[lead[one.rod.shaft] * np.abs(one.angles).max() for one in each.rods] for each in modes.exact]
+    largest = np.maximum(np.abs(angles).max(axis=1), np.max(inside, axis=1))
+    angles[np.abs(angles) < _AT_REST * largest[:, None]] = 0.0
+    first = np.take_along_axis(angles, np.abs(angles).argmax(axis=1)[:, None], 1)[:, 0]
+    size: Floats = np.where(first < 0, -1.0, 1.0) / largest
+    return size[:, None] * angles, size
+
+
+def _energies(mode: ExactMode, rod: int, factor: float) -> tuple[float, float]:
+    """Kinetic energy over ω², and potential energy, each twice, of a shaft in a mode that counts `factor`."""
+    shape = mode.rods[rod]
+    energy = energies(shape.rod, mode.omega, factor * shape.angles)
+    return float(energy.kinetic.sum()), float(energy.potential.sum())
+
+
+def _along(train: Train, referred: ReferredTrain, modes: TrainModes, n: int, size: Floats) -> ShaftShapes:
+    """Shapes of a shaft with distributed inertia, at the stations that the highest mode needs."""
+    place = referred.rods[n].shaft
+    name = referred.shafts[place]
+    rod, _ = referred.rods[n].refined(float(modes.omega[-1]), math.pi / 8)
+    lead = float(lead_speeds(referred)[place])
+    angles = []
+    for mode, factor in zip(modes.exact, size, strict=True):
+        shape = mode.rods[n]
+        omega, lossy = np.array([[mode.omega]]), np.ones((1, 1), complex)
+        first, torque = (
+            np.array([[value + 0j]]) for value in (shape.angles[0], _first_torque(shape, mode.omega))
+        )
+        swing = along(rod, omega, lossy, first, torque)
+        angles.append(lead * factor * swing.angles[0, :, 0].real)
+    share = stations(rod)
+    shaft = train.shafts[name]
+    distance = None if shaft.sections is None else np.array([shaft.distance(each) for each in share.tolist()])
+    return ShaftShapes(name, share, distance, np.array(angles))
+
+
+def _first_torque(shape: RodShape, omega: float) -> float:
+    """Torque at the first end of a shaft in a mode."""
+    first = replace(shape.rod, stiffness=shape.rod.stiffness[:1], inertia=shape.rod.inertia[:1])
+    (piece,) = ends([first], np.array([omega]))
+    a, b = shape.angles[:2]
+    return float((piece.spring * (a - b) - omega**2 * piece.first * a).real[0])
 
 
 def train_of(machine: Machine) -> Train:
@@ -239,14 +375,22 @@ def _scaled(shapes: Floats) -> Floats:
     return scaled
 
 
-def _nodes(train: Train, referred: ReferredTrain, shape: Floats) -> Iterator[Node]:
-    """Places at rest: discs, and places between ends that swing against each other."""
+def _nodes(train: Train, referred: ReferredTrain, shape: Floats, modes: TrainModes, k: int) -> Iterator[Node]:
+    """Places at rest: discs, places between ends that swing against each other, places along rods."""
     for name, amplitude in zip(referred.discs, shape, strict=True):
         if abs(amplitude) < _AT_REST:
             yield Node(name, 0.0, None)
     first, second = _at_ends(referred, shape)
-    for name, a, b in zip(referred.shafts, first.tolist(), second.tolist(), strict=True):
-        if a * b < 0 and min(abs(a), abs(b)) >= _AT_REST:
-            share = a / (a - b)
-            shaft = train.shafts.get(name)
+    rods = {rod.shaft: n for n, rod in enumerate(referred.rods)}
+    for s, (name, a, b) in enumerate(zip(referred.shafts, first.tolist(), second.tolist(), strict=True)):
+        shares: list[float] = []
+        if s in rods and modes.omega[k] > 0:
+            swing = modes.exact[k].rods[rods[s]]
+            angles = np.where(np.abs(swing.angles) < _AT_REST * np.abs(swing.angles).max(), 0.0, swing.angles)
+            shares = node_shares(swing.rod, modes.omega[k], angles).tolist()
+            shares += [float(stations(swing.rod)[n]) for n in np.flatnonzero(angles[1:-1] == 0) + 1]
+        elif a * b < 0 and min(abs(a), abs(b)) >= _AT_REST:
+            shares = [a / (a - b)]
+        shaft = train.shafts.get(name)
+        for share in sorted(shares):
             yield Node(name, share, shaft.distance(share) if shaft is not None else None)

@@ -6,7 +6,8 @@ external torque, the *residual*:
 .. math:: (K - \omega^2 J)\,\theta = -e_r M_r, \qquad \theta_1 = 1
 
 For a free chain that is the sum of all :math:`J\omega^2\theta` at its end. A natural frequency is where it is
-zero.
+zero. A shaft whose inertia is distributed is, at the frequency, a spring with an inertia at each end, which
+counts with its disc: exactly, but with other numbers at every frequency.
 
 References
 ----------
@@ -19,7 +20,7 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated
 
 import numpy as np
@@ -33,7 +34,8 @@ from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import FREQUENCY, SPEED, not_negative, parse
 from linkwright.machine.machine import Machine
-from linkwright.torsion.core.train import ReferredTrain, refer
+from linkwright.torsion.core.distributed import lossless
+from linkwright.torsion.core.train import HELD, ReferredTrain, refer
 from linkwright.torsion.model.train import Train
 from linkwright.torsion.modes.free import FreeVibration, own_stiffness, train_of, twists_of
 
@@ -129,10 +131,12 @@ def holzer_table(machine: Machine, frequency: float, *, end: str | None = None) 
             f'end: found "{end}", expected the name of a disc' + (f"; {remedy}" if remedy else "")
         )
     referred, omega = refer(train), 2 * math.pi * frequency
+    J = np.array([disc.inertia for disc in train.discs.values()])
+    if referred.rods:
+        referred, J = _at_frequency(referred, J, omega)
     last = referred.discs.index(end)
     q, residual = _state(referred, omega**2, int(referred.mass[last]))
     theta = referred.speed * q[referred.mass]
-    J = np.array([disc.inertia for disc in train.discs.values()])
     k, twist = own_stiffness(referred), twists_of(referred, theta)
     return HolzerTable(
         frequency=float(frequency),
@@ -148,6 +152,17 @@ def holzer_table(machine: Machine, frequency: float, *, end: str | None = None) 
         end=end,
         residual_torque=residual / float(referred.speed[last]),
     )
+
+
+def _at_frequency(referred: ReferredTrain, J: Floats, omega: float) -> tuple[ReferredTrain, Floats]:
+    """A train whose rods are springs with inertias at their ends, and the inertia of its discs."""
+    at = lossless(referred, np.array([omega]))
+    J = J.copy()
+    for rod, one in zip(referred.rods, at.rods, strict=True):
+        for disc, end, lumped in zip(referred.tip[rod.shaft], (one.first, one.second), rod.ends, strict=True):
+            if disc != HELD:
+                J[disc] += (float(end[0].real) - lumped) / referred.speed[disc] ** 2
+    return replace(referred, stiffness=at.stiffness.real[:, 0], inertia=at.inertia.real[:, 0]), J
 
 
 def holzer_frequency(asked: float | str, free: FreeVibration) -> float:

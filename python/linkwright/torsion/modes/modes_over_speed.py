@@ -11,8 +11,10 @@ from numpy.typing import NDArray
 
 from linkwright.kernel.errors import InputError
 from linkwright.machine.machine import Machine
+from linkwright.torsion.core.distributed import RodShape
+from linkwright.torsion.core.rod import energies
 from linkwright.torsion.core.train import ReferredTrain
-from linkwright.torsion.modes.free import FreeVibration, train_of
+from linkwright.torsion.modes.free import FreeVibration, modes_wanted, train_modes, train_of
 from linkwright.torsion.response.excited_train import ExcitedTrain, prepared
 
 Floats = NDArray[np.float64]
@@ -131,7 +133,8 @@ class _OfMachine(ModesAt):
     def frequencies(self, speeds: Floats) -> Floats:
         at = self._at(speeds)
         columns, place = np.unique(at.operating.stiffness, axis=1, return_inverse=True)
-        omega = [_train(at, column).modes()[0] for column in columns.T]
+        wanted = modes_wanted(self.machine, at.train)
+        omega = [train_modes(_train(at, column), wanted).omega for column in columns.T]
         return np.array(omega)[place.ravel()]
 
     def shapes(self, speeds: Floats, modes: Indices) -> Shapes:
@@ -143,10 +146,11 @@ class _OfMachine(ModesAt):
     def _shape(self, at: ExcitedTrain, n: int, mode: int) -> tuple[float, Floats, float, float]:
         """ω, θ, modal stiffness and ζ of a mode at a speed."""
         train = _train(at, at.operating.stiffness[:, n], at.operating.disc_damping[:, n])
-        omega, masses = train.modes()
-        q, ω = masses[mode], float(omega[mode])
-        # Σ J q² = 1.
+        modes = train_modes(train, modes_wanted(self.machine, at.train))
+        q, ω = modes.masses[mode], float(modes.omega[mode])
+        # Σ J q² = 1, with the inertia of shafts.
         ratio = (ω * (q @ train.damping_matrix @ q) + q @ train.loss_matrix @ q) / (2 * ω**2)
+        ratio += sum(_of_rod(train, each, ω) for each in (modes.exact[mode].rods if modes.exact else ()))
         θ = train.speed * q[train.mass]
         size = np.abs(θ).max()
         return ω, θ / size, float(ω**2 / size**2), float(ratio)
@@ -173,6 +177,14 @@ class _OfMachine(ModesAt):
         if self._last is None or not np.array_equal(self._last.torques.speeds, speeds):
             self._last = prepared(self.machine, speeds)
         return self._last
+
+
+def _of_rod(train: ReferredTrain, shape: RodShape, ω: float) -> float:
+    """What a shaft with distributed inertia adds to ζ beyond what the twist between its ends gives."""
+    s, twist = shape.rod.shaft, shape.angles[0] - shape.angles[-1]
+    lossy = ω * train.damping[s] / train.stiffness[s] + train.loss_factor[s]
+    potential = energies(shape.rod, ω, shape.angles).potential.sum()
+    return float(lossy * (potential - train.stiffness[s] * twist**2) / (2 * ω**2))
 
 
 def _train(at: ExcitedTrain, stiffness: Floats, damping: Floats | None = None) -> ReferredTrain:

@@ -15,7 +15,14 @@ from numpy.typing import NDArray
 from linkwright.kernel.errors import InputError, require_within
 from linkwright.kernel.limits import RESPONSE
 from linkwright.machine.machine import Machine
-from linkwright.torsion.core.response import Operating, by_equilibrium, modal_losses, tree_of
+from linkwright.torsion.core.response import (
+    DynamicOrders,
+    Operating,
+    by_equilibrium,
+    dynamic_orders,
+    modal_losses,
+    tree_of,
+)
 from linkwright.torsion.core.train import ReferredTrain, refer
 from linkwright.torsion.model.drive_train import CRANK
 from linkwright.torsion.model.train import Train, TrainRun
@@ -51,6 +58,13 @@ class ExcitedTrain:
         own = np.array([disc.damping for disc in self.train.discs.values()])
         damping: Floats = own[:, None] + self.torques.damping
         return damping
+
+    @cached_property
+    def distributed(self) -> DynamicOrders | None:
+        """What it is where orders excite it, if inertia of shafts is distributed; else None."""
+        if not self.referred.rods:
+            return None
+        return dynamic_orders(self.referred, self.operating, self.torques.orders)
 
     def referred_harmonics(self) -> Complexes:
         """Torques on the masses, (orders, masses, speeds) [N m]."""

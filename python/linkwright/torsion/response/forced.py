@@ -24,7 +24,7 @@ References
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Annotated, Any
 
 import numpy as np
@@ -36,11 +36,13 @@ from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.response import respond, shaft_torques
 from linkwright.torsion.modes.free import lead_speeds
+from linkwright.torsion.response.along_shaft import worst_place
 from linkwright.torsion.response.excited_train import ExcitedTrain, excited_train
 from linkwright.torsion.response.harmonics import Orders, orders_together, span
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
+Places = NDArray[np.int64]
 
 
 @dataclass(frozen=True)
@@ -99,6 +101,14 @@ class TorsionResponse(Result):
         Shown("heat of each shaft, coupling or damper", "", "W", "Mean power.", shape="(shafts, speeds)"),
     ]
 
+    places: Annotated[
+        Mapping[str, Places],
+        About(
+            "Where along each shaft with distributed inertia its torque is told, as a piece of it at each "
+            "speed: where the torque comes closest to what the section bears."
+        ),
+    ] = field(default_factory=dict, kw_only=True)
+
     @property
     def shaft_torque_max(
         self,
@@ -140,8 +150,14 @@ def response_by_amplitudes(at: ExcitedTrain, q: Complexes) -> TorsionResponse:
     lead = lead_speeds(referred)[:, None]
     # Stiffness and damping are referred, so that the torque is too.
     imaginary = loss * k + omega * c
-    flow = _flow(at, q, k + 1j * imaginary)
-    torques = flow / lead
+    stiffness = k + 1j * imaginary if at.distributed is None else at.distributed.stiffness
+    flow = shaft_flow(at, q, stiffness)
+    torques, heat = flow / lead, 0.5 * (omega * imaginary * _twist(flow, stiffness) ** 2).sum(axis=0)
+    places = {}
+    for n, rod in enumerate(at.referred.rods):
+        name = referred.shafts[rod.shaft]
+        place = worst_place(at, q, flow[:, rod.shaft], n)
+        places[name], torques[:, rod.shaft], heat[rod.shaft] = place.piece, place.torques, place.heat
     greatest, least = span(orders_together(orders), torques, at.mean_torques)
     return TorsionResponse(
         speeds=speeds,
@@ -153,15 +169,20 @@ def response_by_amplitudes(at: ExcitedTrain, q: Complexes) -> TorsionResponse:
         mean_torques=at.mean_torques,
         torque_greatest=greatest,
         torque_least=least,
-        shaft_heat=0.5 * (omega * imaginary * _twist(flow, k + 1j * imaginary) ** 2).sum(axis=0),
+        shaft_heat=heat,
+        places=places,
     )
 
 
-def _flow(at: ExcitedTrain, q: Complexes, stiffness: Complexes) -> Complexes:
-    """Torque of each shaft, referred to the first disc, (orders, shafts, speeds)."""
+def shaft_flow(at: ExcitedTrain, q: Complexes, stiffness: Complexes) -> Complexes:
+    """Torque of each shaft, referred to the first disc, (orders, shafts, speeds).
+
+    Of a shaft with distributed inertia that of the spring which it is between its ends.
+    """
     omega = at.torques.orders[:, None, None] * at.torques.speeds
     outside = at.referred_harmonics()
-    inertia = omega**2 * at.referred.inertia[:, None] * q
+    J = at.referred.inertia[:, None] if at.distributed is None else at.distributed.inertia
+    inertia = omega**2 * J * q
     damping = 1j * omega * at.operating.disc_damping * q + at.operating.modal_torques(1j * omega * q)
     size = np.abs(outside) + np.abs(inertia) + np.abs(damping)
     return shaft_torques(at.referred, stiffness, q, outside + inertia - damping, size)

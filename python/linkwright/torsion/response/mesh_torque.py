@@ -30,9 +30,10 @@ from numpy.typing import NDArray
 from linkwright.kernel.public import public
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
+from linkwright.torsion.core.train import HELD
 from linkwright.torsion.modes.free import lead_speeds
 from linkwright.torsion.response.excited_train import ExcitedTrain, excited_train
-from linkwright.torsion.response.forced import TorsionResponse, torsion_response
+from linkwright.torsion.response.forced import TorsionResponse, shaft_flow, torsion_response
 from linkwright.torsion.response.harmonics import span
 
 Floats = NDArray[np.float64]
@@ -119,9 +120,10 @@ def meshed(at: ExcitedTrain, response: TorsionResponse) -> MeshTorque:
     omega = response.orders[:, None, None] * response.speeds
     J = np.array([disc.inertia for disc in at.train.discs.values()])[:, None]
     theta = response.amplitudes
-    outside = at.torques.harmonics + (omega**2 * J - 1j * omega * at.disc_damping) * theta
+    inertia, shafts = (J, response.shaft_torques) if at.distributed is None else _rods(at, J, theta)
+    outside = at.torques.harmonics + (omega**2 * inertia - 1j * omega * at.disc_damping) * theta
     outside = outside - _modal_torques(at, J, response)
-    waves = _stage_torques(at, outside, response.shaft_torques)
+    waves = _stage_torques(at, outside, shafts)
     mean = _stage_torques(at, _mean_outside(at, J)[None], at.mean_torques[None].astype(complex))[0].real
     greatest, least = span(response.together, waves, mean)
     return MeshTorque(
@@ -134,6 +136,26 @@ def meshed(at: ExcitedTrain, response: TorsionResponse) -> MeshTorque:
         greatest=greatest,
         least=least,
     )
+
+
+def _rods(at: ExcitedTrain, J: Floats, theta: Complexes) -> tuple[Complexes, Complexes]:
+    """Inertia of the discs, and torque of the shafts between them, where inertia of shafts is distributed.
+
+    (orders, discs, speeds) [kg m²] and (orders, shafts, speeds) [N m].
+    """
+    referred, there = at.referred, at.distributed
+    assert there is not None
+    inertia = np.repeat(J[None].astype(complex), len(theta), axis=0) + np.zeros_like(theta)
+    for n, rod in enumerate(referred.rods):
+        both = zip(
+            referred.tip[rod.shaft].tolist(), (there.first[:, n], there.second[:, n]), rod.ends, strict=True
+        )
+        for disc, end, lumped in both:
+            if disc != HELD:
+                inertia[:, disc] += (end - lumped) / referred.speed[disc] ** 2
+    first = np.unique(referred.mass, return_index=True)[1]
+    q = theta[:, first] / referred.speed[first, None]
+    return inertia, shaft_flow(at, q, there.stiffness) / lead_speeds(referred)[:, None]
 
 
 def _modal_torques(at: ExcitedTrain, J: Floats, response: TorsionResponse) -> Complexes | float:

@@ -32,6 +32,7 @@ from linkwright.machine.machine import Machine
 from linkwright.torsion.model.drive_train import CRANK
 from linkwright.torsion.model.shaft_limit import ShaftLimit, StressedSection
 from linkwright.torsion.model.train import Shaft
+from linkwright.torsion.model.whole_train import RodShaft
 from linkwright.torsion.model.whole_train import speeds as turning
 from linkwright.torsion.modes.free import train_of
 from linkwright.torsion.response.drive_line import steady_speed
@@ -140,10 +141,19 @@ def shaft_stress(
     rows = [response.shafts.index(name) for name in known]
     W = np.array([section.section_modulus for section, _ in known.values()])
     K = np.array([limit.concentration for _, limit in known.values()])
-    factor = (K / W)[:, None]
     ratio = response.speeds / (service_speed(machine, response.speeds) if service is None else service)
+    factor = np.repeat((K / W)[:, None], len(ratio), axis=1)
     permitted = [limit.permitted_stress(ratio, section.diameter) for section, limit in known.values()]
     both = np.array(permitted).reshape(len(known), 2, len(ratio))
+    shafts = train_of(machine).shafts
+    for row, (name, (_, limit)) in enumerate(known.items()):
+        shaft, places = shafts[name], response.places.get(name)
+        if isinstance(shaft, RodShaft) and places is not None and not limit.has_section:
+            for piece in np.unique(places).tolist():
+                there, one = places == piece, shaft.pieces[piece]
+                assert one.section_modulus is not None
+                factor[row, there] = K[row] / one.section_modulus
+                both[row, :, there] = np.transpose(limit.permitted_stress(ratio[there], one.diameter))
     return ShaftStress(
         speeds=response.speeds,
         shafts=tuple(known),

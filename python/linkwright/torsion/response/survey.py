@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
+from linkwright.torsion.core.distributed import frequencies_below
 from linkwright.torsion.limits.criteria import Criterion, Exceedance, criteria, exceedances, peaks_between
 from linkwright.torsion.response.excited_train import ExcitedTrain, excited_train, loaded
 from linkwright.torsion.response.forced import TorsionResponse, torsion_response
@@ -56,6 +57,15 @@ def _frequencies(at: ExcitedTrain) -> Floats:
     """Natural frequencies above zero at every speed, (speeds, modes) [rad/s]."""
     # Rings in a fluid hang on nothing elastic: LAPACK takes what is no train in pieces.
     columns, place = np.unique(at.operating.stiffness, axis=1, return_inverse=True)
+    if at.referred.rods:
+        trains = (replace(at.referred, stiffness=np.ascontiguousarray(column)) for column in columns.T)
+        highest = float(at.torques.speeds.max() * at.torques.orders.max(initial=1.0))
+        listed = [
+            np.where(low > 0, low, 0.0) for low in (frequencies_below(train, highest) for train in trains)
+        ]
+        count = min(map(len, listed))
+        exact = np.array([low[:count] for low in listed])
+        return exact[place.ravel()][:, exact.min(axis=0) > 0]
     scale = 1.0 / np.sqrt(at.referred.inertia)
     matrices = np.array([replace(at.referred, stiffness=column).stiffness_matrix for column in columns.T])
     square = np.linalg.eigvalsh(scale[:, None] * matrices * scale)
