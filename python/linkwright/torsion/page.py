@@ -103,6 +103,9 @@ def _formulas(study: TorsionStudy) -> Iterator[Formula]:
     """What the numbers rest on."""
     den_hartog = "Den Hartog, chapter 5"
     yield formula("Free vibration", "( K − ω^2 J ) θ = 0", den_hartog)
+    if study.free.along:
+        yield formula("Distributed inertia of a uniform shaft", "β = ω root(J|k)", "Rao, section 8.4")
+        yield formula("", "M_1 = frac(k β|sin β) ( θ_1 cos β − θ_2 )", "Wittrick and Williams, 1971")
     if study.forced is None:
         return
     yield formula("Forced vibration at order ν and speed Ω", "ω = ν Ω", den_hartog)
@@ -129,9 +132,18 @@ def _balanced(train: Train) -> str:
     )
 
 
+def _inertia_of_shafts(study: TorsionStudy) -> str:
+    """How the inertia of shafts counts."""
+    names = ", ".join(shape.name for shape in study.free.along)
+    if not names:
+        return "Discs are rigid; what inertia of shafts is given counts with the discs at their ends."
+    moved = " In the manoeuvre it counts with the discs at their ends." if study.transient is not None else ""
+    return f"Discs are rigid; the inertia of {names} is distributed, exactly.{moved}"
+
+
 def _assumptions(study: TorsionStudy) -> Iterator[str]:
     """What was taken for granted."""
-    yield "Discs are rigid, shafts have no inertia but what is given as discs."
+    yield _inertia_of_shafts(study)
     if study.forced is None:
         yield "Free vibration is without damping."
         return

@@ -37,6 +37,9 @@ _SHAPE = math.pi / 8
 # Halvings of a bracket whose ends are at most a factor of 2 apart, down to rounding.
 _HALVINGS = 52
 
+# Rounding of an eigenvalue as a share of the largest.
+_ROUNDING = 1e-15
+
 # Frequencies that differ by a smaller share are one, with as many shapes.
 _EQUAL = 1e-9
 
@@ -168,7 +171,7 @@ def _exact_modes(same: _Same, count: int) -> tuple[ExactMode, ...]:
     first = 0
     while first < count:
         if omega[first] == 0:
-            modes.append(_normal(referred, 0.0, next(rigid), list(referred.rods)))
+            modes.append(_normal(referred, 0.0, next(rigid), list(referred.rods))[0])
             first += 1
             continue
         last = first + 1
@@ -188,11 +191,18 @@ def _shapes(referred: ReferredTrain, omega: float, count: int) -> Iterator[Exact
     scale = 1 / np.sqrt(at.inertia.real[:, 0])
     values, vectors = np.linalg.eigh(scale[:, None] * D * scale)
     for n in np.argsort(np.abs(values), kind="stable")[:count]:
-        yield _normal(referred, omega, scale * vectors[:, n], fine)
+        mode, size = _normal(referred, omega, scale * vectors[:, n], fine)
+        # Rods whose ends move alike leave the count unsure by the root of rounding: Newton on the shape.
+        polished = math.sqrt(max(omega**2 + float(values[n]) * size**2, 0.0))
+        rounding = _ROUNDING * float(np.abs(values).max()) / omega
+        unsure = abs(polished - omega) > rounding
+        yield mode._replace(omega=polished) if unsure else mode
 
 
-def _normal(referred: ReferredTrain, omega: float, angles: Floats, fine: list[Rod]) -> ExactMode:
-    """A mode of masses, and of stations behind them, brought to its size."""
+def _normal(
+    referred: ReferredTrain, omega: float, angles: Floats, fine: list[Rod]
+) -> tuple[ExactMode, float]:
+    """A mode of masses, and of stations behind them, brought to its size; by what it was multiplied."""
     masses, after = angles[: len(referred.inertia)], len(referred.inertia)
     shapes, kinetic = [], float(bare_inertia(referred) @ masses**2)
     for rod in fine:
@@ -204,7 +214,8 @@ def _normal(referred: ReferredTrain, omega: float, angles: Floats, fine: list[Ro
         kinetic += float(energies(rod, omega, shapes[-1].angles).kinetic.sum())
         after += inner
     size = 1 / math.sqrt(kinetic)
-    return ExactMode(omega, size * masses, tuple(one._replace(angles=size * one.angles) for one in shapes))
+    rods = tuple(one._replace(angles=size * one.angles) for one in shapes)
+    return ExactMode(omega, size * masses, rods), size
 
 
 def bare_inertia(referred: ReferredTrain) -> Floats:

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from linkwright.torsion.modes.campbell import CampbellDiagram
-    from linkwright.torsion.modes.free import FreeVibration
+    from linkwright.torsion.modes.free import FreeVibration, ShaftShapes
 
 
 # Modes in one picture, which is then a page high.
@@ -57,8 +57,12 @@ def _mode(axes: Axes, free: FreeVibration, k: int, colour: str) -> None:
     row = in_a_row(free.discs, free.joined)
     place = {free.discs[d]: n for n, d in enumerate(row)}
     shape = free.mode_shapes[k][row]
+    curved = {frozenset(each.between): each for each in free.along if place.keys() & {*each.between}}
     for first, second in free.joined:
-        if first in place and second in place:
+        along = curved.get(frozenset((first, second)))
+        if along is not None:
+            _along(axes, along, k, place, colour)
+        elif first in place and second in place:
             x = (place[first], place[second])
             axes.plot(x, shape[list(x)], color=colour, linewidth=1.4)
     axes.vlines(range(len(shape)), 0, shape, color=SOFT, linewidth=0.8)
@@ -66,6 +70,14 @@ def _mode(axes: Axes, free: FreeVibration, k: int, colour: str) -> None:
     axes.set_ylim(-1.15, 1.15)
     axes.set_ylabel(f"{free.natural_frequencies[k]:.5g} Hz")
     zero_line(axes)
+
+
+def _along(axes: Axes, along: ShaftShapes, k: int, place: Mapping[str, int], colour: str) -> None:
+    """The shape of a shaft with distributed inertia between its discs, or beside the one that it holds."""
+    first, second = (place.get(name) for name in along.between)
+    start = first if first is not None else (second or 0) - 1
+    end = second if second is not None else start + 1
+    axes.plot(start + (end - start) * along.share, along.angles[k], color=colour, linewidth=1.4)
 
 
 def in_a_row(discs: Sequence[str], joined: Sequence[tuple[str, str]]) -> list[int]:

@@ -9,6 +9,7 @@
 | `permitted_stress` | Vibratory stress permitted by IACS UR M68 and by the Korean Register |
 | `shaft_flexibility` | Closed forms for the twist of cones and of steps |
 | `shaft_limit` | The permitted stress of the shaft: where its stress counts, and what is permitted there |
+| `shaft_rod` | A shaft as a rod, piece by piece, for distributed inertia |
 | `shaft_row` | Sections of a shaft in a row: their flexibilities with those of the steps between them |
 | `shaft_section` | Sections of a shaft |
 | `train` | A torsional train: discs, shafts, gear stages; speeds and orders of its forced vibration |

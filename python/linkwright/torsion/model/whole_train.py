@@ -12,6 +12,8 @@ from collections.abc import Hashable, Iterable, Iterator, Mapping
 from itertools import pairwise
 from typing import NamedTuple, TypeVar
 
+from pydantic import Field
+
 from linkwright.torsion.model.coupling import Coupling, Damper
 from linkwright.torsion.model.engine.engine_motion import mean_throw_inertia, throw_stiffness
 from linkwright.torsion.model.shaft_rod import RodPiece, rod_pieces
@@ -88,8 +90,8 @@ def _end_inertias(shaft: Shaft) -> tuple[float, float]:
 class RodShaft(Shaft):
     """A shaft whose inertia is distributed, and counted with the discs at its ends as well."""
 
-    pieces: tuple[RodPiece, ...]
-    end_inertias: tuple[float, float]
+    pieces: tuple[RodPiece, ...] = Field(description="From its first end to its second.")
+    end_inertias: tuple[float, float] = Field(description="What its two discs count of it [kg m²].")
 
 
 def _light(train: Train) -> dict[str, Shaft]:

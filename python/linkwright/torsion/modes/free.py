@@ -71,6 +71,8 @@ class ShaftShapes(NamedTuple):
     ----------
     name : str
         Of the shaft.
+    between : tuple of str
+        Its two ends.
     share : ndarray, shape (stations,)
         Of the flexibility of the shaft before each station, 0 to 1.
     distance : ndarray or None, shape (stations,)
@@ -80,6 +82,7 @@ class ShaftShapes(NamedTuple):
     """
 
     name: str
+    between: tuple[str, str]
     share: Floats
     distance: Floats | None
     angles: Floats
@@ -314,7 +317,7 @@ def _along(train: Train, referred: ReferredTrain, modes: TrainModes, n: int, siz
     share = stations(rod)
     shaft = train.shafts[name]
     distance = None if shaft.sections is None else np.array([shaft.distance(each) for each in share.tolist()])
-    return ShaftShapes(name, share, distance, np.array(angles))
+    return ShaftShapes(name, shaft.between, share, distance, np.array(angles))
 
 
 def _first_torque(shape: RodShape, omega: float) -> float:

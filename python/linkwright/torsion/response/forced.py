@@ -104,7 +104,7 @@ class TorsionResponse(Result):
     places: Annotated[
         Mapping[str, Places],
         About(
-            "Where along each shaft with distributed inertia its torque is told, as a piece of it at each "
+            "Where along each shaft with distributed inertia its torque is taken, as a piece of it at each "
             "speed: where the torque comes closest to what the section bears."
         ),
     ] = field(default_factory=dict, kw_only=True)
