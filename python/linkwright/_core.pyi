@@ -15,12 +15,20 @@ __all__ = [
     "Bar",
     "Body",
     "Cam",
+    "CamCrossings",
+    "CamDimensions",
+    "CamExtreme",
+    "CamPasses",
+    "CamSearch",
     "CamShape",
     "Carried",
     "ChangePoint",
+    "Channel",
     "Condition",
+    "Curve",
     "Drive",
     "Element",
+    "Extremes",
     "Fixed",
     "Formula",
     "GroupPath",
@@ -32,20 +40,30 @@ __all__ = [
     "Motor",
     "NoSteadyMotion",
     "OtherMotion",
+    "Periodic",
     "Piece",
     "Plan",
+    "Reductions",
     "Span",
     "Status",
+    "SteadyCurves",
     "SteadyGradient",
     "SteadyMotion",
     "SteadyRows",
+    "SteadySolution",
     "Sum",
     "Table",
+    "TopperCover",
     "TopperKnife",
+    "TorqueLaw",
+    "TorqueShape",
+    "TorsionLink",
+    "TorsionMass",
     "TorsionModes",
     "TorsionMotion",
+    "TorsionRotor",
     "TorsionSystem",
-    "WaveExtremes",
+    "TorsionTorque",
     "cam_crossings",
     "follow_group",
     "gaps",
@@ -55,7 +73,6 @@ __all__ = [
     "motions",
     "motor_torques",
     "reductions",
-    "steady_gradient",
     "steady_rows",
     "steady_state",
     "third",
@@ -984,6 +1001,32 @@ class SteadyMotion:
     sweeps: Final[int]
     steps: Final[int]
     others: Final[list[OtherMotion]]
+    solution: Final[SteadySolution]
+
+@final
+class SteadySolution:
+    """The solution of a revolution, from which curves and derivatives are read without solving anew."""
+
+    def curves(self, phi: _Floats) -> SteadyCurves:
+        """Curves at crank angles in [0, 2π], fastest where these increase; (angles,) each."""
+
+    def gradient(self, directions: _Floats, phi: _Floats) -> SteadyGradient:
+        """Derivatives along `directions` (parameters, n), with curves at the angles `phi`."""
+
+@final
+class SteadyCurves:
+    """Curves of steady motion, or their derivatives, in one shape each.
+
+    Time [s], speed [rad/s], acceleration [rad/s²], torques of motor, drive and loads [N m], inertia [kg m²].
+    """
+
+    time: Final[_Floats]
+    speed: Final[_Floats]
+    acceleration: Final[_Floats]
+    torque_motor: Final[_Floats]
+    torque_drive: Final[_Floats]
+    torque_load: Final[_Floats]
+    inertia_reduced: Final[_Floats]
 
 @final
 class NoSteadyMotion:
@@ -1002,8 +1045,7 @@ class NoSteadyMotion:
 class SteadyGradient:
     """Derivatives of steady motion along n directions of the parameters, each (n,).
 
-    `curves` is (7, angles, n): time, speed, acceleration, torques of motor, drive and loads, inertia. At the
-    end of a step that moves with a kink a curve is followed along it.
+    `curves` are (angles, n) each. At the end of a step that moves with a kink a curve is followed along it.
     """
 
     speed_min: Final[_Floats]
@@ -1017,7 +1059,7 @@ class SteadyGradient:
     energy_load: Final[_Floats]
     torque_motor_mean: Final[_Floats]
     torque_motor_rms: Final[_Floats]
-    curves: Final[_Floats]
+    curves: Final[SteadyCurves]
 
 @final
 class SteadyRows:
@@ -1044,8 +1086,8 @@ class MotionInTime:
     """Motion in time at the ends of the steps [s, rad, rad/s, rad/s²].
 
     How it ended by name, torques of drive and load there [N m], evaluations; of each step seven factors of
-    the angle and seven of the speed, (steps, 14) (`Stages::component` in `kernel/rk.rs`), and whether it is
-    by the implicit method (steps,).
+    the angle and seven of the speed, (steps, 2, 7) (`Stages::component` in `kernel/rk.rs`), and whether it
+    is by the implicit method (steps,).
     """
 
     end: Final[str]
@@ -1086,23 +1128,51 @@ class GroupPath:
 def steady_state(plan: Plan, q: _Floats, accuracy: float, phi: _Floats) -> SteadyMotion | NoSteadyMotion:
     """Steady motion, with curves at the angles `phi`."""
 
-def steady_gradient(
-    plan: Plan, q: _Floats, accuracy: float, directions: _Floats, phi: _Floats
-) -> SteadyGradient | None:
-    """Derivatives of steady motion along `directions` (parameters, n), with curves at the angles `phi`.
-
-    None without a steady motion.
-    """
-
 def steady_rows(plan: Plan, q: _Floats, slots: _Ints, values: _Floats, accuracy: float) -> SteadyRows:
     """Steady motion of n machines; `values` is (slots, n)."""
 
+class Channel:
+    """What moves, by its index."""
+
+    @final
+    class Point(Channel):
+        """A point: x, y and their first and second derivatives by the crank angle."""
+
+        __match_args__: Final = ("index",)
+
+        def __new__(cls, index: int) -> Channel.Point: ...
+        index: Final[int]
+
+    @final
+    class Link(Channel):
+        """A link: cosine and sine of its angle, first and second derivative of the angle."""
+
+        __match_args__: Final = ("index",)
+
+        def __new__(cls, index: int) -> Channel.Link: ...
+        index: Final[int]
+
+    @final
+    class Slide(Channel):
+        """A slide: its coordinate, first and second derivative."""
+
+        __match_args__: Final = ("index",)
+
+        def __new__(cls, index: int) -> Channel.Slide: ...
+        index: Final[int]
+
 def motions(
-    plan: Plan, q: _Floats, slots: _Ints, values: _Floats, phi: _Floats, what: _Ints, out: _Floats
+    plan: Plan,
+    q: _Floats,
+    slots: _Ints,
+    values: _Floats,
+    phi: _Floats,
+    what: Sequence[Channel],
+    out: _Floats,
 ) -> None:
     """Motions of n machines at the angles `phi` into `out`, flat (n, numbers, angles)."""
 
-def third(plan: Plan, q: _Floats, phi: _Floats, what: _Ints) -> _Floats:
+def third(plan: Plan, q: _Floats, phi: _Floats, what: Sequence[Channel]) -> _Floats:
     """Third transfer functions at the angles `phi`: two rows for a point, one for a link or slide."""
 
 def in_line(plan: Plan, q: _Floats, slots: _Ints, values: _Floats, element: int) -> list[InLine]:
@@ -1114,8 +1184,22 @@ def follow_group(plan: Plan, q: _Floats, element: int, phi: float, near: _Floats
 def gaps(plan: Plan, q: _Floats, phi: _Floats) -> _Floats:
     """Radicand of each dyad at each angle (dyads, angles); negative where it does not close."""
 
-def reductions(plan: Plan, q: _Floats, phi: _Floats) -> _Floats:
-    """J, J′, load, dry torque and viscous coefficient, turning forward (5, angles)."""
+@final
+class Reductions:
+    """The machine reduced to its crank, turning forward; (angles,) each.
+
+    Inertia J [kg m²], dJ/dφ [kg m²/rad], torque of the loads but of dry friction [N m], that of dry friction
+    [N m], viscous coefficient [N m s/rad].
+    """
+
+    inertia: Final[_Floats]
+    inertia_slope: Final[_Floats]
+    load: Final[_Floats]
+    dry: Final[_Floats]
+    viscous: Final[_Floats]
+
+def reductions(plan: Plan, q: _Floats, phi: _Floats) -> Reductions:
+    """The machine reduced to its crank at crank angles."""
 
 def law_torques(plan: Plan, q: _Floats, phi: _Floats, omega: _Floats) -> _Floats:
     """Resisting torque of the laws at angles and speeds (speeds, angles)."""
@@ -1138,79 +1222,191 @@ def kinks(plan: Plan, q: _Floats) -> _Floats:
     """Crank angles between which the reduced machine is smooth, from 0 to 2π."""
 
 @final
+class CamDimensions:
+    """Lengths of cam and follower [m], angle of the face [rad]; `Dimensions` in `cam/mod.rs`."""
+
+    def __new__(
+        cls,
+        *,
+        base_radius: float,
+        roller_radius: float,
+        offset: float,
+        distance: float,
+        arm: float,
+        tilt: float,
+    ) -> CamDimensions: ...
+    base_radius: Final[float]
+    roller_radius: Final[float]
+    offset: Final[float]
+    distance: Final[float]
+    arm: Final[float]
+    tilt: Final[float]
+
+@final
+class CamExtreme:
+    """A maximum or minimum, and the cam angle where it is [rad]."""
+
+    angle: Final[float]
+    value: Final[float]
+
+@final
+class CamPasses:
+    """Cam angles [rad] where a row passes a level, and the sign of row less level behind, (k,) each."""
+
+    angle: Final[_Floats]
+    sign: Final[_Floats]
+
+@final
 class CamShape:
     """A contact over a turn.
 
-    Angles (n,) [rad], pieces of the law, 12 rows, angle and value of the greatest and the least of each
-    quantity in turn, and for each level angles where its row passes it and the sign behind them (k, 2).
+    Angles (n,) [rad], pieces of the law, rows by name, extremes of pressure angle, bend and, under a flat
+    face, place along it by name, and for each level asked for where its row passes it. The rows are `lift`
+    and `lift_d1` to `lift_d3`, `pitch_x`, `pitch_y`, `normal_x`, `normal_y`, `pressure_angle`, `bend`,
+    `soundness` and `along`.
     """
 
     angle: Final[_Floats]
     piece: Final[NDArray[np.uint32]]
-    rows: Final[_Floats]
-    extremes: Final[list[tuple[float, float]]]
-    passes: Final[list[_Floats]]
+    rows: Final[dict[str, _Floats]]
+    greatest: Final[dict[str, CamExtreme]]
+    least: Final[dict[str, CamExtreme]]
+    passes: Final[list[CamPasses]]
+
+@final
+class CamSearch:
+    """Largest tan γ, infinite where the follower locks, least soundness, greatest and least bend; (cams,)."""
+
+    tan_pressure_angle: Final[_Floats]
+    soundness: Final[_Floats]
+    bend_max: Final[_Floats]
+    bend_min: Final[_Floats]
 
 @final
 class Cam:
-    """A motion law over a turn and the kind of cam that follows it: `crates/linkwright-core/src/cam`."""
+    """A motion law over a turn and the cam that follows it: `crates/linkwright-core/src/cam`.
 
-    def __new__(cls, law: MotionLaw, kind: int, sense: float, side: float) -> Cam: ...
-    def shape(self, size: _Floats, n: int, levels: Sequence[tuple[int, float]]) -> CamShape:
-        """The contact at about n angles a turn."""
+    `sense` is +1 for a cam that turns counter-clockwise, else −1; `side` +1 for an arm to the left of the
+    line from cam to pivot, else −1.
+    """
 
-    def rows(self, size: _Floats, phi: _Floats, before: bool) -> _Floats:
-        """The 12 rows at angles."""
+    def __new__(
+        cls, law: MotionLaw, *, is_oscillating: bool, is_roller: bool, sense: float, side: float
+    ) -> Cam: ...
+    def shape(self, size: CamDimensions, n: int, levels: Sequence[tuple[str, float]]) -> CamShape:
+        """The contact at about n angles a turn; levels are name of the row and value."""
 
-    def curve(self, size: _Floats, phi: _Floats, before: bool, away: float) -> _Floats:
+    def rows(self, size: CamDimensions, phi: _Floats, before: bool) -> dict[str, _Floats]:
+        """The rows of `CamShape` at angles."""
+
+    def curve(self, size: CamDimensions, phi: _Floats, before: bool, away: float) -> _Floats:
         """x, y and their first and second derivatives of a curve beside the pitch curve, at angles (6, n)."""
 
-    def search(self, columns: Sequence[_Floats], n: int, per_turn: int) -> _Floats:
-        """Largest tan γ, least soundness, greatest and least bend of each cam (n, 4)."""
+    def search(
+        self,
+        *,
+        base_radius: _Floats,
+        roller_radius: _Floats,
+        offset: _Floats,
+        distance: _Floats,
+        arm: _Floats,
+        tilt: _Floats,
+        lift: _Floats,
+        n: int,
+        per_turn: int,
+    ) -> CamSearch:
+        """Many cams: columns of one entry or one a cam, the last a factor on the lift."""
 
-def cam_crossings(x: _Floats, y: _Floats) -> _Floats:
-    """Crossings of the sides of a closed polygon: side and share of both, place (n, 4)."""
+@final
+class CamCrossings:
+    """Crossings of a polygon's sides: number of the side and share along it of both, and place; (n,) each."""
+
+    first: Final[_Floats]
+    second: Final[_Floats]
+    x: Final[_Floats]
+    y: Final[_Floats]
+
+def cam_crossings(x: _Floats, y: _Floats) -> CamCrossings:
+    """Crossings of the sides of a closed polygon."""
+
+@final
+class TopperCover:
+    """What heads need, and what an edge leaves; (heads,) each.
+
+    Length needed and place of the point that is reached last [m]; areas left on the right of the edge, on
+    its left, between two passes of it [m²].
+    """
+
+    length: Final[_Floats]
+    last_x: Final[_Floats]
+    last_y: Final[_Floats]
+    uncut_right: Final[_Floats]
+    uncut_left: Final[_Floats]
+    uncut_between: Final[_Floats]
 
 @final
 class TopperKnife:
-    """The knife of a topper, its law in pieces or as harmonics a, b, …: `topper` of the core."""
+    """The knife of a topper, its law in pieces or as harmonics a, b, …: `topper` of the core.
+
+    Phases of the law's corners [rad], angle of the edge [rad], speed forward [m/s], phase per time [rad/s],
+    drift across the row [m/s], peak absolute value of the law [m], extremes of the speed across [m/s].
+    """
 
     def __new__(
         cls,
         law: MotionLaw | _Floats,
+        *,
         corners: Sequence[float],
         angle: float,
         forward: float,
         rate: float,
         drift: float,
-        bounds: Sequence[float],
+        reach: float,
+        slowest: float,
+        fastest: float,
     ) -> TopperKnife: ...
-    def cover(self, columns: Sequence[_Floats], n: int, length: float | None, fine: int) -> _Floats:
-        """Length needed, place of the point that is reached last, areas left: right, left, between (n, 6)."""
+    def cover(
+        self,
+        *,
+        radius: _Floats,
+        offset: _Floats,
+        phase: _Floats,
+        n: int,
+        length: float | None,
+        fine: int,
+    ) -> TopperCover:
+        """Many heads: columns of one entry or one a head; `fine` stations per revolution of the law."""
 
 def torsion_forced(
+    *,
     parent: _Ints,
     inertia: _Floats,
     speeds: _Floats,
-    tables: Sequence[_Floats],
+    stiffness: _Floats,
+    damping: _Floats,
+    loss: _Floats,
+    disc_damping: _Floats,
     orders: _Floats,
     torques: _Floats,
 ) -> None:
     """Amplitudes (orders, discs, speeds) in place of torques, real and imaginary part in turn [N m → rad].
 
-    Tables k, c, ηk of the shaft above each disc and c of the disc itself, (discs, speeds) each, flat.
+    k, c, ηk of the shaft above each disc and c of the disc itself, (discs, speeds) each, flat.
     """
 
 @final
-class WaveExtremes:
-    """Greatest and least values of waves and their places, 0 to 2π, (waves,) each."""
+class Extremes:
+    """Greatest and least values of waves or of curves over time, and their places; (n,) each.
+
+    Places are angles from 0 to 2π of waves, and times [s].
+    """
 
     greatest: Final[_Floats]
     greatest_at: Final[_Floats]
     least: Final[_Floats]
     least_at: Final[_Floats]
 
-def torsion_waves(coefficients: _Floats, waves: int) -> WaveExtremes:
+def torsion_waves(coefficients: _Floats, waves: int) -> Extremes:
     """Extremes of sums of harmonics (harmonics, waves), real and imaginary part in turn."""
 
 @final
@@ -1227,12 +1423,166 @@ def torsion_modes(inertia: _Floats, ends: _Ints, stiffness: _Floats) -> TorsionM
     """
 
 @final
+class Curve:
+    """Cubics through points with a slope at both sides of each; ValueError if places decrease."""
+
+    def __new__(cls, *, x: _Floats, y: _Floats, before: _Floats, after: _Floats) -> Curve: ...
+
+@final
+class Periodic:
+    """A function that repeats with an angle [rad], by value, slope and bend at even knots from zero on."""
+
+    def __new__(cls, *, period: float, value: _Floats, slope: _Floats, bend: _Floats) -> Periodic: ...
+
+@final
+class TorsionMass:
+    """Discs that move as one: constant inertia [kg m²], damping against the ground, and that of swings.
+
+    The latter resists what goes beyond the speed of the train as a whole [N m s/rad].
+    """
+
+    def __new__(cls, *, inertia: float, damping: float, swing_damping: float) -> TorsionMass: ...
+    inertia: Final[float]
+    damping: Final[float]
+    swing_damping: Final[float]
+
+@final
+class TorsionLink:
+    """What twists between two masses, None for the ground, as seen at a part `ratio` times as fast.
+
+    Stiffness [N m/rad], damping [N m s/rad], torque over twist in addition [N m, rad].
+    """
+
+    def __new__(
+        cls,
+        *,
+        first: int | None,
+        second: int | None,
+        ratio: float,
+        stiffness: float,
+        damping: float,
+        curve: Curve | None,
+    ) -> TorsionLink: ...
+    first: Final[int | None]
+    second: Final[int | None]
+    ratio: Final[float]
+    stiffness: Final[float]
+    damping: Final[float]
+    curve: Final[Curve | None]
+
+@final
+class TorsionRotor:
+    """An inertia [kg m²] over the angle [rad] of a part `ratio` times as fast as its mass."""
+
+    def __new__(cls, *, mass: int, ratio: float, phase: float, inertia: Periodic) -> TorsionRotor: ...
+    mass: Final[int]
+    ratio: Final[float]
+    phase: Final[float]
+    inertia: Final[Periodic]
+
+class TorqueLaw:
+    """How a torque depends on the speed of its part, or on time."""
+
+    @final
+    class Constant(TorqueLaw):
+        """Not at all."""
+
+        __match_args__: Final = ()
+
+        def __new__(cls) -> TorqueLaw.Constant: ...
+
+    @final
+    class Even(TorqueLaw):
+        """|ω/ω₀|ᵖ, the same in both senses."""
+
+        __match_args__: Final = ("speed", "exponent")
+
+        def __new__(cls, *, speed: float, exponent: float) -> TorqueLaw.Even: ...
+        speed: Final[float]
+        exponent: Final[float]
+
+    @final
+    class Odd(TorqueLaw):
+        """|ω/ω₀|ᵖ with the sign of the speed."""
+
+        __match_args__: Final = ("speed", "exponent")
+
+        def __new__(cls, *, speed: float, exponent: float) -> TorqueLaw.Odd: ...
+        speed: Final[float]
+        exponent: Final[float]
+
+    @final
+    class OverSpeed(TorqueLaw):
+        """A curve over the speed."""
+
+        __match_args__: Final = ("curve",)
+
+        def __new__(cls, *, curve: Curve) -> TorqueLaw.OverSpeed: ...
+        curve: Final[Curve]
+
+    @final
+    class Following(TorqueLaw):
+        """Gain [N m s/rad] times what the speed lacks of a curve over time."""
+
+        __match_args__: Final = ("gain", "curve")
+
+        def __new__(cls, *, gain: float, curve: Curve) -> TorqueLaw.Following: ...
+        gain: Final[float]
+        curve: Final[Curve]
+
+    @final
+    class Decaying(TorqueLaw):
+        """A sine of angular frequency `speed` that decays at a rate [1/s], between two times [s]."""
+
+        __match_args__: Final = ("start", "end", "rate", "speed", "phase")
+
+        def __new__(
+            cls, *, start: float, end: float, rate: float, speed: float, phase: float
+        ) -> TorqueLaw.Decaying: ...
+        start: Final[float]
+        end: Final[float]
+        rate: Final[float]
+        speed: Final[float]
+        phase: Final[float]
+
+@final
+class TorqueShape:
+    """How a torque depends on the angle: `pitch`, angle of the table over that of the mass; phase [rad]."""
+
+    def __new__(cls, *, table: Periodic, pitch: float, phase: float) -> TorqueShape: ...
+    table: Final[Periodic]
+    pitch: Final[float]
+    phase: Final[float]
+
+@final
+class TorsionTorque:
+    """A torque on a part `ratio` times as fast as its mass: scale · weight(t) · law · shape [N m]."""
+
+    def __new__(
+        cls,
+        *,
+        mass: int,
+        ratio: float,
+        scale: float,
+        law: TorqueLaw,
+        weight: Curve | None,
+        shape: TorqueShape | None,
+    ) -> TorsionTorque: ...
+    mass: Final[int]
+    ratio: Final[float]
+    scale: Final[float]
+    law: Final[TorqueLaw]
+    weight: Final[Curve | None]
+    shape: Final[TorqueShape | None]
+
+@final
 class TorsionMotion:
     """A train's motion in time.
 
     How it ended and its method by name; steps, those rejected, evaluations; time reached [s], bound of the
-    fastest swing [rad/s]; kinetic and potential energy at the start, then at the end [J]; samples and
-    extremes as in `torsion/transient/course.rs`; work [J].
+    fastest swing [rad/s]; kinetic and potential energy at the start and at the end [J]; samples: angle and
+    speed (masses, times) [rad, rad/s], torque (links, times) [N m], energies (times,) [J]; extremes of the
+    torque of each link and the speed of each mass; work of each torque, losses in links and at masses [J].
     """
 
     end: Final[str]
@@ -1242,34 +1592,36 @@ class TorsionMotion:
     evaluations: Final[int]
     time: Final[float]
     fastest: Final[float]
-    energies: Final[tuple[float, float, float, float]]
-    samples: Final[_Floats]
-    extremes: Final[_Floats]
+    kinetic_start: Final[float]
+    potential_start: Final[float]
+    kinetic_end: Final[float]
+    potential_end: Final[float]
+    angle: Final[_Floats]
+    speed: Final[_Floats]
+    torque: Final[_Floats]
+    kinetic: Final[_Floats]
+    potential: Final[_Floats]
+    torque_extremes: Final[Extremes]
+    speed_extremes: Final[Extremes]
     work: Final[_Floats]
+    loss_links: Final[_Floats]
+    loss_masses: Final[_Floats]
 
 @final
 class TorsionSystem:
-    """A train in motion: lists described in `crates/linkwright-core/src/torsion/transient/system.rs`."""
+    """A train in motion. IndexError: a mass that is spoken of is not there; ValueError: there is none."""
 
     def __new__(
         cls,
-        inertia: _Floats,
-        damping: _Floats,
-        swing_damping: _Floats,
-        links: _Ints,
-        link_numbers: _Floats,
-        rotors: _Ints,
-        rotor_numbers: _Floats,
-        torques: _Ints,
-        torque_numbers: _Floats,
-        table_starts: _Ints,
-        periods: _Floats,
-        knots: _Floats,
-        curve_starts: _Ints,
-        points: _Floats,
+        *,
+        masses: Sequence[TorsionMass],
+        links: Sequence[TorsionLink],
+        rotors: Sequence[TorsionRotor],
+        torques: Sequence[TorsionTorque],
     ) -> TorsionSystem: ...
     def follow(
         self,
+        *,
         angle: _Floats,
         speed: _Floats,
         times: _Floats,

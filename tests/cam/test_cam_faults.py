@@ -213,8 +213,8 @@ def test_crossings_of_many_polygons_against_all_pairs() -> None:
                 c, d = points[j], points[(j + 1) % n] - points[j]
                 t, u = np.linalg.solve(np.column_stack((b, -d)), c - a)
                 wanted += 0 <= t < 1 and 0 <= u < 1
-        assert len(found) == wanted
-        for first, second, x, y in found:
+        assert len(found.x) == wanted
+        for first, second, x, y in zip(found.first, found.second, found.x, found.y, strict=True):
             for side in (first, second):
                 i, share = int(side), side % 1
                 place = (1 - share) * points[i] + share * points[(i + 1) % n]

@@ -13,6 +13,8 @@ from linkwright.cam.model.follower import Sizes
 from linkwright.cam.profile.contact import CamCurve
 from linkwright.cam.profile.profile import cam_profile
 
+SEARCHED = ("tan_pressure_angle", "soundness", "bend_max", "bend_min")
+
 PHI = np.linspace(0.0, TURN, 181)
 
 # A fitted law is good to some 1e-16 of its size; each derivative loses the factor degree²/length of its
@@ -479,7 +481,7 @@ def test_lanes_are_the_scalar_kernel() -> None:
                 rng.uniform(0.5, 1.5, n),
             ]
             kernel = cam_kernel(law, Sizes(*np.zeros(6)), oscillating=oscillating, roller=roller)
-            found = kernel.search(columns, 360)
+            found = kernel.search(Sizes(*columns[:-1]), columns[-1], 360)
             for i in range(n):
                 size = Sizes(*(float(column[i % len(column)]) for column in columns[:-1]))
                 scaled = law.scaled(float(columns[-1][i]))
@@ -492,7 +494,9 @@ def test_lanes_are_the_scalar_kernel() -> None:
                     rows["bend"].min(),
                 ]
                 scale = np.array([1.0, 1.0 if roller else 0.1, *[np.abs(rows["bend"]).max()] * 2])
-                np.testing.assert_allclose(found[i], wanted, rtol=0, atol=2e-13 * scale.max())
+                np.testing.assert_allclose(
+                    [getattr(found, name)[i] for name in SEARCHED], wanted, rtol=0, atol=2e-13 * scale.max()
+                )
 
 
 def test_place_in_a_column_changes_no_bit() -> None:
@@ -500,7 +504,10 @@ def test_place_in_a_column_changes_no_bit() -> None:
     law = fitted(lambda phi: 0.01 * (1 - np.cos(phi)))
     kernel = cam_kernel(law, Sizes(*np.zeros(6)), oscillating=False, roller=True)
     base = np.linspace(0.01, 0.2, 1111)
-    rest = [np.full(1, x) for x in (0.004, 0.001, 0.0, 0.0, 0.0, 1.0)]
-    whole = kernel.search([base, *rest], 180)
-    parts = np.concatenate([kernel.search([part, *rest], 180) for part in np.split(base, [8, 300, 304])])
-    np.testing.assert_array_equal(whole, parts)
+    sizes = Sizes(base, 0.004, 0.001, 0.0, 0.0, 0.0)
+    whole = kernel.search(sizes, 1.0, 180)
+    pieces = np.split(base, [8, 300, 304])
+    parts = [kernel.search(sizes._replace(base_radius=piece), 1.0, 180) for piece in pieces]
+    for name in SEARCHED:
+        together = np.concatenate([getattr(part, name) for part in parts])
+        np.testing.assert_array_equal(getattr(whole, name), together)

@@ -14,9 +14,9 @@ from linkwright.machine.program.compiled import compile_machine
 def test_dynamic_factor_at_constant_energy(name: str) -> None:
     machine = lw.read(f"machines/{name}.toml")
     angles = np.linspace(0, 2 * np.pi, 200_001)
-    J, J_d1 = compile_machine(machine).reductions(angles)[:2]
-    slow, fast = np.sqrt(2 / J.max()), np.sqrt(2 / J.min())
-    dense = np.abs(J_d1 / J**2).max() / (0.5 * (slow + fast)) ** 2
+    at = compile_machine(machine).reductions(angles)
+    slow, fast = np.sqrt(2 / at.inertia.max()), np.sqrt(2 / at.inertia.min())
+    dense = np.abs(at.inertia_slope / at.inertia**2).max() / (0.5 * (slow + fast)) ** 2
     found = lw.constant_energy(machine)
     # A look every 3e-5 rad misses a peak by that squared times its curvature.
     assert found.dynamism == pytest.approx(dense, rel=1e-8)

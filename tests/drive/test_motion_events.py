@@ -61,9 +61,10 @@ def test_an_extreme_of_the_acceleration_satisfies_the_equation_of_motion(press) 
         angle, speed = (float(x[0]) for x in motion.at([each.time]))
         assert angle == pytest.approx(each.crank_angle, abs=1e-12)
         if each.quantity == "acceleration":
-            J, slope, load, dry, viscous = compiled.reductions(np.array([angle % (2 * np.pi)]))[:, 0]
-            drive = compiled.motor_torques([speed])[1][0]
-            wanted = (drive - load - dry - viscous * speed - 0.5 * slope * speed**2) / J
+            at = compiled.reductions(np.array([angle % (2 * np.pi)]))
+            drive = compiled.motor_torques([speed])[1]
+            resisting = at.load + at.dry + at.viscous * speed + 0.5 * at.inertia_slope * speed**2
+            wanted = float(((drive - resisting) / at.inertia)[0])
             # The polynomial between the steps is as exact as these, 1e-8 of the speed in steps of 10 ms.
             assert each.value == pytest.approx(wanted, abs=1e-5)
 
@@ -88,9 +89,10 @@ def test_a_jump_of_the_acceleration() -> None:
     compiled = compile_machine(machine)
     for each in jumps:
         beside = np.array([each.crank_angle - 1e-6, each.crank_angle + 1e-6]) % (2 * np.pi)
-        J, slope, load, dry, viscous = compiled.reductions(beside)
+        at = compiled.reductions(beside)
         drive = compiled.motor_torques([each.speed])[1][0]
-        wanted = (drive - load - dry - viscous * each.speed - 0.5 * slope * each.speed**2) / J
+        resisting = at.load + at.dry + at.viscous * each.speed + 0.5 * at.inertia_slope * each.speed**2
+        wanted = (drive - resisting) / at.inertia
         found = (each.acceleration_before, each.acceleration_after)
         # A millionth of a radian beside the jump; the acceleration changes by 13 rad/s² per radian.
         assert found == pytest.approx(tuple(wanted), abs=1e-3)

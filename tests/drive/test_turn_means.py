@@ -136,7 +136,7 @@ def test_a_load_with_a_potential_does_no_work(name: str) -> None:
     assert both.torque_load_mean == pytest.approx(own.torque_load_mean, rel=1e-14)
     # The curve says the same, integrated as it is.
     compiled = compile_machine(machine(CONSERVATIVE[name]))
-    curve = turn_curve(lambda phi: compiled.reductions(phi)[2:3], compiled.kinks(), "load")
+    curve = turn_curve(lambda phi: compiled.reductions(phi).load[None], compiled.kinks(), "load")
     assert abs(curve.integral()[0]) <= max(curve.error[0], 1e-13 * curve.size[0])
     assert steady_state(machine(CONSERVATIVE[name])).energy_load == pytest.approx(0, abs=1e-9 * curve.size[0])
 
@@ -161,11 +161,11 @@ def test_means_against_brute_force(name: str) -> None:
     found = reduction(made)
     # The rule of even samples: exact for what is smooth; beside kinks and jumps it errs by a sample.
     phi = (np.arange(1_000_000) + 0.5) * 2e-6 * np.pi
-    _, _, load_torque, dry, viscous = compile_machine(made).reductions(phi)
-    torque = load_torque + dry
+    at = compile_machine(made).reductions(phi)
+    torque = at.load + at.dry
     jump = 1e-6 * np.abs(np.diff(torque)).sum()
     assert found.torque_load_mean == pytest.approx(torque.mean(), rel=1e-11, abs=jump)
-    assert found.viscous_mean == pytest.approx(viscous.mean(), rel=1e-11)
+    assert found.viscous_mean == pytest.approx(at.viscous.mean(), rel=1e-11)
     assert found.torque_load_max == pytest.approx(torque.max(), rel=1e-9)
 
 

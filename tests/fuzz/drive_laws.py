@@ -66,10 +66,11 @@ def steady_laws(machine: lw.Machine, found: SteadyState, compiled: Compiled, inp
 
 def _powers(found: SteadyState, compiled: Compiled, inputs: Inputs) -> None:
     """M_d − M_r = J ε + ½ J′ ω² at every angle."""
-    J, J_d1, load, dry, viscous = compiled.reductions(found.crank_angle)
-    inertia = J * found.acceleration + 0.5 * J_d1 * found.speed**2
+    at = compiled.reductions(found.crank_angle)
+    inertia = at.inertia * found.acceleration + 0.5 * at.inertia_slope * found.speed**2
     rest = found.torque_drive - found.torque_load - inertia
-    terms = np.abs([found.torque_drive, found.torque_load, inertia, load, dry, viscous * found.speed])
+    parts = (at.load, at.dry, at.viscous * found.speed)
+    terms = np.abs([found.torque_drive, found.torque_load, inertia, *parts])
     worst = np.abs(rest).max()
     if not worst <= WITHIN * terms.max() + rounding(found, compiled):
         raise PromiseError(f"torques are out of balance by {worst / terms.max():.2g} of the largest", inputs)
@@ -77,10 +78,12 @@ def _powers(found: SteadyState, compiled: Compiled, inputs: Inputs) -> None:
 
 def _slope(compiled: Compiled, phi: float, state: Floats) -> list[float]:
     """dE/dφ, and 1/ω for the time."""
-    J, _, load, dry, viscous = (float(row[0]) for row in compiled.reductions(np.array([phi])))
-    omega = np.sqrt(2.0 * max(state[0], 1e-300) / J)
+    at = compiled.reductions(np.array([phi]))
+    omega = float(np.sqrt(2.0 * max(state[0], 1e-300) / at.inertia[0]))
     _, torque = compiled.motor_torques(omega)
-    resisting = load + dry + viscous * omega + float(compiled.speed_load(np.array([omega]))[0])
+    resisting = float(at.load[0] + at.dry[0] + at.viscous[0] * omega) + float(
+        compiled.speed_load(np.array([omega]))[0]
+    )
     if compiled.has_laws:
         resisting += float(compiled.law_torques(np.array([phi]), np.array([omega]))[0, 0])
     return [float(torque[0]) - resisting, 1.0 / omega]
@@ -107,7 +110,7 @@ def _integral(found: SteadyState, compiled: Compiled, inputs: Inputs) -> None:
 
 def _marched_apart(found: SteadyState, compiled: Compiled, accuracy: float, room: float) -> str:
     """By how much speed or time are off a march of some accuracy; nothing if they are not, or it gives up."""
-    J = compiled.reductions(found.crank_angle)[0]
+    J = compiled.reductions(found.crank_angle).inertia
     start = [0.5 * J[0] * found.speed[0] ** 2, 0.0]
     marched = solve_ivp(
         partial(_slope, compiled), (0.0, TURN), start, "Radau", found.crank_angle,

@@ -89,19 +89,19 @@ def _energy(machine: Machine, steady: SteadyState) -> float:
 def _balance(machine: Machine, steady: SteadyState) -> float:
     """ε of the curve against that of the torques, the rounding of the speed in these apart."""
     compiled = compile_machine(machine)
-    J, J_d1, load, dry, viscous = compiled.reductions(steady.crank_angle)
+    at = compiled.reductions(steady.crank_angle)
     omega = steady.speed
 
     def torque(omega: Floats) -> Floats:
         drive = compiled.motor_torques(omega)[1]
         laws = _diagonal(compiled, steady.crank_angle, omega) if compiled.has_laws else 0.0
-        return drive - load - dry - viscous * omega - compiled.speed_load(omega) - laws
+        return drive - at.load - at.dry - at.viscous * omega - compiled.speed_load(omega) - laws
 
-    epsilon = (torque(omega) - 0.5 * J_d1 * omega**2) / J
+    epsilon = (torque(omega) - 0.5 * at.inertia_slope * omega**2) / at.inertia
     step = 1e-6
     steep = np.abs(torque(omega * (1 + step)) - torque(omega)) / step
-    rounding = 1e-15 * steep + _ROUNDING * (np.abs(steady.torque_drive) + np.abs(load))
-    off = np.abs(epsilon - steady.acceleration) - 4 * rounding / J
+    rounding = 1e-15 * steep + _ROUNDING * (np.abs(steady.torque_drive) + np.abs(at.load))
+    off = np.abs(epsilon - steady.acceleration) - 4 * rounding / at.inertia
     return float(off.max()) / _peak(steady)
 
 

@@ -163,8 +163,8 @@ def formula_value(random: Generator) -> None:
     with suppress(LinkwrightError), watched(inputs):
         # Refused: too long for the stack, or nothing in it depends on the motion as the core needs it.
         compiled = compile_machine(lw.loads(LOAD.format(formula=text)))
-        _, _, load, dry, viscous = compiled.reductions(ANGLES)
-        resisting = load + dry + viscous * SPEED
+        at = compiled.reductions(ANGLES)
+        resisting = at.load + at.dry + at.viscous * SPEED
         if compiled.has_laws:
             resisting = resisting + compiled.law_torques(ANGLES, np.array([SPEED]))[0]
         _same(-resisting, by_hand, inputs)

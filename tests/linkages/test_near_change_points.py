@@ -15,6 +15,7 @@ import linkwright as lw
 from linkwright.kernel.errors import AssemblyError
 from linkwright.linkages.dyads import dyads_of
 from linkwright.machine.program.compiled import compile_machine
+from linkwright.machine.program.core import Channel
 
 # Nothing here is to be computed with what is not finite.
 pytestmark = pytest.mark.filterwarnings("error::RuntimeWarning")
@@ -233,8 +234,10 @@ def test_what_is_nearly_a_change_point_is_right_or_refused() -> None:
             continue
         at = np.array([c + s * 10.0 ** rng.uniform(-12, 0) for c in (0, np.pi) for s in (1, -1)])
         out = np.empty((1, 6, 4))
-        compiled.motions(at, [(0, compiled.points["R"])], out.reshape(-1))
-        found = np.concatenate([out[0], compiled.third(at, [(0, compiled.points["R"])])]).reshape(4, 2, 4)
+        compiled.motions(at, [Channel.Point(compiled.points["R"])], out.reshape(-1))
+        found = np.concatenate([out[0], compiled.third(at, [Channel.Point(compiled.points["R"])])]).reshape(
+            4, 2, 4
+        )
         for k, phi in enumerate(at):
             exact = exact_motion(lengths, 1, float(phi))
             if exact is None:
@@ -399,7 +402,7 @@ def test_rows_of_a_batch_are_the_single_machines() -> None:
             assert np.isnan(joint.position[row]).all()
             continue
         out = np.empty((1, 6, len(at)))
-        compiled.motions(at, [(0, compiled.points["R"])], out.reshape(-1))
+        compiled.motions(at, [Channel.Point(compiled.points["R"])], out.reshape(-1))
         # The row without change points is computed with those of the others out of reach.
         np.testing.assert_allclose(joint.position[row], out[0, :2].T, atol=1e-13)
         np.testing.assert_allclose(joint.d2[row], out[0, 4:].T, atol=1e-11)

@@ -39,7 +39,7 @@ def test_the_core_refuses_tables_beyond_memory() -> None:
     kernel = lw.cam_profile(lw.read("machines/roller_cam.toml"), n=90).flanks[0].contact.kernel
     for per_turn in (2**40, 2**62):
         with pytest.raises(InputError, match="do not fit into memory"):
-            kernel.search([[1.0]] * 7, per_turn)
+            kernel.search(kernel.sizes, 1.0, per_turn)
 
 
 def test_a_panic_is_an_error_that_names_the_analysis(capfd: pytest.CaptureFixture[str]) -> None:

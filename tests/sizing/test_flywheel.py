@@ -134,10 +134,10 @@ def test_excess_work_against_fine_samples(name: str) -> None:
     compiled, omega = compile_machine(machine), 10.5
     n = 200_000
     phi = np.linspace(0, 2 * np.pi, n + 1)
-    J, _, load, dry, viscous = compiled.reductions(phi)
-    torque = load + dry + viscous * omega
+    at = compiled.reductions(phi)
+    torque = at.load + at.dry + at.viscous * omega
     rising = np.cumsum(0.5 * (torque[1:] + torque[:-1])) * 2 * np.pi / n
-    stored = np.r_[0, rising] - rising[-1] * phi / (2 * np.pi) + 0.5 * J * omega**2
+    stored = np.r_[0, rising] - rising[-1] * phi / (2 * np.pi) + 0.5 * at.inertia * omega**2
     assert machine.drive is not None
     assert machine.drive.speed == omega
     assert work == pytest.approx(np.ptp(stored), rel=1e-8)

@@ -128,7 +128,7 @@ def test_the_whole_is_the_rigid_drive_line() -> None:
         made = machine(MOTOR, BOX, extra, SHAFT, CRANKSHAFT)
         rigid = compile_machine(machine(MOTOR, BOX, extra))
         # Even samples integrate what is smooth and periodic to rounding.
-        inertia = rigid.reductions(np.linspace(0, 2 * np.pi, 720, endpoint=False))[0].mean()
+        inertia = rigid.reductions(np.linspace(0, 2 * np.pi, 720, endpoint=False)).inertia.mean()
         found = lw.free_vibration(made)
         crank = found.discs.index("crank")
         assert found.natural_frequencies[0] == 0

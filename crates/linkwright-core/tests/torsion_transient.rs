@@ -5,7 +5,7 @@ use linkwright_core::torsion::transient::course::{Course, End, Method, Request, 
 use linkwright_core::torsion::transient::curve::Curve;
 use linkwright_core::torsion::transient::periodic::Periodic;
 use linkwright_core::torsion::transient::rates::Rates;
-use linkwright_core::torsion::transient::system::{Encoded, Link, Rotor, System};
+use linkwright_core::torsion::transient::system::{Link, Rotor, System};
 use linkwright_core::torsion::transient::torque::{Law, Shape, Torque};
 use std::f64::consts::{PI, TAU};
 
@@ -539,35 +539,31 @@ fn work_is_as_before() {
     assert_eq!(count(Method::Implicit, 1e-8), [10294, 510, 117320], "implicit");
 }
 
-/// Lists that make no sense are told.
+/// Systems that make no sense are told.
 #[test]
-fn bad_lists_are_refused() {
-    let good = Encoded {
-        masses: [&[1.0, 2.0], &[0.0; 2], &[0.0; 2]],
-        links: &[0, 1, -1],
-        link_numbers: &[1.0, 5e3, 0.0],
-        rotors: &[1, 0],
-        rotor_numbers: &[1.0, 0.0],
-        torques: &[0, 3, -1, -1, 0],
-        torque_numbers: &[1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
-        table_starts: &[0, 1],
-        periods: &[TAU],
-        knots: &[0.1, 0.0, 0.0],
-        curve_starts: &[0, 2],
-        points: &[0.0, 9.0, 5.0, 4.0, 0.0, 0.0, 0.0, 0.0],
+fn bad_systems_are_refused() {
+    let good = everything();
+    assert_eq!(good.check(), Ok(()), "a good one");
+    let n = good.len();
+    let refused = |spoil: &dyn Fn(&mut System)| {
+        let mut system = good.clone();
+        spoil(&mut system);
+        system.check().expect_err("a bad one")
     };
-    assert!(System::decode(&good).is_ok(), "a good one");
-    let refused = |code: Encoded<'_>| System::decode(&code).expect_err("a bad one");
-    let index = |what, value, bound| PlanError::Index { what, value, bound };
-    assert_eq!(refused(Encoded { links: &[0, 2, -1], ..good }), index("mass", 2, 2));
-    assert_eq!(refused(Encoded { rotors: &[1, 1], ..good }), index("table", 1, 1));
-    assert_eq!(refused(Encoded { torques: &[0, 3, -1, -1, -1], ..good }), index("curve", -1, 1));
-    let kind = PlanError::Kind { what: "law of a torque", kind: 9 };
-    assert_eq!(refused(Encoded { torques: &[0, 9, -1, -1, 0], ..good }), kind);
-    let short = PlanError::Length { what: "list of knots", found: 2, expected: 3 };
-    assert_eq!(refused(Encoded { knots: &[0.1, 0.0], ..good }), short);
-    let backwards = &[9.0, 0.0, 5.0, 4.0, 0.0, 0.0, 0.0, 0.0];
-    assert_eq!(refused(Encoded { points: backwards, ..good }), PlanError::Table { number: 0 });
-    let none = Encoded { masses: [&[], &[], &[]], ..good };
-    assert!(matches!(refused(none), PlanError::Length { .. }), "no mass");
+    let missing = |what, value, made| PlanError::Missing { what, value, made };
+    // The ground is the mass beyond the last, for links alone.
+    assert_eq!(refused(&|system| system.links[0].ends[1] = n + 1), missing("mass", n + 1, n + 1));
+    assert_eq!(refused(&|system| system.torques[0].mass = n), missing("mass", n, n));
+    let tables = good.tables.len();
+    assert_eq!(refused(&|system| system.rotors[0].table = tables), missing("table", tables, tables));
+    let curves = good.curves.len();
+    let law = Law::OverSpeed { curve: curves };
+    assert_eq!(refused(&|system| system.torques[0].law = law), missing("curve", curves, curves));
+    assert_eq!(refused(&|system| system.torques[0].weight = Some(9)), missing("curve", 9, curves));
+    let shape = Some(Shape { table: 7, pitch: 1.0, phase: 0.0 });
+    assert_eq!(refused(&|system| system.torques[0].shape = shape), missing("table", 7, tables));
+    let short = PlanError::Length { what: "list of damping", found: n - 1, expected: n };
+    assert_eq!(refused(&|system| system.damping.truncate(n - 1)), short);
+    let none = refused(&|system| system.inertia.clear());
+    assert!(matches!(none, PlanError::Length { found: 0, .. }), "no mass");
 }

@@ -1,15 +1,17 @@
 //! Cams at the border.
 
-use linkwright_core::cam::crossing::crossings;
+use linkwright_core::cam::crossing::{Crossing, crossings};
 use linkwright_core::cam::search::{Cams, RESULTS, search};
-use linkwright_core::cam::shape::{Quantity, ROWS};
+use linkwright_core::cam::shape::{self, NAMES, Quantity, ROWS};
 use linkwright_core::cam::{Cam as CoreCam, Dimensions, Kind};
 use linkwright_core::kernel::motion_law::MotionLaw;
-use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use numpy::PyArray1;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
-use crate::guard::{filled, guarded, require_room, zeros};
+use crate::arrays::{by_column, column};
+use crate::guard::{filled, guarded, require_room};
 use crate::{Floats, Table};
 
 /// A law and the kind of cam that follows it.
@@ -21,145 +23,231 @@ pub(crate) struct Cam {
     side: f64,
 }
 
+/// Lengths and angles of cam and follower.
+#[pyclass(frozen, get_all, module = "linkwright._core")]
+pub(crate) struct CamDimensions {
+    base_radius: f64,
+    roller_radius: f64,
+    offset: f64,
+    distance: f64,
+    arm: f64,
+    tilt: f64,
+}
+
+#[pymethods]
+impl CamDimensions {
+    #[new]
+    #[pyo3(signature = (*, base_radius, roller_radius, offset, distance, arm, tilt))]
+    fn new(base_radius: f64, roller_radius: f64, offset: f64, distance: f64, arm: f64, tilt: f64) -> Self {
+        CamDimensions { base_radius, roller_radius, offset, distance, arm, tilt }
+    }
+}
+
+impl CamDimensions {
+    fn core(&self) -> Dimensions<f64> {
+        let &CamDimensions { base_radius, roller_radius, offset, distance, arm, tilt } = self;
+        Dimensions { base_radius, roller_radius, offset, distance, arm, tilt }
+    }
+}
+
+/// A maximum or minimum, and the cam angle where it is.
+#[pyclass(frozen, from_py_object, get_all, module = "linkwright._core")]
+#[derive(Clone, Copy)]
+pub(crate) struct CamExtreme {
+    angle: f64,
+    value: f64,
+}
+
+impl From<shape::Extreme> for CamExtreme {
+    fn from(extreme: shape::Extreme) -> Self {
+        CamExtreme { angle: extreme.phi, value: extreme.value }
+    }
+}
+
+/// Where a row passes a level, and its sign behind.
+#[pyclass(frozen, get_all, module = "linkwright._core")]
+pub(crate) struct CamPasses {
+    angle: Py<PyArray1<f64>>,
+    sign: Py<PyArray1<f64>>,
+}
+
 /// A contact over a turn.
 #[pyclass(frozen, get_all, module = "linkwright._core")]
 pub(crate) struct CamShape {
     angle: Py<PyArray1<f64>>,
     piece: Py<PyArray1<u32>>,
-    rows: Py<PyArray2<f64>>,
-    /// Angle and value of the greatest and the least of each quantity in turn.
-    extremes: Vec<(f64, f64)>,
-    /// Angle and sign, for each level asked for.
-    passes: Vec<Py<PyArray2<f64>>>,
+    rows: Py<PyDict>,
+    greatest: Py<PyDict>,
+    least: Py<PyDict>,
+    /// For each level asked for.
+    passes: Vec<Py<CamPasses>>,
 }
 
-fn table<'py>(py: Python<'py>, rows: &[Vec<f64>], width: usize) -> PyResult<Table<'py>> {
-    let table = zeros(py, "cam", [rows.len(), width])?;
-    for (to, from) in table.readwrite().as_slice_mut()?.chunks_exact_mut(width.max(1)).zip(rows) {
-        to.copy_from_slice(from);
+/// Many cams, an array over them each.
+#[pyclass(frozen, get_all, module = "linkwright._core")]
+pub(crate) struct CamSearch {
+    tan_pressure_angle: Py<PyArray1<f64>>,
+    soundness: Py<PyArray1<f64>>,
+    bend_max: Py<PyArray1<f64>>,
+    bend_min: Py<PyArray1<f64>>,
+}
+
+/// Where sides of a polygon cross, an array over the places each.
+#[pyclass(frozen, get_all, module = "linkwright._core")]
+pub(crate) struct CamCrossings {
+    first: Py<PyArray1<f64>>,
+    second: Py<PyArray1<f64>>,
+    x: Py<PyArray1<f64>>,
+    y: Py<PyArray1<f64>>,
+}
+
+/// Rows by name.
+fn rows_by_name<'a>(py: Python<'_>, rows: impl Iterator<Item = &'a [f64]>) -> PyResult<Py<PyDict>> {
+    let named = PyDict::new(py);
+    for (name, row) in NAMES.into_iter().zip(rows) {
+        named.set_item(name, PyArray1::from_slice(py, row))?;
     }
-    Ok(table)
+    Ok(named.unbind())
 }
 
-fn dimensions(list: &Floats<'_>) -> PyResult<Dimensions<f64>> {
-    let &[base_radius, roller_radius, offset, distance, arm, tilt] = list.as_slice()? else {
-        return Err(PyValueError::new_err("a cam has six dimensions"));
-    };
-    Ok(Dimensions { base_radius, roller_radius, offset, distance, arm, tilt })
+fn row_named(name: &str) -> PyResult<usize> {
+    let place = NAMES.iter().position(|&known| known == name);
+    place.ok_or_else(|| PyValueError::new_err(format!("there is no row {name}")))
 }
 
 #[pymethods]
 impl Cam {
     #[new]
+    #[pyo3(signature = (law, *, is_oscillating, is_roller, sense, side))]
     fn new(
         law: PyRef<'_, crate::builder::numbers::MotionLaw>,
-        kind: u8,
+        is_oscillating: bool,
+        is_roller: bool,
         sense: f64,
         side: f64,
-    ) -> PyResult<Self> {
-        let kind = Kind::of(kind).ok_or_else(|| PyValueError::new_err("no such kind of cam"))?;
-        Ok(Cam { law: law.0.clone(), kind, sense, side })
+    ) -> Self {
+        Cam { law: law.0.clone(), kind: Kind::of(is_oscillating, is_roller), sense, side }
     }
 
     fn shape(
         &self,
         py: Python<'_>,
-        size: Floats<'_>,
+        size: &CamDimensions,
         n: usize,
-        levels: Vec<(usize, f64)>,
+        levels: Vec<(String, f64)>,
     ) -> PyResult<CamShape> {
-        let cam = CoreCam::<f64>::new(self.kind, self.sense, self.side, dimensions(&size)?);
-        if levels.iter().any(|&(row, _)| row >= ROWS) {
-            return Err(PyValueError::new_err("no such row"));
-        }
+        let cam = CoreCam::<f64>::new(self.kind, self.sense, self.side, size.core());
+        let levels = levels.into_iter().map(|(name, level)| Ok((row_named(&name)?, level)));
+        let levels: Vec<(usize, f64)> = levels.collect::<PyResult<_>>()?;
         require_room("cam", [ROWS + 3, n])?;
+        let quantities = Quantity::of_kind(self.kind);
         let (shape, extremes, passes) = guarded(py, "cam", || {
             let shape = cam.shape(&self.law, n);
-            let mut extremes = Vec::new();
-            for &what in Quantity::of_kind(self.kind) {
-                for sign in [1.0, -1.0] {
-                    let found = cam.extreme(what, sign, &self.law, &shape);
-                    extremes.push((found.phi, found.value));
-                }
-            }
-            let passes: Vec<Vec<Vec<f64>>> = levels
-                .iter()
-                .map(|&(row, level)| {
-                    let found = cam.passes(row, level, &self.law, &shape);
-                    found.into_iter().map(|(phi, sign)| vec![phi, sign]).collect()
-                })
-                .collect();
+            let extreme = |what, sign| cam.extreme(what, sign, &self.law, &shape);
+            let extremes: Vec<_> =
+                quantities.iter().map(|&what| (extreme(what, 1.0), extreme(what, -1.0))).collect();
+            let passes: Vec<Vec<(f64, f64)>> =
+                levels.iter().map(|&(row, level)| cam.passes(row, level, &self.law, &shape)).collect();
             (shape, extremes, passes)
         })?;
-        let width = shape.phi.len();
-        let passes = passes.iter().map(|rows| Ok(table(py, rows, 2)?.unbind())).collect::<PyResult<_>>()?;
+        let (greatest, least) = (PyDict::new(py), PyDict::new(py));
+        for (quantity, (high, low)) in quantities.iter().zip(extremes) {
+            greatest.set_item(quantity.name(), CamExtreme::from(high))?;
+            least.set_item(quantity.name(), CamExtreme::from(low))?;
+        }
+        let passes = passes.into_iter().map(|list| {
+            let (angle, sign) = list.into_iter().unzip();
+            Py::new(py, CamPasses { angle: column(py, angle).unbind(), sign: column(py, sign).unbind() })
+        });
         Ok(CamShape {
+            rows: rows_by_name(py, shape.rows.iter().map(Vec::as_slice))?,
             angle: PyArray1::from_vec(py, shape.phi).unbind(),
             piece: PyArray1::from_vec(py, shape.piece).unbind(),
-            rows: table(py, &shape.rows, width)?.unbind(),
-            extremes,
-            passes,
+            greatest: greatest.unbind(),
+            least: least.unbind(),
+            passes: passes.collect::<PyResult<_>>()?,
         })
     }
 
-    /// All rows at cam angles; at a joint from after it, or from before.
-    fn rows<'py>(
+    /// All rows at cam angles by name; at a joint from after it, or from before.
+    fn rows(
         &self,
-        py: Python<'py>,
-        size: Floats<'_>,
+        py: Python<'_>,
+        size: &CamDimensions,
         phi: Floats<'_>,
         before: bool,
-    ) -> PyResult<Table<'py>> {
-        let cam = CoreCam::new(self.kind, self.sense, self.side, dimensions(&size)?);
+    ) -> PyResult<Py<PyDict>> {
+        let cam = CoreCam::new(self.kind, self.sense, self.side, size.core());
         let phi = phi.as_slice()?;
-        filled(py, "cam", [ROWS, phi.len()], |to| cam.rows(&self.law, phi, before, to))
+        require_room("cam", [ROWS, phi.len()])?;
+        let mut rows = vec![0.0; ROWS * phi.len()];
+        guarded(py, "cam", || cam.rows(&self.law, phi, before, &mut rows))?;
+        rows_by_name(py, (0..ROWS).map(|k| &rows[k * phi.len()..(k + 1) * phi.len()]))
     }
 
     /// Place, first and second derivative of a curve beside the pitch curve, seen from the cam.
     fn curve<'py>(
         &self,
         py: Python<'py>,
-        size: Floats<'_>,
+        size: &CamDimensions,
         phi: Floats<'_>,
         before: bool,
         away: f64,
     ) -> PyResult<Table<'py>> {
-        let cam = CoreCam::new(self.kind, self.sense, self.side, dimensions(&size)?);
+        let cam = CoreCam::new(self.kind, self.sense, self.side, size.core());
         let phi = phi.as_slice()?;
         filled(py, "profile of a cam", [6, phi.len()], |to| cam.curves(&self.law, phi, before, away, to))
     }
 
     /// Results of many cams; each column has one entry or one a cam.
-    fn search<'py>(
+    #[pyo3(signature = (*, base_radius, roller_radius, offset, distance, arm, tilt, lift, n, per_turn))]
+    fn search(
         &self,
-        py: Python<'py>,
-        columns: Vec<Floats<'py>>,
+        py: Python<'_>,
+        base_radius: Floats<'_>,
+        roller_radius: Floats<'_>,
+        offset: Floats<'_>,
+        distance: Floats<'_>,
+        arm: Floats<'_>,
+        tilt: Floats<'_>,
+        lift: Floats<'_>,
         n: usize,
         per_turn: usize,
-    ) -> PyResult<Table<'py>> {
-        let columns = columns.iter().map(|column| column.as_slice()).collect::<Result<Vec<_>, _>>()?;
+    ) -> PyResult<CamSearch> {
+        let size = Dimensions {
+            base_radius: base_radius.as_slice()?,
+            roller_radius: roller_radius.as_slice()?,
+            offset: offset.as_slice()?,
+            distance: distance.as_slice()?,
+            arm: arm.as_slice()?,
+            tilt: tilt.as_slice()?,
+        };
+        let lift = lift.as_slice()?;
+        let columns =
+            [size.base_radius, size.roller_radius, size.offset, size.distance, size.arm, size.tilt, lift];
         if columns.iter().any(|column| column.len() != 1 && column.len() != n) {
             return Err(PyValueError::new_err("columns of one entry, or one for each cam"));
         }
-        let &[base_radius, roller_radius, offset, distance, arm, tilt, lift] = columns.as_slice() else {
-            return Err(PyValueError::new_err("six dimensions and the factor on the lift"));
-        };
-        let size = Dimensions { base_radius, roller_radius, offset, distance, arm, tilt };
         let analysis = "search of cams";
         require_room(analysis, [3, per_turn])?;
+        require_room(analysis, [2 * RESULTS, n])?;
         let cams = Cams { kind: self.kind, sense: self.sense, side: self.side, size, lift, n };
-        filled(py, analysis, [n, RESULTS], |to| search(&self.law, &cams, per_turn, to))
+        let mut table = vec![0.0; n * RESULTS];
+        guarded(py, analysis, || search(&self.law, &cams, per_turn, &mut table))?;
+        // In the order of a row of `cam::search`.
+        let [tan_pressure_angle, soundness, bend_max, bend_min] = by_column::<RESULTS>(py, &table);
+        Ok(CamSearch { tan_pressure_angle, soundness, bend_max, bend_min })
     }
 }
 
-/// Sides of a closed polygon that cross: share of each and the place, (n, 4).
+/// Sides of a closed polygon that cross: side and share along it of both, and the place.
 #[pyfunction]
-pub(crate) fn cam_crossings<'py>(py: Python<'py>, x: Floats<'_>, y: Floats<'_>) -> PyResult<Table<'py>> {
+pub(crate) fn cam_crossings(py: Python<'_>, x: Floats<'_>, y: Floats<'_>) -> PyResult<CamCrossings> {
     let (x, y) = (x.as_slice()?, y.as_slice()?);
     if x.len() != y.len() {
         return Err(PyValueError::new_err("as many x as y"));
     }
     let found = guarded(py, "crossings of a profile", || crossings(x, y))?;
-    let rows: Vec<Vec<f64>> = found.iter().map(|c| vec![c.first, c.second, c.x, c.y]).collect();
-    table(py, &rows, 4)
+    let list = |of: fn(&Crossing) -> f64| column(py, found.iter().map(of).collect()).unbind();
+    Ok(CamCrossings { first: list(|c| c.first), second: list(|c| c.second), x: list(|c| c.x), y: list(|c| c.y) })
 }

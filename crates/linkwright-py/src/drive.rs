@@ -4,9 +4,9 @@ use linkwright_core::drive::batch::{self, QUANTITIES, Rows};
 use linkwright_core::drive::gradient::{CURVES, Gradient, NUMBERS};
 use linkwright_core::drive::kinks as core_kinks;
 use linkwright_core::drive::reading::{Curves, ReadCurves};
-use linkwright_core::drive::steady::{Failure, Steady, steady, steady_with_others};
+use linkwright_core::drive::steady::{Failure, Steady, steady_with_others};
 use linkwright_core::drive::transient::{End, Start, follow};
-use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2};
+use numpy::{PyArray1, PyArray3, PyArrayDyn, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 
@@ -61,10 +61,11 @@ pub(crate) struct SteadyMotion {
     sweeps: u32,
     steps: usize,
     others: Vec<OtherMotion>,
+    solution: Py<SteadySolution>,
 }
 
 impl SteadyMotion {
-    fn of(py: Python<'_>, found: Steady, curves: Curves) -> Self {
+    fn of(py: Python<'_>, plan: Py<Plan>, q: &[f64], found: Steady, curves: Curves) -> PyResult<Self> {
         let (extremes, totals) = (&found.extremes, &found.totals);
         let other = |each: &linkwright_core::drive::steady::Other| OtherMotion {
             speed_min: each.speed_min,
@@ -72,7 +73,7 @@ impl SteadyMotion {
             period: each.period,
             multiplier: each.multiplier,
         };
-        SteadyMotion {
+        Ok(SteadyMotion {
             time: kept(py, curves.time),
             speed: kept(py, curves.omega),
             acceleration: kept(py, curves.epsilon),
@@ -99,7 +100,97 @@ impl SteadyMotion {
             sweeps: found.sweeps,
             steps: found.marks.len(),
             others: found.others.iter().map(other).collect(),
+            solution: Py::new(py, SteadySolution { plan, q: q.to_vec(), steady: found })?,
+        })
+    }
+}
+
+/// The solution of a revolution, with the machine that it is of.
+#[pyclass(frozen, module = "linkwright._core")]
+pub(crate) struct SteadySolution {
+    plan: Py<Plan>,
+    q: Vec<f64>,
+    steady: Steady,
+}
+
+/// Curves of steady motion, or their derivatives, over crank angles.
+#[pyclass(frozen, get_all, module = "linkwright._core")]
+pub(crate) struct SteadyCurves {
+    time: Py<PyArrayDyn<f64>>,
+    speed: Py<PyArrayDyn<f64>>,
+    acceleration: Py<PyArrayDyn<f64>>,
+    torque_motor: Py<PyArrayDyn<f64>>,
+    torque_drive: Py<PyArrayDyn<f64>>,
+    torque_load: Py<PyArrayDyn<f64>>,
+    inertia_reduced: Py<PyArrayDyn<f64>>,
+}
+
+impl SteadyCurves {
+    /// Of lists in the order of `drive::gradient`, in one shape.
+    fn of(py: Python<'_>, lists: [&[f64]; CURVES], shape: &[usize]) -> PyResult<Self> {
+        let curve = |list: &[f64]| Ok::<_, PyErr>(PyArray1::from_slice(py, list).reshape(shape)?.unbind());
+        let [time, speed, acceleration, motor, drive, load, inertia] = lists;
+        Ok(SteadyCurves {
+            time: curve(time)?,
+            speed: curve(speed)?,
+            acceleration: curve(acceleration)?,
+            torque_motor: curve(motor)?,
+            torque_drive: curve(drive)?,
+            torque_load: curve(load)?,
+            inertia_reduced: curve(inertia)?,
+        })
+    }
+}
+
+#[pymethods]
+impl SteadySolution {
+    fn curves(&self, py: Python<'_>, phi: Floats<'_>) -> PyResult<SteadyCurves> {
+        let (plan, q, phi) = (&self.plan.get().0, &self.q, phi.as_slice()?);
+        let analysis = "curves of steady motion";
+        require_room(analysis, [CURVES, phi.len()])?;
+        let marks = &self.steady.marks;
+        let read = guarded(py, analysis, || ReadCurves { plan, q, marks, phi }.curves())?;
+        let Curves { time, omega, epsilon, motor_torque, drive_torque, load_torque, J } = &read;
+        let lists = [time, omega, epsilon, motor_torque, drive_torque, load_torque, J];
+        SteadyCurves::of(py, lists.map(Vec::as_slice), &[phi.len()])
+    }
+
+    fn gradient(
+        &self,
+        py: Python<'_>,
+        directions: PyReadonlyArray2<'_, f64>,
+        phi: Floats<'_>,
+    ) -> PyResult<SteadyGradient> {
+        let (plan, q, phi) = (&self.plan.get().0, &self.q, phi.as_slice()?);
+        let [rows, n] = [directions.as_array().nrows(), directions.as_array().ncols()];
+        if rows != q.len() {
+            let text = format!("directions of {rows} numbers, {} parameters", q.len());
+            return Err(PyIndexError::new_err(text));
         }
+        let directions = directions.as_slice()?;
+        let analysis = "derivatives of steady motion";
+        require_room(analysis, [n, NUMBERS + CURVES * phi.len()])?;
+        let steady = &self.steady;
+        let found =
+            guarded(py, analysis, || Gradient { plan, q, directions, steady, phi }.derivatives())?;
+        // In the order of `drive::gradient`.
+        let number = |k: usize| kept(py, found.numbers[k * n..(k + 1) * n].to_vec());
+        let size = phi.len() * n;
+        let curve = |k: usize| &found.curves[k * size..(k + 1) * size];
+        Ok(SteadyGradient {
+            speed_min: number(0),
+            speed_max: number(1),
+            acceleration_min: number(2),
+            acceleration_max: number(3),
+            period: number(4),
+            multiplier: number(5),
+            energy_motor: number(6),
+            energy_drive: number(7),
+            energy_load: number(8),
+            torque_motor_mean: number(9),
+            torque_motor_rms: number(10),
+            curves: Py::new(py, SteadyCurves::of(py, std::array::from_fn(curve), &[phi.len(), n])?)?,
+        })
     }
 }
 
@@ -122,13 +213,14 @@ pub(crate) enum Solved {
 #[pyfunction]
 pub(crate) fn steady_state(
     py: Python<'_>,
-    plan: &Plan,
+    plan: Bound<'_, Plan>,
     q: Floats<'_>,
     accuracy: f64,
     phi: Floats<'_>,
 ) -> PyResult<Solved> {
-    let (q, phi) = (plan.parameters(&q)?, phi.as_slice()?);
-    let plan = &plan.0;
+    let known = plan.unbind();
+    let (q, phi) = (known.get().parameters(&q)?, phi.as_slice()?);
+    let plan = &known.get().0;
     let analysis = "steady motion";
     require_room(analysis, [7, phi.len()])?;
     let solved = guarded(py, analysis, || {
@@ -137,7 +229,9 @@ pub(crate) fn steady_state(
         Ok::<_, Failure>((found, curves))
     })?;
     Ok(match solved {
-        Ok((found, curves)) => Solved::Motion(SteadyMotion::of(py, found, curves)),
+        Ok((found, curves)) => {
+            Solved::Motion(SteadyMotion::of(py, known.clone_ref(py), q, found, curves)?)
+        }
         Err(Failure { status, phi, omega, reached }) => Solved::None(NoSteadyMotion {
             status: status.into(),
             crank_angle: phi,
@@ -161,50 +255,7 @@ pub(crate) struct SteadyGradient {
     energy_load: Array,
     torque_motor_mean: Array,
     torque_motor_rms: Array,
-    curves: Py<PyArray3<f64>>,
-}
-
-#[pyfunction]
-pub(crate) fn steady_gradient(
-    py: Python<'_>,
-    plan: &Plan,
-    q: Floats<'_>,
-    accuracy: f64,
-    directions: PyReadonlyArray2<'_, f64>,
-    phi: Floats<'_>,
-) -> PyResult<Option<SteadyGradient>> {
-    let (q, phi) = (plan.parameters(&q)?, phi.as_slice()?);
-    let n = directions.as_array().ncols();
-    let rows = directions.as_array().nrows();
-    if rows != q.len() {
-        let text = format!("directions of {rows} numbers, {} parameters", q.len());
-        return Err(PyIndexError::new_err(text));
-    }
-    let directions = directions.as_slice()?;
-    let plan = &plan.0;
-    let analysis = "derivatives of steady motion";
-    require_room(analysis, [n, NUMBERS + CURVES * phi.len()])?;
-    let found = guarded(py, analysis, || {
-        let steady = steady(plan, q, accuracy).ok()?;
-        Some(Gradient { plan, q, directions, steady: &steady, phi }.derivatives())
-    })?;
-    let Some(found) = found else { return Ok(None) };
-    let number = |k: usize| kept(py, found.numbers[k * n..(k + 1) * n].to_vec());
-    // In the order of `drive::gradient`.
-    Ok(Some(SteadyGradient {
-        speed_min: number(0),
-        speed_max: number(1),
-        acceleration_min: number(2),
-        acceleration_max: number(3),
-        period: number(4),
-        multiplier: number(5),
-        energy_motor: number(6),
-        energy_drive: number(7),
-        energy_load: number(8),
-        torque_motor_mean: number(9),
-        torque_motor_rms: number(10),
-        curves: column(py, found.curves).reshape([CURVES, phi.len(), n])?.unbind(),
-    }))
+    curves: Py<SteadyCurves>,
 }
 
 /// Steady motion of many machines, an array over them each.
@@ -291,7 +342,7 @@ pub(crate) struct MotionInTime {
     crank_angle: Array,
     speed: Array,
     acceleration: Array,
-    between: Py<PyArray2<f64>>,
+    between: Py<PyArray3<f64>>,
     implicit: Py<PyArray1<bool>>,
     torque_drive_end: f64,
     torque_load_end: f64,
@@ -326,7 +377,7 @@ pub(crate) fn transient(
     let start = Start { phi, omega, duration, turns, accuracy };
     let path = guarded(py, "motion in time", || follow(&plan.0, q, &start))?;
     let steps = path.between.len();
-    let between = column(py, path.between.into_flattened().into_flattened()).reshape([steps, 14])?;
+    let between = column(py, path.between.into_flattened().into_flattened()).reshape([steps, 2, 7])?;
     Ok(MotionInTime {
         end: name_of(path.end),
         time: kept(py, path.t),
@@ -341,15 +392,31 @@ pub(crate) fn transient(
     })
 }
 
+/// The machine reduced to its crank, at crank angles.
+#[pyclass(frozen, get_all, module = "linkwright._core")]
+pub(crate) struct Reductions {
+    inertia: Array,
+    inertia_slope: Array,
+    load: Array,
+    dry: Array,
+    viscous: Array,
+}
+
 #[pyfunction]
-pub(crate) fn reductions<'py>(
-    py: Python<'py>,
+pub(crate) fn reductions(
+    py: Python<'_>,
     plan: &Plan,
     q: Floats<'_>,
     phi: Floats<'_>,
-) -> PyResult<Table<'py>> {
+) -> PyResult<Reductions> {
     let (q, phi) = (plan.parameters(&q)?, phi.as_slice()?);
-    filled(py, "reduction to the crank", [5, phi.len()], |to| batch::reductions(&plan.0, q, phi, to))
+    let (analysis, n) = ("reduction to the crank", phi.len());
+    require_room(analysis, [5, n])?;
+    let mut rows = vec![0.0; 5 * n];
+    guarded(py, analysis, || batch::reductions(&plan.0, q, phi, &mut rows))?;
+    let [inertia, inertia_slope, load, dry, viscous] =
+        std::array::from_fn(|k| PyArray1::from_slice(py, &rows[k * n..(k + 1) * n]).unbind());
+    Ok(Reductions { inertia, inertia_slope, load, dry, viscous })
 }
 
 #[pyfunction]

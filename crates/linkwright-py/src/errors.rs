@@ -12,11 +12,8 @@ pub(crate) fn plan_error(error: PlanError) -> PyErr {
 
 fn is_index(error: &PlanError) -> bool {
     match error {
-        PlanError::Index { .. } | PlanError::Missing { .. } | PlanError::Order { .. } => true,
+        PlanError::Missing { .. } | PlanError::Order { .. } => true,
         PlanError::In { error, .. } => is_index(error),
-        PlanError::Length { .. }
-        | PlanError::Kind { .. }
-        | PlanError::Table { .. }
-        | PlanError::MotionLaw => false,
+        PlanError::Length { .. } | PlanError::MotionLaw => false,
     }
 }

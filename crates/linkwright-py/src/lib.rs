@@ -48,20 +48,27 @@ mod _core {
     #[pymodule_export]
     use super::builder::parts::{Bar, Carried, ChangePoint, Condition, Line, Sum};
     #[pymodule_export]
-    use super::cam::{Cam, CamShape, cam_crossings};
-    #[pymodule_export]
-    use super::drive::{
-        MotionInTime, NoSteadyMotion, OtherMotion, SteadyGradient, SteadyMotion, SteadyRows, kinks,
-        law_torques, motor_torques, reductions, steady_gradient, steady_rows, steady_state, transient,
+    use super::builder::train::{
+        Curve, Periodic, TorqueLaw, TorqueShape, TorsionLink, TorsionMass, TorsionRotor, TorsionTorque,
     };
     #[pymodule_export]
-    use super::linkage::{GroupPath, InLine, follow_group, gaps, in_line, motions, third};
+    use super::cam::{
+        Cam, CamCrossings, CamDimensions, CamExtreme, CamPasses, CamSearch, CamShape, cam_crossings,
+    };
+    #[pymodule_export]
+    use super::drive::{
+        MotionInTime, NoSteadyMotion, OtherMotion, Reductions, SteadyCurves, SteadyGradient, SteadyMotion,
+        SteadyRows, SteadySolution, kinks, law_torques, motor_torques, reductions, steady_rows, steady_state,
+        transient,
+    };
+    #[pymodule_export]
+    use super::linkage::{Channel, GroupPath, InLine, follow_group, gaps, in_line, motions, third};
     #[pymodule_export]
     use super::status::Status;
     #[pymodule_export]
-    use super::topper::TopperKnife;
+    use super::topper::{TopperCover, TopperKnife};
     #[pymodule_export]
-    use super::torsion::{TorsionModes, WaveExtremes, torsion_forced, torsion_modes, torsion_waves};
+    use super::torsion::{Extremes, TorsionModes, torsion_forced, torsion_modes, torsion_waves};
     #[pymodule_export]
     use super::torsion_transient::{TorsionMotion, TorsionSystem};
 }

@@ -2,15 +2,41 @@
 
 use linkwright_core::drive::batch::{self, Rows};
 use linkwright_core::drive::motions as over_angles;
+use linkwright_core::linkage::motion;
 use linkwright_core::linkage::trace;
 use numpy::{PyArray1, PyReadonlyArray2, PyReadwriteArray1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::arrays::{as_indices, below, channels, column};
+use crate::arrays::{as_indices, below, column};
 use crate::builder::Plan;
 use crate::guard::{filled, guarded};
 use crate::{Floats, Ints, Table};
+
+/// What moves: a point, a link or a slide, by its index.
+#[pyclass(frozen, from_py_object, module = "linkwright._core")]
+#[derive(Clone, Copy)]
+pub(crate) enum Channel {
+    #[pyo3(constructor = (index))]
+    Point { index: usize },
+    #[pyo3(constructor = (index))]
+    Link { index: usize },
+    #[pyo3(constructor = (index))]
+    Slide { index: usize },
+}
+
+fn channels(list: &[Channel], plan: &Plan) -> PyResult<Vec<motion::Channel>> {
+    let m = &plan.0.mechanism;
+    let channel = |channel: &Channel| {
+        let (index, bound, channel): (_, _, fn(usize) -> motion::Channel) = match *channel {
+            Channel::Point { index } => (index, m.n_points, motion::Channel::Point),
+            Channel::Link { index } => (index, m.n_links, motion::Channel::Link),
+            Channel::Slide { index } => (index, m.n_slides, motion::Channel::Slide),
+        };
+        below(index, bound).map(|()| channel(index))
+    };
+    list.iter().map(channel).collect()
+}
 
 #[pyfunction]
 pub(crate) fn motions(
@@ -20,13 +46,13 @@ pub(crate) fn motions(
     slots: Ints<'_>,
     values: PyReadonlyArray2<'_, f64>,
     phi: Floats<'_>,
-    what: PyReadonlyArray2<'_, i32>,
+    what: Vec<Channel>,
     mut out: PyReadwriteArray1<'_, f64>,
 ) -> PyResult<()> {
     let n = values.as_array().ncols();
     let slots = as_indices(slots.as_slice()?, plan.0.n_parameters)?;
     let rows = Rows { base: plan.parameters(&q)?, slots: &slots, values: values.as_slice()?, n };
-    let channels = channels(what.as_slice()?, &plan.0)?;
+    let channels = channels(&what, plan)?;
     let (phi, out) = (phi.as_slice()?, out.as_slice_mut()?);
     let size = n * phi.len() * channels.iter().map(|c| c.width()).sum::<usize>();
     if out.len() != size {
@@ -41,10 +67,10 @@ pub(crate) fn third<'py>(
     plan: &Plan,
     q: Floats<'_>,
     phi: Floats<'_>,
-    what: PyReadonlyArray2<'_, i32>,
+    what: Vec<Channel>,
 ) -> PyResult<Table<'py>> {
     let (q, phi) = (plan.parameters(&q)?, phi.as_slice()?);
-    let channels = channels(what.as_slice()?, &plan.0)?;
+    let channels = channels(&what, plan)?;
     let width = channels.iter().map(|c| c.third_width()).sum();
     filled(py, "third derivatives", [width, phi.len()], |to| {
         over_angles::third(&plan.0, q, phi, &channels, to)

@@ -2,12 +2,14 @@
 
 use linkwright_core::topper::heads::{Heads, RESULTS, cover};
 use linkwright_core::topper::knife::{Knife, Law};
+use numpy::PyArray1;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::builder::numbers::MotionLaw;
-use crate::guard::{filled, require_room};
-use crate::{Floats, Table};
+use crate::Floats;
+use crate::arrays::by_column;
+use crate::guard::{guarded, require_room};
 
 /// A knife: its law, as harmonics (a, b, a, b, …) or in pieces, and how it goes.
 #[pyclass(frozen, module = "linkwright._core")]
@@ -20,9 +22,21 @@ enum KnifeLaw<'py> {
     Harmonics(Floats<'py>),
 }
 
+/// Heads under a knife, an array over them each.
+#[pyclass(frozen, get_all, module = "linkwright._core")]
+pub(crate) struct TopperCover {
+    length: Py<PyArray1<f64>>,
+    last_x: Py<PyArray1<f64>>,
+    last_y: Py<PyArray1<f64>>,
+    uncut_right: Py<PyArray1<f64>>,
+    uncut_left: Py<PyArray1<f64>>,
+    uncut_between: Py<PyArray1<f64>>,
+}
+
 #[pymethods]
 impl TopperKnife {
     #[new]
+    #[pyo3(signature = (law, *, corners, angle, forward, rate, drift, reach, slowest, fastest))]
     fn new(
         law: KnifeLaw<'_>,
         corners: Vec<f64>,
@@ -30,7 +44,9 @@ impl TopperKnife {
         forward: f64,
         rate: f64,
         drift: f64,
-        bounds: [f64; 3],
+        reach: f64,
+        slowest: f64,
+        fastest: f64,
     ) -> PyResult<Self> {
         let law = match law {
             KnifeLaw::Pieces(law) => Law::Pieces(law.0.clone()),
@@ -38,7 +54,6 @@ impl TopperKnife {
                 Law::Harmonics(list.as_slice()?.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect())
             }
         };
-        let [reach, slowest, fastest] = bounds;
         Ok(TopperKnife(Knife {
             law,
             corners,
@@ -52,15 +67,17 @@ impl TopperKnife {
     }
 
     /// Results of heads; each column has one entry or one a head.
-    fn cover<'py>(
+    #[pyo3(signature = (*, radius, offset, phase, n, length, fine))]
+    fn cover(
         &self,
-        py: Python<'py>,
-        columns: [Floats<'py>; 3],
+        py: Python<'_>,
+        radius: Floats<'_>,
+        offset: Floats<'_>,
+        phase: Floats<'_>,
         n: usize,
         length: Option<f64>,
         fine: usize,
-    ) -> PyResult<Table<'py>> {
-        let [radius, offset, phase] = &columns;
+    ) -> PyResult<TopperCover> {
         let [radius, offset, phase] = [radius.as_slice()?, offset.as_slice()?, phase.as_slice()?];
         if [radius, offset, phase].iter().any(|column| column.len() != 1 && column.len() != n) {
             return Err(PyValueError::new_err("columns of one entry, or one for each head"));
@@ -68,6 +85,11 @@ impl TopperKnife {
         let heads = Heads { radius, offset, phase, n };
         let analysis = "heads under a knife";
         require_room(analysis, [3, fine])?;
-        filled(py, analysis, [n, RESULTS], |to| cover(&self.0, &heads, length, fine, to))
+        require_room(analysis, [2 * RESULTS, n])?;
+        let mut table = vec![0.0; n * RESULTS];
+        guarded(py, analysis, || cover(&self.0, &heads, length, fine, &mut table))?;
+        // In the order of `topper::heads`.
+        let [length, last_x, last_y, uncut_right, uncut_left, uncut_between] = by_column::<RESULTS>(py, &table);
+        Ok(TopperCover { length, last_x, last_y, uncut_right, uncut_left, uncut_between })
     }
 }

@@ -55,39 +55,42 @@ fn tree(parent: &Ints<'_>, inertia: &Floats<'_>, stiffness: &[f64]) -> PyResult<
 /// Amplitudes (orders, discs, speeds) in place of torques, real and imaginary part in turn. Tables have a row a disc, a
 /// column a speed: k, c and ηk of the shaft above each disc, c of the disc against the ground.
 #[pyfunction]
+#[pyo3(signature = (*, parent, inertia, speeds, stiffness, damping, loss, disc_damping, orders, torques))]
 pub(crate) fn torsion_forced(
     py: Python<'_>,
     parent: Ints<'_>,
     inertia: Floats<'_>,
     speeds: Floats<'_>,
-    tables: [Floats<'_>; 4],
+    stiffness: Floats<'_>,
+    damping: Floats<'_>,
+    loss: Floats<'_>,
+    disc_damping: Floats<'_>,
     orders: Floats<'_>,
     mut torques: PyReadwriteArray1<'_, f64>,
 ) -> PyResult<()> {
     // What the shafts are is in the tables.
     let train = tree(&parent, &inertia, &vec![1.0; inertia.as_slice()?.len()])?;
-    let [stiffness, shaft, loss, ground] = &tables;
-    let damping = forced::Damping {
+    let at = forced::Damping {
         speeds: speeds.as_slice()?,
         stiffness: stiffness.as_slice()?,
-        shaft: shaft.as_slice()?,
+        shaft: damping.as_slice()?,
         loss: loss.as_slice()?,
-        ground: ground.as_slice()?,
+        ground: disc_damping.as_slice()?,
     };
     let (orders, (torques, _)) = (orders.as_slice()?, torques.as_slice_mut()?.as_chunks_mut());
-    if guarded(py, "forced vibration", || forced::forced(&train, &damping, orders, torques))? {
+    if guarded(py, "forced vibration", || forced::forced(&train, &at, orders, torques))? {
         return Ok(());
     }
     Err(PyValueError::new_err("tables and torques do not have a place for every disc and speed"))
 }
 
-/// Extremes of waves, an array over them each.
+/// Extremes and where they are, an array over waves, shafts or masses each.
 #[pyclass(frozen, get_all, module = "linkwright._core")]
-pub(crate) struct WaveExtremes {
-    greatest: Py<PyArray1<f64>>,
-    greatest_at: Py<PyArray1<f64>>,
-    least: Py<PyArray1<f64>>,
-    least_at: Py<PyArray1<f64>>,
+pub(crate) struct Extremes {
+    pub(crate) greatest: Py<PyArray1<f64>>,
+    pub(crate) greatest_at: Py<PyArray1<f64>>,
+    pub(crate) least: Py<PyArray1<f64>>,
+    pub(crate) least_at: Py<PyArray1<f64>>,
 }
 
 /// Extremes of waves and their places. Coefficients (harmonics, waves), real and
@@ -97,7 +100,7 @@ pub(crate) fn torsion_waves(
     py: Python<'_>,
     coefficients: Floats<'_>,
     waves: usize,
-) -> PyResult<WaveExtremes> {
+) -> PyResult<Extremes> {
     let (coefficients, _) = coefficients.as_slice()?.as_chunks();
     if waves > 0 && coefficients.len() % waves != 0 {
         return Err(PyValueError::new_err("coefficients do not have a place for every wave"));
@@ -108,7 +111,7 @@ pub(crate) fn torsion_waves(
     require_room(analysis, [harmonics, 4 * harmonics + 4])?;
     let found = guarded(py, analysis, || waves::extremes(coefficients, waves))?;
     let each = |of: fn(&waves::Extremes) -> f64| column(py, found.iter().map(of).collect()).unbind();
-    Ok(WaveExtremes {
+    Ok(Extremes {
         greatest: each(|wave| wave.max),
         greatest_at: each(|wave| wave.at_max),
         least: each(|wave| wave.min),

@@ -2,15 +2,18 @@
 
 use linkwright_core::torsion::transient::course::{self, End, Method, Request};
 use linkwright_core::torsion::transient::rates::Rates;
-use linkwright_core::torsion::transient::system::{Encoded, System};
+use linkwright_core::torsion::transient::extremes::Extreme;
+use linkwright_core::torsion::transient::system::System;
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::arrays::column;
+use crate::builder::train::{TorsionLink, TorsionMass, TorsionRotor, TorsionTorque, system};
 use crate::errors::plan_error;
 use crate::guard::{guarded, require_room, zeros};
-use crate::{Floats, Ints, Table};
+use crate::torsion::Extremes;
+use crate::{Floats, Table};
 
 /// The motion of a train in time.
 #[pyclass(frozen, get_all, module = "linkwright._core")]
@@ -22,11 +25,36 @@ pub(crate) struct TorsionMotion {
     evaluations: usize,
     time: f64,
     fastest: f64,
-    /// Kinetic and potential energy at the start, then at the end.
-    energies: (f64, f64, f64, f64),
-    samples: Py<PyArray2<f64>>,
-    extremes: Py<PyArray2<f64>>,
+    kinetic_start: f64,
+    potential_start: f64,
+    kinetic_end: f64,
+    potential_end: f64,
+    angle: Py<PyArray2<f64>>,
+    speed: Py<PyArray2<f64>>,
+    torque: Py<PyArray2<f64>>,
+    kinetic: Py<PyArray1<f64>>,
+    potential: Py<PyArray1<f64>>,
+    torque_extremes: Py<Extremes>,
+    speed_extremes: Py<Extremes>,
     work: Py<PyArray1<f64>>,
+    loss_links: Py<PyArray1<f64>>,
+    loss_masses: Py<PyArray1<f64>>,
+}
+
+/// Rows of samples as a table.
+fn table(py: Python<'_>, analysis: &str, list: &[f64], rows: usize) -> PyResult<Py<PyArray2<f64>>> {
+    let table = zeros(py, analysis, [rows, list.len() / rows.max(1)])?;
+    table.readwrite().as_slice_mut()?.copy_from_slice(list);
+    Ok(table.unbind())
+}
+
+fn extremes(py: Python<'_>, rows: &[Extreme]) -> PyResult<Py<Extremes>> {
+    let of = |k: usize| column(py, rows.iter().map(|row| row[k]).collect()).unbind();
+    Py::new(py, Extremes { greatest: of(0), greatest_at: of(1), least: of(2), least_at: of(3) })
+}
+
+fn part(py: Python<'_>, list: &[f64]) -> Py<PyArray1<f64>> {
+    PyArray1::from_slice(py, list).unbind()
 }
 
 fn method_of(name: &str) -> PyResult<Method> {
@@ -56,7 +84,7 @@ fn word_for(end: End) -> &'static str {
     }
 }
 
-/// A train in motion, decoded and checked.
+/// A train in motion, checked.
 #[pyclass(frozen, module = "linkwright._core")]
 pub(crate) struct TorsionSystem(System);
 
@@ -73,42 +101,20 @@ impl TorsionSystem {
 #[pymethods]
 impl TorsionSystem {
     #[new]
+    #[pyo3(signature = (*, masses, links, rotors, torques))]
     fn new(
         py: Python<'_>,
-        inertia: Floats<'_>,
-        damping: Floats<'_>,
-        swing_damping: Floats<'_>,
-        links: Ints<'_>,
-        link_numbers: Floats<'_>,
-        rotors: Ints<'_>,
-        rotor_numbers: Floats<'_>,
-        torques: Ints<'_>,
-        torque_numbers: Floats<'_>,
-        table_starts: Ints<'_>,
-        periods: Floats<'_>,
-        knots: Floats<'_>,
-        curve_starts: Ints<'_>,
-        points: Floats<'_>,
+        masses: Vec<PyRef<'_, TorsionMass>>,
+        links: Vec<PyRef<'_, TorsionLink>>,
+        rotors: Vec<PyRef<'_, TorsionRotor>>,
+        torques: Vec<PyRef<'_, TorsionTorque>>,
     ) -> PyResult<Self> {
-        let code = Encoded {
-            masses: [inertia.as_slice()?, damping.as_slice()?, swing_damping.as_slice()?],
-            links: links.as_slice()?,
-            link_numbers: link_numbers.as_slice()?,
-            rotors: rotors.as_slice()?,
-            rotor_numbers: rotor_numbers.as_slice()?,
-            torques: torques.as_slice()?,
-            torque_numbers: torque_numbers.as_slice()?,
-            table_starts: table_starts.as_slice()?,
-            periods: periods.as_slice()?,
-            knots: knots.as_slice()?,
-            curve_starts: curve_starts.as_slice()?,
-            points: points.as_slice()?,
-        };
-        guarded(py, "translation of the train", || System::decode(&code))?
-            .map(TorsionSystem)
-            .map_err(plan_error)
+        let system = system(py, &masses, &links, &rotors, &torques);
+        system.check().map_err(plan_error)?;
+        Ok(TorsionSystem(system))
     }
 
+    #[pyo3(signature = (*, angle, speed, times, start, duration, accuracy, method, steps_max))]
     fn follow(
         &self,
         py: Python<'_>,
@@ -129,11 +135,12 @@ impl TorsionSystem {
         let analysis = "torsional motion in time";
         require_room(analysis, [2 * self.0.len() + self.0.links.len() + 2, times.len()])?;
         let found = guarded(py, analysis, || course::follow(&self.0, &request))?;
-        let rows = found.samples.len() / times.len().max(1);
-        let samples = zeros(py, analysis, [rows, times.len()])?;
-        samples.readwrite().as_slice_mut()?.copy_from_slice(&found.samples);
-        let extremes = zeros(py, analysis, [found.extremes.len(), 4])?;
-        extremes.readwrite().as_slice_mut()?.copy_from_slice(found.extremes.as_flattened());
+        let (n, m, k) = (self.0.len(), self.0.links.len(), self.0.torques.len());
+        let at = |row: usize| row * times.len();
+        let [angle, speed, torque, kinetic, potential] =
+            [0..n, n..2 * n, 2 * n..2 * n + m, 2 * n + m..2 * n + m + 1, 2 * n + m + 1..2 * n + m + 2]
+                .map(|rows| &found.samples[at(rows.start)..at(rows.end)]);
+        let [kinetic_start, potential_start, kinetic_end, potential_end] = found.energies;
         Ok(TorsionMotion {
             end: word_for(found.end),
             method: name_of(found.method),
@@ -142,10 +149,20 @@ impl TorsionSystem {
             evaluations: found.evaluations,
             time: found.time,
             fastest: found.fastest,
-            energies: found.energies.into(),
-            samples: samples.unbind(),
-            extremes: extremes.unbind(),
-            work: column(py, found.work).unbind(),
+            kinetic_start,
+            potential_start,
+            kinetic_end,
+            potential_end,
+            angle: table(py, analysis, angle, n)?,
+            speed: table(py, analysis, speed, n)?,
+            torque: table(py, analysis, torque, m)?,
+            kinetic: part(py, kinetic),
+            potential: part(py, potential),
+            torque_extremes: extremes(py, &found.extremes[..m])?,
+            speed_extremes: extremes(py, &found.extremes[m..])?,
+            work: part(py, &found.work[..k]),
+            loss_links: part(py, &found.work[k..k + m]),
+            loss_masses: part(py, &found.work[k + m..]),
         })
     }
 

@@ -20,15 +20,7 @@ from linkwright.machine.program.numbers import core_law
 
 Floats = NDArray[np.float64]
 
-# Rows of the core in its order; the first twelve numbers of each angle.
-ROWS = (
-    *("lift", "lift_d1", "lift_d2", "lift_d3"),
-    *("pitch_x", "pitch_y", "normal_x", "normal_y"),
-    *("pressure_angle", "bend", "soundness", "along"),
-)
-
-# What extremes are given of, maximum and minimum of each; the last only under a flat face.
-_EXTREMES = ("pressure_angle", "bend", "along")
+CamSearch = _core.CamSearch
 
 
 class Extreme(NamedTuple):
@@ -53,13 +45,11 @@ class Shape:
     # (n,): cam angles from the start of the programme [rad], increasing; each joint of the law stands twice.
     angle: Floats
     piece: NDArray[np.uint32]  # (n,): piece of the law
-    rows: dict[str, Floats]  # (n,): by the names of `ROWS`
+    rows: dict[str, Floats]  # (n,): by the names of `linkwright._core.CamShape`
     # greatest, least: of the pressure angle, of the bend, and of the place along a flat face (``along``).
     greatest: dict[str, Extreme]
     least: dict[str, Extreme]
-    # (k, 2): for each level asked for: angles, and +1 where the row is above the level from there on, −1
-    # where below.
-    passes: tuple[Floats, ...]
+    passes: tuple[_core.CamPasses, ...]  # for each level asked for
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,53 +57,61 @@ class CamKernel:
     """One contact in the core's terms."""
 
     law: MotionLaw  # lift over the cam angle from 0 to 2π [m or rad]
-    kind: int  # of the follower, as the core counts them
-    # Whether it is the opposite follower, −1 or 1, and stands on the left, 1 or −1.
-    signs: tuple[float, float]
-    size: Floats  # (6,): dimensions in the order of `linkwright.cam.model.follower.Sizes`
+    sizes: Sizes
+    is_oscillating: bool  # whether the follower turns about a pivot
     is_roller: bool  # whether it is a roller or an edge; else a flat face
-    core: _core.Cam = field(init=False, repr=False, compare=False)  # made of law, kind and signs
+    is_opposite: bool  # whether the cam turns against the crank
+    is_left: bool  # whether the follower stands on the left
+    core: _core.Cam = field(init=False, repr=False, compare=False)  # made of the law and the follower
+    size: _core.CamDimensions = field(init=False, repr=False, compare=False)  # made of the sizes
 
     def __post_init__(self) -> None:
-        """Make the core's cam."""
-        object.__setattr__(self, "core", _core.Cam(core_law(self.law), self.kind, *self.signs))
+        """Make the core's cam and its dimensions."""
+        core = _core.Cam(
+            core_law(self.law),
+            is_oscillating=self.is_oscillating,
+            is_roller=self.is_roller,
+            sense=-1.0 if self.is_opposite else 1.0,
+            side=1.0 if self.is_left else -1.0,
+        )
+        object.__setattr__(self, "core", core)
+        size = {name: float(value) for name, value in self.sizes._asdict().items()}
+        object.__setattr__(self, "size", _core.CamDimensions(**size))
 
     def __reduce__(self) -> tuple[type[CamKernel], tuple[Any, ...]]:
-        """Pickled and copied without the core's cam, which is made anew."""
-        return CamKernel, (self.law, self.kind, self.signs, self.size, self.is_roller)
+        """Pickled and copied without the core's parts, which are made anew."""
+        follower = (self.is_oscillating, self.is_roller, self.is_opposite, self.is_left)
+        return CamKernel, (self.law, self.sizes, *follower)
 
     def with_sizes(self, sizes: Sizes) -> CamKernel:
         """The same with other dimensions."""
-        return replace(self, size=np.array(sizes, dtype=float))
+        return replace(self, sizes=sizes)
 
     def shape(self, n: int, levels: Sequence[tuple[str, float]] = ()) -> Shape:
         """The contact at about n angles per revolution; see `Shape`."""
-        wanted = [(ROWS.index(row), level) for row, level in levels]
-        shape = self.core.shape(self.size, n, wanted)
-        found = [Extreme(*pair) for pair in shape.extremes]
-        names = _EXTREMES[: len(found) // 2]
+        shape = self.core.shape(self.size, n, list(levels))
         greatest, least = (
-            dict(zip(names, found[::2], strict=True)),
-            dict(zip(names, found[1::2], strict=True)),
+            {name: Extreme(extreme.angle, extreme.value) for name, extreme in extremes.items()}
+            for extremes in (shape.greatest, shape.least)
         )
-        rows = dict(zip(ROWS, shape.rows, strict=True))
-        return Shape(shape.angle, shape.piece, rows, greatest, least, tuple(shape.passes))
+        return Shape(shape.angle, shape.piece, shape.rows, greatest, least, tuple(shape.passes))
 
     def rows(self, angle: ArrayLike, *, before: bool = False) -> dict[str, Floats]:
         """All rows at cam angles from the start of the programme; at a joint after it, or ``before``."""
-        return dict(zip(ROWS, self.core.rows(self.size, _floats(angle), before), strict=True))
+        return self.core.rows(self.size, _floats(angle), before)
 
     def curve(self, angle: ArrayLike, away: float, *, before: bool = False) -> Floats:
         """Place and two derivatives [m, m/rad, m/rad²] of a curve ``away`` from the pitch one, (3, 2, n)."""
         return self.core.curve(self.size, _floats(angle), before, away).reshape(3, 2, -1)
 
-    def search(self, columns: Sequence[ArrayLike], per_turn: int) -> Floats:
-        """Largest tan γ, minimum soundness, maximum and minimum bend of many cams, (n, 4).
+    def search(self, sizes: Sizes, lift: ArrayLike, per_turn: int) -> _core.CamSearch:
+        """Largest tan γ, minimum soundness, maximum and minimum bend of many cams.
 
-        ``columns`` are the six dimensions and the factor on the lift, each a number or one for every cam.
+        ``sizes`` and ``lift``, the factor on it, are a number or one for every cam each.
         """
-        listed = [_floats(column) for column in columns]
-        return self.core.search(listed, max(map(len, listed)), per_turn)
+        columns = {name: _floats(column) for name, column in sizes._asdict().items()}
+        columns["lift"] = _floats(lift)
+        return self.core.search(**columns, n=max(map(len, columns.values())), per_turn=per_turn)
 
 
 def _floats(values: ArrayLike) -> Floats:
@@ -130,12 +128,10 @@ def cam_kernel(
     left: bool = True,
 ) -> CamKernel:
     """A contact. ``law``: lift over the cam angle from 0 to 2π [m or rad]."""
-    kind = 2 * oscillating + (not roller)
-    signs = (-1.0 if opposite else 1.0, 1.0 if left else -1.0)
-    return CamKernel(law, kind, signs, np.array(sizes, dtype=float), roller)
+    return CamKernel(law, sizes, oscillating, roller, opposite, left)
 
 
-def crossings(points: Floats) -> Floats:
-    """Where a closed polygon (n, 2) crosses itself: side and share along it of both, and place, (k, 4)."""
+def crossings(points: Floats) -> _core.CamCrossings:
+    """Where a closed polygon (n, 2) crosses itself."""
     x, y = np.ascontiguousarray(points.T)
     return _core.cam_crossings(x, y)

@@ -32,6 +32,9 @@ Floats = NDArray[np.float64]
 # last.
 ENTRIES = ("base_radius", "roller_radius", "offset", "distance", "arm_length", "face_tilt", "lift_factor")
 
+# What the core tells of each cam.
+_SEARCHED = ("tan_pressure_angle", "soundness", "bend_max", "bend_min")
+
 _POSITIVE = ("base_radius", "roller_radius", "distance", "arm_length")
 
 # Angles per revolution at which cams are looked at. An extreme between them is missed by up to (step)²/8 of
@@ -141,14 +144,17 @@ def search_cams(
     columns = {
         key: np.tile(column, repeats) if len(column) > 1 else column for key, column in columns.items()
     }
-    found = np.full((len(numbers), 4), np.nan)
+    found = {name: np.full(len(numbers), np.nan) for name in _SEARCHED}
     points = machine.mechanism.fixed_points()
     for i, each in enumerate(_variants(cam, laws)):
         rows = np.flatnonzero(numbers == i)
         if len(rows):
             contact = contacts(each, points, name)[0]
-            listed = _dimensions(contact.sizes, {k: c[rows] if len(c) > 1 else c for k, c in columns.items()})
-            found[rows] = contact.kernel.search(listed, per_turn)
+            part = {key: column[rows] if len(column) > 1 else column for key, column in columns.items()}
+            sizes = Sizes(*(part.get(key, size) for key, size in zip(ENTRIES, contact.sizes, strict=False)))
+            cams = contact.kernel.search(sizes, part.get("lift_factor", 1.0), per_turn)
+            for quantity, column in found.items():
+                column[rows] = getattr(cams, quantity)
     return _cams(cam, columns, tuple(laws), numbers, found)
 
 
@@ -249,17 +255,15 @@ def _with(section: MotionSection, law: str) -> MotionSection:
     return section.with_entries({"law": PlainLaw.model_construct(**entry)})
 
 
-def _dimensions(size: Sizes, columns: Mapping[str, Floats]) -> list[Floats]:
-    """The six dimensions and the factor on the lift, as columns."""
-    fixed = dict(zip(ENTRIES, (*size, 1.0), strict=True))
-    return [columns.get(key, np.array([float(fixed[key])])) for key in ENTRIES]
-
-
 def _cams(
-    cam: Cam, columns: dict[str, Floats], laws: tuple[str, ...], numbers: NDArray[np.intp], found: Floats
+    cam: Cam,
+    columns: dict[str, Floats],
+    laws: tuple[str, ...],
+    numbers: NDArray[np.intp],
+    found: dict[str, Floats],
 ) -> Cams:
     """The results in the field's terms."""
-    lead, sound, most, least = found.T
+    lead, sound, most, least = (found[name] for name in _SEARCHED)
     n = len(numbers)
     roller = np.broadcast_to(columns.get("roller_radius", np.array([cam.radius_of_roller])), n)
     with np.errstate(divide="ignore", invalid="ignore"):

@@ -80,9 +80,9 @@ def _exactly(compiled: Compiled) -> float:
     """Peak of |J'|/J² from the series of the revolution."""
 
     def acceleration(phi: Floats) -> Floats:
-        J, J_d1 = compiled.reductions(phi)[:2]
-        found: Floats = (J_d1 / J**2)[None]
-        return found
+        at = compiled.reductions(phi)
+        ratio: Floats = (at.inertia_slope / at.inertia**2)[None]
+        return ratio
 
     turn = turn_curve(acceleration, compiled.kinks(), "angular acceleration at constant energy")
     return max(abs(turn.extreme(sign)[0]) for sign in (1, -1))

@@ -196,13 +196,14 @@ def _in_steady_motion(compiled: Compiled, steady: SteadyState, accuracy: float) 
     """The same solution read at any angles; a motor of constant speed has none to solve."""
     if steady.method != "collocation":
         return _at_constant_speed(steady.speed_max, 0.0)
+    motion = compiled.steady(np.empty(0), accuracy)
+    assert isinstance(motion, SteadyMotion)
 
     def at(phi: Floats) -> tuple[Floats, Floats, Floats]:
         order = np.argsort(phi, kind="stable")
-        found = compiled.steady(np.ascontiguousarray(phi[order]), accuracy)
-        assert isinstance(found, SteadyMotion)
+        curves = motion.solution.curves(phi[order])
         back = np.argsort(order, kind="stable")
-        return found.time[back], found.speed[back], found.acceleration[back]
+        return curves.time[back], curves.speed[back], curves.acceleration[back]
 
     return at
 

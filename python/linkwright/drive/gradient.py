@@ -16,16 +16,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.drive.model.motor import ConstantSpeedMotor
-from linkwright.drive.steady_state import SteadyState, steady_state
+from linkwright.drive.steady_state import SteadyState, solved_state
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.numerics.tangent import Tangent
+from linkwright.linkages.closure import turn_angles
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import Compiled, compile_machine
+from linkwright.machine.program.core import SteadyCurves, SteadySolution
 
 Floats = NDArray[np.float64]
-
-# Curves of the core's derivatives, in their order.
-_CURVES = ("time", "speed", "acceleration", "torque_motor", "torque_drive", "torque_load", "inertia_reduced")
 
 # Numbers of which the core gives the derivative.
 _NUMBERS = (
@@ -87,32 +86,34 @@ def steady_tangents(machine: Machine, values: Floats, accuracy: float = 1e-11) -
     """
     if machine.drive is not None and isinstance(machine.drive.motor, ConstantSpeedMotor):
         raise InputError("a motor of constant speed has the same speed whatever the machine is")
-    state = steady_state(machine, accuracy=accuracy, n=_LOOK)
+    state, solution = solved_state(machine, accuracy, turn_angles(_LOOK))
+    assert solution is not None
     compiled = compile_machine(machine)
     angles = np.array([state.speed_min_angle, state.speed_max_angle])
-    found = compiled.steady_gradient(accuracy, values, angles)
+    gradient = solution.gradient(values, angles)
     tangents: dict[str, Any] = {
-        name: Tangent(getattr(state, name), getattr(found, name)) for name in _NUMBERS
+        name: Tangent(getattr(state, name), getattr(gradient, name)) for name in _NUMBERS
     }
     ratio = Tangent(compiled.gear_factors[0], values[compiled.ratio_slot])
-    tangents |= _of_motor(compiled, state, found.curves, ratio)
-    return SteadyTangents(replace(state, **tangents), _ties(compiled, state, accuracy))
+    tangents |= _of_motor(compiled, state, gradient.curves, ratio)
+    return SteadyTangents(replace(state, **tangents), _ties(compiled, state, solution))
 
 
-def _of_motor(compiled: Compiled, state: SteadyState, curves: Floats, ratio: Tangent) -> dict[str, Tangent]:
+def _of_motor(
+    compiled: Compiled, state: SteadyState, curves: SteadyCurves, ratio: Tangent
+) -> dict[str, Tangent]:
     """Extremes of the motor's torque and power, as far as they lie at an extreme speed.
 
-    `curves`: derivatives at both, as the core gives them.
+    `curves`: derivatives at both, (2, directions).
 
     One that lies between, at the breakdown or pull-up speed, is left out.
     """
-    place = {name: at for at, name in enumerate(_CURVES)}
     speeds = np.array([state.speed_min, state.speed_max])
     torques = compiled.motor_torques(speeds)[0]
     found: dict[str, Tangent] = {}
     for at in range(2):
-        torque = Tangent(torques[at], curves[place["torque_motor"], at])
-        power = torque * Tangent(speeds[at], curves[place["speed"], at]) * ratio
+        torque = Tangent(torques[at], curves.torque_motor[at])
+        power = torque * Tangent(speeds[at], curves.speed[at]) * ratio
         for name, value in (
             ("torque_motor_min", torque),
             ("torque_motor_max", torque),
@@ -124,10 +125,10 @@ def _of_motor(compiled: Compiled, state: SteadyState, curves: Floats, ratio: Tan
     return found
 
 
-def _ties(compiled: Compiled, state: SteadyState, accuracy: float) -> dict[str, str]:
+def _ties(compiled: Compiled, state: SteadyState, solution: SteadySolution) -> dict[str, str]:
     """Extremes that the motion has twice."""
     ties: dict[str, str] = {}
-    peaks = _Peaks(compiled, accuracy)
+    peaks = _Peaks(compiled, solution)
     for quantity in ("speed", "acceleration"):
         for end, sign in (("min", -1.0), ("max", 1.0)):
             name = f"{quantity}_{end}"
@@ -146,8 +147,8 @@ def _ties(compiled: Compiled, state: SteadyState, accuracy: float) -> dict[str, 
 class _Peaks:
     """Peaks of speed and acceleration over a revolution, on the solution itself."""
 
-    def __init__(self, compiled: Compiled, accuracy: float) -> None:
-        self.compiled, self.accuracy = compiled, accuracy
+    def __init__(self, compiled: Compiled, solution: SteadySolution) -> None:
+        self.solution = solution
         beside = np.concatenate([-_BESIDE, _BESIDE])
         angles = np.concatenate([_EVEN, (compiled.kinks()[:, None] + beside).ravel()])
         self.angles = np.unique(angles % (2 * np.pi))
@@ -156,7 +157,7 @@ class _Peaks:
     def _read(self, angles: Floats) -> dict[str, Floats]:
         """Speed and acceleration at crank angles of any shape."""
         order, back = np.unique(angles % (2 * np.pi), return_inverse=True)
-        read = self.compiled.steady(order, self.accuracy)
+        read = self.solution.curves(order)
         back = back.reshape(angles.shape)
         return {name: getattr(read, name)[back] for name in ("speed", "acceleration")}
 

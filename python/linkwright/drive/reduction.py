@@ -111,18 +111,18 @@ def reduction(machine: Machine, *, n: int = 360) -> Reduction:
 def reduction_of(compiled: Compiled, n: int = 360) -> Reduction:
     """`reduction` of a compiled machine that closes."""
     phi = turn_angles(n)
-    J, J_d1, load, dry, viscous = compiled.reductions(phi)
+    at = compiled.reductions(phi)
     turn = turn_curve(lambda at: _inertia_and_load(compiled, at), compiled.kinks(), "inertia and load")
     low, low_at = turn.extreme(-1, 0)
     high, high_at = turn.extreme(+1, 0)
     means = mean_over_turn(compiled)
     return Reduction(
         crank_angle=phi,
-        inertia_reduced=J,
-        inertia_reduced_d1=J_d1,
-        torque_load=load + dry,
-        torque_dry=dry,
-        viscous=viscous,
+        inertia_reduced=at.inertia,
+        inertia_reduced_d1=at.inertia_slope,
+        torque_load=at.load + at.dry,
+        torque_dry=at.dry,
+        viscous=at.viscous,
         inertia_min=low,
         inertia_max=high,
         inertia_min_angle=low_at,
@@ -165,14 +165,14 @@ def law_harmonics(compiled: Compiled, speeds: ArrayLike, orders: Floats) -> NDAr
 
 def _inertia_and_load(compiled: Compiled, phi: Floats) -> Floats:
     """Reduced inertia and load torque, (2, n)."""
-    J, _, load, dry, _ = compiled.reductions(phi)
-    return np.stack([J, load + dry])
+    at = compiled.reductions(phi)
+    return np.stack([at.inertia, at.load + at.dry])
 
 
 def _resistance(compiled: Compiled, phi: Floats) -> Floats:
     """Load torque and viscous coefficient, (2, n)."""
-    _, _, load, dry, viscous = compiled.reductions(phi)
-    return np.stack([load + dry, viscous])
+    at = compiled.reductions(phi)
+    return np.stack([at.load + at.dry, at.viscous])
 
 
 def _laws(compiled: Compiled, omega: Floats, phi: Floats) -> Floats:

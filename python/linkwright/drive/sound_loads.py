@@ -12,6 +12,7 @@ from linkwright.kinetostatics.model.loads.formula import FormulaLoad
 from linkwright.linkages.closure import require_full_turn, turn_angles
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import Compiled, compile_machine
+from linkwright.machine.program.core import Channel
 
 Floats = NDArray[np.float64]
 
@@ -83,8 +84,8 @@ def require_half_turns(compiled: Compiled, machine: Machine) -> None:
 
 def _torques(compiled: Compiled, phi: Floats) -> Floats:
     """Torque of all loads at the angles, at the speed from which steady motion is sought [N m]."""
-    _, _, load, dry, viscous = compiled.reductions(phi)
-    torques: Floats = load + dry + viscous + compiled.law_torques(phi, compiled.speed_guess)[0]
+    at = compiled.reductions(phi)
+    torques: Floats = at.load + at.dry + at.viscous + compiled.law_torques(phi, compiled.speed_guess)[0]
     return torques
 
 
@@ -120,6 +121,6 @@ def _require_half_turns(name: str, load: TorsionalSpring, compiled: Compiled, ph
 def _angle(compiled: Compiled, link: str, phi: Floats) -> Floats:
     """Angle of a link without jumps [rad]."""
     out = np.empty((1, 4, len(phi)))
-    compiled.motions(np.ascontiguousarray(phi), [(1, compiled.links[link])], out.reshape(-1))
+    compiled.motions(np.ascontiguousarray(phi), [Channel.Link(compiled.links[link])], out.reshape(-1))
     angle: Floats = np.unwrap(np.arctan2(out[0, 1], out[0, 0]))
     return angle

@@ -28,7 +28,7 @@ from linkwright.kernel.result import Result
 from linkwright.linkages.closure import require_full_turn, require_one_turn, turn_angles
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import Compiled, compile_machine
-from linkwright.machine.program.core import NoSteadyMotion, Status, SteadyMotion
+from linkwright.machine.program.core import NoSteadyMotion, Status, SteadyMotion, SteadySolution
 
 Floats = NDArray[np.float64]
 
@@ -271,6 +271,14 @@ def steady_state(
     ----------
     .. [1] Paper 1, equation (1) for the motion, (13)–(15) for the measures.
     """
+    return solved_state(machine, accuracy, turn_angles(n) if angles is None else angles)[0]
+
+
+def solved_state(machine: Machine, accuracy: float, phi: Floats) -> tuple[SteadyState, SteadySolution | None]:
+    """`steady_state` with curves at crank angles, and the solution that it is read from.
+
+    None where the motor keeps its speed: nothing is solved.
+    """
     if machine.drive is None or machine.drive.motor is None:
         raise InputError(f"{machine.name}: steady motion needs a motor; add [drive.motor]")
     if not 1e-13 <= accuracy <= 1e-2:
@@ -280,13 +288,12 @@ def steady_state(
     require_one_turn(compiled)
     require_same_turns(machine)
     require_sound_loads(compiled, machine)
-    phi = turn_angles(n) if angles is None else angles
     if isinstance(machine.drive.motor, ConstantSpeedMotor):
-        return _at_constant_speed(machine, compiled, phi)
-    found = compiled.steady(phi, accuracy)
-    if isinstance(found, NoSteadyMotion):
-        raise _failure(found, compiled, accuracy)
-    return _from_core(machine, found, phi, compiled)
+        return _at_constant_speed(machine, compiled, phi), None
+    motion = compiled.steady(phi, accuracy)
+    if isinstance(motion, NoSteadyMotion):
+        raise _failure(motion, compiled, accuracy)
+    return _from_core(machine, motion, phi, compiled), motion.solution
 
 
 def _motor_extremes(
@@ -403,12 +410,12 @@ def _at_constant_speed(machine: Machine, compiled: Compiled, phi: Floats) -> Ste
 
     def needs(angles: Floats) -> Floats:
         """J, load torque, driving torque that the motion needs, and the motor's, (4, n)."""
-        J, J_d1, load, dry, viscous = compiled.reductions(angles)
-        resisting = load + dry + viscous * omega + compiled.speed_load(omega)
+        at = compiled.reductions(angles)
+        resisting = at.load + at.dry + at.viscous * omega + compiled.speed_load(omega)
         if compiled.has_laws:
             resisting = resisting + compiled.law_torques(angles, omega)[0]
-        driving = resisting + 0.5 * J_d1 * omega**2
-        return np.stack([J, resisting, driving, compiled.motor_torque_for(driving)])
+        driving = resisting + 0.5 * at.inertia_slope * omega**2
+        return np.stack([at.inertia, resisting, driving, compiled.motor_torque_for(driving)])
 
     J, torque_load, torque_drive, torque_motor = needs(phi)
     turn = turn_curve(needs, compiled.kinks(), "torque of the drive")

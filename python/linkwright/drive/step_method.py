@@ -118,15 +118,16 @@ def step_method(machine: Machine, *, step: float = np.radians(1.0)) -> StepMotio
     require_same_turns(machine)
     n = whole_steps(step)
     phi = turn_angles(n)[:-1]
-    J, _, load, dry, viscous = compiled.reductions(phi)
+    at = compiled.reductions(phi)
+    still = at.load + at.dry
 
     def torque(k: int, omega: float) -> float:
         drive = float(compiled.motor_torques(omega)[1][0])
         laws = compiled.law_torques(phi[k], omega)[0, 0] if compiled.has_laws else 0.0
-        resisting = float(load[k] + dry[k] + viscous[k] * omega) + float(compiled.speed_load(omega))
+        resisting = float(still[k] + at.viscous[k] * omega) + float(compiled.speed_load(omega))
         return drive - resisting - float(laws)
 
-    return by_steps(J, torque, step=2 * np.pi / n)
+    return by_steps(at.inertia, torque, step=2 * np.pi / n)
 
 
 def whole_steps(step: float) -> int:

@@ -297,6 +297,6 @@ def transient(
         torque_drive_end=found.torque_drive_end,
         torque_load_end=found.torque_load_end,
         evaluations=found.evaluations,
-        between=StepPolynomials(found.between.reshape(-1, 2, 7)),
+        between=StepPolynomials(found.between),
         implicit=found.implicit,
     )

@@ -29,7 +29,7 @@ from linkwright.linkages.obstacle import change_point, describe
 from linkwright.linkages.period import turns_to_repeat
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import Compiled, compile_machine
-from linkwright.machine.program.core import Element
+from linkwright.machine.program.core import Channel, Element
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -62,7 +62,6 @@ _SAME = 1e-7
 _DOUBLINGS = 13
 
 # Number of a link among what the core can give the motion of.
-_LINK = 1
 
 
 _CLOSURE_RANGES = (
@@ -316,7 +315,9 @@ def _passes(compiled: Compiled, at: float) -> bool:
     """
     angles = at + np.array([-_BESIDE, 0.0, _BESIDE])
     out = np.empty((1, 4 * len(compiled.links), 3))
-    compiled.first().motions(angles, [(_LINK, index) for index in compiled.links.values()], out.reshape(-1))
+    compiled.first().motions(
+        angles, [Channel.Link(index) for index in compiled.links.values()], out.reshape(-1)
+    )
     numbers = out.reshape(-1, 4, 3)[:, :3].reshape(-1, 3)
     jumps = np.ptp(numbers, axis=1)
     return bool((jumps <= _JUMP * (1 + np.abs(numbers).max(axis=1))).all())
@@ -358,8 +359,16 @@ def require_one_turn(compiled: Compiled) -> None:
 def _feels_one_turn(compiled: Compiled) -> bool:
     """Whether the crank feels the same inertia and load in the next revolution."""
     first, next_ = (compiled.first().reductions(turn_angles(16) + turn) for turn in (0.0, 2 * np.pi))
-    sizes = np.abs(first).max(axis=1, keepdims=True)
-    return bool((np.abs(next_ - first) <= _SAME * sizes).all())
+    return all(
+        bool((np.abs(after - before) <= _SAME * np.abs(before).max()).all())
+        for before, after in (
+            (first.inertia, next_.inertia),
+            (first.inertia_slope, next_.inertia_slope),
+            (first.load, next_.load),
+            (first.dry, next_.dry),
+            (first.viscous, next_.viscous),
+        )
+    )
 
 
 def require_closed(compiled: Compiled, machine: Machine, angles: Floats) -> None:

@@ -19,12 +19,13 @@ from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.linkages.closure import closure_error, closure_of
-from linkwright.linkages.dyads import POINT, evaluate
+from linkwright.linkages.dyads import evaluate
 from linkwright.linkages.period import turns_to_repeat
 from linkwright.linkages.straight_portion import straightest
 from linkwright.linkages.sweep import Cycle
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import Compiled, compile_machine
+from linkwright.machine.program.core import Channel
 
 Floats = NDArray[np.float64]
 
@@ -153,7 +154,7 @@ class _Path:
 
     def at(self, angles: Floats) -> Floats:
         """x, y, x′, y′, x″, y″ at crank angles."""
-        return evaluate(self.compiled, [(POINT, self.index)], angles)[0]
+        return evaluate(self.compiled, [Channel.Point(self.index)], angles)[0]
 
     def result(self, point: str, straight: float) -> CouplerCurve:
         x, y, x1, y1, x2, y2 = self.table
@@ -184,7 +185,7 @@ class _Path:
 
     def stands(self) -> bool:
         """Whether the point moves by rounding alone: then its path is noise, full of crossings."""
-        every = [(POINT, index) for index in self.compiled.points.values()]
+        every = [Channel.Point(index) for index in self.compiled.points.values()]
         places = evaluate(self.compiled, every, self.cycle.angles[:1])
         size = max(float(np.abs(place[:2]).max()) for place in places)
         return bool(np.ptp(self.place, axis=0).max() <= _ROUNDING * size)

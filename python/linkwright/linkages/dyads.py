@@ -16,6 +16,7 @@ A group has no single angle.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -23,15 +24,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.machine.program.compiled import Compiled
-from linkwright.machine.program.core import Element, Line
+from linkwright.machine.program.core import Channel, Element, Line
 
 Floats = NDArray[np.float64]
-Channel = tuple[int, int]
-
-POINT, LINK, SLIDE = 0, 1, 2
-
 # Numbers that the core gives for a point, a link and a slide.
-_WIDTHS = (6, 4, 3)
+_WIDTHS = {Channel.Point: 6, Channel.Link: 4, Channel.Slide: 3}
 
 # What closes, and the dyad that it is.
 Closing = (
@@ -95,9 +92,9 @@ def _change_points(compiled: Compiled, element: Closing) -> tuple[float, ...]:
     return tuple(sorted(float(angle) % (2 * np.pi) for angle in angles))
 
 
-def evaluate(compiled: Compiled, channels: list[Channel], angles: Floats) -> list[Floats]:
+def evaluate(compiled: Compiled, channels: Sequence[Channel], angles: Floats) -> list[Floats]:
     """Numbers of points, links and slides of the first machine, (6, 4 or 3, n) each."""
-    widths = [_WIDTHS[part] for part, _ in channels]
+    widths = [_WIDTHS[type(channel)] for channel in channels]
     out = np.empty((sum(widths), len(angles)))
     compiled.motions(angles, channels, out.reshape(-1))
     return np.split(out, np.cumsum(widths)[:-1]) if channels else []
@@ -107,13 +104,13 @@ def transmission_channels(compiled: Compiled, dyad: Dyad) -> list[Channel]:
     """What `transmission` asks of the core."""
     match dyad.element:
         case Element.Rocker() as rocker:
-            return [(LINK, rocker.coupler_link), (LINK, rocker.rocker_link)]
+            return [Channel.Link(rocker.coupler_link), Channel.Link(rocker.rocker_link)]
         case Element.SlottedLever(slide=slide):
-            return [(SLIDE, slide)]
+            return [Channel.Slide(slide)]
         case Element.SliderRod(link=link):
-            return [(LINK, link)]
+            return [Channel.Link(link)]
         case Element.GuidedRod(link=link, line=line):
-            return [(LINK, link), *_carrier(line)]
+            return [Channel.Link(link), *_carrier(line)]
         case Element.Crossing(lines=lines):
             return [each for line in lines for each in _carrier(line)]
     return []
@@ -153,7 +150,7 @@ def _directions(compiled: Compiled, dyad: Dyad, found: list[Floats]) -> list[tup
 
 def _carrier(line: Line) -> list[Channel]:
     """The link that carries a guide; the frame is at rest."""
-    return [] if line.link is None else [(LINK, line.link)]
+    return [] if line.link is None else [Channel.Link(line.link)]
 
 
 def _guide(compiled: Compiled, line: Line, found: list[Floats]) -> tuple[Floats, Floats]:

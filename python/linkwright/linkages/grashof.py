@@ -12,9 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.linkages.dyads import POINT, dyads_of, evaluate
+from linkwright.linkages.dyads import dyads_of, evaluate
 from linkwright.machine.program.compiled import Compiled
-from linkwright.machine.program.core import Element
+from linkwright.machine.program.core import Channel, Element
 
 Floats = NDArray[np.float64]
 
@@ -171,7 +171,7 @@ def _carried(element: Element, centres: dict[int, int], grounds: dict[int, Float
 
 def _distance(compiled: Compiled, point: int, centre: Floats) -> float:
     """Distance of a point from a fixed one that it turns about, at an angle where the mechanism closes."""
-    places = evaluate(compiled, [(POINT, point)], np.linspace(0.1, 6.2, 24))[0][:2]
+    places = evaluate(compiled, [Channel.Point(point)], np.linspace(0.1, 6.2, 24))[0][:2]
     distances = np.hypot(*(places - centre[:, None]))
     known = distances[np.isfinite(distances)]
     return float(known[0]) if len(known) else 0.0

@@ -19,10 +19,12 @@ from linkwright.kernel.result import Record
 from linkwright.linkages.closure import has_levers, require_closed
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import Compiled, compile_machine
+from linkwright.machine.program.core import Channel
 
 Floats = NDArray[np.float64]
 
 # What the core gives for a point, a link and a slide: how many numbers at each angle.
+_CHANNELS = {"points": Channel.Point, "links": Channel.Link, "slides": Channel.Slide}
 _WIDTHS = {"points": 6, "links": 4, "slides": 3}
 
 # Numbers of the third derivative.
@@ -131,8 +133,7 @@ def with_third(compiled: Compiled, found: Kinematics, what: list[tuple[str, str]
     if len(compiled.slots):
         raise ShapeError("third derivatives are for one machine, and entries vary from machine to machine")
     known = {"points": compiled.points, "links": compiled.links, "slides": compiled.slides}
-    kinds = list(_WIDTHS)
-    table = compiled.third(found.angles, [(kinds.index(part), known[part][name]) for part, name in what])
+    table = compiled.third(found.angles, [_CHANNELS[part](known[part][name]) for part, name in what])
     parts: dict[str, dict[str, Any]] = {part: {} for part in _WIDTHS}
     at = 0
     for part, name in what:
@@ -251,8 +252,8 @@ def motion_arrays(
     ):
         expected = f"a contiguous array of floats of shape {shape} that may be written to"
         raise ShapeError(f"out: found {shown(out)}, expected {expected}")
-    kinds = list(_WIDTHS)
-    compiled.motions(angles, [(kinds.index(part), known[part][name]) for part, name in what], out.reshape(-1))
+    channels = [_CHANNELS[part](known[part][name]) for part, name in what]
+    compiled.motions(angles, channels, out.reshape(-1))
     return out
 
 

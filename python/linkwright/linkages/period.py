@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from linkwright.kernel.public import public
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import Compiled, compile_machine
+from linkwright.machine.program.core import Channel
 
 Floats = NDArray[np.float64]
 
@@ -69,8 +70,8 @@ def turns_to_repeat(compiled: Compiled) -> int | None:
 
 def _places(compiled: Compiled, angles: Floats) -> Floats:
     """Points over the mechanism's size, and directions of links, (numbers, n); zero where nothing closes."""
-    what = [(0, index) for index in compiled.points.values()]
-    what += [(1, index) for index in compiled.links.values()]
+    what: list[Channel] = [Channel.Point(index) for index in compiled.points.values()]
+    what += [Channel.Link(index) for index in compiled.links.values()]
     n_points = len(compiled.points)
     out = np.empty((1, 6 * n_points + 4 * len(compiled.links), len(angles)))
     compiled.first().motions(angles, what, out.reshape(-1))

@@ -12,8 +12,6 @@ from numpy.typing import NDArray
 from linkwright.kernel.numerics.roots import brackets, zeros
 from linkwright.linkages.closure import Closure
 from linkwright.linkages.dyads import (
-    LINK,
-    SLIDE,
     Dyad,
     dyads_of,
     evaluate,
@@ -22,7 +20,7 @@ from linkwright.linkages.dyads import (
 )
 from linkwright.linkages.model.mechanism import Mechanism
 from linkwright.machine.program.compiled import Compiled
-from linkwright.machine.program.core import Element
+from linkwright.machine.program.core import Channel, Element
 
 Floats = NDArray[np.float64]
 
@@ -115,10 +113,10 @@ class LinkageSweep:
         channels = [transmission_channels(compiled, dyad) for dyad in self.dyads]
         self._ends = np.cumsum([0, *(len(channel) for channel in channels)])
         self._channels = [each for part in channels for each in part]
-        self._channels += [(output.part, output.number) for output in self.outputs]
+        self._channels += [output.channel for output in self.outputs]
         self.mu, self.position, slopes = self._at(cycle.angles)
         for k, output in enumerate(self.outputs):
-            if output.part == LINK:
+            if output.kind == "swing":
                 self.position[k] = np.unwrap(self.position[k])
         self.d1 = slopes[len(self.dyads) : len(self.dyads) + len(self.outputs)]
         self._zeros = self._locate(slopes)
@@ -131,7 +129,7 @@ class LinkageSweep:
             for k, dyad in enumerate(self.dyads)
         ]
         rest = found[self._ends[-1] :]
-        links = [output.part == LINK for output in self.outputs]
+        links = [output.kind == "swing" for output in self.outputs]
         place = [np.arctan2(f[1], f[0]) if link else f[0] for f, link in zip(rest, links, strict=True)]
         d1 = [f[2] if link else f[1] for f, link in zip(rest, links, strict=True)]
         d2 = [f[3] if link else f[2] for f, link in zip(rest, links, strict=True)]
@@ -143,7 +141,7 @@ class LinkageSweep:
     def _locate(self, slopes: Floats) -> list[Floats]:
         """Angles of the zeros of each slope."""
         largest = np.nan_to_num(np.abs(slopes)).max(axis=1, initial=0.0)
-        kinds = [0] * len(self.dyads) + [1 + output.part for output in self.outputs] * 2
+        kinds = ["angle"] * len(self.dyads) + [output.kind for output in self.outputs] * 2
         sizes = {kind: max(x for x, k in zip(largest, kinds, strict=True) if k == kind) for kind in kinds}
         moves = np.array([x > _FLAT * sizes[k] for x, k in zip(largest, kinds, strict=True)], dtype=bool)
         row, column = brackets(np.where(moves[:, None], slopes, 1.0))
@@ -163,7 +161,7 @@ class LinkageSweep:
         """Extreme positions of an output."""
         place, cycle, output = self.position[k], self.cycle, self.outputs[k]
         total = abs(place[-1] - place[0])
-        if output.part == LINK and cycle.repeats and total > np.pi:
+        if output.kind == "swing" and cycle.repeats and total > np.pi:
             low, high = sorted((float(place[0]), float(place[-1])))
             ends = cycle.angles[[0, -1]] if place[-1] > place[0] else cycle.angles[[-1, 0]]
             return Travel(low, high, float(ends[0]), float(ends[1]), float(total / (2 * np.pi)), None)
@@ -179,7 +177,7 @@ class LinkageSweep:
     def _positions(self, k: int, at: Floats) -> Floats:
         """Positions of an output at angles; of a link on the revolution that the sweep has there."""
         values = self._at(at)[1][k]
-        if self.outputs[k].part == LINK:
+        if self.outputs[k].kind == "swing":
             near = np.interp(at, self.cycle.angles, self.position[k])
             values = near + (values - near + np.pi) % (2 * np.pi) - np.pi
         positions: Floats = values
@@ -246,15 +244,14 @@ class Output(NamedTuple):
         Name of the link or slide.
     kind : str
         ``"swing"`` of a link or ``"stroke"`` along a guide.
-    part, number : int
+    channel : Channel
         What the core calls it.
     """
 
     element: str
     name: str
     kind: Literal["swing", "stroke"]
-    part: int
-    number: int
+    channel: Channel
 
 
 def outputs_of(compiled: Compiled, mechanism: Mechanism) -> list[Output]:
@@ -295,11 +292,11 @@ class _Names:
                 yield from self._group(dyads[element.dyad])
 
     def _stroke(self, element: str, slide: int) -> Output:
-        return Output(element, self.slides[slide], "stroke", SLIDE, slide)
+        return Output(element, self.slides[slide], "stroke", Channel.Slide(slide))
 
     def _swing(self, element: str, link: int) -> Output:
         name = self.links[link].removesuffix(" reversed")
-        return Output(element, name, "swing", LINK, self.compiled.links[name])
+        return Output(element, name, "swing", Channel.Link(self.compiled.links[name]))
 
     def _hung(self, dyad: Element.Rocker) -> int:
         """The link of a dyad RRR that hangs on a fixed point, the second if both or none do."""

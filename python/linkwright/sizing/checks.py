@@ -210,14 +210,14 @@ def _start_checks(machine: Machine, by_kloss: bool) -> tuple[Check, Check]:
     drive = float(compiled.motor_torques(0.0)[1][0])
     still = float(np.sum(compiled.speed_load(0.0)))
     at = np.array([machine.run_up.angle_start])
-    _, _, load, dry, _ = compiled.reductions(at)
+    start = compiled.reductions(at)
     worst = reduction_of(compiled, _ANGLES).torque_load_max
     turn = turn_angles(_ANGLES)
     laws = compiled.law_torques(np.append(at, turn), _SLOW)[0]
-    here = _start("starting_torque", drive, float(load[0] + dry[0] + laws[0]) + still, by_kloss)
+    here = _start("starting_torque", drive, float(start.load[0] + start.dry[0] + laws[0]) + still, by_kloss)
     if compiled.has_laws:
-        _, _, load, dry, _ = compiled.reductions(turn)
-        worst = float((load + dry + laws[1:]).max())
+        there = compiled.reductions(turn)
+        worst = float((there.load + there.dry + laws[1:]).max())
     return here, _start("starting_torque_worst", drive, worst + still, by_kloss)
 
 

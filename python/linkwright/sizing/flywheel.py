@@ -189,16 +189,16 @@ def constant_inertia(machine: Machine) -> float:
     phi = turn_angles(_ANGLES)
     for name, body in machine.bodies.items():
         alone = machine.with_entries({"drive": None, "loads": {}, "bodies": {name: body}})
-        J = compile_machine(alone).reductions(phi)[0]
+        J = compile_machine(alone).reductions(phi).inertia
         total += float(J.max()) if np.ptp(J) <= _CONSTANT * J.max() else 0.0
     return total
 
 
 def _load_and_inertia(compiled: Compiled, phi: Floats, omega: float) -> Floats:
     """Load torque at a speed, and reduced inertia, (2, n)."""
-    J, _, load, dry, viscous = compiled.reductions(phi)
-    M_r = load + dry + viscous * omega + compiled.law_torques(phi, omega)[0]
-    return np.stack([M_r, J])
+    at = compiled.reductions(phi)
+    M_r = at.load + at.dry + at.viscous * omega + compiled.law_torques(phi, omega)[0]
+    return np.stack([M_r, at.inertia])
 
 
 def _unevenness(machine: Machine) -> float | None:

@@ -38,12 +38,14 @@ class KnifeKernel:
             core_law(way.law)
             if isinstance(way.law, MotionLaw)
             else np.ascontiguousarray(way.law.ravel(), dtype=float),
-            list(way.corners),
-            edge_angle,
-            forward_speed,
-            way.rate,
-            way.drift,
-            [way.reach, way.slowest, way.fastest],
+            corners=list(way.corners),
+            angle=edge_angle,
+            forward=forward_speed,
+            rate=way.rate,
+            drift=way.drift,
+            reach=way.reach,
+            slowest=way.slowest,
+            fastest=way.fastest,
         )
 
     def cover(
@@ -54,16 +56,21 @@ class KnifeKernel:
         *,
         length: float | None = None,
         fine: int = 16,
-    ) -> Floats:
+    ) -> _core.TopperCover:
         """What heads need, and what an edge leaves of them.
 
-        ``radius``, ``offset`` (n,) [m]; ``phase`` [rad]; ``length`` [m] → (n, 6) [m] [m²].
+        ``radius``, ``offset`` (n,) [m]; ``phase`` [rad]; ``length`` [m].
         """
-        columns = [np.ascontiguousarray(np.atleast_1d(each), dtype=float) for each in (radius, offset, phase)]
-        columns[2] = np.mod(columns[2], 2 * np.pi)
-        return self._core.cover((columns[0], columns[1], columns[2]), max(map(len, columns)), length, fine)
+        columns = [_column(radius), _column(offset), np.mod(_column(phase), 2 * np.pi)]
+        return self._core.cover(
+            radius=columns[0],
+            offset=columns[1],
+            phase=columns[2],
+            n=max(map(len, columns)),
+            length=length,
+            fine=fine,
+        )
 
 
-def _core_law(law: MotionLaw | Floats) -> _core.MotionLaw | Floats:
-    """Pieces, or harmonics one after another."""
-    return core_law(law) if isinstance(law, MotionLaw) else np.ascontiguousarray(law.ravel(), dtype=float)
+def _column(values: ArrayLike) -> Floats:
+    return np.ascontiguousarray(np.atleast_1d(values), dtype=float)

@@ -119,10 +119,13 @@ def coverage(
             np.where(discs > 0, np.inf, 0.0), none, none, none, none, discs * (length is not None)
         )
     stations = _stations(edge, fine, float(2 * radius.max()), float(np.abs(place).max()))
-    table = edge.kernel.cover(radius, place, angle, length=length, fine=stations).T
+    heads = edge.kernel.cover(radius, place, angle, length=length, fine=stations)
+    columns = (
+        *(heads.length, heads.last_x, heads.last_y),
+        *(heads.uncut_right, heads.uncut_left, heads.uncut_between),
+    )
     # A head without a disc has no point to be cut.
-    table[:, discs == 0] = 0.0
-    return Coverage(*table)
+    return Coverage(*(np.where(discs == 0, 0.0, column) for column in columns))
 
 
 def _stations(edge: Edge, fine: int, diameter: float, offset: float) -> int:

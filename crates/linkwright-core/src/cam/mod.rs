@@ -42,12 +42,14 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// From its number at the border, in the order above.
-    pub fn of(number: u8) -> Option<Self> {
-        use Kind::{OscillatingFlat, OscillatingRoller, TranslatingFlat, TranslatingRoller};
-        [TranslatingRoller, TranslatingFlat, OscillatingRoller, OscillatingFlat]
-            .get(usize::from(number))
-            .copied()
+    /// From what it is.
+    pub fn of(is_oscillating: bool, is_roller: bool) -> Self {
+        match (is_oscillating, is_roller) {
+            (false, true) => Kind::TranslatingRoller,
+            (false, false) => Kind::TranslatingFlat,
+            (true, true) => Kind::OscillatingRoller,
+            (true, false) => Kind::OscillatingFlat,
+        }
     }
 
     /// Whether the follower touches the cam with a roller; a knife edge is one of radius zero.

@@ -25,7 +25,23 @@ pub struct Shape {
 
 /// Lift and derivatives; pitch point and normal seen from the cam; pressure angle; bend, soundness and place
 /// along the face as in [`super`].
-pub const ROWS: usize = 12;
+pub const ROWS: usize = NAMES.len();
+
+/// Names of the rows in their order.
+pub const NAMES: [&str; 12] = [
+    "lift",
+    "lift_d1",
+    "lift_d2",
+    "lift_d3",
+    "pitch_x",
+    "pitch_y",
+    "normal_x",
+    "normal_y",
+    "pressure_angle",
+    "bend",
+    "soundness",
+    "along",
+];
 
 /// Quantities whose extremes and zeros are located.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -226,6 +242,15 @@ impl Quantity {
             Quantity::PressureAngle => &shape.rows[8],
             Quantity::Bend => &shape.rows[9],
             Quantity::Along => &shape.rows[11],
+        }
+    }
+
+    /// The name of its row.
+    pub fn name(self) -> &'static str {
+        match self {
+            Quantity::PressureAngle => "pressure_angle",
+            Quantity::Bend => "bend",
+            Quantity::Along => "along",
         }
     }
 

@@ -5,8 +5,6 @@ use std::fmt;
 /// A plan that contradicts itself.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PlanError {
-    /// An index beyond its list.
-    Index { what: &'static str, value: i32, bound: usize },
     /// What is used and was not made before.
     Missing { what: &'static str, value: usize, made: usize },
     /// What is made and is not the next of its kind.
@@ -15,10 +13,6 @@ pub enum PlanError {
     In { what: &'static str, number: usize, error: Box<PlanError> },
     /// A list of the wrong length.
     Length { what: &'static str, found: usize, expected: usize },
-    /// An unknown kind of row in a list.
-    Kind { what: &'static str, kind: i32 },
-    /// A table whose knots do not increase or are not finite.
-    Table { number: usize },
     /// A motion law whose pieces do not make a turn.
     MotionLaw,
 }
@@ -26,9 +20,6 @@ pub enum PlanError {
 impl fmt::Display for PlanError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            PlanError::Index { what, value, bound } => {
-                write!(f, "{what} {value} does not exist: there are {bound}")
-            }
             PlanError::Missing { what, value, made } => {
                 write!(f, "{what} {value} does not exist: there are {made} so far")
             }
@@ -38,10 +29,6 @@ impl fmt::Display for PlanError {
             PlanError::In { what, number, error } => write!(f, "element {number}, a {what}: {error}"),
             PlanError::Length { what, found, expected } => {
                 write!(f, "{what} has {found} entries, {expected} are needed")
-            }
-            PlanError::Kind { what, kind } => write!(f, "there is no {what} of kind {kind}"),
-            PlanError::Table { number } => {
-                write!(f, "table {number}: knots must be finite and increase, with one value each")
             }
             PlanError::MotionLaw => {
                 write!(f, "the pieces of a motion law must follow one another over one revolution")

@@ -6,8 +6,9 @@
 #![allow(unsafe_code)]
 
 use crate::kernel::real::{COEFFICIENTS, Real};
-use pulp::Simd;
+use pulp::{Simd, WithSimd};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+use std::marker::PhantomData;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A piece of work that can be done in any number of lanes.
@@ -20,35 +21,44 @@ pub trait Job {
 
 /// Runs the job two registers at a time on the best instruction set found.
 pub fn in_lanes<J: Job>(job: J) -> J::Output {
-    struct Wide<J>(J);
-    impl<J: Job> pulp::WithSimd for Wide<J> {
-        type Output = J::Output;
-        #[inline(always)]
-        fn with_simd<S: Simd>(self, _simd: S) -> J::Output {
-            self.0.run::<Pair<V<S>>>()
-        }
-    }
-    dispatch(Wide(job), |Wide(job)| scalar(job))
+    dispatch(InBundles(job, PhantomData::<Two>))
 }
 
 /// Runs the job one register at a time: for numbers that carry derivatives along, two of which fill the processor
 /// as two registers do, in half the code.
 pub fn in_single_lanes<J: Job>(job: J) -> J::Output {
-    struct Narrow<J>(J);
-    impl<J: Job> pulp::WithSimd for Narrow<J> {
-        type Output = J::Output;
-        #[inline(always)]
-        fn with_simd<S: Simd>(self, _simd: S) -> J::Output {
-            self.0.run::<V<S>>()
-        }
-    }
-    dispatch(Narrow(job), |Narrow(job)| scalar(job))
+    dispatch(InBundles(job, PhantomData::<One>))
 }
 
-/// Runs the work on the best instruction set found; on plain numbers, which most kernels are compiled for anyway,
+/// How many registers are one number.
+trait Bundle {
+    type Of<S: Simd>: Real;
+}
+
+struct One;
+impl Bundle for One {
+    type Of<S: Simd> = V<S>;
+}
+
+struct Two;
+impl Bundle for Two {
+    type Of<S: Simd> = Pair<V<S>>;
+}
+
+/// A job, and what its numbers are.
+struct InBundles<J, B>(J, PhantomData<B>);
+impl<J: Job, B: Bundle> WithSimd for InBundles<J, B> {
+    type Output = J::Output;
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _simd: S) -> J::Output {
+        self.0.run::<B::Of<S>>()
+    }
+}
+
+/// Runs the job on the best instruction set found; on plain numbers, which most kernels are compiled for anyway,
 /// where a processor has no registers for several.
 #[inline(always)]
-fn dispatch<W: pulp::WithSimd>(work: W, plain: impl FnOnce(W) -> W::Output) -> W::Output {
+fn dispatch<J: Job, B: Bundle>(work: InBundles<J, B>) -> J::Output {
     #[cfg(target_arch = "x86_64")]
     {
         use pulp::x86::{V3, V4};
@@ -64,7 +74,7 @@ fn dispatch<W: pulp::WithSimd>(work: W, plain: impl FnOnce(W) -> W::Output) -> W
                 || work.with_simd(simd),
             );
         }
-        plain(work)
+        scalar(work.0)
     }
     #[cfg(target_arch = "aarch64")]
     match pulp::aarch64::Neon::try_new() {
@@ -72,10 +82,10 @@ fn dispatch<W: pulp::WithSimd>(work: W, plain: impl FnOnce(W) -> W::Output) -> W
             #[inline(always)]
             || work.with_simd(simd),
         ),
-        None => plain(work),
+        None => scalar(work.0),
     }
     #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-    plain(work)
+    scalar(work.0)
 }
 
 /// Runs the job on plain `f64`: the truth that lanes are measured against.
@@ -276,7 +286,7 @@ impl<S: Simd> Real for V<S> {
     #[inline(always)]
     fn outline<T>(f: impl FnOnce() -> T) -> T {
         struct Call<F>(F);
-        impl<T, F: FnOnce() -> T> pulp::WithSimd for Call<F> {
+        impl<T, F: FnOnce() -> T> WithSimd for Call<F> {
             type Output = T;
             #[inline(always)]
             fn with_simd<S: Simd>(self, _simd: S) -> T {

@@ -7,12 +7,14 @@
 //! | `elements` | elements of the mechanism |
 //! | `loads` | bodies and loads |
 //! | `drive` | motor and drive line |
+//! | `train` | masses, links and torques of a train in motion |
 
 pub(crate) mod drive;
 pub(crate) mod elements;
 pub(crate) mod loads;
 pub(crate) mod numbers;
 pub(crate) mod parts;
+pub(crate) mod train;
 
 use drive::Drive;
 use elements::{Element, Fixed};
@@ -42,17 +44,17 @@ impl Plan {
         drive: PyRef<'_, Drive>,
     ) -> PyResult<Self> {
         let mut builder = Builder::new(parameters);
-        for each in ground {
-            builder.fixed(each.core()).map_err(plan_error)?;
+        for point in ground {
+            builder.fixed(point.core()).map_err(plan_error)?;
         }
-        for each in elements {
-            builder.element(each.core()).map_err(plan_error)?;
+        for element in elements {
+            builder.element(element.core()).map_err(plan_error)?;
         }
-        for each in bodies {
-            builder.body(each.core()).map_err(plan_error)?;
+        for body in bodies {
+            builder.body(body.core()).map_err(plan_error)?;
         }
-        for each in loads {
-            each.add_to(&mut builder).map_err(plan_error)?;
+        for load in loads {
+            load.add_to(&mut builder).map_err(plan_error)?;
         }
         let drive = drive.core(&mut builder);
         builder.into_plan(drive).map(Plan).map_err(plan_error)

@@ -100,7 +100,7 @@ def _subject(profile: CamProfile, flank: Flank) -> str:
 def _undercut_range(flank: Flank, worst: float) -> str:
     """Angles between which the soundness is negative; passes downwards begin it."""
     passes = flank.shape.passes[0]
-    down, up = passes[passes[:, 1] < 0, 0], passes[passes[:, 1] > 0, 0]
+    down, up = passes.angle[passes.sign < 0], passes.angle[passes.sign > 0]
     if not len(down) or not len(up):
         # None of the sampled angles shows it, or all do.
         return "all round" if (flank.shape.rows["soundness"] < 0).all() else f"at {_degrees(worst)}"
@@ -198,10 +198,10 @@ def _crossed(profile: CamProfile, flank: Flank) -> Iterator[str]:
     angle = flank.shape.angle
     keep = np.append(np.diff(angle) > 0, False)
     points = flank.profile[keep]
-    for first, second, x, y in crossings(points)[:1]:
-        at = [
-            _degrees(float(np.interp(side, np.arange(keep.sum()), angle[keep]))) for side in (first, second)
-        ]
+    crossed = crossings(points)
+    if len(crossed.x):
+        sides, x, y = (crossed.first[0], crossed.second[0]), crossed.x[0], crossed.y[0]
+        at = [_degrees(float(np.interp(side, np.arange(keep.sum()), angle[keep]))) for side in sides]
         base = base_without_crossing(flank.contact)
         change = _size_for(profile, flank, base) or "longer sections or a smaller lift"
         yield (

@@ -18,9 +18,8 @@ from typing import Annotated
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.cam.core import crossings
+from linkwright.cam.core import CamSearch, crossings
 from linkwright.cam.model.cam import Cam
-from linkwright.cam.model.follower import Sizes
 from linkwright.cam.profile.contact import CamCurve, Contact
 from linkwright.cam.profile.profile import CamProfile
 from linkwright.kernel.public import public
@@ -67,7 +66,7 @@ def base_for_pressure_angle(cam: Cam, contact: Contact, limit: float) -> float |
         both = (shape.greatest["pressure_angle"], shape.least["pressure_angle"])
         return limit - max(abs(each.value) for each in both)
 
-    return _first(cam, contact, lambda found: tangent - found[:, 0], spare)
+    return _first(cam, contact, lambda cams: tangent - cams.tan_pressure_angle, spare)
 
 
 def base_for_curvature(cam: Cam, contact: Contact, limit: float) -> float | None:
@@ -79,14 +78,14 @@ def base_for_curvature(cam: Cam, contact: Contact, limit: float) -> float | None
         return _first(
             cam,
             contact,
-            lambda found: found[:, 3] - limit,
+            lambda cams: cams.bend_min - limit,
             lambda contact: contact.kernel.shape(_FINE).least["bend"].value - limit,
         )
     size = contact.sizes.roller_radius + limit
     return _first(
         cam,
         contact,
-        lambda found: 1.0 - size * found[:, 2],
+        lambda cams: 1.0 - size * cams.bend_max,
         lambda contact: 1.0 - size * contact.kernel.shape(_FINE).greatest["bend"].value,
     )
 
@@ -113,7 +112,7 @@ def _crosses(contact: Contact, base: float) -> bool:
     """Whether the profile with another base radius crosses itself, or has no place."""
     kernel = contact.kernel.with_sizes(contact.sizes._replace(base_radius=base))
     points = CamCurve(replace(contact, kernel=kernel), -contact.sizes.roller_radius).points(_TURN)
-    return bool(np.isnan(points).any()) or len(crossings(points)) > 0
+    return bool(np.isnan(points).any()) or len(crossings(points).x) > 0
 
 
 def largest_roller(contact: Contact) -> float | None:
@@ -136,7 +135,7 @@ def largest_roller(contact: Contact) -> float | None:
 def _first(
     cam: Cam,
     contact: Contact,
-    coarse: Callable[[Floats], Floats],
+    coarse: Callable[[CamSearch], Floats],
     exact: Callable[[Contact], float],
 ) -> float | None:
     """The smallest base radius for which a margin is not negative, by a scan and halving."""
@@ -146,9 +145,8 @@ def _first(
         cam.stroke * (size.arm or size.distance or 1.0) if cam.is_oscillating else cam.stroke,
     )
     radii = np.geomspace(_FROM * scale, _TO * scale, _SCANNED)
-    columns = [radii, *(np.full(1, value) for value in size[1:]), np.ones(1)]
     with np.errstate(invalid="ignore"):
-        margin = coarse(contact.kernel.search(columns, _COARSE))
+        margin = coarse(contact.kernel.search(size._replace(base_radius=radii), 1.0, _COARSE))
     sound = np.flatnonzero(margin >= 0)
     if not len(sound):
         return None
@@ -156,7 +154,7 @@ def _first(
     low = float(radii[sound[0] - 1]) if sound[0] else 0.0
 
     def is_sound(base: float) -> bool:
-        kernel = contact.kernel.with_sizes(Sizes(base, *size[1:]))
+        kernel = contact.kernel.with_sizes(size._replace(base_radius=base))
         return exact(Contact(contact.name, contact.law, size, kernel, contact.start)) >= 0
 
     # The scan sees extremes a little too small: the true radius may lie just above.

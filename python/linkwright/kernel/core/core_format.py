@@ -5,7 +5,7 @@ from __future__ import annotations
 from linkwright.kernel.errors import CoreError
 
 # As `FORMAT` in `crates/linkwright-core/src/plan/mod.rs`: the two change together.
-FORMAT = 14
+FORMAT = 15
 
 
 def check_format(core: object) -> None:

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright import _core
 from linkwright.kernel.description.plain import arrays
 from linkwright.kernel.description.text import join
-from linkwright.kernel.errors import ConvergenceError, InputError, MachineError, Problem, ShapeError
+from linkwright.kernel.errors import InputError, MachineError, Problem, ShapeError
 from linkwright.kernel.numerics.tangent import plain
 from linkwright.kinetostatics.model.loads.formula import FormulaLoad
 from linkwright.kinetostatics.model.loads.table import TorqueSpeed
@@ -185,9 +185,8 @@ class Compiled:
         """Radicand of each dyad at crank angles, (dyads, n); negative where it does not close."""
         return _core.gaps(self.plan, self.parameters, angles)
 
-    def third(self, angles: Floats, what: Sequence[tuple[int, int]]) -> Floats:
+    def third(self, angles: Floats, channels: Sequence[_core.Channel]) -> Floats:
         """Third transfer functions of the first row at crank angles, (numbers, n); see `_core.third`."""
-        channels = np.asarray([list(row) for row in what], dtype=np.int32).reshape(-1, 2)
         return _core.third(self.plan, self.parameters, angles, channels)
 
     def without_conservative(self) -> Compiled:
@@ -198,8 +197,8 @@ class Compiled:
         """Crank angles from 0 to 2π [rad] between which everything is smooth."""
         return _core.kinks(self.plan, self.one)
 
-    def reductions(self, angles: Floats) -> Floats:
-        """J, dJ/dφ, load torque, dry torque, viscous coefficient at crank angles, (5, n) in SI."""
+    def reductions(self, angles: Floats) -> _core.Reductions:
+        """The machine reduced to its crank at crank angles; see `_core.Reductions`."""
         return _core.reductions(self.plan, self.one, angles)
 
     def law_torques(self, angles: ArrayLike, speeds: ArrayLike) -> Floats:
@@ -232,25 +231,12 @@ class Compiled:
         """Steady motion with curves at crank angles in [0, 2π]; see `_core.steady_state`."""
         return _core.steady_state(self.plan, self.one, accuracy, angles)
 
-    def steady_gradient(self, accuracy: float, directions: Floats, angles: Floats) -> _core.SteadyGradient:
-        """Derivatives of steady motion along directions of the parameters; see `_core.steady_gradient`.
-
-        Raises ConvergenceError: there is no steady motion to that accuracy.
-        """
-        gradient = _core.steady_gradient(self.plan, self.one, accuracy, directions, angles)
-        if gradient is None:
-            raise ConvergenceError(
-                "the derivatives of steady motion were not found", method="collocation", iterations=0
-            )
-        return gradient
-
     def steady_rows(self, accuracy: float) -> _core.SteadyRows:
         """Steady motion of every row; see `_core.steady_rows`."""
         return _core.steady_rows(self.plan, self.parameters, self.slots, self.values, accuracy)
 
-    def motions(self, angles: Floats, what: Sequence[tuple[int, int]], out: Floats) -> None:
+    def motions(self, angles: Floats, channels: Sequence[_core.Channel], out: Floats) -> None:
         """Motions of every row; see `_core.motions`."""
-        channels = np.asarray([list(row) for row in what], dtype=np.int32).reshape(-1, 2)
         _core.motions(self.plan, self.parameters, self.slots, self.values, angles, channels, out)
 
 

@@ -15,5 +15,10 @@ Line = _core.Line
 Status = _core.Status
 SENTENCES: dict[int, str] = dict(_core.Status.sentences())
 
+# What of a machine is asked for, and what the core answers.
+Channel = _core.Channel
+Reductions = _core.Reductions
 SteadyMotion = _core.SteadyMotion
+SteadySolution = _core.SteadySolution
+SteadyCurves = _core.SteadyCurves
 NoSteadyMotion = _core.NoSteadyMotion

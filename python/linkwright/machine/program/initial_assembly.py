@@ -156,19 +156,25 @@ class InitialAssembly:
 
     def _law(self, slide: int, angles: Floats) -> Floats:
         """Value and slope of a law, (2, n)."""
-        return self._motion(2, slide, angles)[:2]
+        return self._motion(_core.Channel.Slide(slide), 3, angles)[:2]
 
     def _changed(self, plan: _core.Plan) -> None:
         """Goes on with another plan."""
         self.plan = plan
 
-    def _motion(self, kind: int, index: int, angles: Floats) -> Floats:
-        """Numbers of a point (6), link (4) or slide (3) at crank angles."""
-        width = (6, 4, 3)[kind]
+    def _point(self, point: int, angles: Floats) -> Floats:
+        """Numbers of a point, (6, n)."""
+        return self._motion(_core.Channel.Point(point), 6, angles)
+
+    def _link(self, link: int, angles: Floats) -> Floats:
+        """Numbers of a link, (4, n)."""
+        return self._motion(_core.Channel.Link(link), 4, angles)
+
+    def _motion(self, channel: _core.Channel, width: int, angles: Floats) -> Floats:
+        """Numbers of a point, link or slide at crank angles, (width, n)."""
         out = np.empty((width, len(angles)))
-        what = np.array([[kind, index]], dtype=np.int32)
         none = np.empty(0, dtype=np.int32)
-        _core.motions(self.plan, self.parameters, none, np.empty((0, 1)), angles, what, out.reshape(-1))
+        _core.motions(self.plan, self.parameters, none, np.empty((0, 1)), angles, [channel], out.reshape(-1))
         return out
 
     # -- sides -------------------------------------------------------------------------------------------
@@ -177,15 +183,15 @@ class InitialAssembly:
         """Left of the line from pin to pivot, or ahead along the guide."""
         at = np.array([self.assembled_at])
         joint = self.program.mechanism.joints[each.joint]
-        x, y = self._motion(0, each.pin, at)[:2, 0]
+        x, y = self._point(each.pin, at)[:2, 0]
         to = np.array([_first(joint.x) - x, _first(joint.y) - y])
         if each.pivot is not None:
-            u, v = self._motion(0, each.pivot, at)[:2, 0] - (x, y)
+            u, v = self._point(each.pivot, at)[:2, 0] - (x, y)
             side = (u * to[1] - v * to[0]) / max(np.hypot(u, v), 1e-300)
         else:
             assert each.guide is not None
             link, angle = each.guide
-            cos, sin = (1.0, 0.0) if link is None else self._motion(1, link, at)[:2, 0]
+            cos, sin = (1.0, 0.0) if link is None else self._link(link, at)[:2, 0]
             direction = np.array(
                 [cos * np.cos(angle) - sin * np.sin(angle), sin * np.cos(angle) + cos * np.sin(angle)]
             )
@@ -205,7 +211,7 @@ class InitialAssembly:
     def _continuous(self, each: Continuous) -> None:
         """Turns a revolution of the crank, and the middle of the swing about them."""
         angles = np.linspace(0.0, 2 * np.pi, _LOOK + 1)
-        cos, sin, *_ = self._motion(1, each.link, angles)
+        cos, sin, *_ = self._link(each.link, angles)
         closes = np.isfinite(cos)
         if not closes.any():
             return
@@ -332,7 +338,7 @@ class InitialAssembly:
 
     def _check_fit(self, name: str, start: int, end: int, length: float) -> None:
         angles = np.linspace(0.0, 2 * np.pi, _LOOK + 1)
-        u = self._motion(0, end, angles)[:2] - self._motion(0, start, angles)[:2]
+        u = self._point(end, angles)[:2] - self._point(start, angles)[:2]
         off = np.abs(np.hypot(*u) - length)
         off = np.where(np.isfinite(off), off, 0.0)
         worst = int(off.argmax())

@@ -135,8 +135,8 @@ def published_scheme(machine: Machine, *, step: float = np.radians(1.0)) -> Step
     assert machine.drive is not None
     compiled = compile_machine(machine)
     n = whole_steps(step)
-    J, _, load, dry, _ = compiled.reductions(turn_angles(n)[:-1])
-    M_0 = load + dry
+    at = compiled.reductions(turn_angles(n)[:-1])
+    M_0 = at.load + at.dry
     motor, gearbox = machine.drive.motor, machine.drive.gearbox
     assert isinstance(motor, InductionMotor)
     i, eta = gearbox.ratio, gearbox.efficiency
@@ -145,7 +145,7 @@ def published_scheme(machine: Machine, *, step: float = np.radians(1.0)) -> Step
         M_p = motor_torque(motor, i * omega) * i * eta
         return (M_p - float(M_0[k])) / i
 
-    return by_steps(J, torque, step=2 * np.pi / n)
+    return by_steps(at.inertia, torque, step=2 * np.pi / n)
 
 
 def motor_torque(motor: InductionMotor, speed: float) -> float:

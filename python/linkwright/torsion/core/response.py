@@ -121,10 +121,18 @@ def respond(referred: ReferredTrain, at: Operating, orders: Floats, torques: Com
     damping = np.broadcast_to(referred.damping[:, None], at.stiffness.shape)
     loss = referred.loss_factor[:, None] * at.stiffness
     ground = np.ascontiguousarray(at.disc_damping[tree.order]).ravel()
-    tables = [table(at.stiffness), table(damping), table(loss), ground]
     q = np.take(torques, tree.order, axis=1)
-    J = np.ascontiguousarray(referred.inertia[tree.order])
-    _core.torsion_forced(tree.parent, J, at.speeds, tables, orders, q.view(np.float64).reshape(-1))
+    _core.torsion_forced(
+        parent=tree.parent,
+        inertia=np.ascontiguousarray(referred.inertia[tree.order]),
+        speeds=at.speeds,
+        stiffness=table(at.stiffness),
+        damping=table(damping),
+        loss=table(loss),
+        disc_damping=ground,
+        orders=orders,
+        torques=q.view(np.float64).reshape(-1),
+    )
     return q if (tree.order[1:] > tree.order[:-1]).all() else np.take(q, np.argsort(tree.order), axis=1)
 
 

@@ -12,9 +12,6 @@ Hysteresis has no meaning in time: what loses the same share of its energy whate
 of the instant. A shaft of the loss factor η becomes a viscous one that loses as much at one frequency,
 :math:`c = \eta k/\omega`.
 
-The lists in which a train crosses the border are explained in
-`crates/linkwright-core/src/torsion/transient/system.rs`.
-
 References
 ----------
 .. [1] Crandall, The role of damping in vibration theory, J. Sound Vib. 11 (1970) 3-18.
@@ -22,7 +19,7 @@ References
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -79,6 +76,22 @@ def variable_inertia(
 
 
 @dataclass(frozen=True)
+class TimeExtremes:
+    """Extremes of curves over time, (curves,) each, and their times [s]."""
+
+    maximum: Floats
+    maximum_time: Floats
+    minimum: Floats
+    minimum_time: Floats
+
+    @staticmethod
+    def of(extremes: _core.Extremes, count: int) -> TimeExtremes:
+        """The first ones that the core tells."""
+        columns = (extremes.greatest, extremes.greatest_at, extremes.least, extremes.least_at)
+        return TimeExtremes(*(column[:count] for column in columns))
+
+
+@dataclass(frozen=True)
 class TrainMotion:
     """A motion as the core gives it, in terms of masses."""
 
@@ -91,7 +104,9 @@ class TrainMotion:
     evaluations: int
     time: float  # reached [s]
     fastest: float  # bound of the fastest swing at the start [rad/s]
-    energies: tuple[float, float, float, float]  # kinetic and potential at the start, and at the end [J]
+    # `energy_start`, `energy_end`: kinetic and potential energy together [J].
+    energy_start: float
+    energy_end: float
     # `angle`, `speed`: (masses, times) of the masses, at the speed of the first disc [rad, rad/s].
     angle: Floats
     speed: Floats
@@ -99,10 +114,14 @@ class TrainMotion:
     # `kinetic`, `potential`: (times,) energy [J].
     kinetic: Floats
     potential: Floats
-    # (shafts + masses, 4) largest value, its time, minimum value, its time, of torques and speeds.
-    extremes: Floats
-    work: Floats  # (torques + shafts + masses,) of torques, and lost in shafts and at masses [J]
-    modal_loss: float  # lost by damping ratios of modes [J]
+    # `torque_extremes`, `speed_extremes`: of each shaft and of each mass.
+    torque_extremes: TimeExtremes
+    speed_extremes: TimeExtremes
+    work: Floats  # (torques,) [J]
+    # `shaft_loss`, `mass_loss`, `modal_loss`: lost in each shaft, at each mass, by damping ratios [J].
+    shaft_loss: Floats
+    mass_loss: Floats
+    modal_loss: float
 
 
 @dataclass(frozen=True)
@@ -153,7 +172,7 @@ class MovingTrain:
     @cached_property
     def system(self) -> _core.TorsionSystem:
         """The train as the core takes it."""
-        return encoded(self)
+        return core_system(self)
 
     def net_torques(self, time: float, angle: ArrayLike, speed: ArrayLike) -> tuple[Floats, Floats]:
         """Sum of all torques on each mass, and its inertia, (rows, masses).
@@ -181,14 +200,20 @@ class MovingTrain:
         to sample at, from zero to the end [s]; `start`: [s].
         """
         at, turning, sampled = (
-            np.ascontiguousarray(each, dtype=np.float64) for each in (angle, speed, times)
+            np.ascontiguousarray(given, dtype=np.float64) for given in (angle, speed, times)
         )
-        end = float(sampled[-1])
-        motion = self.system.follow(at, turning, sampled, start, end, accuracy, method, steps_max)
-        samples = motion.samples
-        n, m, k = self.masses, len(self.shafts), len(self.torques)
+        motion = self.system.follow(
+            angle=at,
+            speed=turning,
+            times=sampled,
+            start=start,
+            duration=float(sampled[-1]),
+            accuracy=accuracy,
+            method=method,
+            steps_max=steps_max,
+        )
         # Dashpots of modal damping come after the shafts.
-        after = m + len(_dashpots(self))
+        m = len(self.shafts)
         return TrainMotion(
             end=motion.end,
             method=motion.method,
@@ -197,15 +222,19 @@ class MovingTrain:
             evaluations=motion.evaluations,
             time=motion.time,
             fastest=motion.fastest,
-            energies=motion.energies,
-            angle=samples[:n],
-            speed=samples[n : 2 * n],
-            torque=samples[2 * n : 2 * n + m],
-            kinetic=samples[-2],
-            potential=samples[-1],
-            extremes=np.delete(motion.extremes, slice(m, after), axis=0),
-            work=np.delete(motion.work, slice(k + m, k + after)),
-            modal_loss=float(motion.work[k + m : k + after].sum()),
+            energy_start=motion.kinetic_start + motion.potential_start,
+            energy_end=motion.kinetic_end + motion.potential_end,
+            angle=motion.angle,
+            speed=motion.speed,
+            torque=motion.torque[:m],
+            kinetic=motion.kinetic,
+            potential=motion.potential,
+            torque_extremes=TimeExtremes.of(motion.torque_extremes, m),
+            speed_extremes=TimeExtremes.of(motion.speed_extremes, self.masses),
+            work=motion.work,
+            shaft_loss=motion.loss_links[:m],
+            mass_loss=motion.loss_masses,
+            modal_loss=float(motion.loss_links[m:].sum()),
         )
 
 
@@ -261,50 +290,84 @@ def viscous(stiffness: ArrayLike, loss_factor: ArrayLike, omega: ArrayLike) -> F
     return damping
 
 
-def encoded(train: MovingTrain) -> _core.TorsionSystem:
+def core_system(train: MovingTrain) -> _core.TorsionSystem:
     """A train in motion as the core takes it."""
-    n = train.speed
-    tables: list[PeriodicTable] = []
-    curves: list[Curve] = []
-    at_mass = np.zeros((3, train.masses))
-    for row, own in zip(at_mass, (train.inertia, train.damping, train.swing_damping), strict=True):
-        np.add.at(row, train.mass, n**2 * own)
-    # The last is that of the ground, HELD = −1.
-    masses = np.append(train.mass, HELD)
-    links = [
-        [*masses[ends], _place(curve, curves)]
-        for ends, curve in zip(train.tip.tolist(), train.curves, strict=True)
-    ]
-    dashpots = _dashpots(train)
-    links += [[first, second, -1] for first, second, _ in dashpots]
-    link_numbers = np.column_stack([train.lead, train.stiffness, train.shaft_damping]).tolist()
-    link_numbers += [[1.0, 0.0, damping] for _, _, damping in dashpots]
-    rotors = [[train.mass[rotor.on], _place(rotor.table, tables)] for rotor in train.inertias]
-    torques = [_torque(train, torque, tables, curves) for torque in train.torques]
+    parts = _SharedParts()
     return _core.TorsionSystem(
-        at_mass[0],
-        at_mass[1],
-        at_mass[2],
-        _ints(links),
-        _floats(link_numbers),
-        _ints(rotors),
-        _floats([[n[rotor.on], rotor.phase] for rotor in train.inertias]),
-        _ints([row for row, _ in torques]),
-        _floats([row for _, row in torques]),
-        _starts([len(table.value) for table in tables]),
-        _floats([table.period for table in tables]),
-        _end_to_end([getattr(table, name) for name in ("value", "slope", "bend") for table in tables]),
-        _starts([len(curve.x) for curve in curves]),
-        _end_to_end([getattr(curve, name) for name in ("x", "y", "before", "after") for curve in curves]),
+        masses=_masses(train),
+        links=[*_shafts(train, parts), *_modal_links(train)],
+        rotors=[
+            _core.TorsionRotor(
+                mass=int(train.mass[rotor.on]),
+                ratio=float(train.speed[rotor.on]),
+                phase=rotor.phase,
+                inertia=parts.table(rotor.table),
+            )
+            for rotor in train.inertias
+        ],
+        torques=[_torque(train, torque, parts) for torque in train.torques],
     )
+
+
+class _SharedParts:
+    """Tables and curves as the core takes them, each once."""
+
+    def __init__(self) -> None:
+        self._made: dict[int, Any] = {}
+
+    def table(self, table: PeriodicTable) -> _core.Periodic:
+        """A table over the angle."""
+        if id(table) not in self._made:
+            knots = {name: _floats(getattr(table, name)) for name in ("value", "slope", "bend")}
+            self._made[id(table)] = _core.Periodic(period=table.period, **knots)
+        made: _core.Periodic = self._made[id(table)]
+        return made
+
+    def curve(self, curve: Curve) -> _core.Curve:
+        """A curve over twist, speed or time."""
+        if id(curve) not in self._made:
+            points = {name: _floats(getattr(curve, name)) for name in ("x", "y", "before", "after")}
+            self._made[id(curve)] = _core.Curve(**points)
+        made: _core.Curve = self._made[id(curve)]
+        return made
+
+    def curve_or_none(self, curve: Curve | None) -> _core.Curve | None:
+        """A curve, if there is one."""
+        return None if curve is None else self.curve(curve)
+
+
+def _masses(train: MovingTrain) -> list[_core.TorsionMass]:
+    """Discs that move as one, at the speed of the first disc."""
+    columns = np.zeros((3, train.masses))
+    for column, own in zip(columns, (train.inertia, train.damping, train.swing_damping), strict=True):
+        np.add.at(column, train.mass, train.speed**2 * own)
+    return [
+        _core.TorsionMass(inertia=inertia, damping=damping, swing_damping=swing)
+        for inertia, damping, swing in columns.T.tolist()
+    ]
+
+
+def _shafts(train: MovingTrain, parts: _SharedParts) -> Iterator[_core.TorsionLink]:
+    """What twists between masses."""
+    ends = [[None if end == HELD else int(train.mass[end]) for end in pair] for pair in train.tip.tolist()]
+    numbers = np.column_stack([train.lead, train.stiffness, train.shaft_damping]).tolist()
+    for (first, second), (ratio, stiffness, damping), curve in zip(ends, numbers, train.curves, strict=True):
+        yield _core.TorsionLink(
+            first=first,
+            second=second,
+            ratio=ratio,
+            stiffness=stiffness,
+            damping=damping,
+            curve=parts.curve_or_none(curve),
+        )
 
 
 # Share of the largest entry of a damping matrix that is rounding.
 _ROUNDING = 1e-13
 
 
-def _dashpots(train: MovingTrain) -> list[tuple[int, int, float]]:
-    """Damping between masses, and of each against the ground, that makes the matrix of damping ratios.
+def _modal_links(train: MovingTrain) -> list[_core.TorsionLink]:
+    """Dashpots between masses, and of each against the ground, that make the matrix of damping ratios.
 
     A symmetric matrix is Σ c (e_i − e_j)(e_i − e_j)ᵀ of all pairs with c = −C_ij, but for what rows sum up
     to; single dashpots may be negative, all together are not.
@@ -314,57 +377,50 @@ def _dashpots(train: MovingTrain) -> list[tuple[int, int, float]]:
         return []
     least = _ROUNDING * float(np.abs(C).max())
     first, second = np.triu_indices(len(C), 1)
-    pairs = [*zip(first.tolist(), second.tolist(), (-C[first, second]).tolist(), strict=True)]
+    pairs: list[tuple[int, int | None, float]] = [
+        *zip(first.tolist(), second.tolist(), (-C[first, second]).tolist(), strict=True)
+    ]
     # A train that is free as a whole has modes that vibrate without momentum: rows sum up to zero.
     if (train.tip == HELD).any():
-        pairs += [(mass, HELD, rest) for mass, rest in enumerate(C.sum(axis=1).tolist())]
-    return [(a, b, c) for a, b, c in pairs if abs(c) > least]
+        pairs += [(mass, None, rest) for mass, rest in enumerate(C.sum(axis=1).tolist())]
+    return [
+        _core.TorsionLink(first=a, second=b, ratio=1.0, stiffness=0.0, damping=c, curve=None)
+        for a, b, c in pairs
+        if abs(c) > least
+    ]
 
 
-def _place(thing: Any, shelf: list[Any]) -> int:
-    """Where a table or curve stands among those met so far; −1 for none."""
-    if thing is None:
-        return -1
-    for place, each in enumerate(shelf):
-        if each is thing:
-            return place
-    shelf.append(thing)
-    return len(shelf) - 1
-
-
-def _torque(
-    train: MovingTrain, torque: TrainTorque, tables: list[PeriodicTable], curves: list[Curve]
-) -> tuple[list[int], list[float]]:
-    """Row of integers and row of numbers of a torque."""
-    kind, numbers = 0, [0.0] * 5
-    curve: Curve | None = None
-    match torque.law:
-        case Power(speed, exponent, is_even):
-            kind, numbers = (1 if is_even else 2), [speed, exponent, 0.0, 0.0, 0.0]
-        case OverSpeed(over_speed):
-            kind, curve = 3, over_speed
-        case GovernorTorque(gain, over_time):
-            curve = over_time
-            kind, numbers = 4, [gain, 0.0, 0.0, 0.0, 0.0]
-        case DecayingTorque(start, end, rate, speed, phase):
-            kind, numbers = 5, [start, end, rate, speed, phase]
+def _torque(train: MovingTrain, torque: TrainTorque, parts: _SharedParts) -> _core.TorsionTorque:
+    """A torque from outside on its mass."""
     n = float(train.speed[torque.on])
-    row = [int(train.mass[torque.on]), kind, _place(torque.weight, curves), _place(torque.shape, tables)]
-    return [*row, _place(curve, curves)], [n, torque.scale, torque.pitch * n, torque.phase, *numbers]
+    shape = None
+    if torque.shape is not None:
+        table = parts.table(torque.shape)
+        shape = _core.TorqueShape(table=table, pitch=torque.pitch * n, phase=torque.phase)
+    return _core.TorsionTorque(
+        mass=int(train.mass[torque.on]),
+        ratio=n,
+        scale=torque.scale,
+        law=_law(torque, parts),
+        weight=parts.curve_or_none(torque.weight),
+        shape=shape,
+    )
 
 
-def _starts(lengths: Sequence[int]) -> Ints:
-    """Start of each list among lists that lie end to end, and the end of the last."""
-    return np.cumsum([0, *lengths], dtype=np.int32)
+def _law(torque: TrainTorque, parts: _SharedParts) -> _core.TorqueLaw:
+    match torque.law:
+        case None:
+            return _core.TorqueLaw.Constant()
+        case Power(speed, exponent, is_even):
+            kind = _core.TorqueLaw.Even if is_even else _core.TorqueLaw.Odd
+            return kind(speed=speed, exponent=exponent)
+        case OverSpeed(curve):
+            return _core.TorqueLaw.OverSpeed(curve=parts.curve(curve))
+        case GovernorTorque(gain, curve):
+            return _core.TorqueLaw.Following(gain=gain, curve=parts.curve(curve))
+        case DecayingTorque(start, end, rate, speed, phase):
+            return _core.TorqueLaw.Decaying(start=start, end=end, rate=rate, speed=speed, phase=phase)
 
 
-def _end_to_end(lists: Sequence[Floats]) -> Floats:
-    return np.concatenate(lists) if lists else np.empty(0)
-
-
-def _ints(rows: ArrayLike) -> Ints:
-    return np.ascontiguousarray(rows, dtype=np.int32).ravel()
-
-
-def _floats(rows: ArrayLike) -> Floats:
-    return np.ascontiguousarray(rows, dtype=np.float64).ravel()
+def _floats(values: ArrayLike) -> Floats:
+    return np.ascontiguousarray(values, dtype=np.float64)

@@ -84,20 +84,24 @@ def moving_drive(machine: Machine, manoeuvre: TrainTransient) -> tuple[MovingTra
 
 def _inertia(compiled: Compiled, crank: int) -> VariableInertia:
     """Reduced inertia over the revolution of the crank."""
-    J, J_d1 = compiled.reductions(_turn())[:2]
-    return variable_inertia(crank, J, J_d1)
+    at = compiled.reductions(_turn())
+    return variable_inertia(crank, at.inertia, at.inertia_slope)
 
 
 def _resistance(compiled: Compiled, crank: int, guess: float) -> Iterator[TrainTorque]:
     """What the loads of the mechanism ask of the crank."""
     phi = _turn()
-    _, _, load, dry, viscous = compiled.reductions(phi)
-    parts = (("load", load, None), ("dry", dry, Power(guess, 0.0)), ("viscous", viscous, Power(1.0, 1.0)))
+    at = compiled.reductions(phi)
+    parts = (
+        ("load", at.load, None),
+        ("dry", at.dry, Power(guess, 0.0)),
+        ("viscous", at.viscous, Power(1.0, 1.0)),
+    )
     for name, torque, law in parts:
         if torque.any():
             yield TrainTorque(name, crank, -1.0, law, spline(torque))
-    for speeds, torque in compiled.speed_tables:
-        yield TrainTorque("speed", crank, -1.0, OverSpeed(_through_rest(speeds, torque, guess)))
+    for speeds, torques in compiled.speed_tables:
+        yield TrainTorque("speed", crank, -1.0, OverSpeed(_through_rest(speeds, torques, guess)))
     if compiled.has_laws:
         yield from _laws(compiled, phi, crank, guess)
 

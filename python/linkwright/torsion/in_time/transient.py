@@ -337,8 +337,7 @@ def _fastest_disc(train: MovingTrain) -> str:
 
 def _result(train: MovingTrain, times: Floats, moved: TrainMotion) -> TorsionTransient:
     """The motion in terms of discs."""
-    n, m = train.speed, len(train.shafts)
-    of_shafts, of_masses = moved.extremes[:m].T, moved.extremes[m:][train.mass].T
+    n, torque, speed = train.speed, moved.torque_extremes, moved.speed_extremes
     work, loss, error = _energy(train, moved)
     return TorsionTransient(
         time=times,
@@ -349,12 +348,14 @@ def _result(train: MovingTrain, times: Floats, moved: TrainMotion) -> TorsionTra
         torque=moved.torque,
         kinetic_energy=moved.kinetic,
         potential_energy=moved.potential,
-        **dict(zip(_named("torque"), of_shafts, strict=True)),
-        **dict(
-            zip(
-                _named("speed"), (n * of_masses[0], of_masses[1], n * of_masses[2], of_masses[3]), strict=True
-            )
-        ),
+        torque_max=torque.maximum,
+        torque_max_time=torque.maximum_time,
+        torque_min=torque.minimum,
+        torque_min_time=torque.minimum_time,
+        speed_max=n * speed.maximum[train.mass],
+        speed_max_time=speed.maximum_time[train.mass],
+        speed_min=n * speed.minimum[train.mass],
+        speed_min_time=speed.minimum_time[train.mass],
         work=work,
         loss=loss,
         energy_error=error,
@@ -367,21 +368,16 @@ def _result(train: MovingTrain, times: Floats, moved: TrainMotion) -> TorsionTra
     )
 
 
-def _named(word: str) -> tuple[str, str, str, str]:
-    return f"{word}_max", f"{word}_max_time", f"{word}_min", f"{word}_min_time"
-
-
 def _energy(train: MovingTrain, moved: TrainMotion) -> tuple[dict[str, float], dict[str, float], float]:
     """Work of each torque, losses, and what is left of the balance."""
-    k, m = len(train.torques), len(train.shafts)
     work: dict[str, float] = {}
-    for torque, done in zip(train.torques, moved.work[:k].tolist(), strict=True):
+    for torque, done in zip(train.torques, moved.work.tolist(), strict=True):
         work[torque.name] = work.get(torque.name, 0.0) + done
-    loss: dict[str, Any] = dict(zip(train.shafts, moved.work[k : k + m].tolist(), strict=True))
-    loss["discs"] = float(moved.work[k + m :].sum())
+    loss: dict[str, Any] = dict(zip(train.shafts, moved.shaft_loss.tolist(), strict=True))
+    loss["discs"] = float(moved.mass_loss.sum())
     if train.modal_damping is not None:
         loss["modes"] = moved.modal_loss
-    start, end = sum(moved.energies[:2]), sum(moved.energies[2:])
+    start, end = moved.energy_start, moved.energy_end
     size = max(*map(abs, work.values()), *map(abs, loss.values()), abs(start), abs(end))
     left = end - start - sum(work.values()) + sum(loss.values())
     return work, loss, left / size if size else 0.0

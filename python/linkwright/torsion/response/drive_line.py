@@ -82,7 +82,7 @@ def mean_inertia(machine: Machine) -> float:
     At the crank [kg m²].
     """
     compiled = mechanism_alone(machine)
-    turn = turn_curve(lambda phi: compiled.reductions(phi)[:1], compiled.kinks(), "reduced inertia")
+    turn = turn_curve(lambda phi: compiled.reductions(phi).inertia[None], compiled.kinks(), "reduced inertia")
     return float(turn.mean()[0])
 
 
@@ -183,8 +183,8 @@ def _resistance_harmonics(compiled: Compiled, nu: Floats, omega: Floats) -> Comp
 
 def _parts(compiled: Compiled, phi: Floats) -> Floats:
     """Torques at speed 0, per speed and per square of the speed, (3, n)."""
-    _, J_d1, load, dry, viscous = compiled.reductions(phi)
-    return np.stack([load + dry, viscous, 0.5 * J_d1])
+    at = compiled.reductions(phi)
+    return np.stack([at.load + at.dry, at.viscous, 0.5 * at.inertia_slope])
 
 
 def _resistance(compiled: Compiled, omega: Floats) -> Floats:

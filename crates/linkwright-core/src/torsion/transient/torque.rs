@@ -29,6 +29,16 @@ pub enum Law {
     Decaying { from: f64, until: f64, rate: f64, omega: f64, phase: f64 },
 }
 
+impl Law {
+    /// The curve that it follows, if any.
+    pub fn curve(&self) -> Option<usize> {
+        match *self {
+            Law::OverSpeed { curve } | Law::Following { curve, .. } => Some(curve),
+            _ => None,
+        }
+    }
+}
+
 /// A function of the angle.
 #[derive(Clone, Copy, Debug)]
 pub struct Shape {

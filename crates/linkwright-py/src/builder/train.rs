@@ -1,0 +1,245 @@
+//! A train in motion: `torsion::transient::system` of the core, with the same names.
+
+use linkwright_core::torsion::transient::curve::Curve as CoreCurve;
+use linkwright_core::torsion::transient::periodic::Periodic as CorePeriodic;
+use linkwright_core::torsion::transient::system::{self, System};
+use linkwright_core::torsion::transient::torque;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::Floats;
+
+/// Cubics through points, with a slope at both sides of each.
+#[pyclass(frozen, module = "linkwright._core")]
+pub(crate) struct Curve(CoreCurve);
+
+#[pymethods]
+impl Curve {
+    #[new]
+    #[pyo3(signature = (*, x, y, before, after))]
+    fn new(x: Floats<'_>, y: Floats<'_>, before: Floats<'_>, after: Floats<'_>) -> PyResult<Self> {
+        let curve = CoreCurve::new(x.as_slice()?, y.as_slice()?, before.as_slice()?, after.as_slice()?);
+        curve.map(Curve).ok_or_else(|| {
+            PyValueError::new_err("curve: points must be finite and never decrease, with two slopes each")
+        })
+    }
+}
+
+/// A function that repeats with an angle, by value, slope and bend at even knots.
+#[pyclass(frozen, module = "linkwright._core")]
+pub(crate) struct Periodic(CorePeriodic);
+
+#[pymethods]
+impl Periodic {
+    #[new]
+    #[pyo3(signature = (*, period, value, slope, bend))]
+    fn new(period: f64, value: Floats<'_>, slope: Floats<'_>, bend: Floats<'_>) -> PyResult<Self> {
+        let table = CorePeriodic::new(period, value.as_slice()?, slope.as_slice()?, bend.as_slice()?);
+        table.map(Periodic).ok_or_else(|| {
+            PyValueError::new_err("periodic table: knots must be finite, and the period more than zero")
+        })
+    }
+}
+
+/// Discs that move as one.
+#[pyclass(frozen, get_all, module = "linkwright._core")]
+pub(crate) struct TorsionMass {
+    inertia: f64,
+    damping: f64,
+    swing_damping: f64,
+}
+
+#[pymethods]
+impl TorsionMass {
+    #[new]
+    #[pyo3(signature = (*, inertia, damping, swing_damping))]
+    fn new(inertia: f64, damping: f64, swing_damping: f64) -> Self {
+        TorsionMass { inertia, damping, swing_damping }
+    }
+}
+
+/// What twists between two masses, or a mass and the ground.
+#[pyclass(frozen, get_all, module = "linkwright._core")]
+pub(crate) struct TorsionLink {
+    first: Option<usize>,
+    second: Option<usize>,
+    ratio: f64,
+    stiffness: f64,
+    damping: f64,
+    curve: Option<Py<Curve>>,
+}
+
+#[pymethods]
+impl TorsionLink {
+    #[new]
+    #[pyo3(signature = (*, first, second, ratio, stiffness, damping, curve))]
+    fn new(
+        first: Option<usize>,
+        second: Option<usize>,
+        ratio: f64,
+        stiffness: f64,
+        damping: f64,
+        curve: Option<Py<Curve>>,
+    ) -> Self {
+        TorsionLink { first, second, ratio, stiffness, damping, curve }
+    }
+}
+
+/// An inertia that changes with the angle of its part.
+#[pyclass(frozen, get_all, module = "linkwright._core")]
+pub(crate) struct TorsionRotor {
+    mass: usize,
+    ratio: f64,
+    phase: f64,
+    inertia: Py<Periodic>,
+}
+
+#[pymethods]
+impl TorsionRotor {
+    #[new]
+    #[pyo3(signature = (*, mass, ratio, phase, inertia))]
+    fn new(mass: usize, ratio: f64, phase: f64, inertia: Py<Periodic>) -> Self {
+        TorsionRotor { mass, ratio, phase, inertia }
+    }
+}
+
+/// How a torque depends on the speed of its part, or on time.
+#[pyclass(frozen, module = "linkwright._core")]
+pub(crate) enum TorqueLaw {
+    #[pyo3(constructor = ())]
+    Constant {},
+    #[pyo3(constructor = (*, speed, exponent))]
+    Even { speed: f64, exponent: f64 },
+    #[pyo3(constructor = (*, speed, exponent))]
+    Odd { speed: f64, exponent: f64 },
+    #[pyo3(constructor = (*, curve))]
+    OverSpeed { curve: Py<Curve> },
+    #[pyo3(constructor = (*, gain, curve))]
+    Following { gain: f64, curve: Py<Curve> },
+    #[pyo3(constructor = (*, start, end, rate, speed, phase))]
+    Decaying { start: f64, end: f64, rate: f64, speed: f64, phase: f64 },
+}
+
+/// How a torque depends on the angle.
+#[pyclass(frozen, get_all, module = "linkwright._core")]
+pub(crate) struct TorqueShape {
+    table: Py<Periodic>,
+    pitch: f64,
+    phase: f64,
+}
+
+#[pymethods]
+impl TorqueShape {
+    #[new]
+    #[pyo3(signature = (*, table, pitch, phase))]
+    fn new(table: Py<Periodic>, pitch: f64, phase: f64) -> Self {
+        TorqueShape { table, pitch, phase }
+    }
+}
+
+/// A torque on a mass from outside.
+#[pyclass(frozen, get_all, module = "linkwright._core")]
+pub(crate) struct TorsionTorque {
+    mass: usize,
+    ratio: f64,
+    scale: f64,
+    law: Py<TorqueLaw>,
+    weight: Option<Py<Curve>>,
+    shape: Option<Py<TorqueShape>>,
+}
+
+#[pymethods]
+impl TorsionTorque {
+    #[new]
+    #[pyo3(signature = (*, mass, ratio, scale, law, weight, shape))]
+    fn new(
+        mass: usize,
+        ratio: f64,
+        scale: f64,
+        law: Py<TorqueLaw>,
+        weight: Option<Py<Curve>>,
+        shape: Option<Py<TorqueShape>>,
+    ) -> Self {
+        TorsionTorque { mass, ratio, scale, law, weight, shape }
+    }
+}
+
+/// Things that several parts share, each once, in the order in which they are met.
+struct Shelf<T>(Vec<Py<T>>);
+
+impl<T> Shelf<T> {
+    /// Where a thing stands.
+    fn place(&mut self, py: Python<'_>, thing: &Py<T>) -> usize {
+        self.0.iter().position(|known| known.is(thing)).unwrap_or_else(|| {
+            self.0.push(thing.clone_ref(py));
+            self.0.len() - 1
+        })
+    }
+}
+
+/// The system of masses, links, rotors and torques, not yet checked.
+pub(crate) fn system(
+    py: Python<'_>,
+    masses: &[PyRef<'_, TorsionMass>],
+    links: &[PyRef<'_, TorsionLink>],
+    rotors: &[PyRef<'_, TorsionRotor>],
+    torques: &[PyRef<'_, TorsionTorque>],
+) -> System {
+    let (mut curves, mut tables) = (Shelf(Vec::new()), Shelf(Vec::new()));
+    let ground = masses.len();
+    let links = links.iter().map(|link| system::Link {
+        ends: [link.first.unwrap_or(ground), link.second.unwrap_or(ground)],
+        ratio: link.ratio,
+        stiffness: link.stiffness,
+        damping: link.damping,
+        curve: link.curve.as_ref().map(|curve| curves.place(py, curve)),
+    });
+    let links = links.collect();
+    let rotors = rotors.iter().map(|rotor| system::Rotor {
+        mass: rotor.mass,
+        ratio: rotor.ratio,
+        phase: rotor.phase,
+        table: tables.place(py, &rotor.inertia),
+    });
+    let rotors = rotors.collect();
+    let torques = torques.iter().map(|torque| torque::Torque {
+        mass: torque.mass,
+        ratio: torque.ratio,
+        scale: torque.scale,
+        law: law(py, torque.law.get(), &mut curves),
+        weight: torque.weight.as_ref().map(|weight| curves.place(py, weight)),
+        shape: torque.shape.as_ref().map(|shape| {
+            let shape = shape.get();
+            let table = tables.place(py, &shape.table);
+            torque::Shape { table, pitch: shape.pitch, phase: shape.phase }
+        }),
+    });
+    let torques = torques.collect();
+    System {
+        inertia: masses.iter().map(|mass| mass.inertia).collect(),
+        damping: masses.iter().map(|mass| mass.damping).collect(),
+        swing_damping: masses.iter().map(|mass| mass.swing_damping).collect(),
+        links,
+        rotors,
+        torques,
+        tables: tables.0.iter().map(|table| table.get().0.clone()).collect(),
+        curves: curves.0.iter().map(|curve| curve.get().0.clone()).collect(),
+    }
+}
+
+fn law(py: Python<'_>, law: &TorqueLaw, curves: &mut Shelf<Curve>) -> torque::Law {
+    match *law {
+        TorqueLaw::Constant {} => torque::Law::Constant,
+        TorqueLaw::Even { speed, exponent } => {
+            torque::Law::Even { inverse_speed: 1.0 / speed, exponent }
+        }
+        TorqueLaw::Odd { speed, exponent } => torque::Law::Odd { inverse_speed: 1.0 / speed, exponent },
+        TorqueLaw::OverSpeed { ref curve } => torque::Law::OverSpeed { curve: curves.place(py, curve) },
+        TorqueLaw::Following { gain, ref curve } => {
+            torque::Law::Following { gain, curve: curves.place(py, curve) }
+        }
+        TorqueLaw::Decaying { start, end, rate, speed, phase } => {
+            torque::Law::Decaying { from: start, until: end, rate, omega: speed, phase }
+        }
+    }
+}
