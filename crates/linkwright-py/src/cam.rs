@@ -249,5 +249,10 @@ pub(crate) fn cam_crossings(py: Python<'_>, x: Floats<'_>, y: Floats<'_>) -> PyR
     }
     let found = guarded(py, "crossings of a profile", || crossings(x, y))?;
     let list = |of: fn(&Crossing) -> f64| column(py, found.iter().map(of).collect()).unbind();
-    Ok(CamCrossings { first: list(|c| c.first), second: list(|c| c.second), x: list(|c| c.x), y: list(|c| c.y) })
+    Ok(CamCrossings {
+        first: list(|c| c.first),
+        second: list(|c| c.second),
+        x: list(|c| c.x),
+        y: list(|c| c.y),
+    })
 }

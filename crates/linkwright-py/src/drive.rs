@@ -171,8 +171,7 @@ impl SteadySolution {
         let analysis = "derivatives of steady motion";
         require_room(analysis, [n, NUMBERS + CURVES * phi.len()])?;
         let steady = &self.steady;
-        let found =
-            guarded(py, analysis, || Gradient { plan, q, directions, steady, phi }.derivatives())?;
+        let found = guarded(py, analysis, || Gradient { plan, q, directions, steady, phi }.derivatives())?;
         // In the order of `drive::gradient`.
         let number = |k: usize| kept(py, found.numbers[k * n..(k + 1) * n].to_vec());
         let size = phi.len() * n;
@@ -229,9 +228,7 @@ pub(crate) fn steady_state(
         Ok::<_, Failure>((found, curves))
     })?;
     Ok(match solved {
-        Ok((found, curves)) => {
-            Solved::Motion(SteadyMotion::of(py, known.clone_ref(py), q, found, curves)?)
-        }
+        Ok((found, curves)) => Solved::Motion(SteadyMotion::of(py, known.clone_ref(py), q, found, curves)?),
         Err(Failure { status, phi, omega, reached }) => Solved::None(NoSteadyMotion {
             status: status.into(),
             crank_angle: phi,

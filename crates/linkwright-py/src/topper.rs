@@ -6,9 +6,9 @@ use numpy::PyArray1;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::builder::numbers::MotionLaw;
 use crate::Floats;
 use crate::arrays::by_column;
+use crate::builder::numbers::MotionLaw;
 use crate::guard::{guarded, require_room};
 
 /// A knife: its law, as harmonics (a, b, a, b, …) or in pieces, and how it goes.
@@ -89,7 +89,8 @@ impl TopperKnife {
         let mut table = vec![0.0; n * RESULTS];
         guarded(py, analysis, || cover(&self.0, &heads, length, fine, &mut table))?;
         // In the order of `topper::heads`.
-        let [length, last_x, last_y, uncut_right, uncut_left, uncut_between] = by_column::<RESULTS>(py, &table);
+        let [length, last_x, last_y, uncut_right, uncut_left, uncut_between] =
+            by_column::<RESULTS>(py, &table);
         Ok(TopperCover { length, last_x, last_y, uncut_right, uncut_left, uncut_between })
     }
 }

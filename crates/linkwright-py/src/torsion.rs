@@ -96,11 +96,7 @@ pub(crate) struct Extremes {
 /// Extremes of waves and their places. Coefficients (harmonics, waves), real and
 /// imaginary part in turn.
 #[pyfunction]
-pub(crate) fn torsion_waves(
-    py: Python<'_>,
-    coefficients: Floats<'_>,
-    waves: usize,
-) -> PyResult<Extremes> {
+pub(crate) fn torsion_waves(py: Python<'_>, coefficients: Floats<'_>, waves: usize) -> PyResult<Extremes> {
     let (coefficients, _) = coefficients.as_slice()?.as_chunks();
     if waves > 0 && coefficients.len() % waves != 0 {
         return Err(PyValueError::new_err("coefficients do not have a place for every wave"));

@@ -230,9 +230,7 @@ pub(crate) fn system(
 fn law(py: Python<'_>, law: &TorqueLaw, curves: &mut Shelf<Curve>) -> torque::Law {
     match *law {
         TorqueLaw::Constant {} => torque::Law::Constant,
-        TorqueLaw::Even { speed, exponent } => {
-            torque::Law::Even { inverse_speed: 1.0 / speed, exponent }
-        }
+        TorqueLaw::Even { speed, exponent } => torque::Law::Even { inverse_speed: 1.0 / speed, exponent },
         TorqueLaw::Odd { speed, exponent } => torque::Law::Odd { inverse_speed: 1.0 / speed, exponent },
         TorqueLaw::OverSpeed { ref curve } => torque::Law::OverSpeed { curve: curves.place(py, curve) },
         TorqueLaw::Following { gain, ref curve } => {
