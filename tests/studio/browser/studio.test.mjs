@@ -66,6 +66,16 @@ const handle = async (point) => {
   const box = await page.locator(`.handle[data-point="${point}"]`).boundingBox();
   return [box.x + box.width / 2, box.y + box.height / 2];
 };
+/** What the page shows is painted after it is known: asked again until it is so. */
+const shows = async (ask, is) => {
+  const end = Date.now() + PATIENCE;
+  for (;;) {
+    const answer = await ask();
+    if (is(answer)) return;
+    assert.ok(Date.now() < end, `${JSON.stringify(answer)} stays on the page`);
+    await new Promise((resolve) => setTimeout(resolve, 20));
+  }
+};
 const near = (found, wanted) => assert.ok(Math.abs(found - wanted) <= 1e-9 * Math.abs(wanted), `${found} is not ${wanted}`);
 
 test("the address has lost its token, and opens once", async () => {
@@ -83,7 +93,7 @@ test("nothing moves by itself where less motion is wanted; play, pause, step and
   await page.getByRole("button", { name: "One step on" }).click();
   assert.notEqual(await time(), at);
   await page.locator("#scrub").fill("45");
-  await page.waitForFunction(() => /φ\s+90\.0°/.test(globalThis.document.querySelector("#instant").textContent));
+  await shows(() => page.locator("#instant").textContent(), (words) => /φ\s+90\.0°/.test(words));
 });
 
 test("a slider changes the number as the command line does, and one undo takes the gesture back", async () => {
@@ -102,7 +112,7 @@ test("a slider changes the number as the command line does, and one undo takes t
   await page.keyboard.press("Control+z");
   await known();
   assert.equal(await page.evaluate(() => globalThis.studio.state.text.value), text);
-  assert.ok(await page.getByRole("button", { name: "Undo" }).isDisabled());
+  await shows(() => page.getByRole("button", { name: "Undo" }).isDisabled(), Boolean);
 });
 
 test("a joint drags, its lengths follow, Escape gives the pose back, release outside ends it", async () => {
@@ -122,8 +132,7 @@ test("a joint drags, its lengths follow, Escape gives the pose back, release out
   await known();
   const changed = await page.evaluate(() => globalThis.studio.state.text.value);
   assert.notEqual(changed, text);
-  const [X, Y] = await handle("A1");
-  assert.ok(Math.hypot(X - x - 12, Y - y + 25) < 2, "the joint is not where it was dragged to");
+  await shows(() => handle("A1"), ([X, Y]) => Math.hypot(X - x - 12, Y - y + 25) < 2);
   await page.keyboard.press("Control+s");
   await page.waitForFunction(() => !globalThis.studio.state.unsaved.value);
   assert.equal(readFileSync(`${folder}/carts.toml`, "utf8"), changed);
@@ -162,7 +171,7 @@ test("units hold everywhere at once, and a number may have its own", async () =>
   await field.fill("8 in");
   await field.press("Enter");
   await known();
-  assert.equal(await field.inputValue(), "203.2");
+  await shows(() => field.inputValue(), (number) => number === "203.2");
   assert.match(await page.evaluate(() => globalThis.studio.state.text.value), /radius = "8 in"/);
 });
 
@@ -171,7 +180,7 @@ test("a problem stands beside its entry, and the text mends it", async () => {
   await field.fill("-1");
   await field.press("Enter");
   await page.locator(".row .problem").first().waitFor();
-  assert.match(await page.locator(".row .problem").first().textContent(), /greater than 0/);
+  await shows(() => page.locator(".row .problem").first().textContent(), (words) => /greater than 0/.test(words));
   await page.getByRole("tab", { name: "File" }).click();
   const area = page.getByLabel("Text of the machine file");
   await area.fill((await area.inputValue()).replace('"-0.03937008 in"', '"8 in"').replace(/radius = "-.*"/, 'radius = "8 in"'));
@@ -183,7 +192,7 @@ test("plots have their data and their files", async () => {
   const panel = page.locator(".panel").first();
   await panel.hover();
   await panel.getByRole("button", { name: "Data" }).click();
-  assert.ok((await panel.locator("tbody tr").count()) > 100);
+  await shows(() => panel.locator("tbody tr").count(), (rows) => rows > 100);
   for (const kind of ["CSV", "SVG", "PNG"]) {
     const [download] = await Promise.all([page.waitForEvent("download"), panel.getByRole("button", { name: kind }).click()]);
     assert.ok(download.suggestedFilename().endsWith(kind.toLowerCase()));
@@ -197,7 +206,7 @@ test("a result is pulled, and the entries that follow give it on the command lin
   await page.getByRole("tab", { name: "Design" }).click();
   await page.locator("#goal").selectOption("steady_state.unevenness");
   await page.locator(`[data-free="${PHASE}"]`).check();
-  assert.match(await page.locator(`[data-slope="${PHASE}"]`).textContent(), /δ rises by [\d.]+ % per °/);
+  await shows(() => page.locator(`[data-slope="${PHASE}"]`).textContent(), (words) => /δ rises by [\d.]+ % per °/.test(words));
   const before = await scalar("steady_state.unevenness");
   const box = await page.locator("#pull").boundingBox();
   await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
@@ -221,7 +230,7 @@ test("a pinned machine stays beside the one at hand", async () => {
   const pinned = await scalar("steady_state.unevenness");
   await page.keyboard.press("Control+z");
   await known();
-  assert.match(await page.locator("#variants").textContent(), /%/);
+  await shows(() => page.locator("#variants").textContent(), (words) => /%/.test(words));
   assert.equal(await page.evaluate(() => globalThis.studio.state.pins.value[0].scalars["steady_state.unevenness"]), pinned);
   await page.getByRole("button", { name: "Back to it" }).click();
   await known();
