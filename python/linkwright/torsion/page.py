@@ -1,15 +1,14 @@
-"""The page of a study of torsional vibration, from the template of all reports."""
+"""What the report of a study of torsional vibration says, and its page."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 
-import linkwright
-from linkwright.kernel.page.formulas import Formula, formula
-from linkwright.kernel.page.html import environment, picture
+from linkwright.kernel.page.content import Content, Few, Part
+from linkwright.kernel.page.formulas import Formula
+from linkwright.kernel.page.html import html
 from linkwright.kernel.page.numbers import number
 from linkwright.machine.table import grouped, machine_parts
 from linkwright.machine.write import dumps
@@ -41,28 +40,27 @@ def torsion_html(study: TorsionStudy, *, command: str = "") -> str:
     str
         The page; the same study gives the same page.
     """
-    drawn = [
-        (torsion_figure, picture(torsion_figure.figure, torsion_figure.name, torsion_figure.title))
-        for torsion_figure in torsion_figures(study)
-    ]
-    context: dict[str, Any] = {
-        "study": study,
-        "machine": study.machine,
-        "balance": study.balance,
-        "headline": list(_headline(study)),
-        "groups": grouped(machine_parts(study.machine)),
-        "tables": list(study_tables(study)),
-        "figures": drawn,
-        "scene": "null",
-        "topper_scene": "null",
-        "formulas": list(_formulas(study)),
-        "paper": _SOURCES,
-        "assumptions": list(_assumptions(study)),
-        "file": dumps(study.machine),
-        "command": command or "linkwright torsion machine.toml --out report",
-        "version": linkwright.__version__,
-    }
-    return environment().get_template("report.html").render(context)
+    return html(torsion_content(study, command))
+
+
+def torsion_content(study: TorsionStudy, command: str = "") -> Content:
+    """What the report of a study of torsional vibration says."""
+    return Content(
+        title=study.machine.name,
+        lead=study.machine.description or "",
+        source=study.machine.source or "",
+        notes=[("Scaled loads", study.balance)] if study.balance else [],
+        findings=study.findings,
+        warnings=study.warnings,
+        headline=[Few(*each) for each in _headline(study)],
+        parts=[Part("Results", list(study_tables(study)), list(torsion_figures(study)))],
+        formulas=list(_formulas(study)),
+        papers=_SOURCES,
+        groups=grouped(machine_parts(study.machine)),
+        assumptions=list(_assumptions(study)),
+        file=dumps(study.machine),
+        command=command or "linkwright torsion machine.toml --out report",
+    )
 
 
 def _headline(study: TorsionStudy) -> Iterator[tuple[str, str, str]]:
@@ -102,19 +100,19 @@ def _largest_torque(peaks: TorquePeaks) -> Iterator[tuple[str, str, str]]:
 def _formulas(study: TorsionStudy) -> Iterator[Formula]:
     """What the numbers rest on."""
     den_hartog = "Den Hartog, chapter 5"
-    yield formula("Free vibration", "( K − ω^2 J ) θ = 0", den_hartog)
+    yield Formula("Free vibration", "( K − ω^2 J ) θ = 0", den_hartog)
     if study.free.along:
-        yield formula("Distributed inertia of a uniform shaft", "β = ω root(J|k)", "Rao, section 8.4")
-        yield formula("", "M_1 = frac(k β|sin β) ( θ_1 cos β − θ_2 )", "Wittrick and Williams, 1971")
+        yield Formula("Distributed inertia of a uniform shaft", "β = ω root(J|k)", "Rao, section 8.4")
+        yield Formula("", "M_1 = frac(k β|sin β) ( θ_1 cos β − θ_2 )", "Wittrick and Williams, 1971")
     if study.forced is None:
         return
-    yield formula("Forced vibration at order ν and speed Ω", "ω = ν Ω", den_hartog)
-    yield formula("", "( K ( 1 + i η ) + i ω C − ω^2 J ) θ_ν = M_ν", "Ker Wilson, vol. 4")
-    yield formula("Orders in phase", "θ ( t ) = Σ Re θ_ν e^iνΩt", "Ker Wilson, vol. 2")
-    yield formula("Speed fluctuation", "δ = frac(ω_max − ω_min|ω_m)", "Paper 3")
-    yield formula("Heat", "P = frac(1|2) Σ ( ω^2 c + ω η k ) Δ^2", den_hartog)
+    yield Formula("Forced vibration at order ν and speed Ω", "ω = ν Ω", den_hartog)
+    yield Formula("", "( K ( 1 + i η ) + i ω C − ω^2 J ) θ_ν = M_ν", "Ker Wilson, vol. 4")
+    yield Formula("Orders in phase", "θ ( t ) = Σ Re θ_ν e^iνΩt", "Ker Wilson, vol. 2")
+    yield Formula("Speed fluctuation", "δ = frac(ω_max − ω_min|ω_m)", "Paper 3")
+    yield Formula("Heat", "P = frac(1|2) Σ ( ω^2 c + ω η k ) Δ^2", den_hartog)
     if study.machine.train is not None and study.machine.train.installed:
-        yield formula(
+        yield Formula(
             "Inertia torque of a throw", "M = − frac(1|2) J′ ( φ ) Ω^2", "Biezeno and Grammel, vol. 4"
         )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator
 
-from linkwright.kernel.page.formulas import formula
+from linkwright.kernel.page.formulas import Formula
 from linkwright.kernel.page.numbers import degrees, number
 from linkwright.kernel.page.table import Row, Table, known_rows, with_unit
 from linkwright.kernel.quantities import in_table
@@ -14,8 +14,8 @@ _SOURCE = "Rattan, Theory of Machines, chapter 13"
 
 # Of the diagram, with their sources.
 FORMULAS = (
-    formula("Energy that the shaft has taken up", "E = ∫ ( T − M ) d φ , Δ E = E_max − E_min", _SOURCE),
-    formula("Coefficient of speed fluctuation", "δ = frac(ω_max − ω_min|ω) = frac(Δ E|J ω^2)", _SOURCE),
+    Formula("Energy that the shaft has taken up", "E = ∫ ( T − M ) d φ , Δ E = E_max − E_min", _SOURCE),
+    Formula("Coefficient of speed fluctuation", "δ = frac(ω_max − ω_min|ω) = frac(Δ E|J ω^2)", _SOURCE),
 )
 
 # What is taken for granted, in sentences.

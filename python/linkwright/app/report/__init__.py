@@ -4,7 +4,8 @@
 | --- | --- |
 | `assumptions` | What was taken for granted, as it applies to a machine |
 | `figures` | The figures of a study, with captions |
-| `page` | The page: `report_html`, `write_report` |
+| `page` | What the report says, and its page: `report_html`, `write_report` |
 | `scene` | The moving sketch: positions over one revolution |
+| `sketch` | The mechanism at one instant, for paper |
 | `tables` | Results as tables, for the page and for the terminal |
 """

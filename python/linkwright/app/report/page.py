@@ -1,25 +1,28 @@
-"""The page of a report, by Jinja2, from `templates/report.html`."""
+"""What the report of a study says, and its page."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
-from typing import Any
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, Any
 
-import linkwright
 from linkwright.app.report.assumptions import assumptions
 from linkwright.app.report.figures import figures
-from linkwright.app.report.scene import scene
+from linkwright.app.report.scene import moving_scene, scene
 from linkwright.app.report.tables import DETAIL_TABLES, MOTION_TABLES, tables
 from linkwright.app.study import Study
 from linkwright.drive.model.motor import InductionMotor
 from linkwright.kernel.files.output import write_file
+from linkwright.kernel.page.content import Content, Few, Part
 from linkwright.kernel.page.formulas import PAPER_1, Formula, formulas
-from linkwright.kernel.page.html import embedded, environment, picture
+from linkwright.kernel.page.html import html
 from linkwright.kernel.page.numbers import degrees, number
 from linkwright.kernel.public import public
 from linkwright.machine.table import grouped, machine_parts
 from linkwright.machine.write import dumps
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 @public
@@ -58,33 +61,53 @@ def report_html(study: Study, *, command: str = "") -> str:
     str
         The page; the same study gives the same page.
     """
-    return environment().get_template("report.html").render(_context(study, command))
+    return html(content(study, command))
 
 
-def _context(study: Study, command: str) -> dict[str, Any]:
-    """All that the template asks for."""
-    drawn = [(figure, picture(figure.figure, figure.name, figure.title)) for figure in figures(study)]
-    moving = [each for each in drawn if each[0].name.startswith(_MOTION_FIGURES)]
-    listed = tables(study)
-    return {
-        "study": study,
-        "machine": study.machine,
-        "headline": list(_headline(study)),
-        "groups": grouped(machine_parts(study.machine)),
-        "motion_tables": [each for each in listed if each.name in MOTION_TABLES],
-        "motion_figures": moving,
-        "tables": [each for each in listed if each.name not in (*MOTION_TABLES, *DETAIL_TABLES)],
-        "figures": [each for each in drawn if each not in moving],
-        "details": [each for each in listed if each.name in DETAIL_TABLES],
-        "scene": embedded(scene(study)),
-        "topper_scene": embedded(knife_scene(study)),
-        "formulas": _formulas(study),
-        "paper": _papers(study),
-        "assumptions": assumptions(study),
-        "file": dumps(study.machine),
-        "command": command or "linkwright run machine.toml --out report",
-        "version": linkwright.__version__,
-    }
+def content(study: Study, command: str = "") -> Content:
+    """What the report of a study says."""
+    machine = study.machine
+    drawn, listed = list(figures(study)), tables(study)
+    moving = [each for each in drawn if each.name.startswith(_MOTION_FIGURES)]
+    motion = [each for each in listed if each.name in MOTION_TABLES]
+    details = [each for each in listed if each.name in DETAIL_TABLES]
+    results = [each for each in listed if each not in motion and each not in details]
+    parts = (
+        Part("Motion", motion, moving),
+        Part("Results", results, [each for each in drawn if each not in moving]),
+        Part("Details", details),
+    )
+    scenes = {"topper": knife_scene(study), "mechanism": scene(study)}
+    return Content(
+        title=machine.name,
+        lead=machine.description or "",
+        source=machine.source or "",
+        findings=study.findings,
+        warnings=study.warnings,
+        headline=[Few(*each) for each in _headline(study)],
+        scenes={name: each for name, each in scenes.items() if each is not None},
+        sketch=_sketch(study) if scenes["mechanism"] is not None else None,
+        parts=[part for part in parts if part.tables or part.figures],
+        formulas=_formulas(study),
+        papers=_papers(study),
+        groups=grouped(machine_parts(machine)),
+        assumptions=assumptions(study),
+        file=dumps(machine),
+        command=command or "linkwright run machine.toml --out report",
+    )
+
+
+def _sketch(study: Study) -> Callable[[], Figure]:
+    """Draws the mechanism at one instant."""
+
+    def drawn() -> Figure:
+        from linkwright.app.report.sketch import sketch_figure
+
+        moving = moving_scene(study.machine, study.steady_state)
+        assert moving is not None
+        return sketch_figure(moving)
+
+    return drawn
 
 
 # Figures of the part on motion begin so.

@@ -1,4 +1,7 @@
-"""Formulas of a report, as MathML, with their sources."""
+"""Formulas of a report with their sources, in a notation that becomes MathML or Typst.
+
+Symbols have spaces between them; ``x_y``, ``x^y``, ``frac(a|b)`` and ``root(a)`` do more.
+"""
 
 from __future__ import annotations
 
@@ -12,31 +15,21 @@ PAPER_1 = (
 
 
 class Formula(NamedTuple):
-    """A formula: what it says, its MathML, and where it is from."""
+    """A formula: what it says, the formula in the notation of this module, and where it is from."""
 
     words: str
-    math: str
+    text: str
     source: str
 
 
-def formula(words: str, text: str, source: str) -> Formula:
-    """A formula of symbols with spaces between them.
-
-    Parameters
-    ----------
-    words : str
-        What it says.
-    text : str
-        Symbols; ``x_y``, ``x^y``, ``frac(a|b)`` and ``root(a)`` do more.
-    source : str
-        Where it is from.
-    """
-    return Formula(words, _math(text), source)
-
-
-def _math(text: str) -> str:
-    """MathML of symbols with spaces between them; ``x_y``, ``x^y``, ``frac(a|b)`` and ``root(a)`` do more."""
+def mathml(text: str) -> str:
+    """A formula as MathML."""
     return f'<math displaystyle="true"><mrow>{_row(text)}</mrow></math>'
+
+
+def typst(text: str) -> str:
+    """A formula as Typst writes it, without the dollar signs around it."""
+    return " ".join(_typst_piece(match) for match in _PIECE.finditer(text))
 
 
 # What stands between two formulas, with room around it.
@@ -84,45 +77,74 @@ def _tag(text: str) -> str:
     return "mi" if text[0].isalpha() else "mo"
 
 
+def _typst_piece(match: re.Match[str]) -> str:
+    """A fraction, a root, or one symbol."""
+    if match[1] == "frac":
+        over, under = match[2].split("|")
+        return f"frac({typst(over)}, {typst(under)})"
+    if match[1] == "root":
+        return f"sqrt({typst(match[2])})"
+    if match[3] in _BETWEEN:
+        return {",": '"," quad'}.get(match[3], f'quad "{match[3]}" quad')
+    base, _, power = match[3].partition("^")
+    base, _, index = base.partition("_")
+    below = f'_"{index}"' if index else ""
+    above = f'^"{power}"' if power else ""
+    return "".join(_typst_part(part) for part in _PARTS.findall(base)).strip() + below + above
+
+
+# Words, numbers, a letter or sign with its primes.
+_PARTS = re.compile(r"[A-Za-z]{2,}|[\d.]+|.′*")
+
+# Signs that mean something else in Typst.
+_BAR = 'class("normal", bar.v)'
+_SIGNS = {"|": _BAR, "∣": _BAR, "/": "slash"}
+
+
+def _typst_part(part: str) -> str:
+    """A word as an operator, a sign by its name, all else as it is; none runs into the next."""
+    if len(part) > 1 and part.isascii() and part.isalpha():
+        return f'op("{part}") '
+    return _SIGNS.get(part, part.replace("′", "'")) + " "
+
+
 MOTION = Formula(
     "Motion of the machine, reduced to the crank",
-    _math("J ω frac(d ω|d φ) + frac(1|2) ω^2 frac(d J|d φ) = M_d − M_r"),
+    "J ω frac(d ω|d φ) + frac(1|2) ω^2 frac(d J|d φ) = M_d − M_r",
     "paper 1 (1)",
 )
 INERTIA = Formula(
     "Reduced inertia, over all bodies and the drive",
-    _math("J = J_0 + Σ ( m |p′|^2 + J_S ψ′^2 )"),
+    "J = J_0 + Σ ( m |p′|^2 + J_S ψ′^2 )",
     "paper 1 (10), for any linkage",
 )
 LOAD = Formula(
     "Reduced torque of all forces and torques",
-    _math("M_r = − Σ F · p′ − Σ M ψ′"),
+    "M_r = − Σ F · p′ − Σ M ψ′",
     "paper 1 (5), for any linkage",
 )
 KLOSS = Formula(
     "Torque of an induction motor over its slip",
-    _math("M = frac(2 M_k|s / s_k + s_k / s) , s = frac(ω_0 − ω_m|ω_0)"),
+    "M = frac(2 M_k|s / s_k + s_k / s) , s = frac(ω_0 − ω_m|ω_0)",
     "Kloss 1909; paper 1 (8)",
 )
-GEARBOX = Formula("Driving torque at the crank, behind the gearbox", _math("M_d = M i η"), "paper 1 (9)")
-UNEVENNESS = Formula(
-    "Coefficient of speed fluctuation", _math("δ = frac(ω_max − ω_min|ω_mean)"), "paper 1 (13)"
-)
-DYNAMISM = Formula("Dynamic factor", _math("H = frac(∣ε∣_max|ω_mean^2)"), "paper 1 (14)")
-COEFFICIENT = Formula("Combined non-uniformity index", _math("k_p = δ^2 + H"), "paper 1 (15)")
+GEARBOX = Formula("Driving torque at the crank, behind the gearbox", "M_d = M i η", "paper 1 (9)")
+UNEVENNESS = Formula("Coefficient of speed fluctuation", "δ = frac(ω_max − ω_min|ω_mean)", "paper 1 (13)")
+DYNAMISM = Formula("Dynamic factor", "H = frac(∣ε∣_max|ω_mean^2)", "paper 1 (14)")
+COEFFICIENT = Formula("Combined non-uniformity index", "k_p = δ^2 + H", "paper 1 (15)")
 MEANS = Formula(
     "Mean speed, of the extremes or over time",
-    _math("ω_mean = frac(ω_max + ω_min|2) or ω_mean = frac(2 π|T)"),
+    "ω_mean = frac(ω_max + ω_min|2) or ω_mean = frac(2 π|T)",
     "paper 1 takes the first",
 )
 LIMIT = Formula(
     "Constant-energy limit: motor and loads switched off",
-    _math("ω ∝ frac(1|root(J)) , ε = − frac(ω^2|2 J) frac(d J|d φ)"),
+    "ω ∝ frac(1|root(J)) , ε = − frac(ω^2|2 J) frac(d J|d φ)",
     "(1) without torques",
 )
 STEPS = Formula(
     "Step method",
-    _math("ω_k+1 = frac(( M_d − M_r ) Δφ|J_k ω_k) + frac(3 J_k − J_k+1|2 J_k) ω_k"),
+    "ω_k+1 = frac(( M_d − M_r ) Δφ|J_k ω_k) + frac(3 J_k − J_k+1|2 J_k) ω_k",
     "Baranov; paper 1 (4)",
 )
 

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import json
 import re
+from base64 import b64encode
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from linkwright.kernel.figure.inline import inline_svg
+from linkwright.kernel.page.content import Content
+from linkwright.kernel.page.formulas import mathml
 from linkwright.kernel.result import finite
 
 if TYPE_CHECKING:
@@ -17,19 +20,47 @@ if TYPE_CHECKING:
 _FOLDER = Path(__file__).with_name("templates")
 
 # A symbol of one letter and its index.
-_INDEX = re.compile(r"\b([^\W\d_])_(\w+(?:,\w+)?)")
+INDEX = re.compile(r"\b([^\W\d_])_(\w+(?:,\w+)?)")
 
 
-def picture(figure: Any, name: str, title: str) -> Markup:
+def html(content: Content) -> str:
+    """A report as one HTML page that needs nothing else: style, figures and scripts are in it.
+
+    Parameters
+    ----------
+    content : Content
+        What it says.
+
+    Returns
+    -------
+    str
+        The page; the same content gives the same page.
+    """
+    import linkwright
+
+    template = environment().get_template("report.html")
+    return template.render(content=content, version=linkwright.__version__)
+
+
+def _picture(figure: Any, name: str, title: str) -> Markup:
     """A figure as markup inside the page."""
     from markupsafe import Markup
 
     return Markup(inline_svg(figure, name, title))
 
 
-def embedded(scene: dict[str, Any] | None) -> str:
+def _embedded(scene: dict[str, Any]) -> Markup:
     """Data for a script element: nothing in it may end that element."""
-    return json.dumps(finite(scene), separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
+    from markupsafe import Markup
+
+    text = json.dumps(finite(scene), separators=(",", ":"), allow_nan=False)
+    return Markup(text.replace("<", "\\u003c"))
+
+
+def _logo(logo: tuple[str, bytes]) -> str:
+    """A picture as an address that holds it."""
+    kind = {"svg": "svg+xml", "jpg": "jpeg"}.get(logo[0], logo[0])
+    return f"data:image/{kind};base64,{b64encode(logo[1]).decode()}"
 
 
 def environment() -> Environment:
@@ -44,7 +75,10 @@ def environment() -> Environment:
         lstrip_blocks=True,
     )
     environment.filters["index"] = _with_index
-    environment.filters["safe_math"] = _as_markup
+    environment.filters["mathml"] = lambda text: _as_markup(mathml(text))
+    environment.filters["embedded"] = _embedded
+    environment.filters["logo"] = _logo
+    environment.globals["picture"] = _picture
     environment.globals["include_raw"] = _raw
     return environment
 
@@ -53,7 +87,7 @@ def _with_index(text: str) -> Markup:
     """A text in which the index of each symbol is lowered."""
     from markupsafe import Markup, escape
 
-    return Markup(_INDEX.sub(r"\1<sub>\2</sub>", str(escape(text))))
+    return Markup(INDEX.sub(r"\1<sub>\2</sub>", str(escape(text))))
 
 
 def _as_markup(text: str) -> Markup:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from linkwright.kernel.page.formulas import Formula, formula
+from linkwright.kernel.page.formulas import Formula
 from linkwright.kernel.page.numbers import degrees, number
 from linkwright.topping.model.topper import Topper
 from linkwright.topping.topper import TopperStudy
@@ -18,43 +18,43 @@ PAPER_5 = (
 _DERIVED = "derived for any law of the knife"
 
 _FORMULAS = (
-    formula("Diameter of the head in the plane of the cut", "d = 2 root(h_p ( D − h_p ))", "paper 5"),
-    formula("Condition of a complete cut", "t_y = frac(S_y|v_h) ≥ t_x = frac(S_x|v)", "paper 5 (1), (3)"),
-    formula(
+    Formula("Diameter of the head in the plane of the cut", "d = 2 root(h_p ( D − h_p ))", "paper 5"),
+    Formula("Condition of a complete cut", "t_y = frac(S_y|v_h) ≥ t_x = frac(S_x|v)", "paper 5 (1), (3)"),
+    Formula(
         "Travels, with the band of the heads",
         "S_x = ( d + 2 Δ ) ( cos α + sin^2 α ) , S_y = ( L − ( d + 2 Δ ) sin α ) cos α",
         "paper 5 (2), (8)",
     ),
-    formula("Length of the edge as printed", "L ≥ ( d + 2 Δ ) ( frac(v_h|v) cos α + sin α )", "paper 5 (10)"),
-    formula(
+    Formula("Length of the edge as printed", "L ≥ ( d + 2 Δ ) ( frac(v_h|v) cos α + sin α )", "paper 5 (10)"),
+    Formula(
         "Length that follows from the condition",
         "L ≥ ( d + 2 Δ ) [ frac(v_h|v) ( 1 + tan α sin α ) + sin α ]",
         "paper 5 (4), divided by cos α",
     ),
-    formula(
+    Formula(
         "Exact length at constant speed, worse direction",
         "L = frac(d root(v^2 + v_h^2) + 2 Δ v|v cos α − v_h sin ∣α∣)",
         "derived: width of the swept band",
     ),
-    formula(
+    Formula(
         "Middle of the edge from the head's centre, along the edge and normal to it",
         "q = v t sin α + ( y − δ ) cos α , p = v t cos α − ( y − δ ) sin α",
         _DERIVED,
     ),
-    formula(
+    Formula(
         "Exact length while p rises: all chords of the head",
         "L = 2 max [ ∣q∣ + root(frac(d^2|4) − p^2) ]",
         _DERIVED,
     ),
 )
 
-_EVERY_PHASE = formula(
+_EVERY_PHASE = Formula(
     "The same in every phase of a stroke S, if the edge never retreats",
     "L = frac(S + d + 2 Δ|cos α)",
     _DERIVED,
 )
 
-_SLICING = formula(
+_SLICING = Formula(
     "Draw-cut ratio: speed along the edge over speed normal to it",
     "frac(∣ v sin α + ẏ cos α ∣|v cos α − ẏ sin α)",
     "Goryachkin, Collected Works",

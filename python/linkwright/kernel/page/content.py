@@ -1,0 +1,131 @@
+"""What a report says, before it is a page or a PDF: one content, whatever it becomes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from linkwright.kernel.figure.captioned import Captioned
+    from linkwright.kernel.page.formulas import Formula
+    from linkwright.kernel.page.table import Table
+
+# Sections by name, in the order of a report; what failed and the warnings are always there.
+SECTIONS = ("summary", "sketch", "results", "formulas", "data", "assumptions", "repeat")
+
+
+class Part(NamedTuple):
+    """A part of the results: its heading, its tables, and its figures."""
+
+    title: str
+    tables: Sequence[Table] = ()
+    figures: Sequence[Captioned] = ()
+
+
+class Few(NamedTuple):
+    """One of the few numbers that one looks for first: its words, the number, its unit."""
+
+    word: str
+    value: str
+    unit: str
+
+
+class Heading(NamedTuple):
+    """What stands at the head of a report that is handed in: of a company file, each line if it is given."""
+
+    company: str = ""
+    address: str = ""
+    logo: tuple[str, bytes] | None = None
+    project: str = ""
+    document: str = ""
+    revision: str = ""
+    author: str = ""
+    checked: str = ""
+    date: str = ""
+
+    def rows(self) -> list[tuple[str, str]]:
+        """What is known of the document: word and entry."""
+        words = {
+            "Project": self.project,
+            "Document": self.document,
+            "Revision": self.revision,
+            "Author": self.author,
+            "Checked by": self.checked,
+            "Date": self.date,
+        }
+        return [(word, entry) for word, entry in words.items() if entry]
+
+
+_NO_HEADING = Heading()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Content:
+    """What a report says.
+
+    Attributes
+    ----------
+    heading : Heading
+        What stands at its head.
+    title, lead, source : str
+        Name of the machine, one sentence about it, where its numbers are from.
+    notes : sequence of tuple of str
+        What must be read first, heading and text.
+    findings, warnings : sequence of str
+        What the machine cannot do; what its designer should know besides.
+    headline : sequence of Few
+        The few numbers that one looks for first.
+    scenes : mapping of str to dict
+        Data of the moving drawings, by what they show: ``"mechanism"``, ``"topper"``.
+    sketch : callable or None
+        Draws the machine at one instant, for paper.
+    parts : sequence of Part
+        The results.
+    formulas : sequence of Formula
+        What the numbers rest on.
+    papers : str
+        Where the formulas are from.
+    groups : sequence
+        Data of the machine: heading → parts of `linkwright.machine.table`.
+    assumptions : sequence of str
+        What was taken for granted.
+    file : str
+        The machine as a machine file in SI; empty without one.
+    command : str
+        The command line that gives the same.
+    """
+
+    title: str
+    heading: Heading = _NO_HEADING
+    lead: str = ""
+    source: str = ""
+    notes: Sequence[tuple[str, str]] = ()
+    findings: Sequence[str] = ()
+    warnings: Sequence[str] = ()
+    headline: Sequence[Few] = ()
+    scenes: Mapping[str, dict[str, Any]] = field(default_factory=dict)
+    sketch: Callable[[], Figure] | None = None
+    parts: Sequence[Part] = ()
+    formulas: Sequence[Formula] = ()
+    papers: str = ""
+    groups: Sequence[tuple[str, Sequence[Any]]] = ()
+    assumptions: Sequence[str] = ()
+    file: str = ""
+    command: str = ""
+
+    def only(self, sections: Sequence[str]) -> Content:
+        """The content with these of `SECTIONS` alone."""
+        empty: dict[str, dict[str, Any]] = {
+            "summary": {"headline": ()},
+            "sketch": {"scenes": {}, "sketch": None},
+            "results": {"parts": ()},
+            "formulas": {"formulas": (), "papers": ""},
+            "data": {"groups": ()},
+            "assumptions": {"assumptions": ()},
+            "repeat": {"file": "", "command": ""},
+        }
+        left_out = [empty[name] for name in SECTIONS if name not in sections]
+        return replace(self, **{key: value for each in left_out for key, value in each.items()})

@@ -1,0 +1,244 @@
+"""A report as PDF on A4, typeset by Typst (extra ``report``), without a browser."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.figure.captioned import Captioned
+from linkwright.kernel.figure.svg import svg
+from linkwright.kernel.page.content import Content, Heading
+from linkwright.kernel.page.formulas import Formula, typst
+from linkwright.kernel.page.html import INDEX
+from linkwright.kernel.page.table import Table
+
+# A table of more columns is set in smaller letters, one of many more on a page that lies.
+_WIDE, _BROAD = 6, 10
+
+
+def pdf(content: Content) -> bytes:
+    """A report as PDF.
+
+    Parameters
+    ----------
+    content : Content
+        What it says.
+
+    Returns
+    -------
+    bytes
+        The file; the same content gives the same file.
+
+    Raises
+    ------
+    InputError
+        Typst is not installed.
+    """
+    try:
+        import typst as compiler
+    except ImportError:
+        raise InputError("a PDF needs Typst: pip install 'linkwright[report]'") from None
+
+    files = {"main.typ": document(content).encode()}
+    if content.heading.logo is not None:
+        ending, data = content.heading.logo
+        files[f"logo.{ending}"] = data
+    if content.sketch is not None:
+        files["sketch.svg"] = svg(content.sketch()).encode()
+    for part in content.parts:
+        files |= {_place(each): svg(each.figure).encode() for each in part.figures}
+    # Letters are those that Typst brings, so that the file is the same on every machine.
+    # Its types do not tell of files in memory.
+    compiled: Any = compiler.compile
+    made: bytes = compiled(files, ignore_system_fonts=True, timestamp=0)
+    return made
+
+
+def document(content: Content) -> str:
+    """The report as Typst's text; figures are files beside it."""
+    return "\n".join(_lines(content)) + "\n"
+
+
+def _lines(content: Content) -> Iterator[str]:
+    yield _STYLE.format(title=_string(content.title), foot=_foot(content))
+    yield from _head(content)
+    for title, text in content.notes:
+        yield _box(title, [text], "care")
+    if content.findings:
+        yield _box("Failed checks", content.findings, "bad")
+    if content.warnings:
+        yield _box("Warnings", content.warnings, "care")
+    if content.headline:
+        cells = "".join(f"few[{_text(w)}][{_text(v)}][{_text(u)}], " for w, v, u in content.headline)
+        columns = min(len(content.headline), 3)
+        yield f"#grid(columns: (1fr,) * {columns}, gutter: 6pt, {cells})"
+    if content.sketch is not None:
+        yield '== The mechanism\n#image("sketch.svg", width: 100%)'
+    for part in content.parts:
+        if part.tables:
+            yield f"== {_text(part.title)}"
+        yield from (_table(each) for each in part.tables)
+        yield from (_figure(each) for each in part.figures)
+    if content.formulas:
+        yield f"== Formulas\n{_formulas(content.formulas)}"
+        yield f"#note[{_text(content.papers)}.]" if content.papers else ""
+    if content.groups:
+        yield from _groups(content)
+    if content.assumptions:
+        yield "== Assumptions\n" + "\n".join(f"- {_text(each, indices=True)}" for each in content.assumptions)
+    if content.command:
+        yield from _repeat(content)
+
+
+def _head(content: Content) -> Iterator[str]:
+    """Company, title, what the document is, whose numbers they are."""
+    yield from _company(content.heading)
+    yield f"= {_text(content.title)}"
+    if content.lead:
+        yield _text(content.lead)
+    if content.source:
+        yield f"#note[Source of the numbers: {_text(content.source)}]"
+    if rows := content.heading.rows():
+        cells = ", ".join(f"note[{_text(word)}], [{_text(entry)}]" for word, entry in rows)
+        yield f"#grid(columns: (auto, 1fr, auto, 1fr), column-gutter: 10pt, row-gutter: 5pt, {cells})"
+
+
+def _company(heading: Heading) -> Iterator[str]:
+    if not heading.company and heading.logo is None:
+        return
+    picture = "" if heading.logo is None else f'#image("logo.{heading.logo[0]}", height: 14mm)'
+    words = f"*{_text(heading.company)}*" + (f" \\ {_text(heading.address)}" if heading.address else "")
+    yield f"#grid(columns: (1fr, auto), align: (left + horizon, right + horizon), [{words}], [{picture}])"
+    yield "#line(length: 100%, stroke: 0.6pt + soft)"
+
+
+def _foot(content: Content) -> str:
+    """What stands at the foot of each page, before its number."""
+    heading = content.heading
+    known = (
+        heading.company,
+        heading.document,
+        heading.revision and f"rev. {heading.revision}",
+        content.title,
+    )
+    return _text(" · ".join(each for each in known if each))
+
+
+def _box(title: str, texts: Sequence[str], colour: str) -> str:
+    """What must be read first."""
+    listed = "\n".join(f"- {_text(each)}" for each in texts) if len(texts) > 1 else _text(texts[0])
+    return f"#notice({colour})[*{_text(title)}*\n\n{listed}]"
+
+
+def _table(table: Table) -> str:
+    """A table whose head is repeated on each page; many columns are set smaller, or across."""
+    wide, n = len(table.heads) > _WIDE, len(table.heads)
+    columns = "(" + ", ".join(["auto" if wide else "1.6fr", *(["auto"] * (n - 1))]) + ",)"
+    heads = ", ".join(f"note[{_text(each)}]" for each in table.heads)
+    cells = ", ".join(
+        f"[{_text(cell, indices=place == 1)}]" for row in table.rows for place, cell in enumerate(row)
+    )
+    set_ = (
+        f"#data({columns}, size: {7 if wide else 9}pt, [{_text(table.title)}], "
+        f"table.header({heads}), {cells})"
+    )
+    return f"#page(flipped: true)[{set_}]" if n > _BROAD else set_
+
+
+def _figure(each: Captioned) -> str:
+    picture = f'#image("{_place(each)}", width: 100%)'
+    return f"#block(breakable: false)[== {_text(each.title)}\n{picture}\n#note[{_text(each.caption)}]]"
+
+
+def _place(each: Captioned) -> str:
+    """Name of the file of a figure: names of a machine may hold any letter."""
+    return "figure-" + each.name.encode().hex() + ".svg"
+
+
+def _formulas(formulas: Sequence[Formula]) -> str:
+    cells = ", ".join(
+        f"[{_text(each.words)}], [$ {typst(each.text)} $], note[{_text(each.source)}]" for each in formulas
+    )
+    return f"#grid(columns: (1.2fr, 2fr, 1fr), gutter: 8pt, align: horizon, {cells})"
+
+
+def _groups(content: Content) -> Iterator[str]:
+    """Data of the machine; what was not given is in italics."""
+    yield "== Machine data"
+    cells = []
+    for group, parts in content.groups:
+        for n, part in enumerate(parts):
+            entries = " #h(8pt) ".join(
+                f"#box(emph-if({str(not each.given).lower()})[#note[{_text(each.word)}] {_text(each.value)}])"
+                for each in part.entries
+            )
+            cells += [
+                f"[{'*' + _text(group) + '*' if n == 0 else ''}]",
+                f"[{_text(part.name)}]",
+                f"[{entries}]",
+            ]
+    yield f"#grid(columns: (2.6cm, 2.6cm, 1fr), column-gutter: 6pt, row-gutter: 7pt, {', '.join(cells)})"
+    yield "#note[Entries in italics were not given: they follow from others or have their usual value.]"
+
+
+def _repeat(content: Content) -> Iterator[str]:
+    """How the same numbers are made again."""
+    import linkwright
+
+    yield "== Reproduce this report"
+    yield f"Made by Linkwright {_text(linkwright.__version__)} with"
+    yield f"#code({_string(content.command)})"
+    if content.file:
+        yield "The machine as computed, overrides included, as a machine file in SI:"
+        yield f"#code({_string(content.file)})"
+
+
+def _string(text: str) -> str:
+    """A text as a string of Typst: nothing in it is a command."""
+    escaped = text.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n").replace("\r", "")
+    return f'"{escaped}"'
+
+
+def _text(text: str, *, indices: bool = False) -> str:
+    """A text as it stands; the index of each symbol lowered, if there may be some."""
+    if not text:
+        return ""
+    if not indices:
+        return f"#{_string(text)};"
+    pieces = INDEX.split(text)
+    # Three by three: what stands before, a letter, its index.
+    found = [f"#{_string(pieces[0])};" if pieces[0] else ""]
+    for letter, index, rest in zip(pieces[1::3], pieces[2::3], pieces[3::3], strict=True):
+        found.append(f"#{_string(letter)};#sub[#{_string(index)};]" + (f"#{_string(rest)};" if rest else ""))
+    return "".join(found)
+
+
+_STYLE = """#set document(title: {title}, date: none)
+#let soft = rgb("#5c6570")
+#let bad = rgb("#b3261e")
+#let care = rgb("#8a5a00")
+#set page(paper: "a4", margin: (x: 20mm, top: 18mm, bottom: 20mm), footer: context [
+  #set text(8pt, fill: soft)
+  {foot} #h(1fr) #counter(page).display("1 / 1", both: true)
+])
+#set text(font: "Libertinus Serif", size: 10pt, number-width: "tabular")
+#set par(leading: 0.55em)
+#show heading.where(level: 1): set text(17pt)
+#show heading.where(level: 2): set text(12pt)
+#show heading: set block(above: 1.4em, below: 0.8em)
+#show raw: set text(font: "DejaVu Sans Mono", size: 7pt)
+#let emph-if(wanted, body) = if wanted {{ emph(body) }} else {{ body }}
+#let note(body) = text(8.5pt, fill: soft, body)
+#let code(text) = block(width: 100%, fill: rgb("#f4f6f8"), inset: 6pt, radius: 3pt, raw(text, block: true))
+#let notice(colour, body) = block(width: 100%, stroke: (left: 3pt + colour), inset: (x: 8pt, y: 4pt), body)
+#let few(word, value, unit) = block(width: 100%, fill: rgb("#f4f6f8"), inset: 7pt, radius: 3pt)[
+  #note(word) \\ #text(14pt, value) #note(unit)
+]
+#let data(columns, size: 9pt, title, ..cells) = [
+  #set text(size)
+  #block(above: 1.2em, below: 0.5em, sticky: true, strong(title))
+  #table(columns: columns, stroke: none, inset: (x: 0pt, y: 3pt), column-gutter: 9pt,
+    table.hline(stroke: 0.4pt + soft), ..cells, table.hline(stroke: 0.4pt + soft))
+]
+"""

@@ -1,0 +1,71 @@
+"""A report as PDF: it is made of the same content as the page, and names of a file are words in it."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+import linkwright as lw
+from linkwright.app.report.page import content
+from linkwright.app.study import study
+from linkwright.kernel.page.formulas import Formula, typst
+from linkwright.kernel.page.typeset import document, pdf
+
+MACHINES = Path(__file__).parents[2] / "machines"
+
+# What Typst would take for commands, and what ends its texts.
+HOSTILE = """format = 1
+name = '#panic("x") $ * _ ] [ \\ "quoted" <label> @ref // https://x'
+description = "= heading #import \"y\""
+[mechanism.cranks."#A] \\"]
+radius = 0.1
+"""
+
+
+@pytest.fixture(scope="module")
+def two_carts() -> lw.Machine:
+    return lw.read(MACHINES / "roller_two_carts.toml")
+
+
+def test_same_study_gives_the_same_file(two_carts: lw.Machine) -> None:
+    told = content(study(two_carts)).only(("summary", "sketch", "formulas", "data", "assumptions", "repeat"))
+    made = pdf(told)
+    assert made.startswith(b"%PDF-")
+    assert pdf(told) == made
+
+
+def test_all_tables_findings_and_assumptions_are_in_it(two_carts: lw.Machine) -> None:
+    told = content(study(two_carts))
+    text = document(told)
+    for part in told.parts:
+        for table in part.tables:
+            assert table.title in text
+            assert all(str(cell) in text for row in table.rows for cell in (row[0], *row[2:]))
+        assert all(figure.caption.replace('"', '\\"') in text for figure in part.figures)
+    assert told.warnings
+    assert all(sentence in text for sentence in told.warnings)
+    assert two_carts.name in text
+
+
+def test_names_are_words_never_commands() -> None:
+    assert pdf(content(study(lw.loads(HOSTILE)))).startswith(b"%PDF-")
+
+
+def test_sections_that_are_left_out_are_not_there(two_carts: lw.Machine) -> None:
+    text = document(content(study(two_carts)).only(("data",)))
+    headings = re.findall(r'^== (?:#")?([^"\n]*)', text, re.MULTILINE)
+    assert headings == ["Machine data"]
+
+
+@pytest.mark.parametrize(
+    ("formula", "written"),
+    [
+        ("δ = frac(ω_max − ω_min|ω_mean)", 'δ = frac(ω_"max" − ω_"min", ω_"mean")'),
+        ("J′ ( φ ) Ω^2", 'J\' ( φ ) Ω^"2"'),
+        ("2 max [ root(d) ]", '2 op("max") [ sqrt(d) ]'),
+    ],
+)
+def test_formulas_in_the_notation_of_typst(formula: str, written: str) -> None:
+    assert typst(Formula("", formula, "").text) == written
