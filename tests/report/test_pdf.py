@@ -16,10 +16,10 @@ from linkwright.kernel.page.typeset import document, pdf
 MACHINES = Path(__file__).parents[2] / "machines"
 
 # What Typst would take for commands, and what ends its texts.
-HOSTILE = """format = 1
-name = '#panic("x") $ * _ ] [ \\ "quoted" <label> @ref // https://x'
-description = "= heading #import \"y\""
-[mechanism.cranks."#A] \\"]
+HOSTILE = r"""format = 1
+name = '#panic("x") $ * _ ] [ \ "quoted" <label> @ref // https://x'
+description = '= heading #import "y"'
+[mechanism.cranks.'#A] \"$']
 radius = 0.1
 """
 
