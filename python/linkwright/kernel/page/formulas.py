@@ -102,7 +102,7 @@ _SIGNS = {"|": _BAR, "∣": _BAR, "/": "slash"}
 
 
 def _typst_part(part: str) -> str:
-    """A word as an operator, a sign by its name, all else as it is; each apart from the next."""
+    """A word is an operator, a sign its name; a letter stays as it is. A blank ends each."""
     if len(part) > 1 and part.isascii() and part.isalpha():
         return f'op("{part}") '
     return _SIGNS.get(part, part.replace("′", "'")) + " "
