@@ -30,7 +30,7 @@ far = "minimise"
 
 
 def optimum(
-    tmp_path: Path, text: str, evaluations: int = 3000, method: str = "global", starts: int = 8
+    tmp_path: Path, text: str, evaluations: int = 700, method: str = "global", starts: int = 8
 ) -> Optimum:
     (tmp_path / "study.toml").write_text(text)
     return lw.optimise(lw.read_study(tmp_path / "study.toml"), evaluations, method=method, starts=starts)
@@ -55,7 +55,7 @@ def test_a_limit_that_is_active(tmp_path: Path) -> None:
 
 def test_whole_numbers_and_choices(tmp_path: Path) -> None:
     text = TEXT.replace('range = ["0.1 m", "0.3 m"]', 'values = ["0.1 m", "0.18 m", "0.3 m"]')
-    found = optimum(tmp_path, text, 400)
+    found = optimum(tmp_path, text, 260)
     assert found.variables["r"] == 0.18
     assert [each["r"] for each in found.tried] == [0.1, 0.18, 0.3]
     # The circle of 0.18 m passes the place at √(0.1² + 0.15²) - 0.18.
@@ -64,7 +64,7 @@ def test_whole_numbers_and_choices(tmp_path: Path) -> None:
 
 def test_what_cannot_be_kept_is_told(tmp_path: Path) -> None:
     with pytest.raises(FindingError, match=r"the nearest has y = 0\.3"):
-        optimum(tmp_path, TEXT + '[constraints]\ny = { min = "0.4 m" }\n', 1500)
+        optimum(tmp_path, TEXT + '[constraints]\ny = { min = "0.4 m" }\n', 500)
     with pytest.raises(InputError, match="goals"):
         optimum(tmp_path, TEXT.replace('[goals]\nfar = "minimise"\n', ""))
 
@@ -85,7 +85,7 @@ delta = "minimise"
 def test_the_best_phase_by_grid_by_evolution_and_by_gradient(tmp_path: Path) -> None:
     """To 1e-6 of the phase; each grid of 41 is a twentieth of the one before."""
     by_gradient = optimum(tmp_path, PHASE, method="gradient", starts=1)
-    by_evolution = optimum(tmp_path, PHASE, 600)
+    by_evolution = optimum(tmp_path, PHASE, 350)
     plan = lw.read_study(tmp_path / "study.toml")
     low, high = plan.axes[0].low, plan.axes[0].high
     while high - low > 2e-7:

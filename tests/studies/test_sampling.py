@@ -21,8 +21,6 @@ def drawn(method: str, start: int, stop: int) -> np.ndarray:
     return sampling.random(D, SEED, start, stop)
 
 
-# The sequence has full balance at powers of two alone, of which SciPy warns.
-@pytest.mark.filterwarnings("ignore:The balance properties")
 @pytest.mark.parametrize("method", ["sobol", "latin_hypercube", "random"])
 def test_parts_make_the_whole(method: str) -> None:
     whole = drawn(method, 0, N)
@@ -40,7 +38,6 @@ def test_every_stratum_of_a_latin_hypercube_holds_one_row() -> None:
     assert abs(np.corrcoef(whole.T)[0, 1]) < 0.2
 
 
-@pytest.mark.filterwarnings("ignore:The balance properties")
 def test_sobol_fills_space_more_evenly_than_chance() -> None:
     """The mean of Π 3u², whose integral is 1: its error falls nearly as 1/n, not as 1/√n."""
     n = 4096

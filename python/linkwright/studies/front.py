@@ -7,8 +7,7 @@ it is hollow, where weighted sums do not.
 References
 ----------
 .. [1] Haimes, Lasdon, Wismer, On a bicriterion formulation of the problems of integrated system
-identification and
-   system optimization, IEEE Trans. Syst. Man Cybern. 1 (1971) 296.
+   identification and system optimization, IEEE Trans. Syst. Man Cybern. 1 (1971) 296.
 """
 
 from __future__ import annotations

@@ -16,8 +16,7 @@ References
 ----------
 .. [1] Kraft, A software package for sequential quadratic programming, DFVLR-FB 88-28, 1988.
 .. [2] Kelley, The cutting-plane method for solving convex programs, J. SIAM 8 (1960) 703; with a trust
-region,
-   Nocedal and Wright, Numerical Optimization, 2nd ed. 2006, chapter 18.
+   region, Nocedal and Wright, Numerical Optimization, 2nd ed. 2006, chapter 18.
 """
 
 from __future__ import annotations
@@ -32,7 +31,7 @@ from numpy.typing import NDArray
 from linkwright.kernel.errors import FindingError
 from linkwright.studies.axes import Axis
 from linkwright.studies.plan import StudyPlan
-from linkwright.studies.slopes import slopes
+from linkwright.studies.slopes import Slopes, slopes
 
 Floats = NDArray[np.float64]
 
@@ -76,7 +75,7 @@ class Descent:
 
     def __init__(self, plan: StudyPlan, goal: str, sign: float) -> None:
         self.plan, self.goal, self.sign = plan, goal, sign
-        self.free = [i for i, each in enumerate(plan.axes) if not each.choices and not each.is_whole]
+        self.free = _free(plan)
         self.count = 0
         self.size = 1.0
         self._known: dict[bytes, _Place] = {}
@@ -106,9 +105,7 @@ class Descent:
     def _computed(self, share: Floats) -> _Place:
         whole = self.base.copy()
         whole[self.free] = np.clip(share, 0.0, 1.0)
-        values = np.array([float(axis.values(whole[i : i + 1])[0]) for i, axis in enumerate(self.plan.axes)])
-        rates = np.array([_rate(axis, x) for axis, x in zip(self.plan.axes, values, strict=True)])
-        found = slopes(self.plan, values, _STEP * np.abs(rates))
+        _, rates, found = _slopes(self.plan, whole)
         slope = {name: (each * rates)[self.free] for name, each in found.slopes.items()}
         over, over_slope = [], []
         for name, limit, way in limits(self.plan):
@@ -219,6 +216,18 @@ def limits(plan: StudyPlan) -> list[tuple[str, float, float]]:
     ]
 
 
+def _free(plan: StudyPlan) -> list[int]:
+    """Places of the variables that have derivatives."""
+    return [i for i, axis in enumerate(plan.axes) if not axis.choices and not axis.is_whole]
+
+
+def _slopes(plan: StudyPlan, share: Floats) -> tuple[Floats, Floats, Slopes]:
+    """Variables [SI] and their derivatives by the shares, (variables,) each; responses there."""
+    values = np.array([float(axis.values(share[i : i + 1])[0]) for i, axis in enumerate(plan.axes)])
+    rates = np.array([_rate(axis, x) for axis, x in zip(plan.axes, values, strict=True)])
+    return values, rates, slopes(plan, values, _STEP * np.abs(rates))
+
+
 def _rate(axis: Axis, value: float) -> float:
     """Derivative of a variable by its share."""
     if axis.is_log:
@@ -246,10 +255,8 @@ def prices(plan: StudyPlan, goal: str, sign: float, share: Floats, near: float) 
     """
     from scipy.optimize import nnls
 
-    values = np.array([float(axis.values(share[i : i + 1])[0]) for i, axis in enumerate(plan.axes)])
-    rates = np.array([_rate(axis, x) for axis, x in zip(plan.axes, values, strict=True)])
-    found = slopes(plan, values, _STEP * np.abs(rates))
-    free = [not axis.choices and not axis.is_whole for axis in plan.axes]
+    values, rates, found = _slopes(plan, share)
+    free = _free(plan)
     listed = list(_active(plan, found.values, values, rates, found.slopes, near))
     if not listed or goal in found.ties:
         return []

@@ -30,6 +30,7 @@ from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.studies import sampling
+from linkwright.studies.axes import Axis
 from linkwright.studies.engine import SOLVED, Rows, evaluate, sound_variant, variant
 from linkwright.studies.local import Descent, Price, prices
 from linkwright.studies.plan import StudyPlan
@@ -314,14 +315,17 @@ class _Search:
 def settled(plan: StudyPlan, shares: Floats) -> tuple[StudyPlan, list[int]]:
     """The study with what is no number chosen, and the places of the variables that are left."""
     kept = [i for i, each in enumerate(plan.axes) if each.is_number]
-    changes = [
-        (address, _chosen(each, share))
-        for each, share in zip(plan.axes, shares, strict=True)
-        if not each.is_number
-        for address in each.addresses
-    ]
-    machine = variant(plan.machine, changes) if changes else plan.machine
+    pairs = zip(plan.axes, shares, strict=True)
+    machine = _with_choices(plan, {axis.name: _chosen(axis, s) for axis, s in pairs if not axis.is_number})
     return replace(plan, machine=machine, axes=tuple(plan.axes[i] for i in kept)), kept
+
+
+def _with_choices(plan: StudyPlan, chosen: Mapping[str, Any]) -> Machine:
+    """The machine with values of the variables that are no numbers."""
+    changes = [
+        (place, chosen[axis.name]) for axis in plan.axes if axis.name in chosen for place in axis.addresses
+    ]
+    return variant(plan.machine, changes) if changes else plan.machine
 
 
 def _ends(plan: StudyPlan, shares: Floats) -> tuple[str, ...]:
@@ -346,13 +350,8 @@ def _in_words(plan: StudyPlan, goal: str, sign: float, price: Price) -> str:
 
 def machine_of(plan: StudyPlan, rows: Rows) -> Machine:
     """The machine of the first row."""
-    changes = [
-        (address, axis.choices[int(rows.columns[axis.name][0])])
-        for axis in plan.axes
-        if not axis.is_number
-        for address in axis.addresses
-    ]
-    base = variant(plan.machine, changes) if changes else plan.machine
+    lists = [axis for axis in plan.axes if not axis.is_number]
+    base = _with_choices(plan, {each.name: each.choices[int(rows.columns[each.name][0])] for each in lists})
     named = [(axis.name, axis.addresses) for axis in plan.axes if axis.is_number]
     named += [(each.name, each.addresses) for each in plan.derived]
     return sound_variant(
@@ -360,12 +359,13 @@ def machine_of(plan: StudyPlan, rows: Rows) -> Machine:
     )
 
 
-def _step(axis: Any) -> float:
+def _step(axis: Axis) -> float:
     """Distance of whole numbers as a share of their range; 0 for what may have any value."""
     return 1.0 / (axis.high - axis.low) if axis.is_whole else 0.0
 
 
-def _chosen(axis: Any, share: float) -> Any:
+def _chosen(axis: Axis, share: float) -> Any:
+    """What stands in the list at a share."""
     return axis.choices[min(int(share * len(axis.choices)), len(axis.choices) - 1)]
 
 

@@ -64,7 +64,9 @@ def sobol(n_variables: int, seed: int, start: int, stop: int) -> Floats:
     sequence = Sobol(n_variables, scramble=True, bits=30, rng=np.random.default_rng([seed, n_variables]))
     if start:
         sequence.fast_forward(start)
-    return sequence.random(stop - start)
+        return sequence.random(stop - start)
+    # One first: rows that are no power of two are known to be less even, which is no cause for a warning.
+    return np.vstack([sequence.random(1), sequence.random(max(stop - 1, 0))])[:stop]
 
 
 # A share of 1 would be the next stratum.
