@@ -113,6 +113,10 @@ _HOME = {
     "optimise": "studies.optimise",
     "front": "studies.front",
     "evaluate": "studies.engine",
+    "fit": "studies.fit",
+    "new_study": "studies.read",
+    "MeasuredRecord": "studies.record",
+    "read_record": "studies.record",
     "required_power": "sizing.power",
     "choose_motor": "sizing.motor",
     "choose_flywheel": "sizing.flywheel",
@@ -218,9 +222,13 @@ if TYPE_CHECKING:
     from linkwright.sizing.motor import choose_motor as choose_motor
     from linkwright.sizing.power import required_power as required_power
     from linkwright.studies.engine import evaluate as evaluate
+    from linkwright.studies.fit import fit as fit
     from linkwright.studies.front import front as front
     from linkwright.studies.optimise import optimise as optimise
+    from linkwright.studies.read import new_study as new_study
     from linkwright.studies.read import read_study as read_study
+    from linkwright.studies.record import MeasuredRecord as MeasuredRecord
+    from linkwright.studies.record import read_record as read_record
     from linkwright.studies.sweep import sweep as sweep
     from linkwright.studies.tolerance import tolerance as tolerance
     from linkwright.synthesis.dead_centre import crank_rocker as crank_rocker

@@ -116,6 +116,28 @@ x = { curve = "motion.A1.x", at = "0 deg" }
 [constraints]
 x = { max = 0.3 }
 """,
+    "wheel.toml": """
+format = 1
+name = "Wheel"
+[drive.flywheel]
+inertia = "2 kg m^2"
+on = "crank"
+[mechanism.cranks.A]
+radius = "80 mm"
+[loads.oil]
+kind = "viscous"
+on = "A"
+damping_torsional = "0.5 N m s/rad"
+""",
+    "coast.csv": """
+time [s], speed [rpm]
+0, 100.2
+1, 77.7
+2, 60.8
+3, 47.1
+4, 36.9
+5, 28.6
+""",
     "path.toml": """
 x = "60, 40, 0, -30, 0, 40 mm"
 y = "0, 30, 40, 10, -20, -20 mm"
@@ -227,6 +249,12 @@ CASES = {
         "{scatter.toml} --rows 20",
         "{scatter.toml} --rows 20 --set study.constraints.x.max=0.1",
         "{phases.toml} --rows 20",
+    ),
+    "fit": Case(
+        "{wheel.toml} --vary loads.oil.damping_torsional --record {coast.csv} --motion coast",
+        "{wheel.toml} --vary loads.oil.damping_torsional --vary drive.flywheel.inertia "
+        "--record {coast.csv} --motion coast",
+        "{wheel.toml} --vary loads.oil.nothing --record {coast.csv}",
     ),
     "sweep show": Case("{swept}", "{unswept}", "{phases.toml}"),
     "topper": Case("{topper}", "{topper} --set topper.edge_angle=89.9deg", "{topper} --set topper.nothing=1"),

@@ -54,6 +54,7 @@ COMMANDS = {
     "tolerance": Place(
         "Scatter of results with tolerances, and the yield.", "studies.commands.tolerance:tolerance"
     ),
+    "fit": Place("Numbers of a machine from a measured record.", "studies.commands.fit:fit"),
     "sensitivity": Place(
         "Derivatives of the results by the numbers of the file.", "sensitivity.commands:sensitivity"
     ),

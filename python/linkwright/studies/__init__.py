@@ -19,7 +19,13 @@
 | `workers` | Files of a sweep by processes beside |
 | `optimise` | The best machine, by CMA-ES over batches |
 | `local` | Down to the nearest best machine by exact derivatives, and what its limits cost |
+| `fit` | Numbers of a machine from a measured record |
+| `fit_search` | Where that search begins, and how noise is weighed |
+| `record` | A measured record |
+| `sought` | The numbers that a record is fitted by |
+| `predicted` | What a machine would have recorded, and its derivatives |
+| `identifiability` | What a record tells of numbers |
 | `show` | Rows of a folder, as they are drawn |
-| `tables`, `figures` | What is shown |
-| `commands/` | ``linkwright sweep``, ``tolerance`` |
+| `tables`, `figures`, `figures_of_fit` | What is shown |
+| `commands/` | ``linkwright sweep``, ``tolerance``, ``optimise``, ``fit`` |
 """

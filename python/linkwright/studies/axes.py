@@ -132,7 +132,9 @@ def axis(machine: Machine, name: str, variable: Variable) -> Axis:
     if variable.distribution is not None:
         scatter, low, high = _scatter(name, variable.distribution, found)
         return Axis(**known, low=low, high=high, steps=variable.steps or 0, distribution=scatter)
-    low, high = (_parsed(name, f"range.{i}", value, found) for i, value in enumerate(variable.range or ()))
+    if variable.range is None:
+        return Axis(**known, low=-math.inf, high=math.inf)
+    low, high = (_parsed(name, f"range.{i}", value, found) for i, value in enumerate(variable.range))
     _check_range(name, variable, low, high)
     return Axis(
         **known,

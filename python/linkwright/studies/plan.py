@@ -188,7 +188,7 @@ def _further_problems(study: StudyFile, listed: Floats | None) -> Iterable[Probl
     """What is missing, what has the name of something else, goals without a response."""
     if not study.variables:
         yield Problem("variables", "nothing", "a table for each entry that varies")
-    if not study.responses:
+    if not study.responses and study.fit is None:
         yield Problem("responses", "nothing", 'what is asked, such as delta = "steady_state.unevenness"')
     seen: dict[str, str] = {"row": "the number of a row", "status": "a column", "reason": "a column"}
     for table in ("variables", "derived", "responses"):
@@ -201,7 +201,7 @@ def _further_problems(study: StudyFile, listed: Floats | None) -> Iterable[Probl
             yield Problem(f"goals.{name}", show(name), "a response", suggestion(name, study.responses))
     for name, each in study.variables.items():
         is_given = any((each.range, each.values, each.distribution, each.tolerance))
-        if not is_given and listed is None:
+        if not is_given and listed is None and study.fit is None:
             yield Problem(f"variables.{name}", "nothing", "one of range, values, distribution, tolerance")
         needs_steps = each.values is None and not each.whole and each.steps is None
         is_grid = study.sweep.method == "grid" and _is_swept(study)

@@ -6,6 +6,7 @@ import os
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -85,6 +86,30 @@ def read_study(
         raise
     except MachineError as error:
         raise MachineFileError(_located(error.problems, text, str(place), at)) from None
+
+
+@public
+def new_study(machine: Machine, tables: Mapping[str, Any]) -> StudyPlan:
+    """Make a study of a machine from tables, as they stand in a study file.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    tables : Mapping
+        ``variables``, ``responses``, ``fit`` and so on.
+
+    Returns
+    -------
+    StudyPlan
+        Ready to run.
+
+    Raises
+    ------
+    MachineError
+        Something in it is wrong; all problems are listed with keys.
+    """
+    return plan(machine, StudyFile.model_validate(dict(tables)))
 
 
 def _text(path: Path) -> str:

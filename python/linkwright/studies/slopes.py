@@ -20,6 +20,7 @@ from linkwright.kernel.description.formula import names as names_in
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.numerics.formula_value import value
 from linkwright.kernel.numerics.tangent import Tangent, plain
+from linkwright.machine.machine import Machine
 from linkwright.sensitivity.sources import SOURCES, Source, source
 from linkwright.studies.engine import SOLVED, evaluate, sound_variant
 from linkwright.studies.plan import Formula, StudyPlan
@@ -49,12 +50,7 @@ def slopes(plan: StudyPlan, at: Floats, steps: Floats) -> Slopes:
     there is no other way, likewise. Raises FindingError: the machine there, or one a step beside it, has no
     answer.
     """
-    names = [axis.name for axis in plan.axes]
-    known: dict[str, Any] = {
-        name: Tangent(x, unit) for name, x, unit in zip(names, at, np.eye(len(at)), strict=True)
-    }
-    for derived in plan.derived:
-        known[derived.name] = _worked(derived, known)
+    known = _variables(plan, at)
     is_followed = not any(each is None for each in known.values())
     exact, ties = _analysed(plan, known) if is_followed else ({}, {})
     known |= exact
@@ -76,6 +72,39 @@ def slopes(plan: StudyPlan, at: Floats, steps: Floats) -> Slopes:
         frozenset(set(plan.responses) - rough),
         ties,
     )
+
+
+def _variables(plan: StudyPlan, at: Floats) -> dict[str, Any]:
+    """Variables and derived numbers with their derivatives by the variables; None where there are none."""
+    known: dict[str, Any] = {
+        axis.name: Tangent(x, unit) for axis, x, unit in zip(plan.axes, at, np.eye(len(at)), strict=True)
+    }
+    for derived in plan.derived:
+        known[derived.name] = _worked(derived, known)
+    return known
+
+
+def entries_at(plan: StudyPlan, at: Floats) -> dict[str, Any]:
+    """Address → its value at a place, `at` (variables,) [SI], with derivatives by the variables.
+
+    Raises InputError: a derived number has no derivatives.
+    """
+    return _entries(plan, _variables(plan, at))
+
+
+def machine_at(plan: StudyPlan, entries: Mapping[str, Any]) -> Machine:
+    """The machine with such entries, checked as a whole."""
+    return sound_variant(plan.machine, {place: float(plain(x)) for place, x in entries.items()})
+
+
+def _entries(plan: StudyPlan, known: Mapping[str, Any]) -> dict[str, Any]:
+    """Address → its value, as variables and derived numbers are known."""
+    named = [(axis.name, axis.addresses) for axis in plan.axes]
+    named += [(each.name, each.addresses) for each in plan.derived]
+    strange = [name for name, _ in named if known[name] is None]
+    if strange:
+        raise InputError(f"derived.{strange[0]}: found a formula without derivatives, expected a smooth one")
+    return {place: known[name] for name, places in named for place in places}
 
 
 def _tangent(x: Any, n: int) -> Tangent:
@@ -105,10 +134,8 @@ def _worked_all(plan: StudyPlan, known: Mapping[str, Any]) -> dict[str, Any] | N
 
 def _analysed(plan: StudyPlan, known: Mapping[str, Any]) -> tuple[dict[str, Tangent], dict[str, str]]:
     """Responses of analyses that have exact derivatives, and which of them tie."""
-    named = [(axis.name, axis.addresses) for axis in plan.axes]
-    named += [(each.name, each.addresses) for each in plan.derived]
-    entries = {place: known[name] for name, places in named for place in places}
-    machine = sound_variant(plan.machine, {place: float(plain(x)) for place, x in entries.items()})
+    entries = _entries(plan, known)
+    machine = machine_at(plan, entries)
     sources: dict[str, Source | None] = {}
     found: dict[str, Tangent] = {}
     ties: dict[str, str] = {}

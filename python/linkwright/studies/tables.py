@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import math
+
 from linkwright.kernel.page.numbers import number
 from linkwright.kernel.page.table import Row, Table
+from linkwright.studies.fit import Fit
 from linkwright.studies.front import Front
 from linkwright.studies.optimise import Optimum
 from linkwright.studies.sweep import Sweep
@@ -38,7 +41,9 @@ def sweep_tables(sweep: Sweep, units: dict[str, str]) -> list[Table]:
 
 
 def with_unit(value: float, unit: str) -> str:
-    """A value with its unit; an angle in degrees."""
+    """A value with its unit, an angle in degrees; a dash for none."""
+    if not math.isfinite(value):
+        return number(value)
     if unit == "rad":
         return f"{number(value * 57.29577951308232)}°"
     return f"{number(value)} {unit}".rstrip()
@@ -104,3 +109,21 @@ def front_tables(front: Front, units: dict[str, str]) -> list[Table]:
     return [
         Table("front", "Machines of which none is better in both goals", ("", "", *names, "active"), rows)
     ]
+
+
+def fit_tables(fit: Fit) -> list[Table]:
+    """Fitted numbers with their intervals, and their correlations."""
+    rows: list[Row] = []
+    for name, value in fit.values.items():
+        low, high = fit.intervals[name]
+        shown = (with_unit(each, fit.units[name]) for each in (value, fit.deviations[name], low, high))
+        rows.append((name, "", *shown))
+    heads = ("number", "", "value", "standard deviation", f"{100 * fit.level:g} % from", "to")
+    tables = [Table("fit", "Fitted numbers", heads, rows)]
+    names = list(fit.values)
+    if len(names) > 1:
+        pairs: list[Row] = [
+            (name, "", *(number(fit.correlations[name][other], 3) for other in names)) for name in names
+        ]
+        tables.append(Table("correlations", "Correlations", ("number", "", *names), pairs))
+    return tables

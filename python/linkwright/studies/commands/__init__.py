@@ -4,6 +4,7 @@
 | --- | --- |
 | `progress` | Rows done, rate and remaining time |
 | `optimise` | ``linkwright optimise`` |
+| `fit` | ``linkwright fit`` |
 | `tolerance` | ``linkwright tolerance`` |
 | `sweep` | ``linkwright sweep`` and ``linkwright sweep show`` |
 """

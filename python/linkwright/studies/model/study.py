@@ -16,7 +16,7 @@ from linkwright.kernel.description.base import CheckedDescription, Description, 
 from linkwright.kernel.description.problems import problems
 from linkwright.kernel.errors import MachineError
 from linkwright.kernel.limits import SWEEP_ROWS
-from linkwright.kernel.units import Angle
+from linkwright.kernel.units import Angle, Speed
 
 # A number, or a text with a unit, read when it is known what it stands for.
 Value = Annotated[float, Field(strict=True)] | str
@@ -171,6 +171,28 @@ class Sweep(CheckedDescription):
             yield fault("file", found=self.file, expected=expected)
 
 
+class FitOptions(Description):
+    """Of which motion a record is, and what is known of it besides."""
+
+    record: str | None = Field(
+        None, description="CSV with a head such as `time [s], speed [rpm]`, from the folder of this file."
+    )
+    motion: Literal["run_up", "run_down", "coast", "steady_state", "manoeuvre"] = Field(
+        "run_down",
+        description="Motor on; motor off and brake on; both off; steady motion over the crank angle; "
+        "the manoeuvre of a train.",
+    )
+    speed_start: Speed | None = Field(
+        None, ge=0, description="Crank speed at the first sample; without it, it is fitted."
+    )
+    angle_start: Angle | None = Field(
+        None, description="Crank angle at the first sample; without it, it is fitted."
+    )
+    torque_per_current: float | None = Field(
+        None, gt=0, description="Motor torque over recorded current [N m/A]; without it, it is fitted."
+    )
+
+
 class StudyFile(Description):
     """A study: beside its machine in a file of its own, or the table ``study`` of a machine file."""
 
@@ -190,6 +212,7 @@ class StudyFile(Description):
         default_factory=dict, description="What is wanted, by the name of the response."
     )
     sweep: Sweep = Field(default_factory=Sweep, description="How the rows of a sweep are drawn.")
+    fit: FitOptions | None = Field(None, description="A measured record that the variables are fitted to.")
 
     @model_validator(mode="wrap")
     @classmethod

@@ -1,0 +1,155 @@
+"""``linkwright fit``: numbers of a machine from a measured record."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+from linkwright.kernel.command.answer import Answer, hand_over
+from linkwright.kernel.command.common import Json, Outside, Sets
+from linkwright.kernel.command.out import Force, out_option, output_folder
+from linkwright.kernel.command.parameter import Option
+from linkwright.studies.commands.sweep import StudyArgument
+
+if TYPE_CHECKING:
+    from linkwright.studies.fit import Fit
+    from linkwright.studies.plan import StudyPlan
+
+Recorded = Annotated[
+    Path | None,
+    Option(
+        "--record",
+        metavar="CSV",
+        help="File with a head such as `time [s], speed [rpm]`; without it, that of the study.",
+        show_default=False,
+    ),
+]
+Vary = Annotated[
+    list[str] | None,
+    Option(
+        "--vary",
+        metavar="ADDRESS[=LOW:HIGH]",
+        help='Entry of a machine file that is sought, "drive.flywheel.inertia=50:200". May be given again.',
+        show_default=False,
+    ),
+]
+Motion = Annotated[
+    Literal["run_up", "run_down", "coast", "steady_state", "manoeuvre"] | None,
+    Option(
+        "--motion", help="What was recorded; without it, as the study says, or run_down.", show_default=False
+    ),
+]
+Level = Annotated[float, Option("--level", metavar="P", help="Probability that an interval holds the truth.")]
+Out = Annotated[Path | None, out_option("Write the fitted machine, a figure and results.json there.")]
+
+
+def fit(
+    file: StudyArgument,
+    record: Recorded = None,
+    vary: Vary = None,
+    motion: Motion = None,
+    level: Level = 0.95,
+    set: Sets = None,
+    allow_outside: Outside = False,
+    json: Json = False,
+    out: Out = None,
+    force: Force = False,
+) -> None:
+    """Fit numbers of a machine to a measured record, with confidence intervals.
+
+    FILE is a study with a table [fit], or a machine file with --vary. Exit code 1 if the record does not tell
+    all that is sought.
+    """
+    from linkwright.machine.write import dumps
+    from linkwright.studies.fit import fit as compute
+    from linkwright.studies.record import read_record
+    from linkwright.studies.tables import fit_tables
+
+    folder = output_folder(out, force=force)
+    plan = _plan(file, vary or [], motion, set or [], allow_outside=allow_outside)
+    found = compute(plan, read_record(_record(file, record, plan), plan.machine), level=level)
+    hand_over(
+        Answer(
+            machine=plan.machine.name,
+            results=lambda curves: {"fit": found.to_dict(curves=curves)},
+            findings=[f"{each.words}." for each in found.directions if not each.is_determined],
+            warnings=[f"{warning}." for warning in found.warnings],
+            head=lambda: _head(plan.machine.name, found),
+            tables=lambda: fit_tables(found),
+            files=lambda: {"fitted.toml": dumps(found.machine)},
+            figures=lambda: _figures(found),
+        ),
+        json=json,
+        folder=folder,
+    )
+
+
+def _plan(
+    file: Path, vary: list[str], motion: str | None, changes: list[str], *, allow_outside: bool
+) -> StudyPlan:
+    """The study of a file, or that of a machine file and of what varies."""
+    from linkwright.kernel.errors import InputError
+    from linkwright.machine.read import read
+    from linkwright.studies.read import new_study, read_study
+
+    if vary:
+        machine = read(file, changes, allow_outside=allow_outside)
+        return new_study(
+            machine, {"variables": dict(map(_variable, vary)), "fit": {"motion": motion or "run_down"}}
+        )
+    changes = [*changes, f"study.fit.motion={motion}"] if motion else changes
+    plan = read_study(file, changes, allow_outside=allow_outside)
+    if plan.study.fit is None:
+        raise InputError(f"{file}: found no table [fit], expected one, or --vary ADDRESS of a machine file")
+    return plan
+
+
+def _variable(text: str) -> tuple[str, dict[str, Any]]:
+    """A variable out of ``ADDRESS`` or ``ADDRESS=LOW:HIGH``, named as its address with other separators."""
+    from linkwright.kernel.errors import InputError
+
+    address, mark, ends = text.partition("=")
+    name = address.strip().replace(".", "_").replace('"', "")
+    if not mark:
+        return name, {"address": address.strip()}
+    parts = [_value(part) for part in ends.split(":")]
+    if len(parts) != 2:
+        raise InputError(f'--vary {text}: found "{ends}", expected LOW:HIGH, such as 50:200 or "0.1 kg:2 kg"')
+    return name, {"address": address.strip(), "range": parts}
+
+
+def _value(text: str) -> float | str:
+    """A number, or a text with a unit."""
+    try:
+        return float(text)
+    except ValueError:
+        return text.strip()
+
+
+def _record(file: Path, record: Path | None, plan: StudyPlan) -> Path:
+    """The file of the record."""
+    from linkwright.kernel.errors import InputError
+
+    own = plan.study.fit.record if plan.study.fit is not None else None
+    if record is None and own is None:
+        raise InputError("--record: found nothing, expected a file with what was measured")
+    return record if record is not None else file.parent / str(own)
+
+
+def _head(name: str, found: Fit) -> str:
+    """What was done, and what is known."""
+    samples, channels = len(found.record.at), ", ".join(found.record.channels)
+    how = "exact" if not found.jacobian_error else f"by differences, to {found.jacobian_error:.1g}"
+    noise = ", ".join(
+        f"{size:.3g} {found.record.unit(channel)}".rstrip() + f" in {channel}"
+        for channel, size in found.noise.items()
+    )
+    lines = [name, f"{samples} samples of {channels}; derivatives {how}; noise {noise}"]
+    weakest = next((each for each in found.directions if each.is_determined), None)
+    return "\n".join([*lines, *([] if weakest is None else [f"Known worst: {weakest.words}."])])
+
+
+def _figures(found: Fit) -> dict[str, Any]:
+    from linkwright.studies.figures_of_fit import fit_figure
+
+    return {"fit": fit_figure(found)}
