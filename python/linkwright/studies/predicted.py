@@ -12,8 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.drive.model.motor import ConstantSpeedMotor
-from linkwright.drive.steady_state import steady_state
+from linkwright.drive.steady_state import solved_state, steady_state
 from linkwright.drive.transient import Transient, transient
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.numerics.roots import zeros
@@ -200,20 +199,23 @@ class Predicted:
     def _exact(self, x: Floats) -> Floats | None:
         """Exact derivatives (size, numbers) of steady motion; None if there are none."""
         machine = self.machine(x)
-        motor = None if machine.drive is None else machine.drive.motor
-        if self.options.motion != "steady_state" or isinstance(motor, ConstantSpeedMotor):
+        if self.options.motion != "steady_state":
             return None
         tangents = entries_at(self.plan, x[: len(self.plan.axes)])
         ways = directions(machine, tuple(tangents))
         if ways.refused or any(not hasattr(entry, "d") for entry in tangents.values()):
             return None
         by_entry = np.stack([tangents[name].d for name in ways.variables])
-        compiled = compile_machine(machine)
+        parameters = ways.values @ by_entry
         angles, back = np.unique(self.record.at % (2 * np.pi), return_inverse=True)
-        curves = compiled.steady_gradient(_ACCURACY, ways.values @ by_entry, angles).curves
-        speed, torque = curves[1, back], curves[3, back]
-        ratio = compiled.gear_factors[0], (ways.values @ by_entry)[compiled.ratio_slot]
-        table = self._steady(machine)
+        state, solution = solved_state(machine, _ACCURACY, angles)
+        if solution is None:
+            return None
+        curves = solution.gradient(parameters, angles).curves
+        speed, torque = curves.speed[back], curves.torque_motor[back]
+        compiled = compile_machine(machine)
+        ratio = compiled.gear_factors[0], parameters[compiled.ratio_slot]
+        table = {"speed": state.speed[back], "torque": state.torque_motor[back]}
         slopes = {
             "speed": speed,
             "torque": torque,
