@@ -30,6 +30,7 @@ _HOME = {
     "motions": "linkages.kinematics",
     "linkage": "linkages.cycle",
     "zero_angle": "linkages.zero",
+    "shown_in": "kernel.page.out_units",
     "circuits": "linkages.circuits",
     "coupler_curve": "linkages.coupler_curve",
     "period_turns": "linkages.period",

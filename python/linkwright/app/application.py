@@ -20,10 +20,13 @@ from linkwright.kernel.command.parameter import command
 
 
 class Place(NamedTuple):
-    """A command: one sentence for the list of commands, and its function as ``module:name``."""
+    """A command: one sentence for the list of commands, its function as ``module:name``, and whether it shows
+    quantities of a machine, in units that may be asked for.
+    """
 
     about: str
     function: str
+    shows_quantities: bool = True
 
 
 class Group(NamedTuple):
@@ -60,11 +63,15 @@ COMMANDS = {
     ),
     "size": Place("Choose motor and flywheel.", "sizing.commands:size"),
     "motors": Place("List the motors of the catalogue.", "sizing.commands:motors"),
-    "papers": Place("Recompute a published paper, compare with its results.", "app.commands.papers:papers"),
-    "new": Place("Write a machine file to start from.", "app.commands.new:new"),
-    "schema": Place("Print the JSON Schema of machine files.", "app.commands.schema:schema"),
-    "glossary": Place("Define the terms of tables, messages and reports.", "app.commands.glossary:glossary"),
-    "studio": Place("Work on a machine in the browser.", "studio.command:studio"),
+    "papers": Place(
+        "Recompute a published paper, compare with its results.", "app.commands.papers:papers", False
+    ),
+    "new": Place("Write a machine file to start from.", "app.commands.new:new", False),
+    "schema": Place("Print the JSON Schema of machine files.", "app.commands.schema:schema", False),
+    "glossary": Place(
+        "Define the terms of tables, messages and reports.", "app.commands.glossary:glossary", False
+    ),
+    "studio": Place("Work on a machine in the browser.", "studio.command:studio", False),
 }
 
 GROUPS = {
@@ -93,7 +100,7 @@ GROUPS = {
         "Analyse the cams of a machine, with FILE; or one of the commands below.",
         {
             "laws": Place(
-                "Factors of the motion laws, for a rise between two dwells.", "cam.commands.laws:laws"
+                "Factors of the motion laws, for a rise between two dwells.", "cam.commands.laws:laws", False
             ),
             "search": Place(
                 "The smallest cams that keep their limits, among many.", "cam.commands.search:search"
@@ -161,22 +168,21 @@ def application() -> Commands:
 
 def _group(name: str, group: Group) -> Commands:
     """A group of commands, with a command for what is none of them."""
-    default = partial(_loaded, None, group.default) if group.default else None
+    default = partial(_loaded, None, Place("", group.default)) if group.default else None
     return Commands(name, group.help, _entries(group.commands), default)
 
 
 def _entries(places: Mapping[str, Place]) -> dict[str, Entry]:
     """Commands at places, each imported when it is asked for."""
-    return {
-        name: Entry(place.about, partial(_loaded, name, place.function)) for name, place in places.items()
-    }
+    return {name: Entry(place.about, partial(_loaded, name, place)) for name, place in places.items()}
 
 
-def _loaded(word: str | None, place: str) -> click.Command:
-    """The command at a place ``module:function`` below the package; its errors are messages."""
-    module, _, name = place.partition(":")
+def _loaded(word: str | None, place: Place) -> click.Command:
+    """The command at a place below the package; its errors are messages."""
+    module, _, name = place.function.partition(":")
     function = getattr(import_module(f"linkwright.{module}"), name)
-    return command(reports_errors(function, _machine_name), word)
+    run = reports_errors(function, _machine_name)
+    return command(run, word, shows_quantities=place.shows_quantities)
 
 
 def _version(context: click.Context, option: click.Parameter, wanted: bool) -> None:

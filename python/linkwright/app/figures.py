@@ -10,7 +10,7 @@ import numpy as np
 
 from linkwright.app.curves import CRANK_ANGLE, Curve
 from linkwright.kernel.figure.style import LINES, legend_above, named, panels, roomy, styled, zero_line
-from linkwright.kernel.page.out_units import OutUnits
+from linkwright.kernel.page.out_units import reader
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -19,36 +19,31 @@ if TYPE_CHECKING:
 # Height of each axis, and of what stands around them [inch].
 _PANEL, _AROUND = 2.0, 0.8
 
-_DEGREE = np.pi / 180
-
 
 @styled
-def curves_figure(curves: Sequence[Curve], units: OutUnits, zero: str = "") -> Figure:
-    """Draw curves, an axis for each unit.
-
-    `curves`: over one quantity; `units`: those of the axes; `zero`: from where crank angles are counted.
-    """
+def curves_figure(curves: Sequence[Curve], zero: str = "") -> Figure:
+    """Draw curves over one quantity, an axis for each unit; `zero`: from where crank angles are counted."""
     by_unit: dict[tuple[str, float], list[Curve]] = {}
     for curve in curves:
-        by_unit.setdefault(units.shown(curve.unit), []).append(curve)
+        by_unit.setdefault(_shown(curve.unit), []).append(curve)
     figure, axes = panels(len(by_unit), height=_AROUND + _PANEL * len(by_unit))
     colours = iter(LINES * len(curves))
     for panel, ((unit, factor), group) in zip(axes, by_unit.items(), strict=True):
         for member in group:
-            x = member.x / _over_unit(member, units)[1]
+            x = member.x / _shown(member.over_unit)[1]
             panel.plot(x, member.values / factor, color=next(colours), label=named(_short(member)))
         panel.set_ylabel(f"[{unit or '–'}]")
         roomy(panel, *(member.values[np.isfinite(member.values)] / factor for member in group))
         zero_line(panel)
         legend_above(panel)
-    _under(axes[-1], curves, units, zero)
+    _under(axes[-1], curves, zero)
     return figure
 
 
-def _under(axes: Axes, curves: Sequence[Curve], units: OutUnits, zero: str) -> None:
+def _under(axes: Axes, curves: Sequence[Curve], zero: str) -> None:
     """What is along x."""
     first = curves[0]
-    unit, factor = _over_unit(first, units)
+    unit, factor = _shown(first.over_unit)
     word = "crank angle φ" if first.over == CRANK_ANGLE else first.over
     if zero and first.over == CRANK_ANGLE:
         word += f" from the {zero}"
@@ -63,10 +58,9 @@ def _under(axes: Axes, curves: Sequence[Curve], units: OutUnits, zero: str) -> N
         )
 
 
-def _over_unit(curve: Curve, units: OutUnits) -> tuple[str, float]:
-    """Unit along x: crank angles in degrees, unless another unit of angles is wanted."""
-    found = units.shown(curve.over_unit)
-    return ("°", _DEGREE) if found[0] == "rad" and curve.over == CRANK_ANGLE else found
+def _shown(unit: str) -> tuple[str, float]:
+    """The unit of an axis and its size: angles in degrees, unless another unit of angles is wanted."""
+    return reader().shown(unit, "deg" if unit == "rad" else "")
 
 
 def _short(curve: Curve) -> str:

@@ -138,11 +138,13 @@ class Study(DriveStudy):
     def _repr_html_(self) -> str:
         """Failed checks, warnings and all results, as a notebook shows them."""
         from linkwright.kernel.page.notebook import result_html, table_html
+        from linkwright.kernel.page.out_units import with_units_of
 
         words = [("failed check", finding) for finding in self.findings]
         words += [("warning", warning) for warning in self.warnings]
         head = table_html(self.machine.name, words or [("checks", "none failed")])
-        return head + "".join(result_html(each, name) for name, each in self.results().items())
+        with with_units_of(self.machine.units):
+            return head + "".join(result_html(each, name) for name, each in self.results().items())
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Name, results, findings and warnings, ready for JSON.

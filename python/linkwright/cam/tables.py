@@ -16,7 +16,8 @@ from linkwright.cam.law_factors import LawFactors, law_factors
 from linkwright.cam.laws.catalogue import BOUNDS, LAWS
 from linkwright.cam.profile.least_sizes import LeastSizes
 from linkwright.cam.profile.profile import CamProfile
-from linkwright.kernel.page.numbers import degrees, number
+from linkwright.kernel.page.measured import measured
+from linkwright.kernel.page.numbers import degrees, number, quantity
 from linkwright.kernel.page.table import Row, Table, with_unit
 
 # Laws that sections are compared with: the usual ones, from the gentlest velocity on.
@@ -61,7 +62,7 @@ def _motion_rows(profile: CamProfile) -> Iterator[Row]:
     """Lift, and its derivatives in time at the design speed."""
     unit = "rad" if profile.cam.is_oscillating else "m"
     yield "lift", "h", _lift(profile, profile.stroke), ""
-    at = "" if profile.speed is None else f"at {number(profile.speed)} rad/s"
+    at = "" if profile.speed is None else f"at {quantity(profile.speed, 'rad/s')}"
     for word, symbol, value, per in (
         ("constant velocity", "v", profile.speed_constant, "/s"),
         ("maximum velocity", "v_max", profile.velocity_max, "/s"),
@@ -77,7 +78,7 @@ def _lift(profile: CamProfile, value: float) -> str:
 
 
 def _mm(value: float | None) -> str:
-    return "–" if value is None else f"{number(1e3 * value)} mm"
+    return measured(value, "m", usual="mm")
 
 
 def _size_rows(profile: CamProfile) -> Iterator[Row]:
@@ -148,14 +149,16 @@ def force_table(loaded: LoadedCam) -> Table:
         rows.append(("speed at which contact is lost", "ω_off", with_unit(loaded.speed_lost, "rad/s"), at))
     if loaded.pressure_max is not None and loaded.pressure_max_angle is not None:
         at = f"at φ = {degrees(loaded.pressure_max_angle)}"
-        rows.append(("maximum contact pressure", "p_max", f"{number(1e-6 * loaded.pressure_max)} MPa", at))
+        rows.append(
+            ("maximum contact pressure", "p_max", measured(loaded.pressure_max, "Pa", usual="MPa"), at)
+        )
     if loaded.shear_max is not None:
         deep = f"{_mm(loaded.shear_depth)} below the surface"
-        rows.append(("maximum shear stress", "τ_max", f"{number(1e-6 * loaded.shear_max)} MPa", deep))
+        rows.append(("maximum shear stress", "τ_max", measured(loaded.shear_max, "Pa", usual="MPa"), deep))
     heads = ("quantity", "", "value", "where")
     return Table(
         f"cam_{loaded.name}_force",
-        f"Forces on cam {loaded.name} at {number(loaded.speed)} rad/s",
+        f"Forces on cam {loaded.name} at {quantity(loaded.speed, 'rad/s')}",
         heads,
         rows,
     )

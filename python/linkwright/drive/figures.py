@@ -35,8 +35,8 @@ from linkwright.kernel.figure.style import (
     turn_axis,
     zero_line,
 )
-from linkwright.kernel.page.numbers import number
-from linkwright.kernel.page.out_units import OutUnits
+from linkwright.kernel.page.numbers import number, quantity
+from linkwright.kernel.page.out_units import reader
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -75,7 +75,11 @@ def speed_figure(steady: SteadyState) -> Figure:
 def _speed(axes: Axes, degrees: np.ndarray, steady: SteadyState) -> None:
     """The speed with its mean and its extremes."""
     axes.plot(degrees, steady.speed, color=SPEED, label="speed")
-    level(axes, steady.speed_mean_extremes, f"mean of the extremes {steady.speed_mean_extremes:.5g} rad/s")
+    level(
+        axes,
+        steady.speed_mean_extremes,
+        f"mean of the extremes {quantity(steady.speed_mean_extremes, 'rad/s', 5)}",
+    )
     places = np.degrees([steady.speed_min_angle, steady.speed_max_angle])
     extremes = [steady.speed_min, steady.speed_max]
     axes.plot(places, extremes, "o", color=SPEED, markersize=4.5, label="minimum and maximum")
@@ -103,7 +107,8 @@ def torque_figure(steady: SteadyState) -> Figure:
 
 def _power(axes: Axes, degrees: np.ndarray, steady: SteadyState) -> None:
     """The power of the motor with its mean."""
-    unit, size = ("kW", 1e3) if abs(steady.power_motor_mean) >= _KILOWATT else ("W", 1.0)
+    usual = "kW" if abs(steady.power_motor_mean) >= _KILOWATT else "W"
+    unit, size = reader().shown("W", usual)
     power, mean = steady.power_motor / size, steady.power_motor_mean / size
     axes.plot(degrees, power, color=MOTOR, label="power of the motor")
     level(axes, mean, f"mean over time {mean:.4g} {unit}")
@@ -119,12 +124,12 @@ def time_figure(steady: SteadyState) -> Figure:
     figure, (speed, torque) = panels(2, height=4.2)
     time = np.concatenate([steady.time + turn * steady.period for turn in range(_TURNS)])
     speed.plot(time, np.tile(steady.speed, _TURNS), color=SPEED, label="speed")
-    level(speed, steady.speed_mean_time, f"mean over time {steady.speed_mean_time:.5g} rad/s")
+    level(speed, steady.speed_mean_time, f"mean over time {quantity(steady.speed_mean_time, 'rad/s', 5)}")
     speed.set_ylabel("speed ω\n[rad/s]")
     roomy(speed, steady.speed)
     legend_above(speed)
     torque.plot(time, np.tile(steady.torque_motor, _TURNS), color=MOTOR, label="torque of the motor")
-    level(torque, steady.torque_motor_rms, f"root mean square {steady.torque_motor_rms:.4g} N m")
+    level(torque, steady.torque_motor_rms, f"root mean square {quantity(steady.torque_motor_rms, 'N m', 4)}")
     torque.set_ylabel("motor torque $M$\n[N m]", **MATH)
     roomy(torque, steady.torque_motor)
     zero_line(torque)
@@ -169,7 +174,7 @@ def reduction_figure(reduction: Reduction) -> Figure:
     inertia.set_ylabel("reduced inertia $J$\n[kg m²]", **MATH)
     roomy(inertia, reduction.inertia_reduced)
     torque.plot(degrees, reduction.torque_load, color=LOAD, label="load torque")
-    level(torque, reduction.torque_load_mean, f"mean {reduction.torque_load_mean:.4g} N m")
+    level(torque, reduction.torque_load_mean, f"mean {quantity(reduction.torque_load_mean, 'N m', 4)}")
     torque.set_ylabel("reduced torque $M_r$\n[N m]", **MATH)
     roomy(torque, reduction.torque_load, np.array([0.0]))
     zero_line(torque)
@@ -352,15 +357,15 @@ def _steady(study: DriveStudy) -> Iterator[Captioned]:
     steady = study.steady_state
     if steady is None:
         return
-    low, high = number(steady.speed_min), number(steady.speed_max)
+    low, high = quantity(steady.speed_min, "rad/s"), quantity(steady.speed_max, "rad/s")
     caption = (
-        f"The crank turns at {low} to {high} rad/s, δ = {number(steady.unevenness)}; a revolution takes "
-        f"{number(steady.period)} s."
+        f"The crank turns at {low} to {high}, δ = {number(steady.unevenness)}; a revolution takes "
+        f"{quantity(steady.period, 's')}."
     )
     yield Captioned("speed", "Speed and acceleration over one revolution", caption, speed_figure(steady))
     caption = (
         "The speed follows the difference of driving and load torque and the change of the reduced inertia. "
-        f"The work of the motor is {number(steady.energy_motor)} J per revolution."
+        f"The work of the motor is {quantity(steady.energy_motor, 'J')} per revolution."
     )
     yield Captioned("torque", "Torque and power over one revolution", caption, torque_figure(steady))
     caption = "The same motion over time, as a tachometer shows it."
@@ -375,8 +380,9 @@ def _motor(study: DriveStudy) -> Iterator[Captioned]:
     curve = characteristic(study.machine, reduced=reduced, speed_max=reach * drive.gearbox.ratio)
     caption = "Torque over speed at the motor's shaft, against the mean load of a revolution."
     if steady is not None:
-        slow, fast = (number(speed * drive.gearbox.ratio) for speed in (steady.speed_min, steady.speed_max))
-        caption += f" Shaded: the speeds of steady motion, {slow} to {fast} rad/s."
+        ends = (steady.speed_min, steady.speed_max)
+        slow, fast = (quantity(speed * drive.gearbox.ratio, "rad/s") for speed in ends)
+        caption += f" Shaded: the speeds of steady motion, {slow} to {fast}."
     yield Captioned("motor", "Motor and working range", caption, motor_figure(curve, steady))
 
 
@@ -384,8 +390,9 @@ def _run_up(study: DriveStudy) -> Iterator[Captioned]:
     if study.run_up is not None:
         run_up = study.run_up
         caption = (
-            f"Steady motion, to within {100 * run_up.settled:.3g} %, is reached after {number(run_up.time)} "
-            f"s and {number(run_up.turns)} revolutions."
+            f"Steady motion, to within {100 * run_up.settled:.3g} %, is reached after "
+            f"{quantity(run_up.time, 's')} "
+            f"and {number(run_up.turns)} revolutions."
         )
         yield Captioned("run_up", "Run-up", caption, run_up_figure(run_up, study.steady_state))
     elif study.attempt is not None and len(study.attempt.time) > 1:
@@ -399,8 +406,8 @@ def _reduction(study: DriveStudy) -> Iterator[Captioned]:
         return
     low, high, mean = reduced.inertia_min, reduced.inertia_max, reduced.torque_load_mean
     caption = (
-        f"Inertia reduced to the crank, from {number(low)} to {number(high)} kg m², and load torque referred "
-        f"to the crank, {number(mean)} N m on average."
+        f"Inertia reduced to the crank, from {quantity(low, 'kg m²')} to {quantity(high, 'kg m²')}, and load "
+        f"torque referred to the crank, {quantity(mean, 'N m')} on average."
     )
     yield Captioned("reduction", "Reduced inertia and torque", caption, reduction_figure(reduced))
 
@@ -410,26 +417,22 @@ _DRAWN_POINTS = 2000
 
 
 @styled
-def in_time_figure(motion: Transient, extremes: Sequence[MotionExtreme], units: OutUnits) -> Figure:
-    """Draw speed and acceleration of the crank over time.
-
-    `extremes`: marked by dots; `units`: those of the axes.
-    """
+def in_time_figure(motion: Transient, extremes: Sequence[MotionExtreme]) -> Figure:
+    """Draw speed and acceleration of the crank over time; `extremes` are marked by dots."""
     figure, axes = panels(2, height=5.0)
     time, _, speed, acceleration = course(motion, _DRAWN_POINTS)
     time, acceleration = _with_jumps(motion, time, acceleration)
     speed = motion.at(time)[1]
-    for panel, name, symbol, values, si, colour in (
+    for panel, name, symbol, values, unit, colour in (
         (axes[0], "speed", "ω", speed, "rad/s", SPEED),
         (axes[1], "acceleration", "ε", acceleration, "rad/s²", ACCELERATION),
     ):
-        unit, factor = units.shown(si)
-        panel.plot(time, values / factor, color=colour)
+        panel.plot(time, values, color=colour)
         for extreme in extremes:
             if extreme.quantity == name:
-                panel.plot(extreme.time, extreme.value / factor, "o", color=INK, markersize=4, clip_on=False)
+                panel.plot(extreme.time, extreme.value, "o", color=INK, markersize=4, clip_on=False)
         panel.set_ylabel(f"{name} {symbol} [{unit}]")
-        roomy(panel, values / factor)
+        roomy(panel, values)
         zero_line(panel)
     axes[-1].set_xlabel("time t [s]")
     if len(time) > 1:

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import isfinite
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.drive.motion_events import MotionEvent, MotionExtreme
 from linkwright.drive.transient import End, Transient
-from linkwright.kernel.page.numbers import degrees, number
-from linkwright.kernel.page.out_units import OutUnits
+from linkwright.kernel.page.numbers import degrees, number, quantity
 from linkwright.kernel.page.table import Row, Table
 from linkwright.linkages.motion import Motion
 from linkwright.linkages.zero import Zero
@@ -62,7 +60,7 @@ def methods_sentence(motion: Transient) -> str:
     if len(parts) == 1:
         return f"{parts[0].steps} steps by {_METHODS[parts[0].method]}"
     return ", ".join(
-        f"{part.steps} steps from {number(part.time_start)} to {number(part.time_end)} s by "
+        f"{part.steps} steps from {quantity(part.time_start, 's')} to {quantity(part.time_end, 's')} by "
         f"{_METHODS[part.method]}"
         for part in parts
     )
@@ -74,20 +72,19 @@ def in_time_tables(
     events: Sequence[MotionEvent],
     course: Motion,
     zero: Zero,
-    units: OutUnits,
 ) -> list[Table]:
-    """The tables of a motion in time, in the units that are wanted."""
-    found = [_extremes(extremes, zero, units), _events(events, zero, units), _course(course, zero, units)]
+    """The tables of a motion in time."""
+    found = [_extremes(extremes, zero), _events(events, zero), _course(course, zero)]
     return [table for table in found if table.rows]
 
 
-def _extremes(extremes: Sequence[MotionExtreme], zero: Zero, units: OutUnits) -> Table:
+def _extremes(extremes: Sequence[MotionExtreme], zero: Zero) -> Table:
     rows: list[Row] = [
         (
             f"{extreme.kind} {extreme.quantity}",
             "ω" if extreme.quantity == "speed" else "ε",
-            _value(extreme.value, _SPEED if extreme.quantity == "speed" else _ACCELERATION, units),
-            f"{number(extreme.time)} s",
+            _value(extreme.value, _SPEED if extreme.quantity == "speed" else _ACCELERATION),
+            quantity(extreme.time, "s"),
             _angle(extreme.crank_angle, zero),
         )
         for extreme in extremes
@@ -95,7 +92,7 @@ def _extremes(extremes: Sequence[MotionExtreme], zero: Zero, units: OutUnits) ->
     return Table("extremes", "Extremes of the motion", ("quantity", "", "value", "time", "crank angle"), rows)
 
 
-def _events(events: Sequence[MotionEvent], zero: Zero, units: OutUnits) -> Table:
+def _events(events: Sequence[MotionEvent], zero: Zero) -> Table:
     heads = ("event", "", "time", "crank angle", "speed", "acceleration before", "after")
     rates = (each for event in events for each in (event.acceleration_before, event.acceleration_after))
     most = max((abs(rate) for rate in rates if rate is not None), default=0.0)
@@ -103,27 +100,27 @@ def _events(events: Sequence[MotionEvent], zero: Zero, units: OutUnits) -> Table
         (
             event.kind,
             "",
-            f"{number(event.time)} s",
+            quantity(event.time, "s"),
             _angle(event.crank_angle, zero),
-            _value(event.speed, _SPEED, units),
-            _value(event.acceleration_before, _ACCELERATION, units, most),
-            _value(event.acceleration_after, _ACCELERATION, units, most),
+            _value(event.speed, _SPEED),
+            _value(event.acceleration_before, _ACCELERATION, most),
+            _value(event.acceleration_after, _ACCELERATION, most),
         )
         for event in events
     ]
     return Table("events", "What happens", heads, rows)
 
 
-def _course(course: Motion, zero: Zero, units: OutUnits) -> Table:
+def _course(course: Motion, zero: Zero) -> Table:
     """Time, angle, speed and acceleration of the crank, and the place and velocity of every slide."""
     slides = list(course.slides.items())
     heads: Row = ("time", "", "crank angle", "speed", "acceleration")
     heads = (*heads, *(word for name, _ in slides for word in (name, f"velocity of {name}")))
     curves = [(course.speed, _SPEED), (course.acceleration, _ACCELERATION)]
     curves += [each for _, path in slides for each in ((path.position, "m"), (path.velocity, "m/s"))]
-    columns = [_column(curve, si, units) for curve, si in curves]
+    columns = [_column(curve, si) for curve, si in curves]
     first = [
-        (f"{number(float(time))} s", "", _angle(float(angle), zero))
+        (quantity(float(time), "s"), "", _angle(float(angle), zero))
         for time, angle in zip(course.time, course.crank_angle, strict=True)
     ]
     rows: list[Row] = [(*head, *cells) for head, *cells in zip(first, *columns, strict=True)]
@@ -134,16 +131,13 @@ def _angle(angle: float, zero: Zero) -> str:
     return degrees(angle - zero.angle)
 
 
-def _column(curve: NDArray[np.float64], si: str, units: OutUnits) -> list[str]:
+def _column(curve: NDArray[np.float64], si: str) -> list[str]:
     """A curve as cells of a table."""
     most = float(np.abs(curve).max())
-    return [_value(float(value), si, units, most) for value in curve]
+    return [_value(float(value), si, most) for value in curve]
 
 
-def _value(value: float | None, si: str, units: OutUnits, most: float = 0.0) -> str:
-    """A value in the unit that is wanted; zero where nothing but rounding is left beside the largest one."""
-    if value is None or not isfinite(value):
-        return "–"
-    unit, factor = units.shown(si)
-    shown = 0.0 if abs(value) <= _ROUNDING * most else value
-    return f"{number(shown / factor)} {unit}"
+def _value(value: float | None, si: str, most: float = 0.0) -> str:
+    """A value with its unit; zero where nothing but rounding is left beside the largest one."""
+    small = value is not None and abs(value) <= _ROUNDING * most
+    return quantity(0.0 if small else value, si)

@@ -103,6 +103,7 @@ def _answer(machine: Machine, cases: dict[str, Forces], speeds: dict[str, dict[s
     """What was found, case by case."""
     return Answer(
         machine=machine.name,
+        units=machine.units,
         results=partial(_results, cases, speeds),
         findings=[
             _named(name, finding, cases) for name, result in cases.items() for finding in result.findings
@@ -345,6 +346,7 @@ def _balance_answer(machine: Machine, found: Balance, speeds: dict[str, Any]) ->
     }
     return Answer(
         machine=machine.name,
+        units=machine.units,
         results=lambda _: {"balance": {**speeds, "counterweights": weights, "rms": measures}},
         findings=found.after.findings,
         head=lambda: speed_words(speeds),

@@ -22,7 +22,7 @@ from linkwright.kernel.figure.style import (
     turn_axis,
     zero_line,
 )
-from linkwright.kernel.page.numbers import number
+from linkwright.kernel.page.numbers import quantity
 from linkwright.kinetostatics.result import Forces
 
 if TYPE_CHECKING:
@@ -147,13 +147,13 @@ def captioned_forces(forces: Forces) -> Iterator[Captioned]:
     pins = forces.reaction_max
     largest = max(pins, key=lambda name: pins[name])
     caption = (
-        f"Joint reactions along the steady motion: {largest} at most {number(pins[largest])} N. "
-        f"The drive gives up to {number(forces.torque_drive_max)} N m at the crank."
+        f"Joint reactions along the steady motion: {largest} at most {quantity(pins[largest], 'N')}. "
+        f"The drive gives up to {quantity(forces.torque_drive_max, 'N m')} at the crank."
     )
     yield Captioned("forces", "Forces in the pairs", caption, forces_figure(forces))
     caption = (
         f"Ends of the force vectors over one revolution, a mark at φ = 0; the shaking force is up to "
-        f"{number(forces.shaking_force_max)} N."
+        f"{quantity(forces.shaking_force_max, 'N')}."
     )
     yield Captioned("hodographs", "Hodographs of forces", caption, hodograph_figure(forces))
     caption = "Size of the largest reactions over the crank angle: where a journal is loaded, and when."

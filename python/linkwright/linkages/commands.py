@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import click
 
 from linkwright.drive.crank_speed import CrankSpeed, crank_speed
-from linkwright.kernel.command.answer import Answer, json_text
+from linkwright.kernel.command.answer import Answer, as_wanted, json_text
 from linkwright.kernel.command.common import Json, Outside, Sets, option_value
 from linkwright.kernel.command.out import Force, Out, put
 from linkwright.kernel.command.parameter import Argument, Option
@@ -89,18 +89,20 @@ def motion(
     if duration is not None and (law is None or _is_table(law)):
         raise InputError("--duration: it belongs to a --law that is a formula")
     machine = read(file, set or [], allow_outside=allow_outside)
-    if law is not None:
-        text = _under_law(machine, law, duration or "1 s", steps, json=json, csv=csv)
-    elif at is not None:
-        text = _pose(machine, at, crank_speed(machine, speed), json=json, csv=csv)
-    else:
-        text = _turn(machine, crank_speed(machine, speed), steps, json=json, csv=csv)
+    with as_wanted(machine.units):
+        if law is not None:
+            text = _under_law(machine, law, duration or "1 s", steps, json=json, csv=csv)
+        elif at is not None:
+            text = _pose(machine, at, crank_speed(machine, speed), json=json, csv=csv)
+        else:
+            text = _turn(machine, crank_speed(machine, speed), steps, json=json, csv=csv)
     put(text, out, force=force)
 
 
 def _pose(machine: Machine, at: str, speed: CrankSpeed, *, json: bool, csv: bool) -> str:
     """One pose as a table, CSV or JSON."""
     from linkwright.kernel.files.csv_text import csv_text
+    from linkwright.kernel.page.numbers import number
     from linkwright.kernel.units import ANGLE
     from linkwright.linkages.pose import pose
 
@@ -110,6 +112,7 @@ def _pose(machine: Machine, at: str, speed: CrankSpeed, *, json: bool, csv: bool
         return json_text(Answer(machine=machine.name, results=lambda _: {"pose": told}))
     phi = found.crank_angle
     rows = [("crank angle", "φ [rad]", (phi, found.speed, found.acceleration)), *_pose_rows(found)]
+    rows = [_row_shown(row) for row in rows]
     if csv:
         click.echo(speed, err=True)
         heads = ("name", "quantity", "position", "velocity", "acceleration")
@@ -118,13 +121,29 @@ def _pose(machine: Machine, at: str, speed: CrankSpeed, *, json: bool, csv: bool
         return csv_text(heads, ((name, what, *(*numbers, *empty)[:3]) for name, what, numbers in rows))
     lines = [f"crank angle {degrees(phi):.7g}° = {phi:.7g} rad, {speed}"]
     lines += [f"{'':24}{'position':>16}{'velocity':>16}{'acceleration':>16}"]
+    scales = [max((abs(row[2][k]) for row in rows if len(row[2]) > k), default=0.0) for k in range(3)]
     lines += [
-        f"{name + ' ' + what:<24}" + "".join(f"{value + 0.0:>16.8g}" for value in numbers)
+        f"{name + ' ' + what:<24}"
+        + "".join(f"{number(value, 8, scale):>16}" for value, scale in zip(numbers, scales, strict=False))
         for name, what, numbers in rows
     ]
     if found.near_limit:
         lines.append(f"near a limit: {', '.join(found.near_limit)}")
     return "\n".join(lines) + "\n"
+
+
+def _row_shown(row: tuple[str, str, tuple[float, ...]]) -> tuple[str, str, tuple[float, ...]]:
+    """A row in the units that the reader wants; the label says those of all columns where they differ."""
+    from linkwright.kernel.page.out_units import reader
+
+    name, what, numbers = row
+    si = "rad" if what.endswith("[rad]") else "m"
+    shown = [reader().shown(unit) for unit in (si, f"{si}/s", f"{si}/s²")[: len(numbers)]]
+    if all(factor == 1.0 for _, factor in shown):
+        return row
+    units = ", ".join(unit for unit, _ in shown)
+    values = tuple(value / factor for value, (_, factor) in zip(numbers, shown, strict=True))
+    return name, what.replace(f"[{si}]", f"[{units}]"), values
 
 
 def _pose_rows(pose: Pose) -> list[tuple[str, str, tuple[float, ...]]]:
@@ -203,23 +222,34 @@ def _lists(curves: dict[str, Any]) -> dict[str, list[float]]:
 def _table(found: Motion) -> str:
     """Positions alone, for people; everything is in the CSV."""
     from linkwright.kernel.page.csv import head
+    from linkwright.kernel.page.numbers import number
+    from linkwright.kernel.page.out_units import shown_columns
 
-    shown = {
-        head(found, name): curve
-        for name, curve in found.curves().items()
-        if name == "time" or _is_position(name, curve)
-    }
+    shown = shown_columns({head(found, name): curve for name, curve in _positions(found).items()})
     width = max(14, *(len(name) + 2 for name in shown))
     lines = ["".join(f"{name:>{width}}" for name in shown)]
-    lines += ["".join(f"{x:>{width}.7g}" for x in row) for row in zip(*shown.values(), strict=True)]
+    units = [name.rpartition("[")[2] for name in shown]
+    sizes = [(unit, float(abs(curve).max())) for unit, curve in zip(units, shown.values(), strict=True)]
+    scales = [max(size for other, size in sizes if other == unit) for unit in units]
+    for row in zip(*shown.values(), strict=True):
+        cells = (number(float(x), 7, scale) for x, scale in zip(row, scales, strict=True))
+        lines.append("".join(f"{cell:>{width}}" for cell in cells))
     return "\n".join(lines) + "\n"
 
 
-def _is_position(name: str, curve: Any) -> bool:
-    """Whether a column is a position of something that moves."""
-    return name == "crank_angle" or (
-        name.endswith((".x", ".y", ".angle", ".place")) and float(curve.max() - curve.min()) > 0
-    )
+# Share of the largest position below which a motion is rounding.
+_AT_REST = 1e-12
+
+
+def _positions(found: Motion) -> dict[str, Any]:
+    """Time, crank angle, and positions of what moves by more than rounding."""
+    curves = found.curves()
+    places = {
+        name: curve for name, curve in curves.items() if name.endswith((".x", ".y", ".angle", ".place"))
+    }
+    least = _AT_REST * max((float(abs(curve).max()) for curve in places.values()), default=0.0)
+    moving = {name: curve for name, curve in places.items() if float(curve.max() - curve.min()) > least}
+    return {"time": curves["time"], "crank_angle": curves["crank_angle"], **moving}
 
 
 def _is_table(law: str) -> bool:

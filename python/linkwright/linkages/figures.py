@@ -9,7 +9,7 @@ import numpy as np
 
 from linkwright.kernel.figure.captioned import Captioned
 from linkwright.kernel.figure.style import INK, LINES, SOFT, legend_above, level, named, panels, roomy, styled
-from linkwright.kernel.page.numbers import degrees, number
+from linkwright.kernel.page.numbers import degrees, quantity
 from linkwright.linkages.coupler_curve import CouplerCurve, coupler_curve
 from linkwright.linkages.cycle import Linkage
 from linkwright.linkages.pose import pose
@@ -120,8 +120,8 @@ def _words(curves: list[CouplerCurve]) -> str:
         extras = [f"{len(each)} {word}" for each, word in _special(curve) if each]
         more = f", {' and '.join(extras)}" if extras else ""
         parts.append(
-            f"{curve.point}: {number(curve.length)} m long, straight over "
-            f"{number(curve.straight_length)} m{more}"
+            f"{curve.point}: {quantity(curve.length, 'm')} long, straight over "
+            f"{quantity(curve.straight_length, 'm')}{more}"
         )
     return "; ".join(parts) + ". Straight means nowhere farther from the chord than a thousandth of it."
 

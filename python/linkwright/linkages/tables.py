@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from linkwright.kernel.page.measured import crank_angle, measured
-from linkwright.kernel.page.numbers import number
+from linkwright.kernel.page.numbers import number, parted, quantity
 from linkwright.kernel.page.table import Row, Table
 from linkwright.linkages.cycle import ElementMotion, Linkage
 
@@ -49,7 +49,9 @@ def _travel_row(each: ElementMotion) -> Row:
     else:
         travel, ends = measured(each.stroke, "m"), (crank_angle(each.low_angle), crank_angle(each.high_angle))
     low, high = each.velocity_ratio_min, each.velocity_ratio_max
-    ratios = "–" if low is None else f"{number(low, 4)} to {number(high, 4)}"
+    # Of what goes in a straight line, a length per angle.
+    per = "m/rad" if each.stroke is not None else ""
+    ratios = "–" if low is None else f"{parted(low, per, 4)[0]} to {quantity(high, per, 4)}"
     unit = "1/m" if each.stroke is not None else ""
     advantage = each.mechanical_advantage_min
     gain = measured(advantage, unit, digits=4, before="≥ ")

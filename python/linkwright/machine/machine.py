@@ -13,6 +13,7 @@ from linkwright.kernel.description.base import Description, Name, Title, fault, 
 from linkwright.kernel.description.deferred_model import deferred_model
 from linkwright.kernel.description.plain import look
 from linkwright.kernel.description.problems import problems
+from linkwright.kernel.description.shown_units import ShownUnits
 from linkwright.kernel.errors import MachineError
 from linkwright.kernel.units import INSIDE_ONE, RATIO, SPEED, Angle, Quantity, not_negative, positive
 from linkwright.kinetostatics.model.body import Body, body_faults
@@ -85,6 +86,7 @@ class Machine(Description):
     bodies: dict[str, Body] = Field(default_factory=dict, description="Masses by name.")
     loads: dict[Name, AnyLoad] = Field(default_factory=dict, description="Forces and torques by name.")
     run_up: RunUp = Field(default_factory=RunUp, description="How the run-up starts and ends.")
+    units: ShownUnits | None = Field(None, description="Units of what is printed, drawn and written as CSV.")
     study: StudyFile | None = Field(None, description="Study of variants: what varies, what is asked.")
 
     @property

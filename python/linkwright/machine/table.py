@@ -11,7 +11,9 @@ from pydantic import BaseModel
 from linkwright.kernel.description.base import Description
 from linkwright.kernel.description.plain import field_names, keys, look
 from linkwright.kernel.description.text import join
+from linkwright.kernel.page.measured import measured
 from linkwright.kernel.page.numbers import degrees, number, pretty_unit
+from linkwright.kernel.page.out_units import reader
 from linkwright.linkages.model.topology import TABLES
 from linkwright.machine.address import kind
 from linkwright.machine.machine import Machine
@@ -214,7 +216,7 @@ def _value(machine: Machine, place: Place, value: Any) -> str:
         return str(value) if is_formula else str(value).replace("_", " ")
     quantity = kind(machine, join(place))
     unit = quantity.unit if quantity else ""
-    return degrees(value) if unit == "rad" else f"{number(value, 6)} {pretty_unit(unit)}".rstrip()
+    return degrees(value) if unit == "rad" else measured(value, pretty_unit(unit), digits=6)
 
 
 def _list(machine: Machine, place: Place, values: tuple[float, ...]) -> str:
@@ -222,9 +224,11 @@ def _list(machine: Machine, place: Place, values: tuple[float, ...]) -> str:
     quantity = kind(machine, join((*place, "0")))
     unit = quantity.unit if quantity else ""
     shown = values[:_LONGEST_LIST]
-    texts = [degrees(each) if unit == "rad" else number(each, 6) for each in shown]
+    usual = "deg" if unit == "rad" else ""
+    name, factor = reader().shown(pretty_unit(unit), usual)
+    texts = [number(each / factor, 6 if unit != "rad" else 5) for each in shown]
     more = ["…"] if len(values) > len(shown) else []
-    return f"{', '.join(texts + more)} {'' if unit == 'rad' else pretty_unit(unit)}".rstrip()
+    return f"{', '.join(texts + more)} {name}".rstrip()
 
 
 def grouped(parts: list[Part]) -> list[tuple[str, list[Part]]]:

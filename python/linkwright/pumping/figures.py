@@ -26,7 +26,7 @@ from linkwright.kernel.figure.style import (
     turn_axis,
     zero_line,
 )
-from linkwright.kernel.page.numbers import degrees, number
+from linkwright.kernel.page.numbers import degrees, number, quantity
 from linkwright.pumping.rod_rotator import RodRotatorMotion
 from linkwright.pumping.unit import PumpingUnitMotion
 
@@ -113,15 +113,15 @@ def unit_figures(unit: PumpingUnitMotion | None, rotator: RodRotatorMotion | Non
 def _unit(unit: PumpingUnitMotion) -> Iterator[Captioned]:
     gear = unit.gear
     caption = (
-        f"The polished rod rises {number(unit.stroke)} m while the crank turns "
+        f"The polished rod rises {quantity(unit.stroke, 'm')} while the crank turns "
         f"{degrees(unit.upstroke_angle)}. The torque factor runs from {number(unit.torque_factor_min)} to "
-        f"{number(unit.torque_factor_max)} m."
+        f"{quantity(unit.torque_factor_max, 'm')}."
     )
     yield Captioned("polished_rod", "Polished rod over one revolution", caption, polished_rod_figure(unit))
     if gear is not None:
         caption = (
             "Torque at the crank by the polished rod and by its counterbalance; their sum peaks at "
-            f"{number(max(gear.torque_net_up, gear.torque_net_down))} N m."
+            f"{quantity(max(gear.torque_net_up, gear.torque_net_down), 'N m')}."
         )
         yield Captioned("gear_torque", "Torque of the gearbox", caption, gear_torque_figure(gear))
 

@@ -67,6 +67,7 @@ def sensitivity(
     hand_over(
         Answer(
             machine=machine.name,
+            units=machine.units,
             results=lambda curves: found.to_dict(),
             warnings=[
                 f"{name} has a derivative on either side only: {why}" for name, why in found.ties.items()

@@ -165,6 +165,7 @@ def _answer(machine: Machine, motor: MotorChoice, flywheel: FlywheelChoice | Non
     fitted, chosen = flywheel and flywheel.machine, motor.chosen
     return Answer(
         machine=machine.name,
+        units=machine.units,
         results=lambda _: results,
         findings=[] if chosen else [motor.reason],
         warnings=_warnings(motor, flywheel),
@@ -179,10 +180,14 @@ def _warnings(motor: MotorChoice, flywheel: FlywheelChoice | None) -> list[str]:
 
 def _print(machine: Machine, motor: MotorChoice, flywheel: FlywheelChoice | None) -> None:
     """Tables on the terminal."""
+    from linkwright.kernel.page.numbers import quantity
+
     out, need = console(), motor.required
     out.print(machine.name + "\n", style="bold")
-    out.print(f"Required power {need.power / 1e3:.2f} kW at {need.speed:.4g} rad/s")
-    out.print(f"  {need.formula}, mean load {need.torque_load_mean:.2f} N m, η {need.efficiency:.4g}\n")
+    power, speed = quantity(need.power, "W", 4, usual="kW"), quantity(need.speed, "rad/s", 4)
+    out.print(f"Required power {power} at {speed}")
+    load = quantity(need.torque_load_mean, "N m")
+    out.print(f"  {need.formula}, mean load {load}, η {need.efficiency:.4g}\n")
     if motor.present:
         out.print(_checks_table("The motor in the file", motor.present))
     if motor.chosen:
@@ -201,13 +206,19 @@ def _checks_table(title: str, checks: Sequence[Check]) -> Grid:
     """A line for each check: found, limit, verdict."""
     from rich.table import Table as Grid
 
+    from linkwright.kernel.page.out_units import reader
+
     table = Grid(title=title, title_justify="left", box=None, padding=(0, 2, 0, 0))
     for word in ("check", "found", "", "limit", "unit", "", "remark"):
         table.add_column(word, justify="right" if word in ("found", "limit") else "left")
     marks = {True: ("passes", "green"), False: ("fails", "red"), None: ("not known", "yellow")}
     for check in checks:
         sign = "" if check.limit is None else "≤" if check.at_most else "≥"
-        row = (check.name.replace("_", " "), _number(check.value), sign, _number(check.limit), check.unit)
+        unit, factor = reader().shown(check.unit)
+        found, limit = (
+            _number(None if value is None else value / factor) for value in (check.value, check.limit)
+        )
+        row = (check.name.replace("_", " "), found, sign, limit, unit)
         table.add_row(*row, styled(marks[check.passed]), check.note)
     return table
 
@@ -220,16 +231,21 @@ def _considered_table(motor: MotorChoice) -> Grid:
     """The motors in the order of their power, around the one that is chosen."""
     from rich.table import Table as Grid
 
+    from linkwright.kernel.page.numbers import number
+    from linkwright.kernel.page.out_units import reader
+
     table = Grid(title="\nMotors considered", title_justify="left", box=None, padding=(0, 2, 0, 0))
-    for word in ("type", "kW", "ratio", "inertia", "verdict"):
+    unit, size = reader().shown("W", "kW")
+    for word in ("type", unit, "ratio", "inertia", "verdict"):
         table.add_column(word, justify="left" if word in ("type", "verdict") else "right")
+    moment, heavy = reader().shown("kg m²")
     for each in _shown(motor):
-        inertia = f"{each.inertia:.3g}{'*' if each.inertia_estimated else ''}"
-        power = f"{each.known.power_rated / 1e3:.4g}"
+        inertia = f"{number(each.inertia / heavy, 3)}{'*' if each.inertia_estimated else ''}"
+        power = f"{each.known.power_rated / size:.4g}"
         table.add_row(each.type, power, f"{each.ratio:.4g}", inertia, _verdict(each, motor))
     others = len(motor.candidates) - len(_suited(motor))
     remark = f"; {others} types have another speed: see --free-ratio" if others else ""
-    table.caption, table.caption_justify = f"inertia in kg m²; * estimated{remark}", "left"
+    table.caption, table.caption_justify = f"inertia in {moment}; * estimated{remark}", "left"
     return table
 
 
@@ -260,17 +276,19 @@ def _verdict(each: Candidate, motor: MotorChoice) -> str | Text:
 
 def _flywheel_words(flywheel: FlywheelChoice) -> Text:
     """What flywheel, what it gives, what the classical estimate would have been."""
+    from linkwright.kernel.page.numbers import quantity
+
     without = flywheel.unevenness_without
     bare = "there is no steady motion" if without is None else f"the speed fluctuation is {without:.4f}"
     if flywheel.inertia == 0:
         wanted = f" {bare}, at most {flywheel.unevenness_wanted:g} is wanted"
         return styled(("No flywheel is needed:", "bold"), wanted)
     return styled(
-        (f"Flywheel {flywheel.inertia:.4g} kg m² on the crankshaft", "bold"),
+        (f"Flywheel {quantity(flywheel.inertia, 'kg m²', 4)} on the crankshaft", "bold"),
         f" for a speed fluctuation of "
         f"{flywheel.unevenness:.6g}; without it {bare}\n"
-        f"  classical estimate {flywheel.inertia_estimate:.4g} kg m², from an excess work of "
-        f"{flywheel.excess_work:.4g} J",
+        f"  classical estimate {quantity(flywheel.inertia_estimate, 'kg m²', 4)}, from an excess work of "
+        f"{quantity(flywheel.excess_work, 'J', 4)}",
     )
 
 
@@ -342,7 +360,7 @@ def _tables(found: list[CatalogueMotor]) -> list[Table]:
 
 def _row(motor: CatalogueMotor) -> Row:
     """A motor in the units of catalogues: kW, rpm, torques over the rated one."""
-    from linkwright.kernel.page.numbers import number
+    from linkwright.kernel.page.numbers import number, quantity
     from linkwright.kernel.page.table import with_unit
 
     entries = _entries(motor)
@@ -355,10 +373,10 @@ def _row(motor: CatalogueMotor) -> Row:
         motor.type,
         "",
         str(motor.poles),
-        f"{number(motor.power_rated / 1000, 3)} kW",
-        f"{number(motor.speed_rated * 9.549296585513721, 4)} rpm",
+        quantity(motor.power_rated, "W", 3, usual="kW"),
+        quantity(motor.speed_rated, "rad/s", 4, usual="rpm"),
         with_unit(motor.torque_rated, "N m"),
         *over,
-        f"{mark}{number(entries['inertia'], 3)} kg m²",
+        quantity(entries["inertia"], "kg m²", 3, before=mark),
         motor.series,
     )

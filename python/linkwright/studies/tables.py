@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-
+from linkwright.kernel.page.measured import measured
 from linkwright.kernel.page.numbers import number
 from linkwright.kernel.page.table import Row, Table
 from linkwright.studies.fit import Fit
@@ -42,11 +41,7 @@ def sweep_tables(sweep: Sweep, units: dict[str, str]) -> list[Table]:
 
 def with_unit(value: float, unit: str) -> str:
     """A value with its unit, an angle in degrees; a dash for none."""
-    if not math.isfinite(value):
-        return number(value)
-    if unit == "rad":
-        return f"{number(value * 57.29577951308232)}°"
-    return f"{number(value)} {unit}".rstrip()
+    return measured(value, unit)
 
 
 def tolerance_tables(tolerance: Tolerance, units: dict[str, str]) -> list[Table]:

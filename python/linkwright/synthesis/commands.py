@@ -246,6 +246,7 @@ def _finish(
     warnings = entries.pop("warnings", [])
     answer = Answer(
         machine=machine.name,
+        units=machine.units,
         results=lambda _: {what: entries},
         warnings=warnings,
         show=partial(_print, machine.name, entries, warnings, out),

@@ -86,6 +86,7 @@ def field(
             swept = sweep_field(machine, axes, seed=seed, level=level, watch=watch)
     answer = Answer(
         machine=machine.name,
+        units=machine.units,
         results=lambda _: _results(found, swept),
         findings=list(field_findings(found, described)),
         warnings=list(field_cautions(found, described, edges_of(machine, described)[0].knife)),
@@ -232,10 +233,10 @@ def best(
     machine = read(file, set or [], allow_outside=allow_outside)
     with bar("knives") as watch:
         knife = best_knife(machine, objective=objective.value, seed=seed, watch=watch)
-    hand_over(_answer(machine.name, knife), json=json, folder=folder)
+    hand_over(_answer(machine, knife), json=json, folder=folder)
 
 
-def _answer(name: str, search: KnifeSearch) -> Answer:
+def _answer(machine: Machine, search: KnifeSearch) -> Answer:
     """The best knife, also as lines of a machine file; or that none keeps the limits."""
     from linkwright.topping.tables.field import best_lines, best_table, best_warnings
 
@@ -247,11 +248,12 @@ def _answer(name: str, search: KnifeSearch) -> Answer:
         "failing": failing and {key: getattr(failing, key) for key in ("limit", "wanted", "reached")},
     }
     return Answer(
-        machine=name,
+        machine=machine.name,
+        units=machine.units,
         results=lambda _: {"topper_best": results},
         findings=[] if failing is None else [failing.words + "."],
         warnings=[] if failing else list(best_warnings(search)),
-        head=lambda: name,
+        head=lambda: machine.name,
         tables=lambda: [] if best is None else [best_table(search, best)],
         tail=lambda: "" if best is None else best_lines(best),
         files=partial(_best_files, search),

@@ -9,7 +9,8 @@ import numpy as np
 from linkwright.kernel.page.content import Content, Few, Part
 from linkwright.kernel.page.formulas import Formula
 from linkwright.kernel.page.html import html
-from linkwright.kernel.page.numbers import number
+from linkwright.kernel.page.numbers import number, parted
+from linkwright.kernel.page.out_units import with_units_of
 from linkwright.machine.table import grouped, machine_parts
 from linkwright.machine.write import dumps
 from linkwright.torsion.figures.captions import torsion_figures
@@ -45,6 +46,11 @@ def torsion_html(study: TorsionStudy, *, command: str = "") -> str:
 
 def torsion_content(study: TorsionStudy, command: str = "") -> Content:
     """What the report of a study of torsional vibration says."""
+    with with_units_of(study.machine.units):
+        return _content(study, command)
+
+
+def _content(study: TorsionStudy, command: str) -> Content:
     return Content(
         title=study.machine.name,
         lead=study.machine.description or "",
@@ -67,8 +73,8 @@ def _headline(study: TorsionStudy) -> Iterator[tuple[str, str, str]]:
     """The few numbers that one looks for first."""
     twisting = [f for f in study.free.natural_frequencies.tolist() if f > 0]
     if twisting:
-        yield "lowest natural frequency", number(twisting[0], 4), "Hz"
-        yield "critical speed of order 1", number(60 * twisting[0], 4), "1/min"
+        yield "lowest natural frequency", *parted(twisting[0], "Hz", 4)
+        yield "critical speed of order 1", *parted(60 * twisting[0], "1/min", 4)
     forced = study.forced
     if forced is not None:
         if study.peaks is not None and forced.shafts:
@@ -92,7 +98,7 @@ def _largest_torque(peaks: TorquePeaks) -> Iterator[tuple[str, str, str]]:
     value, rpm = float(peaks.vibratory[worst]), float(peaks.speed[worst]) * 30 / np.pi
     words = f"largest vibratory torque, {peaks.shafts[worst]} at {rpm:.5g} rpm"
     if np.isfinite(value):
-        yield words, number(value, 4), "N m"
+        yield words, *parted(value, "N m", 4)
     else:
         yield words, "unbounded", ""
 

@@ -21,7 +21,7 @@ from linkwright.kernel.figure.style import (
     styled,
     zero_line,
 )
-from linkwright.kernel.page.numbers import degrees, number
+from linkwright.kernel.page.numbers import degrees, number, quantity
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -42,7 +42,7 @@ def turning_figures(diagram: TurningMomentDiagram) -> Iterator[Captioned]:
         coefficient = f", {number(diagram.energy_coefficient)} of the work per cycle"
     caption = (
         f"Driver against load over a cycle. The energy of the shaft changes by "
-        f"{number(diagram.energy_fluctuation)} J{coefficient}."
+        f"{quantity(diagram.energy_fluctuation, 'J')}{coefficient}."
     )
     yield Captioned("turning_moment", "Turning-moment diagram", caption, diagram_figure(diagram))
     if (
@@ -51,8 +51,10 @@ def turning_figures(diagram: TurningMomentDiagram) -> Iterator[Captioned]:
         and diagram.speed_min_angle is not None
     ):
         caption = (
-            f"With {number(diagram.inertia)} kg m² the shaft turns at {number(diagram.speed_min)} to "
-            f"{number(diagram.speed_max)} rad/s: fastest at {degrees(diagram.speed_max_angle)}, slowest at "
+            f"With {quantity(diagram.inertia, 'kg m²')} the shaft turns at "
+            f"{quantity(diagram.speed_min, 'rad/s')} to "
+            f"{quantity(diagram.speed_max, 'rad/s')}: fastest at "
+            f"{degrees(diagram.speed_max_angle)}, slowest at "
             f"{degrees(diagram.speed_min_angle)}."
         )
         yield Captioned("turning_speed", "Speed over the cycle", caption, speed_figure(diagram))
@@ -85,7 +87,7 @@ def speed_figure(diagram: TurningMomentDiagram) -> Figure:
     figure, (speed,) = panels(1, height=2.4)
     angle = np.degrees(diagram.crank_angle)
     speed.plot(angle, diagram.speed, color=SPEED, label="speed")
-    level(speed, diagram.speed_mean, f"mean of the extremes {diagram.speed_mean:.5g} rad/s")
+    level(speed, diagram.speed_mean, f"mean of the extremes {quantity(diagram.speed_mean, 'rad/s', 5)}")
     speed.set_ylabel("speed ω\n[rad/s]")
     roomy(speed, diagram.speed)
     legend_above(speed)

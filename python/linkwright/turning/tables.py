@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 
 from linkwright.kernel.page.formulas import Formula
-from linkwright.kernel.page.numbers import degrees, number
+from linkwright.kernel.page.numbers import degrees, number, parted
 from linkwright.kernel.page.table import Row, Table, known_rows, with_unit
 from linkwright.kernel.quantities import in_table
 from linkwright.turning.diagram import TurningMomentDiagram
@@ -28,15 +28,15 @@ ASSUMPTIONS = (
 
 def turning_headline(diagram: TurningMomentDiagram) -> Iterator[tuple[str, str, str]]:
     """Word, value and unit of what one looks for first."""
-    yield "fluctuation of energy ΔE", number(diagram.energy_fluctuation, 4), "J"
+    yield "fluctuation of energy ΔE", *parted(diagram.energy_fluctuation, "J", 4)
     if diagram.unevenness is not None:
         yield "speed fluctuation δ", number(diagram.unevenness, 4), ""
     if diagram.flywheel_inertia is not None:
-        yield "inertia of the flywheel", number(diagram.flywheel_inertia, 4), "kg m²"
+        yield "inertia of the flywheel", *parted(diagram.flywheel_inertia, "kg m²", 4)
     if diagram.flywheel_mass is not None:
-        yield "mass of the flywheel", number(diagram.flywheel_mass, 4), "kg"
+        yield "mass of the flywheel", *parted(diagram.flywheel_mass, "kg", 4)
     if diagram.power_mean is not None:
-        yield "mean power", number(diagram.power_mean, 4), "W"
+        yield "mean power", *parted(diagram.power_mean, "W", 4)
 
 
 def turning_tables(diagram: TurningMomentDiagram) -> Iterator[Table]:

@@ -9,6 +9,7 @@ import click
 from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import File, Json, Outside, Sets
 from linkwright.kernel.errors import AssemblyError
+from linkwright.kernel.page.numbers import quantity
 
 if TYPE_CHECKING:
     from linkwright.linkages.model.mechanism import Mechanism
@@ -34,6 +35,7 @@ def check(file: File, set: Sets = None, allow_outside: Outside = False, json: Js
     told += [f"\nFINDING  {text}" for text in found.findings]
     answer = Answer(
         machine=machine.name,
+        units=machine.units,
         results=lambda curves: {"checked": list(found.looked_at)},
         findings=found.findings,
         show=lambda: click.echo("\n".join(told)),
@@ -77,7 +79,7 @@ def _diagram(machine: Machine) -> list[tuple[str, str]]:
         torques = {"driver": described.driver, "load": described.load}
         told = ", ".join(f"{name} {'constant' if t is None else t.kind}" for name, t in torques.items())
     turns = "one revolution" if described.turns == 1 else f"{described.turns} revolutions"
-    return [("turning moment", f"{told}; cycle of {turns}, {described.speed:.4g} rad/s")]
+    return [("turning moment", f"{told}; cycle of {turns}, {quantity(described.speed, 'rad/s', 4)}")]
 
 
 def _topper(machine: Machine) -> list[tuple[str, str]]:
@@ -93,7 +95,8 @@ def _topper(machine: Machine) -> list[tuple[str, str]]:
     beside = f", up to {_mm(cut.offset)} beside the row" if cut.offset else ", on the row"
     head = f"{_mm(d)} across: root {_mm(cut.root_diameter)}, cut {_mm(cut.cut_height)} below its top{beside}"
     edge = (
-        f"{_mm(cut.edge_length)} at {degrees(cut.edge_angle):.4g}°, {cut.forward_speed:.4g} m/s along the row"
+        f"{_mm(cut.edge_length)} at {degrees(cut.edge_angle):.4g}°, "
+        f"{quantity(cut.forward_speed, 'm/s', 4)} along the row"
     )
     return [("head", head), ("edge", edge), ("knife", _knife(cut)), ("field", _field(cut))]
 
@@ -107,7 +110,7 @@ def _knife(cut: Topper) -> str:
         return "at rest"
     stroke = f", stroke {_mm(motion.stroke)}" if motion.stroke else ", one direction over a head"
     word = "harmonic" if motion.kind == "harmonic" else "constant speed"
-    return f"{word}{stroke}, {cut.knife_speed:.4g} m/s across the row in the mean"
+    return f"{word}{stroke}, {quantity(cut.knife_speed, 'm/s', 4)} across the row in the mean"
 
 
 def _field(cut: Topper) -> str:
@@ -120,7 +123,7 @@ def _field(cut: Topper) -> str:
 
 
 def _mm(value: float) -> str:
-    return f"{1e3 * value:.4g} mm"
+    return quantity(value, "m", 4, usual="mm")
 
 
 def _motor(machine: Machine) -> str:
@@ -128,7 +131,7 @@ def _motor(machine: Machine) -> str:
     if machine.drive is None or machine.drive.motor is None:
         return "none"
     motor, ratio = machine.drive.motor, machine.drive.gearbox.ratio
-    power = f", {motor.power_rated / 1e3:.4g} kW" if motor.power_rated else ""
+    power = f", {quantity(motor.power_rated, 'W', 4, usual='kW')}" if motor.power_rated else ""
     return f"{motor.kind.replace('_', ' ')}{power}, ratio {ratio:.6g}"
 
 

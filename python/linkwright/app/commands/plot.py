@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-from linkwright.kernel.command.answer import Answer, finish, hand_over
-from linkwright.kernel.command.common import File, Json, Outside, Sets, UnitsOut, ZeroAt
+from linkwright.kernel.command.answer import Answer, as_wanted, finish, hand_over
+from linkwright.kernel.command.common import File, Json, Outside, Sets, ZeroAt
 from linkwright.kernel.command.out import Force, output_folder, put, say_written
 from linkwright.kernel.command.parameter import Argument, Option
 from linkwright.kernel.errors import InputError
@@ -15,7 +15,6 @@ from linkwright.kernel.errors import InputError
 if TYPE_CHECKING:
     from linkwright.app.curves import Curve
     from linkwright.app.study import Study
-    from linkwright.kernel.page.out_units import OutUnits
     from linkwright.kernel.page.table import Row, Table
 
 Quantities = Annotated[
@@ -60,7 +59,6 @@ def plot(
     allow_outside: Outside = False,
     over: Over = None,
     zero: ZeroAt = None,
-    units: UnitsOut = "",
     csv: Csv = False,
     json: Json = False,
     out: Outs = None,
@@ -73,11 +71,9 @@ def plot(
     """
     from linkwright.app.curves import chosen, curves_of, from_zero
     from linkwright.app.study import study
-    from linkwright.kernel.page.out_units import OutUnits
     from linkwright.linkages.zero import Zero, zero_angle
     from linkwright.machine.read import read
 
-    shown = OutUnits.of(units).with_degrees()
     machine = read(file, set or [], allow_outside=allow_outside)
     counted = zero_angle(machine, zero) if zero is not None else Zero()
     found = study(machine)
@@ -85,15 +81,17 @@ def plot(
         hand_over(_list_of(found, curves_of(found)), json=json)
         return
     curves = [from_zero(each, counted.angle) for each in chosen(found, quantity, over)]
-    written = _write(curves, shown, counted.words, out or [], force=force)
-    if csv:
-        put(_csv(curves, shown), None)
+    with as_wanted(machine.units):
+        written = _write(curves, counted.words, out or [], force=force)
+        if csv:
+            put(_csv(curves), None)
     answer = Answer(
         machine=machine.name,
+        units=machine.units,
         results=lambda _: {"plot": _told(found, curves, counted.angle)},
         findings=found.findings,
         warnings=found.warnings,
-        tables=lambda: [_extremes(found, curves, counted.angle, shown), _values(curves, shown)],
+        tables=lambda: [_extremes(found, curves, counted.angle), _values(curves)],
         head=lambda: f"Crank angles from the {counted.words}" if counted.words else "",
     )
     if written:
@@ -111,6 +109,7 @@ def _list_of(study: Study, curves: dict[str, Curve]) -> Answer:
     rows: list[Row] = [(curve.name, curve.unit or "–", curve.over) for curve in curves.values()]
     return Answer(
         machine=study.machine.name,
+        units=study.machine.units,
         results=lambda _: {
             "curves": {curve.name: {"unit": curve.unit, "over": curve.over} for curve in curves.values()}
         },
@@ -140,9 +139,7 @@ def _told(study: Study, curves: Sequence[Curve], zero: float) -> dict[str, Any]:
     }
 
 
-def _write(
-    curves: Sequence[Curve], units: OutUnits, zero: str, outs: Sequence[str], *, force: bool
-) -> list[Path]:
+def _write(curves: Sequence[Curve], zero: str, outs: Sequence[str], *, force: bool) -> list[Path]:
     """The picture and the table where they are wanted."""
     from linkwright.app.figures import bytes_of, curves_figure
     from linkwright.kernel.files.output import write_file
@@ -151,9 +148,9 @@ def _write(
     for place in map(Path, outs):
         ending = place.suffix.lower()
         if ending == ".csv":
-            write_file(place, _csv(curves, units), replace=force)
+            write_file(place, _csv(curves), replace=force)
         elif ending in _PICTURES:
-            write_file(place, bytes_of(curves_figure(curves, units, zero), ending), replace=force)
+            write_file(place, bytes_of(curves_figure(curves, zero), ending), replace=force)
         elif ending:
             listed = ", ".join((*_PICTURES, ".csv"))
             raise InputError(f"--out: found {place}, expected a file that ends in {listed}, or a folder")
@@ -161,32 +158,33 @@ def _write(
             folder = output_folder(place, force=force)
             assert folder is not None
             pictures = {
-                f"plot{kind}": bytes_of(curves_figure(curves, units, zero), kind) for kind in (".png", ".svg")
+                f"plot{kind}": bytes_of(curves_figure(curves, zero), kind) for kind in (".png", ".svg")
             }
-            written += folder.write({"plot.csv": _csv(curves, units), **pictures})
+            written += folder.write({"plot.csv": _csv(curves), **pictures})
             continue
         written.append(place)
     return written
 
 
-def _csv(curves: Sequence[Curve], units: OutUnits) -> str:
+def _csv(curves: Sequence[Curve]) -> str:
     """What they run over, and each of them; curves on other points have what they run over beside them."""
     import numpy as np
 
     from linkwright.kernel.page.csv import columns_csv
+    from linkwright.kernel.page.out_units import reader
 
     most = max(len(curve.x) for curve in curves)
     columns: dict[str, Any] = {}
     last = None
     for curve in curves:
-        unit, factor = units.shown(curve.over_unit)
+        unit, factor = reader().shown(curve.over_unit, _usual(curve.over_unit))
         if last is None or len(curve.x) != len(last) or not np.array_equal(curve.x, last):
             name = f"{curve.over} [{unit or '-'}]"
             columns[name if name not in columns else f"{curve.over} of {curve.name} [{unit or '-'}]"] = _long(
                 curve.x / factor, most
             )
             last = curve.x
-        unit, factor = units.shown(curve.unit)
+        unit, factor = reader().shown(curve.unit, _usual(curve.unit))
         columns[f"{curve.name} [{unit or '-'}]"] = _long(curve.values / factor, most)
     return columns_csv(columns)
 
@@ -198,7 +196,7 @@ def _long(values: Any, length: int) -> Any:
     return np.concatenate([values, np.full(length - len(values), np.nan)])
 
 
-def _extremes(study: Study, curves: Sequence[Curve], zero: float, units: OutUnits) -> Table:
+def _extremes(study: Study, curves: Sequence[Curve], zero: float) -> Table:
     """Minimum and maximum of each curve, and where."""
     from linkwright.app.curves import extremes
     from linkwright.kernel.page.table import Table
@@ -210,15 +208,15 @@ def _extremes(study: Study, curves: Sequence[Curve], zero: float, units: OutUnit
         if not found.is_exact:
             rough.append(curve.name)
         scale = max(abs(found.minimum), abs(found.maximum))
-        values = [_shown(value, curve.unit, units, scale) for value in (found.minimum, found.maximum)]
-        places = [_shown(at, curve.over_unit, units, _PLACE) for at in (found.minimum_at, found.maximum_at)]
+        values = [_shown(value, curve.unit, scale) for value in (found.minimum, found.maximum)]
+        places = [_shown(at, curve.over_unit, _PLACE) for at in (found.minimum_at, found.maximum_at)]
         rows.append((curve.name, "", values[0], places[0], values[1], places[1]))
     heads = ("curve", "", "minimum", f"at {curves[0].over}", "maximum", f"at {curves[0].over}")
     title = f"Extremes; of {', '.join(rough)} among the points of the curve" if rough else "Extremes"
     return Table("extremes", title, heads, rows)
 
 
-def _values(curves: Sequence[Curve], units: OutUnits) -> Table:
+def _values(curves: Sequence[Curve]) -> Table:
     """The curves at some points of the first of them."""
     import numpy as np
 
@@ -229,9 +227,9 @@ def _values(curves: Sequence[Curve], units: OutUnits) -> Table:
     at = np.unique(np.linspace(0, len(first.x) - 1, _ROWS + 1).round().astype(int))
     rows: list[Row] = [
         (
-            _cell(first.x, int(k), first.over_unit, units),
+            _cell(first.x, int(k), first.over_unit),
             "",
-            *(_cell(each.values, int(k), each.unit, units) for each in same),
+            *(_cell(each.values, int(k), each.unit) for each in same),
         )
         for k in at
     ]
@@ -239,17 +237,20 @@ def _values(curves: Sequence[Curve], units: OutUnits) -> Table:
     return Table("values", "Values", (first.over, "", *heads), rows)
 
 
-def _cell(values: Any, k: int, si: str, units: OutUnits) -> str:
+def _cell(values: Any, k: int, si: str) -> str:
     """A value with its unit; zero where nothing but rounding is left beside the largest one."""
     import numpy as np
 
-    return _shown(float(values[k]), si, units, float(np.nanmax(np.abs(values))))
+    return _shown(float(values[k]), si, float(np.nanmax(np.abs(values))))
 
 
-def _shown(value: float, si: str, units: OutUnits, scale: float = 0.0) -> str:
+def _shown(value: float, si: str, scale: float = 0.0) -> str:
     """A value with its unit; zero where it is rounding beside a scale."""
-    from linkwright.kernel.page.numbers import number
+    from linkwright.kernel.page.numbers import quantity
 
-    unit, factor = units.shown(si)
-    text = number(value / factor, scale=scale / factor)
-    return text if text == "–" else f"{text}{'' if unit == '°' else ' '}{unit}".rstrip()
+    return quantity(value, si, scale=scale, usual=_usual(si))
+
+
+def _usual(si: str) -> str:
+    """Angles are shown in degrees."""
+    return "deg" if si == "rad" else ""

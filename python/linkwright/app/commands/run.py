@@ -66,6 +66,7 @@ def _answer(study: Study) -> Answer:
     """All that was found, and the files of a study."""
     return Answer(
         machine=study.machine.name,
+        units=study.machine.units,
         results=lambda curves: {k: each.to_dict(curves=curves) for k, each in study.results().items()},
         findings=study.findings,
         warnings=study.warnings,

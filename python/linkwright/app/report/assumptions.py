@@ -14,7 +14,7 @@ from linkwright.drive.model.motor import (
     TableMotor,
 )
 from linkwright.drive.tables_in_time import methods_sentence
-from linkwright.kernel.page.numbers import degrees, number
+from linkwright.kernel.page.numbers import degrees, number, quantity
 from linkwright.kinetostatics.model.body import Body
 from linkwright.kinetostatics.model.loads.between import Damper, GasSpring, Spring, TorsionalSpring
 from linkwright.kinetostatics.model.loads.force import Gravity
@@ -115,7 +115,7 @@ def _loads(machine: Machine) -> Iterator[str]:
     for load in machine.loads.values():
         if isinstance(load, Gravity):
             way = degrees(load.direction)
-            yield f"All bodies have weight, {number(load.acceleration)} m/s² in the direction of {way}."
+            yield f"All bodies have weight, {quantity(load.acceleration, 'm/s²')} in the direction of {way}."
     if not any(isinstance(load, Gravity) for load in machine.loads.values()):
         yield "Weight does not count: the machine has no load of kind gravity."
 
@@ -123,7 +123,7 @@ def _loads(machine: Machine) -> Iterator[str]:
 def _drive(drive: Drive) -> Iterator[str]:
     yield (
         "Motor, coupling, brake, gearbox and flywheel together count with "
-        f"{number(float(drive_inertia(drive)))} kg m² at the crank; what turns with the motor "
+        f"{quantity(float(drive_inertia(drive)), 'kg m²')} at the crank; what turns with the motor "
         "counts with the square of the ratio."
     )
     if drive.motor is None:

@@ -16,7 +16,8 @@ from linkwright.kernel.files.output import write_file
 from linkwright.kernel.page.content import Content, Few, Part
 from linkwright.kernel.page.formulas import PAPER_1, Formula, formulas
 from linkwright.kernel.page.html import html
-from linkwright.kernel.page.numbers import degrees, number
+from linkwright.kernel.page.numbers import degrees, number, parted
+from linkwright.kernel.page.out_units import with_units_of
 from linkwright.kernel.public import public
 from linkwright.machine.table import grouped, machine_parts
 from linkwright.machine.write import dumps
@@ -59,13 +60,18 @@ def report_html(study: Study, *, command: str = "") -> str:
     Returns
     -------
     str
-        The page; the same study gives the same page.
+        The page, in the units of the table ``[units]`` of the machine; the same study gives the same page.
     """
     return html(content(study, command))
 
 
 def content(study: Study, command: str = "") -> Content:
-    """What the report of a study says."""
+    """What the report of a study says, in the units that the reader wants, else in those of the machine file."""
+    with with_units_of(study.machine.units):
+        return _content(study, command)
+
+
+def _content(study: Study, command: str) -> Content:
     machine = study.machine
     drawn, listed = list(figures(study)), tables(study)
     moving = [each for each in drawn if each.name.startswith(_MOTION_FIGURES)]
@@ -163,9 +169,11 @@ def _motion_headline(study: Study) -> Iterator[tuple[str, str, str]]:
     if study.linkage is None:
         return
     moving = [element for element in study.linkage.elements if element.turns is None]
-    for each in {each.output: each for each in moving[::-1]}.values() if len(moving) <= _OUTPUTS else ():
+    for each in (
+        [*{each.output: each for each in moving[::-1]}.values()][::-1] if len(moving) <= _OUTPUTS else ()
+    ):
         if each.stroke is not None:
-            yield f"stroke of {each.output}", number(each.stroke, 4), "m"
+            yield f"stroke of {each.output}", *parted(each.stroke, "m", 4)
         elif each.swing is not None:
             yield f"swing of {each.output}", degrees(each.swing), ""
         if each.time_ratio is not None:
@@ -204,15 +212,15 @@ def _headline(study: Study) -> Iterator[tuple[str, str, str]]:
     yield from _motion_headline(study)
     steady, run_up, reduced = study.steady_state, study.run_up, study.reduction
     if steady is not None:
-        yield "mean speed", number(steady.speed_mean_time, 4), "rad/s"
+        yield "mean speed", *parted(steady.speed_mean_time, "rad/s", 4)
         yield "speed fluctuation δ", number(steady.unevenness, 4), ""
         yield "dynamic factor H", number(steady.dynamism, 4), ""
         # Without losses the mean is zero but for rounding.
         power = steady.power_motor_mean if steady.power_motor_mean > 1e-9 * steady.power_motor_max else 0.0
-        yield "mean motor power", number(power, 4), "W"
+        yield "mean motor power", *parted(power, "W", 4)
     if run_up is not None:
-        yield "run-up time", number(run_up.time, 4), "s"
+        yield "run-up time", *parted(run_up.time, "s", 4)
     if steady is None and reduced is not None:
-        yield "minimum reduced inertia", number(reduced.inertia_min, 4), "kg m²"
-        yield "maximum reduced inertia", number(reduced.inertia_max, 4), "kg m²"
-        yield "mean load torque", number(reduced.torque_load_mean, 4), "N m"
+        yield "minimum reduced inertia", *parted(reduced.inertia_min, "kg m²", 4)
+        yield "maximum reduced inertia", *parted(reduced.inertia_max, "kg m²", 4)
+        yield "mean load torque", *parted(reduced.torque_load_mean, "N m", 4)

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from linkwright.app.study import Study
 from linkwright.drive.steady_state import SteadyState
 from linkwright.kernel.errors import AssemblyError
+from linkwright.kernel.page.out_units import reader
 from linkwright.linkages.closure import Closure, closure
 from linkwright.linkages.kinematics import Kinematics, kinematics
 from linkwright.linkages.model.topology import DRIVERS
@@ -69,6 +70,8 @@ def scene(study: Study) -> Scene | None:
             for name, xy in found["points"].items()
         },
         "headings": {name: _rounded(angle, _FINENESS) for name, angle in found["headings"].items()},
+        # Unit of the speed that is printed, and its size.
+        "speed_unit": reader().shown("rad/s"),
         **{key: found[key] for key in ("parts", "box", "swings", "true_speed")},
     }
 

@@ -165,6 +165,7 @@ def _answer(
     cams = {name: result for name, result in study.results().items() if name.startswith("cam")}
     return Answer(
         machine=study.machine.name,
+        units=study.machine.units,
         # The file has what is printed: all curves of a cam are in its drawings.
         results=lambda _: {name: result.to_dict(curves=curves) for name, result in cams.items()},
         findings=findings,

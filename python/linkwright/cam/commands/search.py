@@ -92,6 +92,7 @@ def search(
     best = _smallest(machine, name, cams, keeps, count, lambda cam: _keeps(cam, steep, tight))
     answer = Answer(
         machine=machine.name,
+        units=machine.units,
         results=lambda _: {"cam_search": _results(cams, keeps, best)},
         findings=_findings(keeps, best),
         show=partial(_print, cams, keeps, best),

@@ -32,6 +32,7 @@ from linkwright.kernel.figure.style import (
     turn_axis,
     zero_line,
 )
+from linkwright.kernel.page.numbers import quantity
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -178,10 +179,14 @@ def _curvature_limits(profile: CamProfile) -> list[Limit]:
     cam, curvature_limits = profile.cam, []
     if cam.curvature_limit is not None:
         curvature_limits.append(
-            (1e-3 / cam.curvature_limit, f"convex limit ρ = {1e3 * cam.curvature_limit:.4g} mm", RED)
+            (
+                1e-3 / cam.curvature_limit,
+                f"convex limit ρ = {quantity(cam.curvature_limit, 'm', 4, usual='mm')}",
+                RED,
+            )
         )
     if cam.cutter_radius is not None and profile.curvature_radius_concave_min is not None:
-        words = f"cutter of {1e3 * cam.cutter_radius:.4g} mm in hollow parts"
+        words = f"cutter of {quantity(cam.cutter_radius, 'm', 4, usual='mm')} in hollow parts"
         curvature_limits.append((-1e-3 / cam.cutter_radius, words, LINES[3]))
     return curvature_limits
 

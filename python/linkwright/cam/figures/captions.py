@@ -15,7 +15,7 @@ from linkwright.cam.figures.cam import (
 )
 from linkwright.cam.profile.profile import CamProfile
 from linkwright.kernel.figure.captioned import Captioned
-from linkwright.kernel.page.numbers import degrees, number
+from linkwright.kernel.page.numbers import degrees, quantity
 
 
 def cam_figures(cams: Sequence[CamProfile], loaded: Sequence[LoadedCam] = ()) -> Iterator[Captioned]:
@@ -36,7 +36,7 @@ def cam_figures(cams: Sequence[CamProfile], loaded: Sequence[LoadedCam] = ()) ->
         figure, words = curvature_figure(profile), _curvature_words(profile)
         yield Captioned(f"cam_{name}_curvature", f"Curvature of cam {name}", words, figure)
         if name in borne:
-            words = f"The peak contact force is {number(borne[name].force_size)} N."
+            words = f"The peak contact force is {quantity(borne[name].force_size, 'N')}."
             if borne[name].side_changes:
                 words += " Where the force is negative, the other side is in contact."
             figure = cam_force_figure(borne[name])
@@ -97,4 +97,4 @@ def _curvature_words(profile: CamProfile) -> str:
 
 
 def _mm(value: float) -> str:
-    return f"{number(1e3 * value)} mm"
+    return quantity(value, "m", usual="mm")

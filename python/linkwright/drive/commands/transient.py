@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 from linkwright.kernel.command.answer import Answer, hand_over
-from linkwright.kernel.command.common import File, Json, Outside, Sets, UnitsOut, ZeroAt, option_value
+from linkwright.kernel.command.common import File, Json, Outside, Sets, ZeroAt, option_value
 from linkwright.kernel.command.out import Force, out_option, output_folder
 from linkwright.kernel.command.parameter import Option
 from linkwright.kernel.errors import InputError, require_within
@@ -19,7 +19,6 @@ if TYPE_CHECKING:
 
     from linkwright.drive.motion_events import MotionEvent, MotionExtreme
     from linkwright.drive.transient import Transient
-    from linkwright.kernel.page.out_units import OutUnits
     from linkwright.kernel.page.table import Table
     from linkwright.linkages.motion import Motion
     from linkwright.linkages.zero import Zero
@@ -69,7 +68,6 @@ class _Followed:
     machine: Machine
     motion: Transient
     zero: Zero
-    units: OutUnits
     steps: int
     is_driven: bool
 
@@ -97,7 +95,6 @@ def transient(
     no_motor: NoMotor = False,
     brake: WithBrake = False,
     zero: ZeroAt = None,
-    units: UnitsOut = "",
     accuracy: Accuracy = 1e-8,
     steps: Steps = 500,
     json: Json = False,
@@ -111,7 +108,6 @@ def transient(
     exact extremes of speed and acceleration.
     """
     from linkwright.drive.transient import transient as follow
-    from linkwright.kernel.page.out_units import OutUnits
     from linkwright.kernel.units import ANGLE, SPEED, TIME
     from linkwright.linkages.zero import Zero, zero_angle
     from linkwright.machine.read import read
@@ -120,7 +116,6 @@ def transient(
     require_within(ROWS_OUT, steps, "--steps", "take fewer")
     if revolutions is not None and not revolutions > 0:
         raise InputError(f"--revolutions: found {revolutions:g}, expected more than 0")
-    shown = OutUnits.of(units)
     machine = read(file, set or [], allow_outside=allow_outside)
     counted = zero_angle(machine, zero) if zero is not None else Zero()
     until: dict[str, float] = {}
@@ -137,7 +132,7 @@ def transient(
         brake=brake,
         **until,
     )
-    followed = _Followed(machine, motion, counted, shown, steps, not no_motor)
+    followed = _Followed(machine, motion, counted, steps, not no_motor)
     hand_over(_answer(followed), json=json, curves=curves, folder=folder)
 
 
@@ -147,6 +142,7 @@ def _answer(of: _Followed) -> Answer:
     ended = [end_sentence(of.motion, of.zero)] if of.motion.came_to_rest else []
     return Answer(
         machine=of.machine.name,
+        units=of.machine.units,
         results=partial(_results, of),
         # Without its motor a machine is meant to come to rest.
         findings=ended if of.is_driven else [],
@@ -203,19 +199,18 @@ def _course(of: _Followed, intervals: int | None = None) -> Motion:
 def _tables(of: _Followed) -> list[Table]:
     from linkwright.drive.tables_in_time import in_time_tables
 
-    return in_time_tables(of.motion, of.extremes, of.events, _course(of, _ROWS), of.zero, of.units)
+    return in_time_tables(of.motion, of.extremes, of.events, _course(of, _ROWS), of.zero)
 
 
 def _files(of: _Followed) -> dict[str, str]:
-    from linkwright.kernel.page.csv import columns_csv
-    from linkwright.kernel.page.out_units import shown_columns
+    from linkwright.kernel.page.csv import columns_csv, head
 
     course = _course(of)
     curves = course.curves() | {"crank_angle": course.crank_angle - of.zero.angle}
-    return {"transient.csv": columns_csv(shown_columns(curves, course.unit_of, of.units))}
+    return {"transient.csv": columns_csv({head(course, name): curve for name, curve in curves.items()})}
 
 
 def _figures(of: _Followed) -> dict[str, Figure]:
     from linkwright.drive.figures import in_time_figure
 
-    return {"transient": in_time_figure(of.motion, of.extremes, of.units)}
+    return {"transient": in_time_figure(of.motion, of.extremes)}

@@ -7,6 +7,7 @@ asked for, so that JSON needs no tables and no drawing.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field
 from json import dumps
 from typing import TYPE_CHECKING, Any
@@ -14,12 +15,14 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from linkwright.kernel.command.out import put, write_folder
+from linkwright.kernel.command.parameter import UNITS
 from linkwright.kernel.errors import InternalError
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from matplotlib.figure import Figure
+    from pydantic import BaseModel
 
     from linkwright.kernel.files.output import OutputFolder
     from linkwright.kernel.page.table import Table
@@ -58,6 +61,8 @@ class Answer:
         Further files by name; figures by name without ending.
     remarks : mapping of str to str
         Name of a file → words beside it where the files are listed.
+    units : description or None
+        The table ``[units]`` of the machine file.
     """
 
     machine: str | None
@@ -74,6 +79,7 @@ class Answer:
     files: Callable[[], Mapping[str, str | bytes]] = dict
     figures: Callable[[], Mapping[str, Figure]] = dict
     remarks: Mapping[str, str] = field(default_factory=dict)
+    units: BaseModel | None = None
 
 
 def json_text(answer: Answer, *, curves: bool = False) -> str:
@@ -101,6 +107,17 @@ def json_text(answer: Answer, *, curves: bool = False) -> str:
         **answer.extra,
     }
     return dumps(finite(told), allow_nan=False, ensure_ascii=False) + "\n"
+
+
+def as_wanted(table: BaseModel | None) -> AbstractContextManager[None]:
+    """Show numbers in the units of ``--units``, and of the table ``[units]`` where these leave some open."""
+    context = click.get_current_context(silent=True)
+    asked = context.meta.get(UNITS) if context else None
+    if asked is None and table is None:
+        return nullcontext()
+    from linkwright.kernel.page.out_units import OutUnits, reading
+
+    return reading((asked or OutUnits()).over(OutUnits.of_table(table)))
 
 
 def print_answer(answer: Answer) -> None:
@@ -135,8 +152,9 @@ def write(answer: Answer, folder: OutputFolder, *, quiet: bool) -> None:
     contents: dict[str, str | bytes] = {}
     if answer.results_file:
         contents[answer.results_file] = json_text(answer, curves=True)
-    contents |= answer.files()
-    write_folder(folder, contents, answer.figures(), quiet=quiet, remarks=answer.remarks)
+    with as_wanted(answer.units):
+        contents |= answer.files()
+        write_folder(folder, contents, answer.figures(), quiet=quiet, remarks=answer.remarks)
 
 
 def finish(answer: Answer) -> None:
@@ -194,7 +212,8 @@ def hand_over(
             "files of an answer", f"{out} is wanted, and the answer has no machine to write there"
         )
     if not json:
-        print_answer(answer)
+        with as_wanted(answer.units):
+            print_answer(answer)
     if folder is not None:
         write(answer, folder, quiet=json)
     if json:

@@ -57,15 +57,6 @@ ZeroAt = Annotated[
         show_default=False,
     ),
 ]
-UnitsOut = Annotated[
-    str,
-    Option(
-        "--units",
-        metavar="UNITS",
-        help='Units of tables, figures and CSV, such as "mm, rpm, kN"; SI without it. JSON is always SI.',
-        show_default=False,
-    ),
-]
 
 
 def reports_errors(

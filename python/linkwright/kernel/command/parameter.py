@@ -24,6 +24,9 @@ import click
 # The largest whole number up to which every one is a float.
 _WHOLE_MAX = 2**53
 
+# Where the context of a command keeps the units that are asked for.
+UNITS = "linkwright.units"
+
 # How every command is asked for its help.
 HELP = {"help_option_names": ["-h", "--help"]}
 
@@ -70,7 +73,9 @@ class Argument(NamedTuple):
     help: str
 
 
-def command(function: Callable[..., Any], name: str | None = None) -> click.Command:
+def command(
+    function: Callable[..., Any], name: str | None = None, *, shows_quantities: bool = False
+) -> click.Command:
     """The command that a function is.
 
     Parameters
@@ -79,6 +84,8 @@ def command(function: Callable[..., Any], name: str | None = None) -> click.Comm
         Its parameters are marked; its docstring is the help.
     name : str, optional
         Name of the command; without it, that of the function.
+    shows_quantities : bool
+        Whether there is ``--units``, in which the command shows its numbers.
 
     Returns
     -------
@@ -94,9 +101,36 @@ def command(function: Callable[..., Any], name: str | None = None) -> click.Comm
     params = [
         _param(hints[parameter.name], parameter) for parameter in signature(function).parameters.values()
     ]
+    if shows_quantities:
+        params.append(_units_option())
     about = cleandoc(function.__doc__ or "")
     words = name or function.__name__.replace("_", "-")
     return click.Command(words, params=params, help=about, callback=function, context_settings=HELP)
+
+
+def _units_option() -> click.Option:
+    """``--units``: in which units a command shows its numbers."""
+    return click.Option(
+        ["--units"],
+        metavar="UNITS",
+        help='Units of tables, figures and CSV, such as "mm, rpm, kN"; without it those of the table [units] '
+        "of the file, or SI. JSON is always SI.",
+        expose_value=False,
+        callback=_keep_units,
+    )
+
+
+def _keep_units(context: click.Context, option: click.Parameter, text: str | None) -> None:
+    """Keep the units that are asked for, for when results are shown."""
+    if text is None:
+        return
+    from linkwright.kernel.errors import InputError
+    from linkwright.kernel.page.out_units import OutUnits
+
+    try:
+        context.meta[UNITS] = OutUnits.of(text)
+    except InputError as error:
+        raise click.UsageError(str(error), context) from None
 
 
 def _param(hint: Any, parameter: Parameter) -> click.Parameter:

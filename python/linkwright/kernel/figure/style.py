@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.kernel.page.out_units import reader
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
@@ -82,7 +84,7 @@ STYLE: Any = {
 
 
 def styled(draw: Callable[P, R]) -> Callable[P, R]:
-    """Let a function draw in the style of all figures, whatever the user has set elsewhere."""
+    """Let a function draw in the style of all figures, with axes in the units that the reader wants."""
 
     @wraps(draw)
     def drawn(*args: P.args, **kwargs: P.kwargs) -> R:
@@ -91,7 +93,15 @@ def styled(draw: Callable[P, R]) -> Callable[P, R]:
         with rc_context(STYLE), warnings.catch_warnings():
             # A letter that no font has is drawn as a box.
             warnings.filterwarnings("ignore", message="Glyph .* missing from font")
-            return draw(*args, **kwargs)
+            drawing = draw(*args, **kwargs)
+            if reader().chosen:
+                from matplotlib.figure import Figure
+
+                from linkwright.kernel.figure.in_units import in_units_of_reader
+
+                if isinstance(drawing, Figure):
+                    in_units_of_reader(drawing)
+            return drawing
 
     return drawn
 

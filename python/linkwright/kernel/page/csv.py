@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.files.csv_text import csv_text
+from linkwright.kernel.page.out_units import shown_columns
 from linkwright.kernel.result import Result
 
 Floats = NDArray[np.float64]
@@ -42,10 +43,11 @@ def columns_csv(columns: Mapping[str, Floats]) -> str:
     Returns
     -------
     str
-        Numbers that read back exactly; empty cells for NaN.
+        In the units that the reader wants. Numbers that read back exactly; empty cells for NaN.
     """
-    rows = zip(*(column.tolist() for column in columns.values()), strict=True)
-    return csv_text(list(columns), rows)
+    shown = shown_columns(columns)
+    rows = zip(*(column.tolist() for column in shown.values()), strict=True)
+    return csv_text(list(shown), rows)
 
 
 def head(result: Result, name: str) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from linkwright.kernel.page.numbers import degrees, number
+from linkwright.kernel.page.numbers import degrees, number, quantity
 
 
 class Measured(str):
@@ -31,7 +31,14 @@ class Measured(str):
     before: str
 
 
-def measured(value: float | None, unit: str, scale: float = 0.0, digits: int = 5, before: str = "") -> str:
+def measured(
+    value: float | None,
+    unit: str,
+    scale: float = 0.0,
+    digits: int = 5,
+    before: str = "",
+    usual: str = "",
+) -> str:
     """A value with its unit.
 
     Parameters
@@ -39,13 +46,15 @@ def measured(value: float | None, unit: str, scale: float = 0.0, digits: int = 5
     value : float or None
         In SI; None is a dash.
     unit : str
-        SI unit as it is printed, empty for none; angles in radians are printed in degrees.
+        SI unit, empty for none; printed in the unit that the reader wants, angles in degrees without one.
     scale : float
         Peak absolute value of what the number belongs to: what is rounding beside it is zero.
     digits : int
         Significant digits.
     before : str
         What stands before the number.
+    usual : str
+        Unit in which it is printed where the reader wants no other, such as ``"mm"``; empty for `unit`.
 
     Returns
     -------
@@ -54,7 +63,7 @@ def measured(value: float | None, unit: str, scale: float = 0.0, digits: int = 5
     """
     if value is None or not math.isfinite(value):
         return "–"
-    plain = degrees(value) if unit == "rad" else f"{number(value, digits, scale)} {unit}".rstrip()
+    plain = degrees(value) if unit == "rad" else quantity(value, unit, digits, scale, usual=usual)
     return _marked(
         before + plain, value if number(value, digits, scale) != "0" else 0.0, unit, digits, before
     )

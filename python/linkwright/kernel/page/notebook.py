@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from html import escape
 from typing import Any
 
-from linkwright.kernel.page.numbers import number
+from linkwright.kernel.page.numbers import parted
 from linkwright.kernel.quantities import quantities_of
 
 
@@ -56,7 +56,7 @@ def result_html(result: Any, title: str = "") -> str:
     for each in declared:
         value = getattr(result, each.name, None) if each.kind == "scalar" else None
         if isinstance(value, int | float) and not isinstance(value, bool):
-            rows.append((each.word, each.symbol, number(value), result.unit_of(each.name)))
+            rows.append((each.word, each.symbol, *parted(value, result.unit_of(each.name))))
     drawn = result.curves()
     curves = [each.name for each in declared if each.kind == "curve" and each.over and each.name in drawn]
     if curves:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 import sys
 
+from linkwright.kernel.page.out_units import reader
+
 # Share of what it belongs to below which a number is rounding: sums of some ten thousand doubles.
 _NOISE = 1e-12
 
@@ -61,9 +63,45 @@ _ROUNDING = 2e-8
 
 
 def degrees(angle: float) -> str:
-    """An angle in radians as text in degrees; what is left of zero by rounding is zero."""
-    shown = 0.0 if abs(angle) < _ROUNDING else math.degrees(angle)
-    return f"{shown:.5g}°".replace("-", "−")
+    """An angle in radians as text, in degrees unless the reader wants another unit; rounding is zero."""
+    return quantity(0.0 if abs(angle) < _ROUNDING else angle, "rad", usual="deg")
+
+
+def quantity(
+    value: float | None, unit: str, digits: int = 5, scale: float = 0.0, before: str = "", usual: str = ""
+) -> str:
+    """A number with its unit as text, in the unit that the reader wants.
+
+    Parameters
+    ----------
+    value : float or None
+        In `unit`; None is a dash.
+    unit : str
+        As it is printed; empty for none.
+    digits : int
+        Significant digits.
+    scale : float
+        Peak absolute value of what the number belongs to: what is rounding beside it is zero.
+    before : str
+        What stands before the number.
+    usual : str
+        Unit in which it is shown where the reader wants no other; empty for `unit`.
+
+    Returns
+    -------
+    str
+        Such as ``0.084959 m``.
+    """
+    if value is None or not math.isfinite(value):
+        return "–"
+    text, name = parted(value, unit, digits, scale, usual)
+    return f"{before}{text}{'' if name == '°' else ' '}{name}".rstrip()
+
+
+def parted(value: float, unit: str, digits: int = 5, scale: float = 0.0, usual: str = "") -> tuple[str, str]:
+    """A number and its unit as texts, as `quantity` writes them together."""
+    name, factor = reader().shown(unit, usual)
+    return number(value / factor, digits, scale / factor), name
 
 
 def pretty_unit(unit: str) -> str:

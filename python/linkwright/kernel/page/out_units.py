@@ -1,27 +1,62 @@
-"""Units in which numbers are shown: SI, unless others are asked for, such as ``mm,rpm,kN``.
+"""Units in which numbers are shown: SI, unless the reader asks for others, such as ``mm, rpm, kN``.
 
-A unit of length is taken for velocities and accelerations too: with ``mm``, m/s² is shown as mm/s².
+Tables, figures and heads of CSV ask `reader` for them; what is computed, and JSON, is in SI whoever reads it.
+A unit of length is taken for velocities, accelerations and lengths per angle too: with ``mm``, m/s² is shown
+as mm/s². Torques and energies have one dimension and are told apart by their spelling: ``kN m`` is for
+torques, ``kJ`` for energies.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import AbstractContextManager, contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass
+from functools import cache
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.errors import InputError
+from linkwright.kernel.public import public
 from linkwright.kernel.units.kinds import Dimension
-from linkwright.kernel.units.spellings import factor_of, unknown
+from linkwright.kernel.units.spellings import factor_of, is_energy, normal, unknown
+
+if TYPE_CHECKING:
+    from pydantic import BaseModel
 
 Floats = NDArray[np.float64]
 
-_POWERS = str.maketrans({"²": "^2", "³": "^3", "⁴": "^4", "·": " "})
 _RAISED = re.compile(r"\^([234])")
 _RAISE = {"2": "²", "3": "³", "4": "⁴"}
-_PER_TIME = re.compile(r"m(/s(?:\^[234])?)")
+_JOULE = Dimension.of("J")
+# A unit at the end of a head or of a label.
+_BRACKETS = re.compile(r"\[([^\[\]]+)\]$")
+
+
+class _Unit(NamedTuple):
+    """A unit by its spelling, its factor to SI, its dimension, and whether energies are measured in it."""
+
+    name: str
+    factor: float
+    dimension: Dimension
+    is_energy: bool
+
+    def measures(self, other: _Unit) -> bool:
+        """Whether what is in another unit may be shown in this one."""
+        return self.dimension == other.dimension and self.is_energy == other.is_energy
+
+
+@cache
+def _unit(text: str) -> _Unit | None:
+    """A unit by its spelling; None if nobody knows it."""
+    known = factor_of(text) if text else None
+    if known is None:
+        return None
+    name = normal(text)
+    return _Unit(name, *known, known[1] == _JOULE and is_energy(name))
 
 
 @dataclass(frozen=True)
@@ -30,65 +65,106 @@ class OutUnits:
 
     Attributes
     ----------
-    chosen : tuple of tuple
-        Of each unit its spelling, its factor to SI and its dimension.
+    chosen : tuple
+        The units, one of a kind.
     """
 
-    chosen: tuple[tuple[str, float, Dimension], ...] = ()
+    chosen: tuple[_Unit, ...] = ()
 
     @classmethod
-    def of(cls, text: str) -> OutUnits:
-        """Units by a list such as ``"mm, rpm, kN"``.
+    def of(cls, text: str, where: str = "--units") -> OutUnits:
+        """Units by a list such as ``"mm, rpm, kN"``; `where`: who asks for them, in messages.
 
         Raises
         ------
         InputError
             A unit is not known, or two measure the same.
         """
-        found: list[tuple[str, float, Dimension]] = []
+        found: list[_Unit] = []
         for name in (part.strip() for part in text.split(",") if part.strip()):
-            known = factor_of(name)
-            if known is None:
-                raise InputError(f"--units: {unknown(name)}")
-            same = next((other for other, _, dimension in found if dimension == known[1]), None)
+            unit = _unit(name)
+            if unit is None:
+                raise InputError(f"{where}: {unknown(name)}")
+            same = next((other for other in found if other.measures(unit)), None)
             if same is not None:
-                raise InputError(f"--units: found {same} and {name}, expected one unit of a kind")
-            found.append((name, *known))
+                raise InputError(f"{where}: found {same.name} and {unit.name}, expected one unit of a kind")
+            found.append(unit)
         return cls(tuple(found))
+
+    @classmethod
+    def of_table(cls, table: BaseModel | None) -> OutUnits:
+        """Units by the table ``[units]`` of a machine file; none without one."""
+        if table is None:
+            return cls()
+        names = [unit for _, unit in table if unit is not None]
+        return cls(tuple(unit for unit in map(_unit, names) if unit is not None))
+
+    def over(self, other: OutUnits) -> OutUnits:
+        """These, and of another choice what these leave open."""
+        rest = (unit for unit in other.chosen if not any(own.measures(unit) for own in self.chosen))
+        return OutUnits((*self.chosen, *rest))
 
     def with_degrees(self) -> OutUnits:
         """The same with angles in degrees, unless another unit of angles is wanted."""
-        if any(dimension == Dimension(rad=1) for _, _, dimension in self.chosen):
-            return self
-        return OutUnits((*self.chosen, *OutUnits.of("deg").chosen))
+        return self.over(OutUnits.of("deg"))
 
-    def shown(self, unit: str) -> tuple[str, float]:
-        """How a quantity of an SI unit is shown.
+    def shown(self, unit: str, usual: str = "") -> tuple[str, float]:
+        """How a quantity is shown.
 
         Parameters
         ----------
         unit : str
-            Coherent SI unit; empty for a plain number.
+            Unit that it is in, as it is printed; empty for a plain number.
+        usual : str
+            Unit in which it is shown where no other is wanted; empty for the same.
 
         Returns
         -------
         str, float
-            The unit in which it is shown, and by what its SI value is divided.
+            The unit in which it is shown, and by what its value is divided.
         """
-        plain = unit.translate(_POWERS)
-        try:
-            dimension = Dimension.of(plain) if unit else None
-        except KeyError:
+        if " per " in unit:
+            # Of a derivative: by an entry that has its own unit.
+            (above, over), (below, under) = (self.shown(part) for part in unit.split(" per ", 1))
+            return f"{above} per {below}", over / under
+        own = _unit(unit) if self.chosen or usual else None
+        if own is None:
             # What has two units, or one of its own, is shown as it is.
             return unit, 1.0
-        for name, factor, other in self.chosen:
-            if other == dimension:
-                return _pretty(name), factor
-        rate = _PER_TIME.fullmatch(plain)
-        length = next(((n, f) for n, f, other in self.chosen if other == Dimension(m=1)), None)
-        if rate and length:
-            return _pretty(length[0] + rate[1]), length[1]
-        return unit, 1.0
+        wanted = self._wanted(own) or _unit(usual)
+        if wanted is None or wanted.name == own.name:
+            return unit, 1.0
+        return _pretty(wanted.name), wanted.factor / own.factor
+
+    def _wanted(self, own: _Unit) -> _Unit | None:
+        """The unit for what is in another one; None where none is wanted."""
+        for unit in self.chosen:
+            if unit.measures(own):
+                return unit
+        length = next((unit for unit in self.chosen if unit.dimension == Dimension(m=1)), None)
+        if length and own.dimension == Dimension(m=-1):
+            return _Unit(f"1/{length.name}", 1 / length.factor, own.dimension, is_energy=False)
+        per = next((per for si, per in _PER_LENGTH.items() if own.dimension == si), None)
+        return _unit(length.name + per) if length and per else None
+
+    def column(self, head: str, values: Floats) -> tuple[str, Floats]:
+        """A column of a table as it is shown: head with a unit in brackets, values in it → the same."""
+        label, factor = self.label(head)
+        return label, values if factor == 1.0 else values / factor
+
+    def label(self, text: str) -> tuple[str, float]:
+        """A label with a unit in brackets at its end as it is shown, and by what values are divided."""
+        found = _BRACKETS.search(text)
+        if found is None:
+            return text, 1.0
+        unit, factor = self.shown(found[1])
+        return f"{text[: found.start()]}[{unit}]", factor
+
+
+# Dimension → what is written behind a unit of length.
+_PER_LENGTH = {
+    Dimension.of(f"m{per}"): per for per in ("/s", "/s^2", "/s^3", "/s^4", "/rad", "/rad^2", "/rad^3")
+}
 
 
 def _pretty(unit: str) -> str:
@@ -97,27 +173,59 @@ def _pretty(unit: str) -> str:
     return "°" if text == "deg" else text
 
 
-def shown_columns(
-    curves: Mapping[str, Floats], unit_of: Callable[[str], str], units: OutUnits
-) -> dict[str, Floats]:
-    """Curves as columns of a table in the units that are wanted.
+_SI = OutUnits()
+_READER: ContextVar[OutUnits] = ContextVar("reader", default=_SI)
+
+
+def reader() -> OutUnits:
+    """The units of whoever reads what is being printed or drawn."""
+    return _READER.get()
+
+
+@contextmanager
+def reading(units: OutUnits) -> Iterator[None]:
+    """Show numbers in these units as long as the block lasts."""
+    token = _READER.set(units)
+    try:
+        yield
+    finally:
+        _READER.reset(token)
+
+
+def with_units_of(table: BaseModel | None) -> AbstractContextManager[None]:
+    """Show numbers in the units of a machine file as long as the block lasts, those of the reader first."""
+    return reading(reader().over(OutUnits.of_table(table)))
+
+
+@public
+def shown_in(units: str) -> AbstractContextManager[None]:
+    """Tables and figures in other units than SI, within a ``with``.
 
     Parameters
     ----------
-    curves : mapping of str to ndarray, shape (n,)
-        By name, in SI.
-    unit_of : callable
-        Name → SI unit.
-    units : OutUnits
-        What is wanted.
+    units : str
+        Such as ``"mm, rpm, kN"``.
 
     Returns
     -------
-    dict of str to ndarray, shape (n,)
-        Head with the unit → values.
+    context manager
+        What is printed, drawn or written as CSV inside is in these units; results stay SI.
+
+    Raises
+    ------
+    InputError
+        A unit is not known, or two measure the same.
+
+    Examples
+    --------
+    >>> import linkwright as lw
+    >>> with lw.shown_in("mm, rpm"):
+    ...     lw.write_report(lw.study(machine), "report.html")  # doctest: +SKIP
     """
-    columns = {}
-    for name, curve in curves.items():
-        unit, factor = units.shown(unit_of(name))
-        columns[f"{name} [{unit or '-'}]"] = curve / factor
-    return columns
+    return reading(OutUnits.of(units, "units").over(reader()))
+
+
+def shown_columns(columns: Mapping[str, Floats]) -> dict[str, Floats]:
+    """Columns of a table, heads with units in brackets → the same in the reader's units."""
+    units = reader()
+    return dict(units.column(head, values) for head, values in columns.items())

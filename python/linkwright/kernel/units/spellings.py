@@ -164,6 +164,15 @@ def factor_of(unit: str) -> tuple[float, Dimension] | None:
     return _FACTORS.get(text) or _from_pint(text)
 
 
+# Energies: joules, watts over a time, and what chemists and physicists use.
+_ENERGY = re.compile(r"J|W|cal|Btu|eV")
+
+
+def is_energy(unit: str) -> bool:
+    """Whether a unit of the dimension of torques is one of energies by its spelling: kJ and kW h are."""
+    return _ENERGY.search(normal(unit)) is not None
+
+
 def fits(dimension: Dimension, kind: Kind) -> bool:
     """Whether a unit of this dimension can measure the quantity."""
     if kind.angle_free:

@@ -66,6 +66,7 @@ def optimise(
         return
     answer = Answer(
         machine=plan.machine.name,
+        units=plan.machine.units,
         results=lambda _: {"optimum": found.to_dict()},
         head=lambda: _head(plan.machine.name, found),
         tables=lambda: optimum_tables(found, plan.units),
@@ -97,6 +98,7 @@ def _hand_over_front(
     middle = found.machines[len(found.machines) // 2]
     answer = Answer(
         machine=plan.machine.name,
+        units=plan.machine.units,
         results=lambda _: {"front": found.to_dict()},
         warnings=[f"no machine has {limit}: {reason}" for limit, reason in found.failed.items()],
         head=lambda: f"{plan.machine.name}\n{found.n_evaluations} machines computed",

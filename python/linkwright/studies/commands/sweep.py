@@ -14,6 +14,7 @@ from linkwright.kernel.command.parameter import Argument, Option
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from linkwright.machine.machine import Machine
     from linkwright.studies.figures import Shown
     from linkwright.studies.folder import SweepFolder
     from linkwright.studies.sweep import Sweep
@@ -59,7 +60,7 @@ def sweep(
     plan = read_study(file, set or [], allow_outside=allow_outside)
     with rows_bar() as watch:
         found = compute(plan, out, chunks=_share(chunks), workers=workers, watch=watch)
-    hand_over(_answer(plan.machine.name, found, plan.units), json=json)
+    hand_over(_answer(plan.machine, found, plan.units), json=json)
 
 
 def show(folder: Folder, out: Drawn = None, force: Force = False, json: Json = False) -> None:
@@ -75,9 +76,10 @@ def show(folder: Folder, out: Drawn = None, force: Force = False, json: Json = F
     known = opened(folder)
     plan = plan_of(known.manifest)
     found = summary(known, plan.responses)
-    answer = _answer(plan.machine.name, found, known.units)
+    answer = _answer(plan.machine, found, known.units)
     drawn = Answer(
         machine=answer.machine,
+        units=answer.units,
         results=answer.results,
         findings=answer.findings,
         warnings=answer.warnings,
@@ -100,7 +102,7 @@ def _share(text: str) -> tuple[int, int] | None:
     return int(first), int(last)
 
 
-def _answer(machine: str, found: Sweep, units: dict[str, str]) -> Answer:
+def _answer(machine: Machine, found: Sweep, units: dict[str, str]) -> Answer:
     """Counts, extremes, and what failed."""
     from linkwright.studies.tables import sweep_tables
 
@@ -110,11 +112,14 @@ def _answer(machine: str, found: Sweep, units: dict[str, str]) -> Answer:
     if missing:
         warnings.append(f"{missing} rows of {found.n_rows} are not computed yet.")
     return Answer(
-        machine=machine,
+        machine=machine.name,
+        units=machine.units,
         results=lambda _: {"sweep": found.to_dict()},
         findings=[] if solved else ["No row has an answer."],
         warnings=warnings,
-        head=lambda: f"{machine}\n{found.n_done} of {found.n_rows} rows in {found.path}, {solved} solved",
+        head=lambda: (
+            f"{machine.name}\n{found.n_done} of {found.n_rows} rows in {found.path}, {solved} solved"
+        ),
         tables=partial(sweep_tables, found, units),
     )
 

@@ -42,6 +42,7 @@ def tolerance(
     failed = f"{found.n_failed} of {found.n_rows} machines have no answer; they count as outside the limits."
     answer = Answer(
         machine=plan.machine.name,
+        units=plan.machine.units,
         results=lambda _: {"tolerance": found.to_dict()},
         findings=["No machine within the tolerances keeps all limits."] if found.share_within == 0 else [],
         warnings=[

@@ -31,6 +31,7 @@ from linkwright.kernel.figure.style import (
     styled,
     turn_axis,
 )
+from linkwright.kernel.page.numbers import quantity
 from linkwright.topping.topper import NOTHING
 from linkwright.topping.verdict import WAYS
 
@@ -84,7 +85,9 @@ def _way(axes: Axes, chart: LengthChart, lines: Lines, way: str, scale: float) -
     """One panel."""
     for speed, values, colour in zip(chart.forward_speeds, getattr(lines, way), LINES, strict=False):
         # A line that leaves the panel indefinitely ends there.
-        axes.plot(scale * lines.along, _MILLI * values, color=colour, label=f"v = {speed:.3g} m/s")
+        axes.plot(
+            scale * lines.along, _MILLI * values, color=colour, label=f"v = {quantity(speed, 'm/s', 3)}"
+        )
     if way == "constant_speed" and lines.moved.size:
         style: dict[str, Any] = {"color": PURPLE, "linestyle": (0, (4, 2))}
         axes.plot(scale * lines.moved_along, _MILLI * lines.moved, label="motion of this knife", **style)

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.page.csv import columns_csv
-from linkwright.kernel.page.numbers import number
+from linkwright.kernel.page.numbers import number, quantity
 from linkwright.kernel.page.table import Row, Table
 from linkwright.topping.best.best_knife import BestKnife, KnifeSearch
 from linkwright.topping.field import TopperField
@@ -50,7 +50,8 @@ def field_tables(field: TopperField) -> Iterator[Table]:
     """Shares, haulm, loss, and lengths."""
     each = "rows" if field.clusters == "rows" else "measured roots, each in many phases"
     title = (
-        f"Field: {field.n_roots} heads of {field.n_clusters} {each}; edge of {number(field.edge_length)} m"
+        f"Field: {field.n_roots} heads of {field.n_clusters} {each}; "
+        f"edge of {quantity(field.edge_length, 'm')}"
     )
     yield Table("topper_field", title, ("", "", "value", _interval(field.level)), list(_rows(field)))
     rows: list[Row] = [
@@ -82,7 +83,7 @@ def _rows(field: TopperField) -> Iterator[Row]:
     value, low, high = (1e6 * each for each in _three(field, "loss_mean"))
     yield "loss of a root, mean", "V", f"{number(value)} cm³", _between(number(low), f"{number(high)} cm³")
     if field.loss_mass_mean is not None:
-        yield "mass of it", "m", f"{number(1e3 * field.loss_mass_mean)} g", ""
+        yield "mass of it", "m", quantity(field.loss_mass_mean, "kg", usual="g"), ""
     yield "mean draw-cut ratio", "", number(field.slicing_ratio_mean), ""
     counts = (("heads that the knife passes above", field.n_missed), ("roots lost as a whole", field.n_lost))
     for word, count in counts:
@@ -100,7 +101,7 @@ def _between(low: str, high: str) -> str:
 
 
 def _length(value: float) -> str:
-    return "none" if math.isinf(value) else f"{number(value, 4)} m"
+    return "none" if math.isinf(value) else quantity(value, "m", 4)
 
 
 def sweep_table(swept: FieldSweep) -> Table:
@@ -149,12 +150,12 @@ def best_table(search: KnifeSearch, best: BestKnife) -> Table:
     limits = search.limits
     rows: list[Row] = [
         ("edge angle", "α", f"{number(math.degrees(best.edge_angle))}°", "", ""),
-        ("length of the edge", "L", f"{number(best.edge_length)} m", "", _at_most(search.length_max, "m")),
-        ("speed of the knife", "v_h", f"{number(best.knife_speed)} m/s", "", ""),
-        ("speed along the row", "v", f"{number(best.forward_speed)} m/s", "", ""),
+        ("length of the edge", "L", quantity(best.edge_length, "m"), "", _at_most(search.length_max, "m")),
+        ("speed of the knife", "v_h", quantity(best.knife_speed, "m/s"), "", ""),
+        ("speed along the row", "v", quantity(best.forward_speed, "m/s"), "", ""),
     ]
     if best.crank_speed is not None:
-        rows.append(("speed of its crank", "ω", f"{number(best.crank_speed)} rad/s", "", ""))
+        rows.append(("speed of its crank", "ω", quantity(best.crank_speed, "rad/s"), "", ""))
     least = "" if limits.slicing_min is None else f"≥ {number(limits.slicing_min)}"
     rows.append(("mean draw-cut ratio", "", number(best.slicing_ratio_mean), "", least))
     share = _percent(best.share_complete)

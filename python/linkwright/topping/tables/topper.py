@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 
 from linkwright.kernel.page.csv import columns_csv, head
-from linkwright.kernel.page.numbers import degrees, number
+from linkwright.kernel.page.numbers import degrees, number, quantity
 from linkwright.kernel.page.table import Row, Table, row, rows_in, rows_of
 from linkwright.kernel.quantities import shown
 from linkwright.topping.model.topper import Topper
@@ -42,7 +42,7 @@ def edge_csv(study: TopperStudy) -> str:
 
 def mm(value: float) -> str:
     """A length in millimetres."""
-    return f"{number(1e3 * value, 4)} mm"
+    return quantity(value, "m", 4, usual="mm")
 
 
 def percent(share: float) -> str:

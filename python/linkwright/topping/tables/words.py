@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 
 from linkwright.kernel.page.formulas import Formula
-from linkwright.kernel.page.numbers import degrees, number
+from linkwright.kernel.page.numbers import degrees, parted
 from linkwright.topping.model.topper import Topper
 from linkwright.topping.topper import TopperStudy
 
@@ -63,18 +63,18 @@ _SLICING = Formula(
 
 def topper_headline(described: Topper, study: TopperStudy) -> Iterator[tuple[str, str, str]]:
     """The few numbers that one looks for first: word, value, unit."""
-    yield "head diameter d", number(1e3 * study.head_diameter, 4), "mm"
+    yield "head diameter d", *parted(study.head_diameter, "m", 4, usual="mm")
     needed = study.length_exact
     if not study.obstacle:
         yield (
             "edge needed",
-            *((number(1e3 * needed, 4), "mm") if math.isfinite(needed) else ("none does", "")),
+            *(parted(needed, "m", 4, usual="mm") if math.isfinite(needed) else ("none does", "")),
         )
-    yield "edge L", number(1e3 * described.edge_length, 4), "mm"
+    yield "edge L", *parted(described.edge_length, "m", 4, usual="mm")
     if not study.obstacle:
-        yield "left at worst", number(100 * study.uncut_share, 3), "%"
+        yield "left at worst", *parted(100 * study.uncut_share, "%", 3)
     if study.stroke:
-        yield "double strokes", number(study.frequency, 3), "1/s"
+        yield "double strokes", *parted(study.frequency, "1/s", 3)
 
 
 def topper_formulas(described: Topper, study: TopperStudy | None) -> list[Formula]:

@@ -15,6 +15,7 @@ from linkwright.kernel.command.parameter import Option
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from linkwright.machine.machine import Machine
     from linkwright.torsion.damper.damper_design import DamperDesign
 
 
@@ -64,18 +65,19 @@ def damper(
     machine = read(file, set or [], allow_outside=allow_outside)
     ring = option_value("--ring-inertia", ring_inertia, INERTIA)
     design = design_damper(machine, on, ring, mode=mode, kind=kind.value, loss_factor=loss_factor)
-    hand_over(_answer(machine.name, design), json=json, folder=folder)
+    hand_over(_answer(machine, design), json=json, folder=folder)
 
 
 # In the order of the help.
 
 
-def _answer(name: str, design: DamperDesign) -> Answer:
+def _answer(machine: Machine, design: DamperDesign) -> Answer:
     """The damper, also as lines of a machine file."""
     from linkwright.torsion.tables.engine import damper_lines, damper_table
 
     return Answer(
-        machine=name,
+        machine=machine.name,
+        units=machine.units,
         results=lambda _: {"damper": design.to_dict(curves=True)},
         tables=lambda: [damper_table(design)],
         tail=partial(damper_lines, design),

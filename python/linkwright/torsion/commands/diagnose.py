@@ -11,6 +11,7 @@ from linkwright.kernel.command.parameter import Argument, Option
 from linkwright.kernel.errors import InputError
 
 if TYPE_CHECKING:
+    from linkwright.machine.machine import Machine
     from linkwright.torsion.diagnosis.record_diagnosis import RecordDiagnosis
 
 Measured = Annotated[
@@ -76,10 +77,10 @@ def diagnose(
     diagnosis = record_diagnosis(
         machine, on, columns["angle"], columns["speed"], noise=deviation, zero=zero, rigid=rigid
     )
-    hand_over(_answer(machine.name, diagnosis, level), json=json)
+    hand_over(_answer(machine, diagnosis, level), json=json)
 
 
-def _answer(name: str, read: RecordDiagnosis, level: float) -> Answer:
+def _answer(machine: Machine, read: RecordDiagnosis, level: float) -> Answer:
     """What each cylinder gives, and what is wrong with which."""
     from linkwright.torsion.tables.engine import diagnosis_table, diagnosis_words
 
@@ -96,7 +97,8 @@ def _answer(name: str, read: RecordDiagnosis, level: float) -> Answer:
     # They stand beside the results, with those of the record.
     results.pop("warnings")
     return Answer(
-        machine=name,
+        machine=machine.name,
+        units=machine.units,
         results=lambda _: {"diagnosis": results},
         warnings=read.warnings,
         tables=lambda: [diagnosis_table(read, level)],

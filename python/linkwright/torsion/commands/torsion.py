@@ -66,6 +66,7 @@ def _answer(study: TorsionStudy) -> Answer:
     """All that was found of the train."""
     return Answer(
         machine=study.machine.name,
+        units=study.machine.units,
         results=partial(_results, study),
         findings=study.findings,
         warnings=study.warnings,

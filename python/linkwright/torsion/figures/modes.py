@@ -22,6 +22,7 @@ from linkwright.kernel.figure.style import (
     styled,
     zero_line,
 )
+from linkwright.kernel.page.numbers import quantity
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -68,7 +69,7 @@ def _mode(axes: Axes, free: FreeVibration, k: int, colour: str) -> None:
     axes.vlines(range(len(shape)), 0, shape, color=SOFT, linewidth=0.8)
     axes.plot(range(len(shape)), shape, "o", color=INK, markersize=4)
     axes.set_ylim(-1.15, 1.15)
-    axes.set_ylabel(f"{free.natural_frequencies[k]:.5g} Hz")
+    axes.set_ylabel(quantity(free.natural_frequencies[k], "Hz", 5))
     zero_line(axes)
 
 

@@ -8,6 +8,7 @@ from textwrap import wrap
 
 import numpy as np
 
+from linkwright.kernel.page.numbers import quantity
 from linkwright.torsion.figures.scheme_layout import Bridge, Layout, layout
 from linkwright.torsion.model.train import GROUND
 from linkwright.torsion.modes.scheme import Connection, Scheme
@@ -44,7 +45,7 @@ def wide(line: str) -> float:
 
 def disc_words(scheme: Scheme, n: int) -> Words:
     """Name, inertia, and where the speed is another one, the referred inertia in brackets."""
-    own = f"{scheme.inertia[n]:.4g} kg m²"
+    own = quantity(scheme.inertia[n], "kg m²", 4)
     referred = () if _same(scheme.speed[n]) else (f"({scheme.inertia_referred[n]:.4g})",)
     return Words((scheme.discs[n],), (own, *referred))
 
@@ -72,7 +73,7 @@ def stiffness(value: float) -> str:
 
 def metres(length: float) -> str:
     """A length with three digits, without powers of ten where it is long."""
-    return f"{length:.0f} m" if length >= 1000 else f"{length:.3g} m"
+    return f"{length:.0f} m" if length >= 1000 else quantity(length, "m", 3)
 
 
 def _same(factor: float) -> bool:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.figure.style import INK, LINES, SOFT, legend_above, panels, styled, zero_line
+from linkwright.kernel.page.numbers import quantity
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -179,4 +180,4 @@ def _shaft(axes: Axes, motion: TorsionTransient, shaft: int, colour: str) -> Non
 def _line_of(axes: Axes, waterfall: Waterfall, frequency: float, up: Floats, colour: str) -> None:
     """Where an order has a frequency: ν = 2πf/ω."""
     orders = 2 * np.pi * frequency / waterfall.speed
-    axes.plot(orders, up, color=colour, linewidth=1.1, linestyle="--", label=f"{frequency:.4g} Hz")
+    axes.plot(orders, up, color=colour, linewidth=1.1, linestyle="--", label=quantity(frequency, "Hz", 4))

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
+from linkwright.kernel.page.numbers import quantity
 from linkwright.kernel.page.table import Row, Table, with_unit
 from linkwright.torsion.damper.damper_design import DamperDesign
 from linkwright.torsion.diagnosis.record_diagnosis import RecordDiagnosis
@@ -140,8 +141,10 @@ def damper_table(design: DamperDesign) -> Table:
         (word, symbol, f"{rule:.6g}", f"{best:.6g}") for word, symbol, rule, best in values if best > 0
     ]
     title = (
-        f"Damper on {design.on} for mode {design.mode}, {design.natural_frequency:.6g} Hz; its ring of "
-        f"{design.ring_inertia:.6g} kg m² is {100 * design.mass_ratio:.4g} % of the modal inertia there"
+        f"Damper on {design.on} for mode {design.mode}, {quantity(design.natural_frequency, 'Hz', 6)}; its "
+        f"ring of "
+        f"{quantity(design.ring_inertia, 'kg m²', 6)} is {100 * design.mass_ratio:.4g} % "
+        "of the modal inertia there"
     )
     return Table("damper", title, ("", "", "by the mode alone", "best for the train"), rows)
 

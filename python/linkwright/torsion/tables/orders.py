@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.page.csv import columns_csv
-from linkwright.kernel.page.numbers import number
+from linkwright.kernel.page.numbers import quantity
 from linkwright.kernel.page.table import Row, Table
 from linkwright.torsion.in_time.transient import TorsionTransient
 from linkwright.torsion.response.excited_train import ExcitedTrain
@@ -95,9 +95,9 @@ def excitation_tables(at: ExcitedTrain, place: int) -> Iterator[Table]:
         )
         for k in kept
     ]
-    heads = ["order", "", *(head for name in shown for head in (f"{name} N m", "phase °"))]
-    rpm = at.torques.speeds[place] * 30 / np.pi
-    yield Table("excitation", f"Harmonics of the exciting torques at {rpm:.5g} rpm", tuple(heads), rows)
+    heads = ["order", "", *(head for name in shown for head in (name, "phase"))]
+    speed = quantity(float(at.torques.speeds[place]), "rad/s", usual="rpm")
+    yield Table("excitation", f"Harmonics of the exciting torques at {speed}", tuple(heads), rows)
 
 
 def _shown(at: ExcitedTrain, size: Floats) -> Mapping[str, int]:
@@ -115,4 +115,4 @@ def _cells(wave: complex, largest: float) -> tuple[str, str]:
     """Amplitude and phase."""
     if abs(wave) <= _ROUNDING * largest:
         return "–", "–"
-    return number(abs(wave), 4), f"{np.degrees(np.angle(wave)):.1f}".replace("-", "−")
+    return quantity(abs(wave), "N m", 4), quantity(float(np.angle(wave)), "rad", 4, usual="deg")

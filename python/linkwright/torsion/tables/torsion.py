@@ -7,8 +7,10 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.kernel.page.numbers import number
-from linkwright.kernel.page.table import Row, Table, with_unit
+from linkwright.kernel.page.measured import measured
+from linkwright.kernel.page.numbers import number, parted, quantity
+from linkwright.kernel.page.out_units import reader
+from linkwright.kernel.page.table import Row, Table
 from linkwright.torsion.in_time.transient import TorsionTransient
 from linkwright.torsion.limits.misfire import MisfireVerdict
 from linkwright.torsion.limits.verdict import Verdict
@@ -77,7 +79,9 @@ def _judgements(verdict: Verdict) -> Table:
         )
         for judgement in verdict.judgements
     ]
-    return Table("limits", "Limits", ("limit", "", "found", "permitted", "at rpm", "verdict"), rows)
+    return Table(
+        "limits", "Limits", ("limit", "", "found", "permitted", f"at {_per_minute()}", "verdict"), rows
+    )
 
 
 def _misfire(verdict: MisfireVerdict) -> Table:
@@ -94,7 +98,7 @@ def _misfire(verdict: MisfireVerdict) -> Table:
         )
         for row in verdict.judgements
     ]
-    heads = ("limit", "", "found", "permitted", "at rpm", "cylinder", "verdict")
+    heads = ("limit", "", "found", "permitted", f"at {_per_minute()}", "cylinder", "verdict")
     return Table("misfire", "Limits with one cylinder misfiring, the worst of all", heads, rows)
 
 
@@ -106,33 +110,34 @@ def _peak_judgements(moved: TorsionTransient) -> Table:
             "",
             _shown(judgement.found, judgement.kind.unit),
             _shown(judgement.permitted, judgement.kind.unit),
-            f"{judgement.time:.5g}",
+            quantity(judgement.time, "s"),
             _STATES["ok" if judgement.is_kept else "exceeds"],
         )
         for judgement in moved.judgements
     ]
-    heads = ("limit", "", "found", "permitted", "at s", "verdict")
+    heads = ("limit", "", "found", "permitted", "at", "verdict")
     return Table("manoeuvre_limits", "Limits in the manoeuvre", heads, rows)
 
 
 def _shown(value: float, unit: str) -> str:
-    """A quantity for people: stresses in MPa."""
+    """A quantity for people: stresses in MPa unless another unit is wanted."""
     if np.isinf(value):
         return "unbounded"
-    return with_unit(value / 1e6, "MPa") if unit == "Pa" else with_unit(value, unit)
+    return measured(value, unit, usual="MPa" if unit == "Pa" else "")
 
 
 def _manoeuvre(moved: TorsionTransient) -> Table:
     """Extremes of the torques in a manoeuvre, and when they come."""
     columns = (moved.torque_max, moved.torque_max_time, moved.torque_min, moved.torque_min_time)
+    units = ("N m", "s") * 2
     rows: list[Row] = [
-        (name, "", *(_finite(value) for value in values))
+        (name, "", *(quantity(*each, digits=4) for each in zip(values, units, strict=True)))
         for name, values in zip(
             moved.shafts, zip(*(column.tolist() for column in columns), strict=True), strict=True
         )
     ]
-    heads = ("shaft", "", "maximum N m", "at s", "minimum N m", "at s")
-    title = f"Manoeuvre of {moved.time[-1]:.4g} s: torques of the shafts"
+    heads = ("shaft", "", "maximum", "at", "minimum", "at")
+    title = f"Manoeuvre of {quantity(float(moved.time[-1]), 's', 4)}: torques of the shafts"
     return Table("manoeuvre", title, heads, rows)
 
 
@@ -150,7 +155,11 @@ def _damped(study: TorsionStudy, damped: DampedVibration) -> Table:
     ]
     heads = ("motion", "", "Hz", "damped Hz", "ζ", "log. decrement")
     run = study.machine.train.run if study.machine.train is not None else None
-    at = f" at {_rpm(run.service)} rpm, loads and mean torques counted" if run and study.forced else ""
+    at = (
+        f" at {_rpm(run.service)} {_per_minute()}, loads and mean torques counted"
+        if run and study.forced
+        else ""
+    )
     return Table("damped", f"Modes with damping{at}", heads, rows)
 
 
@@ -178,17 +187,17 @@ def _critical(diagram: CampbellDiagram) -> Table:
         for crossing in diagram.critical
         if crossing in kept
     ]
-    heads = ("order", "", "mode", "Hz", "rpm", "peaks at [rpm]", "amplitude [°]")
+    heads = ("order", "", "mode", "Hz", _per_minute(), f"peaks at [{_per_minute()}]", "amplitude")
     more = len(diagram.critical) - len(rows)
     title = "Critical speeds" + (f", the most severe of {len(diagram.critical)}" if more else "")
     return Table("critical_speeds", title, heads, rows)
 
 
 def _amplitude(theta: float | None) -> str:
-    """Degrees, where an amplitude was found."""
+    """An angle, where an amplitude was found."""
     if theta is None:
         return "–"
-    return number(np.degrees(theta), 3) if np.isfinite(theta) else "∞"
+    return quantity(theta, "rad", 3, usual="deg") if np.isfinite(theta) else "∞"
 
 
 def _shafts(study: TorsionStudy, forced: ForcedVibration) -> Table:
@@ -204,11 +213,12 @@ def _shafts(study: TorsionStudy, forced: ForcedVibration) -> Table:
             forced.shaft_torque_max[s, at],
             forced.shaft_heat[s, at],
         )
-        cells = [_finite(value) for value in numbers]
+        units = ("N m", "N m", "N m", "N m", "W")
+        cells = [quantity(float(value), unit, 4) for value, unit in zip(numbers, units, strict=True)]
         rows.append((name, "", cells[0], _rpm(float(peaks.speed[s])), *cells[1:]))
     service = _rpm(forced.speeds[at])
-    heads = ("shaft", "", "vibratory", "at rpm", "mean", "vibratory", "maximum", "heat")
-    title = f"Torques [N m]: largest over speeds and resonances; then at {service} rpm, with heat [W]"
+    heads = ("shaft", "", "vibratory", f"at {_per_minute()}", "mean", "vibratory", "maximum", "heat")
+    title = f"Torques: largest over speeds and resonances; then at {service} {_per_minute()}, with heat"
     return Table("shaft_torques", title, heads, rows)
 
 
@@ -224,7 +234,7 @@ def _discs(study: TorsionStudy, forced: ForcedVibration) -> Table:
             [_finite(v, 3) for v in each.tolist()] for each in (study.along.unevenness, study.along.spread)
         ]
     rows: list[Row] = [(name, "", *cells) for name, *cells in zip(forced.discs, *columns, strict=True)]
-    title = f"Speed fluctuation at {_rpm(forced.speeds[at])} rpm"
+    title = f"Speed fluctuation at {_rpm(forced.speeds[at])} {_per_minute()}"
     return Table("unevenness", title, tuple(heads), rows)
 
 
@@ -240,7 +250,12 @@ def service_place(study: TorsionStudy, forced: ForcedVibration) -> int:
 
 
 def _rpm(speed: float) -> str:
-    return f"{speed * 30 / np.pi:.5g}"
+    return parted(speed, "rad/s", usual="rpm")[0]
+
+
+def _per_minute() -> str:
+    """The unit of speeds."""
+    return reader().shown("rad/s", "rpm")[0]
 
 
 def _signed(text: str) -> str:
@@ -320,7 +335,7 @@ def holzer_tables(table: HolzerTable) -> Iterator[Table]:
     ]
     rows.append(("residual at " + table.end, "", "", "", "", _signed(f"{table.residual_torque:.6g}")))
     heads: Row = ("disc", "", "J [kg m²]", "J ω² [N m/rad]", "amplitude θ", "J ω² θ [N m]")
-    yield Table("holzer_discs", f"Holzer's table at {table.frequency:.6g} Hz", heads, rows)
+    yield Table("holzer_discs", f"Holzer's table at {quantity(table.frequency, 'Hz', 6)}", heads, rows)
     of_shafts = (table.stiffness, table.twist, table.shaft_torque)
     rows = [
         (name, "", *(_signed(f"{column[n]:.6g}") for column in of_shafts))

@@ -247,9 +247,10 @@
   function draw(k) {
     for (const move of movers) move(k);
     const degrees = (between(scene.angles, k) * 180 / Math.PI) % 360;
-    const speed = between(scene.speeds, k);
+    const [unit, size] = scene.speed_unit;
+    const speed = between(scene.speeds, k) / size;
     const words = `φ = ${degrees.toFixed(0).padStart(3, "\u2007")}°`;
-    state.textContent = scene.true_speed ? `${words}   ω = ${speed.toPrecision(4)} rad/s` : words;
+    state.textContent = scene.true_speed ? `${words}   ω = ${speed.toPrecision(4)} ${unit}` : words;
   }
 
   // One turn in two seconds at the middle of the slider, or in its own time if that is longer and still watchable.

@@ -1,0 +1,89 @@
+"""Units in which tables, figures and CSV of a machine show its numbers: the table ``[units]`` of its file."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from pydantic import Field
+from pydantic_core import CoreSchema, core_schema
+
+from linkwright.kernel.description.base import Description, wrong
+from linkwright.kernel.units import (
+    ACCELERATION,
+    ANGLE,
+    ANGULAR_ACCELERATION,
+    ENERGY,
+    FORCE,
+    FREQUENCY,
+    INERTIA,
+    LENGTH,
+    MASS,
+    POWER,
+    PRESSURE,
+    SPEED,
+    STIFFNESS,
+    TIME,
+    TORQUE,
+    TORSIONAL_STIFFNESS,
+    VELOCITY,
+    Kind,
+    show,
+)
+from linkwright.kernel.units.spellings import factor_of, fits, is_energy, other_quantity, unknown
+
+
+@dataclass(frozen=True, slots=True)
+class UnitOf:
+    """Mark of a field that holds the unit of a quantity, as a text."""
+
+    kind: Kind
+
+    def read(self, value: str) -> str:
+        """A unit that measures the quantity, for pydantic."""
+        known = factor_of(value)
+        expected = f'a unit of {self.kind.noun}, such as "{self.kind.unit}"'
+        if known is None:
+            raise wrong(show(value), expected, unknown(value))
+        if not fits(known[1], self.kind):
+            raise wrong(show(value), expected, other_quantity(value, known[1], self.kind))
+        # Torques and energies have one dimension.
+        if self.kind in (TORQUE, ENERGY) and is_energy(value) != (self.kind is ENERGY):
+            other = TORQUE if self.kind is ENERGY else ENERGY
+            raise wrong(show(value), expected, f"{show(value)} is a unit of {other.noun}")
+        return value
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> CoreSchema:
+        text = core_schema.no_info_after_validator_function(self.read, core_schema.str_schema())
+        return core_schema.nullable_schema(text)
+
+
+class ShownUnits(Description):
+    """Units of what is printed, drawn and written as CSV; JSON is always SI."""
+
+    length: Annotated[str | None, UnitOf(LENGTH)] = Field(
+        None,
+        description="Of lengths; of velocities and accelerations too, unless they have one.",
+    )
+    angle: Annotated[str | None, UnitOf(ANGLE)] = Field(None, description="Of angles; degrees without it.")
+    mass: Annotated[str | None, UnitOf(MASS)] = Field(None, description="Of masses.")
+    time: Annotated[str | None, UnitOf(TIME)] = Field(None, description="Of times.")
+    speed: Annotated[str | None, UnitOf(SPEED)] = Field(None, description="Of angular speeds.")
+    angular_acceleration: Annotated[str | None, UnitOf(ANGULAR_ACCELERATION)] = Field(
+        None, description="Of angular accelerations."
+    )
+    velocity: Annotated[str | None, UnitOf(VELOCITY)] = Field(None, description="Of velocities.")
+    acceleration: Annotated[str | None, UnitOf(ACCELERATION)] = Field(None, description="Of accelerations.")
+    force: Annotated[str | None, UnitOf(FORCE)] = Field(None, description="Of forces.")
+    torque: Annotated[str | None, UnitOf(TORQUE)] = Field(None, description="Of torques.")
+    energy: Annotated[str | None, UnitOf(ENERGY)] = Field(None, description="Of energies and works.")
+    power: Annotated[str | None, UnitOf(POWER)] = Field(None, description="Of powers.")
+    inertia: Annotated[str | None, UnitOf(INERTIA)] = Field(None, description="Of moments of inertia.")
+    pressure: Annotated[str | None, UnitOf(PRESSURE)] = Field(None, description="Of pressures and stresses.")
+    stiffness: Annotated[str | None, UnitOf(STIFFNESS)] = Field(
+        None, description="Of stiffnesses of springs."
+    )
+    torsional_stiffness: Annotated[str | None, UnitOf(TORSIONAL_STIFFNESS)] = Field(
+        None, description="Of torsional stiffnesses."
+    )
+    frequency: Annotated[str | None, UnitOf(FREQUENCY)] = Field(None, description="Of frequencies.")
