@@ -27,7 +27,7 @@ from linkwright.kinetostatics.model.loads.between import (
 from linkwright.kinetostatics.model.loads.force import ConstantForce, ConstantTorque, Gravity
 from linkwright.kinetostatics.model.loads.formula import FormulaLoad
 from linkwright.kinetostatics.model.loads.friction import DryFriction, ViscousFriction
-from linkwright.kinetostatics.model.loads.table import ForcePosition, TorqueAngle, TorqueSpeed
+from linkwright.kinetostatics.model.loads.table import ForcePosition, TorqueAngle, TorqueSpeed, TorqueSwing
 from linkwright.kinetostatics.places import Scene, dot, unit
 from linkwright.kinetostatics.wrench import Wrenches
 from linkwright.linkages.model.structure import FRAME
@@ -113,6 +113,7 @@ def applied(scene: Scene, load: Any) -> Applied:
         TorsionalSpring: _torsional_spring,
         TorsionalDamper: _torsional_damper,
         ForcePosition: _over_position,
+        TorqueSwing: _over_swing,
         FormulaLoad: formula_wrenches,
     }
     kind = type(load)
@@ -243,6 +244,17 @@ def _over_position(scene: Scene, load: ForcePosition) -> Wrenches:
     ahead = np.interp(slide.position, load.position, load.forward)
     behind = np.interp(slide.position, load.position, load.return_) if load.return_ else 0.0 * ahead
     return Wrenches(scene).along_slide(load.on, np.where(sense > 0, -ahead, np.where(sense < 0, behind, 0.0)))
+
+
+def _over_swing(scene: Scene, load: TorqueSwing) -> Wrenches:
+    sense = _sense(scene.angle(load.on, 1), 1.0, scene)
+    # Within half a revolution to both sides of the middle of the table.
+    middle = 0.5 * (load.angle[0] + load.angle[-1])
+    turned = scene.angle(load.on) - middle
+    angle = middle + np.arctan2(np.sin(turned), np.cos(turned))
+    ahead = np.interp(angle, load.angle, load.forward)
+    behind = np.interp(angle, load.angle, load.return_) if load.return_ else 0.0 * ahead
+    return Wrenches(scene).couple(load.on, np.where(sense > 0, -ahead, np.where(sense < 0, behind, 0.0)))
 
 
 def _over_angle(scene: Scene, load: TorqueAngle) -> Floats:

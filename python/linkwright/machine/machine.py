@@ -19,6 +19,7 @@ from linkwright.kernel.units import INSIDE_ONE, RATIO, SPEED, Angle, Quantity, n
 from linkwright.kinetostatics.model.body import Body, body_faults
 from linkwright.kinetostatics.model.loads import AnyLoad
 from linkwright.kinetostatics.model.loads.references import load_faults
+from linkwright.linkages.model.drawing import DrawingPoints, with_drawing
 from linkwright.linkages.model.mechanism import Mechanism
 from linkwright.machine.whole_mechanism import merged, topology_of, with_followers
 
@@ -70,6 +71,11 @@ class Machine(Description):
     description: str = Field("", description="More about it.")
     source: str = Field("", description="Where the numbers are from.")
     drive: Drive | None = Field(None, description="What turns the crankshaft.")
+    drawing: DrawingPoints | None = Field(
+        None,
+        description="Coordinates of points, from which lengths and places follow that the mechanism leaves "
+        "open; a machine that was read has these in its place.",
+    )
     mechanism: Mechanism = Field(
         default_factory=Mechanism,
         description="What the crankshaft moves. With a pumping unit, what moves beside it.",
@@ -141,6 +147,10 @@ class Machine(Description):
     @classmethod
     def _checked(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
         """The machine, or all faults in one error."""
+        if isinstance(data, Mapping) and data.get("drawing") is not None:
+            drawn = with_drawing(data)
+            raise_faults(cls.__name__, drawn.faults)
+            data = drawn.tables
         try:
             machine = handler(data)
         except ValidationError as error:

@@ -22,6 +22,7 @@ from linkwright.kernel.files.text_file import TextError, text_of
 from linkwright.kernel.limits import DEPTH, FILE_BYTES
 from linkwright.kernel.public import public
 from linkwright.kernel.units import show
+from linkwright.linkages.model.dxf_points import with_dxf_points
 from linkwright.machine.machine import FORMAT, Machine
 from linkwright.machine.overrides import Override, apply, parse_all
 
@@ -164,6 +165,7 @@ def loads_as(
         raise MachineFileError(_located(too_large, text, path, places, ()))
     columns: list[Column] = []
     try:
+        with_dxf_points(tables, Path(path).parent, allow_outside=allow_outside)
         columns = with_points(tables, Path(path).parent, allow_outside=allow_outside)
         return model.model_validate(tables)
     except MachineError as error:

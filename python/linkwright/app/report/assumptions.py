@@ -20,7 +20,7 @@ from linkwright.kinetostatics.model.loads.between import Damper, GasSpring, Spri
 from linkwright.kinetostatics.model.loads.force import Gravity
 from linkwright.kinetostatics.model.loads.formula import FormulaLoad
 from linkwright.kinetostatics.model.loads.friction import DryFriction, ViscousFriction
-from linkwright.kinetostatics.model.loads.table import ForcePosition, TorqueAngle, TorqueSpeed
+from linkwright.kinetostatics.model.loads.table import ForcePosition, TorqueAngle, TorqueSpeed, TorqueSwing
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.drive_line import drive_inertia, reverse_factor
 
@@ -33,6 +33,8 @@ _LOADS = {
     ViscousFriction: "Viscous friction is proportional to the speed.",
     ForcePosition: "A force over position is linear between the given points; outside them the end values "
     "hold. It is positive against the motion, forward and back.",
+    TorqueSwing: "A torque over the angle of a link is linear between the given angles; outside them the end "
+    "values hold. It is positive against the motion, forward and back.",
     TorqueAngle: "A load torque over the crank angle is linear between the given angles.",
     TorqueSpeed: "A load torque over the speed is linear between the given speeds; outside them the end "
     "values hold.",

@@ -91,12 +91,17 @@ def with_points(tables: dict[str, Any], folder: Path, *, allow_outside: bool = F
         if table.get("kind") in list(_EXAMPLES) and isinstance(table.get("file"), str):
             name, key = table.pop("file"), join((*place, "file"))
             path = folder / name
-            if not (allow_outside or _is_below(path, folder)):
-                raise MachineFileError([_outside(name, key)])
+            require_below(path, folder, name, key, allow_outside=allow_outside)
             lists, lines = columns_of(path, key, table["kind"])
             table.update(lists)
             columns += [Column((*place, name), path, lines[0], tuple(lines[1:])) for name in lists]
     return columns
+
+
+def require_below(path: Path, folder: Path, name: str, key: str, *, allow_outside: bool) -> None:
+    """Raise MachineFileError for a file that an entry names and that lies outside of a folder."""
+    if not (allow_outside or _is_below(path, folder)):
+        raise MachineFileError([_outside(name, key)])
 
 
 def _is_below(path: Path, folder: Path) -> bool:

@@ -23,7 +23,7 @@ from linkwright.kinetostatics.model.loads.between import (
 from linkwright.kinetostatics.model.loads.force import ConstantForce, ConstantTorque, Gravity
 from linkwright.kinetostatics.model.loads.formula import FormulaLoad
 from linkwright.kinetostatics.model.loads.friction import DryFriction, ViscousFriction
-from linkwright.kinetostatics.model.loads.table import ForcePosition, TorqueAngle, TorqueSpeed
+from linkwright.kinetostatics.model.loads.table import ForcePosition, TorqueAngle, TorqueSpeed, TorqueSwing
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.mechanism import MechanismProgram
 from linkwright.machine.program.numbers import table
@@ -85,6 +85,8 @@ class Loads:
         for load in self.machine.loads.values():
             if isinstance(load, FormulaLoad):
                 loads += self._formula_load(load)
+            elif isinstance(load, TorqueSwing):
+                loads += [each for piece in swing_formulas(load) for each in self._formula_load(piece)]
             else:
                 loads.append(self._load(load))
         drive = self.machine.drive
@@ -202,6 +204,20 @@ class Loads:
 
     def _vector(self, size: Any, direction: Any) -> tuple[int, int]:
         return self.slot(size * np.cos(direction)), self.slot(size * np.sin(direction))
+
+
+def swing_formulas(load: TorqueSwing) -> Iterator[FormulaLoad]:
+    """A torque over the angle of a link as loads by formulas."""
+    for text, constants in load.as_formulas():
+        yield FormulaLoad.model_construct(
+            kind="formula",
+            on=load.on,
+            force=None,
+            torque=text,
+            direction=None,
+            along=None,
+            constants=constants,
+        )
 
 
 def link_body(body: Body, length: Any) -> tuple[Any, Any, Any, Any]:

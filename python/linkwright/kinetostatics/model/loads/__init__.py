@@ -11,7 +11,7 @@ The name of a crank means its pin for `force` and `damping`, its link for `torqu
 | `formula` | Point or link | a force or torque by a formula | `formula` |
 | `friction` | Resistances: dry and viscous friction on a point, a slider or a link |
 | `references` | What is wrong between the loads and the mechanism |
-| `table` | Loads by tables: force over a slider's position, torque over the angle or the speed of the crank |
+| `table` | Loads by tables: over position, over the angle of a link, over crank angle or speed |
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from linkwright.kinetostatics.model.loads.between import (
 from linkwright.kinetostatics.model.loads.force import ConstantForce, ConstantTorque, Gravity
 from linkwright.kinetostatics.model.loads.formula import FormulaLoad
 from linkwright.kinetostatics.model.loads.friction import DryFriction, ViscousFriction
-from linkwright.kinetostatics.model.loads.table import ForcePosition, TorqueAngle, TorqueSpeed
+from linkwright.kinetostatics.model.loads.table import ForcePosition, TorqueAngle, TorqueSpeed, TorqueSwing
 
 AnyLoad = Annotated[
     DryFriction
@@ -48,6 +48,7 @@ AnyLoad = Annotated[
     | ForcePosition
     | TorqueAngle
     | TorqueSpeed
+    | TorqueSwing
     | FormulaLoad,
     Field(discriminator="kind"),
 ]
@@ -67,6 +68,7 @@ __all__ = [
     "Spring",
     "TorqueAngle",
     "TorqueSpeed",
+    "TorqueSwing",
     "TorsionalDamper",
     "TorsionalSpring",
     "ViscousFriction",

@@ -24,6 +24,7 @@ _ENTRY_WANTS: dict[tuple[str, str], Wanted] = {
     ("torque", "torque"): "link",
     ("formula", "force"): "moving point",
     ("formula", "torque"): "link",
+    ("torque_swing", "forward"): "link",
     ("torsional_spring", "stiffness"): "link",
     ("torsional_damper", "damping_torsional"): "link",
 }
@@ -93,11 +94,18 @@ def _between_faults(topology: Topology, name: str, kind: str, between: object) -
 
 def _slide_faults(topology: Topology, name: str, on: str) -> Iterator[InitErrorDetails]:
     """A force by position on something that has no guide."""
-    sliders = topology.names("sliders")
-    if on not in sliders:
-        remedy = suggestion(on, sliders)
+    guided = guided_points(topology)
+    if on not in guided:
+        remedy = topology.instead(on) or suggestion(on, guided)
         place = ("loads", name, "force_position", "on")
-        yield fault(*place, found=on, expected="the name of a slider", remedy=remedy)
+        yield fault(*place, found=on, expected="the name of a point on a guide", remedy=remedy)
+
+
+def guided_points(topology: Topology) -> list[str]:
+    """Points that move along a guide of their own, as those of sliders, yokes and drivers do."""
+    single = (name for element in topology.elements for name in element.made(element.kind.points))
+    slides = set(topology.slides)
+    return [name for name in single if name in slides and name not in topology.names("cables")]
 
 
 def _carrier_faults(
@@ -138,7 +146,7 @@ def _formula_faults(topology: Topology, name: str, load: object, on: str) -> Ite
     """A force without direction, and variables that the carrier of a formula does not have."""
     key = "torque" if look(load, "torque") is not None else "force"
     along, direction = look(load, "along"), look(load, "direction")
-    is_slide = on in topology.names("sliders") and along is None and direction is None
+    is_slide = on in guided_points(topology) and along is None and direction is None
     is_point = key == "force" and on in topology.moving_points
     if is_point and not is_slide and along is None and direction is None:
         expected = "direction (from the x axis) or along (a link that the force turns with)"

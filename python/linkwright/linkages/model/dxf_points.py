@@ -1,0 +1,104 @@
+"""Points of a drawing from a DXF file: a layer with the name of a point has it as a point or a circle.
+
+Circles about one centre are one point, as pins are drawn; dimensions, lines and other layers are passed over.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from linkwright.kernel.errors import MachineFileError, Problem, UnitError
+from linkwright.kernel.units import LENGTH, parse
+
+if TYPE_CHECKING:
+    from ezdxf.document import Drawing as Document
+
+# Places within this share of the drawing's size are one.
+_SAME = 1e-6
+
+# Units of $INSUNITS that drawings are in [m]; DXF Reference, header variables.
+_UNITS = {1: 0.0254, 2: 0.3048, 4: 1e-3, 5: 1e-2, 6: 1.0, 13: 1e-6, 14: 1e-1}
+
+
+def with_dxf_points(tables: dict[str, Any], folder: Path, *, allow_outside: bool = False) -> None:
+    """Put the points of the DXF file that a drawing names into its table; `tables` is changed in place.
+
+    Raises MachineFileError: the file lies outside, cannot be read, has no unit, or two places in one layer.
+    """
+    drawing = tables.get("drawing")
+    if not isinstance(drawing, dict) or not isinstance(drawing.get("file"), str):
+        return
+    from linkwright.kernel.files.points import require_below
+
+    name = drawing.pop("file")
+    path = folder / name
+    require_below(path, folder, name, "drawing.file", allow_outside=allow_outside)
+    found = _points(path, drawing.pop("unit", None))
+    given = drawing.get("points")
+    drawing["points"] = {**found, **(given if isinstance(given, dict) else {})}
+
+
+def _points(path: Path, unit: Any) -> dict[str, list[float]]:
+    """Coordinates of the layers with one place [m]."""
+    document = _document(path)
+    size = _unit(document, unit, path)
+    places: dict[str, list[tuple[float, float]]] = {}
+    for layer, place in _drawn(document):
+        places.setdefault(layer, []).append(place)
+    if not places:
+        raise _wrong(
+            path, "no point, circle or arc", "a layer for each point, with a point or a circle in it"
+        )
+    reach = max(math.hypot(*place) for each in places.values() for place in each) or 1.0
+    # A layer with several places is no point: construction lines, holes.
+    single = {
+        layer: each[0]
+        for layer, each in places.items()
+        if all(math.dist(place, each[0]) <= _SAME * reach for place in each)
+    }
+    if not single:
+        listed = ", ".join(places)
+        raise _wrong(path, f"several places in each of the layers {listed}", "one point in a layer")
+    return {layer: [x * size, y * size] for layer, (x, y) in single.items()}
+
+
+def _document(path: Path) -> Document:
+    from ezdxf.filemanagement import readfile
+    from ezdxf.lldxf.const import DXFError
+
+    try:
+        return readfile(path)
+    except (OSError, DXFError, UnicodeDecodeError) as error:
+        raise _wrong(path, f"{error}".split("\n")[0], "a DXF file") from None
+
+
+def _drawn(document: Document) -> Iterator[tuple[str, tuple[float, float]]]:
+    """Layer and place of every point, centre and insertion."""
+    for entity in document.modelspace().query("POINT CIRCLE ARC INSERT"):
+        place = entity.dxf.location if entity.dxftype() == "POINT" else None
+        if place is None:
+            place = entity.dxf.insert if entity.dxftype() == "INSERT" else entity.dxf.center
+        yield entity.dxf.layer, (float(place.x), float(place.y))
+
+
+def _unit(document: Document, unit: Any, path: Path) -> float:
+    """Length of a unit of the drawing [m]."""
+    if unit is not None:
+        try:
+            return parse(unit, LENGTH)
+        except UnitError as error:
+            found, expected = error.problem.found, 'the length of a unit of the drawing, such as "1 mm"'
+            raise MachineFileError([Problem("drawing.unit", found, expected, error.problem.remedy)]) from None
+    known = _UNITS.get(int(document.header.get("$INSUNITS", 0)))
+    if known is None:
+        raise _wrong(
+            path, "a drawing that does not say its unit ($INSUNITS)", 'an entry unit = "1 mm" beside it'
+        )
+    return known
+
+
+def _wrong(path: Path, found: str, expected: str) -> MachineFileError:
+    return MachineFileError([Problem("drawing.file", found, expected, path=str(path))])
