@@ -48,6 +48,14 @@ SILENT = {
     ): "a machine on the way without an answer ends the way; the places before it count",
     ("studies/local.py", "_planes"): "a trial without an answer is taken back: the radius shrinks",
     (
+        "linkages/model/drawing.py",
+        "_number",
+    ): "a number of the file that is wrong is reported by the element that it stands in",
+    (
+        "linkages/model/drawing.py",
+        "_places",
+    ): "a wrong place becomes a fault of the drawing, with its name",
+    (
         "kernel/units/spellings.py",
         "_from_pint",
     ): "a text that pint does not know is reported with the units that are known",

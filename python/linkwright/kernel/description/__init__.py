@@ -10,5 +10,6 @@
 | `plain` | Look into a description that may be a checked model or the raw tables of a file |
 | `problems` | Errors of pydantic, told in the words of the file |
 | `schema_walk` | What belongs at an address, read from the annotations of the models |
+| `shown_units` | Units in which tables, figures and CSV of a machine show its numbers |
 | `text` | Entries by address |
 """

@@ -3,6 +3,7 @@
 | module | |
 | --- | --- |
 | `captioned` | A figure of the page with its words |
+| `in_units` | Axes in the units that the reader wants |
 | `inline` | SVG that can stand in a page together with others |
 | `plotted` | The curves of a result as a figure |
 | `style` | Colours, fonts, axes |

@@ -2,8 +2,8 @@
 
 Tables, figures and heads of CSV ask `reader` for them; what is computed, and JSON, is in SI whoever reads it.
 A unit of length is taken for velocities, accelerations and lengths per angle too: with ``mm``, m/s² is shown
-as mm/s². Torques and energies have one dimension and are told apart by their spelling: ``kN m`` is for
-torques, ``kJ`` for energies.
+as mm/s². Torques and energies have one dimension, and the spelling decides: ``kN m`` is for torques, ``kJ``
+for energies.
 """
 
 from __future__ import annotations

@@ -3,6 +3,8 @@
 | module | |
 | --- | --- |
 | `assembly` | In which order a mechanism is built; what is missing or too much |
+| `drawing` | Lengths and places that follow from coordinates of points |
+| `dxf_points` | Points of a drawing from the layers of a DXF file |
 | `element` | Cranks, dyads, gears, cables, joints and bars |
 | `guide_faults` | What is wrong with guides and gears |
 | `mechanism` | All elements by name |
