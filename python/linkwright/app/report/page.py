@@ -66,7 +66,7 @@ def report_html(study: Study, *, command: str = "") -> str:
 
 
 def content(study: Study, command: str = "") -> Content:
-    """What the report of a study says, in the units that the reader wants, else in those of the machine file."""
+    """What the report of a study says, in the units of the reader, else of the machine file."""
     with with_units_of(study.machine.units):
         return _content(study, command)
 
