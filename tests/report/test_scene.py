@@ -14,6 +14,7 @@ from linkwright.app.report.scene import scene
 from linkwright.app.study import study
 from linkwright.kernel.files.templates import template, templates
 from linkwright.machine.read import loads, read
+from linkwright.machine.write import dumps
 
 # A torsional train, a knife that follows a law, and a turning-moment diagram have no mechanism to be drawn.
 GALLERY = [
@@ -110,7 +111,7 @@ def test_a_mechanism_that_does_not_close_swings() -> None:
 @pytest.mark.parametrize("path", GALLERY, ids=lambda path: path.parent.name)
 def test_every_machine_of_the_gallery_can_be_drawn(path: Path) -> None:
     machine = read(path)
-    found = drawn(path.read_text(encoding="utf-8"))
+    found = drawn(dumps(machine))
     at, n = points(found), len(found["angles"])
     for part in found["parts"]:
         names = [part[key] for key in ("from", "to", "at") if part.get(key)] + part.get("corners", [])
