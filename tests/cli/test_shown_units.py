@@ -72,7 +72,9 @@ def test_option_table_and_both() -> None:
         assert "160 mm" in text
         # −0.50905 m/s is printed with the same digits.
         assert "−509.05 mm/s" in text
-    both = told("run", "press_motion", "--set", "units.length=cm", "--set", "units.angle=rad", "--units", "mm")
+    both = told(
+        "run", "press_motion", "--set", "units.length=cm", "--set", "units.angle=rad", "--units", "mm"
+    )
     assert "160 mm" in both
     assert "1.5708 rad" in both
 

@@ -71,6 +71,7 @@ def fit(
     hand_over(
         Answer(
             machine=plan.machine.name,
+            units=plan.machine.units,
             results=lambda curves: {"fit": found.to_dict(curves=curves)},
             findings=[f"{each.words}." for each in found.directions if not each.is_determined],
             warnings=[f"{warning}." for warning in found.warnings],
