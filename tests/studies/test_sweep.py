@@ -17,6 +17,8 @@ import pytest
 import linkwright as lw
 from linkwright.kernel.errors import InputError
 from linkwright.studies.engine import numbers, sound_variant
+from linkwright.studies.folder import opened, plan_of
+from linkwright.studies.plan import plan as plan_with
 
 Files = Callable[..., Path]
 
@@ -141,6 +143,15 @@ def test_the_folder_of_another_study_is_left_alone(study_file: Files, tmp_path: 
         lw.sweep(lw.read_study(study_file()), tmp_path / "letters")
 
 
+def test_the_order_of_variables_makes_another_grid(study_file: Files, tmp_path: Path) -> None:
+    plan = lw.read_study(study_file())
+    lw.sweep(plan, tmp_path / "rows")
+    assert plan_of(opened(tmp_path / "rows").manifest).axes == plan.axes
+    turned = plan.study.model_copy(update={"variables": dict(reversed(plan.study.variables.items()))})
+    with pytest.raises(InputError, match="the study differs"):
+        lw.sweep(plan_with(plan.machine, turned), tmp_path / "rows")
+
+
 def test_a_study_without_sense_writes_nothing(study_file: Files, tmp_path: Path) -> None:
     change = ('"steady_state.dynamism"', '"pumping_unit.stroke"')
     plan = lw.read_study(study_file(change))
@@ -211,3 +222,32 @@ def test_processes_that_are_lost_are_replaced(study_file: Files, tmp_path: Path)
     assert contents(tmp_path / "beside") == contents(tmp_path / "alone")
     with pytest.raises(InputError, match="workers"):
         lw.sweep(plan, tmp_path / "none", workers=0)
+
+
+# What the cluster itself warns of as it ends.
+@pytest.mark.filterwarnings("ignore")
+def test_a_cluster_with_a_worker_killed(
+    study_file: Files, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Its folder is that of one process; what cannot be reached is told."""
+    distributed = pytest.importorskip("distributed")
+    plan = lw.read_study(study_file(("chunk = 4", "chunk = 1")))
+    lw.sweep(plan, tmp_path / "alone")
+    options = {"n_workers": 2, "threads_per_worker": 1, "dashboard_address": None, "silence_logs": 50}
+    with distributed.LocalCluster(processes=True, **options) as cluster:
+        with distributed.Client(cluster) as client:
+            victim = next(iter(client.run(os.getpid).values()))
+        killed: list[int] = []
+
+        def watch(done: int, total: int, rate: float) -> None:
+            if not killed:
+                os.kill(victim, signal.SIGKILL)
+                killed.append(victim)
+
+        found = lw.sweep(plan, tmp_path / "rows", cluster=cluster.scheduler_address, watch=watch)
+    assert killed
+    assert found.is_complete
+    assert contents(tmp_path / "rows") == contents(tmp_path / "alone")
+    monkeypatch.setattr("linkwright.studies.cluster._PATIENCE", 0.5)
+    with pytest.raises(InputError, match="found no scheduler"):
+        lw.sweep(plan, tmp_path / "other", cluster="nowhere:1")

@@ -17,6 +17,7 @@
 | `tolerance` | Scatter of responses, contributions, yield, Sobol indices |
 | `front` | Machines of which none is better in both of two goals |
 | `workers` | Files of a sweep by processes beside |
+| `cluster` | The same by a cluster of Dask |
 | `optimise` | The best machine, by CMA-ES over batches |
 | `local` | Down to the nearest best machine by exact derivatives, and what its limits cost |
 | `fit` | Numbers of a machine from a measured record |

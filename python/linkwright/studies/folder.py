@@ -31,8 +31,8 @@ from linkwright.studies.plan import StudyPlan, plan
 
 MANIFEST = "_study.json"
 
-# Rows in a file: some 2 MB, and one or two seconds of the core; where analyses are made one by one, as long.
-_ROWS, _ROWS_SINGLE = 20_000, 500
+# Rows in a file: some 1 MB, and one to five seconds of one core; where analyses are made one by one, as long.
+_ROWS, _ROWS_SINGLE = 10_000, 500
 
 
 @dataclass(frozen=True)
@@ -125,7 +125,16 @@ class SweepFolder:
         InputError
             The disk is full, or cannot be written to.
         """
-        data = encoded(rows, self.rows_of(number)[0], self.units, self.about)
+        self.put(number, encoded(rows, self.rows_of(number)[0], self.units, self.about))
+
+    def put(self, number: int, data: bytes) -> None:
+        """Write the file of a number as it is, likewise.
+
+        Raises
+        ------
+        InputError
+            The disk is full, or cannot be written to.
+        """
         try:
             write_file(self.part(number), data)
         except InputError as error:
@@ -182,7 +191,9 @@ def _require_same(folder: SweepFolder, wanted: SweepFolder) -> None:
     if folder.manifest["hash"] == wanted.manifest["hash"]:
         return
     words = {"machine": "the machine", "study": "the study", "version": "the version of Linkwright"}
-    other = [word for key, word in words.items() if folder.manifest.get(key) != wanted.manifest[key]]
+    parts = ({key: known.manifest.get(key) for key in words} for known in (folder, wanted))
+    found, expected = ({key: json.dumps(value) for key, value in part.items()} for part in parts)
+    other = [word for key, word in words.items() if found[key] != expected[key]]
     raise InputError(
         f"{folder.path}: found the results of another sweep ({' and '.join(other) or 'the list'} differs); "
         "nothing was changed; name another folder"
@@ -195,8 +206,8 @@ def _is_ours(path: Path) -> bool:
 
 
 def _text(manifest: dict[str, Any]) -> str:
-    """A description as text, the same for the same study."""
-    return json.dumps(manifest, ensure_ascii=False, indent=1, sort_keys=True) + "\n"
+    """A description as text, the same for the same study; variables in another order make other rows."""
+    return json.dumps(manifest, ensure_ascii=False, indent=1) + "\n"
 
 
 def _digest(ready: StudyPlan) -> str:

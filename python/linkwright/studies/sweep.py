@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 from collections import Counter
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
@@ -69,6 +69,7 @@ def sweep(
     *,
     chunks: tuple[int, int] | None = None,
     workers: int = 1,
+    cluster: str = "",
     watch: Callable[..., None] | None = None,
 ) -> Sweep:
     """Compute the rows of a study that a folder does not have yet.
@@ -85,6 +86,8 @@ def sweep(
         of many.
     workers : int
         Processes that compute, 1 to 1000; one is this one, whose core uses all processors where it can.
+    cluster : str
+        Address of a Dask scheduler, such as ``"tcp://host:8786"``, whose workers compute instead.
     watch : callable, optional
         Told rows done, rows in all, and rows a second.
 
@@ -97,16 +100,18 @@ def sweep(
     ------
     InputError
         The folder is that of another study, or cannot be written to; an analysis needs what the machine does
-        not have.
+        not have; there is no such cluster, or processes were lost again and again.
     """
+    if workers > 1 and cluster:
+        raise InputError("cluster: found it beside workers, expected one of them")
     if not 1 <= workers <= 1000:
         raise InputError(f"workers {workers}: expected 1 to 1000 processes")
     found = begun(plan, folder)
     missing, repaired = _missing(found, chunks)
-    if workers == 1:
+    if workers == 1 and not cluster:
         _compute(plan, found, missing, watch)
     else:
-        _compute_beside(plan, found, missing, workers, watch)
+        _compute_beside(found, missing, _elsewhere(plan, found, missing, workers, cluster), watch)
     return summary(found, plan.responses, repaired)
 
 
@@ -167,15 +172,26 @@ def _compute(
             writing.result()
 
 
-def _compute_beside(
-    plan: StudyPlan, folder: SweepFolder, missing: list[int], workers: int, watch: Callable[..., None] | None
-) -> None:
-    """Compute and write files by processes."""
+def _elsewhere(
+    plan: StudyPlan, folder: SweepFolder, missing: list[int], workers: int, cluster: str
+) -> Iterator[int]:
+    """Numbers of files as they are written by processes here, or by a cluster."""
+    if cluster:
+        from linkwright.studies.cluster import computed_on
+
+        return computed_on(plan, folder, missing, cluster)
     from linkwright.studies.workers import computed
 
+    return computed(plan, folder, missing, workers)
+
+
+def _compute_beside(
+    folder: SweepFolder, missing: list[int], written: Iterable[int], watch: Callable[..., None] | None
+) -> None:
+    """Follow files that are written elsewhere."""
     rows = {number: stop - start for number in missing for start, stop in [folder.rows_of(number)]}
     done, total, began = 0, sum(rows.values()), monotonic()
-    for number in computed(plan, folder, missing, workers):
+    for number in written:
         done += rows[number]
         if watch is not None:
             watch(done, total, done / max(monotonic() - began, 1e-9))

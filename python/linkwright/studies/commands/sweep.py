@@ -35,9 +35,16 @@ Chunks = Annotated[
         show_default=False,
     ),
 ]
-
-
 Workers = Annotated[int, Option("--workers", metavar="N", help="Processes that compute.", min=1)]
+Cluster = Annotated[
+    str,
+    Option(
+        "--cluster",
+        metavar="ADDRESS",
+        help='Dask scheduler whose workers compute, such as "tcp://host:8786".',
+        show_default=False,
+    ),
+]
 
 
 def sweep(
@@ -47,6 +54,7 @@ def sweep(
     allow_outside: Outside = False,
     chunks: Chunks = "",
     workers: Workers = 1,
+    cluster: Cluster = "",
     json: Json = False,
 ) -> None:
     """Compute the rows of a study into a folder; one that was stopped goes on.
@@ -59,7 +67,8 @@ def sweep(
 
     plan = read_study(file, set or [], allow_outside=allow_outside)
     with rows_bar() as watch:
-        found = compute(plan, out, chunks=_share(chunks), workers=workers, watch=watch)
+        share = _share(chunks)
+        found = compute(plan, out, chunks=share, workers=workers, cluster=cluster, watch=watch)
     hand_over(_answer(plan.machine, found, plan.units), json=json)
 
 
