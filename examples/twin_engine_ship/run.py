@@ -18,12 +18,14 @@ def study(machine: lw.Machine) -> dict[str, float]:
     forced = lw.forced_vibration(machine, np.array([SERVICE]))
     mean = dict(zip(forced.shafts, forced.mean_torques[:, 0], strict=True))
     stress = lw.shaft_stress(machine, forced)
+    gears = lw.mesh_torques(machine, np.array([SERVICE]))
     line = stress.shafts.index("line")
     return {
         "port_coupling_torque": float(mean["port_coupling"]),
         "starboard_coupling_torque": float(mean["starboard_coupling"]),
         "line_torque": float(mean["line"]),
         "line_stress_permitted_mpa": float(stress.continuous[line, 0] / 1e6),
+        "port_stage_application_factor": float(gears.application_factor[0, 0]),
         "line_stress_ratio": float(stress.vibratory[line, 0] / stress.continuous[line, 0]),
     }
 

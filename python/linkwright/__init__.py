@@ -95,6 +95,7 @@ _HOME = {
     "shaft_stress": "torsion.response.stress",
     "barred_ranges": "torsion.limits.barred_range",
     "mesh_torques": "torsion.response.mesh_torque",
+    "read_measured": "torsion.limits.measured_file",
     "engine_diagnosis": "torsion.diagnosis.engine_diagnosis",
     "measured_speed": "torsion.diagnosis.measured_speed",
     "engine_data": "torsion.response.engine_torques",
@@ -250,6 +251,7 @@ if TYPE_CHECKING:
     from linkwright.torsion.in_time.transient import torsion_transient as torsion_transient
     from linkwright.torsion.in_time.waterfall import waterfall as waterfall
     from linkwright.torsion.limits.barred_range import barred_ranges as barred_ranges
+    from linkwright.torsion.limits.measured_file import read_measured as read_measured
     from linkwright.torsion.modes.campbell import campbell as campbell
     from linkwright.torsion.modes.damped import damped_vibration as damped_vibration
     from linkwright.torsion.modes.free import free_vibration as free_vibration

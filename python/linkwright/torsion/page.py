@@ -17,7 +17,7 @@ from linkwright.torsion.figures.captions import torsion_figures
 from linkwright.torsion.model.train import Train
 from linkwright.torsion.response.survey import TorquePeaks
 from linkwright.torsion.study import TorsionStudy
-from linkwright.torsion.tables.torsion import study_tables
+from linkwright.torsion.tables.torsion import holzer_tables, study_tables
 
 _SOURCES = (
     "Den Hartog, Mechanical Vibrations, 4th ed. 1956; Ker Wilson, Practical Solution of Torsional Vibration "
@@ -59,7 +59,7 @@ def _content(study: TorsionStudy, command: str) -> Content:
         findings=study.findings,
         warnings=study.warnings,
         headline=[Few(*each) for each in _headline(study)],
-        parts=[Part("Results", list(study_tables(study)), list(torsion_figures(study)))],
+        parts=list(_parts(study)),
         formulas=list(_formulas(study)),
         papers=_SOURCES,
         groups=grouped(machine_parts(study.machine)),
@@ -67,6 +67,14 @@ def _content(study: TorsionStudy, command: str) -> Content:
         file=dumps(study.machine),
         command=command or "linkwright torsion machine.toml --out report",
     )
+
+
+def _parts(study: TorsionStudy) -> Iterator[Part]:
+    """The results, then Holzer's tables at the modes that orders meet among the speeds."""
+    yield Part("Results", list(study_tables(study)), list(torsion_figures(study)))
+    details = [table for one in study.critical_holzer for table in holzer_tables(one)]
+    if details:
+        yield Part("Holzer's tables of the modes among the speeds", details)
 
 
 def _headline(study: TorsionStudy) -> Iterator[tuple[str, str, str]]:

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.result import Result
@@ -15,19 +16,23 @@ from linkwright.kernel.units import FREQUENCY, not_negative
 from linkwright.machine.machine import Machine
 from linkwright.torsion.in_time.transient import TorsionTransient, torsion_transient
 from linkwright.torsion.limits.misfire import MisfireVerdict, misfire_verdict
+from linkwright.torsion.limits.overlay import Overlay, overlay
 from linkwright.torsion.limits.verdict import Verdict, verdict
 from linkwright.torsion.model.engine.engine import firing_angles
+from linkwright.torsion.model.measured_response import MeasuredResponse
 from linkwright.torsion.model.train import Train
 from linkwright.torsion.modes.campbell import CampbellDiagram, campbell
 from linkwright.torsion.modes.damped import DampedVibration, damped_vibration
 from linkwright.torsion.modes.free import FreeVibration, ShaftShapes, free_vibration, train_of
 from linkwright.torsion.modes.holzer import HolzerTable, holzer_frequency, holzer_table
+from linkwright.torsion.modes.phase_vectors import PhaseVectors, phase_vectors
 from linkwright.torsion.modes.scheme import Scheme, scheme
 from linkwright.torsion.response.engine_torques import EngineData, engine_data
 from linkwright.torsion.response.excited_train import ExcitedTrain, excited_train, is_excited, pulsates
 from linkwright.torsion.response.forced import ForcedVibration, responded
+from linkwright.torsion.response.mesh_torque import MeshTorque, meshed
 from linkwright.torsion.response.stress import ShaftStress, shaft_stress
-from linkwright.torsion.response.survey import TorquePeaks, survey, torque_peaks
+from linkwright.torsion.response.survey import TorquePeaks, between, survey, torque_peaks
 from linkwright.torsion.response.unevenness_along import UnevennessAlong, unevenness_along
 
 # Share by which loads may be off what the engine gives without a word.
@@ -76,6 +81,14 @@ class TorsionStudy:
         Largest torques of the shafts, resonances between the speeds among them.
     transient : TorsionTransient or None
         The manoeuvre of [train.transient].
+    meshes : MeshTorque or None
+        Torques of the gear stages; None without any.
+    stars : tuple of PhaseVectors
+        Phase vectors of the orders at the critical speeds.
+    critical_holzer : tuple of HolzerTable
+        At the natural frequencies that an order meets among the speeds.
+    overlays : tuple of Overlay
+        Measured curves over the computed ones.
     """
 
     machine: Machine
@@ -93,6 +106,10 @@ class TorsionStudy:
     campbell: CampbellDiagram | None = None
     peaks: TorquePeaks | None = None
     transient: TorsionTransient | None = None
+    meshes: MeshTorque | None = None
+    stars: tuple[PhaseVectors, ...] = ()
+    critical_holzer: tuple[HolzerTable, ...] = ()
+    overlays: tuple[Overlay, ...] = ()
 
     @property
     def engine(self) -> EngineData | None:
@@ -142,6 +159,12 @@ class TorsionStudy:
             results["engine"] = self.engine.to_dict()
         elif self.engines:
             results["engines"] = {name: engine.to_dict() for name, engine in self.engines.items()}
+        if self.meshes is not None:
+            results["gears"] = self.meshes.to_dict()
+        if self.stars:
+            results["phase_vectors"] = [star.to_dict() for star in self.stars]
+        if self.overlays:
+            results["measured"] = [one.to_dict() for one in self.overlays]
         if self.along is not None:
             results["unevenness_along"] = self.along.to_dict(curves=True)
         return results | {"scheme": self.scheme.to_dict(curves=True)}
@@ -156,7 +179,12 @@ def _listed(shapes: ShaftShapes) -> dict[str, Any]:
 
 
 @public
-def torsion_study(machine: Machine, *, holzer: Sequence[float | str] = ()) -> TorsionStudy:
+def torsion_study(
+    machine: Machine,
+    *,
+    holzer: Sequence[float | str] = (),
+    measured: Mapping[str, MeasuredResponse] | None = None,
+) -> TorsionStudy:
     """Study the torsional vibration of a train or of a driveline.
 
     Parameters
@@ -165,6 +193,9 @@ def torsion_study(machine: Machine, *, holzer: Sequence[float | str] = ()) -> To
         With a [train], or with a torsionally flexible driveline.
     holzer : sequence of float or str
         Frequencies of Holzer's tables [Hz], or texts: "20 rad/s", "300 rpm", natural frequencies as "f_3".
+    measured : mapping of str to MeasuredResponse, optional
+        Curves measured over the speed, by name, beside those of [train.measured]; `read_measured` reads them
+        from a file.
 
     Returns
     -------
@@ -184,11 +215,17 @@ def torsion_study(machine: Machine, *, holzer: Sequence[float | str] = ()) -> To
     moved = None
     if machine.train is not None and machine.train.transient is not None:
         moved = torsion_transient(machine)
+    curves = {**({} if machine.train is None else machine.train.measured), **(measured or {})}
     if not is_excited(machine):
+        if curves:
+            remedy = "give [train.run], and what excites the train"
+            raise InputError(f"{machine.name}: nothing is computed beside what was measured: {remedy}")
         return TorsionStudy(machine, scheme(machine), free, tables, damped, transient=moved)
     at = excited_train(machine)
     forced = responded(at)
     stress, seen = shaft_stress(machine, forced), survey(machine, at, forced)
+    speeds = at.torques.speeds
+    diagram = campbell(machine, speed_range=(speeds[0], speeds[-1]))
     return TorsionStudy(
         machine,
         scheme(machine),
@@ -202,10 +239,34 @@ def torsion_study(machine: Machine, *, holzer: Sequence[float | str] = ()) -> To
         misfire_verdict(machine, seen),
         _along(machine, at, forced),
         _engines(machine, at),
-        campbell(machine, speed_range=(at.torques.speeds[0], at.torques.speeds[-1])),
+        diagram,
         torque_peaks(seen),
         moved,
+        meshed(at, forced) if at.train.gears else None,
+        _stars(machine, free, diagram, at),
+        tuple(_at_critical(machine, free, diagram)),
+        tuple(overlay(seen, name, curve) for name, curve in curves.items()),
     )
+
+
+def _stars(
+    machine: Machine, free: FreeVibration, diagram: CampbellDiagram, at: ExcitedTrain
+) -> tuple[PhaseVectors, ...]:
+    """Phase vectors at all critical speeds."""
+    if not diagram.critical:
+        return ()
+    speeds = np.array([one.speed for one in diagram.critical])
+    return phase_vectors(free, diagram, between(machine, at, speeds))
+
+
+def _at_critical(machine: Machine, free: FreeVibration, diagram: CampbellDiagram) -> Iterator[HolzerTable]:
+    """Holzer's table at each natural frequency that an order meets among the speeds."""
+    for mode in sorted({one.mode for one in diagram.critical}):
+        try:
+            yield holzer_table(machine, float(free.natural_frequencies[mode]))
+        except FindingError:
+            # The first disc is at rest in this mode, from which the table starts.
+            continue
 
 
 def _service(machine: Machine) -> float | None:
@@ -259,9 +320,11 @@ def _balance(study: TorsionStudy) -> Iterator[str]:
     if train.run is not None and train.run.loads_follow:
         least, most = float(at.torques.load_factor.min()), float(at.torques.load_factor.max())
         if abs(least - 1) > _BALANCED or abs(most - 1) > _BALANCED:
+            same = f"{least:.4g}" == f"{most:.4g}"
+            factor = f"{least:.4g} at all speeds" if same else f"{least:.4g} to {most:.4g} over the speeds"
             yield (
-                f"Steady running: loads were scaled by {least:.4g} to {most:.4g} over the speeds, to what "
-                "the engine gives (`train.run.loads_follow = true`)."
+                f"Steady running: loads were scaled by {factor}, to what the engine gives "
+                "(train.run.loads_follow = true)."
             )
         return
     left, n = at.torques.surplus, at.referred.speed
@@ -269,7 +332,7 @@ def _balance(study: TorsionStudy) -> Iterator[str]:
     if (np.abs(left) > _BALANCED * taken).any():
         yield (
             f"Steady running: loads are as given; {left.min():+.5g} to {left.max():+.5g} N m of the engine "
-            "are left over at the speeds and accelerate the train (`train.run.loads_follow = true` "
+            "are left over at the speeds and accelerate the train (train.run.loads_follow = true "
             "scales the loads instead)."
         )
 

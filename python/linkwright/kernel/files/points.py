@@ -26,6 +26,7 @@ from linkwright.kernel.units import NUMBER, show
 _EXAMPLES = {
     "spline": "angle [deg], lift [mm]",
     "table": "angle [deg], lift [mm]",
+    "response": "speed [rpm], stress [MPa]",
     "measured": "root_diameter [mm], cut_height [mm], offset [mm]",
 }
 

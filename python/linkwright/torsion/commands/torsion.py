@@ -34,6 +34,16 @@ Holzer = Annotated[
     ),
 ]
 
+MeasuredFile = Annotated[
+    Path | None,
+    Option(
+        "--measured",
+        metavar="FILE.csv",
+        help="Curves measured over the speed, laid over the computed ones: speed [rpm], line [MPa], …",
+        show_default=False,
+    ),
+]
+
 
 def torsion(
     file: File,
@@ -42,6 +52,7 @@ def torsion(
     json: Json = False,
     curves: Curves = False,
     holzer: Holzer = None,
+    measured: MeasuredFile = None,
     out: Folder = None,
     force: Force = False,
 ) -> None:
@@ -53,12 +64,14 @@ def torsion(
     """
     from linkwright.kernel.command.console import progress
     from linkwright.machine.read import read
+    from linkwright.torsion.limits.measured_file import read_measured
     from linkwright.torsion.study import torsion_study
 
     folder = output_folder(out, force=force)
     machine = read(file, set or [], allow_outside=allow_outside)
+    overlaid = None if measured is None else read_measured(measured)
     with progress("computing"):
-        study = torsion_study(machine, holzer=holzer or ())
+        study = torsion_study(machine, holzer=holzer or (), measured=overlaid)
     hand_over(_answer(study), json=json, folder=folder, curves=curves)
 
 
@@ -73,6 +86,7 @@ def _answer(study: TorsionStudy) -> Answer:
         extra={"balance": study.balance} if study.balance else {},
         head=lambda: study.balance,
         tables=partial(_tables, study),
+        tail=partial(_tail, study),
         files=partial(_files, study),
         figures=partial(_figures, study),
     )
@@ -97,17 +111,27 @@ def _tables(study: TorsionStudy) -> list[Table]:
     return list(study_tables(study))
 
 
+def _tail(study: TorsionStudy) -> str:
+    """What measured curves say of the computed ones."""
+    from linkwright.torsion.tables.measured import measured_words
+
+    return "".join(f"{measured_words(one)}\n" for one in study.overlays)
+
+
 def _files(study: TorsionStudy) -> dict[str, str]:
     """The report, every order over the speed, the curves of the manoeuvre."""
     from linkwright.kernel.command.console import progress
     from linkwright.kernel.command.out import command_line
     from linkwright.torsion.page import torsion_html
+    from linkwright.torsion.tables.gears import gear_csv
     from linkwright.torsion.tables.orders import manoeuvre_csv, order_files
 
     with progress("drawing"):
         files = {"report.html": torsion_html(study, command=command_line())}
     if study.excited is not None and study.forced is not None:
         files |= order_files(study.excited, study.forced)
+    if study.meshes is not None:
+        files["gear_torque.csv"] = gear_csv(study.meshes)
     if study.transient is not None:
         files["manoeuvre.csv"] = manoeuvre_csv(study.transient)
     return files

@@ -8,5 +8,6 @@
 | `scheme` | Equivalent schemes of trains, by `scheme_layout` and `scheme_page` |
 | `scheme_layout` | Where the parts of a train's scheme are drawn |
 | `scheme_page` | How large the scheme of a train is drawn, and what is written beside its parts |
+| `stars` | Star diagrams of orders |
 | `transient` | Manoeuvres of trains over time, waterfalls |
 """

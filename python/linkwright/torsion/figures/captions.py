@@ -10,21 +10,29 @@ import numpy as np
 from linkwright.kernel.errors import LinkwrightError
 from linkwright.kernel.figure.captioned import Captioned
 from linkwright.torsion.figures.forced import (
+    gear_figure,
     heat_figure,
     orders_figure,
+    overlay_figure,
     shaft_torques_figure,
     stress_figure,
     torsion_unevenness_figure,
 )
 from linkwright.torsion.figures.modes import campbell_figure, in_a_row, modes_figure
 from linkwright.torsion.figures.scheme import scheme_figure
+from linkwright.torsion.figures.stars import star_figure
 from linkwright.torsion.figures.transient import transient_figure, waterfall_figure
 from linkwright.torsion.in_time.transient import TorsionTransient
 from linkwright.torsion.in_time.waterfall import waterfall
+from linkwright.torsion.modes.phase_vectors import most_severe
 from linkwright.torsion.response.forced import ForcedVibration, angular_deflection
 from linkwright.torsion.response.stress import ShaftStress
 from linkwright.torsion.study import TorsionStudy
+from linkwright.torsion.tables.measured import measured_words, words
 from linkwright.torsion.tables.torsion import service_place
+
+# Star diagrams in a figure.
+_STARS = 8
 
 # Share of its highest speed below which a disc stands as good as still.
 _TURNING = 0.02
@@ -76,8 +84,21 @@ def _forced(study: TorsionStudy, forced: ForcedVibration) -> Iterator[Captioned]
         barred = () if study.verdict is None else study.verdict.barred
         caption += " Shaded are barred speed ranges." if barred else ""
         yield Captioned("stress", "Stress of the shafts", caption, stress_figure(study.stress, barred))
+    for one in study.overlays:
+        caption = f"Dots: measured. Line: computed. {measured_words(one)}"
+        yield Captioned(f"measured_{one.name}", f"Measured {words(one)}", caption, overlay_figure(one))
     if forced.shafts:
         yield _of_the_worst_shaft(study, forced)
+    if study.stars and study.campbell is not None:
+        caption = (
+            "Phase vectors of the throws and discs, as long as they swing in the mode. Red: their sum, as "
+            "long as its share of all lengths together."
+        )
+        stars = most_severe(study.campbell, study.stars, _STARS)
+        yield Captioned("stars", "Star diagrams", caption, star_figure(stars))
+    if study.meshes is not None and np.isfinite(study.meshes.vibratory).any():
+        caption = "Mean torque with the range of its vibration: below zero teeth part."
+        yield Captioned("gears", "Torque of the gear stages", caption, gear_figure(study.meshes))
     yield _of_the_freest_disc(forced)
     shown = float(forced.speeds[service_place(study, forced)])
     caption = (

@@ -30,7 +30,9 @@ if TYPE_CHECKING:
 
     from linkwright.torsion.damper.damper_design import DamperDesign
     from linkwright.torsion.limits.barred_range import BarredRange
+    from linkwright.torsion.limits.overlay import Overlay
     from linkwright.torsion.response.forced import ForcedVibration
+    from linkwright.torsion.response.mesh_torque import MeshTorque
     from linkwright.torsion.response.stress import ShaftStress
 
 
@@ -166,6 +168,51 @@ def torsion_unevenness_figure(forced: ForcedVibration, row: list[int], speed: fl
     over.set_xlabel("speed of the first disc [rpm]")
     legend_above(over)
     return figure
+
+
+@styled
+def gear_figure(meshes: MeshTorque) -> Figure:
+    """Draw the torque of the gear stages over the speed, its mean with what the vibration adds and takes."""
+    known = [s for s in range(len(meshes.stages)) if np.isfinite(meshes.vibratory[s]).any()][:_LINES_MAX]
+    figure, axes = panels(len(known), height=0.6 + 1.7 * len(known))
+    for panel, s in zip(axes, known, strict=True):
+        sense = -1.0 if meshes.mean[s].sum() < 0 else 1.0
+        low, high = sorted(
+            (sense * meshes.least[s], sense * meshes.greatest[s]), key=lambda row: float(np.nansum(row))
+        )
+        rpm = _rpm(meshes.speeds)
+        panel.fill_between(
+            rpm, low / 1e3, high / 1e3, color=SKY, alpha=0.45, linewidth=0, label="mean and vibration"
+        )
+        panel.plot(rpm, sense * meshes.mean[s] / 1e3, color=BLUE, label="mean")
+        panel.axhline(0, color=RED, linewidth=0.9)
+        panel.set_xlim(rpm[0], rpm[-1])
+        panel.set_ylabel(f"{named(meshes.stages[s])}\n[kN m]")
+        legend_above(panel)
+    axes[-1].set_xlabel("speed of the first disc [rpm]")
+    return figure
+
+
+@styled
+def overlay_figure(one: Overlay) -> Figure:
+    """Draw a measured curve over the computed one."""
+    figure, (axes,) = panels(1, height=_HEIGHT)
+    unit, factor = _SHOWN[one.what]
+    axes.plot(_rpm(one.run_speeds), one.run_computed * factor, color=BLUE, label="computed")
+    axes.plot(_rpm(one.speeds), one.measured * factor, "o", color=RED, markersize=3.5, label="measured")
+    if one.permitted is not None:
+        rpm = _rpm(one.speeds)
+        axes.plot(
+            rpm, one.permitted * factor, color=SOFT, linestyle=(0, (5, 3)), label="continuous operation"
+        )
+    _over_speed(axes, one.run_speeds, f"{one.what} [{unit}]")
+    axes.set_xlabel("speed of the first disc [rpm]")
+    legend_above(axes)
+    return figure
+
+
+# Units in which measured quantities are drawn.
+_SHOWN = {"stress": ("MPa", 1e-6), "torque": ("kN m", 1e-3), "angle": ("°", 180 / math.pi)}
 
 
 @styled

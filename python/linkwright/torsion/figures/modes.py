@@ -48,7 +48,12 @@ def modes_figure(free: FreeVibration, modes: int = 4) -> Figure:
         _mode(panel, free, k, colour)
     last = axes[-1]
     names = [free.discs[d] for d in in_a_row(free.discs, free.joined)]
-    last.set_xticks(range(len(names)), names, rotation=30 if len(free.discs) > 8 else 0)
+    turned = len(names) > 8
+    last.set_xticks(
+        range(len(names)), names, rotation=40 if turned else 0, ha="right" if turned else "center"
+    )
+    if len(names) > 14:
+        last.tick_params("x", labelsize=7)
     last.set_xlabel("disc")
     return figure
 
@@ -59,7 +64,11 @@ def _mode(axes: Axes, free: FreeVibration, k: int, colour: str) -> None:
     place = {free.discs[d]: n for n, d in enumerate(row)}
     shape = free.mode_shapes[k][row]
     curved = {frozenset(each.between): each for each in free.along if place.keys() & {*each.between}}
-    for first, second in free.joined:
+    # Fluids of dampers hold no shape.
+    slack = {n for n in range(len(free.shafts)) if not free.potential_shares[:, n].any()}
+    for n, (first, second) in enumerate(free.joined):
+        if n in slack:
+            continue
         along = curved.get(frozenset((first, second)))
         if along is not None:
             _along(axes, along, k, place, colour)

@@ -5,6 +5,7 @@
 | `coupling` | Elastic couplings, and torsional dampers |
 | `drive_train` | Gearbox, coupling, flywheel, brake; a driveline whose shafts twist, as a train |
 | `engine/` | Reciprocating engines: descriptions of their parts, and what follows from them in closed form |
+| `measured_response` | A measured response over the speed |
 | `modal_damping` | Damping ratios of the modes of a train as a whole |
 | `permitted_stress` | Vibratory stress permitted by IACS UR M68 and by the Korean Register |
 | `shaft_flexibility` | Closed forms for the twist of cones and of steps |

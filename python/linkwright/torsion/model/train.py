@@ -30,6 +30,7 @@ from linkwright.kernel.units import COUNT, INERTIA, Bound, Quantity, positive
 from linkwright.linkages.model.element import PositiveNumber
 from linkwright.torsion.model.coupling import Coupling, Damper
 from linkwright.torsion.model.engine.engine import ReciprocatingEngine
+from linkwright.torsion.model.measured_response import MeasuredResponse
 from linkwright.torsion.model.modal_damping import ModalDamping
 from linkwright.torsion.model.shaft_limit import ShaftLimit
 from linkwright.torsion.model.shaft_row import fillet_faults, flexibilities, place
@@ -276,6 +277,9 @@ class Train(Description):
         None, description="Damping ratios of the modes, in addition to what damps single parts."
     )
     run: TrainRun | None = Field(None, description="Speeds and orders at which it is looked at.")
+    measured: dict[Name, MeasuredResponse] = Field(
+        default_factory=dict, description="Measured curves that are laid over the computed ones, by name."
+    )
     transient: TrainTransient | None = Field(None, description="Manoeuvre that is followed in time.")
 
     @property

@@ -7,5 +7,6 @@
 | `free` | Natural frequencies, mode shapes, nodes, energy, and what changes them |
 | `holzer` | What a train needs to swing at any frequency |
 | `modes_over_speed` | Modes of a train at any speed |
+| `phase_vectors` | Phase vectors of the orders at the modes: star diagrams and vector sums |
 | `scheme` | Inertias, stiffnesses and equivalent lengths, own and referred |
 """

@@ -10,19 +10,25 @@ first,
 B having +1 for the first and −1 for the second disc of a stage. Where rigid stages close a loop, statics does
 not say how they share the torque.
 
+The application factor of ISO 6336-1, as classification societies have it computed, is
+:math:`K_A = (|T_m| + T_v)/|T_m|` with the vibratory torque T_v, half the peak-to-peak value of all orders.
+
 Teeth lose contact, and hammer, where the torque comes to be against its mean: the drop below the mean is
 larger than the mean.
 
 References
 ----------
 .. [1] Den Hartog, Mechanical Vibrations, 4th ed. 1956, section 5.3: geared systems.
-.. [2] Korean Register, Rules for the Classification of Steel Ships, part 5, chapter 4, 206: gears that
+.. [2] ISO 6336-1:2019, application factor; DNV-CG-0036, Calculation of gear rating for marine transmissions.
+.. [3] Korean Register, Rules for the Classification of Steel Ships, part 5, chapter 4, 206: gears that
     chatter.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -75,6 +81,38 @@ class MeshTorque(Result):
     least: Floats
 
     @property
+    def vibratory(self) -> Floats:
+        """Half the peak-to-peak torque, (stages, speeds) [N m]."""
+        return 0.5 * (self.greatest - self.least)
+
+    @property
+    def application_factor(self) -> Floats:
+        """K_A: mean and vibratory torque over the mean one, (stages, speeds); infinite without a mean."""
+        mean = np.abs(self.mean)
+        factor = np.divide(mean + self.vibratory, mean, out=np.full_like(mean, np.inf), where=mean > 0)
+        return np.where(np.isnan(self.vibratory), np.nan, factor)
+
+    @property
+    def separation(self) -> tuple[tuple[tuple[float, float], ...], ...]:
+        """Lowest and highest speed of each row of speeds at which the teeth of a stage part [rad/s]."""
+        return tuple(tuple(_runs(self.speeds, row)) for row in self.contact_lost)
+
+    def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
+        """By stage: torques and K_A over the speeds, and where teeth part."""
+        rows = zip(self.stages, self.mean, self.vibratory, self.least, self.application_factor, strict=True)
+        stages = {
+            name: {
+                "torque_mean": mean.tolist(),
+                "torque_vibratory": vibratory.tolist(),
+                "torque_least": least.tolist(),
+                "application_factor": factor.tolist(),
+                "separation": [list(pair) for pair in parted],
+            }
+            for (name, mean, vibratory, least, factor), parted in zip(rows, self.separation, strict=True)
+        }
+        return {"speeds": self.speeds.tolist(), "stages": stages}
+
+    @property
     def drop(self) -> Floats:
         """How far the torque falls below its mean, seen in the sense of the mean, (stages, speeds) [N m]."""
         return np.where(self.mean >= 0, self.mean - self.least, self.greatest - self.mean)
@@ -87,6 +125,13 @@ class MeshTorque(Result):
         parted: NDArray[np.bool_] = self.drop > np.abs(self.mean) + 1e-12 * size
         parted &= np.array(self.toothed, bool)[:, None]
         return parted
+
+
+def _runs(speeds: Floats, lost: NDArray[np.bool_]) -> Iterator[tuple[float, float]]:
+    """Lowest and highest speed of each run of speeds."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], lost, [False]]).astype(int)))
+    for first, after in zip(edges[::2], edges[1::2], strict=True):
+        yield float(speeds[first]), float(speeds[after - 1])
 
 
 @public

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.page.csv import columns_csv
-from linkwright.kernel.page.numbers import quantity
+from linkwright.kernel.page.numbers import number, quantity
 from linkwright.kernel.page.table import Row, Table
 from linkwright.torsion.in_time.transient import TorsionTransient
+from linkwright.torsion.modes.phase_vectors import PhaseVectors
 from linkwright.torsion.response.excited_train import ExcitedTrain
 from linkwright.torsion.response.forced import ForcedVibration
+from linkwright.torsion.tables.limits import per_minute, rpm
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -98,6 +100,24 @@ def excitation_tables(at: ExcitedTrain, place: int) -> Iterator[Table]:
     heads = ["order", "", *(head for name in shown for head in (name, "phase"))]
     speed = quantity(float(at.torques.speeds[place]), "rad/s", usual="rpm")
     yield Table("excitation", f"Harmonics of the exciting torques at {speed}", tuple(heads), rows)
+
+
+def star_table(stars: Sequence[PhaseVectors]) -> Table:
+    """Phase vector sums of orders in modes."""
+    rows: list[Row] = [
+        (
+            f"mode {star.mode}, order {star.order:.4g}",
+            "",
+            rpm(star.speed),
+            number(star.vector_sum, 4),
+            number(star.largest_sum, 4),
+            quantity(star.torque, "N m", 4),
+            quantity(star.vector_sum * star.torque, "N m", 4),
+        )
+        for star in stars
+    ]
+    heads = ("critical speed", "", per_minute(), "vector sum", "of at most", "torque", "work per angle")
+    return Table("phase_vectors", "Phase vector sums of the most severe critical speeds", heads, rows)
 
 
 def _shown(at: ExcitedTrain, size: Floats) -> Mapping[str, int]:

@@ -7,21 +7,21 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.kernel.page.measured import measured
-from linkwright.kernel.page.numbers import number, parted, quantity
-from linkwright.kernel.page.out_units import reader
+from linkwright.kernel.page.numbers import number, quantity
 from linkwright.kernel.page.table import Row, Table
 from linkwright.torsion.in_time.transient import TorsionTransient
-from linkwright.torsion.limits.misfire import MisfireVerdict
-from linkwright.torsion.limits.verdict import Verdict
 from linkwright.torsion.modes.campbell import CampbellDiagram
 from linkwright.torsion.modes.damped import DampedVibration
 from linkwright.torsion.modes.free import FreeVibration, Node
 from linkwright.torsion.modes.holzer import HolzerTable
+from linkwright.torsion.modes.phase_vectors import most_severe
 from linkwright.torsion.response.forced import ForcedVibration
 from linkwright.torsion.study import TorsionStudy
 from linkwright.torsion.tables.engine import engine_tables
-from linkwright.torsion.tables.orders import excitation_tables
+from linkwright.torsion.tables.gears import gear_tables
+from linkwright.torsion.tables.limits import limit_tables, per_minute, rpm
+from linkwright.torsion.tables.measured import measured_tables
+from linkwright.torsion.tables.orders import excitation_tables, star_table
 
 Floats = NDArray[np.float64]
 
@@ -40,12 +40,10 @@ _SHAPES = 5
 
 def study_tables(study: TorsionStudy) -> Iterator[Table]:
     """All tables of a study of torsional vibration."""
-    if study.verdict is not None and study.verdict.judgements:
-        yield _judgements(study.verdict)
-    if study.misfire is not None:
-        yield _misfire(study.misfire)
-    if study.transient is not None and study.transient.judgements:
-        yield _peak_judgements(study.transient)
+    yield from limit_tables(study)
+    yield from measured_tables(study.overlays)
+    if study.meshes is not None and study.forced is not None:
+        yield from gear_tables(study.meshes, service_place(study, study.forced))
     if study.engines:
         yield from engine_tables(study.engines)
     yield from torsion_tables(study.free)
@@ -57,73 +55,12 @@ def study_tables(study: TorsionStudy) -> Iterator[Table]:
         yield from excitation_tables(study.excited, service_place(study, study.forced))
         yield _shafts(study, study.forced)
         yield _discs(study, study.forced)
+        if study.stars and study.campbell is not None:
+            yield star_table(most_severe(study.campbell, study.stars, _CRITICAL))
     if study.transient is not None:
         yield _manoeuvre(study.transient)
     for table in study.holzer:
         yield from holzer_tables(table)
-
-
-_STATES = {"ok": "within limit", "bar": "barred speed range required", "exceeds": "limit exceeded"}
-
-
-def _judgements(verdict: Verdict) -> Table:
-    """Each limit and whether it is kept."""
-    rows: list[Row] = [
-        (
-            f"{judgement.part}: {judgement.what}",
-            "",
-            _shown(judgement.found, judgement.kind.unit),
-            _shown(judgement.permitted, judgement.kind.unit),
-            _rpm(judgement.speed),
-            _STATES[judgement.state],
-        )
-        for judgement in verdict.judgements
-    ]
-    return Table(
-        "limits", "Limits", ("limit", "", "found", "permitted", f"at {_per_minute()}", "verdict"), rows
-    )
-
-
-def _misfire(verdict: MisfireVerdict) -> Table:
-    """Each limit with the worst single misfire."""
-    rows: list[Row] = [
-        (
-            f"{row.part}: {row.what}",
-            "",
-            _shown(row.found, row.kind.unit),
-            _shown(row.permitted, row.kind.unit),
-            _rpm(row.speed),
-            row.cylinder,
-            "within limit" if row.is_kept else "restricted operation",
-        )
-        for row in verdict.judgements
-    ]
-    heads = ("limit", "", "found", "permitted", f"at {_per_minute()}", "cylinder", "verdict")
-    return Table("misfire", "Limits with one cylinder misfiring, the worst of all", heads, rows)
-
-
-def _peak_judgements(moved: TorsionTransient) -> Table:
-    """Each limit and whether the manoeuvre keeps it."""
-    rows: list[Row] = [
-        (
-            f"{judgement.part}: {judgement.what}",
-            "",
-            _shown(judgement.found, judgement.kind.unit),
-            _shown(judgement.permitted, judgement.kind.unit),
-            quantity(judgement.time, "s"),
-            _STATES["ok" if judgement.is_kept else "exceeds"],
-        )
-        for judgement in moved.judgements
-    ]
-    heads = ("limit", "", "found", "permitted", "at", "verdict")
-    return Table("manoeuvre_limits", "Limits in the manoeuvre", heads, rows)
-
-
-def _shown(value: float, unit: str) -> str:
-    """A quantity for people: stresses in MPa unless another unit is wanted."""
-    if np.isinf(value):
-        return "unbounded"
-    return measured(value, unit, usual="MPa" if unit == "Pa" else "")
 
 
 def _manoeuvre(moved: TorsionTransient) -> Table:
@@ -156,7 +93,7 @@ def _damped(study: TorsionStudy, damped: DampedVibration) -> Table:
     heads = ("motion", "", "Hz", "damped Hz", "ζ", "log. decrement")
     run = study.machine.train.run if study.machine.train is not None else None
     at = (
-        f" at {_rpm(run.service)} {_per_minute()}, loads and mean torques counted"
+        f" at {rpm(run.service)} {per_minute()}, loads and mean torques counted"
         if run and study.forced
         else ""
     )
@@ -180,14 +117,14 @@ def _critical(diagram: CampbellDiagram) -> Table:
             "",
             str(crossing.mode),
             f"{crossing.frequency:.5g}",
-            _rpm(crossing.speed),
-            "–" if crossing.peak_speed is None else _rpm(crossing.peak_speed),
+            rpm(crossing.speed),
+            "–" if crossing.peak_speed is None else rpm(crossing.peak_speed),
             _amplitude(crossing.resonance_amplitude),
         )
         for crossing in diagram.critical
         if crossing in kept
     ]
-    heads = ("order", "", "mode", "Hz", _per_minute(), f"peaks at [{_per_minute()}]", "amplitude")
+    heads = ("order", "", "mode", "Hz", per_minute(), f"peaks at [{per_minute()}]", "amplitude")
     more = len(diagram.critical) - len(rows)
     title = "Critical speeds" + (f", the most severe of {len(diagram.critical)}" if more else "")
     return Table("critical_speeds", title, heads, rows)
@@ -215,10 +152,10 @@ def _shafts(study: TorsionStudy, forced: ForcedVibration) -> Table:
         )
         units = ("N m", "N m", "N m", "N m", "W")
         cells = [quantity(float(value), unit, 4) for value, unit in zip(numbers, units, strict=True)]
-        rows.append((name, "", cells[0], _rpm(float(peaks.speed[s])), *cells[1:]))
-    service = _rpm(forced.speeds[at])
-    heads = ("shaft", "", "vibratory", f"at {_per_minute()}", "mean", "vibratory", "maximum", "heat")
-    title = f"Torques: largest over speeds and resonances; then at {service} {_per_minute()}, with heat"
+        rows.append((name, "", cells[0], rpm(float(peaks.speed[s])), *cells[1:]))
+    service = rpm(forced.speeds[at])
+    heads = ("shaft", "", "vibratory", f"at {per_minute()}", "mean", "vibratory", "maximum", "heat")
+    title = f"Torques: largest over speeds and resonances; then at {service} {per_minute()}, with heat"
     return Table("shaft_torques", title, heads, rows)
 
 
@@ -234,7 +171,7 @@ def _discs(study: TorsionStudy, forced: ForcedVibration) -> Table:
             [_finite(v, 3) for v in each.tolist()] for each in (study.along.unevenness, study.along.spread)
         ]
     rows: list[Row] = [(name, "", *cells) for name, *cells in zip(forced.discs, *columns, strict=True)]
-    title = f"Speed fluctuation at {_rpm(forced.speeds[at])} {_per_minute()}"
+    title = f"Speed fluctuation at {rpm(forced.speeds[at])} {per_minute()}"
     return Table("unevenness", title, tuple(heads), rows)
 
 
@@ -249,18 +186,9 @@ def service_place(study: TorsionStudy, forced: ForcedVibration) -> int:
     return int(np.argmin(np.abs(forced.speeds - run.service)))
 
 
-def _rpm(speed: float) -> str:
-    return parted(speed, "rad/s", usual="rpm")[0]
-
-
-def _per_minute() -> str:
-    """The unit of speeds."""
-    return reader().shown("rad/s", "rpm")[0]
-
-
 def _signed(text: str) -> str:
-    """A number with a true minus sign."""
-    return text.replace("-", "−")
+    """A number with a true minus sign; zero has none."""
+    return (text if float(text) else text.removeprefix("-")).replace("-", "−")
 
 
 def _finite(value: float, digits: int = 4) -> str:

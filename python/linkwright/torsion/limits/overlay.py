@@ -1,0 +1,238 @@
+r"""A measured curve laid over the computed one, and how far apart their peaks are.
+
+Peaks of the measured curve are its local maxima of at least a third of the largest, and its largest value
+where that lies at an end. Each is set beside the highest peak of the computed curve within 15 % of its speed,
+which is sought between the speeds of the run as well; the differences are those of the computed one over the
+measured one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Annotated, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.description.base import suggestion
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.result import Result
+from linkwright.kernel.units import ANGLE, PRESSURE, TORQUE, Kind
+from linkwright.torsion.limits.criteria import peaks_between
+from linkwright.torsion.model.measured_response import MeasuredResponse
+from linkwright.torsion.response.excited_train import ExcitedTrain
+from linkwright.torsion.response.forced import TorsionResponse, torsion_response
+from linkwright.torsion.response.harmonics import span
+from linkwright.torsion.response.stress import shaft_stress
+from linkwright.torsion.response.survey import Survey, between
+
+Floats = NDArray[np.float64]
+
+# Share of the largest measured value from which on a maximum is a peak.
+_PEAK = 1 / 3
+
+# Share of its speed within which a measured peak is sought among the computed ones.
+_NEAR = 0.15
+
+# Even speeds at which the computed curve is looked at about a measured peak.
+_POINTS = 60
+
+# Orders that differ by a smaller share are one.
+_EQUAL = 1e-9
+
+_KINDS: dict[str, Kind] = {"stress": PRESSURE, "torque": TORQUE, "angle": ANGLE}
+
+
+class PeakComparison(NamedTuple):
+    """A measured peak beside the computed one.
+
+    Attributes
+    ----------
+    speed, value : float
+        Measured [rad/s], [SI].
+    speed_computed, value_computed : float or None
+        Computed; None where no peak is near.
+    """
+
+    speed: float
+    value: float
+    speed_computed: float | None
+    value_computed: float | None
+
+    @property
+    def speed_difference(self) -> float | None:
+        """Computed less measured speed, over the measured one."""
+        return None if self.speed_computed is None else self.speed_computed / self.speed - 1
+
+    @property
+    def value_difference(self) -> float | None:
+        """Computed less measured amplitude, over the measured one."""
+        return None if self.value_computed is None else self.value_computed / self.value - 1
+
+
+@dataclass(frozen=True)
+class Overlay(Result):
+    """A measured curve over the computed one."""
+
+    name: Annotated[str, About("Of the measurement.")]
+    part: Annotated[str, About("Shaft or disc.")]
+    what: Annotated[str, About("Stress, torque or angle.")]
+    order: Annotated[float | None, About("Order of the first disc; None for all together.")]
+    speeds: Annotated[
+        Floats, Shown("speed of the first disc", "ω", "rad/s", "Of the measurement.", shape="(points,)")
+    ]
+    measured: Annotated[Floats, About("Measured amplitudes, shape (points,) [SI].")]
+    computed: Annotated[Floats, About("Computed ones at the same speeds, shape (points,) [SI].")]
+    run_speeds: Annotated[Floats, About("Speeds of the computed curve as drawn, shape (n,) [rad/s].")]
+    run_computed: Annotated[Floats, About("Computed amplitudes there, shape (n,) [SI].")]
+    permitted: Annotated[
+        Floats | None, About("Permitted in continuous operation at the measured speeds, of a stress [Pa].")
+    ]
+    peaks: Annotated[tuple[PeakComparison, ...], About("Measured peaks beside computed ones, by speed.")]
+
+    @property
+    def kind(self) -> Kind:
+        """The quantity."""
+        return _KINDS[self.what]
+
+    @property
+    def mean_difference(self) -> float:
+        """Root mean square of computed less measured values, over that of the measured ones."""
+        return float(np.sqrt(np.mean((self.computed - self.measured) ** 2) / np.mean(self.measured**2)))
+
+    def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
+        """Peaks as a table, curves as lists."""
+        peaks = [
+            peak._asdict()
+            | {"speed_difference": peak.speed_difference, "value_difference": peak.value_difference}
+            for peak in self.peaks
+        ]
+        lists = {
+            name: None if (array := getattr(self, name)) is None else array.tolist()
+            for name in ("speeds", "measured", "computed", "permitted")
+        }
+        scalars = {"name": self.name, "part": self.part, "what": self.what, "order": self.order}
+        unit = {"unit": self.kind.unit, "mean_difference": self.mean_difference, "peaks": peaks}
+        return scalars | unit | lists
+
+
+def overlay(seen: Survey, name: str, curve: MeasuredResponse) -> Overlay:
+    """Lay a measured curve over the computed one. `name`: of the measurement."""
+    speeds, values = np.array(curve.speed), np.array(curve.values)
+    known = np.sort(seen.at.torques.speeds)
+    outside = speeds[(speeds < known[0]) | (speeds > known[-1])]
+    if len(outside):
+        low, high, found = (each * 30 / np.pi for each in (known[0], known[-1], outside[0]))
+        raise InputError(
+            f"measurement {name}: found a speed of {found:.6g} rpm, expected speeds from {low:.6g} to "
+            f"{high:.6g} rpm, those of [train.run]; widen them, or leave the point out"
+        )
+    computed = _computed(seen, name, curve)
+    grid = np.unique(np.concatenate([known, [one.speed for one in seen.resonances]]))
+    return Overlay(
+        name=name,
+        part=curve.on,
+        what=curve.what,
+        order=curve.order,
+        speeds=speeds,
+        measured=values,
+        computed=computed(speeds),
+        run_speeds=grid,
+        run_computed=computed(grid),
+        permitted=_permitted(seen, curve, speeds),
+        peaks=tuple(_compared(speeds, values, n, computed, known) for n in _peaks(values)),
+    )
+
+
+def _computed(seen: Survey, name: str, curve: MeasuredResponse) -> Callable[[Floats], Floats]:
+    """The computed amplitude at any speeds in the range."""
+    parts = seen.found.discs if curve.what == "angle" else seen.found.shafts
+    if curve.on not in parts:
+        remedy = suggestion(curve.on, parts)
+        expected = "the name of a disc" if curve.what == "angle" else "the name of a shaft or coupling"
+        raise InputError(
+            f'measurement {name}: found {curve.what} of "{curve.on}", expected {expected}'
+            + (f"; {remedy}" if remedy else "")
+        )
+    order = None if curve.order is None else _order(seen.at, name, curve.order)
+    if curve.what == "stress" and curve.on not in shaft_stress(seen.machine, seen.found, seen.service).shafts:
+        raise InputError(
+            f"measurement {name}: no section of {curve.on} is known, so that it has no stress: give its "
+            "sections, or a diameter in its limit"
+        )
+
+    def at(speeds: Floats) -> Floats:
+        found = torsion_response(between(seen.machine, seen.at, speeds))
+        amplitudes = _amplitudes(found, curve, order)
+        if curve.what != "stress":
+            return amplitudes
+        stress = shaft_stress(seen.machine, found, seen.service)
+        row, size = stress.shafts.index(curve.on), found.shaft_torque_vibratory[found.shafts.index(curve.on)]
+        factor = np.divide(stress.vibratory[row], size, out=np.zeros_like(size), where=size > 0)
+        return np.asarray(factor * amplitudes, float)
+
+    return at
+
+
+def _amplitudes(found: TorsionResponse, curve: MeasuredResponse, order: int | None) -> Floats:
+    """Torque or angle, of one order or of all together, (speeds,)."""
+    if curve.what == "angle":
+        waves = found.amplitudes[:, found.discs.index(curve.on)]
+    else:
+        waves = found.shaft_torques[:, found.shafts.index(curve.on)]
+    if order is not None:
+        return np.asarray(np.abs(waves[order]), float)
+    greatest, least = span(found.together, waves)
+    return np.asarray(0.5 * (greatest - least), float)
+
+
+def _order(at: ExcitedTrain, name: str, order: float) -> int:
+    """Place of an order among those of the train."""
+    orders = at.torques.orders
+    place = int(np.abs(orders - order).argmin())
+    if abs(orders[place] - order) > _EQUAL * order:
+        listed = ", ".join(f"{each:.5g}" for each in orders.tolist())
+        raise InputError(f"measurement {name}: found order {order:g}, expected one of {listed}")
+    return place
+
+
+def _permitted(seen: Survey, curve: MeasuredResponse, speeds: Floats) -> Floats | None:
+    """Stress permitted in continuous operation at some speeds; None of anything else, or without a limit."""
+    if curve.what != "stress":
+        return None
+    stress = shaft_stress(
+        seen.machine, torsion_response(between(seen.machine, seen.at, speeds)), seen.service
+    )
+    permitted: Floats = stress.continuous[stress.shafts.index(curve.on)]
+    return permitted if np.isfinite(permitted).any() else None
+
+
+def _peaks(values: Floats) -> list[int]:
+    """Places of the peaks of a measured curve."""
+    inner, top = np.arange(1, len(values) - 1), float(values.max())
+    higher = (values[inner] >= values[inner - 1]) & (values[inner] > values[inner + 1])
+    peaks = set(inner[higher & (values[inner] >= _PEAK * top)].tolist())
+    return sorted(peaks | {int(values.argmax())})
+
+
+def _compared(
+    speeds: Floats, values: Floats, n: int, computed: Callable[[Floats], Floats], known: Floats
+) -> PeakComparison:
+    """A measured peak beside the highest computed one near it."""
+    speed, value = float(speeds[n]), float(values[n])
+    low, high = max(speed * (1 - _NEAR), known[0]), min(speed * (1 + _NEAR), known[-1])
+    grid = np.linspace(low, high, _POINTS)
+    curve = np.nan_to_num(computed(grid), nan=np.inf)
+    inner = np.arange(1, len(grid) - 1)
+    tops = inner[(curve[inner] >= curve[inner - 1]) & (curve[inner] > curve[inner + 1])]
+    if not len(tops):
+        return PeakComparison(speed, value, None, None)
+    top = int(tops[curve[tops].argmax()])
+    (best,) = peaks_between(
+        lambda at: computed(at)[None],
+        [(0, float(grid[top - 1]), float(grid[top + 1]))],
+        [(float(grid[top]), float(curve[top]))],
+    )
+    return PeakComparison(speed, value, best, float(computed(np.array([best]))[0]))

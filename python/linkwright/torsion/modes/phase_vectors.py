@@ -1,0 +1,117 @@
+r"""Phase vectors of the orders at the modes of a train: star diagrams and vector sums.
+
+At the critical speed of an order ν and a mode, the torque on each disc does its work in the mode by its size
+and its phase. Over the largest of them, and times the amplitude of the disc in the mode,
+
+.. math:: v_d = \theta_d\,\frac{M_{\nu d}}{\max_d|M_{\nu d}|}, \qquad S = \left|\sum_d v_d\right|
+
+Equal cylinders have vectors as long as their discs swing, turned by the firing order: the *phase vector sum*
+of the handbooks. An order with a large sum shakes the mode, one whose star closes does not.
+
+References
+----------
+.. [1] Ker Wilson, Practical Solution of Torsional Vibration Problems, vol. 2, 1963: phase vector sums.
+.. [2] Den Hartog, Mechanical Vibrations, 4th ed. 1956, section 5.5: star diagrams.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Annotated, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.result import Result
+from linkwright.torsion.modes.campbell import CampbellDiagram
+from linkwright.torsion.modes.free import FreeVibration, train_modes
+from linkwright.torsion.response.excited_train import ExcitedTrain
+
+Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+
+# Share of the largest torque of an order below which a disc is not excited by it.
+_ROUNDING = 1e-9
+
+# Orders that differ by a smaller share are one.
+_EQUAL = 1e-9
+
+
+@dataclass(frozen=True)
+class PhaseVectors(Result):
+    """Phase vectors of one order in one mode."""
+
+    order: Annotated[float, Shown("excitation order of the first disc", "ν", "")]
+    mode: Annotated[int, About("Row of `FreeVibration`.")]
+    speed: Annotated[float, Shown("critical speed of the first disc", "ω", "rad/s")]
+    discs: Annotated[tuple[str, ...], About("Discs that the order excites.")]
+    vectors: Annotated[
+        Complexes,
+        Shown("phase vector of each disc", "v", "", "Complex; times its amplitude.", shape="(discs,)"),
+    ]
+    torque: Annotated[float, Shown("largest torque of the order on a disc", "", "N m")]
+
+    @property
+    def vector_sum(self) -> Annotated[float, Shown("phase vector sum", "S", "")]:
+        """S."""
+        return float(np.abs(self.vectors.sum()))
+
+    @property
+    def largest_sum(self) -> Annotated[float, Shown("sum of the lengths of the vectors", "", "")]:
+        """The sum if all torques were in phase with the mode."""
+        return float(np.abs(self.vectors).sum())
+
+    def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
+        """By name; each vector as its length and its angle [rad]."""
+        return {
+            "order": self.order,
+            "mode": self.mode,
+            "speed": self.speed,
+            "vector_sum": self.vector_sum,
+            "largest_sum": self.largest_sum,
+            "torque": self.torque,
+            "vectors": {
+                name: {"length": float(abs(vector)), "angle": float(np.angle(vector))}
+                for name, vector in zip(self.discs, self.vectors.tolist(), strict=True)
+            },
+        }
+
+
+def phase_vectors(
+    free: FreeVibration, diagram: CampbellDiagram, at: ExcitedTrain
+) -> tuple[PhaseVectors, ...]:
+    """Phase vectors of all critical speeds at which an order excites more than one disc, by speed.
+
+    `at`: at the critical speeds of the diagram, in its order.
+    """
+    stars = []
+    for n, critical in enumerate(diagram.critical):
+        same = np.abs(at.torques.orders - critical.order) <= _EQUAL * critical.order
+        torques = at.torques.harmonics[same, :, n].sum(axis=0)
+        largest = float(np.abs(torques).max(initial=0.0))
+        excited = np.flatnonzero(np.abs(torques) > _ROUNDING * largest)
+        if len(excited) < 2:
+            continue
+        vectors = _shape(free, at, n, critical.mode)[excited] * torques[excited] / largest
+        names = tuple(free.discs[disc] for disc in excited)
+        stars.append(PhaseVectors(critical.order, critical.mode, critical.speed, names, vectors, largest))
+    return tuple(stars)
+
+
+def _shape(free: FreeVibration, at: ExcitedTrain, n: int, mode: int) -> Floats:
+    """The mode at a critical speed, where couplings may be stiffer than at rest, (discs,)."""
+    stiffness = np.ascontiguousarray(at.operating.stiffness[:, n])
+    if np.array_equal(stiffness, at.referred.stiffness):
+        return free.mode_shapes[mode]
+    train = replace(at.referred, stiffness=stiffness)
+    masses = train_modes(train, len(free.natural_frequencies)).masses[mode]
+    shape: Floats = train.speed * masses[train.mass]
+    return shape / np.abs(shape).max()
+
+
+def most_severe(diagram: CampbellDiagram, stars: tuple[PhaseVectors, ...], count: int) -> list[PhaseVectors]:
+    """The stars of the most severe critical speeds, by mode and order."""
+    severity = {(one.order, one.mode): one.resonance_amplitude or 0.0 for one in diagram.critical}
+    worst = sorted(stars, key=lambda star: -severity[star.order, star.mode])[:count]
+    return sorted(worst, key=lambda star: (star.mode, star.order))

@@ -1,0 +1,69 @@
+"""Tables of measured curves beside the computed ones, and their verdict in a sentence."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from linkwright.kernel.page.table import Row, Table
+from linkwright.torsion.limits.overlay import Overlay, PeakComparison
+from linkwright.torsion.tables.limits import per_minute, rpm, shown
+
+
+def measured_tables(overlays: Sequence[Overlay]) -> Iterator[Table]:
+    """Each measured peak beside the computed one."""
+    rows: list[Row] = [
+        (
+            f"{one.name}: {words(one)}" if one.name != one.part else words(one),
+            "",
+            rpm(peak.speed),
+            "–" if peak.speed_computed is None else rpm(peak.speed_computed),
+            percent(peak.speed_difference),
+            shown(peak.value, one.kind),
+            "–" if peak.value_computed is None else shown(peak.value_computed, one.kind),
+            percent(peak.value_difference),
+        )
+        for one in overlays
+        for peak in one.peaks
+    ]
+    heads = ("peak", "", f"measured {per_minute()}", "computed", "differs", "measured", "computed", "differs")
+    if rows:
+        yield Table("measured", "Measured and computed peaks", heads, rows)
+
+
+def words(one: Overlay) -> str:
+    """What was measured."""
+    order = "" if one.order is None else f", order {one.order:.4g}"
+    return f"{one.what} of {one.part}{order}"
+
+
+def percent(share: float | None) -> str:
+    """A difference."""
+    return "–" if share is None else f"{100 * share:+.1f} %".replace("-", "−")
+
+
+def measured_words(one: Overlay) -> str:
+    """What the comparison says, in a sentence."""
+    highest = max(one.peaks, key=lambda peak: peak.value)
+    what, value = words(one), shown(highest.value, one.kind)
+    text = f"{what[0].upper()}{what[1:]}: highest measured {value} at {rpm(highest.speed)} {per_minute()}"
+    return f"{text}, {_beside(one, highest)}{_permitted(one)}."
+
+
+def _beside(one: Overlay, peak: PeakComparison) -> str:
+    """The computed peak beside a measured one."""
+    if peak.speed_computed is None or peak.value_computed is None:
+        return "no computed peak within 15 % of its speed"
+    value, at = shown(peak.value_computed, one.kind), rpm(peak.speed_computed)
+    speed, size = percent(peak.speed_difference), percent(peak.value_difference)
+    return f"computed {value} at {at} {per_minute()}: speed {speed}, amplitude {size}"
+
+
+def _permitted(one: Overlay) -> str:
+    """Whether what was measured is permitted."""
+    if one.permitted is None:
+        return ""
+    over = one.speeds[one.measured > one.permitted]
+    if not len(over):
+        return "; the measured stress is within the limit of continuous operation"
+    low, high = rpm(float(over[0])), rpm(float(over[-1]))
+    return f"; the measured stress exceeds the limit of continuous operation within {low} to {high} {per_minute()}"
