@@ -25,7 +25,7 @@ fast = { between = ["motor", "pinion"], stiffness = 4e4, loss_factor = 0.02 }
 between = ["wheel", "fan"]
 sections = [{ length = 0.9, diameter = 0.08 }]
 loss_factor = 0.02
-limit = { stress_permitted = 20e6, stress_transient = 60e6 }
+limit = { stress_permitted = 5e6, stress_transient = 60e6 }
 [train.gears]
 stage = { between = ["pinion", "wheel"], ratio = 4.0 }
 [train.loads.air]

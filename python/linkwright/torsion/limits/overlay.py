@@ -98,7 +98,9 @@ class Overlay(Result):
         return _KINDS[self.what]
 
     @property
-    def mean_difference(self) -> float:
+    def mean_difference(
+        self,
+    ) -> Annotated[float, Shown("root mean square of computed less measured values over measured", "", "")]:
         """Root mean square of computed less measured values, over that of the measured ones."""
         return float(np.sqrt(np.mean((self.computed - self.measured) ** 2) / np.mean(self.measured**2)))
 

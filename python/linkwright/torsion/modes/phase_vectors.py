@@ -103,11 +103,13 @@ def _shape(free: FreeVibration, at: ExcitedTrain, n: int, mode: int) -> Floats:
     """The mode at a critical speed, where couplings may be stiffer than at rest, (discs,)."""
     stiffness = np.ascontiguousarray(at.operating.stiffness[:, n])
     if np.array_equal(stiffness, at.referred.stiffness):
-        return free.mode_shapes[mode]
+        at_rest: Floats = free.mode_shapes[mode]
+        return at_rest
     train = replace(at.referred, stiffness=stiffness)
     masses = train_modes(train, len(free.natural_frequencies)).masses[mode]
-    shape: Floats = train.speed * masses[train.mass]
-    return shape / np.abs(shape).max()
+    angles = train.speed * masses[train.mass]
+    shape: Floats = angles / np.abs(angles).max()
+    return shape
 
 
 def most_severe(diagram: CampbellDiagram, stars: tuple[PhaseVectors, ...], count: int) -> list[PhaseVectors]:

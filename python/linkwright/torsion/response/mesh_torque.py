@@ -28,12 +28,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.public import public
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.train import HELD
@@ -53,40 +54,47 @@ _TOOTHED = ("external", "internal")
 
 @dataclass(frozen=True)
 class MeshTorque(Result):
-    """Torques of gear stages at their first discs, positive where the first drives in its sense.
+    """Torques of gear stages at their first discs, positive where the first drives in its sense."""
 
-    Attributes
-    ----------
-    speeds : ndarray, shape (speeds,)
-        Of the first disc of the train [rad/s].
-    stages : tuple of str
-        Gear stages in the order of the file.
-    toothed : tuple of bool
-        Whether a stage can lose contact; belts are taken to be tight.
-    orders : ndarray, shape (orders,)
-        Cycles per revolution of the first disc.
-    torques : ndarray of complex, shape (orders, stages, speeds)
-        [N m]; NaN where rigid stages close a loop.
-    mean, greatest, least : ndarray, shape (stages, speeds)
-        Of mean and vibration together [N m].
-    """
-
-    speeds: Floats
-    stages: tuple[str, ...]
-    toothed: tuple[bool, ...]
-    orders: Floats
-    torques: Complexes
-    mean: Floats
-    greatest: Floats
-    least: Floats
+    speeds: Annotated[Floats, Shown("speed of the first disc", "ω", "rad/s", shape="(speeds,)")]
+    stages: Annotated[tuple[str, ...], About("Gear stages in the order of the file.")]
+    toothed: Annotated[
+        tuple[bool, ...], About("Whether a stage can lose contact; belts are taken to be tight.")
+    ]
+    orders: Annotated[
+        Floats, Shown("excitation order of the first disc", "ν", "", shape="(orders,)", over="orders")
+    ]
+    torques: Annotated[
+        Complexes,
+        Shown(
+            "torque of each stage",
+            "",
+            "N m",
+            "Complex, by orders; NaN where rigid stages close a loop.",
+            shape="(orders, stages, speeds)",
+        ),
+    ]
+    mean: Annotated[Floats, Shown("mean torque of each stage", "", "N m", shape="(stages, speeds)")]
+    greatest: Annotated[
+        Floats,
+        Shown("maximum torque of each stage", "", "N m", "Mean and vibration.", shape="(stages, speeds)"),
+    ]
+    least: Annotated[
+        Floats,
+        Shown("minimum torque of each stage", "", "N m", "Mean and vibration.", shape="(stages, speeds)"),
+    ]
 
     @property
-    def vibratory(self) -> Floats:
+    def vibratory(
+        self,
+    ) -> Annotated[Floats, Shown("vibratory torque of each stage", "", "N m", shape="(stages, speeds)")]:
         """Half the peak-to-peak torque, (stages, speeds) [N m]."""
         return 0.5 * (self.greatest - self.least)
 
     @property
-    def application_factor(self) -> Floats:
+    def application_factor(
+        self,
+    ) -> Annotated[Floats, Shown("application factor of each stage", "K_A", "", shape="(stages, speeds)")]:
         """K_A: mean and vibratory torque over the mean one, (stages, speeds); infinite without a mean."""
         mean = np.abs(self.mean)
         factor = np.divide(mean + self.vibratory, mean, out=np.full_like(mean, np.inf), where=mean > 0)
@@ -113,12 +121,18 @@ class MeshTorque(Result):
         return {"speeds": self.speeds.tolist(), "stages": stages}
 
     @property
-    def drop(self) -> Floats:
+    def drop(
+        self,
+    ) -> Annotated[
+        Floats, Shown("drop of the torque of each stage below its mean", "", "N m", shape="(stages, speeds)")
+    ]:
         """How far the torque falls below its mean, seen in the sense of the mean, (stages, speeds) [N m]."""
         return np.where(self.mean >= 0, self.mean - self.least, self.greatest - self.mean)
 
     @property
-    def contact_lost(self) -> NDArray[np.bool_]:
+    def contact_lost(
+        self,
+    ) -> Annotated[NDArray[np.bool_], About("Where teeth part, shape (stages, speeds).")]:
         """Where teeth part, shape (stages, speeds)."""
         # Rounding of torques that cancel is no vibration.
         size = np.maximum(np.abs(self.greatest), np.abs(self.least))
