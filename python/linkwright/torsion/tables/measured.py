@@ -65,5 +65,5 @@ def _permitted(one: Overlay) -> str:
     over = one.speeds[one.measured > one.permitted]
     if not len(over):
         return "; the measured stress is within the limit of continuous operation"
-    low, high = rpm(float(over[0])), rpm(float(over[-1]))
-    return f"; the measured stress exceeds the limit of continuous operation within {low} to {high} {per_minute()}"
+    between = f"{rpm(float(over[0]))} to {rpm(float(over[-1]))} {per_minute()}"
+    return f"; the measured stress exceeds the limit of continuous operation within {between}"
