@@ -66,6 +66,9 @@ COMMANDS = {
     "papers": Place(
         "Recompute a published paper, compare with its results.", "app.commands.papers:papers", False
     ),
+    "report": Place(
+        "The answer of a command as a report: a page or a PDF.", "app.commands.report:report", False
+    ),
     "new": Place("Write a machine file to start from.", "app.commands.new:new", False),
     "schema": Place("Print the JSON Schema of machine files.", "app.commands.schema:schema", False),
     "glossary": Place(

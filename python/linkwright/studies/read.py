@@ -11,10 +11,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.kernel.description.text import split
 from linkwright.kernel.errors import InputError, MachineError, MachineFileError, Problem
 from linkwright.kernel.files.columns import read_columns
-from linkwright.kernel.files.lines import key_lines, line_of
+from linkwright.kernel.files.lines import located
 from linkwright.kernel.files.text_file import TextError, text_of
 from linkwright.kernel.limits import FILE_BYTES
 from linkwright.kernel.public import public
@@ -85,7 +84,7 @@ def read_study(
     except MachineFileError:
         raise
     except MachineError as error:
-        raise MachineFileError(_located(error.problems, text, str(place), at)) from None
+        raise MachineFileError(located(error.problems, text, str(place), at)) from None
 
 
 @public
@@ -161,14 +160,3 @@ def _listed(path: Path, machine: Machine, study: StudyFile) -> Floats | None:
         row = int(np.flatnonzero(~np.isfinite(rows).all(axis=1))[0])
         raise InputError(f"{place}: row {row}: found a number that is not finite")
     return rows
-
-
-def _located(problems: Sequence[Problem], text: str, path: str, at: tuple[str, ...]) -> list[Problem]:
-    """Problems of the study with file and line."""
-    lines = key_lines(text)
-    found = []
-    for problem in problems:
-        place = (*at, *(split(problem.key) if problem.key else ()))
-        key = ".".join((*at, problem.key)) if problem.key else ".".join(at)
-        found.append(replace(problem, key=key, path=path, line=line_of(lines, place)))
-    return sorted(found, key=lambda each: each.line or 0)

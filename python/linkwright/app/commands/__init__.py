@@ -7,6 +7,7 @@
 | `new` | `linkwright new TEMPLATE`: a machine file to start from |
 | `papers` | `linkwright papers`: published numbers against computed ones |
 | `plot` | `linkwright plot FILE QUANTITY…`: curves of a machine as picture and table |
+| `report` | `linkwright report COMMAND …`: the answer of a command as a page or PDF |
 | `run` | `linkwright run FILE`: everything that can be computed about a machine |
 | `schema` | `linkwright schema`: the JSON Schema of machine files, for editors |
 """

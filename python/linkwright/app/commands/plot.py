@@ -70,6 +70,7 @@ def plot(
     a revolution unless it runs over something else.
     """
     from linkwright.app.curves import chosen, curves_of, from_zero
+    from linkwright.app.figures import curves_figure
     from linkwright.app.study import study
     from linkwright.linkages.zero import Zero, zero_angle
     from linkwright.machine.read import read
@@ -92,6 +93,7 @@ def plot(
         findings=found.findings,
         warnings=found.warnings,
         tables=lambda: [_extremes(found, curves, counted.angle), _values(curves)],
+        figures=lambda: {"curves": curves_figure(curves, counted.words)},
         head=lambda: f"Crank angles from the {counted.words}" if counted.words else "",
     )
     if written:

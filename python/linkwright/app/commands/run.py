@@ -13,6 +13,7 @@ from linkwright.kernel.command.parameter import Option
 
 if TYPE_CHECKING:
     from linkwright.app.study import Study
+    from linkwright.kernel.page.content import Content
     from linkwright.kernel.page.table import Table
 
 Curves = Annotated[bool, Option("--curves", help="With --json: curves too, not scalars alone.")]
@@ -73,6 +74,7 @@ def _answer(study: Study) -> Answer:
         head=partial(_head, study),
         tables=partial(_tables, study),
         files=partial(_files, study),
+        report=partial(_report, study),
     )
 
 
@@ -88,6 +90,13 @@ def _tables(study: Study) -> list[Table]:
     from linkwright.app.report.tables import tables
 
     return tables(study)
+
+
+def _report(study: Study) -> Content:
+    """What its report says."""
+    from linkwright.app.report.page import content
+
+    return content(study)
 
 
 def _files(study: Study) -> dict[str, str]:

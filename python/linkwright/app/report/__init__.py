@@ -2,7 +2,9 @@
 
 | module | |
 | --- | --- |
+| `answered` | What a report says of the answer of any command; variants beside each other |
 | `assumptions` | What was taken for granted, as it applies to a machine |
+| `company` | The head of a report, from a company file |
 | `figures` | The figures of a study, with captions |
 | `page` | What the report says, and its page: `report_html`, `write_report` |
 | `scene` | The moving sketch: positions over one revolution |

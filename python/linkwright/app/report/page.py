@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator
+from dataclasses import replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from linkwright.app.report.assumptions import assumptions
@@ -13,7 +15,7 @@ from linkwright.app.report.tables import DETAIL_TABLES, MOTION_TABLES, tables
 from linkwright.app.study import Study
 from linkwright.drive.model.motor import InductionMotor
 from linkwright.kernel.files.output import write_file
-from linkwright.kernel.page.content import Content, Few, Part
+from linkwright.kernel.page.content import Content, Few, Heading, Part
 from linkwright.kernel.page.formulas import PAPER_1, Formula, formulas
 from linkwright.kernel.page.html import html
 from linkwright.kernel.page.numbers import degrees, number, parted
@@ -27,7 +29,9 @@ if TYPE_CHECKING:
 
 
 @public
-def write_report(study: Study, path: str | os.PathLike[str], *, command: str = "") -> None:
+def write_report(
+    study: Study, path: str | os.PathLike[str], *, command: str = "", heading: Heading | None = None
+) -> None:
     """Write the report of a study to a file.
 
     Parameters
@@ -35,16 +39,24 @@ def write_report(study: Study, path: str | os.PathLike[str], *, command: str = "
     study : Study
         The study.
     path : path
-        The HTML file; replaced if it exists.
+        A file that ends in ``.pdf`` is a PDF, any other an HTML page; replaced if it exists.
     command : str
         Command line that made the study, for the section on how to repeat it.
+    heading : Heading, optional
+        What stands at its head, by `read_heading`.
 
     Raises
     ------
     InputError
-        The file cannot be written.
+        The file cannot be written, or Typst is not installed.
     """
-    write_file(path, report_html(study, command=command))
+    told = replace(content(study, command), heading=heading or Heading())
+    if Path(path).suffix.lower() != ".pdf":
+        write_file(path, html(told))
+        return
+    from linkwright.kernel.page.typeset import pdf
+
+    write_file(path, pdf(told))
 
 
 def report_html(study: Study, *, command: str = "") -> str:

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from linkwright.app.study import Study
     from linkwright.cam.manufacture.drawing import MeasuredOutline
     from linkwright.kernel.files.output import OutputFolder
+    from linkwright.kernel.page.content import Content
     from linkwright.kernel.page.table import Table
 
 Folder = Annotated[
@@ -173,6 +174,7 @@ def _answer(
         extra={"files": listed},
         tables=partial(_tables, study),
         files=partial(_files, study, drawn),
+        report=partial(_report, study),
         remarks={name: _measured(name, each) for name, each in drawn.items()},
     )
 
@@ -182,6 +184,13 @@ def _tables(study: Study) -> list[Table]:
     from linkwright.cam.tables import cam_tables
 
     return list(cam_tables(study.cams, study.cam_sizes, study.loaded_cams))
+
+
+def _report(study: Study) -> Content:
+    """What its report says."""
+    from linkwright.app.report.page import content
+
+    return content(study)
 
 
 def _files(study: Study, drawn: dict[str, _Drawn]) -> dict[str, str | bytes]:

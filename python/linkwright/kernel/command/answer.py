@@ -6,8 +6,9 @@ asked for, so that JSON needs no tables and no drawing.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from contextlib import AbstractContextManager, nullcontext
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, contextmanager, nullcontext
+from contextvars import ContextVar
 from dataclasses import dataclass, field
 from json import dumps
 from typing import TYPE_CHECKING, Any
@@ -16,7 +17,7 @@ import click
 
 from linkwright.kernel.command.out import put, write_folder
 from linkwright.kernel.command.parameter import UNITS
-from linkwright.kernel.errors import InternalError
+from linkwright.kernel.errors import InputError, InternalError
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from pydantic import BaseModel
 
     from linkwright.kernel.files.output import OutputFolder
+    from linkwright.kernel.page.content import Content
     from linkwright.kernel.page.table import Table
 
 
@@ -59,6 +61,8 @@ class Answer:
         Name of the file with the JSON object; empty if none is written.
     files, figures : callable
         Further files by name; figures by name without ending.
+    report : callable or None
+        What a report of it says, where that is more than the tables and figures.
     remarks : mapping of str to str
         Name of a file → words beside it where the files are listed.
     units : description or None
@@ -78,8 +82,33 @@ class Answer:
     results_file: str = "results.json"
     files: Callable[[], Mapping[str, str | bytes]] = dict
     figures: Callable[[], Mapping[str, Figure]] = dict
+    report: Callable[[], Content] | None = None
     remarks: Mapping[str, str] = field(default_factory=dict)
     units: BaseModel | None = None
+
+
+# Who takes the answer of a command instead of the terminal: a report.
+_TAKER: ContextVar[Callable[[Answer], None] | None] = ContextVar("taker", default=None)
+
+
+@contextmanager
+def taken(take: Callable[[Answer], None]) -> Iterator[None]:
+    """Within this, a command hands its answer over here; nothing is printed, written or ended."""
+    token = _TAKER.set(take)
+    try:
+        yield
+    finally:
+        _TAKER.reset(token)
+
+
+def is_taken(answer: Answer) -> bool:
+    """Hand an answer to who takes it, if there is somebody."""
+    take = _TAKER.get()
+    if take is None:
+        return False
+    with as_wanted(answer.units):
+        take(answer)
+    return True
 
 
 def json_text(answer: Answer, *, curves: bool = False) -> str:
@@ -205,6 +234,10 @@ def hand_over(
     click.exceptions.Exit
         There are findings.
     """
+    if _TAKER.get() is not None and (json or folder is not None or out is not None):
+        raise InputError("a report is written where its own --to says; leave out --json and --out")
+    if is_taken(answer):
+        return
     if out is not None and answer.machine_file is not None:
         put(answer.machine_file(), out, force=force)
     elif out is not None and not answer.findings:

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Annotated, ParamSpec, TypeVar
 
 import click
 
-from linkwright.kernel.command.answer import Answer, json_text
+from linkwright.kernel.command.answer import Answer, is_taken, json_text
 from linkwright.kernel.command.interrupt import EXIT_CODE
 from linkwright.kernel.command.parameter import Argument, Option
 from linkwright.kernel.errors import FindingError, InputError, LinkwrightError, UnitError, cut, plain
@@ -84,9 +84,10 @@ def reports_errors(
         try:
             return command(*args, **kwargs)
         except LinkwrightError as error:
-            if kwargs.get("json") and isinstance(error, FindingError):
+            if isinstance(error, FindingError):
                 stopped = Answer(machine=machine_name(**kwargs), findings=[plain(str(error))])
-                click.echo(json_text(stopped), nl=False)
+                if not is_taken(stopped) and kwargs.get("json"):
+                    click.echo(json_text(stopped), nl=False)
             click.echo(plain(str(error)), err=True)
             raise click.exceptions.Exit(error.exit_code) from None
         except BrokenPipeError:

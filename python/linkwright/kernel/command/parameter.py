@@ -67,10 +67,13 @@ class Argument(NamedTuple):
         What it is called in usage and help.
     help : str
         What it is, in sentences.
+    takes_rest : bool
+        Whether it takes all words from here on, options too.
     """
 
     metavar: str
     help: str
+    takes_rest: bool = False
 
 
 def command(
@@ -105,7 +108,9 @@ def command(
         params.append(_units_option())
     about = cleandoc(function.__doc__ or "")
     words = name or function.__name__.replace("_", "-")
-    return click.Command(words, params=params, help=about, callback=function, context_settings=HELP)
+    rest = any(parameter.nargs == -1 and parameter.type is click.UNPROCESSED for parameter in params)
+    settings: dict[str, Any] = {**HELP, "allow_interspersed_args": not rest}
+    return click.Command(words, params=params, help=about, callback=function, context_settings=settings)
 
 
 def _units_option() -> click.Option:
@@ -148,7 +153,7 @@ def _param(hint: Any, parameter: Parameter) -> click.Parameter:
         given |= {"nargs": -1} if several else {}
         return click.Argument(
             [parameter.name],
-            type=_converter(kind, None),
+            type=click.UNPROCESSED if mark.takes_rest else _converter(kind, None),
             metavar=mark.metavar,
             help=mark.help,
             required=not optional,

@@ -9,7 +9,10 @@ from __future__ import annotations
 import re
 import tomllib
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+
+from linkwright.kernel.description.text import split
+from linkwright.kernel.errors import Problem
 
 Place = tuple[str, ...]
 
@@ -68,6 +71,32 @@ def line_of(lines: dict[Place, int], place: Sequence[str]) -> int:
     """
     known = (lines.get(tuple(place[:n])) for n in range(len(place), 0, -1))
     return next((line for line in known if line is not None), 1)
+
+
+def located(problems: Sequence[Problem], text: str, path: str, at: Place = ()) -> list[Problem]:
+    """Problems of a file, or of a table of it, with their lines.
+
+    Parameters
+    ----------
+    problems : sequence of Problem
+        Keys from the table down.
+    text, path : str
+        The file and its name.
+    at : tuple of str
+        Keys down to the table.
+
+    Returns
+    -------
+    list of Problem
+        In the order of the file, keys from the top down.
+    """
+    lines = key_lines(text)
+    found = []
+    for problem in problems:
+        place = (*at, *(split(problem.key) if problem.key else ()))
+        key = ".".join((*at, problem.key)) if problem.key else ".".join(at)
+        found.append(replace(problem, key=key, path=path, line=line_of(lines, place)))
+    return sorted(found, key=lambda each: each.line or 0)
 
 
 @dataclass

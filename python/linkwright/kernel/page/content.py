@@ -82,6 +82,8 @@ class Content:
         Data of the moving drawings, by what they show: ``"mechanism"``, ``"topper"``.
     sketch : callable or None
         Draws the machine at one instant, for paper.
+    printed : str
+        Results that are lines of a terminal.
     parts : sequence of Part
         The results.
     formulas : sequence of Formula
@@ -108,6 +110,7 @@ class Content:
     headline: Sequence[Few] = ()
     scenes: Mapping[str, dict[str, Any]] = field(default_factory=dict)
     sketch: Callable[[], Figure] | None = None
+    printed: str = ""
     parts: Sequence[Part] = ()
     formulas: Sequence[Formula] = ()
     papers: str = ""
@@ -116,12 +119,17 @@ class Content:
     file: str = ""
     command: str = ""
 
+    @property
+    def has_figures(self) -> bool:
+        """Whether there is a figure among the results."""
+        return any(part.figures for part in self.parts)
+
     def only(self, sections: Sequence[str]) -> Content:
         """The content with these of `SECTIONS` alone."""
         empty: dict[str, dict[str, Any]] = {
             "summary": {"headline": ()},
             "sketch": {"scenes": {}, "sketch": None},
-            "results": {"parts": ()},
+            "results": {"parts": (), "printed": ""},
             "formulas": {"formulas": (), "papers": ""},
             "data": {"groups": ()},
             "assumptions": {"assumptions": ()},

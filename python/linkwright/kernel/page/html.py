@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from linkwright.kernel.figure.inline import inline_svg
+from linkwright.kernel.figure.readout import readout
 from linkwright.kernel.page.content import Content
 from linkwright.kernel.page.formulas import mathml
 from linkwright.kernel.result import finite
@@ -49,6 +50,14 @@ def _picture(figure: Any, name: str, title: str) -> Markup:
     return Markup(inline_svg(figure, name, title))
 
 
+def _axes(figure: Any) -> Markup:
+    """Attribute with what the cursor reads in a figure that was drawn."""
+    from markupsafe import Markup, escape
+
+    known = readout(figure)
+    return Markup(f' data-axes="{escape(json.dumps(known, separators=(",", ":")))}"') if known else Markup("")
+
+
 def _embedded(scene: dict[str, Any]) -> Markup:
     """Data for a script element: nothing in it may end that element."""
     from markupsafe import Markup
@@ -79,6 +88,7 @@ def environment() -> Environment:
     environment.filters["embedded"] = _embedded
     environment.filters["logo"] = _logo
     environment.globals["picture"] = _picture
+    environment.globals["axes_of"] = _axes
     environment.globals["include_raw"] = _raw
     return environment
 

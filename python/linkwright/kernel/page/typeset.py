@@ -75,6 +75,8 @@ def _lines(content: Content) -> Iterator[str]:
         yield f"#grid(columns: (1fr,) * {columns}, gutter: 6pt, {cells})"
     if content.sketch is not None:
         yield '== The mechanism\n#image("sketch.svg", width: 100%)'
+    if content.printed:
+        yield f"== Results\n#code({_string(content.printed)})"
     for part in content.parts:
         if part.tables:
             yield f"== {_text(part.title)}"
@@ -135,7 +137,7 @@ def _table(table: Table) -> str:
     """A table whose head is repeated on each page; many columns are set smaller, or across."""
     wide, n = len(table.heads) > _WIDE, len(table.heads)
     columns = "(" + ", ".join(["auto" if wide else "1.6fr", *(["auto"] * (n - 1))]) + ",)"
-    heads = ", ".join(f"note[{_text(each)}]" for each in table.heads)
+    heads = ", ".join(f"note[{_text(each, indices=True)}]" for each in table.heads)
     cells = ", ".join(
         f"[{_text(cell, indices=place == 1)}]" for row in table.rows for place, cell in enumerate(row)
     )
@@ -186,9 +188,9 @@ def _repeat(content: Content) -> Iterator[str]:
     """How the same numbers are made again."""
     import linkwright
 
-    yield "== Reproduce this report"
-    yield f"Made by Linkwright {_text(linkwright.__version__)} with"
-    yield f"#code({_string(content.command)})"
+    made = f"Made by Linkwright {_text(linkwright.__version__)} with"
+    code = f"#code({_string(content.command)})"
+    yield f"#block(breakable: false)[== Reproduce this report\n{made}\n{code}]"
     if content.file:
         yield "The machine as computed, overrides included, as a machine file in SI:"
         yield f"#code({_string(content.file)})"

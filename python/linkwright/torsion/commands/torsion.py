@@ -14,6 +14,7 @@ from linkwright.kernel.command.parameter import Option
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from linkwright.kernel.page.content import Content
     from linkwright.kernel.page.table import Table
     from linkwright.torsion.study import TorsionStudy
 
@@ -89,6 +90,7 @@ def _answer(study: TorsionStudy) -> Answer:
         tail=partial(_tail, study),
         files=partial(_files, study),
         figures=partial(_figures, study),
+        report=partial(_report, study),
     )
 
 
@@ -135,6 +137,13 @@ def _files(study: TorsionStudy) -> dict[str, str]:
     if study.transient is not None:
         files["manoeuvre.csv"] = manoeuvre_csv(study.transient)
     return files
+
+
+def _report(study: TorsionStudy) -> Content:
+    """What its report says."""
+    from linkwright.torsion.page import torsion_content
+
+    return torsion_content(study)
 
 
 def _figures(study: TorsionStudy) -> dict[str, Figure]:

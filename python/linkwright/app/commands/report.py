@@ -1,0 +1,166 @@
+"""``linkwright report COMMAND …``: the answer of a command as a report that one hands in."""
+
+from __future__ import annotations
+
+from contextlib import redirect_stdout
+from dataclasses import replace
+from io import StringIO
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import click
+
+from linkwright.kernel.command.answer import taken
+from linkwright.kernel.command.out import Force, command_line, say_written
+from linkwright.kernel.command.parameter import Argument, Option
+from linkwright.kernel.errors import InputError
+
+if TYPE_CHECKING:
+    from linkwright.app.report.answered import Variant
+    from linkwright.kernel.command.answer import Answer
+    from linkwright.kernel.page.content import Content
+
+Words = Annotated[
+    list[str],
+    Argument(
+        metavar="COMMAND …",
+        help="The command with its file and options, as without `report`.",
+        takes_rest=True,
+    ),
+]
+To = Annotated[
+    list[str] | None,
+    Option(
+        "--to",
+        metavar="FILE",
+        help="Where: a page, FILE.html, or a PDF, FILE.pdf. May be given again. report.html without it.",
+        show_default=False,
+    ),
+]
+Company = Annotated[
+    Path | None,
+    Option(
+        "--company",
+        metavar="FILE",
+        help="TOML file with company, logo, project, document, author for the head of the report.",
+        show_default=False,
+    ),
+]
+Sections = Annotated[
+    str | None,
+    Option(
+        "--sections",
+        metavar="LIST",
+        help="These alone, with commas: summary, sketch, results, formulas, data, assumptions, repeat.",
+        show_default=False,
+    ),
+]
+Variants = Annotated[
+    list[str] | None,
+    Option(
+        "--variant",
+        metavar='"NAME: PATH=VALUE; …"',
+        help='Compare with a variant, such as "heavier: bodies.cart1.mass=900 kg". May be given again.',
+        show_default=False,
+    ),
+]
+
+
+def report(
+    words: Words,
+    to: To = None,
+    company: Company = None,
+    sections: Sections = None,
+    variant: Variants = None,
+    force: Force = False,
+) -> None:
+    """Write the answer of a command as a report, as a page or as PDF.
+
+    As in `linkwright report --to carts.pdf --company company.toml run roller_two_carts`. Options of the
+    report stand before the command.
+    """
+    from linkwright.app.report.answered import compared
+    from linkwright.app.report.answered import variant as of_text
+    from linkwright.app.report.company import read_heading
+    from linkwright.kernel.page.content import Heading
+
+    places = _places(to or ["report.html"], force=force)
+    wanted = _sections(sections)
+    head = read_heading(company) if company is not None else Heading()
+    variants = [of_text(each) for each in variant or ()]
+    if len({each.name for each in variants}) < len(variants):
+        raise InputError("--variant: found one name twice, expected a name for each")
+    whole = _content(words, command_line())
+    content = whole if wanted is None else whole.only(wanted)
+    if variants:
+        others = {each.name: _content(_varied(words, each), "") for each in variants}
+        content = compared(content, whole, others)
+    _write(replace(content, heading=head), places, force=force)
+    if content.findings:
+        raise click.exceptions.Exit(1)
+
+
+def _places(names: list[str], *, force: bool) -> list[Path]:
+    """Files to write; what cannot be one is reported before anything is computed."""
+    for name in names:
+        place = Path(name)
+        if place.suffix.lower() not in (".html", ".pdf"):
+            raise InputError(f'--to: found "{name}", expected a file that ends in .html or .pdf')
+        if not place.parent.is_dir():
+            raise InputError(f"--to: there is no folder {place.parent}")
+        if place.exists() and not force:
+            raise InputError(f"{place}: exists already; --force replaces it")
+    return [Path(name) for name in names]
+
+
+def _sections(text: str | None) -> list[str] | None:
+    """Names of sections."""
+    from linkwright.kernel.description.base import suggestion
+    from linkwright.kernel.page.content import SECTIONS
+
+    if text is None:
+        return None
+    wanted = [each.strip() for each in text.split(",") if each.strip()]
+    for name in wanted:
+        if name not in SECTIONS:
+            raise InputError(
+                f'--sections: found "{name}", expected {", ".join(SECTIONS)}; {suggestion(name, SECTIONS)}'
+            )
+    return wanted
+
+
+def _content(words: list[str], command: str) -> Content:
+    """What the report of a command says."""
+    from linkwright.app.application import application
+    from linkwright.app.report.answered import answered
+
+    answers: list[Answer] = []
+    # What the command prints in passing is no part of the report.
+    with taken(answers.append), redirect_stdout(StringIO()):
+        code = application().main(list(words), prog_name="linkwright", standalone_mode=False)
+    if not answers and code:
+        # It has said why.
+        raise click.exceptions.Exit(code)
+    if not answers:
+        remedy = "; `plot` draws its curves" if words[0] == "motion" else ""
+        raise InputError(f"there is nothing to report of `linkwright {words[0]}`{remedy}")
+    return answered(answers[0], command)
+
+
+def _varied(words: list[str], variant: Variant) -> list[str]:
+    """The command with the entries of a variant."""
+    return [*words, *(word for entry in variant.entries for word in ("--set", entry))]
+
+
+def _write(content: Content, places: list[Path], *, force: bool) -> None:
+    """Write the page and the PDF, or both."""
+    from linkwright.kernel.command.console import progress
+    from linkwright.kernel.files.output import write_file
+    from linkwright.kernel.page.html import html
+    from linkwright.kernel.page.typeset import pdf
+
+    for place in places:
+        with progress(f"writing {place.name}"):
+            data = pdf(content) if place.suffix.lower() == ".pdf" else html(content)
+        write_file(place, data, replace=force)
+    say_written(places, quiet=False)

@@ -1,0 +1,150 @@
+"""What a report says of the answer of any command, and variants beside each other."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import redirect_stdout
+from dataclasses import replace
+from io import StringIO
+from typing import NamedTuple
+
+from linkwright.kernel.command.answer import Answer
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.figure.captioned import Captioned
+from linkwright.kernel.page.content import Content, Part
+from linkwright.kernel.page.table import Row, Table
+
+
+class Variant(NamedTuple):
+    """A variant of a machine: its name and the entries that differ, ``PATH=VALUE``."""
+
+    name: str
+    entries: tuple[str, ...]
+
+
+def variant(text: str) -> Variant:
+    """A variant by ``"NAME: PATH=VALUE; …"``.
+
+    Raises
+    ------
+    InputError
+        It has no name or no entry.
+    """
+    name, _, entries = text.partition(":")
+    listed = tuple(each.strip() for each in entries.split(";") if each.strip())
+    if not name.strip() or not listed:
+        raise InputError(
+            f'--variant: found "{text}", expected a name, a colon and entries, as in '
+            '"heavier: bodies.cart1.mass=900 kg"'
+        )
+    return Variant(name.strip(), listed)
+
+
+def answered(answer: Answer, command: str) -> Content:
+    """What a report of an answer says.
+
+    Raises
+    ------
+    InputError
+        The answer has neither tables nor figures.
+    """
+    if answer.report is not None:
+        return replace(answer.report(), command=command)
+    tables = list(answer.tables())
+    figures = [Captioned(name, _title(name), "", figure) for name, figure in answer.figures().items()]
+    printed = _printed(answer.show) if answer.show is not None else ""
+    if not (tables or figures or printed or answer.findings):
+        raise InputError("there is nothing to report: this command gives neither tables nor figures")
+    return Content(
+        title=answer.machine or "Linkwright",
+        lead=answer.head(),
+        findings=answer.findings,
+        warnings=answer.warnings,
+        printed=printed,
+        parts=[Part("Results", tables, figures)] if tables or figures else [],
+        command=command,
+    )
+
+
+def _printed(show: Callable[[], None]) -> str:
+    """What a command prints for people that has no tables."""
+    text = StringIO()
+    with redirect_stdout(text):
+        show()
+    return text.getvalue().strip("\n")
+
+
+def _title(name: str) -> str:
+    """Name of a file as a heading."""
+    words = name.replace("_", " ")
+    return words[:1].upper() + words[1:]
+
+
+def compared(content: Content, of: Content, variants: Mapping[str, Content]) -> Content:
+    """A report with what differs between variants before all else.
+
+    Parameters
+    ----------
+    content : Content
+        What the report says of the machine as it is.
+    of : Content
+        The same before sections were chosen.
+    variants : mapping of str to Content
+        Name → what the report of the variant says.
+
+    Returns
+    -------
+    Content
+        With a table for each table in which a number differs; findings and warnings of variants are named.
+    """
+    found = list(_compared_tables(_tables(of), {name: _tables(each) for name, each in variants.items()}))
+    findings = [f"{name}: {each}" for name, other in variants.items() for each in other.findings]
+    warnings = [
+        f"{name}: {each}"
+        for name, other in variants.items()
+        for each in other.warnings
+        if each not in of.warnings
+    ]
+    return replace(
+        content,
+        parts=[*([Part("Variants", found)] if found else []), *content.parts],
+        findings=[*content.findings, *findings],
+        warnings=[*content.warnings, *warnings],
+    )
+
+
+def _tables(content: Content) -> list[Table]:
+    return [table for part in content.parts for table in part.tables]
+
+
+def _compared_tables(base: Sequence[Table], others: Mapping[str, Sequence[Table]]) -> Iterator[Table]:
+    """Rows of which the first number is another one in a variant."""
+    for table in base:
+        same = {
+            name: {_key(row): row for each in tables if each.name == table.name for row in each.rows}
+            for name, tables in others.items()
+        }
+        rows = []
+        for row in table.rows:
+            values = [_value(same[name].get(_key(row))) for name in others]
+            if len(row) > _KEY and any(value != row[_KEY] for value in values):
+                rows.append((*row[: _KEY + 1], *values))
+        if rows:
+            words = (
+                f"{table.title}: {table.heads[_KEY]}"
+                if table.heads[_KEY] not in ("", "value")
+                else table.title
+            )
+            yield Table(f"variants_{table.name}", words, (*table.heads[:_KEY], "as it is", *others), rows)
+
+
+# Columns that name a row: its words and its symbol.
+_KEY = 2
+
+
+def _key(row: Row) -> Row:
+    return row[:_KEY]
+
+
+def _value(row: Row | None) -> str:
+    return "–" if row is None or len(row) <= _KEY else row[_KEY]

@@ -1,0 +1,102 @@
+"""A company file: what stands at the head of a report that is handed in."""
+
+from __future__ import annotations
+
+import datetime
+import os
+from pathlib import Path
+from typing import Annotated, Any, Self
+
+from pydantic import BeforeValidator, Field, ModelWrapValidatorHandler, ValidationError, model_validator
+
+from linkwright.kernel.description.base import Description, Title
+from linkwright.kernel.description.problems import problems
+from linkwright.kernel.errors import InputError, MachineError, MachineFileError, Problem
+from linkwright.kernel.files.lines import located
+from linkwright.kernel.files.text_file import TextError, text_of
+from linkwright.kernel.limits import FILE_BYTES
+from linkwright.kernel.page.content import Heading
+from linkwright.kernel.public import public
+from linkwright.machine.read import tables_of
+
+# Kinds of pictures that a page and Typst both show, and how large a logo may be [byte].
+_KINDS, _LARGEST = ("svg", "png", "jpg", "jpeg"), 2_000_000
+
+
+def _as_text(value: object) -> object:
+    """A date as TOML has it, as text."""
+    return value.isoformat() if isinstance(value, datetime.date) else value
+
+
+class CompanyFile(Description):
+    """What a company file says; each entry may be left out."""
+
+    company: Title = Field("", description="Name of the company.")
+    address: Title = Field("", description="Its address, on one line.")
+    logo: str = Field("", description="Picture beside the name, SVG, PNG or JPEG; beside this file.")
+    project: Title = Field("", description="Project that the report belongs to.")
+    document: Title = Field("", description="Number of the document.")
+    revision: Title = Field("", description="Its revision.")
+    author: Title = Field("", description="Who made it.")
+    checked: Title = Field("", description="Who checked it.")
+    date: Annotated[Title, BeforeValidator(_as_text)] = Field("", description="Date of the document.")
+
+    @model_validator(mode="wrap")
+    @classmethod
+    def _all_problems(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
+        """Report problems in the words of the file."""
+        try:
+            return handler(data)
+        except ValidationError as error:
+            raise MachineError(problems(error, cls, data)) from None
+
+
+@public
+def read_heading(path: str | os.PathLike[str]) -> Heading:
+    """Read the head of reports from a company file.
+
+    Parameters
+    ----------
+    path : path
+        A TOML file with entries such as ``company``, ``logo``, ``document``, ``author``.
+
+    Returns
+    -------
+    Heading
+        With the logo as bytes.
+
+    Raises
+    ------
+    MachineFileError
+        The file is wrong; all problems are listed.
+    InputError
+        The logo cannot be read.
+    """
+    place = Path(path)
+    try:
+        text = text_of(place, FILE_BYTES)
+    except TextError as error:
+        expected = error.expected or "a company file"
+        raise MachineFileError([Problem("", error.found, expected, error.remedy, str(place))]) from None
+    tables = tables_of(text, str(place))
+    try:
+        known = CompanyFile.model_validate(tables)
+    except MachineError as error:
+        raise MachineFileError(located(error.problems, text, str(place))) from None
+    entries = known.model_dump(exclude={"logo"})
+    return Heading(logo=_picture(place.parent / known.logo) if known.logo else None, **entries)
+
+
+def _picture(path: Path) -> tuple[str, bytes]:
+    """Ending and bytes of a logo."""
+    ending = path.suffix.lower().removeprefix(".")
+    if ending not in _KINDS:
+        raise InputError(f"logo: found {path}, expected a picture that ends in {', '.join(_KINDS)}")
+    try:
+        with path.open("rb") as file:
+            data = file.read(_LARGEST + 1)
+    except OSError as error:
+        raise InputError(f"logo: {path} cannot be read: {error.strerror or error}") from None
+    if len(data) > _LARGEST:
+        raise InputError(f"logo: {path} is larger than {_LARGEST // 1_000_000} MB")
+    return ending, data

@@ -1,0 +1,101 @@
+"""``linkwright report``: any command's answer as page and PDF, with the head of a company, and variants."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from linkwright.app.application import application
+
+CARTS = str(Path(__file__).parents[2] / "machines" / "roller_two_carts.toml")
+
+COMPANY = """company = "Forming & Sons"
+document = "CALC-12"
+date = 2026-03-01
+logo = "logo.svg"
+"""
+
+LOGO = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 1 1"><rect width="1" height="1"/></svg>'
+
+
+def called(*words: str) -> Result:
+    return CliRunner().invoke(application(), ["report", *words])
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "company.toml").write_text(COMPANY)
+    (tmp_path / "logo.svg").write_text(LOGO)
+    return tmp_path
+
+
+def test_page_and_pdf_of_forces_with_head_and_variant(folder: Path) -> None:
+    variant = "light: bodies.cart1.mass=500 kg"
+    to = ("--to", "a.html", "--to", "a.pdf")
+    result = called(*to, "--company", "company.toml", "--variant", variant, "forces", CARTS)
+    assert result.exit_code == 0, result.output
+    assert (folder / "a.pdf").read_bytes().startswith(b"%PDF-")
+    page = (folder / "a.html").read_text()
+    for words in ("Forming &amp; Sons", "CALC-12", "2026-03-01", "data:image/svg+xml;base64,", "Variants"):
+        assert words in page
+    # The variant's own number stands beside that of the machine as it is.
+    alone = called("--to", "b.html", "forces", CARTS, "--set", "bodies.cart1.mass=500 kg")
+    assert alone.exit_code == 0
+    other = (folder / "b.html").read_text()
+    row = (
+        page[page.index('id="table-variants_forces"') :]
+        .split("driving torque at the crank")[1]
+        .split("</tr>")[0]
+    )
+    as_it_is, light = (cell.split("</td>")[0] for cell in row.split("<td>")[1:3])
+    assert as_it_is != light
+    assert light in other
+
+
+def test_what_a_command_prints_alone_is_reported_too(folder: Path) -> None:
+    assert called("--to", "a.html", "--sections", "results", "size", CARTS).exit_code == 0
+    page = (folder / "a.html").read_text()
+    assert "Required power" in page
+    assert "Reproduce" not in page
+
+
+def test_finding_is_reported_and_ends_with_1(folder: Path) -> None:
+    result = called("--to", "a.html", "forces", CARTS, "--set", "mechanism.sliders.cart1.rod=0.1")
+    assert result.exit_code == 1
+    assert "Failed checks" in (folder / "a.html").read_text()
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("--to", "a.doc", "run", CARTS), '--to: found "a.doc", expected a file that ends in .html or .pdf'),
+        (("--to", "none/a.pdf", "run", CARTS), "there is no folder none"),
+        (("--to", "company.html", "--company", "logo.svg", "run", CARTS), "logo.svg"),
+        (("--company", "odd.toml", "run", CARTS), "odd.toml:1: firm"),
+        (("--sections", "result", "run", CARTS), 'did you mean "results"'),
+        (("--variant", "light", "run", CARTS), "expected a name, a colon and entries"),
+        (("run", CARTS, "--json"), "leave out --json and --out"),
+        (("motion", CARTS), "`plot` draws its curves"),
+        (("run", "nothing.toml"), "no such file"),
+        (("nonsense",), "No such command 'nonsense'"),
+        ((), "Missing argument"),
+    ],
+)
+def test_wrong_words_are_told_and_nothing_is_written(folder: Path, words: tuple[str, ...], said: str) -> None:
+    (folder / "odd.toml").write_text('firm = "x"\n')
+    before = sorted(folder.iterdir())
+    result = called(*words)
+    assert result.exit_code == 2
+    assert said in result.output.replace("\n", " ")
+    assert sorted(folder.iterdir()) == before
+
+
+def test_file_that_exists_stays(folder: Path) -> None:
+    (folder / "report.html").write_text("mine")
+    result = called("run", CARTS)
+    assert result.exit_code == 2
+    assert "--force replaces it" in result.output
+    assert (folder / "report.html").read_text() == "mine"
