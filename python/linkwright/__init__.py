@@ -131,6 +131,7 @@ _HOME = {
     "straight_lines": "synthesis.straight_line",
     "cam_drawings": "cam.manufacture.drawing",
     "write_drawing": "cam.manufacture.write",
+    "read_heading": "app.report.company",
     "write_report": "app.report.page",
 }
 
@@ -153,6 +154,7 @@ def __dir__() -> list[str]:
 
 if TYPE_CHECKING:
     from linkwright.app.quantities import quantities as quantities
+    from linkwright.app.report.company import read_heading as read_heading
     from linkwright.app.report.page import write_report as write_report
     from linkwright.app.study import study as study
     from linkwright.cam.dynamics.bearing import ArmPivot as ArmPivot

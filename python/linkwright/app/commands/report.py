@@ -8,16 +8,13 @@ from io import StringIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import click
-
-from linkwright.kernel.command.answer import taken
+from linkwright.kernel.command.answer import Answer, finish, taken
 from linkwright.kernel.command.out import Force, command_line, say_written
 from linkwright.kernel.command.parameter import Argument, Option
 from linkwright.kernel.errors import InputError
 
 if TYPE_CHECKING:
     from linkwright.app.report.answered import Variant
-    from linkwright.kernel.command.answer import Answer
     from linkwright.kernel.page.content import Content
 
 Words = Annotated[
@@ -96,8 +93,7 @@ def report(
         others = {each.name: _content(_varied(words, each), "") for each in variants}
         content = compared(content, whole, others)
     _write(replace(content, heading=head), places, force=force)
-    if content.findings:
-        raise click.exceptions.Exit(1)
+    finish(Answer(machine=None, findings=content.findings))
 
 
 def _places(names: list[str], *, force: bool) -> list[Path]:
@@ -134,17 +130,19 @@ def _content(words: list[str], command: str) -> Content:
     from linkwright.app.application import application
     from linkwright.app.report.answered import answered
 
-    answers: list[Answer] = []
-    # What the command prints in passing is no part of the report.
-    with taken(answers.append), redirect_stdout(StringIO()):
-        code = application().main(list(words), prog_name="linkwright", standalone_mode=False)
-    if not answers and code:
-        # It has said why.
-        raise click.exceptions.Exit(code)
-    if not answers:
+    contents: list[Content] = []
+    commands = application()
+    # What the command prints in passing is no part of the report; what stops it, stops the report.
+    with (
+        taken(lambda answer: contents.append(answered(answer, command))),
+        redirect_stdout(StringIO()),
+        commands.make_context("linkwright", list(words)) as context,
+    ):
+        commands.invoke(context)
+    if not contents:
         remedy = "; `plot` draws its curves" if words[0] == "motion" else ""
         raise InputError(f"there is nothing to report of `linkwright {words[0]}`{remedy}")
-    return answered(answers[0], command)
+    return contents[0]
 
 
 def _varied(words: list[str], variant: Variant) -> list[str]:

@@ -380,6 +380,7 @@ _KINDS = {
     "Claim": "a Claim",
     "Stroke": "a Stroke",
     "TrainTransient": "a manoeuvre, such as a train has",
+    "Heading": "a head of reports, such as read_heading() gives",
 }
 
 
