@@ -21,6 +21,7 @@ import gc
 import os
 import sys
 from io import TextIOWrapper
+from types import ModuleType
 from typing import TYPE_CHECKING
 
 from linkwright.kernel.command.interrupt import Interrupts
@@ -36,11 +37,20 @@ def application() -> Commands:
     return application()
 
 
+def _without_plugins() -> ModuleType:
+    """In place of the module of pydantic that looks for plugins: there are none."""
+    module = ModuleType("pydantic.plugin._loader")
+    module.get_plugins = tuple  # type: ignore[attr-defined]
+    return module
+
+
 def main() -> None:
     """Run the command line, for the console script."""
     with Interrupts() as interrupts:
         # Looking for plugins of pydantic among all installed packages costs more than reading a machine file.
+        # The module that would look for them, and imports what reads metadata of packages and mails, is not needed.
         os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
+        sys.modules.setdefault("pydantic.plugin._loader", _without_plugins())
         # Names may hold letters that the terminal has not; they are no reason to fail.
         if isinstance(sys.stdout, TextIOWrapper):
             sys.stdout.reconfigure(errors="backslashreplace")

@@ -225,8 +225,10 @@ def _looked_at(compiled: Compiled, low: float, high: float, turns: int) -> Float
     first, last = np.floor(np.array([low, high]) / (2 * np.pi)).astype(int)
     every = [compiled.kinks() + 2 * np.pi * n for n in range(first, last + 1)]
     kinks = np.concatenate(every)
-    found = np.unique(np.concatenate([even, kinks - _BESIDE, kinks + _BESIDE]))
-    return found[(found >= low) & (found <= high)]
+    angles = np.sort(np.concatenate([even, kinks - _BESIDE, kinks + _BESIDE]))
+    # `np.unique` would import masked arrays, which takes longer than all that is computed here.
+    angles = angles[np.append(True, np.diff(angles) > 0)]
+    return angles[(angles >= low) & (angles <= high)]
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import cache
-from importlib.resources import files
 from pathlib import Path
 
 from linkwright.kernel.description.base import suggestion
@@ -43,7 +42,7 @@ def library_path(name: str) -> Path:
 @cache
 def _files() -> dict[str, Path]:
     """Files by name. They lie beside the modules, in a checkout by links to the folders of the clone."""
-    package = Path(str(files("linkwright")))
+    package = Path(__file__).parents[2]
     machines = {path.stem: path for path in (package / "library").glob("*.toml")}
     examples = {path.parent.name: path for path in (package / "examples").glob("*/machine.toml")}
     return machines | examples

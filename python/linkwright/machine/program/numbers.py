@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from linkwright import _core
-from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.kernel.description import formula
+
+if TYPE_CHECKING:
+    # A machine without cams has no use for their laws.
+    from linkwright.cam.laws.motion_law import MotionLaw
 
 
 def core_law(law: MotionLaw) -> _core.MotionLaw:
