@@ -37,6 +37,11 @@ def plain(unit: str) -> str:
     return unit.replace("²", "**2").replace("³", "**3").replace(" ", "*")
 
 
+def test_all_results_are_declared() -> None:
+    """No result has a list of its attributes that was written by hand."""
+    assert {each.__name__ for each in RESULTS} - {each.__name__ for each in DECLARED} == set()
+
+
 @pytest.mark.parametrize("result", DECLARED, ids=lambda each: each.__name__)
 def test_all_attributes_are_declared(result: type) -> None:
     """Fields all, properties if they are numbers or arrays of numbers."""

@@ -48,7 +48,7 @@ def main() -> None:
     """Run the command line, for the console script."""
     with Interrupts() as interrupts:
         # Looking for plugins of pydantic among all installed packages costs more than reading a machine file.
-        # The module that would look for them, and imports what reads metadata of packages and mails, is not needed.
+        # The module that would look for them imports what reads metadata of packages, and mails.
         os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
         sys.modules.setdefault("pydantic.plugin._loader", _without_plugins())
         # Names may hold letters that the terminal has not; they are no reason to fail.

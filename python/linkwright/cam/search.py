@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,6 +23,7 @@ from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError, ShapeError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import array
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 
@@ -45,34 +46,35 @@ PER_TURN = 360
 
 @dataclass(frozen=True)
 class Cams(Result):
-    """Many cams; arrays (n,), NaN where the dimensions do not go together.
+    """Many cams; arrays (n,), NaN where the dimensions do not go together."""
 
-    Attributes
-    ----------
-    entries : dict of str to ndarray
-        What was varied, by name.
-    laws : tuple of str
-        Names of the laws.
-    law : ndarray of int
-        Number of the law of each cam.
-    pressure_angle_max : ndarray
-        Largest in size [rad].
-    curvature_radius_min : ndarray
-        Minimum radius of curvature of the convex parts of the profile, negative where undercut [m].
-    concave_radius_min : ndarray
-        Minimum of the concave parts [m], infinite without such parts; under a flat face the profile cannot
-        have any.
-    is_sound : ndarray of bool
-        Whether it is neither undercut nor locked.
-    """
-
-    entries: dict[str, Floats]
-    laws: tuple[str, ...]
-    law: NDArray[np.intp]
-    pressure_angle_max: Floats
-    curvature_radius_min: Floats
-    concave_radius_min: Floats
-    is_sound: NDArray[np.bool_]
+    entries: Annotated[dict[str, Floats], About("What was varied, by name.")]
+    laws: Annotated[tuple[str, ...], About("Names of the laws.")]
+    law: Annotated[NDArray[np.intp], About("Number of the law of each cam.", "(n,)")]
+    pressure_angle_max: Annotated[
+        Floats, Shown("maximum pressure angle in size", "", "rad", over="pressure_angle_max")
+    ]
+    curvature_radius_min: Annotated[
+        Floats,
+        Shown(
+            "minimum radius of curvature of the convex parts of the profile",
+            "",
+            "m",
+            "Negative where undercut.",
+            over="curvature_radius_min",
+        ),
+    ]
+    concave_radius_min: Annotated[
+        Floats,
+        Shown(
+            "minimum radius of the concave parts",
+            "",
+            "m",
+            "Infinite without such parts; under a flat face the profile cannot have any.",
+            over="concave_radius_min",
+        ),
+    ]
+    is_sound: Annotated[NDArray[np.bool_], About("Whether it is neither undercut nor locked.", "(n,)")]
 
     def keeps(self, pressure_angle: float, curvature_radius: float = 0.0) -> NDArray[np.bool_]:
         """Which cams are sound and keep limits.

@@ -48,25 +48,33 @@ _POINTS, _FEW = 81, 17
 
 @dataclass(frozen=True)
 class Lines(Result):
-    """Minimum lengths of the edge along one axis.
+    """Minimum lengths of the edge along one axis."""
 
-    Attributes
-    ----------
-    along : ndarray, shape (n,)
-        Root diameters [m], or mean knife speeds [m/s].
-    published, consistent, constant_speed : ndarray, shape (3, n)
-        By (10), by (4), exact at constant speed [m], a row for each forward speed.
-    moved_along, moved : ndarray, shape (k,)
-        The like axis, and exact lengths for the motion of the knife at the machine's own forward speed [m],
-        NaN where the edge retreats; empty if it does not turn back over a head.
-    """
-
-    along: Floats
-    published: Floats
-    consistent: Floats
-    constant_speed: Floats
-    moved_along: Floats
-    moved: Floats
+    along: Annotated[Floats, About("Root diameters [m], or mean knife speeds [m/s].", "(n,)")]
+    published: Annotated[
+        Floats, Shown("minimum length by (10)", "", "m", "A row for each forward speed.", shape="(3, n)")
+    ]
+    consistent: Annotated[Floats, Shown("minimum length by (4)", "", "m", "Likewise.", shape="(3, n)")]
+    constant_speed: Annotated[
+        Floats, Shown("exact minimum length at constant speed", "", "m", "Likewise.", shape="(3, n)")
+    ]
+    moved_along: Annotated[
+        Floats,
+        About(
+            "The like axis for the motion of the knife; empty if it does not turn back over a head.", "(k,)"
+        ),
+    ]
+    moved: Annotated[
+        Floats,
+        Shown(
+            "exact minimum length for the motion of the knife",
+            "",
+            "m",
+            "At the machine's own forward speed; NaN where the edge retreats.",
+            shape="(k,)",
+            over="moved",
+        ),
+    ]
 
 
 @dataclass(frozen=True)
@@ -151,37 +159,27 @@ _WIDEST, _BEYOND = 0.14, 1.3
 
 @dataclass(frozen=True)
 class VerdictChart(Result):
-    """The chart.
+    """The chart."""
 
-    Attributes
-    ----------
-    angles : ndarray, shape (n,)
-        Sizes of α [rad].
-    cut_heights : ndarray, shape (k,)
-        h_p [m].
-    offsets : ndarray, shape (m,)
-        Δ [m].
-    lengths : tuple of float
-        Minimum and maximum length that is claimed [m].
-    edge_angle, band, cut_height, offset : float
-        Of the machine: size of α [rad], d + 2Δ, h_p and Δ [m].
-    bands : dict of str to ndarray, shape (2, n)
-        Way → bands d + 2Δ with the machine's share of Δ whose longest edge is as claimed [m]; zero where
-        there is none.
-    longest : dict of str to ndarray, shape (m, k)
-        Way → longest edge over the speeds, a row for each offset [m].
-    """
-
-    angles: Floats
-    cut_heights: Floats
-    offsets: Floats
-    lengths: tuple[float, float]
-    edge_angle: float
-    band: float
-    cut_height: float
-    offset: float
-    bands: dict[str, Floats]
-    longest: dict[str, Floats]
+    angles: Annotated[Floats, Shown("edge angle in size", "α", "rad")]
+    cut_heights: Annotated[Floats, Shown("height of the cut", "h_p", "m", shape="(k,)", over="cut_heights")]
+    offsets: Annotated[Floats, Shown("offset of the head", "Δ", "m", shape="(m,)", over="offsets")]
+    lengths: Annotated[tuple[float, float], About("Minimum and maximum length that is claimed [m].")]
+    edge_angle: Annotated[float, Shown("edge angle of the machine in size", "α", "rad")]
+    band: Annotated[float, Shown("band of the machine", "d + 2Δ", "m")]
+    cut_height: Annotated[float, Shown("height of the cut of the machine", "h_p", "m")]
+    offset: Annotated[float, Shown("offset of the machine", "Δ", "m")]
+    bands: Annotated[
+        dict[str, Floats],
+        About(
+            "Way → bands d + 2Δ with the machine's share of Δ whose longest edge is as claimed, shape (2, n) "
+            "[m]; zero where there is none."
+        ),
+    ]
+    longest: Annotated[
+        dict[str, Floats],
+        About("Way → longest edge over the speeds, a row for each offset, shape (m, k) [m]."),
+    ]
 
 
 def verdict_chart(described: Topper, stroke: Stroke | None = None, claim: Claim = PAPER) -> VerdictChart:

@@ -21,11 +21,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright.kernel.errors import FindingError, InputError
+from linkwright.kernel.quantities import Shown
 from linkwright.kernel.result import Result
 from linkwright.topping.edge import Edge, hardly_goes_on
 from linkwright.topping.roots import Roots
@@ -46,29 +48,54 @@ _ASLANT, _MOST = 4, 100_000
 
 @dataclass(frozen=True)
 class Coverage(Result):
-    """What heads need, and what is left of them; arrays (n,), a head each.
+    """What heads need, and what is left of them; arrays (n,), a head each."""
 
-    Attributes
-    ----------
-    length_needed : ndarray
-        Minimum length of the edge that cuts all of the head [m]; zero for a head without a disc.
-    last_x, last_y : ndarray
-        The point that is reached last, from the centre of the head [m].
-    uncut_right, uncut_left, uncut_between : ndarray
-        Area that is left on the right of the edge, on its left, and between two passes of it [m²]; zero
-        without a length.
-    """
-
-    length_needed: Floats
-    last_x: Floats
-    last_y: Floats
-    uncut_right: Floats
-    uncut_left: Floats
-    uncut_between: Floats
+    length_needed: Annotated[
+        Floats,
+        Shown(
+            "minimum length of the edge that cuts all of the head",
+            "",
+            "m",
+            "Zero for a head without a disc.",
+            over="length_needed",
+        ),
+    ]
+    last_x: Annotated[
+        Floats,
+        Shown(
+            "place of the point that is reached last, along x",
+            "",
+            "m",
+            "From the centre of the head.",
+            over="last_x",
+        ),
+    ]
+    last_y: Annotated[
+        Floats, Shown("place of the point that is reached last, along y", "", "m", "Likewise.", over="last_y")
+    ]
+    uncut_right: Annotated[
+        Floats,
+        Shown(
+            "area that is left on the right of the edge",
+            "",
+            "m²",
+            "Zero without a length.",
+            over="uncut_right",
+        ),
+    ]
+    uncut_left: Annotated[
+        Floats, Shown("area that is left on the left of the edge", "", "m²", "Likewise.", over="uncut_left")
+    ]
+    uncut_between: Annotated[
+        Floats,
+        Shown(
+            "area that is left between two passes of the edge", "", "m²", "Likewise.", over="uncut_between"
+        ),
+    ]
 
     @property
-    def uncut(self) -> Floats:
-        """Area that is left [m²]."""
+    def uncut(self) -> Annotated[Floats, Shown("area that is left", "", "m²", over="uncut")]:
+        """In all three places."""
         return self.uncut_right + self.uncut_left + self.uncut_between
 
 

@@ -32,11 +32,13 @@ References
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright.kernel.errors import InputError
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.topping.model.field import MeasuredField, RandomField, even_offset
 from linkwright.topping.model.scatter import ConstantScatter
@@ -82,55 +84,59 @@ def cap_volume(root_diameter: ArrayLike, cut_height: ArrayLike) -> Floats:
 
 @dataclass(frozen=True)
 class Roots(Result):
-    """Roots that the knife meets; arrays (n,), a meeting each.
+    """Roots that the knife meets; arrays (n,), a meeting each."""
 
-    Attributes
-    ----------
-    root_diameter, cut_height, offset : ndarray, shape (n,)
-        D, h_p, and the axis to the left of the row [m].
-    distance : ndarray, shape (n,)
-        From the first root of the row [m]; zero where phases are independent and uniform.
-    start : ndarray, shape (n,)
-        Share of a revolution of the knife's phase at the first root of the row.
-    cluster : ndarray of int, shape (n,)
-        Row of a random root, number of a measured one.
-    n_clusters : int
-        How many there are.
-    are_free : bool
-        Whether roots of a cluster are independent.
-    """
-
-    root_diameter: Floats
-    cut_height: Floats
-    offset: Floats
-    distance: Floats
-    start: Floats
-    cluster: NDArray[np.intp]
-    n_clusters: int
-    are_free: bool
+    root_diameter: Annotated[Floats, Shown("diameter of the root", "D", "m", over="root_diameter")]
+    cut_height: Annotated[Floats, Shown("height of the cut", "h_p", "m", over="cut_height")]
+    offset: Annotated[Floats, Shown("axis of the root to the left of the row", "", "m", over="offset")]
+    distance: Annotated[
+        Floats,
+        Shown(
+            "distance from the first root of the row",
+            "",
+            "m",
+            "Zero where phases are independent and uniform.",
+            over="distance",
+        ),
+    ]
+    start: Annotated[
+        Floats,
+        Shown(
+            "share of a revolution of the knife's phase at the first root of the row", "", "–", over="start"
+        ),
+    ]
+    cluster: Annotated[NDArray[np.intp], About("Row of a random root, number of a measured one.", "(n,)")]
+    n_clusters: Annotated[int, About("How many there are.")]
+    are_free: Annotated[bool, About("Whether roots of a cluster are independent.")]
 
     @property
-    def diameter(self) -> Floats:
-        """d of the disc that is cut [m]."""
+    def diameter(
+        self,
+    ) -> Annotated[Floats, Shown("diameter of the disc that is cut", "d", "m", over="diameter")]:
+        """Of the head at the height of the cut."""
         return head_diameter(self.root_diameter, self.cut_height)
 
     @property
-    def cap(self) -> Floats:
-        """Volume above the cut [m³]."""
+    def cap(self) -> Annotated[Floats, Shown("volume above the cut", "", "m³", over="cap")]:
+        """A cap of the sphere."""
         return cap_volume(self.root_diameter, self.cut_height)
 
     @property
-    def volume(self) -> Floats:
-        """Of the whole root [m³]."""
+    def volume(self) -> Annotated[Floats, Shown("volume of the root", "", "m³", over="volume")]:
+        """Of the whole sphere."""
         return np.asarray(np.pi / 6 * self.root_diameter**3)
 
     @property
-    def is_missed(self) -> NDArray[np.bool_]:
+    def is_missed(
+        self,
+    ) -> Annotated[NDArray[np.bool_], About("Whether the knife passes above the root.", "(n,)")]:
         """Whether the knife passes above the root."""
         return np.asarray(self.cut_height <= 0)
 
     @property
-    def is_lost(self) -> NDArray[np.bool_]:
+    def is_lost(
+        self,
+    ) -> Annotated[NDArray[np.bool_], About("Whether the knife passes below the root.", "(n,)")]:
         """Whether it passes below the root."""
         return np.asarray(self.cut_height >= self.root_diameter)
 

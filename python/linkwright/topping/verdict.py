@@ -14,13 +14,14 @@ References
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result, finite
 from linkwright.kernel.units import ACUTE, ANGLE, LENGTH, Quantity, positive
 from linkwright.topping.required_length import (
@@ -86,51 +87,40 @@ class Stroke:
 
 @dataclass(frozen=True)
 class Demand(Result):
-    """What one way of computing the length makes of a claim.
+    """What one way of computing the length makes of a claim."""
 
-    Attributes
-    ----------
-    way : str
-        A key of `WAYS`.
-    length_least, length_greatest : float
-        Over the speeds, for the heads given [m]; infinite where no edge does.
-    band_low, band_high : float
-        Bands d + 2Δ, with the share of Δ of the heads given, whose maximum length lies at the ends of the
-        claim [m]; both zero where no band does.
-    holds : bool
-        Whether the maximum length lies within the claim: what an edge must be made for.
-    holds_throughout : bool
-        Whether the minimum does as well.
-    """
-
-    way: str
-    length_least: float
-    length_greatest: float
-    band_low: float
-    band_high: float
-    holds: bool
-    holds_throughout: bool
+    way: Annotated[str, About("A key of `WAYS`.")]
+    length_least: Annotated[
+        float,
+        Shown("minimum length over the speeds", "", "m", "For the heads given; infinite where no edge does."),
+    ]
+    length_greatest: Annotated[float, Shown("maximum length over the speeds", "", "m", "Likewise.")]
+    band_low: Annotated[
+        float,
+        Shown(
+            "lower band whose maximum length lies at an end of the claim",
+            "d + 2Δ",
+            "m",
+            "With the share of Δ of the heads given; zero where no band does.",
+        ),
+    ]
+    band_high: Annotated[
+        float,
+        Shown("upper band whose maximum length lies at an end of the claim", "d + 2Δ", "m", "Likewise."),
+    ]
+    holds: Annotated[
+        bool, About("Whether the maximum length lies within the claim: what an edge must be made for.")
+    ]
+    holds_throughout: Annotated[bool, About("Whether the minimum does as well.")]
 
 
 @dataclass(frozen=True)
 class LengthVerdict(Result):
-    """For which heads a claim holds, in several ways.
+    """For which heads a claim holds, in several ways."""
 
-    Attributes
-    ----------
-    edge_angle : float
-        α [rad].
-    band : float
-        d + 2Δ of the heads given [m].
-    demands : tuple of Demand
-        One for each way.
-    ways : tuple of dict
-        The same, ready for JSON.
-    """
-
-    edge_angle: float
-    band: float
-    demands: tuple[Demand, ...]
+    edge_angle: Annotated[float, Shown("edge angle", "α", "rad")]
+    band: Annotated[float, Shown("band of the heads given", "d + 2Δ", "m")]
+    demands: Annotated[tuple[Demand, ...], About("One for each way.")]
 
     @property
     def ways(self) -> tuple[dict[str, Any], ...]:

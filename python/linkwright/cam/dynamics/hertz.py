@@ -17,6 +17,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -25,6 +26,7 @@ from linkwright.cam.dynamics.follower_load import alike
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public import public, public_type
 from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.quantities import Shown
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import FORCE, LENGTH, PRESSURE, Quantity, positive
 
@@ -76,42 +78,34 @@ STEEL = Material(206e9, 0.3)
 
 @dataclass(frozen=True)
 class LineContact(Result):
-    """Line contact, for each force.
+    """Line contact, for each force."""
 
-    Attributes
-    ----------
-    force : ndarray, shape (n,)
-        Normal force; where it is not positive there is no contact, and all else is zero [N].
-    radius : ndarray, shape (n,)
-        R, of both bodies together [m].
-    half_width : ndarray, shape (n,)
-        b [m].
-    pressure : ndarray, shape (n,)
-        Largest pressure p₀ [Pa].
-    shear : ndarray, shape (n,)
-        Largest shear stress, below the surface [Pa].
-    shear_depth : ndarray, shape (n,)
-        Where it is [m].
-    von_mises : ndarray, shape (n,)
-        Largest equivalent stress by von Mises in the material that has the larger one [Pa].
-    von_mises_depth : ndarray, shape (n,)
-        Where it is [m].
-    slenderness : ndarray, shape (n,)
-        b over the smaller radius of the two; Hertz's theory asks for much less than 1 [–].
-    pressure_max : float
-        Of all forces [Pa].
-    """
-
-    force: Floats
-    radius: Floats
-    half_width: Floats
-    pressure: Floats
-    shear: Floats
-    shear_depth: Floats
-    von_mises: Floats
-    von_mises_depth: Floats
-    slenderness: Floats
-    pressure_max: float
+    force: Annotated[
+        Floats,
+        Shown(
+            "normal force", "F", "N", "Where it is not positive there is no contact, and all else is zero."
+        ),
+    ]
+    radius: Annotated[Floats, Shown("radius of both bodies together", "R", "m")]
+    half_width: Annotated[Floats, Shown("half the width of the contact", "b", "m")]
+    pressure: Annotated[Floats, Shown("maximum pressure", "p₀", "Pa")]
+    shear: Annotated[Floats, Shown("maximum shear stress below the surface", "", "Pa")]
+    shear_depth: Annotated[Floats, Shown("depth of the maximum shear stress", "", "m")]
+    von_mises: Annotated[
+        Floats,
+        Shown("maximum equivalent stress by von Mises", "", "Pa", "In the material that has the larger one."),
+    ]
+    von_mises_depth: Annotated[Floats, Shown("depth of the maximum equivalent stress", "", "m")]
+    slenderness: Annotated[
+        Floats,
+        Shown(
+            "half the width over the smaller radius of the two",
+            "",
+            "–",
+            "Hertz's theory asks for much less than 1.",
+        ),
+    ]
+    pressure_max: Annotated[float, Shown("maximum pressure of all forces", "", "Pa")]
 
 
 @public

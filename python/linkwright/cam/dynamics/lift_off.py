@@ -183,18 +183,10 @@ def speed_of_loss(still: ArrayLike, linear: ArrayLike, square: ArrayLike) -> Flo
 
 @dataclass(frozen=True)
 class LeastPreload(Result):
-    """The preload that holds a follower on its cam.
+    """The preload that holds a follower on its cam."""
 
-    Attributes
-    ----------
-    preload : float
-        Minimum F₀; negative if none is needed [N].
-    cam_angle : float
-        The angle that asks for it [rad].
-    """
-
-    preload: float
-    cam_angle: float
+    preload: Annotated[float, Shown("minimum preload", "F₀", "N", "Negative if none is needed.")]
+    cam_angle: Annotated[float, Shown("cam angle that asks for it", "", "rad")]
 
 
 @public

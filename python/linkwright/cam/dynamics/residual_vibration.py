@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,6 +31,7 @@ from linkwright.kernel.numerics import roots
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import Column
 from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import FRACTION, RATIO, SPEED, Quantity, positive
 
@@ -61,39 +62,28 @@ class Quiet(NamedTuple):
 
 @dataclass(frozen=True)
 class ResidualSpectrum(Result):
-    """Vibration during and after a rise between dwells.
+    """Vibration during and after a rise between dwells."""
 
-    Attributes
-    ----------
-    ratio : ndarray, shape (n,)
-        τ, rise time over natural period [–].
-    residual : ndarray, shape (n,)
-        Amplitude of the free vibration as the dwell begins, over the total lift [–].
-    residual_acceleration : ndarray, shape (n,)
-        Its acceleration, over h/T²: to be compared with the law's own C_a [–].
-    primary : ndarray, shape (n,)
-        Largest departure from the lift during the rise, over the total lift [–].
-    primary_acceleration : ndarray, shape (n,)
-        Largest acceleration of the mass during the rise, over h/T² [–].
-    lift_total : float
-        h [m].
-    rise_angle : float
-        β [rad].
-    impulses : int
-        How often the velocity of the lift jumps.
-    quiet : tuple of Quiet
-        Where the residual has its minima, exactly.
-    """
-
-    ratio: Floats
-    residual: Floats
-    residual_acceleration: Floats
-    primary: Floats
-    primary_acceleration: Floats
-    lift_total: float
-    rise_angle: float
-    impulses: int
-    quiet: tuple[Quiet, ...]
+    ratio: Annotated[Floats, Shown("rise time over natural period", "τ", "–")]
+    residual: Annotated[
+        Floats,
+        Shown(
+            "residual amplitude over the total lift", "", "–", "Of the free vibration as the dwell begins."
+        ),
+    ]
+    residual_acceleration: Annotated[
+        Floats, Shown("residual acceleration over h/T²", "", "–", "To be compared with the law's own C_a.")
+    ]
+    primary: Annotated[
+        Floats, Shown("maximum departure from the lift during the rise, over the total lift", "", "–")
+    ]
+    primary_acceleration: Annotated[
+        Floats, Shown("maximum acceleration of the mass during the rise, over h/T²", "", "–")
+    ]
+    lift_total: Annotated[float, Shown("total lift", "h", "m")]
+    rise_angle: Annotated[float, Shown("angle of the rise", "β", "rad")]
+    impulses: Annotated[int, About("How often the velocity of the lift jumps.")]
+    quiet: Annotated[tuple[Quiet, ...], About("Where the residual has its minima, exactly.")]
 
 
 @public

@@ -128,41 +128,27 @@ class BestKnife(Result):
 
 @dataclass(frozen=True)
 class KnifeSearch(Result):
-    """A search for the best knife.
+    """A search for the best knife."""
 
-    Attributes
-    ----------
-    map_angle, map_speed : ndarray, shape (a,), (b,)
-        Angles [rad] and knife speeds [m/s] of the map.
-    map_length : ndarray, shape (a, b)
-        Minimum edge for the shares asked for [m], at the forward speed of the best; NaN where the edge runs
-        backwards, infinite where none does.
-    map_slicing : ndarray, shape (a, b)
-        Mean draw-cut ratio [–].
-    objective : str
-        ``"shortest"`` or ``"fastest"``.
-    limits : TopperLimits
-        What had to be kept.
-    length_max : float
-        Maximum length of the edge [m]; infinite without a limit.
-    tried : int
-        Knives that were looked at.
-    best : BestKnife or None
-        The best one; None if no knife keeps the limits.
-    failing : LimitFailure or None
-        What cannot be kept then.
-    """
-
-    map_angle: Floats
-    map_speed: Floats
-    map_length: Floats
-    map_slicing: Floats
-    objective: Objective
-    limits: TopperLimits
-    length_max: float
-    tried: int
-    best: BestKnife | None
-    failing: LimitFailure | None
+    map_angle: Annotated[Floats, Shown("angle of the map", "", "rad", shape="(a,)", over="map_angle")]
+    map_speed: Annotated[Floats, Shown("knife speed of the map", "", "m/s", shape="(b,)", over="map_speed")]
+    map_length: Annotated[
+        Floats,
+        Shown(
+            "minimum edge for the shares asked for",
+            "",
+            "m",
+            "At the forward speed of the best; NaN where the edge runs backwards, infinite where none does.",
+            shape="(a, b)",
+        ),
+    ]
+    map_slicing: Annotated[Floats, Shown("mean draw-cut ratio", "", "–", shape="(a, b)")]
+    objective: Annotated[Objective, About('``"shortest"`` or ``"fastest"``.')]
+    limits: Annotated[TopperLimits, About("What had to be kept.")]
+    length_max: Annotated[float, Shown("maximum length of the edge", "", "m", "Infinite without a limit.")]
+    tried: Annotated[int, About("Knives that were looked at.")]
+    best: Annotated[BestKnife | None, About("The best one; None if no knife keeps the limits.")]
+    failing: Annotated[LimitFailure | None, About("What cannot be kept then.")]
 
 
 @public

@@ -25,7 +25,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal
+from typing import Annotated, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,6 +34,7 @@ from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import INERTIA, RATIO, positive
 from linkwright.machine.machine import Machine
@@ -177,62 +178,37 @@ _RULES = {"viscous": viscous_rule, "tuned": tuned_rule, "rubber": rubber_rule}
 
 @dataclass(frozen=True)
 class DamperDesign(Result):
-    """The best damper for a mode of a train.
+    """The best damper for a mode of a train."""
 
-    Attributes
-    ----------
-    frequencies : ndarray, shape (n,)
-        At which the responses are [Hz].
-    response_bare, response_rule, response_best : ndarray, shape (n,)
-        Twist of the watched shaft over that at rest in the mode: without damper, with that of the closed
-        form, with the best one.
-    kind : str
-        ``"viscous"``, ``"tuned"`` or ``"rubber"``.
-    on : str
-        Disc that carries it.
-    mode : int
-        Number of the mode, from 0.
-    natural_frequency : float
-        Of the mode without damper [Hz].
-    watched : str
-        Shaft that the mode twists most.
-    ring_inertia, modal_inertia : float
-        Of the ring; of the train in the mode, at the disc [kg m²].
-    mass_ratio : float
-        Of both.
-    damping, stiffness, loss_factor : float
-        By the mode alone, in closed form [N m s/rad, N m/rad, –].
-    magnification : float
-        What it promises.
-    magnification_rule : float
-        Largest of `response_rule`.
-    damping_best, stiffness_best, loss_factor_best : float
-        For the whole train [N m s/rad, N m/rad, –].
-    magnification_best : float
-        Largest of `response_best`.
-    """
-
-    frequencies: Floats
-    response_bare: Floats
-    response_rule: Floats
-    response_best: Floats
-    kind: Kind
-    on: str
-    mode: int
-    natural_frequency: float
-    watched: str
-    ring_inertia: float
-    modal_inertia: float
-    mass_ratio: float
-    damping: float
-    stiffness: float
-    loss_factor: float
-    magnification: float
-    magnification_rule: float
-    damping_best: float
-    stiffness_best: float
-    loss_factor_best: float
-    magnification_best: float
+    frequencies: Annotated[Floats, Shown("frequency", "f", "Hz")]
+    response_bare: Annotated[
+        Floats, Shown("twist over that at rest, without damper", "", "–", "Of the watched shaft in the mode.")
+    ]
+    response_rule: Annotated[
+        Floats, Shown("twist over that at rest, with the damper of the closed form", "", "–", "Likewise.")
+    ]
+    response_best: Annotated[
+        Floats, Shown("twist over that at rest, with the best damper", "", "–", "Likewise.")
+    ]
+    kind: Annotated[Kind, About('``"viscous"``, ``"tuned"`` or ``"rubber"``.')]
+    on: Annotated[str, About("Disc that carries it.")]
+    mode: Annotated[int, About("Number of the mode, from 0.")]
+    natural_frequency: Annotated[float, Shown("natural frequency of the mode without damper", "f", "Hz")]
+    watched: Annotated[str, About("Shaft that the mode twists most.")]
+    ring_inertia: Annotated[float, Shown("inertia of the ring", "", "kg m²")]
+    modal_inertia: Annotated[float, Shown("inertia of the train in the mode, at the disc", "", "kg m²")]
+    mass_ratio: Annotated[float, Shown("inertia of the ring over that of the mode", "μ", "–")]
+    damping: Annotated[float, Shown("damping by the mode alone, in closed form", "c", "N m s/rad")]
+    stiffness: Annotated[float, Shown("stiffness by the mode alone, in closed form", "k", "N m/rad")]
+    loss_factor: Annotated[float, Shown("loss factor by the mode alone, in closed form", "η", "–")]
+    magnification: Annotated[float, Shown("magnification that the closed form promises", "", "–")]
+    magnification_rule: Annotated[
+        float, Shown("maximum magnification with the damper of the closed form", "", "–")
+    ]
+    damping_best: Annotated[float, Shown("damping for the whole train", "c", "N m s/rad")]
+    stiffness_best: Annotated[float, Shown("stiffness for the whole train", "k", "N m/rad")]
+    loss_factor_best: Annotated[float, Shown("loss factor for the whole train", "η", "–")]
+    magnification_best: Annotated[float, Shown("maximum magnification with the best damper", "", "–")]
 
 
 @public

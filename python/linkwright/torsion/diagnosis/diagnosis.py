@@ -31,6 +31,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,6 +39,7 @@ from numpy.typing import NDArray
 from linkwright.kernel.errors import InputError, ShapeError
 from linkwright.kernel.numerics.confidence import coverage_factor
 from linkwright.kernel.numerics.least_squares import Fit, least_squares
+from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Result
 from linkwright.torsion.diagnosis.engine_speed import cylinder_response
 from linkwright.torsion.diagnosis.measured_speed import MeasuredSpeed
@@ -48,49 +50,105 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Diagnosis(Result):
-    """How strongly each cylinder fires.
+    """How strongly each cylinder fires."""
 
-    Attributes
-    ----------
-    cylinders : tuple of str
-        Their names.
-    factor : ndarray, shape (cylinders,)
-        Firing part over that of a healthy cylinder; 1 where it cannot be determined.
-    deviation : ndarray, shape (cylinders,)
-        Standard deviation of each; infinite where it cannot be determined.
-    covariance : ndarray, shape (cylinders, cylinders)
-        Of the factors, as far as they can be determined.
-    condition : float
-        Largest over smallest singular value; infinite where cylinders cannot be distinguished.
-    misfit : float
-        What is left over for each degree of freedom, over the noise if that is known, else [rad/s]; NaN
-        without any degree of freedom.
-    freedom : int
-        Equations less factors told.
-    is_noise_known : bool
-        Whether the noise was given, or estimated.
-    warnings : tuple of str
-        What limits the diagnosis.
-    delay, delay_deviation : ndarray, shape (cylinders,), or None
-        Crank angle by which the combustion of each is late, where its strength alone does not explain the
-        measurement, and its standard deviation [rad].
-    compression, compression_deviation : ndarray, shape (cylinders,), or None
-        Likewise, torque of compression and expansion over that of a tight cylinder.
-    """
-
-    cylinders: tuple[str, ...]
-    factor: Floats
-    deviation: Floats
-    covariance: Floats
-    condition: float
-    misfit: float
-    freedom: int
-    is_noise_known: bool
-    warnings: tuple[str, ...]
-    delay: Floats | None = None
-    delay_deviation: Floats | None = None
-    compression: Floats | None = None
-    compression_deviation: Floats | None = None
+    cylinders: Annotated[tuple[str, ...], About("Names of the cylinders.")]
+    factor: Annotated[
+        Floats,
+        Shown(
+            "firing part over that of a healthy cylinder",
+            "",
+            "–",
+            "1 where it cannot be determined.",
+            shape="(cylinders,)",
+            over="factor",
+        ),
+    ]
+    deviation: Annotated[
+        Floats,
+        Shown(
+            "standard deviation of the factor",
+            "",
+            "–",
+            "Infinite where it cannot be determined.",
+            shape="(cylinders,)",
+            over="deviation",
+        ),
+    ]
+    covariance: Annotated[
+        Floats,
+        Shown(
+            "covariance of the factors",
+            "",
+            "–",
+            "As far as they can be determined.",
+            shape="(cylinders, cylinders)",
+            over="covariance",
+        ),
+    ]
+    condition: Annotated[
+        float,
+        Shown(
+            "largest over smallest singular value",
+            "",
+            "–",
+            "Infinite where cylinders cannot be distinguished.",
+        ),
+    ]
+    misfit: Annotated[
+        float,
+        About(
+            "What is left over for each degree of freedom, over the noise if that is known, else [rad/s]; "
+            "NaN without any degree of freedom."
+        ),
+    ]
+    freedom: Annotated[int, About("Equations less factors told.")]
+    is_noise_known: Annotated[bool, About("Whether the noise was given, or estimated.")]
+    warnings: Annotated[tuple[str, ...], About("What limits the diagnosis.")]
+    delay: Annotated[
+        Floats | None,
+        Shown(
+            "crank angle by which the combustion is late",
+            "",
+            "rad",
+            "None unless the strength of the cylinders alone does not explain the measurement.",
+            shape="(cylinders,)",
+            over="delay",
+        ),
+    ] = None
+    delay_deviation: Annotated[
+        Floats | None,
+        Shown(
+            "standard deviation of the delay",
+            "",
+            "rad",
+            "Likewise.",
+            shape="(cylinders,)",
+            over="delay_deviation",
+        ),
+    ] = None
+    compression: Annotated[
+        Floats | None,
+        Shown(
+            "torque of compression and expansion over that of a tight cylinder",
+            "",
+            "–",
+            "Likewise.",
+            shape="(cylinders,)",
+            over="compression",
+        ),
+    ] = None
+    compression_deviation: Annotated[
+        Floats | None,
+        Shown(
+            "standard deviation of the compression",
+            "",
+            "–",
+            "Likewise.",
+            shape="(cylinders,)",
+            over="compression_deviation",
+        ),
+    ] = None
 
     def half_width(self, level: float = 0.95) -> Floats:
         """Half width of the interval about each factor.
@@ -178,8 +236,12 @@ class Diagnosis(Result):
         return bool(self.is_noise_known and self.misfit > 1 + 3 / np.sqrt(2 * max(self.freedom, 1)))
 
     @property
-    def relative(self) -> Floats:
-        """Factors over their mean, shape (cylinders,): where the load of the engine is not known."""
+    def relative(
+        self,
+    ) -> Annotated[
+        Floats, Shown("factor over the mean of the factors", "", "–", shape="(cylinders,)", over="relative")
+    ]:
+        """For an engine whose load is not known."""
         relative: Floats = self.factor / self.factor.mean()
         return relative
 
