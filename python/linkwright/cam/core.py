@@ -38,6 +38,13 @@ class Extreme(NamedTuple):
     value: float
 
 
+class Passes(NamedTuple):
+    """Cam angles where a row passes a level, (k,) [rad], and the sign of row less level behind each, (k,)."""
+
+    angle: Floats
+    sign: Floats
+
+
 @dataclass(frozen=True, slots=True)
 class Shape:
     """A contact over one revolution."""
@@ -49,7 +56,7 @@ class Shape:
     # greatest, least: of the pressure angle, of the bend, and of the place along a flat face (``along``).
     greatest: dict[str, Extreme]
     least: dict[str, Extreme]
-    passes: tuple[_core.CamPasses, ...]  # for each level asked for
+    passes: tuple[Passes, ...]  # for each level asked for
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,7 +101,8 @@ class CamKernel:
             {name: Extreme(extreme.angle, extreme.value) for name, extreme in extremes.items()}
             for extremes in (shape.greatest, shape.least)
         )
-        return Shape(shape.angle, shape.piece, shape.rows, greatest, least, tuple(shape.passes))
+        passes = tuple(Passes(row.angle, row.sign) for row in shape.passes)
+        return Shape(shape.angle, shape.piece, shape.rows, greatest, least, passes)
 
     def rows(self, angle: ArrayLike, *, before: bool = False) -> dict[str, Floats]:
         """All rows at cam angles from the start of the programme; at a joint after it, or ``before``."""
