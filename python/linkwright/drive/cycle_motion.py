@@ -228,7 +228,8 @@ def _looked_at(compiled: Compiled, low: float, high: float, turns: int) -> Float
     angles = np.sort(np.concatenate([even, kinks - _BESIDE, kinks + _BESIDE]))
     # `np.unique` would import masked arrays, which takes longer than all that is computed here.
     angles = angles[np.append(True, np.diff(angles) > 0)]
-    return angles[(angles >= low) & (angles <= high)]
+    inside: Floats = angles[(angles >= low) & (angles <= high)]
+    return inside
 
 
 @dataclass(frozen=True)
