@@ -235,7 +235,7 @@ def bound_table() -> Table:
 
 def _named(name: str) -> str:
     """A law's name, with the order that a law of several kinds is shown for."""
-    order = LAWS[name].parameters.get("order")
+    order = LAWS[name].parameters.get("order") if name in LAWS else None
     return name if order is None else f"{name}, order {order}"
 
 

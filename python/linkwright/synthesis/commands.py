@@ -15,7 +15,7 @@ from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import Json, Outside, Sets, option_value
 from linkwright.kernel.command.console import progress_bar
 from linkwright.kernel.command.out import Force, out_option
-from linkwright.kernel.command.parameter import Option
+from linkwright.kernel.command.parameter import Argument, Option
 from linkwright.kernel.errors import InputError
 
 if TYPE_CHECKING:
@@ -24,9 +24,9 @@ if TYPE_CHECKING:
 
 OutFile = Annotated[Path | None, out_option("Write the machine there.", "FILE")]
 Curves = Annotated[bool, Option("--curves", help="With --json: curves too, not scalars alone.")]
-TaskFile = Annotated[
-    Path,
-    Option("--task", metavar="FILE", help="The task: what the linkage shall do.", show_default=False),
+TaskFile = Annotated[Path | None, Argument("TASK", "File of the task: what the linkage shall do.")]
+TaskOption = Annotated[
+    Path | None, Option("--task", metavar="FILE", help="The same as an option.", show_default=False)
 ]
 Swing = Annotated[
     str | None,
@@ -111,7 +111,8 @@ def dead_centre(
 
 
 def function(
-    task: TaskFile,
+    task: TaskFile = None,
+    task_file: TaskOption = None,
     set: Sets = None,
     allow_outside: Outside = False,
     json: Json = False,
@@ -124,12 +125,15 @@ def function(
     from linkwright.synthesis.function_generator import function_generator
     from linkwright.synthesis.task import FunctionTask
 
-    generator = function_generator(read_as(FunctionTask, task, set or (), allow_outside=allow_outside))
+    generator = function_generator(
+        read_as(FunctionTask, _task(task, task_file), set or (), allow_outside=allow_outside)
+    )
     _finish("function_generator", generator, json, out, force, curves=curves)
 
 
 def path(
-    task: TaskFile,
+    task: TaskFile = None,
+    task_file: TaskOption = None,
     set: Sets = None,
     allow_outside: Outside = False,
     json: Json = False,
@@ -142,14 +146,15 @@ def path(
     from linkwright.synthesis.path import path_generator
     from linkwright.synthesis.task import PathTask
 
-    read = read_as(PathTask, task, set or (), allow_outside=allow_outside)
+    read = read_as(PathTask, _task(task, task_file), set or (), allow_outside=allow_outside)
     with _tracked() as track:
         generator = path_generator(read, track=track)
     _finish("path_generator", generator, json, out, force, curves=curves)
 
 
 def motion(
-    task: TaskFile,
+    task: TaskFile = None,
+    task_file: TaskOption = None,
     set: Sets = None,
     allow_outside: Outside = False,
     json: Json = False,
@@ -162,8 +167,18 @@ def motion(
     from linkwright.synthesis.pose import pose_guide
     from linkwright.synthesis.task import PoseTask
 
-    guide = pose_guide(read_as(PoseTask, task, set or (), allow_outside=allow_outside))
+    guide = pose_guide(read_as(PoseTask, _task(task, task_file), set or (), allow_outside=allow_outside))
     _finish("pose_guide", guide, json, out, force, curves=curves)
+
+
+def _task(task: Path | None, option: Path | None) -> Path:
+    """The file of the task, by its place or by the option."""
+    if (task is None) == (option is None):
+        found = "neither" if task is None else "both"
+        raise InputError(f"TASK or --task: found {found}, expected the file of the task, such as task.toml")
+    chosen = task or option
+    assert chosen is not None
+    return chosen
 
 
 def line(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import Json
@@ -16,11 +16,18 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from linkwright.cam.law_factors import LawFactors
+    from linkwright.cam.laws.motion_law import MotionLaw
     from linkwright.kernel.page.table import Table
 
 Names = Annotated[
     list[str] | None,
-    Option("--law", metavar="NAME", help="This law alone. May be given again.", show_default=False),
+    Option(
+        "--law",
+        metavar='"NAME: KEY=VALUE, …"',
+        help='This law alone, with parameters of its own where they follow, such as "modified_sine: '
+        'share=0.2" or "combined: start=0.2, ramp=cycloidal". May be given again.',
+        show_default=False,
+    ),
 ]
 Folder = Annotated[
     Path | None, out_option("Write cam_laws.json and the laws in one figure, as SVG and PNG, there.")
@@ -36,16 +43,19 @@ def laws(law: Names = None, json: Json = False, out: Folder = None, force: Force
     Maximum velocity, acceleration, jerk, and velocity times acceleration, and the integrals of the squares,
     with theoretical lower bounds.
     """
-    from linkwright.cam.law_factors import cam_laws
+    from linkwright.cam.law_factors import law_factors
+    from linkwright.cam.laws.catalogue import LAWS
 
     folder = output_folder(out, force=force)
-    everything = cam_laws()
-    chosen = {name: everything[name] for name in _known(law or [], everything)}
-    drawn = [name for name in chosen if law or name in _DRAWN]
+    wanted = [_read(text) for text in law] if law else [_Chosen(name, name, {}) for name in LAWS]
+    chosen = {each.words: each for each in wanted}
+    shapes = {words: LAWS[each.name].normalised(**each.parameters) for words, each in chosen.items()}
+    factors = {words: law_factors(shape) for words, shape in shapes.items()}
+    drawn = {words: shape for words, shape in shapes.items() if law or words in _DRAWN}
     answer = Answer(
         machine=None,
-        results=lambda _: _results(chosen),
-        tables=partial(_tables, chosen),
+        results=lambda _: _results(chosen, factors),
+        tables=partial(_tables, factors),
         results_file="cam_laws.json",
         figures=partial(_figures, drawn),
     )
@@ -55,38 +65,77 @@ def laws(law: Names = None, json: Json = False, out: Folder = None, force: Force
 # In the order of the help.
 
 
-def _known(wanted: list[str], everything: dict[str, Any]) -> list[str]:
-    """The laws that are asked for; all of them without a wish."""
+class _Chosen(NamedTuple):
+    """A law that is asked for: in what words, its name, and its parameters that are not the usual ones."""
+
+    words: str
+    name: str
+    parameters: dict[str, Any]
+
+
+def _read(text: str) -> _Chosen:
+    """A law of ``NAME`` or ``NAME: KEY=VALUE, …``, checked as a section of a machine file is."""
+    from pydantic import TypeAdapter, ValidationError
+
+    from linkwright.cam.laws.catalogue import LAWS
+    from linkwright.cam.model.motion_section import AnyLaw
     from linkwright.kernel.description.base import suggestion
 
-    for name in wanted:
-        if name not in everything:
-            remedy = suggestion(name, everything) or "there is " + ", ".join(everything)
-            raise InputError(f'--law: found "{name}", expected the name of a law; {remedy}')
-    return wanted or list(everything)
+    name, _, rest = (part.strip() for part in text.partition(":"))
+    if name not in LAWS:
+        remedy = suggestion(name, LAWS) or "there is " + ", ".join(LAWS)
+        raise InputError(f'--law: found "{name}", expected the name of a law; {remedy}')
+    usual = LAWS[name].parameters
+    given: dict[str, Any] = {}
+    for entry in filter(None, (part.strip() for part in rest.split(","))):
+        key, sign, value = (part.strip() for part in entry.partition("="))
+        if not sign or key not in usual:
+            listed = ", ".join(f"{each}={value}" for each, value in usual.items()) or "no parameters"
+            raise InputError(f'--law: found "{entry}", and {name} has {listed}')
+        given[key] = _value(value)
+    try:
+        TypeAdapter(AnyLaw).validate_python({"kind": name, **given})
+    except ValidationError as error:
+        fault = error.errors()[0]
+        found = ", ".join(f"{key}={value}" for key, value in given.items())
+        raise InputError(f'--law: {name}: found "{found}": {fault["msg"]}') from None
+    return _Chosen(text if given else name, name, given)
 
 
-def _results(chosen: dict[str, LawFactors]) -> dict[str, Any]:
+def _value(text: str) -> Any:
+    """A number, or a word."""
+    for kind in (int, float):
+        try:
+            return kind(text)
+        except ValueError:
+            continue
+    return text
+
+
+def _results(chosen: dict[str, _Chosen], factors: dict[str, LawFactors]) -> dict[str, Any]:
     """The factors of each law, and their theoretical lower bounds."""
     from linkwright.cam.laws.catalogue import BOUNDS, LAWS
 
     laws = {
-        name: {**factors.to_dict(), "parameters": LAWS[name].parameters, "source": LAWS[name].source}
-        for name, factors in chosen.items()
+        words: {
+            **factors[words].to_dict(),
+            "parameters": LAWS[each.name].parameters | each.parameters,
+            "source": LAWS[each.name].source,
+        }
+        for words, each in chosen.items()
     }
     return {"cam_laws": laws, "cam_law_bounds": {bound.name: bound._asdict() for bound in BOUNDS}}
 
 
-def _tables(chosen: dict[str, LawFactors]) -> list[Table]:
+def _tables(factors: dict[str, LawFactors]) -> list[Table]:
     """Tables for people."""
     from linkwright.cam.tables import bound_table, law_table
 
-    return [law_table(chosen), bound_table()]
+    return [law_table(factors), bound_table()]
 
 
-def _figures(drawn: list[str]) -> dict[str, Figure]:
+def _figures(drawn: dict[str, MotionLaw]) -> dict[str, Figure]:
     """The laws in one figure."""
     from linkwright.cam.figures.cam import motion_laws_figure
-    from linkwright.cam.laws.catalogue import LAWS
 
-    return {"cam_laws": motion_laws_figure({name: LAWS[name].normalised() for name in drawn})}
+    return {"cam_laws": motion_laws_figure(drawn)}

@@ -30,7 +30,7 @@ from linkwright.cam.model.motion_law import (
     SCurveLaw,
     TrapezoidalVelocityLaw,
 )
-from linkwright.cam.model.point_law import SplineLaw, TableLaw
+from linkwright.cam.model.point_law import FormulaLaw, SplineLaw, TableLaw
 from linkwright.kernel.description.base import Description
 from linkwright.kernel.units import (
     ANGLE,
@@ -74,6 +74,7 @@ AnyLaw = Annotated[
         | TrapezoidalVelocityLaw
         | SCurveLaw
         | LimitedLaw
+        | FormulaLaw
         | SplineLaw
         | TableLaw,
         Field(discriminator="kind"),

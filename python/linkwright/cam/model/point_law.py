@@ -1,19 +1,25 @@
-"""Laws through points, as they are written in a machine file: splines and tables."""
+"""Laws by formulas and through points, as they are written in a machine file."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
+import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
 from linkwright.cam.model.motion_law import Law
 from linkwright.kernel.description.base import fault
 from linkwright.kernel.description.curve import curve_faults, unread_file
+from linkwright.kernel.description.formula import NUMBERS, parse
+from linkwright.kernel.description.formula_faults import constant_faults, text_faults
 from linkwright.kernel.errors import LawError, Problem
 from linkwright.kernel.limits import LAW_POINTS
-from linkwright.kernel.units import Angles, Lengths
+from linkwright.kernel.numerics.formula_value import value
+from linkwright.kernel.numerics.taylor import Taylor
+from linkwright.kernel.units import Angles, AnyQuantity, Lengths
 
 if TYPE_CHECKING:
     from linkwright.cam.laws.boundary import Boundary
@@ -79,6 +85,72 @@ class PointLaw(Law):
         """Of the spline."""
         degree: int = getattr(self, "degree")  # noqa: B009
         return degree
+
+
+class FormulaLaw(Law):
+    """A lift by a formula over the section."""
+
+    kind: Literal["formula"]
+    lift: str | None = Field(
+        None,
+        description="Lift in m as a formula in z, the share of the section from 0 to 1, and theta, the cam "
+        "angle from its start in rad; what counts is its change since the start.",
+    )
+    swing: str | None = Field(None, description="Angle of an oscillating follower in rad, in its place.")
+    constants: dict[str, Annotated[float, AnyQuantity()]] = Field(
+        default_factory=dict, description="Numbers of the formula by name, in any unit; they count in SI."
+    )
+
+    def own_lift(self, angle: float, *, swing: bool) -> float | None:
+        text = self.swing if swing else self.lift
+        if text is None:
+            return None
+        ends = self._taylor(text, np.array([0.0, 1.0]), angle)[0]
+        return float(ends[1] - ends[0])
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        if (self.lift is None) == (self.swing is None):
+            found = "both lift and swing" if self.lift else None
+            yield fault("lift", found=found, expected="a formula of the lift, or of the swing")
+            return
+        key, text = ("lift", self.lift) if self.lift is not None else ("swing", self.swing or "")
+        yield from constant_faults(self.constants, text)
+        yield from text_faults(key, text, self.constants, ("z", "theta"))
+
+    def _taylor(self, text: str, z: NDArray[np.float64], angle: float) -> NDArray[np.float64]:
+        """Value and three derivatives by z at each place, (4, n)."""
+        at = Taylor.variable(z)
+        names = {**NUMBERS, **self.constants, "z": at, "theta": at * angle}
+        with np.errstate(all="ignore"):
+            found = value(parse(text), names)
+        if not isinstance(found, Taylor):
+            found = at * 0.0 + found
+        return found.derivatives
+
+    def over(self, task: Boundary, angle: float, *, swing: bool) -> MotionLaw:
+        from linkwright.cam.laws.osculating import osculating
+
+        text = self.swing if swing else self.lift
+        if text is None:
+            expected = "a formula of the swing" if swing else "a formula of the lift"
+            raise LawError(Problem("swing" if swing else "lift", "nothing", expected))
+        own = osculating(lambda z: self._taylor(text, z, angle), text)
+        for word, order, z, wanted in (
+            ("velocity", 1, 0.0, task.velocity_start),
+            ("velocity", 1, 1.0, task.velocity_end),
+        ):
+            has = float(own.at(z, order, "before" if z else "after"))
+            if abs(has - wanted) > _BEGINS * max(abs(task.lift), abs(has)):
+                found = (
+                    f"a formula that {'ends' if z else 'begins'} with a {word} of {has:.6g} in its section"
+                )
+                expected = f"a {word} of {wanted:.6g} at its {'end' if z else 'start'}, as its neighbour has"
+                raise LawError(Problem("swing" if swing else "lift", found, expected))
+        return own
+
+
+# Share of the lift by which a velocity at the ends may be off: what rounding leaves of a formula.
+_BEGINS = 1e-9
 
 
 class SplineLaw(PointLaw):
