@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from linkwright.drive.model.catalogue import KNOWN, estimated_inertia
+from linkwright.drive.model.catalogue import KNOWN, OVERLOAD, breakdown_is_minimum, estimated_inertia
 from linkwright.drive.model.drive import Drive
 from linkwright.drive.model.motor import ConstantSpeedMotor, DcMotor, InductionMotor
 from linkwright.drive.reduction import Reduction
@@ -44,6 +44,7 @@ def cautions(machine: Machine, reduced: Reduction, steady: SteadyState | None) -
     found += _without_run_up(drive)
     found += _start_by_kloss(machine, drive)
     found += _without_rotor(drive)
+    found += _least_breakdown(drive)
     if steady is not None:
         found += [*_cycle(steady), *_design_speed(drive, steady), *_overload(drive, steady)]
         found += [*_breakdown(drive, steady), *_generator(drive, steady), *_gear_gain(drive, steady)]
@@ -62,6 +63,19 @@ def _without_rotor(drive: Drive) -> Iterator[str]:
         f"The catalogue gives no rotor inertia for {motor.catalogue}, and it counts as zero; similarity with "
         f"{KNOWN} gives an estimate of {estimate:.3g} kg m²: give drive.motor.inertia."
     )
+
+
+def _least_breakdown(drive: Drive) -> Iterator[str]:
+    """A type of the catalogue whose source prints no breakdown torque."""
+    motor = drive.motor
+    if not isinstance(motor, InductionMotor) or not motor.catalogue:
+        return
+    if "torque_breakdown" not in motor.model_fields_set and breakdown_is_minimum(motor.catalogue):
+        yield (
+            f"The catalogue gives no breakdown torque for {motor.catalogue}: the least that IEC 60034-1 "
+            f"allows counts, {OVERLOAD:g} times the rated torque, {motor.torque_breakdown:.4g} N m; most "
+            f"motors have more: give drive.motor.torque_breakdown."
+        )
 
 
 def _unloaded(machine: Machine) -> Iterator[str]:

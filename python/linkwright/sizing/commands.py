@@ -304,8 +304,9 @@ Series = Annotated[str, Option("--series", metavar="NAME", help="This series alo
 def motors(poles: Poles = None, power_min: PowerMin = "0 W", series: Series = "", json: Json = False) -> None:
     """List the motors of the catalogue.
 
-    An inertia with ~ is estimated by similarity, since its source prints none; a dash is a number that
-    the source does not give. A machine file takes one by drive.motor.catalogue.
+    An inertia with ~ is estimated by similarity, since its source prints none; a breakdown torque with ≥ is
+    the least that IEC 60034-1 allows; a dash is a number that the source does not give. A machine file takes
+    one by drive.motor.catalogue.
     """
     chosen = _chosen(poles, power_min, series)
     hand_over(
@@ -360,14 +361,18 @@ def _tables(found: list[CatalogueMotor]) -> list[Table]:
 
 def _row(motor: CatalogueMotor) -> Row:
     """A motor in the units of catalogues: kW, rpm, torques over the rated one."""
+    from linkwright.drive.model.catalogue import OVERLOAD
     from linkwright.kernel.page.numbers import number, quantity
     from linkwright.kernel.page.table import with_unit
 
     entries = _entries(motor)
     mark = "~" if entries["inertia_is_estimated"] else ""
+    start = motor.torque_start
+    least = motor.torque_breakdown is None
+    breakdown = OVERLOAD if motor.torque_breakdown is None else motor.torque_breakdown / motor.torque_rated
     over = (
-        "–" if torque is None else f"{number(torque / motor.torque_rated, 3)} ×"
-        for torque in (motor.torque_breakdown, motor.torque_start)
+        f"{'≥ ' if least else ''}{number(breakdown, 3)} ×",
+        "–" if start is None else f"{number(start / motor.torque_rated, 3)} ×",
     )
     return (
         motor.type,

@@ -22,6 +22,9 @@ KNOWN = "4A160S6U3 (method 1)"
 
 _EXPONENT = 5 / 3
 
+# Torque over rated torque that every induction motor bears for 15 s without stalling: IEC 60034-1, 9.4.1.
+OVERLOAD = 1.6
+
 
 @dataclass(frozen=True, slots=True)
 class CatalogueMotor:
@@ -135,7 +138,8 @@ def checked_name(type: str) -> str:
 
 def entries(type: str) -> dict[str, Any]:
     """What the catalogue gives for the entries of a motor in a machine file. Returns: entry → value in SI.
-    The rated torque is left out where it is only power over speed.
+    The rated torque is left out where it is only power over speed; a breakdown torque that the source does
+    not give is the least that IEC 60034-1 allows.
     """
     known = _given(_row(type))
     names = (
@@ -148,7 +152,15 @@ def entries(type: str) -> dict[str, Any]:
         "torque_start",
         "inertia",
     )
-    return {name: known[name] for name in names if name in known}
+    found = {name: known[name] for name in names if name in known}
+    if breakdown_is_minimum(type):
+        found["torque_breakdown"] = OVERLOAD * motor(type).torque_rated
+    return found
+
+
+def breakdown_is_minimum(type: str) -> bool:
+    """Whether the source gives no breakdown torque of a type, so that the least by standards counts."""
+    return motor(type).torque_breakdown is None
 
 
 @cache
