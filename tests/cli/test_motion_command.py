@@ -130,3 +130,22 @@ def test_a_table_with_words(tmp_path: Path) -> None:
     done = run("--law", table)
     assert done.exit_code == 2
     assert "law.csv:2" in done.output
+
+
+def test_angles_from_a_dead_centre() -> None:
+    """The ram of the press is at its top there; a revolution begins and ends with it."""
+
+    def told(*words: str) -> str:
+        result = CliRunner().invoke(application(), ["motion", "press_motion", "--zero", "top", *words])
+        assert result.exit_code == 0, result.output
+        return result.stdout
+
+    # 500 mm − 80 mm, and 90° on the circle of the pin: √(500² − 80²) mm.
+    at = json.loads(told("--at", "0 deg", "--json"))["results"]["pose"]
+    assert at["slides"]["ram"]["position"] == pytest.approx(0.42, rel=1e-12)
+    assert at["angle_zero"] == pytest.approx(np.pi / 2)
+    rows = list(csv.DictReader(io.StringIO(told("--csv", "--steps", "4", "--units", "mm, deg"))))
+    assert [float(row["crank_angle [°]"]) for row in rows] == pytest.approx([0, 90, 180, 270, 360], abs=1e-9)
+    places = [float(row["ram.place [mm]"]) for row in rows]
+    side = np.sqrt(500**2 - 80**2)
+    assert places == pytest.approx([420, side, 580, side, 420], rel=1e-12)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import degrees, pi
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -10,7 +11,7 @@ import click
 
 from linkwright.drive.crank_speed import CrankSpeed, crank_speed
 from linkwright.kernel.command.answer import Answer, as_wanted, json_text
-from linkwright.kernel.command.common import Json, Outside, Sets, option_value
+from linkwright.kernel.command.common import Json, Outside, Sets, ZeroAt, option_value
 from linkwright.kernel.command.out import Force, Out, put
 from linkwright.kernel.command.parameter import Argument, Option
 from linkwright.kernel.errors import InputError, require_within
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from linkwright.linkages.law import Law
     from linkwright.linkages.motion import Motion
     from linkwright.linkages.pose import Pose
+    from linkwright.linkages.zero import Zero
     from linkwright.machine.machine import Machine
 
 At = Annotated[
@@ -67,6 +69,7 @@ def motion(
     speed: Speed = None,
     law: LawText = None,
     duration: Duration = None,
+    zero: ZeroAt = None,
     steps: Steps = 72,
     csv: Csv = False,
     json: Json = False,
@@ -77,6 +80,7 @@ def motion(
 
     One pose with --at, under a law of time with --law, else a revolution of the crank at constant speed.
     """
+    from linkwright.linkages.zero import Zero, zero_angle
     from linkwright.machine.read import read
 
     if steps < 1:
@@ -86,31 +90,34 @@ def motion(
         raise InputError("--at and --law: one pose or a motion, not both")
     if speed is not None and law is not None:
         raise InputError("--speed and --law: the law gives the speed; expected one of them")
+    if zero is not None and law is not None:
+        raise InputError("--zero and --law: a law counts angles as the file does; expected one of them")
     if duration is not None and (law is None or _is_table(law)):
         raise InputError("--duration: it belongs to a --law that is a formula")
     machine = read(file, set or [], allow_outside=allow_outside)
+    counted = zero_angle(machine, zero) if zero is not None else Zero()
     with as_wanted(machine.units):
         if law is not None:
             text = _under_law(machine, law, duration or "1 s", steps, json=json, csv=csv)
         elif at is not None:
-            text = _pose(machine, at, crank_speed(machine, speed), json=json, csv=csv)
+            text = _pose(machine, at, crank_speed(machine, speed), counted, json=json, csv=csv)
         else:
-            text = _turn(machine, crank_speed(machine, speed), steps, json=json, csv=csv)
+            text = _turn(machine, crank_speed(machine, speed), counted, steps, json=json, csv=csv)
     put(text, out, force=force)
 
 
-def _pose(machine: Machine, at: str, speed: CrankSpeed, *, json: bool, csv: bool) -> str:
+def _pose(machine: Machine, at: str, speed: CrankSpeed, zero: Zero, *, json: bool, csv: bool) -> str:
     """One pose as a table, CSV or JSON."""
     from linkwright.kernel.files.csv_text import csv_text
     from linkwright.kernel.page.numbers import number
     from linkwright.kernel.units import ANGLE
     from linkwright.linkages.pose import pose
 
-    found = pose(machine, option_value("--at", at, ANGLE), speed=speed.value)
+    found = pose(machine, option_value("--at", at, ANGLE) + zero.angle, speed=speed.value)
     if json:
-        told = found.to_dict() | {"speed_source": speed.source}
+        told = found.to_dict() | {"speed_source": speed.source} | _zero_told(zero)
         return json_text(Answer(machine=machine.name, results=lambda _: {"pose": told}))
-    phi = found.crank_angle
+    phi = found.crank_angle - zero.angle
     rows = [("crank angle", "φ [rad]", (phi, found.speed, found.acceleration)), *_pose_rows(found)]
     rows = [_row_shown(row) for row in rows]
     if csv:
@@ -119,7 +126,7 @@ def _pose(machine: Machine, at: str, speed: CrankSpeed, *, json: bool, csv: bool
         # A transmission angle stands alone: rows are as long as the head all the same.
         empty = (float("nan"),) * 2
         return csv_text(heads, ((name, what, *(*numbers, *empty)[:3]) for name, what, numbers in rows))
-    lines = [f"crank angle {degrees(phi):.7g}° = {phi:.7g} rad, {speed}"]
+    lines = [f"crank angle {degrees(phi):.7g}° = {phi:.7g} rad{_from(zero)}, {speed}"]
     lines += [f"{'':24}{'position':>16}{'velocity':>16}{'acceleration':>16}"]
     scales = [max((abs(row[2][k]) for row in rows if len(row[2]) > k), default=0.0) for k in range(3)]
     lines += [
@@ -161,7 +168,17 @@ def _pose_rows(pose: Pose) -> list[tuple[str, str, tuple[float, ...]]]:
     return rows
 
 
-def _turn(machine: Machine, speed: CrankSpeed, steps: int, *, json: bool, csv: bool) -> str:
+def _from(zero: Zero) -> str:
+    """From where crank angles are counted, for people; nothing where it is the file's zero."""
+    return f" from the {zero.words}" if zero.words else ""
+
+
+def _zero_told(zero: Zero) -> dict[str, Any]:
+    """The same for JSON, whose angles are those of the file."""
+    return {"angle_zero": zero.angle, "zero": zero.words} if zero.words else {}
+
+
+def _turn(machine: Machine, speed: CrankSpeed, zero: Zero, steps: int, *, json: bool, csv: bool) -> str:
     """A revolution at a constant speed."""
     from linkwright.kernel.units import SPEED
     from linkwright.linkages.law import constant_speed
@@ -170,14 +187,16 @@ def _turn(machine: Machine, speed: CrankSpeed, steps: int, *, json: bool, csv: b
         expected = f"a speed above zero for a revolution, {SPEED.least:g} rad/s or more"
         raise InputError(f"--speed: found {speed.value:g} rad/s, expected {expected}")
     times = (0.0, 2 * pi / speed.value)
-    told = {"crank_speed": speed.value, "speed_source": speed.source}
-    head = f"one revolution of the crank in {times[1]:.6g} s, {speed}"
-    return _followed(machine, constant_speed(speed.value), times, steps, head, told, json=json, csv=csv)
+    told = {"crank_speed": speed.value, "speed_source": speed.source} | _zero_told(zero)
+    head = f"one revolution of the crank{_from(zero)} in {times[1]:.6g} s, {speed}"
+    law = constant_speed(speed.value, zero.angle)
+    return _followed(machine, law, times, steps, head, told, zero, json=json, csv=csv)
 
 
 def _under_law(machine: Machine, law: str, duration: str, steps: int, *, json: bool, csv: bool) -> str:
     """The motion under a law of the crank."""
     from linkwright.kernel.units import TIME
+    from linkwright.linkages.zero import Zero
 
     driver, start, end = _law(law), 0.0, option_value("--duration", duration, TIME)
     if hasattr(driver, "times"):
@@ -185,7 +204,7 @@ def _under_law(machine: Machine, law: str, duration: str, steps: int, *, json: b
     if not end > start:
         raise InputError(f"--duration: found {end:g} s, expected more than {start:g} s")
     head = f"crank angle [rad] by {law}, from {start:g} s to {end:g} s"
-    return _followed(machine, driver, (start, end), steps, head, {"law": law}, json=json, csv=csv)
+    return _followed(machine, driver, (start, end), steps, head, {"law": law}, Zero(), json=json, csv=csv)
 
 
 def _followed(
@@ -195,6 +214,7 @@ def _followed(
     steps: int,
     head: str,
     told: dict[str, Any],
+    zero: Zero,
     *,
     json: bool,
     csv: bool,
@@ -209,6 +229,8 @@ def _followed(
     if json:
         moved = told | found.to_dict(curves=True) | _lists(found.curves())
         return json_text(Answer(machine=machine.name, results=lambda _: {"motion": moved}))
+    if zero.angle:
+        found = replace(found, crank_angle=found.crank_angle - zero.angle)
     if csv:
         click.echo(head, err=True)
         return curves_csv(found)

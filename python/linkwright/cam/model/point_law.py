@@ -125,7 +125,8 @@ class FormulaLaw(Law):
             found = value(parse(text), names)
         if not isinstance(found, Taylor):
             found = at * 0.0 + found
-        return found.derivatives
+        derivatives: NDArray[np.float64] = found.derivatives
+        return derivatives
 
     def over(self, task: Boundary, angle: float, *, swing: bool) -> MotionLaw:
         from linkwright.cam.laws.osculating import osculating
