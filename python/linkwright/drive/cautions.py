@@ -72,8 +72,8 @@ def _least_breakdown(drive: Drive) -> Iterator[str]:
         return
     if "torque_breakdown" not in motor.model_fields_set and breakdown_is_minimum(motor.catalogue):
         yield (
-            f"The catalogue gives no breakdown torque for {motor.catalogue}: the least that IEC 60034-1 "
-            f"allows counts, {OVERLOAD:g} times the rated torque, {motor.torque_breakdown:.4g} N m; most "
+            f"The catalogue gives no breakdown torque for {motor.catalogue}: the minimum of IEC 60034-1 "
+            f"counts, {OVERLOAD:g} times the rated torque, {motor.torque_breakdown:.4g} N m; most "
             f"motors have more: give drive.motor.torque_breakdown."
         )
 

@@ -305,7 +305,7 @@ def motors(poles: Poles = None, power_min: PowerMin = "0 W", series: Series = ""
     """List the motors of the catalogue.
 
     An inertia with ~ is estimated by similarity, since its source prints none; a breakdown torque with ≥ is
-    the least that IEC 60034-1 allows; a dash is a number that the source does not give. A machine file takes
+    the minimum of IEC 60034-1; a dash is a number that the source does not give. A machine file takes
     one by drive.motor.catalogue.
     """
     chosen = _chosen(poles, power_min, series)

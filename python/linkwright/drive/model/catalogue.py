@@ -139,7 +139,7 @@ def checked_name(type: str) -> str:
 def entries(type: str) -> dict[str, Any]:
     """What the catalogue gives for the entries of a motor in a machine file. Returns: entry → value in SI.
     The rated torque is left out where it is only power over speed; a breakdown torque that the source does
-    not give is the least that IEC 60034-1 allows.
+    not give is the minimum of IEC 60034-1.
     """
     known = _given(_row(type))
     names = (
@@ -159,7 +159,7 @@ def entries(type: str) -> dict[str, Any]:
 
 
 def breakdown_is_minimum(type: str) -> bool:
-    """Whether the source gives no breakdown torque of a type, so that the least by standards counts."""
+    """Whether the source gives no breakdown torque of a type, so that the minimum by standards counts."""
     return motor(type).torque_breakdown is None
 
 
