@@ -12,6 +12,7 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel
 
+from linkwright.drive.model.motor_file import with_motor_of_file
 from linkwright.kernel.description.text import split
 from linkwright.kernel.errors import MachineError, MachineFileError, Problem
 from linkwright.kernel.files.bounds import deep_line, long_number_line, size_problems
@@ -165,6 +166,7 @@ def loads_as(
         raise MachineFileError(_located(too_large, text, path, places, ()))
     columns: list[Column] = []
     try:
+        with_motor_of_file(tables, Path(path).parent, allow_outside=allow_outside)
         with_dxf_points(tables, Path(path).parent, allow_outside=allow_outside)
         columns = with_points(tables, Path(path).parent, allow_outside=allow_outside)
         return model.model_validate(tables)

@@ -31,7 +31,7 @@ from pydantic_core import InitErrorDetails
 
 from linkwright.drive.model import catalogue
 from linkwright.kernel.description.base import Description, fault, raise_faults
-from linkwright.kernel.description.curve import curve_faults
+from linkwright.kernel.description.curve import curve_faults, unread_file
 from linkwright.kernel.units import (
     INERTIA,
     POWER,
@@ -147,6 +147,11 @@ class InductionMotor(Motor):
     catalogue: CatalogueName | None = Field(
         None, description="Type in the catalogue of motors; gives what is not given here."
     )
+    file: str | None = Field(
+        None,
+        description="File of comma-separated values with motors, in which `catalogue` names the type; its "
+        'head has units: "type, power_rated [kW], speed_rated [rpm], torque_breakdown_ratio".',
+    )
     speed_synchronous: PositiveSpeed | None = Field(None, description="Speed without any torque.")
     torque_breakdown: PositiveTorque | None = Field(None, description="Maximum torque.")
     speed_breakdown: PositiveSpeed | None = Field(
@@ -177,6 +182,9 @@ class InductionMotor(Motor):
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         yield from super()._faults()
+        if self.file is not None:
+            yield unread_file(self.file)
+            return
         missing = list(self._missing())
         yield from missing or self._out_of_order()
         yield from self._start_faults()

@@ -154,7 +154,7 @@ def columns_of(path: Path, key: str, kind: str = "table") -> tuple[dict[str, lis
     MachineFileError
         The file cannot be read, has no head or a row that does not fit it.
     """
-    lines = _lines(path, key)
+    lines = lines_of(path, key)
     heads = [_HEAD.fullmatch(cell) for cell in lines[0][1]] if lines else []
     if len(lines) < 2 or not all(heads):
         found = show(",".join(lines[0][1])) if lines else "an empty file"
@@ -179,7 +179,7 @@ def columns_of(path: Path, key: str, kind: str = "table") -> tuple[dict[str, lis
     return columns, [line for line, _ in lines]
 
 
-def _lines(path: Path, key: str) -> list[tuple[int, list[str]]]:
+def lines_of(path: Path, key: str) -> list[tuple[int, list[str]]]:
     """Number and cells of each line that is neither empty nor a comment."""
     try:
         text = text_of(path, POINT_BYTES)
