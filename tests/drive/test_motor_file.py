@@ -23,7 +23,7 @@ radius = 0.1
 """
 
 ROWS = """# Motors in stock.
-type, series, power_rated [kW], speed_rated [rpm], speed_synchronous[rpm],torque_breakdown_ratio,inertia [kgm^2]
+type,series,power_rated [kW],speed_rated [rpm],speed_synchronous[rpm],torque_breakdown_ratio,inertia [kgm^2]
 M3BP 132, M3BP, 5.5, 1460, 1500, 2.9, 0.031
 M3BP 160, M3BP, 11, 1466, 1500, 2.8, 0.081
 """

@@ -1,8 +1,8 @@
 """Motors of one's own from a file of comma-separated values that a machine file names.
 
-The head names each column, with its unit in brackets: ``type, power_rated [kW], speed_rated [rpm]``; without a
-unit the numbers are SI. A column ``torque_breakdown_ratio`` or ``torque_start_ratio`` is over the rated torque.
-Lines that begin with ``#`` are comments.
+The head names each column, with its unit in brackets: ``type, power_rated [kW], speed_rated [rpm]``; without
+a unit the numbers are SI. A column ``torque_breakdown_ratio`` or ``torque_start_ratio`` is over the rated
+torque. Lines that begin with ``#`` are comments.
 """
 
 from __future__ import annotations
