@@ -271,7 +271,7 @@ CASES = {
 }
 
 # Commands that print a text of their own, and no answer about a machine for programs.
-WITHOUT = {"new", "report", "schema", "studio"}
+WITHOUT = {"draw", "new", "report", "schema", "studio"}
 # Keys besides those that all have.
 EXTRA = {"cam": {"files"}, "torsion": {"balance"}}
 

@@ -49,6 +49,7 @@ COMMANDS = {
     ),
     "transient": Place("Follow the motion in time.", "drive.commands.transient:transient"),
     "plot": Place("Draw curves of a machine.", "app.commands.plot:plot"),
+    "draw": Place("Draw a mechanism, still or in motion.", "app.commands.draw:draw", False),
     "forces": Place("Compute the forces in a machine.", "kinetostatics.commands:forces"),
     "balance": Place("Find counterweights.", "kinetostatics.commands:balance"),
     "optimise": Place(

@@ -3,6 +3,7 @@
 | module | |
 | --- | --- |
 | `check` | `linkwright check FILE`: is the machine file sound, and the geometry that it describes? |
+| `draw` | `linkwright draw FILE`: a mechanism to scale, still or in motion |
 | `glossary` | `linkwright glossary [WORD]`: the terms of tables, messages and reports |
 | `new` | `linkwright new TEMPLATE`: a machine file to start from |
 | `papers` | `linkwright papers`: published numbers against computed ones |

@@ -8,8 +8,6 @@ from io import StringIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import click
-
 from linkwright.kernel.command.answer import Answer, finish, taken
 from linkwright.kernel.command.out import Force, command_line, say_written
 from linkwright.kernel.command.parameter import Argument, Option
@@ -140,12 +138,7 @@ def _content(words: list[str], command: str) -> Content:
         redirect_stdout(StringIO()),
         commands.make_context("linkwright", list(words)) as context,
     ):
-        try:
-            commands.invoke(context)
-        except click.exceptions.Exit:
-            # A machine that cannot do it is reported; wrong input has been told.
-            if not contents:
-                raise
+        commands.invoke(context)
     if not contents:
         remedy = "; `plot` draws its curves" if words[0] == "motion" else ""
         raise InputError(f"there is nothing to report of `linkwright {words[0]}`{remedy}")

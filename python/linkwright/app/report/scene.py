@@ -76,7 +76,7 @@ def scene(study: Study) -> Scene | None:
     }
 
 
-def moving_scene(machine: Machine, steady: SteadyState | None) -> Scene | None:
+def moving_scene(machine: Machine, steady: SteadyState | None, through: float | None = None) -> Scene | None:
     """All that is drawn of a mechanism in motion.
 
     Parameters
@@ -85,6 +85,8 @@ def moving_scene(machine: Machine, steady: SteadyState | None) -> Scene | None:
         The machine.
     steady : SteadyState or None
         Its steady motion, if that is known.
+    through : float, optional
+        Crank angle [rad] that is among those drawn.
 
     Returns
     -------
@@ -98,7 +100,8 @@ def moving_scene(machine: Machine, steady: SteadyState | None) -> Scene | None:
     if not _closes(machine):
         return None
     found = closure(machine)
-    motion = kinematics(machine, _angles(found))
+    angles = _angles(found) if through is None else np.union1d(_angles(found), [through])
+    motion = kinematics(machine, angles)
     drawn = _points(machine, motion)
     listed = list(parts(machine, motion))
     times, speeds = _times(machine, steady, motion.angles)

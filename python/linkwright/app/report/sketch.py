@@ -61,25 +61,16 @@ def sketch_figure(scene: Scene, place: float = 0.125) -> Figure:
 
 def paint(axes: Axes, scene: Scene, place: float) -> None:
     """Draw all parts of a scene at an instant, from behind to the front; ``place`` from 0 to 1."""
-    painter = _Painter(axes, scene, place * (len(scene["angles"]) - 1))
+    painter = _Painter(axes, Pose(scene, place))
     for depth, part in enumerate(scene["parts"]):
         painter.draw(part, depth)
 
 
-class _Painter:
-    """Draws the parts of a scene at one instant."""
+class Pose:
+    """Where the points and links of a scene are at one instant; ``place`` in the motion, from 0 to 1."""
 
-    def __init__(self, axes: Axes, scene: Scene, place: float) -> None:
-        self.axes, self.scene, self.place = axes, scene, place
-        left, bottom, right, top = scene["box"]
-        self.unit = max(right - left, top - bottom, 1e-9) / _ACROSS
-        self.depth = 0
-
-    def draw(self, part: Scene, depth: int) -> None:
-        """Draw one part."""
-        self.depth = depth
-        kind: Callable[[Scene], None] = getattr(self, f"_{part['kind']}")
-        kind(part)
+    def __init__(self, scene: Scene, place: float) -> None:
+        self.scene, self.place = scene, place * (len(scene["angles"]) - 1)
 
     def at(self, name: str) -> Floats:
         """Where a point is [m]."""
@@ -96,6 +87,24 @@ class _Painter:
         cos, sin = np.cos(angle), np.sin(angle)
         turned: Floats = np.asarray(shape, float) @ np.array([[cos, sin], [-sin, cos]]) + self.at(part["at"])
         return turned
+
+
+class _Painter:
+    """Draws the parts of a scene at one instant."""
+
+    def __init__(self, axes: Axes, pose: Pose) -> None:
+        self.axes, self.scene = axes, pose.scene
+        self.at, self.carried = pose.at, pose.carried
+        scene = pose.scene
+        left, bottom, right, top = scene["box"]
+        self.unit = max(right - left, top - bottom, 1e-9) / _ACROSS
+        self.depth = 0
+
+    def draw(self, part: Scene, depth: int) -> None:
+        """Draw one part."""
+        self.depth = depth
+        kind: Callable[[Scene], None] = getattr(self, f"_{part['kind']}")
+        kind(part)
 
     def line(self, points: Any, colour: str, width: float, **more: Any) -> None:
         """A polyline, (n, 2) [m], with a width in points."""

@@ -61,7 +61,7 @@ ZeroAt = Annotated[
 
 def reports_errors(
     command: Callable[P, R], machine_name: Callable[..., str | None] = lambda **_: None
-) -> Callable[P, R]:
+) -> Callable[P, R | None]:
     """Let a command end with a message on standard error and its exit code, without a traceback.
 
     A finding that ends a command is its answer all the same, and with ``--json`` it is reported as any other.
@@ -80,13 +80,15 @@ def reports_errors(
     """
 
     @wraps(command)
-    def run(*args: P.args, **kwargs: P.kwargs) -> R:
+    def run(*args: P.args, **kwargs: P.kwargs) -> R | None:
         try:
             return command(*args, **kwargs)
         except LinkwrightError as error:
             if isinstance(error, FindingError):
                 stopped = Answer(machine=machine_name(**kwargs), findings=[plain(str(error))])
-                if not is_taken(stopped) and kwargs.get("json"):
+                if is_taken(stopped):
+                    return None
+                if kwargs.get("json"):
                     click.echo(json_text(stopped), nl=False)
             click.echo(plain(str(error)), err=True)
             raise click.exceptions.Exit(error.exit_code) from None

@@ -1,0 +1,141 @@
+"""``linkwright draw FILE``: a mechanism to scale, still or in motion."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import click
+
+from linkwright.kernel.command.common import File, Outside, Sets, option_value
+from linkwright.kernel.command.out import Force, say_written
+from linkwright.kernel.command.parameter import Option
+from linkwright.kernel.errors import FindingError, InputError, plain
+
+if TYPE_CHECKING:
+    from linkwright.machine.machine import Machine
+
+Scene = dict[str, Any]
+
+Places = Annotated[
+    list[str] | None,
+    Option(
+        "--out",
+        metavar="FILE",
+        help="Where: a picture (.svg, .png, .pdf), the pose as .dxf, the motion as .gif or .mp4. "
+        "May be given again. drawing.svg without it.",
+        show_default=False,
+    ),
+]
+At = Annotated[
+    str | None,
+    Option(
+        "--at",
+        metavar="ANGLE",
+        help="Crank angle of the pose. Without it, an eighth of the motion.",
+        show_default=False,
+    ),
+]
+Seconds = Annotated[
+    str | None,
+    Option(
+        "--seconds",
+        metavar="TIME",
+        help="How long a moving picture lasts. Without it, 4 s.",
+        show_default=False,
+    ),
+]
+
+_STILL, _MOVING = (".svg", ".png", ".pdf", ".dxf"), (".gif", ".mp4")
+
+# Seconds of a moving picture, and the most it may last: 25 pictures a second.
+_USUAL, _LONGEST = 4.0, 120.0
+
+# Where in the motion a pose is drawn that nobody chose.
+_EIGHTH = 0.125
+
+
+def draw(
+    file: File,
+    out: Places = None,
+    at: At = None,
+    seconds: Seconds = None,
+    set: Sets = None,
+    allow_outside: Outside = False,
+    force: Force = False,
+) -> None:
+    """Draw a mechanism to scale.
+
+    A pose as picture or DXF in millimetres; the motion as GIF or MP4, with the uneven speed of the steady
+    motion if there is one.
+    """
+    from linkwright.kernel.command.console import progress
+    from linkwright.kernel.files.output import write_file
+    from linkwright.machine.read import read
+
+    places = _places(out or ["drawing.svg"])
+    lasting = _lasting(seconds)
+    machine = read(file, set or [], allow_outside=allow_outside)
+    scene, place = _scene(machine, at)
+    for path in places:
+        with progress(f"drawing {path.name}"):
+            data = _data(scene, place, lasting, path.suffix.lower())
+        write_file(path, data, replace=force)
+    say_written(places, quiet=False)
+
+
+def _places(names: list[str]) -> list[Path]:
+    """Files to write."""
+    for name in names:
+        if Path(name).suffix.lower() not in (*_STILL, *_MOVING):
+            raise InputError(
+                f'--out: found "{name}", expected a file that ends in {", ".join((*_STILL, *_MOVING))}'
+            )
+    return [Path(name) for name in names]
+
+
+def _lasting(text: str | None) -> float:
+    """How long a moving picture lasts [s]."""
+    from linkwright.kernel.units import TIME
+
+    found = _USUAL if text is None else option_value("--seconds", text, TIME)
+    if not 0.1 <= found <= _LONGEST:
+        raise InputError(f"--seconds: found {text}, expected 0.1 s to {_LONGEST:g} s")
+    return found
+
+
+def _scene(machine: Machine, at: str | None) -> tuple[Scene, float]:
+    """All that is drawn, and where in the motion the pose is."""
+    import numpy as np
+
+    from linkwright.app.report.scene import moving_scene
+    from linkwright.drive.steady_state import steady_state
+    from linkwright.kernel.units import ANGLE
+
+    angle = None if at is None else option_value("--at", at, ANGLE)
+    has_motor = machine.drive is not None and machine.drive.motor is not None
+    try:
+        steady = steady_state(machine) if has_motor else None
+    except FindingError as error:
+        click.echo(f"Drawn at constant speed: {plain(str(error))}", err=True)
+        steady = None
+    scene = moving_scene(machine, steady, None if angle is None else float(np.mod(angle, 2 * np.pi)))
+    if scene is None:
+        raise InputError("there is nothing to draw: no mechanism that closes")
+    if angle is None:
+        return scene, _EIGHTH
+    nearest = int(np.argmin(np.abs(scene["angles"] - np.mod(angle, 2 * np.pi))))
+    return scene, nearest / (len(scene["angles"]) - 1)
+
+
+def _data(scene: Scene, place: float, seconds: float, ending: str) -> str | bytes:
+    """The file."""
+    from linkwright.app.figures import bytes_of
+    from linkwright.app.report.moving import dxf, gif, mp4
+    from linkwright.app.report.sketch import sketch_figure
+
+    if ending == ".dxf":
+        return dxf(scene, place)
+    if ending in _MOVING:
+        return gif(scene, seconds) if ending == ".gif" else mp4(scene, seconds)
+    return bytes_of(sketch_figure(scene, place), ending)

@@ -1,0 +1,72 @@
+"""``linkwright draw``: poses to scale, and motions."""
+
+from __future__ import annotations
+
+from io import BytesIO
+from pathlib import Path
+
+import ezdxf
+import numpy as np
+import pytest
+from click.testing import CliRunner, Result
+from PIL import Image
+
+import linkwright as lw
+from linkwright.app.application import application
+from linkwright.app.report.moving import gif, mp4
+from linkwright.app.report.scene import moving_scene
+
+ROOT = Path(__file__).parents[2]
+CARTS = str(ROOT / "machines" / "roller_two_carts.toml")
+
+
+def called(*words: str) -> Result:
+    return CliRunner().invoke(application(), ["draw", *words])
+
+
+def test_dxf_has_the_joints_where_the_motion_has_them(tmp_path: Path) -> None:
+    place = tmp_path / "pose.dxf"
+    result = called(CARTS, "--out", str(place), "--at", "33.3 deg")
+    assert result.exit_code == 0, result.output
+    drawn = ezdxf.readfile(place).modelspace()  # type: ignore[attr-defined]
+    found = {tuple(np.round(point.dxf.location, 9)[:2]) for point in drawn.query("POINT")}
+    motion = lw.kinematics(lw.read(CARTS), np.radians([33.3]))
+    # In millimetres; the file has the digits of a double.
+    assert motion.points
+    for point in motion.points.values():
+        assert tuple(np.round(1e3 * point.position[0], 9)) in found
+
+
+def test_gif_lasts_as_long_as_asked_and_moves() -> None:
+    scene = moving_scene(lw.read(CARTS), None)
+    assert scene is not None
+    with Image.open(BytesIO(gif(scene, 0.4))) as picture:
+        assert picture.n_frames == 10
+        assert picture.info["duration"] == 40
+        first = np.asarray(picture.convert("L"), int)
+        picture.seek(5)
+        assert np.abs(np.asarray(picture.convert("L"), int) - first).max() > 50
+
+
+def test_mp4_is_one() -> None:
+    scene = moving_scene(lw.read(CARTS), None)
+    assert scene is not None
+    assert mp4(scene, 0.2)[4:8] == b"ftyp"
+
+
+@pytest.mark.parametrize(
+    ("words", "said", "code"),
+    [
+        (("--out", "a.txt"), "expected a file that ends in .svg", 2),
+        (("--at", "30"), "which may be deg or rad", 2),
+        (("--seconds", "1 h"), "expected 0.1 s to 120 s", 2),
+        (("--at", "90 deg", "--set", "mechanism.sliders.cart1.rod=0.1"), "closes only at crank angles", 1),
+    ],
+)
+def test_what_cannot_be_drawn_is_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, words: tuple[str, ...], said: str, code: int
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    result = called(CARTS, *words)
+    assert (result.exit_code, said in result.output) == (code, True), result.output
+    assert not list(tmp_path.iterdir())
