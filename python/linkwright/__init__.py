@@ -112,6 +112,7 @@ _HOME = {
     "read_study": "studies.read",
     "sweep": "studies.sweep",
     "tolerance": "studies.tolerance",
+    "allocate": "studies.allocation",
     "optimise": "studies.optimise",
     "front": "studies.front",
     "evaluate": "studies.engine",
@@ -225,6 +226,7 @@ if TYPE_CHECKING:
     from linkwright.sizing.flywheel import choose_flywheel as choose_flywheel
     from linkwright.sizing.motor import choose_motor as choose_motor
     from linkwright.sizing.power import required_power as required_power
+    from linkwright.studies.allocation import allocate as allocate
     from linkwright.studies.engine import evaluate as evaluate
     from linkwright.studies.fit import fit as fit
     from linkwright.studies.front import front as front

@@ -15,6 +15,7 @@
 | `sweep` | A sweep, and its continuation |
 | `slopes` | Derivatives of responses by variables, exact where the analysis has them |
 | `tolerance` | Scatter of responses, contributions, yield, Sobol indices |
+| `allocation` | The cheapest tolerances for a wanted yield |
 | `front` | Machines of which none is better in both of two goals |
 | `workers` | Files of a sweep by processes beside |
 | `cluster` | The same by a cluster of Dask |

@@ -5,6 +5,7 @@ from __future__ import annotations
 from linkwright.kernel.page.measured import measured
 from linkwright.kernel.page.numbers import number
 from linkwright.kernel.page.table import Row, Table
+from linkwright.studies.allocation import Allocation
 from linkwright.studies.fit import Fit
 from linkwright.studies.front import Front
 from linkwright.studies.optimise import Optimum
@@ -70,6 +71,16 @@ def tolerance_tables(tolerance: Tolerance, units: dict[str, str]) -> list[Table]
             )
     heads = ("response", "", "variable", "share of the variance", "derivative [SI]", "Sobol index", "total")
     return [*tables, Table("contributions", "Contributions", heads, shares)]
+
+
+def allocation_tables(allocation: Allocation, units: dict[str, str]) -> list[Table]:
+    """The cheapest tolerances."""
+    rows: list[Row] = []
+    for name, (low, high) in allocation.tolerances.items():
+        factor = number(allocation.factors[name], 4)
+        rows.append((name, "", *(with_unit(end, units[name]) for end in (low, high)), factor))
+    heads = ("variable", "", "lower limit deviation", "upper limit deviation", "times as wide")
+    return [Table("allocation", "Cheapest tolerances", heads, rows)]
 
 
 def optimum_tables(optimum: Optimum, units: dict[str, str]) -> list[Table]:

@@ -172,7 +172,7 @@ def tolerance(
         ties=place.ties,
         indices=sobol,
         n_dropped=n_dropped,
-        **_yield(plan, drawn, level),
+        **yield_of(plan, drawn, level),
         level=level,
     )
 
@@ -233,7 +233,7 @@ def _shares(names: list[str], parts: Floats) -> dict[str, float]:
     return {names[i]: float(shares[i]) for i in np.argsort(-shares)}
 
 
-def _yield(plan: StudyPlan, drawn: Rows, level: float) -> dict[str, float | None]:
+def yield_of(plan: StudyPlan, drawn: Rows, level: float) -> dict[str, float | None]:
     """Share of machines within all limits, with its interval after Clopper and Pearson."""
     if not plan.limits:
         return {"share_within": None, "share_low": None, "share_high": None}

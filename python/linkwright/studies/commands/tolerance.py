@@ -19,6 +19,19 @@ Blocks = Annotated[
     int, Option("--indices", metavar="N", help="Blocks for Sobol indices, such as 1000; 0 for none.", min=0)
 ]
 
+Wanted = Annotated[
+    float | None,
+    Option(
+        "--allocate",
+        metavar="SHARE",
+        help="Find the cheapest tolerances for this yield, such as 0.99, by the `cost` of each.",
+        show_default=False,
+    ),
+]
+Power = Annotated[
+    float, Option("--cost-power", metavar="K", help="Cost of a tolerance f times as wide: cost / f^K.")
+]
+
 
 def tolerance(
     file: StudyArgument,
@@ -27,6 +40,8 @@ def tolerance(
     rows: RowCount = 10_000,
     seed: Seed = 0,
     indices: Blocks = 0,
+    allocate: Wanted = None,
+    cost_power: Power = 1.0,
     json: Json = False,
 ) -> None:
     """How results scatter with the tolerances of a machine, what contributes, and the yield within limits.
@@ -38,6 +53,9 @@ def tolerance(
     from linkwright.studies.tolerance import tolerance as compute
 
     plan = read_study(file, set or [], allow_outside=allow_outside)
+    if allocate is not None:
+        _hand_over_allocation(plan, allocate, cost_power, rows, seed, json=json)
+        return
     found = compute(plan, rows, seed=seed, indices=indices)
     failed = f"{found.n_failed} of {found.n_rows} machines have no answer; they count as outside the limits."
     answer = Answer(
@@ -51,6 +69,35 @@ def tolerance(
         ],
         head=lambda: _head(plan, found),
         tables=lambda: tolerance_tables(found, plan.units),
+    )
+    hand_over(answer, json=json)
+
+
+def _hand_over_allocation(
+    plan: StudyPlan, wanted: float, power: float, rows: int, seed: int, *, json: bool
+) -> None:
+    """The cheapest tolerances for a yield."""
+    from linkwright.kernel.errors import FindingError
+    from linkwright.studies.allocation import allocate
+    from linkwright.studies.tables import allocation_tables
+
+    try:
+        found = allocate(plan, wanted, power=power, rows=rows, seed=seed)
+    except FindingError as error:
+        hand_over(Answer(machine=plan.machine.name, findings=[str(error)]), json=json)
+        return
+    low, high = 100 * found.share_low, 100 * found.share_high
+    head = (
+        f"{plan.machine.name}\ncost {found.cost:.4g} instead of {found.cost_before:.4g}; yield "
+        f"{100 * found.share_within:.4g} % ({low:.4g} to {high:.4g} %) instead of "
+        f"{100 * found.share_before:.4g} %\nheld down by {', '.join(found.active)}"
+    )
+    answer = Answer(
+        machine=plan.machine.name,
+        units=plan.machine.units,
+        results=lambda _: {"allocation": found.to_dict()},
+        head=lambda: head,
+        tables=lambda: allocation_tables(found, plan.units),
     )
     hand_over(answer, json=json)
 

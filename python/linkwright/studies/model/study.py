@@ -70,8 +70,13 @@ class Variable(CheckedDescription):
         None,
         description='Limits about the value of the machine: "± 0.2 mm", "+0.1 -0.3 mm", "25 H7" by ISO 286.',
     )
+    cost: float | None = Field(
+        None, gt=0, description="Cost of the tolerance as it stands; what has one is allocated anew."
+    )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
+        if self.cost is not None and self.tolerance is None:
+            yield fault("cost", found=self.cost, expected="nothing without tolerance")
         given = [way for way in WAYS if getattr(self, way) is not None]
         if len(given) > 1:
             yield fault(

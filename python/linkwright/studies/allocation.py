@@ -1,0 +1,254 @@
+r"""The cheapest tolerances for a wanted yield.
+
+A tolerance that is f times as wide as it stands in the study costs :math:`c f^{-k}`, reciprocal for k = 1
+[1]_, [2]_. To first order the limits of response j, at the distance m from its middle, are kept by z
+deviations if
+
+.. math:: \sum_i \Bigl(\frac{z\, s_{ji}\, \sigma_i f_i}{m_j}\Bigr)^2 \le 1
+
+with derivatives s and standard deviations σ. Cost and limits are sums of powers of f, so that the minimum cost
+is one convex problem of log f [3]_. z is then chosen by Monte Carlo on the machine itself, with the same
+random numbers each time, so that the yield is what was wanted.
+
+References
+----------
+.. [1] Chase, Greenwood, Design issues in mechanical tolerance analysis, Manufacturing Review 1 (1988) 50.
+.. [2] Spotts, Allocation of tolerances to minimize cost of assembly, J. Eng. Ind. 95 (1973) 762: k = 2.
+.. [3] Boyd, Vandenberghe, Convex Optimization, 2004, section 4.5: geometric programming.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Annotated, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.errors import ConvergenceError, FindingError, InputError
+from linkwright.kernel.public import public
+from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.result import Result
+from linkwright.machine.address import get
+from linkwright.studies import sampling
+from linkwright.studies.axes import Axis
+from linkwright.studies.engine import evaluate
+from linkwright.studies.local import limits
+from linkwright.studies.plan import StudyPlan
+from linkwright.studies.slopes import slopes
+from linkwright.studies.tolerance import yield_of
+
+Floats = NDArray[np.float64]
+
+# A tolerance is made wider or narrower by this factor at most.
+_FACTOR = 100.0
+
+# Deviations to the nearest limit that are tried, and halvings of that range: to 1e-3 of a deviation.
+_FEWEST, _MOST, _HALVINGS = 0.05, 8.0, 13
+
+# Steps of differences as a share of a standard deviation.
+_STEP = 1e-2
+
+
+@dataclass(frozen=True)
+class Allocation(Result):
+    """Tolerances of minimum cost that give a yield."""
+
+    tolerances: Annotated[
+        dict[str, tuple[float, float]], About("Variable → limits about the value of the machine [SI].")
+    ]
+    factors: Annotated[dict[str, float], About("Variable → how many times as wide as in the study.")]
+    cost: Annotated[float, Shown("cost of the tolerances", "", "")]
+    cost_before: Annotated[float, Shown("cost of the tolerances of the study", "", "")]
+    share_within: Annotated[float, Shown("yield", "", "")]
+    share_low: Annotated[float, Shown("lower end of the interval of the yield", "", "")]
+    share_high: Annotated[float, Shown("upper end of the interval of the yield", "", "")]
+    share_before: Annotated[float, Shown("yield of the tolerances of the study", "", "")]
+    active: Annotated[tuple[str, ...], About("Limits that hold the tolerances down.")]
+    n_rows: Annotated[int, Shown("machines drawn for each yield", "", "")]
+
+    def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
+        """Numbers and tables by name.
+
+        Parameters
+        ----------
+        curves : bool
+            Without effect.
+
+        Returns
+        -------
+        dict
+            Ready for JSON.
+        """
+        return {**super().to_dict(), "tolerances": dict(self.tolerances), "factors": dict(self.factors)}
+
+
+@public
+def allocate(
+    plan: StudyPlan, wanted: float, *, power: float = 1.0, rows: int = 10_000, seed: int = 0
+) -> Allocation:
+    """Find the cheapest tolerances with which a share of all machines keeps all limits.
+
+    Parameters
+    ----------
+    plan : StudyPlan
+        A study with constraints; variables with a ``tolerance`` and a ``cost`` are allocated, others stay.
+    wanted : float
+        Share of machines within all limits, between 0 and 1.
+    power : float
+        k of the cost :math:`c f^{-k}`, 0.1 to 10.
+    rows : int
+        Machines drawn at random, 100 to 10⁷.
+    seed : int
+        Seed of the random generator.
+
+    Returns
+    -------
+    Allocation
+        Tolerances, their cost and their yield.
+
+    Raises
+    ------
+    InputError
+        There are no limits, no costs, or a number is out of range.
+    FindingError
+        The machine in the middle of the tolerances does not keep the limits, or no tolerances give the yield.
+    """
+    if not 0 < wanted < 1:
+        raise InputError(f"wanted {wanted}: expected a number between 0 and 1, such as 0.99")
+    if not 0.1 <= power <= 10 or not 100 <= rows <= 10_000_000:
+        raise InputError(f"power {power}, rows {rows}: expected 0.1 to 10, and 100 to 10 000 000 rows")
+    problem = _Problem(plan, power)
+    shares = sampling.random(len(plan.axes), seed, 0, rows)
+
+    def yield_at(factors: Floats) -> dict[str, Any]:
+        wider = replace(plan, axes=tuple(map(_widened, plan.axes, factors)))
+        return yield_of(plan, evaluate(plan, wider.values(shares)), 0.95)
+
+    low, high = _FEWEST, _MOST
+    tightest = problem.factors(high)
+    if yield_at(tightest)["share_within"] < wanted:
+        raise FindingError(
+            f"no tolerances give a yield of {100 * wanted:g} %: variables without a cost scatter too much, "
+            "or the middle is too near to a limit; give them a cost, or move the machine"
+        )
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        is_enough = yield_at(problem.factors(middle))["share_within"] >= wanted
+        low, high = (low, middle) if is_enough else (middle, high)
+    factors = problem.factors(high)
+    found, before = yield_at(factors), yield_at(np.ones(len(factors)))
+    names = [axis.name for axis in plan.axes]
+    widened = dict(zip(names, map(_widened, plan.axes, factors), strict=True))
+    return Allocation(
+        tolerances={name: _about(plan, widened[name]) for name in problem.names},
+        factors={name: float(factors[names.index(name)]) for name in problem.names},
+        cost=problem.cost(factors),
+        cost_before=problem.cost(np.ones(len(factors))),
+        share_within=found["share_within"],
+        share_low=found["share_low"],
+        share_high=found["share_high"],
+        share_before=before["share_within"],
+        active=problem.active(factors, high),
+        n_rows=rows,
+    )
+
+
+class _Problem:
+    """Cost and limits as sums of powers of the factors of all variables."""
+
+    def __init__(self, plan: StudyPlan, power: float) -> None:
+        costs = [plan.study.variables[axis.name].cost for axis in plan.axes]
+        self.costs, self.power = np.array([cost or 0.0 for cost in costs]), power
+        self.free = np.flatnonzero(self.costs > 0)
+        self.names = [plan.axes[i].name for i in self.free]
+        if not len(self.free) or not plan.limits:
+            lacks = "constraints" if not plan.limits else "variables with a `cost` beside their tolerance"
+            raise InputError(f"allocation: found no {lacks}")
+        listed = [axis.name for axis in plan.axes if axis.distribution is None]
+        if listed:
+            raise InputError(f"variables.{listed[0]}: found no tolerance, expected one, or a distribution")
+        middles, spread = _moments(plan)
+        place = slopes(plan, middles, _STEP * spread)
+        self.words, rows = [], []
+        for name, limit, way in limits(plan):
+            margin = way * (limit - place.values[name])
+            if margin <= 0:
+                found = f"{name} is {place.values[name]:.6g} in the middle of the tolerances"
+                raise FindingError(f"{found}, beyond its limit {limit:.6g}")
+            self.words.append(f"{'maximum' if way > 0 else 'minimum'} of {name}")
+            rows.append((place.slopes[name] * spread / margin) ** 2)
+        self.table = np.array(rows)
+
+    def cost(self, factors: Floats) -> float:
+        """Cost of all tolerances that have one."""
+        return float(self.costs @ factors**-self.power)
+
+    def factors(self, z: float) -> Floats:
+        """The cheapest ones that keep all limits by z deviations; the narrowest if none do, (variables,)."""
+        from scipy.optimize import minimize
+
+        found = np.ones(len(self.costs))
+        own, fixed = self.table[:, self.free], np.delete(self.table, self.free, axis=1).sum(axis=1)
+        costs = self.costs[self.free] / self.costs.sum()
+        edge = np.log(_FACTOR)
+        room = z**-2.0 - fixed
+        if (room <= own.sum(axis=1) * np.exp(-2 * edge)).any():
+            found[self.free] = 1 / _FACTOR
+            return found
+
+        def use(x: Floats) -> Floats:
+            used: Floats = np.log(own @ np.exp(2 * x) / room)
+            return used
+
+        def use_slope(x: Floats) -> Floats:
+            parts = own * np.exp(2 * x)
+            slope: Floats = 2 * parts / parts.sum(axis=1, keepdims=True)
+            return slope
+
+        # All of them narrower by one factor keep the limits, to begin with.
+        start = np.full(len(self.free), -0.5 * max(float(use(np.zeros(len(self.free))).max()), -2 * edge))
+        kept: Any = {"type": "ineq", "fun": lambda x: -use(x), "jac": lambda x: -use_slope(x)}
+        given: Any = {
+            "fun": lambda x: float(costs @ np.exp(-self.power * x)),
+            "x0": np.clip(start, -edge, edge),
+            "jac": lambda x: -self.power * costs * np.exp(-self.power * x),
+            "bounds": [(-edge, edge)] * len(start),
+            "constraints": [kept],
+            "method": "SLSQP",
+            "options": {"maxiter": 300, "ftol": 1e-13},
+        }
+        best = minimize(**given)
+        if not best.success:
+            raise ConvergenceError(
+                f"the cheapest tolerances were not found ({best.message})", method="SLSQP", iterations=300
+            )
+        found[self.free] = np.exp(best.x)
+        return found
+
+    def active(self, factors: Floats, z: float) -> tuple[str, ...]:
+        """Limits that are nearest by their deviations."""
+        use = z**2 * self.table @ factors**2
+        return tuple(word for word, share in zip(self.words, use, strict=True) if share > 0.999)
+
+
+def _moments(plan: StudyPlan) -> tuple[Floats, Floats]:
+    """Means and standard deviations of the variables as they are cut off."""
+    shares = (np.arange(2000) + 0.5) / 2000
+    values = [axis.values(shares) for axis in plan.axes]
+    return np.array([each.mean() for each in values]), np.array([each.std() for each in values])
+
+
+def _widened(axis: Axis, factor: float) -> Axis:
+    """A variable whose tolerance is wider by a factor, about its middle."""
+    if factor == 1 or axis.distribution is None:
+        return axis
+    kind, mean, deviation = axis.distribution
+    low, high = (mean + factor * (end - mean) for end in (axis.low, axis.high))
+    return replace(axis, low=low, high=high, distribution=(kind, mean, factor * deviation))
+
+
+def _about(plan: StudyPlan, axis: Axis) -> tuple[float, float]:
+    """Limits about the value of the machine."""
+    value = float(get(plan.machine, axis.addresses[0]))
+    return axis.low - value, axis.high - value
