@@ -6,9 +6,9 @@ deviations if
 
 .. math:: \sum_i \Bigl(\frac{z\, s_{ji}\, \sigma_i f_i}{m_j}\Bigr)^2 \le 1
 
-with derivatives s and standard deviations σ. Cost and limits are sums of powers of f, so that the minimum cost
-is one convex problem of log f [3]_. z is then chosen by Monte Carlo on the machine itself, with the same
-random numbers each time, so that the yield is what was wanted.
+with derivatives s and standard deviations σ. Cost and limits are sums of powers of f: the minimum cost is one
+convex problem of log f [3]_. z is then chosen by Monte Carlo on the machine itself, with the same random
+numbers each time, so that the yield is what was wanted.
 
 References
 ----------
