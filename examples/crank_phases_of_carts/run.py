@@ -1,6 +1,6 @@
 """Which angles between the cranks give two, three and four carts the minimum speed fluctuation?
 
-A grid of machines over all phases, then smaller ones about the best. Right angles and thirds are the usual choice.
+A grid of machines over all phases, then smaller ones about the best. Usual are right angles and thirds.
 """
 
 from functools import cache
@@ -17,10 +17,8 @@ CARTS = {2: "roller_two_carts", 3: "roller_three_carts", 4: "roller_four_carts"}
 
 def delta(machine: lw.Machine, phases):
     """δ of machines with the phases of the second crank and those after it, (n, cranks - 1) [rad]."""
-    columns = {
-        f"mechanism.cranks.A{i + 2}.phase": np.ascontiguousarray(row) for i, row in enumerate(phases.T)
-    }
-    return lw.steady_states(machine, columns).unevenness
+    names = [f"mechanism.cranks.A{i + 2}.phase" for i in range(phases.shape[1])]
+    return lw.steady_states(machine, dict(zip(names, phases.T.copy(), strict=True))).unevenness
 
 
 @cache
@@ -28,9 +26,9 @@ def best(carts: int):
     """The best phases [rad], δ there, and δ at the usual phases."""
     machine = lw.read(CARTS[carts])
     usual = np.array([[lw.get(machine, f"mechanism.cranks.A{i}.phase") for i in range(2, carts + 1)]])
-    grid = np.array(list(product(np.radians(np.arange(0, 360, 30)), repeat=carts - 1)))
-    width = np.radians(30)
-    while width > np.radians(0.05):
+    width = np.radians(45 if carts == 4 else 30)
+    grid = np.array(list(product(np.arange(0, 2 * np.pi, width), repeat=carts - 1)))
+    while width > np.radians((0.03, 0.06, 3.0)[carts - 2]):
         found = delta(machine, grid)
         steps = product((-width, -width / 2, 0.0, width / 2, width), repeat=carts - 1)
         middle, low = grid[np.nanargmin(found)], float(np.nanmin(found))
@@ -50,8 +48,8 @@ def figure(machine: lw.Machine):
     """δ of three carts over both phases, with the best and the usual ones."""
     from matplotlib.figure import Figure
 
-    side = np.radians(np.linspace(0, 360, 37))
-    table = delta(machine, np.array(list(product(side, side)))).reshape(37, 37).T
+    side = np.radians(np.linspace(0, 360, 25))
+    table = delta(machine, np.array(list(product(side, side)))).reshape(25, 25).T
     drawing = Figure(figsize=(6.4, 5), layout="constrained")
     axes = drawing.subplots(subplot_kw={"title": "speed fluctuation of three carts", "aspect": "equal"})
     drawing.colorbar(axes.contourf(np.degrees(side), np.degrees(side), table, levels=20), label="δ [–]")

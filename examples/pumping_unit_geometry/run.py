@@ -15,12 +15,10 @@ HERE, STROKE = Path(__file__).parent, 1.41
 
 @cache
 def places():
-    """Place of the crankshaft, radius, torque factors up and down at the stroke that is wanted [m], (5,) each."""
+    """Place of the crankshaft, radius, torque factors up and down at that stroke [m], (5,) each."""
     plan = lw.read_study(HERE / "study.toml")
     columns = lw.evaluate(plan, plan.rows(0, plan.n_rows)).columns
-    front, stroke, *rest = (
-        columns[name].reshape(5, 4) for name in ("front", "stroke", "crank", "up", "down")
-    )
+    front, stroke, *rest = (columns[x].reshape(5, 4) for x in ("front", "stroke", "crank", "up", "down"))
     # All are smooth over the stroke: cubics through the four radii.
     at = [[np.polyfit(s - STROKE, y, 3)[-1] for s, y in zip(stroke, table, strict=True)] for table in rest]
     return front[:, 0], np.array(at[0]), np.array(at[1]), -np.array(at[2])
