@@ -128,6 +128,48 @@ def test_steady_motion_has_exact_derivatives() -> None:
     assert found.values["torque_per_current"] == pytest.approx(1.7, rel=1e-6)
 
 
+TRAIN = """
+format = 1
+name = "Two discs that a load step twists"
+[train.discs]
+left = { inertia = 1 }
+right = { inertia = 2 }
+[train.shafts]
+one = { between = ["left", "right"], stiffness = 1000, damping = 2 }
+[train.loads.step]
+on = "right"
+torque = 100
+speed = 20
+exponent = 0
+[train.transient]
+duration = 0.5
+speed = 20
+balanced = false
+loaded = false
+"""
+
+
+def test_the_manoeuvre_of_a_train_gives_stiffness_and_damping(tmp_path: Path) -> None:
+    """Of a torque step on two discs: ω₁ = √(k (1/J₁ + 1/J₂)), by the speed of one of them."""
+    time = np.arange(0.0, 0.5001, 0.01)
+    # Relative to the mean motion the twist is that of one mass, J = J₁J₂/(J₁ + J₂), under the share M J/J₂.
+    J, k, d, M = 2 / 3, 1000.0, 2.0, 100.0
+    decay, swing = d / (2 * J), np.sqrt(k / J - (d / (2 * J)) ** 2)
+    rate = M / 2 / swing * np.exp(-decay * time) * np.sin(swing * time)
+    right = 20 - M / 3 * time - rate / 3
+    rows = [f"{t:.2f},{s:.12f}" for t, s in zip(time, right, strict=True)]
+    (tmp_path / "train.csv").write_text("\n".join(["time [s],right [rad/s]", *rows]))
+    machine = lw.loads(TRAIN.replace("stiffness = 1000, damping = 2", "stiffness = 1100, damping = 3"))
+    one = "train.shafts.one"
+    tables = {
+        "variables": {"k": {"address": f"{one}.stiffness"}, "d": {"address": f"{one}.damping"}},
+        "fit": {"motion": "manoeuvre"},
+    }
+    found = lw.fit(lw.new_study(machine, tables), lw.read_record(tmp_path / "train.csv", machine))
+    # The load is rounded off near rest, so that the speed is 4e-5 rad/s beside the closed form at the end.
+    assert found.values == pytest.approx({"k": 1000.0, "d": 2.0}, rel=1e-4)
+
+
 def test_what_a_record_does_not_tell_is_said_in_words() -> None:
     """Of a disc that coasts, inertia and friction are known up to a common factor."""
     time = np.linspace(0.0, 6.0, 40)

@@ -101,7 +101,7 @@ def _least_squares(model: Predicted, x: Floats, noise: Floats) -> Floats:
         return slopes
 
     # Changes that are lost in any interval: the sum of squares and the numbers, relative.
-    options: Any = {"ftol": 1e-10, "xtol": 1e-9, "gtol": 1e-12, "max_nfev": 300, "x_scale": "jac"}
+    options: Any = {"ftol": 1e-10, "xtol": 1e-9, "gtol": None, "max_nfev": 300, "x_scale": "jac"}
     found = least_squares(
         residuals, np.clip(x / scale, low, high), jac=jacobian, bounds=(low, high), **options
     )

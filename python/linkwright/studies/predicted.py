@@ -187,7 +187,8 @@ class Predicted:
         places = self.record.at / step
         if np.abs(places - np.round(places)).max() > _PLACE * len(places) or self.record.at[0] < 0:
             raise InputError(f"record: found times that are no multiples of {step:.6g} s after the start")
-        manoeuvre = given.model_copy(update={"duration": float(self.record.at[-1]), "sample_time": step})
+        options = {"duration": float(self.record.at[-1]), "sample_time": step, "accuracy": _ACCURACY}
+        manoeuvre = given.model_copy(update=options)
         motion = torsion_transient(machine, manoeuvre)
         kept = np.round(places).astype(int)
         return {
