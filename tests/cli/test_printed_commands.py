@@ -51,6 +51,8 @@ def prepared(page: Path, folder: Path) -> None:
         # Eight cylinders that fire at one strength, over two revolutions.
         rows = [f"{n}, {1500 * (1 + 0.01 * np.cos(n * np.pi / 90)):.6f}" for n in range(721)]
         (folder / "flywheel.csv").write_text("\n".join(["angle [deg], speed [rpm]", *rows]) + "\n")
+    if "trial.csv" in text:
+        (folder / "trial.csv").write_text("speed [rpm], line [MPa]\n60, 21.5\n76, 90\n90, 30\n")
 
 
 def code_and_output(words: list[str]) -> tuple[int, str]:
