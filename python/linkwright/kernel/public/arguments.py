@@ -327,25 +327,27 @@ def _overrides(name: str, value: Any) -> Any:
 
 
 def _texts(name: str, value: Any) -> Any:
-    """Several texts; one alone would be taken for its letters."""
-    try:
-        found = None if isinstance(value, str | bytes) else tuple(value)
-    except TypeError:
-        found = None
-    if found is None or not all(map(_is_text, found)):
+    """Several texts."""
+    texts = _several(name, value, "a list of texts")
+    if not all(map(_is_text, texts)):
         raise _wrong(name, value, "a list of texts")
-    return found
+    return texts
 
 
 def _numbers_or_texts(name: str, value: Any) -> Any:
     """Several of them; what a text says is read where it is used."""
-    try:
-        parts = None if isinstance(value, str | bytes) else tuple(value)
-    except TypeError:
-        parts = None
-    if parts is None:
-        raise _wrong(name, value, "a list of numbers or texts")
+    parts = _several(name, value, "a list of numbers or texts")
     return tuple(part if _is_text(part) else number(name, part) for part in parts)
+
+
+def _several(name: str, value: Any, expected: str) -> tuple[Any, ...]:
+    """What a list holds; one text alone would be taken for its letters."""
+    if isinstance(value, str | bytes):
+        raise _wrong(name, value, expected)
+    try:
+        return tuple(value)
+    except TypeError:
+        raise _wrong(name, value, expected) from None
 
 
 def _is_text(value: Any) -> bool:
