@@ -427,6 +427,31 @@ def test_steady_motion_of_a_batch_is_that_of_each_machine() -> None:
         np.testing.assert_allclose(found.acceleration_max[row], alone.acceleration_max, rtol=1e-6)
 
 
+@pytest.mark.parametrize("off", [-5e-8, -1.3e-7, -1e-5, 2.7e-7, 1e-5])
+@pytest.mark.parametrize("turned", [0.0, -2.845964151595593])
+def test_no_motion_leads_through_a_gap_however_narrow(off: float, turned: float) -> None:
+    """A rhombus whose rocker is off: coupler and rocker do not reach a pin that passes so near the pivot.
+
+    A rocker that is too short does not reach at the other side either, which must not hide the narrow gap.
+    """
+    machine = four_bar((1.0, 1.0, 1.0 + off, 1.0), turned=turned)
+    # At distance |off| from the pivot: 2 sin(δ/2) = |off|.
+    gap = 2 * np.arcsin(abs(off) / 2)
+    found = lw.closure(machine)
+    assert not found.turns_fully
+    for low, high in found.ranges:
+        turn = 2 * np.pi * np.round((low - turned) / (2 * np.pi))
+        assert not low < turned + turn < high
+    edges = np.array(found.ranges) - turned
+    beside = np.abs((edges + np.pi) % (2 * np.pi) - np.pi)
+    assert np.sort(beside.ravel())[:2] == pytest.approx(gap, rel=1e-6, abs=1e-14)
+    with pytest.raises(AssemblyError, match="R at t = "):
+        lw.motion(machine, lambda t: turned - 0.1 + 0.2 * t, [0.0, 0.4, 1.0])
+    # Extreme positions are those of what closes.
+    (rocker,) = lw.linkage(machine).elements
+    assert np.isfinite([rocker.low, rocker.high]).all()
+
+
 def test_random_linkages_give_answers_or_findings() -> None:
     """Every analysis of positions, of random and of special four-bars: no warning, no NaN."""
     rng = np.random.default_rng(3)

@@ -10,7 +10,7 @@ the motion is not determined.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Annotated
@@ -39,6 +39,9 @@ _CLOSE = 1e-3
 
 # A radicand below this share counts as zero: links in line to a hundred-thousandth of their length.
 _ZERO = 1e-10
+
+# How far beside such an angle the links meet again [rad]: a radicand grows with the square of the distance.
+_REACH = 1e-4
 
 # Angles of a first look, and the share of its maximum above which every radicand has room to spare: one that
 # falls to zero between two of these angles is a few ten-thousandths at the nearer one.
@@ -191,18 +194,24 @@ class _Search:
 
     def run(self) -> Closure | None:
         """The closure; None if it closes all round."""
-        touch = self._between(+1)
+        touches = self._between(+1)
         self._between(-1)
         # Links in line leave zero, or by rounding a little less.
         closes = self.room >= -_ZERO
-        if closes.all():
-            return None if touch is None else self._touched(touch)
-        return Closure(tuple(self._ranges(closes)), self._element(closes), turns=self.turns)
+        if not closes.all():
+            ranges = _without(tuple(self._ranges(closes)), map(self._about, touches), self.period)
+            return Closure(ranges, self._element(closes), turns=self.turns)
+        if not touches:
+            return None
+        # A dyad is stretched or folded: the positions alone do not tell the rates of its links there.
+        at = touches[0]
+        ranges = _without(((at, at + self.period),), map(self._about, touches), self.period)
+        return Closure(ranges, self.limiter(at), at, self.turns)
 
-    def _between(self, sign: int) -> float | None:
+    def _between(self, sign: int) -> list[float]:
         """Adds minima below zero between closing angles (+1), or maxima above zero between open ones (−1).
 
-        Gives the angle of a minimum that touches zero.
+        Gives the angles of minima that touch zero where the motion does not go on.
         """
         room = sign * self.room
         before, after = np.roll(room, 1), np.roll(room, -1)
@@ -210,7 +219,7 @@ class _Search:
         lowest = room - (after - before) ** 2 / (8 * bend)
         found = np.flatnonzero((room <= before) & (room <= after) & (room >= -_ZERO) & (lowest < _CLOSE))
         if not len(found):
-            return None
+            return []
         step = 2 * np.pi / _ANGLES
         near = self.angles[found]
         at, least = minima(lambda x: sign * self.spare(x), near - step, near + step)
@@ -219,10 +228,21 @@ class _Search:
         room = np.concatenate([self.room, sign * least[missed]])
         self.angles, self.room = angles[order], room[order]
         touches = at[np.abs(least) <= _ZERO]
-        touching = [
-            float(x) for x in touches if not (self._is_known(float(x)) or _passes(self.compiled, float(x)))
+        return [
+            float(x) % self.period
+            for x in touches
+            if not (self._is_known(float(x)) or _passes(self.compiled, float(x)))
         ]
-        return touching[0] % self.period if touching else None
+
+    def _about(self, at: float) -> tuple[float, float]:
+        """Angles between which links that touch zero do not meet: one and the same where they are in line."""
+        reach = np.array([at - _REACH, at + _REACH])
+        spare, least = self.spare(reach), float(self.spare(np.array([at]))[0])
+        if least >= 0 or (spare <= 0).any():
+            return at, at
+        near, far = zeros(self.spare, reach, np.array([at, at]))
+        low, high = np.where(self.spare(near) >= 0, near, far)
+        return float(low), float(high)
 
     def _is_known(self, at: float) -> bool:
         """Whether the dyad that touches zero passes a change point there."""
@@ -231,10 +251,6 @@ class _Search:
             point for dyad in dyads_of(self.compiled) if dyad.name == near for point in dyad.change_points
         )
         return any(abs((at - point + np.pi) % turn - np.pi) < _BESIDE for point in known)
-
-    def _touched(self, at: float) -> Closure:
-        """A dyad is stretched or folded: the positions alone do not tell the rates of its links there."""
-        return Closure(((at, at + self.period),), self.limiter(at), at, self.turns)
 
     def _element(self, closes: NDArray[np.bool_]) -> str:
         """The first dyad in build order that does not close somewhere."""
@@ -262,6 +278,26 @@ class _Search:
         edges = np.where(self.spare(near) >= 0, near, far)
         # An angle that closes by rounding alone is the edge itself.
         return np.where(self.spare(inside) > 0, edges, inside)
+
+
+def _without(
+    ranges: tuple[tuple[float, float], ...], gaps: Iterable[tuple[float, float]], period: float
+) -> tuple[tuple[float, float], ...]:
+    """Ranges that end at either side of gaps within them."""
+    for before, after in gaps:
+        cut: list[tuple[float, float]] = []
+        for low, high in ranges:
+            turn = period * np.floor((high - before) / period)
+            left, right = float(before + turn), float(after + turn)
+            if right - period > low:
+                # Once at each end of a range of a whole period.
+                cut.append((right - period, min(left, high)))
+            elif low < left < high:
+                cut += [(low, left), (right, high)]
+            else:
+                cut.append((low, high))
+        ranges = tuple((low, high) for low, high in cut if low <= high)
+    return ranges
 
 
 def _endless(compiled: Compiled) -> Closure:

@@ -38,10 +38,6 @@ pub struct Extremes<R> {
     pub acceleration_max: Extreme<R>,
 }
 
-/// Rounds of refinement for one extreme of machines in lanes: the best step, and steps that promise as much
-/// as it.
-const ROUNDS: usize = 4;
-
 /// By how much the estimate of a step's peak may err, as a share of the range: steps that promise less than
 /// the best by more than this are passed over. Parabolas through samples a quarter of a step apart err
 /// by about 1e-3 of what the quantity changes in the step, itself a fraction of the range.
@@ -184,7 +180,8 @@ impl<R: Real> Turn<R> {
         numbers
     }
 
-    /// In lanes with a machine each: the best step of every lane, and others that promise as much.
+    /// In lanes with a machine each: the best step of every lane, and all that promise as much: a peak near an end of a
+    /// step shows in two, and like cranks give many like peaks.
     #[inline(always)]
     fn largest_of_machine(
         &self,
@@ -200,7 +197,7 @@ impl<R: Real> Turn<R> {
         let mut best = self.largest_of_ends(samples, QUANTITIES[quantity]);
         let (mut steps, mut places) = (vec![0.0; R::LANES], vec![0.0; R::LANES]);
         let mut picks = vec![Pick { step: 0, lane: 0, quantity, at: 0.0 }; R::LANES];
-        for round in 0..ROUNDS {
+        for round in 0..self.steps.len() {
             let (step, hint) = take_best(&mut hints);
             let worth = best.value - range * DOUBT;
             if round > 0 && (hint.value - worth).max_lane() <= 0.0 {

@@ -139,7 +139,11 @@ struct Accepted {
 /// What an explicit step may have of h ∂ε/∂ω: DOP853 is stable up to about 6, and its error grows large before.
 const STABLE: f64 = 4.0;
 
-/// Steps after which it is looked again whether these are stiff: a look costs one evaluation, a step 17.
+/// What an implicit step must have of it at least. An explicit step at the limit of its stability leaves a disturbance, for which
+/// the first implicit steps must be as short; they are to go on until it has died, or the two methods take turns for ever.
+const STIFF: f64 = 1.0;
+
+/// Steps after which it is looked again which method is to go on: a look costs one evaluation, a step 17.
 const LOOK: usize = 8;
 
 impl Path {
@@ -196,8 +200,9 @@ impl Path {
                 self.trajectory.end = end;
                 return;
             }
-            if is_stiff || count % LOOK == 0 {
-                is_stiff = follower.acceleration(t, &y).1 * h < -STABLE;
+            if count % LOOK == 0 {
+                let limit = if is_stiff { STIFF } else { STABLE };
+                is_stiff = follower.acceleration(t, &y).1 * h < -limit;
             }
             let step = match self.step(follower, (t, &y, &k0), h, is_stiff) {
                 Ok(step) => step,
