@@ -60,3 +60,12 @@ def test_peak_of_a_motor_in_a_narrow_corner() -> None:
     # The tip is a point of the table: rounding of the speed there counts by the steepness of the tooth.
     assert found.torque_motor_max == pytest.approx(torque[2], rel=1e-12)
     assert found.power_motor_max == pytest.approx(torque[2] * tip, rel=1e-12)
+
+
+def test_peaks_of_rows_of_like_cranks() -> None:
+    """Four like peaks, each beside an end of a step, so that eight steps promise one."""
+    machine, entry = lw.read("machines/roller_four_carts.toml"), "drive.motor.speed_synchronous"
+    speeds = np.linspace(112.0, 112.1, 6)
+    rows = lw.steady_states(machine, {entry: speeds})
+    alone = [lw.steady_state(lw.replace(machine, {entry: float(speed)}), n=8) for speed in speeds]
+    assert rows.acceleration_max == pytest.approx([each.acceleration_max for each in alone], rel=1e-6)

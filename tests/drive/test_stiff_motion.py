@@ -111,6 +111,16 @@ def test_a_run_up_at_the_end_of_a_range_takes_few_steps(entry: str, value: float
     assert last == pytest.approx(there, rel=1e-6)
 
 
+@pytest.mark.parametrize("accuracy", [1e-5, 1e-6, 1e-7, 1e-9])
+@pytest.mark.parametrize("ratio", [1e6, 1e9])
+def test_the_implicit_method_goes_on_until_disturbances_have_died(accuracy: float, ratio: float) -> None:
+    """What the last explicit step left calls for short steps, which are no reason to go back to it."""
+    machine = lw.replace(lw.read(MACHINES / "roller_two_carts.toml"), {"drive.gearbox.ratio": ratio})
+    found = lw.transient(machine, turns=0.01, accuracy=accuracy)
+    assert [part.method for part in found.methods] == ["explicit", "implicit"]
+    assert found.steps < 100
+
+
 def test_json_and_report_tell_the_methods() -> None:
     machine = lw.replace(lw.read(MACHINES / "roller_one_cart.toml"), {"drive.gearbox.ratio": 98000})
     result = lw.run_up(machine)
