@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.kernel.errors import FindingError
 from linkwright.kinetostatics.friction import Friction
 
 
@@ -22,3 +23,12 @@ def test_the_sum_is_solved_as_the_shares_are(friction: dict[str, Friction] | Non
         assert getattr(alone, name) == pytest.approx(wanted, abs=1e-9 * (1 + np.abs(wanted).max()))
     for name, pair in whole.pairs.items():
         assert alone.pairs[name].force == pytest.approx(pair.force, abs=1e-9 * np.abs(pair.force).max())
+
+
+def test_more_forces_than_fit_are_refused() -> None:
+    """Hundreds of sliders took 26 GB; here it is the angles, which a user can ask for."""
+    machine = lw.read("roller_two_carts")
+    with pytest.raises(
+        FindingError, match=r"found 400 001 crank angles, .* at most 60 000 000"
+    ):
+        lw.forces(machine, n=400_000)

@@ -70,6 +70,11 @@ RESPONSE = Limit(
     "orders, discs and speeds multiplied in a forced response",
     "they take 3 GB",
 )
+FORCES = Limit(
+    60_000_000,
+    "crank angles, equations and unknowns multiplied in a solution for forces",
+    "their matrices take half a gigabyte, and a few copies of them",
+)
 LAW_POINTS = Limit(3_000, "points of a motion law", "their equations are solved as one dense system")
 VIBRATIONS = Limit(25_000, "vibrations of a follower per revolution", "each is looked at by itself")
 STEPS = Limit(36_000, "steps per revolution, for the step method", "a step of 0.01°")

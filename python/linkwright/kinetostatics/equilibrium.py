@@ -16,6 +16,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.kernel.errors import FindingError
+from linkwright.kernel.limits import FORCES, grouped
 from linkwright.kinetostatics.pairs import PairModel
 from linkwright.kinetostatics.places import Scene
 
@@ -81,6 +83,7 @@ class Equilibrium:
         self.spans = [slice(end - size, end) for size, end in zip(sizes, np.cumsum(sizes), strict=True)]
         moments = np.array([moment for model in models for moment in model.moments])
         self.column_scale = np.where(moments, scene.size, 1.0)
+        _require_room(len(loads), len(self.rows), len(moments))
         self.base = self._matrix(
             [unknown.values for model in models for unknown in model.unknowns], row_scale
         )
@@ -177,6 +180,15 @@ class Equilibrium:
         everywhere = np.zeros(len(b), dtype=bool)
         everywhere[where] = singular
         return x, everywhere
+
+
+def _require_room(n: int, equations: int, unknowns: int) -> None:
+    """Raise if the matrices of all angles are too large."""
+    if n * equations * unknowns > FORCES.most:
+        raise FindingError(
+            f"forces: found {grouped(n)} crank angles, {equations} equations and {unknowns} unknowns, "
+            f"expected {FORCES.words}; ask for fewer angles, or describe a part of the machine"
+        )
 
 
 def _rows(scene: Scene) -> tuple[NDArray[np.intp], Floats]:

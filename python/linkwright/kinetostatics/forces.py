@@ -92,7 +92,7 @@ def forces(
     Raises
     ------
     FindingError
-        There are no forces at any angle.
+        There are no forces at any angle, or more unknowns at all angles than are solved for at once.
     InputError
         Motion and speed are both given, or neither where the machine has none; wrong friction.
 
