@@ -26,9 +26,12 @@ def test_the_sum_is_solved_as_the_shares_are(friction: dict[str, Friction] | Non
 
 
 def test_more_forces_than_fit_are_refused() -> None:
-    """Hundreds of sliders took 26 GB; here it is the angles, which a user can ask for."""
-    machine = lw.read("roller_two_carts")
-    with pytest.raises(
-        FindingError, match=r"found 400 001 crank angles, .* at most 60 000 000"
-    ):
-        lw.forces(machine, n=400_000)
+    """600 sliders would take 26 GB."""
+    numbers = range(120)
+    sliders = "".join(f'[mechanism.sliders.S{k}]\ncrank = "A"\nrod = 0.8\n' for k in numbers)
+    bodies = "".join(f"S{k} = {{ mass = 1 }}\n" for k in numbers)
+    machine = lw.loads(
+        f'format = 1\nname = "x"\n[mechanism.cranks.A]\nradius = 0.2\n{sliders}[bodies]\n{bodies}'
+    )
+    with pytest.raises(FindingError, match=r"found 121 crank angles, .* at most 60 000 000"):
+        lw.forces(machine, speed=1.0, n=120)
