@@ -7,6 +7,8 @@ import pytest
 
 import linkwright as lw
 from linkwright.kernel.errors import FindingError
+from linkwright.kernel.limits import Limit
+from linkwright.kinetostatics import equilibrium
 from linkwright.kinetostatics.friction import Friction
 
 
@@ -25,13 +27,10 @@ def test_the_sum_is_solved_as_the_shares_are(friction: dict[str, Friction] | Non
         assert alone.pairs[name].force == pytest.approx(pair.force, abs=1e-9 * np.abs(pair.force).max())
 
 
-def test_more_forces_than_fit_are_refused() -> None:
+def test_more_forces_than_fit_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     """600 sliders would take 26 GB."""
-    numbers = range(120)
-    sliders = "".join(f'[mechanism.sliders.S{k}]\ncrank = "A"\nrod = 0.8\n' for k in numbers)
-    bodies = "".join(f"S{k} = {{ mass = 1 }}\n" for k in numbers)
-    machine = lw.loads(
-        f'format = 1\nname = "x"\n[mechanism.cranks.A]\nradius = 0.2\n{sliders}[bodies]\n{bodies}'
-    )
-    with pytest.raises(FindingError, match=r"found 121 crank angles, .* at most 60 000 000"):
-        lw.forces(machine, speed=1.0, n=120)
+    monkeypatch.setattr(equilibrium, "FORCES", Limit(10_000, "of all", "a smaller limit is met sooner"))
+    machine = lw.read("roller_two_carts")
+    lw.forces(machine, n=10)
+    with pytest.raises(FindingError, match=r"found 361 crank angles, 18 equations .* at most 10 000 of all"):
+        lw.forces(machine, n=360)
