@@ -37,8 +37,12 @@ def machine_files() -> dict[str, str]:
     return texts | {f"template {name}": template(name) for name in templates()}
 
 
-# What lies beside machine files that refer to it.
-BESIDE = (ROOT / "machines" / "v_diesel_indicator.csv", ROOT / "examples" / "topper_field" / "roots.csv")
+# What lies beside machine files that refer to it: tables and drawings.
+BESIDE = [
+    path
+    for kind in ("csv", "dxf")
+    for path in (*ROOT.glob(f"machines/*.{kind}"), *ROOT.glob(f"examples/*/*.{kind}"))
+]
 
 
 @contextmanager
