@@ -15,6 +15,7 @@ from linkwright.kernel.errors import InputError
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.response import Operating, respond
 from linkwright.torsion.core.train import ReferredTrain, refer
+from linkwright.torsion.model.engine.engine import ReciprocatingEngine
 from linkwright.torsion.modes.free import train_of
 from linkwright.torsion.response.engine_torques import CylinderStates, cylinder_torques, throw_sources
 from linkwright.torsion.response.excited_train import ExcitedTrain, highest_order, under
@@ -87,20 +88,24 @@ Floats = NDArray[np.float64]
 _STEP = 1e-4
 
 
+def the_engine(machine: Machine) -> ReciprocatingEngine:
+    """The one engine of a machine. Raises InputError: there is none, or several."""
+    if machine.train is None or machine.train.engine is None or machine.train.engines:
+        raise InputError(
+            f"{machine.name} has no [train.engine] alone: expected one engine, whose cylinders "
+            "are to be judged"
+        )
+    return machine.train.engine
+
+
 class EngineSpeed:
     """Speed of one disc of an engine at one speed of its crank. `speed`: mean speed of the crank [rad/s]."""
 
     def __init__(self, machine: Machine, speed: float, disc: str, *, rigid: bool = False) -> None:
-        train = machine.train
-        if train is None or train.engine is None or train.engines:
-            raise InputError(
-                f"{machine.name} has no [train.engine] alone: expected one engine, whose cylinders "
-                "are to be judged"
-            )
-        self.machine, self.engine, self.disc, self.rigid = machine, train.engine, disc, rigid
+        self.machine, self.engine, self.disc, self.rigid = machine, the_engine(machine), disc, rigid
         self.train = train_of(machine)
         self.referred = refer(self.train)
-        self.gas = cylinder_torques(self.engine, np.array([speed]), highest_order(train))
+        self.gas = cylinder_torques(self.engine, np.array([speed]), highest_order(self.train))
 
     def states(self, values: Floats) -> ExcitedTrain:
         """The train in some states of its cylinders.

@@ -13,6 +13,7 @@ from linkwright.machine.machine import Machine
 from linkwright.torsion.core.train import refer
 from linkwright.torsion.diagnosis.diagnosis import Diagnosis
 from linkwright.torsion.diagnosis.engine_diagnosis import engine_diagnosis
+from linkwright.torsion.diagnosis.engine_speed import the_engine
 from linkwright.torsion.diagnosis.measured_speed import recorded_speed
 from linkwright.torsion.model.engine.engine import ReciprocatingEngine, firing_angles
 from linkwright.torsion.modes.free import train_of
@@ -156,7 +157,7 @@ def record_diagnosis(
     InputError
         The machine has no engine, or the record does not fit it.
     """
-    engine = _engine(machine)
+    engine = the_engine(machine)
     turns = engine.strokes // 2
     record = recorded_speed(np.asarray(angle, float) + _offset(engine, zero), speed, turns)
     if record.mean <= 0:
@@ -165,16 +166,6 @@ def record_diagnosis(
     orders = record.orders(excited_train(machine, np.array([crank])).torques.orders)
     measured = record.harmonics(disc, orders, noise)
     return RecordDiagnosis(disc, crank, len(orders), engine_diagnosis(machine, measured, crank, rigid=rigid))
-
-
-def _engine(machine: Machine) -> ReciprocatingEngine:
-    """The engine of a machine."""
-    if machine.train is None or machine.train.engine is None or machine.train.engines:
-        raise InputError(
-            f"{machine.name} has no [train.engine] alone: expected one engine, whose cylinders "
-            "are to be judged"
-        )
-    return machine.train.engine
 
 
 def _offset(engine: ReciprocatingEngine, zero: int | None) -> float:

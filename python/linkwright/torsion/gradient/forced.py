@@ -81,13 +81,14 @@ def forced_tangents(machine: Machine, variables: Sequence[str]) -> ForcedTangent
     refused = _refused(machine, variables)
     train, referred, d = train_tangents(machine, variables, refused)
     at = excited_train(machine)
-    peaks = _peaks(at, has_engine=bool(machine.train.installed))
+    q = responses(at)
+    peaks = _peaks(at, q, has_engine=bool(machine.train.installed))
     places = sorted({place for _, _, place, _ in peaks})
     torques = _torque_tangents(machine, train, referred, at.torques.speeds[places], d.variables, refused)
     _refuse_moved(machine, d, torques, refused)
     known = [name for name in d.variables if name not in refused]
     forced = _Adjoint(
-        at, d.only(known), {place: torques[n].only(d.variables, known) for n, place in enumerate(places)}
+        at, q, d.only(known), {place: torques[n].only(d.variables, known) for n, place in enumerate(places)}
     )
     found: dict[str, dict[str, Tangent]] = {"vibratory": {}, "greatest": {}}
     ties: dict[str, str] = {}
@@ -134,9 +135,9 @@ def _refuse_moved(
             refused[name] = "it changes the mean torque of a coupling, whose stiffness is that of a curve"
 
 
-def _peaks(at: ExcitedTrain, *, has_engine: bool) -> list[tuple[str, int, int, str]]:
+def _peaks(at: ExcitedTrain, q: Complexes, *, has_engine: bool) -> list[tuple[str, int, int, str]]:
     """What is asked: quantity, place of the shaft, place of the speed where it is largest, why it ties."""
-    response = response_by_amplitudes(at, responses(at))
+    response = response_by_amplitudes(at, q)
     curves = {"vibratory": response.shaft_torque_vibratory}
     # What an engine gives beyond its loads goes into all inertias, and loops share by stiffness.
     if tree_of(at.referred) is not None and not has_engine:
@@ -144,7 +145,9 @@ def _peaks(at: ExcitedTrain, *, has_engine: bool) -> list[tuple[str, int, int, s
     peaks = []
     for kind, table in curves.items():
         for shaft, row in enumerate(table):
-            if not np.isfinite(row).all() or not row.any() or _is_rigid(at, response.shaft_torques, shaft):
+            if not np.isfinite(row).all() or not row.any():
+                continue
+            if _is_rigid(at, q, response.shaft_torques, shaft):
                 continue
             best = int(row.argmax())
             others = np.flatnonzero(row >= row[best] * (1 - _TIE))
@@ -153,9 +156,8 @@ def _peaks(at: ExcitedTrain, *, has_engine: bool) -> list[tuple[str, int, int, s
     return peaks
 
 
-def _is_rigid(at: ExcitedTrain, torques: Complexes, shaft: int) -> bool:
+def _is_rigid(at: ExcitedTrain, q: Complexes, torques: Complexes, shaft: int) -> bool:
     """Whether the twist of a shaft is rounding."""
-    q = responses(at)
     twisted = (
         _stiffness(at, shaft, slice(None)) * _twist(at.referred, q, shaft) / lead_speeds(at.referred)[shaft]
     )
@@ -268,13 +270,16 @@ def _add_wave(table: Any, orders: Floats, disc: int, order: float, size: Any, ph
 class _Adjoint:
     """Derivatives of what shafts carry at some speeds."""
 
-    def __init__(self, at: ExcitedTrain, d: TrainTangents, torques: dict[int, _TorqueTangents]) -> None:
-        self.at, self.d, self.torques = at, d, torques
-        self.q = responses(at)
+    def __init__(
+        self, at: ExcitedTrain, q: Complexes, d: TrainTangents, torques: dict[int, _TorqueTangents]
+    ) -> None:
+        self.at, self.q, self.d, self.torques = at, q, d, torques
+        self.lead = lead_speeds(at.referred)
+        self._orders = orders_together(at.torques.orders)
 
     def response(self, kind: str, shaft: int, place: int) -> tuple[float, Floats, str]:
         """Value, derivatives, and why it has one on either side only."""
-        lead = lead_speeds(self.at.referred)[shaft]
+        lead = self.lead[shaft]
         t = (
             _stiffness(self.at, shaft, [place])[:, 0]
             * _twist(self.at.referred, self.q, shaft)[:, place]
@@ -312,10 +317,6 @@ class _Adjoint:
             (bottom - rest, [self._weights(t, tau, -1.0) for tau in (at_bottom, *_rivals(-wave, at_bottom))]),
         )
 
-    @property
-    def _orders(self) -> Any:
-        return orders_together(self.at.torques.orders)
-
     def _weights(self, t: Complexes, tau: float, sign: float) -> Complexes:
         """What an extreme owes to each order, dy = Re Σ w dt."""
         orders = self._orders
@@ -327,7 +328,7 @@ class _Adjoint:
     def _slope(self, shaft: int, place: int, w: Complexes) -> Floats:
         """Re Σ (w ds Δ + λᵀ(dM − dH q)) by the variables."""
         at, d, r = self.at, self.d, self.at.referred
-        lead = lead_speeds(r)[shaft]
+        lead = self.lead[shaft]
         q = self.q[:, :, place]
         twists = np.stack([_twist(r, q, s) for s in range(len(r.shafts))], axis=1)
         total = np.zeros(len(d.variables))

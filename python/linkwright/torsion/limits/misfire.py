@@ -13,7 +13,7 @@ References
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
@@ -23,7 +23,7 @@ from linkwright.kernel.quantities import About
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import Kind
 from linkwright.machine.machine import Machine
-from linkwright.torsion.limits.criteria import PASSING_STRESS, Criterion, criteria
+from linkwright.torsion.limits.criteria import PASSING_STRESS, Criterion
 from linkwright.torsion.response.engine_torques import (
     CylinderStates,
     EnginePlace,
@@ -32,14 +32,10 @@ from linkwright.torsion.response.engine_torques import (
     throw_sources,
 )
 from linkwright.torsion.response.excited_train import ExcitedTrain, highest_order, under
-from linkwright.torsion.response.forced import torsion_response
 from linkwright.torsion.response.harmonics import Source
-from linkwright.torsion.response.survey import Survey, between
+from linkwright.torsion.response.survey import Survey
 
 Floats = NDArray[np.float64]
-
-# Speeds that are looked at in one piece.
-_AT_ONCE = 256
 
 
 class MisfireCase(NamedTuple):
@@ -91,7 +87,7 @@ def misfire_verdict(machine: Machine, seen: Survey) -> MisfireVerdict | None:
         return None
     worst: list[MisfireJudgement | None] = [None] * len(normal)
     for case in cases:
-        for n, found in enumerate(_criteria(machine, seen, case.at)):
+        for n, found in enumerate(_criteria(seen, case.at)):
             judged = _judged(found, seen.speeds, case.cylinder)
             before = worst[n]
             if before is None or _ratio(judged) > _ratio(before):
@@ -132,20 +128,10 @@ def _counts(criterion: Criterion) -> bool:
     return criterion.what != PASSING_STRESS and not np.isnan(criterion.permitted).all()
 
 
-def _criteria(machine: Machine, seen: Survey, at: ExcitedTrain) -> list[Criterion]:
-    """All limits at the speeds of a survey, in its order."""
-    places = [k for k, each in enumerate(seen.criteria) if _counts(each)]
-    parts = []
-    for first in range(0, len(seen.speeds), _AT_ONCE):
-        there = between(machine, at, seen.speeds[first : first + _AT_ONCE])
-        parts.append(criteria(machine, there, torsion_response(there), seen.service))
-    return [
-        parts[0][k]._replace(
-            found=np.concatenate([part[k].found for part in parts]),
-            permitted=np.concatenate([part[k].permitted for part in parts]),
-        )
-        for k in places
-    ]
+def _criteria(seen: Survey, at: ExcitedTrain) -> list[Criterion]:
+    """The limits that count of another train at the speeds of a survey, in its order."""
+    limits = replace(seen, at=at).criteria_at(seen.speeds)
+    return [limit for limit, normal in zip(limits, seen.criteria, strict=True) if _counts(normal)]
 
 
 def _judged(criterion: Criterion, speeds: Floats, cylinder: str) -> MisfireJudgement:
