@@ -409,6 +409,7 @@ _CHECKS: dict[str, Check] = {
     "Mapping[str, float]": _mapping,
     "Mapping[str, str]": _mapping,
     "Mapping[str, Friction]": _mapping,
+    "Mapping[str, MeasuredResponse]": _mapping,
     "Sequence[str]": _texts,
     "Sequence[float | str]": _numbers_or_texts,
     "Iterable[str]": _texts,
