@@ -1,10 +1,9 @@
-"""Flywheels of textbooks: R. S. Khurmi, J. K. Gupta, Theory of Machines, 2005, chapter 16; and Shigley."""
+"""Flywheels of a textbook: R. S. Khurmi, J. K. Gupta, Theory of Machines, 2005, chapter 16."""
 
 from __future__ import annotations
 
 import math
 
-import numpy as np
 import pytest
 
 import linkwright as lw
@@ -70,37 +69,3 @@ def test_example_16_8() -> None:
     assert found.flywheel_inertia == pytest.approx(3121, abs=3.0)
     # At 45° the excess is 9500 N m.
     assert 9500 / found.flywheel_inertia == pytest.approx(3.044, abs=0.003)
-
-
-# Torque of a single-cylinder four-stroke engine every 15° over two revolutions [lbf in]: J. E. Shigley,
-# C. R. Mischke, R. G. Budynas, Mechanical Engineering Design, 7th edition 2004, table 16-6.
-_SHIGLEY = (
-    *(0, 2800, 2090, 2430, 2160, 1840, 1590, 1210, 1066, 803, 532, 184),
-    *(0, -107, -206, -260, -323, -310, -242, -126, -8, 89, 125, 85),
-    *(0, -85, -125, -89, 8, 126, 242, 310, 323, 280, 206, 107),
-    *(0, -107, -206, -292, -355, -371, -362, -312, -272, -274, -548, -760, 0),
-)
-
-
-def test_four_stroke_engine_by_a_table_of_torques() -> None:
-    """Example 16-6: 3368 lbf in of work, 268 lbf in on average, 3531 lbf in from 0° to 180° are printed."""
-    pound_inch = 4.4482216152605 * 0.0254
-    found = diagram(
-        speed=250.0,
-        cycle="720 deg",
-        unevenness=0.1,
-        driver={
-            "kind": "table",
-            "between": "linear",
-            "angle": f"{', '.join(str(15 * k) for k in range(49))} deg",
-            "torque": [f"{torque} in lb" for torque in _SHIGLEY],
-        },
-    )
-    assert found.torque_mean * 4 * math.pi / pound_inch == pytest.approx(3368, abs=0.5)
-    assert found.torque_mean / pound_inch == pytest.approx(268, abs=0.5)
-    # The book takes the loop of the expansion stroke from 0° to 180° as ΔE; here it ends where the torque
-    # crosses its mean, which makes it 1.5 % larger.
-    energy = np.interp(np.radians([0, 180]), found.crank_angle, found.energy)
-    assert (energy[1] - energy[0]) / pound_inch == pytest.approx(3531, abs=1.0)
-    assert found.energy_fluctuation / pound_inch > 3531
-    assert found.flywheel_inertia == pytest.approx(found.energy_fluctuation / (0.1 * 250**2), rel=1e-12)
