@@ -31,10 +31,10 @@ def study(machine: lw.Machine) -> dict[str, float]:
 def figure(machine: lw.Machine):
     """Speed and acceleration over time."""
     from linkwright.drive.figures import in_time_figure
-    from linkwright.kernel.page.out_units import OutUnits
 
     motion = lw.transient(machine, angle=lw.zero_angle(machine, "top").angle, turns=3.0)
-    return in_time_figure(motion, lw.motion_extremes(motion), OutUnits.of("rpm"))
+    with lw.shown_in("rpm"):
+        return in_time_figure(motion, lw.motion_extremes(motion))
 
 
 if __name__ == "__main__":

@@ -157,7 +157,7 @@ def test_every_law_of_the_catalogue_can_stand_in_a_file() -> None:
     ]
     assert len(kinds) == len(set(kinds))
     assert set(LAWS) <= set(kinds)
-    assert set(kinds) - set(LAWS) == {"polynomial", "limited", "spline", "table"}
+    assert set(kinds) - set(LAWS) == {"polynomial", "limited", "spline", "table", "formula"}
     plain = set(kinds_of(PlainLaw))
     assert plain == {name for name, entry in LAWS.items() if not entry.parameters}
     assert get_args(CombinedLaw.model_fields["ramp"].annotation) == RAMPS

@@ -56,6 +56,7 @@ air = { kind = "viscous", on = "K", damping = 3 }
 oil = { kind = "viscous", on = "R.coupler", damping_torsional = 0.4 }
 rub = { kind = "dry", on = "K", force = 7 }
 motor = { kind = "torque", on = "R.rocker", torque = 3 }
+pump = { kind = "torque_swing", on = "R.rocker", angle = [0, 2, 4], forward = [2, 6, 3], return = [1, 1, 2] }
 """,
     "two cranks, one pin with two rods": _CRANK
     + """
