@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from linkwright.drive.crank_speed import speed_words, speeds_of
 from linkwright.kernel.command.answer import Answer, hand_over
-from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
+from linkwright.kernel.command.common import File, Json, Outside, Sets, named_entries, option_value
 from linkwright.kernel.command.out import Force, out_option, output_folder
 from linkwright.kernel.command.parameter import Option
 from linkwright.kernel.errors import InputError
@@ -164,19 +164,9 @@ def _cases(
     options["friction"] = _frictions(machine, frictions)
     if not cases:
         return {machine.name: compute(machine, **options)}, machine
-    named = dict(_case(text) for text in cases)
+    named = dict(named_entries("--case", text, "idle: loads.work.force=0") for text in cases)
     found = {name: compute(read_with(entries), **options) for name, entries in named.items()}
     return found, machine
-
-
-def _case(text: str) -> tuple[str, list[str]]:
-    """Name and overrides of a case."""
-    name, colon, entries = text.partition(":")
-    if not colon or not name.strip():
-        raise InputError(
-            f'--case: found "{text}", expected a name, a colon and entries, as in "idle: loads.work.force=0"'
-        )
-    return name.strip(), [each.strip() for each in entries.split(";") if each.strip()]
 
 
 def _frictions(machine: Machine, texts: list[str]) -> dict[str, Friction]:

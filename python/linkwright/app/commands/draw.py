@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import click
 
 from linkwright.kernel.command.common import File, Outside, Sets, option_value
-from linkwright.kernel.command.out import Force, say_written
+from linkwright.kernel.command.out import Force, output_files, say_written
 from linkwright.kernel.command.parameter import Option
 from linkwright.kernel.errors import FindingError, InputError, plain
 
@@ -73,7 +72,7 @@ def draw(
     from linkwright.kernel.files.output import write_file
     from linkwright.machine.read import read
 
-    places = _places(out or ["drawing.svg"])
+    places = output_files("--out", out or ["drawing.svg"], (*_STILL, *_MOVING), force=force)
     lasting = _lasting(seconds)
     machine = read(file, set or [], allow_outside=allow_outside)
     scene, place = _scene(machine, at)
@@ -82,16 +81,6 @@ def draw(
             data = _data(scene, place, lasting, path.suffix.lower())
         write_file(path, data, replace=force)
     say_written(places, quiet=False)
-
-
-def _places(names: list[str]) -> list[Path]:
-    """Files to write."""
-    for name in names:
-        if Path(name).suffix.lower() not in (*_STILL, *_MOVING):
-            raise InputError(
-                f'--out: found "{name}", expected a file that ends in {", ".join((*_STILL, *_MOVING))}'
-            )
-    return [Path(name) for name in names]
 
 
 def _lasting(text: str | None) -> float:

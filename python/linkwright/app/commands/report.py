@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from linkwright.kernel.command.answer import Answer, finish, taken
-from linkwright.kernel.command.out import Force, command_line, say_written
+from linkwright.kernel.command.out import Force, command_line, output_files, say_written
 from linkwright.kernel.command.parameter import Argument, Option
 from linkwright.kernel.errors import InputError
 
@@ -81,7 +81,7 @@ def report(
     from linkwright.app.report.company import read_heading
     from linkwright.kernel.page.content import Heading
 
-    places = _places(to or ["report.html"], force=force)
+    places = output_files("--to", to or ["report.html"], (".html", ".pdf"), force=force)
     wanted = _sections(sections)
     head = read_heading(company) if company is not None else Heading()
     variants = [of_text(each) for each in variant or ()]
@@ -94,19 +94,6 @@ def report(
         content = compared(content, whole, others)
     _write(replace(content, heading=head), places, force=force)
     finish(Answer(machine=None, findings=content.findings))
-
-
-def _places(names: list[str], *, force: bool) -> list[Path]:
-    """Files to write; what cannot be one is reported before anything is computed."""
-    for name in names:
-        place = Path(name)
-        if place.suffix.lower() not in (".html", ".pdf"):
-            raise InputError(f'--to: found "{name}", expected a file that ends in .html or .pdf')
-        if not place.parent.is_dir():
-            raise InputError(f"--to: there is no folder {place.parent}")
-        if place.exists() and not force:
-            raise InputError(f"{place}: exists already; --force replaces it")
-    return [Path(name) for name in names]
 
 
 def _sections(text: str | None) -> list[str] | None:

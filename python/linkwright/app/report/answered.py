@@ -9,6 +9,7 @@ from io import StringIO
 from typing import NamedTuple
 
 from linkwright.kernel.command.answer import Answer
+from linkwright.kernel.command.common import named_entries
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.figure.captioned import Captioned
 from linkwright.kernel.page.content import Content, Part
@@ -30,14 +31,11 @@ def variant(text: str) -> Variant:
     InputError
         It has no name or no entry.
     """
-    name, _, entries = text.partition(":")
-    listed = tuple(each.strip() for each in entries.split(";") if each.strip())
-    if not name.strip() or not listed:
-        raise InputError(
-            f'--variant: found "{text}", expected a name, a colon and entries, as in '
-            '"heavier: bodies.cart1.mass=900 kg"'
-        )
-    return Variant(name.strip(), listed)
+    example = "heavier: bodies.cart1.mass=900 kg"
+    name, entries = named_entries("--variant", text, example)
+    if not entries:
+        raise InputError(f'--variant: found "{text}", expected entries behind the colon, as in "{example}"')
+    return Variant(name, tuple(entries))
 
 
 def answered(answer: Answer, command: str) -> Content:

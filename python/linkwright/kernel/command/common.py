@@ -104,6 +104,20 @@ def reports_errors(
     return run
 
 
+def named_entries(option: str, text: str, example: str) -> tuple[str, list[str]]:
+    """Name and overrides of ``"NAME: PATH=VALUE; …"``.
+
+    Raises
+    ------
+    InputError
+        There is no colon, or no name before it.
+    """
+    name, colon, entries = text.partition(":")
+    if not colon or not name.strip():
+        raise InputError(f'{option}: found "{text}", expected a name, a colon and entries, as in "{example}"')
+    return name.strip(), [each.strip() for each in entries.split(";") if each.strip()]
+
+
 def option_value(option: str, text: str, kind: Kind) -> float:
     """The value of an option that is a quantity; a bare number is SI, where it can mean but one unit.
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import click
 
 from linkwright.kernel.command.parameter import Option
+from linkwright.kernel.errors import InputError
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -55,6 +56,26 @@ def output_folder(out: Path | None, *, force: bool) -> OutputFolder | None:
     folder = OutputFolder(out, force)
     folder.require()
     return folder
+
+
+def output_files(option: str, names: Sequence[str], endings: Sequence[str], *, force: bool) -> list[Path]:
+    """The files that an option names; what cannot be one is reported before anything is computed.
+
+    Raises
+    ------
+    InputError
+        A file ends in none of the endings, has no folder, or exists and is not to be replaced.
+    """
+    for name in names:
+        place = Path(name)
+        if place.suffix.lower() not in endings:
+            listed = f"{', '.join(endings[:-1])} or {endings[-1]}"
+            raise InputError(f'{option}: found "{name}", expected a file that ends in {listed}')
+        if not place.parent.is_dir():
+            raise InputError(f"{option}: there is no folder {place.parent}")
+        if place.exists() and not force:
+            raise InputError(f"{place}: exists already; --force replaces it")
+    return [Path(name) for name in names]
 
 
 def write_folder(
