@@ -1,5 +1,11 @@
 """What all tests share: random cases are always the same ones, and a busy machine is no failure."""
 
+import os
+
+# Tests run beside each other: threads of linear algebra would only wait for one another, busily. It counts
+# before NumPy is imported, and for the processes that tests start.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 from hypothesis import settings
 
 settings.register_profile("same cases, any speed", derandomize=True, deadline=None)

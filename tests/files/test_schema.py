@@ -18,16 +18,17 @@ TEXTS = {path.stem: path.read_text(encoding="utf-8") for path in MACHINES} | {
 }
 
 
+@pytest.fixture(scope="module")
 def validator() -> jsonschema.Draft202012Validator:
-    """A validator of machine files."""
+    """A validator of machine files, whose schema keeps to its own draft."""
     made = schema()
     jsonschema.Draft202012Validator.check_schema(made)
     return jsonschema.Draft202012Validator(made)
 
 
 @pytest.mark.parametrize("name", TEXTS)
-def test_shipped_machines_are_valid(name: str) -> None:
-    validator().validate(tomllib.loads(TEXTS[name]))
+def test_shipped_machines_are_valid(validator: jsonschema.Draft202012Validator, name: str) -> None:
+    validator.validate(tomllib.loads(TEXTS[name]))
 
 
 @pytest.mark.parametrize(
@@ -41,11 +42,13 @@ def test_shipped_machines_are_valid(name: str) -> None:
         ("loads", "x", {"kind": "nothing"}),
     ],
 )
-def test_wrong_entries_are_refused(table: str, key: str, value: object) -> None:
+def test_wrong_entries_are_refused(
+    validator: jsonschema.Draft202012Validator, table: str, key: str, value: object
+) -> None:
     machine = tomllib.loads(template("two-carts"))
     machine[table][key] = value
     with pytest.raises(jsonschema.ValidationError):
-        validator().validate(machine)
+        validator.validate(machine)
 
 
 def test_every_key_is_described() -> None:

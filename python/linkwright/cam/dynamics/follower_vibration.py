@@ -34,6 +34,8 @@ from linkwright.kernel.result import Result
 from linkwright.kernel.units import COUNT, SPEED, positive
 
 Floats = NDArray[np.float64]
+# Values and their first two derivatives by the cam angle or the time, (m,) each.
+Derivatives = tuple[Floats, Floats, Floats]
 
 
 class Impulse(NamedTuple):
@@ -106,13 +108,16 @@ class Train:
         """The lift or a derivative in given steps."""
         return in_pieces(self.lift.derivative(order), self.departure.pieces[step], phi)
 
-    def motion(self, step: Indices, phi: Floats) -> tuple[Floats, Floats, Floats]:
+    def motion(self, step: Indices, phi: Floats) -> Derivatives:
         """Place, velocity and acceleration of the mass.
 
         ``step`` (m,): step of the answer in which each angle lies; ``phi`` (m,): cam angles [rad] → position,
         velocity, acceleration: x, ẋ, ẍ [m, m/s, m/s²], (m,).
         """
-        parts = self.departure.at(step, phi)
+        return self._motion(self.departure.at(step, phi), step, phi)
+
+    def _motion(self, parts: Derivatives, step: Indices, phi: Floats) -> Derivatives:
+        """Motion of the mass from the departure and its derivatives."""
         x, v, a = (self.model.share * self._lift(k, step, phi) + part for k, part in enumerate(parts))
         return x, v * self.speed, a * self.speed**2
 
@@ -122,7 +127,7 @@ class Train:
         ``step`` (m,): step of the answer in which each angle lies; ``phi`` (m,): cam angles [rad] → F [N],
         (m,).
         """
-        return self._force(step, phi, 0) + self.model.preload
+        return self._force(self.departure.at(step, phi), step, phi, 0) + self.model.preload
 
     def force_slope(self, step: Indices, phi: Floats) -> Floats:
         """Derivative of the force by the cam angle.
@@ -130,11 +135,11 @@ class Train:
         ``step`` (m,): step of the answer in which each angle lies; ``phi`` (m,): cam angles [rad] → dF/dφ
         [N/rad], (m,).
         """
-        return self._force(step, phi, 1)
+        return self._force(self.departure.at(step, phi), step, phi, 1)
 
-    def _force(self, step: Indices, phi: Floats, order: int) -> Floats:
+    def _force(self, parts: Derivatives, step: Indices, phi: Floats, order: int) -> Floats:
         """k(s − x) + cω(s′ − x′), or its derivative."""
-        model, parts = self.model, self.departure.at(step, phi)
+        model = self.model
         gap, gap_d1 = (
             (1 - model.share) * self._lift(order + k, step, phi) - parts[order + k] for k in range(2)
         )
@@ -153,9 +158,10 @@ class Train:
 
     def _jerk(self, step: Indices, phi: Floats) -> Floats:
         """Derivative of ẍ by the cam angle, from the equation of motion."""
-        model, (_, v, a) = self.model, self.motion(step, phi)
+        model, parts = self.model, self.departure.at(step, phi)
+        _, v, a = self._motion(parts, step, phi)
         frame = 2 * model.damping_ratio_frame * model.natural_frequency
-        pulls: Floats = self._force(step, phi, 1) / model.mass
+        pulls: Floats = self._force(parts, step, phi, 1) / model.mass
         return pulls - (frame * a + model.spring_rate / model.mass * v) / self.speed
 
     def impulses(self) -> tuple[Impulse, ...]:

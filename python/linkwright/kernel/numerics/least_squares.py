@@ -72,7 +72,8 @@ def least_squares(A: Floats, y: Floats, *, is_known: bool) -> Fit:
     Fit
         The parameters with their uncertainty.
     """
-    U, s, Vt = np.linalg.svd(A, full_matrices=True)
+    # Rows of Vt beyond the equations are what these leave open; columns of U beyond the parameters are idle.
+    U, s, Vt = np.linalg.svd(A, full_matrices=A.shape[0] < A.shape[1])
     # A parameter that does nothing has no singular value at all if equations are fewer.
     rank = int((s > _ROUNDING * s.max(initial=0.0)).sum())
     freedom = len(y) - rank
