@@ -42,40 +42,34 @@ _ABOUT = "Computes how machines move: from the motor through gearbox and shaft t
 
 # Name → command, in the order of the help.
 COMMANDS = {
-    "run": Place("Compute how a machine moves.", "app.commands.run:run"),
+    "run": Place("Run all analyses of a machine.", "app.commands.run:run"),
     "check": Place("Check a machine file.", "app.commands.check:check"),
     "motion": Place(
         "Positions, velocities and accelerations of points and links.", "linkages.commands:motion"
     ),
-    "transient": Place("Follow the motion in time.", "drive.commands.transient:transient"),
+    "transient": Place("Compute the motion in time.", "drive.commands.transient:transient"),
     "plot": Place("Draw curves of a machine.", "app.commands.plot:plot"),
     "draw": Place("Draw a mechanism, still or in motion.", "app.commands.draw:draw", False),
-    "forces": Place("Compute the forces in a machine.", "kinetostatics.commands:forces"),
+    "forces": Place("Compute joint reactions and shaking force.", "kinetostatics.commands:forces"),
     "balance": Place("Find counterweights.", "kinetostatics.commands:balance"),
-    "optimise": Place(
-        "The best machine by a goal, within constraints.", "studies.commands.optimise:optimise"
-    ),
+    "optimise": Place("Find the best machine within constraints.", "studies.commands.optimise:optimise"),
     "tolerance": Place(
-        "Scatter of results with tolerances, and the yield.", "studies.commands.tolerance:tolerance"
+        "Scatter of results due to tolerances, yield.", "studies.commands.tolerance:tolerance"
     ),
-    "fit": Place("Numbers of a machine from a measured record.", "studies.commands.fit:fit"),
+    "fit": Place("Fit a machine to a measured record.", "studies.commands.fit:fit"),
     "sensitivity": Place(
-        "Derivatives of the results by the numbers of the file.", "sensitivity.commands:sensitivity"
+        "Derivatives of the results by the entries of the file.", "sensitivity.commands:sensitivity"
     ),
     "size": Place("Choose motor and flywheel.", "sizing.commands:size"),
     "motors": Place("List the motors of the catalogue.", "sizing.commands:motors"),
-    "papers": Place(
-        "Recompute a published paper, compare with its results.", "app.commands.papers:papers", False
-    ),
-    "report": Place(
-        "The answer of a command as a report: a page or a PDF.", "app.commands.report:report", False
-    ),
+    "papers": Place("Recompute a published paper and compare.", "app.commands.papers:papers", False),
+    "report": Place("Write the results of a command as HTML or PDF.", "app.commands.report:report", False),
     "new": Place("Write a machine file to start from.", "app.commands.new:new", False),
     "schema": Place("Print the JSON Schema of machine files.", "app.commands.schema:schema", False),
     "glossary": Place(
         "Define the terms of tables, messages and reports.", "app.commands.glossary:glossary", False
     ),
-    "studio": Place("Work on a machine in the browser.", "studio.command:studio", False),
+    "studio": Place("Edit and animate a machine in the browser.", "studio.command:studio", False),
 }
 
 GROUPS = {
@@ -100,15 +94,13 @@ GROUPS = {
         },
     ),
     "cam": Group(
-        "Cams of a machine; motion laws; the smallest cams.",
+        "Analyse cams; compare motion laws; find small cams.",
         "Analyse the cams of a machine, with FILE; or one of the commands below.",
         {
             "laws": Place(
                 "Factors of the motion laws, for a rise between two dwells.", "cam.commands.laws:laws", False
             ),
-            "search": Place(
-                "The smallest cams that keep their limits, among many.", "cam.commands.search:search"
-            ),
+            "search": Place("Find the smallest cams within their limits.", "cam.commands.search:search"),
         },
         "cam.commands.file:cam_file",
     ),
@@ -116,27 +108,27 @@ GROUPS = {
         "Torsional vibration of a train; dampers; weak cylinders.",
         """Analyse the torsional vibration of a train, with FILE; or one of the commands below.
 
-        FILE gives natural frequencies, shapes and nodes; with torques and [train.run] also critical speeds,
+        FILE gives natural frequencies, mode shapes and nodes; with torques and [train.run] also critical speeds,
         torques, stresses, limits, barred speed ranges, speed fluctuation and heat. Exit code 1 if a limit is
         exceeded.
         """,
         {
-            "damper": Place("The best damper for a mode.", "torsion.commands.damper:damper"),
+            "damper": Place("Optimum damper for a mode.", "torsion.commands.damper:damper"),
             "diagnose": Place(
-                "Which cylinder of an engine is weak, by the speed of a disc.",
+                "Find weak cylinders from the speed of a disc.",
                 "torsion.commands.diagnose:diagnose",
             ),
         },
         "torsion.commands.torsion:torsion",
     ),
     "sweep": Group(
-        "Many variants of a machine, into a folder of Parquet files.",
+        "Compute many variants of a machine.",
         """Compute the rows of a study into a folder, with FILE; or one of the commands below.
 
-        A run that was stopped goes on with the same command. Rows that fail keep their reason. Exit code 1 if
+        An interrupted run resumes with the same command. Failed rows keep their reason. Exit code 1 if no row
         none has an answer.
         """,
-        {"show": Place("Extremes, failed rows and pictures of a sweep.", "studies.commands.sweep:show")},
+        {"show": Place("Extremes, failed rows and figures of a sweep.", "studies.commands.sweep:show")},
         "studies.commands.sweep:sweep",
     ),
     "topper": Group(
@@ -148,7 +140,7 @@ GROUPS = {
         """,
         {
             "field": Place("A field of roots: shares cut, haulm left, loss.", "topping.commands:field"),
-            "best": Place("The best angle, length and speed of the knife.", "topping.commands:best"),
+            "best": Place("Optimum angle, length and speed of the knife.", "topping.commands:best"),
         },
         "app.commands.run:run",
     ),
@@ -165,7 +157,7 @@ def application() -> Commands:
         is_eager=True,
         expose_value=False,
         callback=_version,
-        help="Print the version and end.",
+        help="Print the version and exit.",
     )
     return Commands("linkwright", _ABOUT, entries, params=(version, *completion_options()))
 
@@ -190,7 +182,7 @@ def _loaded(word: str | None, place: Place) -> click.Command:
 
 
 def _version(context: click.Context, option: click.Parameter, wanted: bool) -> None:
-    """Print the version and end."""
+    """Print the version and exit."""
     if wanted:
         from linkwright import __version__
 

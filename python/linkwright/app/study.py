@@ -291,7 +291,7 @@ def _turned(machine: Machine, findings: Findings, accuracy: float, step: float |
     """A linkage by its dimensions alone, or what follows from bodies, loads and drive."""
     if _is_motion_alone(machine):
         findings.of(require_turn, machine)
-        alone = "The machine has no masses, loads or motor: its motion alone is computed."
+        alone = "The machine has no masses, loads or motor: only its motion is computed."
         return Study(machine, warnings=() if machine.pumping_unit else (alone,))
     driven = drive_study(machine, findings, accuracy, step)
     steady = driven.steady_state

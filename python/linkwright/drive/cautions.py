@@ -60,7 +60,7 @@ def _without_rotor(drive: Drive) -> Iterator[str]:
         return
     estimate = estimated_inertia(float(motor.torque_rated))
     yield (
-        f"The catalogue gives no rotor inertia for {motor.catalogue}, and it counts as zero; similarity with "
+        f"The catalogue gives no rotor inertia for {motor.catalogue}, and zero is used; similarity with "
         f"{KNOWN} gives an estimate of {estimate:.3g} kg m²: give drive.motor.inertia."
     )
 
@@ -73,14 +73,14 @@ def _least_breakdown(drive: Drive) -> Iterator[str]:
     if "torque_breakdown" not in motor.model_fields_set and breakdown_is_minimum(motor.catalogue):
         yield (
             f"The catalogue gives no breakdown torque for {motor.catalogue}: the minimum of IEC 60034-1 "
-            f"counts, {OVERLOAD:g} times the rated torque, {motor.torque_breakdown:.4g} N m; most "
+            f"is used, {OVERLOAD:g} times the rated torque, {motor.torque_breakdown:.4g} N m; most "
             f"motors have more: give drive.motor.torque_breakdown."
         )
 
 
 def _unloaded(machine: Machine) -> Iterator[str]:
     if not machine.loads:
-        yield "The machine has no loads: nothing but its inertia is moved."
+        yield "The machine has no loads: only its inertia resists."
 
 
 def has_inertia(reduced: Reduction) -> bool:
@@ -92,8 +92,8 @@ def _reduced(reduced: Reduction) -> Iterator[str]:
     if not has_inertia(reduced):
         yield (
             "The reduced inertia falls to zero at a crank angle of "
-            f"{np.degrees(reduced.inertia_min_angle):.1f}°: give the drive "
-            "its inertias; until then there is no constant-energy limit."
+            f"{np.degrees(reduced.inertia_min_angle):.1f}°: give the inertias "
+            "of the drive; without them there is no constant-energy limit."
         )
     if reduced.torque_load_mean < -_SMALL * float(np.abs(reduced.torque_load).max()):
         yield (
@@ -104,7 +104,7 @@ def _reduced(reduced: Reduction) -> Iterator[str]:
 
 def _without_run_up(drive: Drive) -> Iterator[str]:
     if isinstance(drive.motor, ConstantSpeedMotor):
-        yield "A motor of constant speed has no run-up: it turns at its speed under any load."
+        yield "A motor of constant speed has no run-up: it keeps its speed under any load."
 
 
 def _start_by_kloss(machine: Machine, drive: Drive) -> Iterator[str]:
@@ -115,8 +115,8 @@ def _start_by_kloss(machine: Machine, drive: Drive) -> Iterator[str]:
     torque = compile_machine(machine).motor_torques(0.0)[0][0]
     yield (
         f"The motor has no torque_start: by Kloss's formula it gives only {torque:.4g} N m at standstill, "
-        f"{100 * torque / motor.torque_breakdown:.0f} % of its breakdown torque, which is less than real "
-        "motors give; the run-up is computed on the safe side."
+        f"{100 * torque / motor.torque_breakdown:.0f} % of its breakdown torque; real motors give more, so "
+        "the computed run-up is conservative."
     )
 
 
@@ -124,14 +124,14 @@ def _cycle(steady: SteadyState) -> Iterator[str]:
     if not steady.is_stable:
         yield (
             f"The steady motion is unstable: a small disturbance of the speed grows {steady.multiplier:.4g} "
-            "times in each revolution, so the machine will not stay there."
+            "times in each revolution, so the machine does not keep it."
         )
     yield from _others(steady)
     if steady.accuracy > _ACCURATE:
         yield (
             f"The steady motion is known to a relative accuracy of {steady.accuracy:.1e} only: the motor's "
-            "torque is so steep over the speed that rounding of the speed shows in it. An inertia that was "
-            "left out, of motor or crank, is the usual cause."
+            "torque is so steep over the speed that rounding limits it. The usual cause is a missing "
+            "inertia of motor or crank."
         )
 
 
@@ -146,14 +146,14 @@ def _others(steady: SteadyState) -> Iterator[str]:
         if other.is_stable:
             yield (
                 f"Another steady motion is possible, {range_}: a machine that starts near it stays there; "
-                "the one computed is what a fast start leads to."
+                "the computed one follows from a fast start."
             )
         elif faster:
             yield f"From speeds above an unstable motion {range_} the machine does not settle."
         else:
             yield (
-                f"There is an unstable motion {range_}: a machine that is slower than that does not come up "
-                "to the steady motion."
+                f"There is an unstable motion {range_}: from lower speeds the machine does not reach the "
+                "steady motion."
             )
 
 

@@ -55,7 +55,7 @@ def characteristic(
     """
     drive = machine.drive
     if drive is None or drive.motor is None or isinstance(drive.motor, ConstantSpeedMotor):
-        raise InputError(f"{machine.name}: a characteristic needs a motor whose speed answers to the load")
+        raise InputError(f"{machine.name}: a characteristic needs a motor whose speed depends on the load")
     reduced = reduced or reduction(machine)
     compiled = compile_machine(machine)
     ratio = drive.gearbox.ratio

@@ -359,7 +359,7 @@ def _steady(study: DriveStudy) -> Iterator[Captioned]:
         return
     low, high = quantity(steady.speed_min, "rad/s"), quantity(steady.speed_max, "rad/s")
     caption = (
-        f"The crank turns at {low} to {high}, δ = {number(steady.unevenness)}; a revolution takes "
+        f"The crank speed varies from {low} to {high}, δ = {number(steady.unevenness)}; a revolution takes "
         f"{quantity(steady.period, 's')}."
     )
     yield Captioned("speed", "Speed and acceleration over one revolution", caption, speed_figure(steady))
@@ -368,7 +368,7 @@ def _steady(study: DriveStudy) -> Iterator[Captioned]:
         f"The work of the motor is {quantity(steady.energy_motor, 'J')} per revolution."
     )
     yield Captioned("torque", "Torque and power over one revolution", caption, torque_figure(steady))
-    caption = "The same motion over time, as a tachometer shows it."
+    caption = "The same motion over time, as a tachometer records it."
     yield Captioned("time", "Speed and motor torque over time", caption, time_figure(steady))
 
 
@@ -397,7 +397,7 @@ def _run_up(study: DriveStudy) -> Iterator[Captioned]:
         yield Captioned("run_up", "Run-up", caption, run_up_figure(run_up, study.steady_state))
     elif study.attempt is not None and len(study.attempt.time) > 1:
         caption = f"The motion ends after {number(study.attempt.turns)} revolutions."
-        yield Captioned("run_up", "Run-up that fails", caption, attempt_figure(study.attempt))
+        yield Captioned("run_up", "Failed run-up", caption, attempt_figure(study.attempt))
 
 
 def _reduction(study: DriveStudy) -> Iterator[Captioned]:

@@ -140,7 +140,7 @@ def _ties(compiled: Compiled, state: SteadyState, solution: SteadySolution) -> d
                 ties[name] = f"it is reached at {' and '.join(places)}"
     low, high = state.acceleration_min, state.acceleration_max
     if abs(low + high) <= _TIE * (high - low):
-        ties["acceleration_peak"] = "the acceleration is as large forwards as backwards"
+        ties["acceleration_peak"] = "its positive and negative peaks are equal"
     return ties
 
 

@@ -49,7 +49,7 @@ class Reduction(Result):
     torque_load: Annotated[Floats, Shown("load torque referred to the crank", "M_r", "N m", _LOADS)]
     torque_dry: Annotated[
         Floats,
-        Shown("share of dry friction", "M_dry", "N m", "What of it always opposes the motion."),
+        Shown("share of dry friction", "M_dry", "N m", "Part that always opposes the motion."),
     ]
     viscous: Annotated[
         Floats, Shown("viscous coefficient at the crank", "c", "N m s/rad", "Load torque per speed.")

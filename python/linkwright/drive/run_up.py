@@ -177,7 +177,7 @@ def _too_slow(motion: Transient, steady: SteadyState, band: float) -> str:
     for other in steady.others:
         if other.is_stable and (1 - band) * other.speed_min <= end <= (1 + band) * other.speed_max:
             return (
-                f"does not come up to the steady motion of {steady.speed_mean_time:.4g} rad/s: after "
+                f"does not reach the steady motion of {steady.speed_mean_time:.4g} rad/s: after "
                 f"{motion.turns:.0f} revolutions it runs at {end:.4g} rad/s, within another steady motion, "
                 f"{other.speed_min:.4g} to {other.speed_max:.4g} rad/s; choose a motor with more torque at "
                 "low speed, or start at a higher run_up.speed_start"

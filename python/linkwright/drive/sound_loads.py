@@ -49,7 +49,7 @@ def require_same_turns(machine: Machine) -> None:
         if isinstance(load, FormulaLoad) and load.knows_time:
             raise SteadyStateError(
                 f'no steady motion: the formula of {name}, "{load.text}", depends on time t: no revolution '
-                "repeats another; write it with the crank angle phi, or follow the motion in time (transient)"
+                "repeats another; write it with the crank angle phi, or compute the motion in time (transient)"
             )
 
 
@@ -94,7 +94,7 @@ def _no_value(name: str, load: Load, phi: float) -> str:
     where = f"at crank angle {np.degrees(phi):.1f}°"
     if isinstance(load, GasSpring):
         return (
-            f"the gas spring {name} is pressed in further than its gas allows {where}; choose one with a "
+            f"the gas spring {name} is compressed beyond its gas volume {where}; choose one with a "
             "longer stroke, a smaller progression, or other points"
         )
     text = load.text if isinstance(load, FormulaLoad) else ""
@@ -113,8 +113,8 @@ def _require_half_turns(name: str, load: TorsionalSpring, compiled: Compiled, ph
     if np.nanmax(np.abs(turned), initial=0.0) >= np.pi:
         at = np.degrees(phi[np.argmax(np.abs(turned) >= np.pi)])
         raise FindingError(
-            f"the torsional spring {name} is turned by more than 180° from its free angle at crank angle "
-            f"{at:.1f}°; it is computed for less: put it on a link that swings, or change free_angle"
+            f"the torsional spring {name} is twisted by more than 180° from its free angle at crank angle "
+            f"{at:.1f}°; it must stay below: put it on an oscillating link, or change free_angle"
         )
 
 

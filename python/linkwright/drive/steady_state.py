@@ -76,15 +76,13 @@ class OtherMotion(NamedTuple):
 
 _MULTIPLIER = (
     "Share of a small disturbance of the speed left after one revolution; the motion is stable if it is "
-    "below 1 in size."
+    "below 1 in magnitude."
 )
 _ACCURACY = (
-    "Relative error as measured: of speeds, of accelerations against their peak (or against 1e-4 ω², if the "
-    "machine turns more evenly than that), and of the integrals. Every step was done again in halves."
+    "Measured relative error of speeds, of accelerations (relative to their peak, or to 1e-4 ω² if that is "
+    "larger), and of the integrals. Every step is compared with two half steps."
 )
-_OTHERS = (
-    "Other motions of the machine that repeat, from the fastest down to a hundredth of the working speed."
-)
+_OTHERS = "Other periodic motions of the machine, from the fastest down to a hundredth of the working speed."
 
 
 @dataclass(frozen=True)
@@ -466,12 +464,12 @@ def _failure(motion: NoSteadyMotion, compiled: Compiled, accuracy: float) -> Exc
             return SteadyStateError(_runs_away(compiled, speed))
         return SteadyStateError(
             f"{_what_lacks(compiled)} (started at {speed:.4g} rad/s at φ = 0, it comes to rest at "
-            f"φ = {np.degrees(angle):.4g}°, and every faster start slows down to that)"
+            f"φ = {np.degrees(angle):.4g}°; from higher speeds it slows down to this motion)"
         )
     text = "was not decided within 500 revolutions" if np.isnan(reached) else f"{reached:.1e} was reached"
     return ConvergenceError(
-        f"steady motion was not found to a relative accuracy of {accuracy:g} ({text}); ask for less, "
-        "or look for a mechanism that nearly locks",
+        f"steady motion was not found to a relative accuracy of {accuracy:g} ({text}); reduce the accuracy, "
+        "or check whether the mechanism nearly locks",
         method="collocation",
         iterations=12288,
     )
@@ -484,8 +482,8 @@ def _runs_away(compiled: Compiled, speed: float) -> str:
     drive = float(compiled.motor_torques(omega)[1][0])
     needed = float((load + viscous * omega + compiled.speed_load(omega) + mean_laws(compiled, omega))[0])
     return (
-        f"no steady motion: at {speed:.4g} rad/s the drive still gives more than the mean load takes "
-        f"({drive:.4g} against {needed:.4g} N m), so the machine speeds up without end; "
+        f"no steady motion: at {speed:.4g} rad/s the driving torque still exceeds the mean load torque "
+        f"({drive:.4g} against {needed:.4g} N m), so the machine accelerates without limit; "
         "add a load that grows with speed or a motor whose torque falls with it"
     )
 

@@ -25,7 +25,7 @@ _SENTENCES = {
     End.DOES_NOT_START: f"The machine does not start: {_TORQUES} need {{load}} N m",
     End.STARTS_BACKWARDS: f"The machine is driven backwards: {_TORQUES} ask for {{load}} N m",
     End.STALL: f"The machine stalls {_AFTER}: {_TORQUES} need {{load}} N m",
-    End.REVERSAL: f"The machine stands {_AFTER}, and is driven backwards: {_TORQUES} ask for {{load}} N m",
+    End.REVERSAL: f"The machine stops {_AFTER}, and is driven backwards: {_TORQUES} ask for {{load}} N m",
 }
 
 
@@ -108,7 +108,7 @@ def _events(events: Sequence[MotionEvent], zero: Zero) -> Table:
         )
         for event in events
     ]
-    return Table("events", "What happens", heads, rows)
+    return Table("events", "Events", heads, rows)
 
 
 def _course(course: Motion, zero: Zero) -> Table:

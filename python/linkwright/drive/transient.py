@@ -223,7 +223,7 @@ def transient(
     motor: bool = True,
     brake: bool = False,
 ) -> Transient:
-    """Follow the motion in time.
+    """Compute the motion in time.
 
     Parameters
     ----------

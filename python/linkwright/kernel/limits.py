@@ -38,9 +38,7 @@ def grouped(number: int) -> str:
     return f"{number:,}".replace(",", " ")
 
 
-FILE_BYTES = Limit(
-    1_000_000, "bytes in a machine file", "a machine file has a few kB; this is some other file"
-)
+FILE_BYTES = Limit(1_000_000, "bytes in a machine file", "a machine file has a few kB")
 DEPTH = Limit(32, "keys inside one another", "the deepest key of a machine has eight")
 ENTRIES = Limit(1_000, "entries in a table", "names are looked up among all others")
 LIST = Limit(10_000, "values in a list of a machine file", "longer lists belong into a file of points")

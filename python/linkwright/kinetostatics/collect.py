@@ -174,7 +174,7 @@ class Collector:
                 at = np.degrees(self.scene.motion.crank_angle[worst])
                 slack.append(
                     f"The cable {pair.second} is slack: at crank angle {at:.4g}° it would have to push with "
-                    f"{-pair.normal[worst]:.4g} N; load its end more, or move it more slowly."
+                    f"{-pair.normal[worst]:.4g} N; increase the load on its end, or reduce the speed."
                 )
         return slack
 
@@ -184,14 +184,14 @@ def _where(solution: Solution, phi: Floats) -> list[str]:
     where = []
     if solution.singular.any():
         where.append(
-            f"Forces are unbounded or not determined at crank angle {_angles(phi[solution.singular])}: the "
-            "mechanism is in a dead or change point there, and its pairs cannot keep it in equilibrium; "
-            "values at these angles are left out."
+            f"Forces are unbounded or indeterminate at crank angle {_angles(phi[solution.singular])}: the "
+            "mechanism is at a dead centre or change point, where its joints cannot keep it in equilibrium; "
+            "values at these angles are omitted."
         )
     if solution.locked.any():
         where.append(
             f"Friction locks the mechanism at crank angle {_angles(phi[solution.locked])}: no driving torque "
-            "moves it there; less friction or a better transmission angle is needed."
+            "moves it there; reduce the friction or improve the transmission angle."
         )
     return where
 

@@ -26,7 +26,7 @@ Speed = Annotated[
     Option(
         "--speed",
         metavar="SPEED",
-        help='Constant speed of the crank, such as "10 rad/s" or "90 rpm". Without it, the steady motion.',
+        help='Constant speed of the crank, such as "10 rad/s" or "90 rpm". Default: the steady motion.',
         show_default=False,
     ),
 ]
@@ -35,19 +35,19 @@ Span = Annotated[
     Option(
         "--angles",
         metavar='"FROM, TO"',
-        help='With --speed: crank angles between these alone, such as "-20 deg, 50 deg", for a mechanism '
-        "that does not turn fully.",
+        help='With --speed: range of crank angles, such as "-20 deg, 50 deg", for a mechanism '
+        "that does not rotate fully.",
         show_default=False,
     ),
 ]
-Curves = Annotated[bool, Option("--curves", help="With --json: curves too, not peaks alone.")]
+Curves = Annotated[bool, Option("--curves", help="With --json: include curves.")]
 Folder = Annotated[Path | None, out_option("Write results.json, forces.csv and figures as SVG there.")]
 Cases = Annotated[
     list[str] | None,
     Option(
         "--case",
         metavar='"NAME: PATH=VALUE; …"',
-        help='A load case beside the others, such as "idle: loads.work.force=0". May be given again.',
+        help='A load case, such as "idle: loads.work.force=0". Repeatable.',
         show_default=False,
     ),
 ]
@@ -57,7 +57,7 @@ Frictions = Annotated[
         "--friction",
         metavar='"PAIR: KEY=VALUE, …"',
         help='Friction of a pin, guide or slot, such as "A: radius=20 mm, coefficient=0.1" or "S.guide: '
-        'coefficient=0.1"; also viscous, and length of a guide. May be given again.',
+        'coefficient=0.1"; also viscous, and length of a guide. Repeatable.',
         show_default=False,
     ),
 ]
@@ -247,7 +247,7 @@ Links = Annotated[
     Option(
         "--links",
         metavar="LINK,…",
-        help="Links with counterweights, such as A,R.rocker; they turn about fixed points.",
+        help="Links with counterweights, such as A,R.rocker; they must rotate about fixed points.",
         show_default=False,
     ),
 ]
@@ -256,7 +256,7 @@ Partial = Annotated[
     Option(
         "--slider",
         metavar="SLIDER",
-        help="Instead of --links: a counterweight on the crank against a share of this slider's mass.",
+        help="Instead of --links: a counterweight on the crank for a share of the mass of this slider.",
         show_default=False,
     ),
 ]
@@ -268,7 +268,7 @@ Radius = Annotated[
     Option(
         "--radius",
         metavar="LENGTH",
-        help="Distance of the counterweights from their pivots. Without it, the length of the link.",
+        help="Distance of the counterweights from their pivots. Default: the length of the link.",
         show_default=False,
     ),
 ]

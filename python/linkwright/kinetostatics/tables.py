@@ -120,7 +120,7 @@ def contribution_table(forces: Forces) -> Table:
         for name in forces.contributions
     ]
     heads = ("source", "", "of the peak of M_d", "of the peak shaking force")
-    return Table("contributions", "What the forces come from", heads, rows)
+    return Table("contributions", "Contributions to the peaks", heads, rows)
 
 
 def balance_tables(balance: Balance) -> list[Table]:
@@ -156,5 +156,5 @@ def balance_tables(balance: Balance) -> list[Table]:
         rows.append((f"{mark.word}, rms", mark.symbol, *values, change))
     return [
         Table("counterweights", "Counterweights", heads, weights),
-        Table("balance", "What they do", ("quantity", "", "before", "after", "change"), rows),
+        Table("balance", "Effect of the counterweights", ("quantity", "", "before", "after", "change"), rows),
     ]

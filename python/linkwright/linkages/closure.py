@@ -86,7 +86,7 @@ class Closure(Record):
             "crank angle of the change point",
             "",
             "rad",
-            "There that element closes with nothing to spare, and its speeds are not determined.",
+            "That element is at its limit of closure there, and its speeds are indeterminate.",
         ),
     ] = None
     turns: Annotated[
@@ -386,9 +386,8 @@ def require_one_turn(compiled: Compiled) -> None:
     if turns != 1 and not _feels_one_turn(compiled):
         after = f"only after {turns} revolutions" if turns else "never"
         raise AssemblyError(
-            f"masses and loads are {after} again where they were, so one revolution of the crank is not the "
-            "motion; let the crank be the part that turns slowest, or give masses and loads to parts that "
-            "repeat with it"
+            f"masses and loads return to their positions {after}, so one revolution of the crank is not a "
+            "period; choose the slowest part as the crank, or put masses and loads on parts that repeat with it"
         )
 
 

@@ -33,8 +33,8 @@ Speed = Annotated[
     Option(
         "--speed",
         metavar="SPEED",
-        help='Speed of the crank, such as "90 rpm", for --at and for a revolution without --law. Without it, '
-        "the design speed of the file, or 1 rad/s where it has none.",
+        help='Speed of the crank, such as "90 rpm", for --at and for a revolution without --law. Default: the '
+        "design speed of the file, or 1 rad/s.",
         show_default=False,
     ),
 ]
@@ -52,7 +52,7 @@ Duration = Annotated[
     Option(
         "--duration",
         metavar="TIME",
-        help="With --law as a formula: how long it is followed. Without it, 1 s.",
+        help="With --law as a formula: duration of the motion. Default: 1 s.",
         show_default=False,
     ),
 ]

@@ -39,10 +39,10 @@ def change_point(element: str, machine: Machine) -> Words:
     if element in machine.linkage.slotted_levers:
         what = "its pin passes over its pivot, where the lever has no direction"
         return what, "move the pivot, or give the slot an offset"
-    what = "its links are in line there and the speeds are not determined"
+    what = "its links are in line there and the speeds are indeterminate"
     if " and " in element:
-        what = "its links can go two ways there and the speeds are not determined"
-    return what, "change a length by a little"
+        what = "two motions are possible there and the speeds are indeterminate"
+    return what, "change a length slightly"
 
 
 def _slider(name: str, mechanism: Mechanism) -> Words:

@@ -53,7 +53,7 @@ class RunUp(Description):
         0.01, description="Difference from the steady speed at which the run-up is done, over that speed."
     )
     turns_max: Annotated[float, positive(RATIO)] = Field(
-        200.0, description="Revolutions of the crankshaft after which the attempt ends."
+        200.0, description="Revolutions of the crankshaft after which the run-up is abandoned."
     )
 
 
@@ -67,10 +67,10 @@ class Machine(Description):
     """
 
     format: Literal[1] = Field(description="Version of the file format.")
-    name: Title = Field(description="What the machine is.")
-    description: str = Field("", description="More about it.")
-    source: str = Field("", description="Where the numbers are from.")
-    drive: Drive | None = Field(None, description="What turns the crankshaft.")
+    name: Title = Field(description="Name of the machine.")
+    description: str = Field("", description="Description.")
+    source: str = Field("", description="Source of the numbers.")
+    drive: Drive | None = Field(None, description="Drive of the crankshaft.")
     drawing: DrawingPoints | None = Field(
         None,
         description="Coordinates of points, from which lengths and places follow that the mechanism leaves "
@@ -78,7 +78,7 @@ class Machine(Description):
     )
     mechanism: Mechanism = Field(
         default_factory=Mechanism,
-        description="What the crankshaft moves. With a pumping unit, what moves beside it.",
+        description="Mechanism on the crankshaft; with a pumping unit, further elements.",
     )
     pumping_unit: PumpingUnit | None = Field(
         None, description="Beam pumping unit, which is a mechanism by itself."
@@ -92,8 +92,8 @@ class Machine(Description):
     bodies: dict[str, Body] = Field(default_factory=dict, description="Masses by name.")
     loads: dict[Name, AnyLoad] = Field(default_factory=dict, description="Forces and torques by name.")
     run_up: RunUp = Field(default_factory=RunUp, description="How the run-up starts and ends.")
-    units: ShownUnits | None = Field(None, description="Units of what is printed, drawn and written as CSV.")
-    study: StudyFile | None = Field(None, description="Study of variants: what varies, what is asked.")
+    units: ShownUnits | None = Field(None, description="Units of tables, figures and CSV.")
+    study: StudyFile | None = Field(None, description="Study of variants: variables and responses.")
 
     @property
     def linkage(self) -> Mechanism:

@@ -21,7 +21,7 @@ Of = Annotated[
     Option(
         "--of",
         metavar="RESPONSE",
-        help='Result or analysis, such as "steady_state.unevenness", "free_vibration". May be given again.',
+        help='Result or analysis, such as "steady_state.unevenness", "free_vibration". Repeatable.',
         show_default=False,
     ),
 ]

@@ -32,7 +32,7 @@ Floats = NDArray[np.float64]
 class Gradient(Result):
     """Derivatives of ``n`` responses by ``m`` variables."""
 
-    responses: Annotated[tuple[str, ...], About('What is differentiated, as "steady_state.unevenness".')]
+    responses: Annotated[tuple[str, ...], About('Responses, as "steady_state.unevenness".')]
     words: Annotated[tuple[str, ...], About("What each response is called.")]
     variables: Annotated[tuple[str, ...], About("Addresses of the entries.")]
     units: Annotated[tuple[str, ...], About("SI unit of each response.")]

@@ -29,7 +29,7 @@ def gradient_tables(gradient: Gradient) -> Iterator[Table]:
     """A table for each response."""
     for row, response in enumerate(gradient.responses):
         title = f"{gradient.words[row]} = {with_unit(float(gradient.values[row]), gradient.units[row])}"
-        heads = ("entry", "", "value", "derivative", "1 % more changes it by")
+        heads = ("entry", "", "value", "derivative", "change for +1 %")
         rows = [_row(gradient, row, at) for at in ranked(gradient, response)[:ROWS]]
         yield Table(response.replace(".", "_"), title, heads, rows)
 

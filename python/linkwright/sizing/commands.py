@@ -29,36 +29,34 @@ if TYPE_CHECKING:
     from linkwright.sizing.motor import Candidate, MotorChoice
 
 Reserve = Annotated[
-    float, Option("--power-reserve", metavar="X", help="Rated power over required power, at least.")
+    float, Option("--power-reserve", metavar="X", help="Minimum ratio of rated to required power.")
 ]
 Unevenness = Annotated[
     float,
     Option(
         "--unevenness",
         metavar="X",
-        help="Coefficient of speed fluctuation, (ω_max − ω_min)/ω_mean, to be reached by the flywheel.",
+        help="Required coefficient of speed fluctuation, (ω_max − ω_min)/ω_mean.",
     ),
 ]
 By = Annotated[
     Literal["all", "fixed-start", "power"],
     Option(
         "--by",
-        help="Checks that decide. fixed-start: all but the start from the worst angle. power: rated power "
-        "and start alone, as is often done.",
+        help="Checks for the choice. fixed-start: all except the start from the worst angle. power: only rated "
+        "power and start.",
     ),
 ]
-FreeRatio = Annotated[
-    bool, Option("--free-ratio", help="Give each motor the ratio that suits it, not the file's.")
-]
+FreeRatio = Annotated[bool, Option("--free-ratio", help="Choose the gear ratio for each motor.")]
 Together = Annotated[
-    bool, Option("--together", help="Judge each motor with its flywheel; a smaller one may do.")
+    bool, Option("--together", help="Check each motor with its flywheel; a smaller motor may suffice.")
 ]
 Inertia = Annotated[
     list[str] | None,
     Option(
         "--inertia",
         metavar="TYPE=VALUE",
-        help='Inertia of a rotor, such as 4A132S6U3="0.04 kg m^2". May be given again.',
+        help='Inertia of a rotor, such as 4A132S6U3="0.04 kg m^2". Repeatable.',
         show_default=False,
     ),
 ]
@@ -293,12 +291,15 @@ def _flywheel_words(flywheel: FlywheelChoice) -> Text:
 
 
 Poles = Annotated[
-    int | None, Option("--poles", metavar="N", help="This number of poles alone.", show_default=False)
+    int | None,
+    Option("--poles", metavar="N", help="Only motors with this number of poles.", show_default=False),
 ]
 PowerMin = Annotated[
     str, Option("--power-min", metavar="POWER", help='Rated power at least, such as "5.5 kW".')
 ]
-Series = Annotated[str, Option("--series", metavar="NAME", help="This series alone.", show_default=False)]
+Series = Annotated[
+    str, Option("--series", metavar="NAME", help="Only motors of this series.", show_default=False)
+]
 
 
 def motors(poles: Poles = None, power_min: PowerMin = "0 W", series: Series = "", json: Json = False) -> None:

@@ -122,8 +122,8 @@ class MotorChoice(Record):
             return self._shortfall()
         rule = {
             "all": "passes all checks",
-            "fixed-start": "passes all checks, if the machine is started from its start angle",
-            "power": "suffices by power and starts the machine",
+            "fixed-start": "passes all checks if the machine starts from its start angle",
+            "power": "has sufficient power and starts the machine",
         }[self.by]
         power = self.chosen.known.power_rated / 1e3
         return f"{self.chosen.type}, {power:.4g} kW, is the smallest motor of the catalogue that {rule}"

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from linkwright.machine.machine import Machine
 
 OutFile = Annotated[Path | None, out_option("Write the machine there.", "FILE")]
-Curves = Annotated[bool, Option("--curves", help="With --json: curves too, not scalars alone.")]
+Curves = Annotated[bool, Option("--curves", help="With --json: include curves.")]
 TaskFile = Annotated[Path | None, Argument("TASK", "File of the task: what the linkage shall do.")]
 TaskOption = Annotated[
     Path | None, Option("--task", metavar="FILE", help="The same as an option.", show_default=False)
@@ -66,7 +66,7 @@ Proportions = Annotated[
     Option(
         "--proportion",
         metavar="NAME=X",
-        help="A length other than usual; only ratios count. May be given again.",
+        help="A length other than usual; only ratios count. Repeatable.",
     ),
 ]
 List = Annotated[bool, Option("--list", help="The catalogue, for this length of line.")]

@@ -86,7 +86,7 @@ class FormulaShaftTorque(ShaftTorque):
     kind: Literal["formula"]
     torque: str = Field(description="Formula of the torque in N m; its variable is phi, the shaft angle.")
     constants: dict[str, Annotated[float, AnyQuantity()]] = Field(
-        default_factory=dict, description="Numbers of the formula by name, in any unit; they count in SI."
+        default_factory=dict, description="Constants of the formula by name, in any unit."
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
@@ -174,19 +174,17 @@ class TurningMoment(CheckedDescription):
         2 * math.pi, description="Angle of a cycle: 360 deg, or 720 deg for a four-stroke engine."
     )
     driver: AnyShaftTorque | None = Field(
-        None, description="Torque of what drives; without it constant, the mean of the load."
+        None, description="Driving torque. Default: constant, the mean of the load."
     )
     load: AnyShaftTorque | None = Field(
-        None, description="Torque of what resists; without it constant, the mean of the driver."
+        None, description="Load torque. Default: constant, the mean of the driver."
     )
     areas: Annotated[tuple[float, ...], QuantityList(COUNT)] = Field(
         (),
         description="In place of driver and load: areas of the diagram between its crossings with the mean, "
         "in order, positive where the driver is above.",
     )
-    area_scale: Annotated[float, positive(ENERGY)] = Field(
-        1.0, description="Energy that one unit of area stands for."
-    )
+    area_scale: Annotated[float, positive(ENERGY)] = Field(1.0, description="Energy of one unit of area.")
     unevenness: Annotated[float, Quantity(RATIO, FRACTION)] | None = Field(
         None, description="Coefficient of speed fluctuation δ that is asked for; gives the flywheel."
     )

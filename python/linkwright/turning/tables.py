@@ -20,8 +20,8 @@ FORMULAS = (
 
 # What is taken for granted, in sentences.
 ASSUMPTIONS = (
-    "Torques of driver and load depend on the shaft's angle alone, not on its speed.",
-    "The moment of inertia of the shaft does not change with the angle; the shaft is rigid.",
+    "Torques of driver and load depend only on the angle of the shaft, not on its speed.",
+    "The moment of inertia of the shaft is constant; the shaft is rigid.",
     "The mean speed is the mean of the extreme speeds.",
 )
 

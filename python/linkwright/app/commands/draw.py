@@ -21,8 +21,8 @@ Places = Annotated[
     Option(
         "--out",
         metavar="FILE",
-        help="Where: a picture (.svg, .png, .pdf), the pose as .dxf, the motion as .gif or .mp4. "
-        "May be given again. drawing.svg without it.",
+        help="A figure (.svg, .png, .pdf), the pose as .dxf, the motion as .gif or .mp4. "
+        "Repeatable. Default: drawing.svg.",
         show_default=False,
     ),
 ]
@@ -31,7 +31,7 @@ At = Annotated[
     Option(
         "--at",
         metavar="ANGLE",
-        help="Crank angle of the pose. Without it, an eighth of the motion.",
+        help="Crank angle of the pose. Default: an eighth of the motion.",
         show_default=False,
     ),
 ]
@@ -40,7 +40,7 @@ Seconds = Annotated[
     Option(
         "--seconds",
         metavar="TIME",
-        help="How long a moving picture lasts. Without it, 4 s.",
+        help="Duration of the animation. Default: 4 s.",
         show_default=False,
     ),
 ]
@@ -110,7 +110,7 @@ def _scene(machine: Machine, at: str | None) -> tuple[Scene, float]:
         steady = None
     scene = moving_scene(machine, steady, None if angle is None else float(np.mod(angle, 2 * np.pi)))
     if scene is None:
-        raise InputError("there is nothing to draw: no mechanism that closes")
+        raise InputError("nothing to draw: the mechanism does not close")
     if angle is None:
         return scene, _EIGHTH
     nearest = int(np.argmin(np.abs(scene["angles"] - np.mod(angle, 2 * np.pi))))

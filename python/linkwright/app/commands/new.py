@@ -19,9 +19,7 @@ List = Annotated[
 ]
 Designation = Annotated[
     str | None,
-    Option(
-        "--designation", help="Of a pumping unit of the catalogue, such as C-114D-133-54.", show_default=False
-    ),
+    Option("--designation", help="Designation of a pumping unit, such as C-114D-133-54.", show_default=False),
 ]
 Hole = Annotated[
     int | None,

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 Number = Annotated[
     int | None,
-    Argument(metavar="[N]", help="Number of the paper; without it, what there is."),
+    Argument(metavar="[N]", help="Number of the paper; without it, a list of all."),
 ]
 Folder = Annotated[Path | None, out_option("Write figures as SVG and PNG and a page there.")]
 

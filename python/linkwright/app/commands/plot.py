@@ -20,7 +20,8 @@ if TYPE_CHECKING:
 Quantities = Annotated[
     list[str] | None,
     Argument(
-        "QUANTITY", "Curves such as ram.place, ram.velocity or steady_state.speed; none lists them all."
+        "QUANTITY",
+        "Curves such as ram.place, ram.velocity or steady_state.speed; without any, a list of all.",
     ),
 ]
 Over = Annotated[
@@ -28,7 +29,7 @@ Over = Annotated[
     Option(
         "--over",
         metavar="QUANTITY",
-        help="Draw over this curve of the same analysis, such as time or ram.place, not the crank angle.",
+        help="Abscissa: a curve of the same analysis, such as time or ram.place. Default: the crank angle.",
         show_default=False,
     ),
 ]
@@ -37,7 +38,7 @@ Outs = Annotated[
     Option(
         "--out",
         metavar="FILE|DIR",
-        help="A picture (.png, .svg, .pdf), a table (.csv), or a folder for all of them. May be given again.",
+        help="A figure (.png, .svg, .pdf), a table (.csv), or a folder for all of them. Repeatable.",
         show_default=False,
     ),
 ]

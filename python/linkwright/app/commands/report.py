@@ -30,7 +30,7 @@ To = Annotated[
     Option(
         "--to",
         metavar="FILE",
-        help="Where: a page, FILE.html, or a PDF, FILE.pdf. May be given again. report.html without it.",
+        help="FILE.html or FILE.pdf. Repeatable. Default: report.html.",
         show_default=False,
     ),
 ]
@@ -39,7 +39,7 @@ Company = Annotated[
     Option(
         "--company",
         metavar="FILE",
-        help="TOML file with company, logo, project, document, author for the head of the report.",
+        help="TOML file with company, logo, project, document and author for the letterhead.",
         show_default=False,
     ),
 ]
@@ -48,7 +48,7 @@ Sections = Annotated[
     Option(
         "--sections",
         metavar="LIST",
-        help="These alone, with commas: summary, sketch, results, formulas, data, assumptions, repeat.",
+        help="Only these: summary, sketch, results, formulas, data, assumptions, repeat (with commas).",
         show_default=False,
     ),
 ]
@@ -57,7 +57,7 @@ Variants = Annotated[
     Option(
         "--variant",
         metavar='"NAME: PATH=VALUE; …"',
-        help='Compare with a variant, such as "heavier: bodies.cart1.mass=900 kg". May be given again.',
+        help='Compare with a variant, such as "heavier: bodies.cart1.mass=900 kg". Repeatable.',
         show_default=False,
     ),
 ]

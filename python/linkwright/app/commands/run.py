@@ -16,12 +16,12 @@ if TYPE_CHECKING:
     from linkwright.kernel.page.content import Content
     from linkwright.kernel.page.table import Table
 
-Curves = Annotated[bool, Option("--curves", help="With --json: curves too, not scalars alone.")]
+Curves = Annotated[bool, Option("--curves", help="With --json: include curves.")]
 Folder = Annotated[Path | None, out_option("Write results.json, the curves as CSV and report.html there.")]
 Accuracy = Annotated[float, Option("--accuracy", metavar="X", help="Relative accuracy of the steady speed.")]
 Method = Annotated[
     Literal["newton", "baranov"],
-    Option("--method", help="baranov: the published step method beside the exact solution."),
+    Option("--method", help="baranov: add the published step method."),
 ]
 Step = Annotated[str, Option("--step", metavar="ANGLE", help="Step of the crank angle for --method baranov.")]
 

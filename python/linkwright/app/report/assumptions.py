@@ -28,24 +28,22 @@ from linkwright.machine.program.drive_line import drive_inertia, reverse_factor
 _FINEST = 1e-15
 
 _LOADS = {
-    DryFriction: "Dry friction has a constant size, opposes the motion, and turns round with it; at rest it "
-    "holds up to its size in either direction.",
+    DryFriction: "Dry friction has a constant magnitude and opposes the motion; at rest it holds up to this "
+    "magnitude in either direction.",
     ViscousFriction: "Viscous friction is proportional to the speed.",
-    ForcePosition: "A force over position is linear between the given points; outside them the end values "
-    "hold. It is positive against the motion, forward and back.",
-    TorqueSwing: "A torque over the angle of a link is linear between the given angles; outside them the end "
-    "values hold. It is positive against the motion, forward and back.",
+    ForcePosition: "A force over position is linear between the given points and constant outside them. It is "
+    "positive against the motion, forward and back.",
+    TorqueSwing: "A torque over the angle of a link is linear between the given angles and constant outside "
+    "them. It is positive against the motion, forward and back.",
     TorqueAngle: "A load torque over the crank angle is linear between the given angles.",
-    TorqueSpeed: "A load torque over the speed is linear between the given speeds; outside them the end "
-    "values hold.",
-    Spring: "Springs have no mass; a force over the length is linear between the given lengths, and outside "
-    "them the end values hold.",
+    TorqueSpeed: "A load torque over the speed is linear between the given speeds and constant outside them.",
+    Spring: "Springs have no mass; a force over the length is linear between the given lengths and constant "
+    "outside them.",
     Damper: "Dampers between points have no mass; a force over the velocity is linear between the given "
-    "velocities, and outside them the end values hold.",
-    GasSpring: "Gas springs follow p Vⁿ = constant, without friction and without the pressure outside.",
-    TorsionalSpring: "Torsional springs are linear, and turned by less than 180° from their free angle.",
-    FormulaLoad: "A load by a formula acts as the formula says, in SI units; at rest it acts as at a "
-    "vanishing speed.",
+    "velocities and constant outside them.",
+    GasSpring: "Gas springs follow p Vⁿ = constant, without friction and atmospheric pressure.",
+    TorsionalSpring: "Torsional springs are linear, within 180° of their free angle.",
+    FormulaLoad: "A load given by a formula is in SI units; at rest it acts as at a vanishing speed.",
 }
 
 
@@ -90,9 +88,9 @@ def _topper(machine: Machine) -> list[str]:
 
 def _mechanism() -> Iterator[str]:
     yield (
-        "One degree of freedom, the crank angle φ, counted counter-clockwise from the x axis; the crank "
-        "turns forward, φ grows. Links and shafts are rigid. Joints have no clearance, and no friction but "
-        "what is given as a load."
+        "The machine has one degree of freedom, the crank angle φ, which counts counter-clockwise from the x "
+        "axis and increases in time. Links and shafts are rigid. Joints have no clearance, and no friction "
+        "except the given loads."
     )
     yield "Load torque M_r is positive where it opposes forward rotation."
 
@@ -100,11 +98,11 @@ def _mechanism() -> Iterator[str]:
 def _bodies(machine: Machine) -> Iterator[str]:
     if any(_is_slender(body) for body in machine.bodies.values()):
         yield (
-            "A body on a link that has a mass, or a mass per length, and no inertia of its own is a uniform "
-            "slender rod: centre of mass in the middle, m l²/12 about it."
+            "A body on a link with a mass, or a mass per length, but no moment of inertia is a uniform slender "
+            "rod: centre of mass in the middle, m l²/12 about it."
         )
     if not machine.bodies:
-        yield "No masses are given: the mechanism has no inertia, the drive alone has."
+        yield "No masses are given: only the drive has inertia."
 
 
 def _is_slender(body: Body) -> bool:
@@ -119,14 +117,14 @@ def _loads(machine: Machine) -> Iterator[str]:
             way = degrees(load.direction)
             yield f"All bodies have weight, {quantity(load.acceleration, 'm/s²')} in the direction of {way}."
     if not any(isinstance(load, Gravity) for load in machine.loads.values()):
-        yield "Weight does not count: the machine has no load of kind gravity."
+        yield "Weight is neglected: the machine has no load of kind gravity."
 
 
 def _drive(drive: Drive) -> Iterator[str]:
     yield (
-        "Motor, coupling, brake, gearbox and flywheel together count with "
-        f"{quantity(float(drive_inertia(drive)), 'kg m²')} at the crank; what turns with the motor "
-        "counts with the square of the ratio."
+        "Motor, coupling, brake, gearbox and flywheel have a moment of inertia of "
+        f"{quantity(float(drive_inertia(drive)), 'kg m²')}, referred to the crank; inertias at the motor "
+        "shaft are multiplied by the square of the ratio."
     )
     if drive.motor is None:
         return
@@ -145,15 +143,15 @@ def _motor(drive: Drive) -> Iterator[str]:
         case InductionMotor() as motor:
             yield from _induction(motor)
         case DcMotor():
-            yield "The motor's torque falls in a straight line from standstill to its speed without load."
+            yield "The motor torque falls linearly from standstill to the no-load speed."
         case TableMotor():
-            yield "The motor's torque is linear between the given speeds; outside them the end values hold."
+            yield "The motor torque is linear between the given speeds and constant outside them."
         case ConstantTorqueMotor():
             yield "The motor gives the same torque at any speed."
         case ConstantSpeedMotor():
-            yield "The motor keeps its speed under any load; the driving torque is what that takes."
+            yield "The motor keeps its speed under any load; the driving torque follows from the motion."
     if drive.motor is not None:
-        yield "The motor answers to its speed at once: currents and fields are always in their steady state."
+        yield "The motor follows its static characteristic, without electrical transients."
 
 
 def _induction(motor: InductionMotor) -> Iterator[str]:
@@ -161,12 +159,12 @@ def _induction(motor: InductionMotor) -> Iterator[str]:
     form = "simplified formula" if motor.resistance_ratio == 0 else f"formula with R₁/R₂′ = {ratio}"
     yield f"The motor's torque follows Kloss's {form} from breakdown to beyond the synchronous speed."
     if "speed_breakdown" not in motor.model_fields_set:
-        yield "The breakdown speed is the one for which Kloss's formula goes through the rated point."
+        yield "The breakdown speed is the one for which Kloss's formula passes through the rated point."
     if motor.torque_start is None:
-        yield "Below breakdown the formula holds down to standstill, where it gives less than real motors do."
+        yield "Below breakdown the formula applies down to standstill, where it underestimates real motors."
     else:
         points = "the starting, the pull-up" if motor.torque_pull_up is not None else "the starting"
-        yield f"Below breakdown a smooth curve goes through {points} and the breakdown torque."
+        yield f"Below breakdown a smooth curve passes through {points} and the breakdown torque."
 
 
 def _methods(study: Study) -> Iterator[str]:
@@ -175,9 +173,9 @@ def _methods(study: Study) -> Iterator[str]:
     if steady is not None and steady.method == "collocation":
         difference = number(max(steady.accuracy, _FINEST), 1)
         yield (
-            "Steady motion is the periodic solution itself, by Newton's method on the revolution, with "
-            f"{steady.steps} steps from kink to kink, each checked against two of half its length: relative "
-            f"error {difference}. Curves go through {len(steady.crank_angle)} points; extremes, work and "
+            "Steady motion is the periodic solution, by Newton's method on the revolution with "
+            f"{steady.steps} steps, each compared with two steps of half its length: relative error "
+            f"{difference}. Curves have {len(steady.crank_angle)} points; extremes, work and "
             "root mean squares do not depend on them."
         )
     if study.run_up is not None:

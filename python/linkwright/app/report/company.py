@@ -37,8 +37,8 @@ class CompanyFile(Description):
     project: Title = Field("", description="Project that the report belongs to.")
     document: Title = Field("", description="Number of the document.")
     revision: Title = Field("", description="Its revision.")
-    author: Title = Field("", description="Who made it.")
-    checked: Title = Field("", description="Who checked it.")
+    author: Title = Field("", description="Author.")
+    checked: Title = Field("", description="Checked by.")
     date: Annotated[Title, BeforeValidator(_as_text)] = Field("", description="Date of the document.")
 
     @model_validator(mode="wrap")

@@ -40,7 +40,7 @@ Form = Annotated[
 Formats = Annotated[
     str, Option("--formats", metavar="LIST", help="Which files, of dxf, csv, svg, step; with commas.")
 ]
-Curves = Annotated[bool, Option("--curves", help="With --json: curves too, not scalars alone.")]
+Curves = Annotated[bool, Option("--curves", help="With --json: include curves.")]
 
 
 def cam_file(

@@ -25,7 +25,7 @@ Names = Annotated[
         "--law",
         metavar='"NAME: KEY=VALUE, …"',
         help='This law alone, with parameters of its own where they follow, such as "modified_sine: '
-        'share=0.2" or "combined: start=0.2, ramp=cycloidal". May be given again.',
+        'share=0.2" or "combined: start=0.2, ramp=cycloidal". Repeatable.',
         show_default=False,
     ),
 ]

@@ -36,7 +36,7 @@ Laws = Annotated[
     Option(
         "--law",
         metavar="NAME",
-        help="A law of `linkwright cam laws` for all moving sections. May be given again. Without it, those "
+        help="A law of `linkwright cam laws` for all moving sections. Repeatable. Without it, those "
         "of the file.",
         show_default=False,
     ),
@@ -68,7 +68,7 @@ def search(
     count: Count = 10,
     json: Json = False,
 ) -> None:
-    """The smallest cams that keep their limits, among many.
+    """Find the smallest cams within their limits.
 
     Each is looked at at the same angles; those that are shown are looked at exactly, and keep their limits at
     all angles. Exit code 1 if none does.

@@ -98,7 +98,7 @@ class FormulaLaw(Law):
     )
     swing: str | None = Field(None, description="Angle of an oscillating follower in rad, in its place.")
     constants: dict[str, Annotated[float, AnyQuantity()]] = Field(
-        default_factory=dict, description="Numbers of the formula by name, in any unit; they count in SI."
+        default_factory=dict, description="Constants of the formula by name, in any unit."
     )
 
     def own_lift(self, angle: float, *, swing: bool) -> float | None:

@@ -32,24 +32,24 @@ FromSpeed = Annotated[
 ]
 Duration = Annotated[
     str | None,
-    Option("--duration", metavar="TIME", help="How long it is followed.", show_default=False),
+    Option("--duration", metavar="TIME", help="Duration of the motion.", show_default=False),
 ]
 Revolutions = Annotated[
     float | None,
     Option(
         "--revolutions",
         metavar="N",
-        help="How many revolutions of the crank it is followed. Without it and --duration, ten.",
+        help="Revolutions of the crank. Default, without --duration: 10.",
         show_default=False,
     ),
 ]
-NoMotor = Annotated[bool, Option("--no-motor", help="The motor is off.")]
-WithBrake = Annotated[bool, Option("--brake", help="The brake of the file is applied.")]
+NoMotor = Annotated[bool, Option("--no-motor", help="Switch the motor off.")]
+WithBrake = Annotated[bool, Option("--brake", help="Apply the brake of the file.")]
 Accuracy = Annotated[float, Option("--accuracy", metavar="X", help="Relative accuracy of a step.")]
 Steps = Annotated[
     int, Option("--steps", metavar="N", help="Equal intervals of time in CSV and --curves.", min=1)
 ]
-Curves = Annotated[bool, Option("--curves", help="With --json: curves too.")]
+Curves = Annotated[bool, Option("--curves", help="With --json: include curves.")]
 Folder = Annotated[
     Path | None, out_option("Write results.json, transient.csv and the figure as SVG and PNG there.")
 ]

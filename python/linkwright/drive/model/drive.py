@@ -66,15 +66,15 @@ class Gearbox(Description):
     ] = Field(
         None,
         description="The same factor while the load drives the motor: a number, or "
-        '"same" for the efficiency in both directions. Without it, 1/efficiency.',
+        '"same" for the efficiency in both directions. Default: 1/efficiency.',
     )
     inertia: Annotated[float, not_negative(INERTIA)] = Field(0.0, description="At the motor shaft.")
     wheel_inertia: Annotated[float, not_negative(INERTIA)] = Field(
-        0.0, description="Of its last wheel or pulley about the crankshaft, where `inertia` does not hold it."
+        0.0, description="Of the last wheel or pulley, about the crankshaft, if `inertia` excludes it."
     )
     stiffness: PositiveStiffness | None = Field(
         None,
-        description="Of its teeth or belt, as torque at the motor shaft per angle there. Without it, rigid.",
+        description="Of teeth or belt: torque at the motor shaft per angle there. Default: rigid.",
     )
 
 
@@ -83,7 +83,7 @@ class Coupling(Description):
 
     inertia: Annotated[float, not_negative(INERTIA)] = Field(description="At the motor shaft.")
     beside: Literal["motor", "gearbox"] | None = Field(
-        None, description="End of a motor shaft that twists where it sits. Without it, half at each end."
+        None, description="End of a flexible motor shaft at which it sits. Default: half at each end."
     )
 
 
@@ -104,7 +104,7 @@ class Flywheel(_OnShaft):
     on: Shaft = Field("crank", description="The shaft that it sits on.")
     beside: End | None = Field(
         None,
-        description="End of its shaft, if that twists. Without it, the end away from the gearbox.",
+        description="End of its shaft, if that is flexible. Default: the end away from the gearbox.",
     )
 
 
@@ -116,15 +116,15 @@ class Brake(_OnShaft):
     on: Shaft = Field("motor", description="The shaft that it sits on.")
     beside: End | None = Field(
         None,
-        description="End of its shaft, if that twists. Without it, the end away from the gearbox.",
+        description="End of its shaft, if that is flexible. Default: the end away from the gearbox.",
     )
 
 
 class Drive(Description):
-    """What turns the crankshaft."""
+    """Drive of the crankshaft."""
 
     speed: Annotated[float, positive(SPEED)] | None = Field(
-        None, description="Speed of the crankshaft that the machine is designed for."
+        None, description="Design speed of the crankshaft."
     )
     motor: AnyMotor | None = Field(None, description="The motor.")
     gearbox: Gearbox = Field(default_factory=Gearbox, description="Gears between motor and crankshaft.")
@@ -132,11 +132,9 @@ class Drive(Description):
     flywheel: Flywheel | None = Field(None, description="Flywheel.")
     brake: Brake | None = Field(None, description="Brake.")
     motor_shaft: ElasticShaft | None = Field(
-        None, description="Shaft and coupling between motor and gearbox, where they twist."
+        None, description="Flexible shaft and coupling between motor and gearbox."
     )
-    crankshaft: ElasticShaft | None = Field(
-        None, description="Shaft between gearbox and mechanism, where it twists."
-    )
+    crankshaft: ElasticShaft | None = Field(None, description="Flexible shaft between gearbox and mechanism.")
 
     @property
     def twists(self) -> bool:

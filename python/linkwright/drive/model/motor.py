@@ -145,14 +145,14 @@ class InductionMotor(Motor):
 
     kind: Literal["induction"]
     catalogue: CatalogueName | None = Field(
-        None, description="Type in the catalogue of motors; gives what is not given here."
+        None, description="Type in the catalogue of motors; its data fill in missing entries."
     )
     file: str | None = Field(
         None,
         description="File of comma-separated values with motors, in which `catalogue` names the type; its "
         'head has units: "type, power_rated [kW], speed_rated [rpm], torque_breakdown_ratio".',
     )
-    speed_synchronous: PositiveSpeed | None = Field(None, description="Speed without any torque.")
+    speed_synchronous: PositiveSpeed | None = Field(None, description="Speed of zero torque.")
     torque_breakdown: PositiveTorque | None = Field(None, description="Maximum torque.")
     speed_breakdown: PositiveSpeed | None = Field(
         None, description="Speed of maximum torque. Without it, from the rated point."
@@ -292,7 +292,7 @@ class DcMotor(Motor):
     """Direct-current motor with constant excitation: M = M_stall (1 − ω/ω_0)."""
 
     kind: Literal["dc"]
-    speed_no_load: PositiveSpeed = Field(description="Speed without any torque.")
+    speed_no_load: PositiveSpeed = Field(description="Speed of zero torque.")
     torque_stall: PositiveTorque | None = Field(
         None, description="Torque at standstill. Without it, from the rated point."
     )

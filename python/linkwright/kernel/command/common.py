@@ -36,7 +36,7 @@ Sets = Annotated[
         "--set",
         metavar="PATH=VALUE",
         help="Override an entry of the file, such as drive.gearbox.ratio=10 or "
-        'mechanism.cranks.A2.phase="80 deg". May be given again.',
+        'mechanism.cranks.A2.phase="80 deg". Repeatable.',
         show_default=False,
     ),
 ]
@@ -46,7 +46,7 @@ Outside = Annotated[
         "--allow-outside", help="Let entries `file` of the machine file lead out of the folder that it is in."
     ),
 ]
-Json = Annotated[bool, Option("--json", help="Print one JSON object in SI, and nothing else.")]
+Json = Annotated[bool, Option("--json", help="Print one JSON object in SI units.")]
 ZeroAt = Annotated[
     str | None,
     Option(

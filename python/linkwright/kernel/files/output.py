@@ -136,7 +136,7 @@ class OutputFolder:
         if names and MARKER not in names and not self.force:
             listed = ", ".join(names[:_NAMED]) + (", …" if len(names) > _NAMED else "")
             raise InputError(
-                f"{self.path}: found a folder with files of others ({listed}), expected a new or empty one, "
+                f"{self.path}: found a folder with other files ({listed}), expected a new or empty one, "
                 "or one that Linkwright wrote; name another, or add --force"
             )
 

@@ -158,7 +158,7 @@ def columns_of(path: Path, key: str, kind: str = "table") -> tuple[dict[str, lis
     heads = [_HEAD.fullmatch(cell) for cell in lines[0][1]] if lines else []
     if len(lines) < 2 or not all(heads):
         found = show(",".join(lines[0][1])) if lines else "an empty file"
-        expected = f'a head such as "{_EXAMPLES[kind]}", and a row for each point, parted by commas'
+        expected = f'a head such as "{_EXAMPLES[kind]}", and a row for each point, separated by commas'
         raise MachineFileError(
             [Problem(key, found, expected, path=str(path), line=lines[0][0] if lines else 1)]
         )

@@ -84,7 +84,7 @@ class Crank(CheckedDescription):
         '"0.6*sin(phi)" swings back and forth. Without it, phi.',
     )
     constants: Constants = Field(
-        default_factory=dict, description="Numbers of the law by name, in any unit; they count in SI."
+        default_factory=dict, description="Constants of the law by name, in any unit."
     )
 
     def follows(self) -> Any:
@@ -103,7 +103,7 @@ class LinearDriver(CheckedDescription):
     per_turn: Length | None = Field(None, description="Distance for a revolution of the crankshaft.")
     law: str | None = Field(None, description="Distance from the start in m as a formula in phi.")
     constants: Constants = Field(
-        default_factory=dict, description="Numbers of the law by name, in any unit; they count in SI."
+        default_factory=dict, description="Constants of the law by name, in any unit."
     )
 
     def follows(self) -> Any:

@@ -248,7 +248,7 @@ class Topology:
         """
         driven = [element for element in self.elements if element.kind.table not in ("points", *DRIVERS)]
         if driven and not self.names(*DRIVERS):
-            remedy = "a linear driver would do as well"
+            remedy = "a linear driver is also possible"
             expected = "at least one crank, which moves the others"
             return [*self._twice(), fault("cranks", expected=expected, remedy=remedy)]
         found = [*self._twice(), *self._unknown()]
@@ -266,7 +266,7 @@ class Topology:
                     joint,
                     found=circle,
                     expected="bars and guides that end at what is placed before the joint",
-                    remedy="write all of the circle as joints and bars: then they are found together",
+                    remedy="describe the whole loop by joints and bars",
                 )
                 continue
             holds = [
@@ -279,13 +279,13 @@ class Topology:
                 joint,
                 found="held by " + (", ".join(holds) or "nothing"),
                 expected="as many bars and guides as fix every joint: two for each",
-                remedy="it can still move while the crank stands; add a bar or a guide",
+                remedy="it can still move with the crank held; add a bar or a guide",
             )
         for name in dict.fromkeys(found.surplus):
             yield fault(
                 kinds[name].table,
                 name,
-                found="one condition too many",
+                found="one constraint too many",
                 expected="two bars or guides for each joint",
                 remedy=self._too_many(name),
             )
@@ -295,12 +295,12 @@ class Topology:
         drivers = self._drivers(name)
         if len(drivers) > 1:
             return (
-                f"the drivers {' and '.join(drivers)} both move what it joins, which one moves already; "
-                f"remove {name} or a driver, or write redundant = true to have checked that it always fits"
+                f"the drivers {' and '.join(drivers)} both move what it joins, and one suffices; "
+                f"remove {name} or a driver, or write redundant = true to have its length checked"
             )
         return (
-            "the mechanism moves without it, and is locked with it unless it always fits; "
-            "remove it, or write redundant = true to have that checked"
+            "the mechanism moves without it, and is locked with it unless its length fits at every angle; "
+            "remove it, or write redundant = true to have its length checked"
         )
 
     def _needs(self) -> dict[str, list[str]]:

@@ -224,8 +224,8 @@ class InitialAssembly:
         rest = psi - winding * at
         if np.ptp(rest) > _SWING_MAX:
             raise AssemblyError(
-                f"the link {each.name} swings by {np.degrees(np.ptp(rest)):.0f}° about its mean turning; "
-                "a gear, a rack or a cable on it has no unambiguous place beyond 356°",
+                f"the link {each.name} swings by {np.degrees(np.ptp(rest)):.0f}° about its mean rotation; "
+                "beyond 356° the position of a gear, a rack or a cable on it is ambiguous",
                 element=each.name,
             )
         near = _first(each.near)

@@ -29,7 +29,7 @@ Vary = Annotated[
     Option(
         "--vary",
         metavar="ADDRESS[=LOW:HIGH]",
-        help='Entry of a machine file that is sought, "drive.flywheel.inertia=50:200". May be given again.',
+        help='Entry of a machine file that is sought, "drive.flywheel.inertia=50:200". Repeatable.',
         show_default=False,
     ),
 ]

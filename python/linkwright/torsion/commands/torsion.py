@@ -30,7 +30,7 @@ Holzer = Annotated[
     Option(
         "--holzer",
         metavar="FREQUENCY",
-        help='Holzer\'s table at a frequency: 45 (Hz), "20 rad/s", "300 rpm", f_3. May be given again.',
+        help='Holzer\'s table at a frequency: 45 (Hz), "20 rad/s", "300 rpm", f_3. Repeatable.',
         show_default=False,
     ),
 ]

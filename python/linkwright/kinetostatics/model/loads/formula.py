@@ -27,7 +27,7 @@ class FormulaLoad(Load):
     )
     along: str | None = Field(None, description="Link that the force turns with.")
     constants: dict[str, Annotated[float, AnyQuantity()]] = Field(
-        default_factory=dict, description="Numbers of the formula by name, in any unit; they count in SI."
+        default_factory=dict, description="Constants of the formula by name, in any unit."
     )
 
     @property
