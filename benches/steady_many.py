@@ -52,7 +52,7 @@ def measured(
     """Turns a second, and machines a second against SciPy."""
     batch = lw.steady_states(machine, entries)
     solved = int((batch.status == 0).sum())
-    assert solved == len(batch.status), f"{len(batch.status) - solved} machines without an answer"
+    assert solved == len(batch.status), f"{len(batch.status) - solved} machines without a result"
     time = seconds([lambda: lw.steady_states(machine, entries)], repeats=3 if quick else 5)[0]
     n = len(batch.status)
     note = f"{n} machines, {batch.turns_swept / n:.1f} turns each; {words}"

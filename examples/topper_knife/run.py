@@ -1,7 +1,7 @@
 """How long must the edge of a topper be, what does its stroke cost, and what does a shorter one leave?
 
 Paper 5 (see docs/references.md) asks for a length that keeps the knife busy while a head passes. A head is
-cut right through if the edge crosses each of its points, in whatever phase it meets the knife.
+cut through if the edge crosses each of its points, in whatever phase it meets the knife.
 """
 
 from pathlib import Path

@@ -85,7 +85,7 @@ def _linkage(random: Generator) -> tuple[Table, list[str], list[str]]:
 
 
 def _crank_rocker(random: Generator, r: float) -> tuple[float, float, float]:
-    """Frame, coupler and rocker of a four-bar whose crank turns all round, by Grashof's condition."""
+    """Frame, coupler and rocker of a four-bar whose crank rotates fully, by Grashof's condition."""
     while True:
         frame, coupler, rocker = (r * random.uniform(1.3, 6.0) for _ in range(3))
         longest = max(frame, coupler, rocker)

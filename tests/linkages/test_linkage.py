@@ -210,7 +210,7 @@ def _with_force(force: float) -> str:
 
 
 def test_grashof_against_full_assembly() -> None:
-    """Of random four-bars, the crank turns all round exactly in those whose class says so."""
+    """Of random four-bars, the crank rotates fully exactly in those whose class says so."""
     random = np.random.default_rng(7)
     turning = ("crank-rocker", "double-crank (drag link)")
     seen = set()

@@ -51,7 +51,7 @@ def test_lever_turns_once_and_never_back(turning: RodRotatorMotion) -> None:
     assert turning.lever_angle[-1] - turning.lever_angle[0] == pytest.approx(2 * np.pi, abs=1e-9)
     assert turning.extremes_coincide
     assert len(turning.change_points) == 2
-    assert "turns all round" in turning.verdict
+    assert "rotates fully" in turning.verdict
 
 
 def test_turning_by_the_closed_form(turning: RodRotatorMotion) -> None:
@@ -195,7 +195,7 @@ def test_lengths_of_the_continuous_regime_turn_or_it_is_a_finding() -> None:
 def test_given_lengths_that_do_not_turn_are_a_finding() -> None:
     given = {"rod_rotator.link_length": 3.7, "rod_rotator.lever_length": 0.5}
     study = lw.study(lw.replace(CONTINUOUS, given))
-    assert any("does not turn all round" in text for text in study.findings)
+    assert any("does not rotate fully" in text for text in study.findings)
 
 
 def test_a_swing_that_cannot_be_had_leaves_the_rest_of_the_study() -> None:

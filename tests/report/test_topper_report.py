@@ -74,7 +74,7 @@ def test_lengths_stand_side_by_side() -> None:
     listed = rows(shown("short")["topper_lengths"])
     for word, value, is_met in (
         ("printed in paper 5", found.length_published, "yes"),
-        ("what its condition (4) gives", found.length_consistent, "yes"),
+        ("by its condition (4)", found.length_consistent, "yes"),
         ("knife at rest", found.length_at_rest, "yes"),
         ("exact at constant speed", found.length_exact_constant_speed, "no"),
         ("exact, best phase", found.length_best_phase, "yes"),

@@ -108,9 +108,9 @@ GROUPS = {
         "Torsional vibration of a train; dampers; weak cylinders.",
         """Analyse the torsional vibration of a train, with FILE; or one of the commands below.
 
-        FILE gives natural frequencies, mode shapes and nodes; with torques and [train.run] also critical speeds,
-        torques, stresses, limits, barred speed ranges, speed fluctuation and heat. Exit code 1 if a limit is
-        exceeded.
+        FILE gives natural frequencies, mode shapes and nodes; with torques and [train.run] also critical
+        speeds, torques, stresses, limits, barred speed ranges, speed fluctuation and heat. Exit code 1 if a
+        limit is exceeded.
         """,
         {
             "damper": Place("Optimum damper for a mode.", "torsion.commands.damper:damper"),

@@ -4,7 +4,7 @@
 | --- | --- | --- |
 | mechanism | closes over the whole revolution, loads have values there | `require_turn` |
 | drive | masses and loads repeat, the motor drives, the machine starts | `require_one_turn`, `start_of` |
-| pumping unit | the crank turns all round | `PolishedRod` |
+| pumping unit | the crank rotates fully | `PolishedRod` |
 | rotator | the lever does as its regime asks | `rod_rotator` |
 | cams | undercut, crossed, locked, hollow, no room for a second follower | `cam_profile`, `cam_faults` |
 | turning-moment diagram | driver and load balance over a cycle | `turning_moment` |
@@ -111,12 +111,12 @@ def _mechanism(machine: Machine, findings: Findings) -> Iterator[str]:
         from linkwright.pumping.unit import PolishedRod
 
         findings.of(PolishedRod.of, machine, machine.pumping_unit)
-        yield "pumping unit: its crank turns all round"
+        yield "pumping unit: its crank rotates fully"
     if machine.rod_rotator is not None:
         from linkwright.pumping.rod_rotator import rod_rotator
 
         findings.of(rod_rotator, machine)
-        yield "rod rotator: lengths, and the motion that its regime asks for"
+        yield "rod rotator: lengths, and the motion of its regime"
     if machine.mechanism.cams:
         from linkwright.cam.study import sound_cams
 

@@ -130,7 +130,7 @@ def joint_table(profile: CamProfile) -> Table:
         for joint in profile.cam.programme.joints
     ]
     heads = ("continuity at segment boundaries", "", "cam angle")
-    return Table(f"cam_{profile.name}_joints", f"Joints of cam {profile.name}", heads, rows)
+    return Table(f"cam_{profile.name}_joints", f"Segment boundaries of cam {profile.name}", heads, rows)
 
 
 def force_table(loaded: LoadedCam) -> Table:

@@ -182,7 +182,7 @@ _CRANK = ("time", "crank_angle", "speed", "acceleration")
 
 
 def _cycle(known: Linkage) -> tuple[float, float]:
-    """First and last crank angle of the cycle [rad]: of a crank that turns all round, from zero on."""
+    """First and last crank angle of the cycle [rad]: of a crank that rotates fully, from zero on."""
     low, high = float(known.crank_angle[0]), float(known.crank_angle[-1])
     is_round = known.closure.turns_fully and known.closure.change_point is None
     return (0.0, high - low) if is_round else (low, high)

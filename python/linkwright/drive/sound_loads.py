@@ -24,7 +24,7 @@ _DOUBTFUL = (FormulaLoad, GasSpring, TorsionalSpring)
 
 
 def require_turn(machine: Machine) -> Compiled:
-    """The machine compiled, if its crank turns all round, with loads that have a value everywhere.
+    """The machine compiled, if its crank rotates fully, with loads that have a value everywhere.
 
     Raises
     ------
@@ -49,7 +49,7 @@ def require_same_turns(machine: Machine) -> None:
         if isinstance(load, FormulaLoad) and load.knows_time:
             raise SteadyStateError(
                 f'no steady motion: the formula of {name}, "{load.text}", depends on time t: no revolution '
-                "repeats another; write it with the crank angle phi, or compute the motion in time (transient)"
+                "repeats another; write it with the crank angle phi, or use transient"
             )
 
 

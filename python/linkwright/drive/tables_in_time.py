@@ -23,9 +23,9 @@ _TORQUES = "at φ = {angle} the drive gives {drive} N m at the crank and the loa
 _AFTER = "after {time} s, {turns} revolutions"
 _SENTENCES = {
     End.DOES_NOT_START: f"The machine does not start: {_TORQUES} need {{load}} N m",
-    End.STARTS_BACKWARDS: f"The machine is driven backwards: {_TORQUES} ask for {{load}} N m",
+    End.STARTS_BACKWARDS: f"The machine is driven backwards: {_TORQUES} require {{load}} N m",
     End.STALL: f"The machine stalls {_AFTER}: {_TORQUES} need {{load}} N m",
-    End.REVERSAL: f"The machine stops {_AFTER}, and is driven backwards: {_TORQUES} ask for {{load}} N m",
+    End.REVERSAL: f"The machine stops {_AFTER}, and is driven backwards: {_TORQUES} require {{load}} N m",
 }
 
 

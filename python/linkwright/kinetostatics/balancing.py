@@ -99,10 +99,10 @@ def balance(
     links : sequence of str
         Links that turn about fixed points.
     speed : float, optional
-        Of the crank [rad/s]. Without it, the steady motion of the motor, or the drive's design speed. At a
+        Of the crank [rad/s]. Default: the steady motion of the motor, or the drive's design speed. At a
         constant speed the counterweights do not depend on it.
     radius : float or mapping of str to float, optional
-        Distance of the counterweights from their pivots, of all or by link [m]. Without it, the link's
+        Distance of the counterweights from their pivots, of all or by link [m]. Default: the link's
         length.
     n : int
         Intervals of the revolution.

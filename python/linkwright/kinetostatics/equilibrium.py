@@ -187,7 +187,7 @@ def _require_room(n: int, equations: int, unknowns: int) -> None:
     if n * equations * unknowns > FORCES.most:
         raise FindingError(
             f"forces: found {grouped(n)} crank angles, {equations} equations and {unknowns} unknowns, "
-            f"expected {FORCES.words}; ask for fewer angles, or describe a part of the machine"
+            f"expected {FORCES.words}; use fewer angles, or describe a part of the machine"
         )
 
 

@@ -27,7 +27,7 @@ class Friction:
     viscous : float
         Torque per relative angular speed of a pin [N m s/rad], force per velocity of a guide or slot [N s/m].
     length : float
-        Of a guide: between its two ends, which then share force and moment [m]. Without it, the moment
+        Of a guide: between its two ends, which then share force and moment [m]. Default: the moment
         causes no friction.
     """
 

@@ -87,7 +87,7 @@ def motion_at(
 
 
 def _require_full_turn(machine: Machine) -> None:
-    """Raise AssemblyError if the crank does not turn all round, with the angles that it has."""
+    """Raise AssemblyError if the crank does not rotate fully, with the angles that it has."""
     found = closure(machine)
     if found.turns_fully:
         return

@@ -45,7 +45,7 @@ class Branch(Record):
     assembly: Annotated[dict[str, str], About(_BRANCH_ASSEMBLY)]
     low: Annotated[float, Shown("minimum crank angle", "", "rad", "0 of a full revolution.")]
     high: Annotated[float, Shown("maximum crank angle", "", "rad", "2π of a full revolution.")]
-    turns_fully: Annotated[bool, About("Whether the crank turns all round.")]
+    turns_fully: Annotated[bool, About("Whether the crank rotates fully.")]
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,7 @@ class Circuit(Record):
 
     @property
     def turns_fully(self) -> bool:
-        """Whether the crank turns all round in it."""
+        """Whether the crank rotates fully in it."""
         return any(branch.turns_fully for branch in self.branches)
 
 

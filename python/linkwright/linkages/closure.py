@@ -101,7 +101,7 @@ class Closure(Record):
 
     @property
     def turns_fully(self) -> bool:
-        """Whether the crank can turn all round."""
+        """Whether the crank can rotate fully."""
         return not self.element
 
     @property
@@ -360,7 +360,7 @@ def _passes(compiled: Compiled, at: float) -> bool:
 
 
 def require_full_turn(compiled: Compiled, machine: Machine) -> None:
-    """Raise if the crank cannot turn all round.
+    """Raise if the crank cannot rotate fully.
 
     Raises
     ------
@@ -387,7 +387,8 @@ def require_one_turn(compiled: Compiled) -> None:
         after = f"only after {turns} revolutions" if turns else "never"
         raise AssemblyError(
             f"masses and loads return to their positions {after}, so one revolution of the crank is not a "
-            "period; choose the slowest part as the crank, or put masses and loads on parts that repeat with it"
+            "period; choose the slowest part as the crank, or put masses and loads on parts that repeat "
+            "with it"
         )
 
 

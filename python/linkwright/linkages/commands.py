@@ -33,8 +33,8 @@ Speed = Annotated[
     Option(
         "--speed",
         metavar="SPEED",
-        help='Speed of the crank, such as "90 rpm", for --at and for a revolution without --law. Default: the '
-        "design speed of the file, or 1 rad/s.",
+        help='Speed of the crank, such as "90 rpm", for --at and for a revolution without --law. Default: '
+        "the design speed of the file, or 1 rad/s.",
         show_default=False,
     ),
 ]

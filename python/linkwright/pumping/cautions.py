@@ -46,7 +46,7 @@ def _fall(unit: PumpingUnitMotion) -> Iterator[str]:
     if unit.rod_acceleration_min is not None and unit.rod_acceleration_min <= -_FREE_FALL:
         yield (
             "The horsehead falls away from the rods: its acceleration reaches "
-            f"{-unit.rod_acceleration_min:.4g} m/s² downward; run more slowly."
+            f"{-unit.rod_acceleration_min:.4g} m/s² downward; reduce the speed."
         )
 
 
@@ -72,7 +72,7 @@ def _gear(gear: GearTorque) -> Iterator[str]:
 def _lever(machine: Machine, rotator: RodRotatorMotion) -> Iterator[str]:
     if not rotator.extremes_coincide:
         yield (
-            "The diagonal from the beam's pin to the hanger has an extreme inside the stroke: the lengths "
+            "The distance from the beam's pin to the hanger has an extreme inside the stroke: the lengths "
             "of equations (3) to (7) do not hold."
         )
     if rotator.change_points and rotator.worm_torque:

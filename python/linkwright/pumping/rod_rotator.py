@@ -57,7 +57,7 @@ _NO_ARM = 1e-6
 _EXTREMES_COINCIDE = (
     "Whether l_d has its extremes where the beam has, as equations (5) and (6) of the paper take for granted."
 )
-_FINDINGS = "What the regime asks for and the lever does not do: turn all round, or swing as wanted."
+_FINDINGS = "Requirements of the regime that the lever does not meet: full rotation, or the required swing."
 
 
 @dataclass(frozen=True)
@@ -96,7 +96,7 @@ class RodRotatorMotion(Result):
             "range of the lever's angle",
             "",
             "rad",
-            "A full revolution where it turns all round.",
+            "A full revolution where it rotates fully.",
             table="rotator",
         ),
     ]
@@ -182,7 +182,7 @@ def rod_rotator(machine: Machine, *, n: int = 360) -> RodRotatorMotion:
     InputError
         The machine has no rotator.
     AssemblyError
-        The crank cannot turn all round, link and lever cannot meet, or no lever has the required swing.
+        The crank cannot rotate fully, link and lever cannot meet, or no lever has the required swing.
 
     Notes
     -----
@@ -244,7 +244,7 @@ def _missed(rotator: RodRotator, known: Lengths, turns: float, swing: float) -> 
     if rotator.regime == "continuous":
         if not turns:
             yield (
-                f"the lever of the continuous regime does not turn all round: {of} swings through "
+                f"the lever of the continuous regime does not rotate fully: {of} swings through "
                 f"{np.degrees(swing):.4g}°; leave link_length and lever_length out, or choose another "
                 "pin_distance"
             )
@@ -282,7 +282,7 @@ def verdict(known: Lengths, least: float, greatest: float) -> str:
         return f"does not close all round: {spare}"
     meets = (abs(least - folded) <= close, abs(greatest - stretched) <= close)
     if all(meets):
-        return f"turns all round, through two change points: {spare}"
+        return f"rotates fully, through two change points: {spare}"
     if any(meets):
         return f"touches a change point at one end of the stroke and turns back from there: {spare}"
     return f"rocks, never in line with its link: {spare}"

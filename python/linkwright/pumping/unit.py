@@ -140,7 +140,7 @@ def pumping_unit(machine: Machine, *, n: int = 360) -> PumpingUnitMotion:
     InputError
         The machine has no pumping unit.
     AssemblyError
-        The crank cannot turn all round.
+        The crank cannot rotate fully.
 
     Notes
     -----

@@ -43,8 +43,8 @@ By = Annotated[
     Literal["all", "fixed-start", "power"],
     Option(
         "--by",
-        help="Checks for the choice. fixed-start: all except the start from the worst angle. power: only rated "
-        "power and start.",
+        help="Checks for the choice. fixed-start: all except the start from the worst angle. power: only "
+        "rated power and start.",
     ),
 ]
 FreeRatio = Annotated[bool, Option("--free-ratio", help="Choose the gear ratio for each motor.")]

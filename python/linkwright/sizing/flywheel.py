@@ -69,7 +69,7 @@ class FlywheelChoice(Result):
     inertia: Annotated[
         float, Shown("moment of inertia of the flywheel", "J_f", "kg m²", "Zero if none is needed.")
     ]
-    unevenness_wanted: Annotated[float, Shown("coefficient of speed fluctuation asked for", "", "")]
+    unevenness_wanted: Annotated[float, Shown("required coefficient of speed fluctuation", "", "")]
     unevenness: Annotated[
         float,
         Shown(

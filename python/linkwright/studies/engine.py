@@ -204,7 +204,7 @@ def _motion(
         found = taken(table, each.extreme) if each.extreme else table[:, 0]
         rows.columns[each.name][members] = found
         open_rows = members[~np.isfinite(found)]
-        rows.fail(open_rows, FAILED, "The links do not close at every crank angle that is asked for.")
+        rows.fail(open_rows, FAILED, "The links do not close at every required crank angle.")
 
 
 def _one_by_one(
@@ -259,7 +259,7 @@ def _place(machine: Machine, each: Asked) -> float:
     curve = motions(machine, angles, points=each.of)[0, "xy".index(each.quantity), :]
     place = float(taken(curve, each.extreme) if each.extreme else curve[0])
     if not np.isfinite(place):
-        raise FindingError("the links do not close at every crank angle that is asked for")
+        raise FindingError("the links do not close at every required crank angle")
     return place
 
 

@@ -60,13 +60,14 @@ class Fit(Result):
     deviations: Annotated[
         dict[str, float],
         About(
-            "Number → its standard deviation [SI]; infinite where the record does not tell, NaN at a limit."
+            "Number → its standard deviation [SI]; infinite where the record does not determine it, NaN at a "
+            "limit."
         ),
     ]
     intervals: Annotated[
         dict[str, tuple[float, float]], About("Number → its confidence interval [SI], likewise.")
     ]
-    level: Annotated[float, Shown("probability that an interval holds the truth", "", "")]
+    level: Annotated[float, Shown("confidence level", "", "")]
     correlations: Annotated[dict[str, dict[str, float]], About("Number → its correlation with each number.")]
     noise: Annotated[dict[str, float], About("Channel → standard deviation of what is left over [SI].")]
     directions: Annotated[
@@ -82,8 +83,8 @@ class Fit(Result):
     reasons: Annotated[dict[str, int], About("Why trials of the search had no answer → how many.")]
 
     @property
-    def is_determined(self) -> Annotated[bool, About("Whether the record tells all numbers.")]:
-        """Whether the record tells all numbers."""
+    def is_determined(self) -> Annotated[bool, About("Whether the record determines all parameters.")]:
+        """Whether the record determines all parameters."""
         return all(direction.is_determined for direction in self.directions)
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:

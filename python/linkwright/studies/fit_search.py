@@ -107,7 +107,7 @@ def _least_squares(model: Predicted, x: Floats, noise: Floats) -> Floats:
     )
     if not found.success:
         raise ConvergenceError(
-            "the numbers did not settle; begin nearer to them, or fit fewer",
+            "the fit did not converge; start nearer to the solution, or fit fewer parameters",
             method="trust region",
             iterations=300,
         )

@@ -138,7 +138,7 @@ class SweepFolder:
         try:
             write_file(self.part(number), data)
         except InputError as error:
-            raise InputError(f"{error}; rows that are written stay, and the same command goes on") from None
+            raise InputError(f"{error}; rows that are written stay, and the same command resumes") from None
 
 
 def new_folder(path: Path, ready: StudyPlan) -> SweepFolder:

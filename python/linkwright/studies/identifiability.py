@@ -101,7 +101,8 @@ def _words(numbers: Sequence[Number], parts: dict[str, float], deviation: float,
         return f"{listed} {known} known to ±{100 * deviation:.2g} % (standard deviation)"
     together = " together" if len(parts) > 1 else ""
     return (
-        f"{listed}{together} would change the record by {effect:.2g} of its noise: the record does not tell"
+        f"{listed}{together} would change the record by {effect:.2g} of its noise: the record does not "
+        f"determine {'them' if len(parts) > 1 else 'it'}"
     )
 
 

@@ -3,7 +3,7 @@
 Variables without numbers, and lists, are enumerated: each combination has a search of its own. Within one,
 CMA-ES [1]_ with margin for whole numbers [2]_, by the package ``cmaes``, orders machines as Deb does [3]_:
 one that keeps all limits before one that does not, those by the goal, these by how far they pass the limits,
-machines without an answer last. From the best of them, or from many starts instead, exact derivatives lead
+machines without a result last. From the best of them, or from many starts instead, exact derivatives lead
 further down (`linkwright.studies.local`).
 
 References
@@ -71,7 +71,7 @@ class Optimum(Result):
         About("Best value of each combination of choices; None if no limit is kept."),
     ]
     n_evaluations: Annotated[int, Shown("machines that were computed", "", "")]
-    n_failed: Annotated[int, Shown("machines without an answer", "", "")]
+    n_failed: Annotated[int, Shown("machines without a result", "", "")]
     reasons: Annotated[dict[str, int], About("Why machines had no answer → how many.")]
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
@@ -307,7 +307,9 @@ class _Search:
             rows = evaluate(self.plan, self.plan.values(self.best[1][None]))
             limits = self.plan.limits.items()
             nearest = ", ".join(f"{name} = {rows.columns[name][0]:.6g}" for name, _ in limits)
-            return f"none of {self.count} machines keeps all limits; the nearest has {nearest}: allow more"
+            return (
+                f"none of {self.count} machines keeps all constraints; the nearest has {nearest}: allow more"
+            )
         most = max(self.reasons, key=self.reasons.__getitem__, default="")
         return f"none of {self.count} machines has an answer; most often: {most}"
 

@@ -33,13 +33,13 @@ class Sweep(Result):
     path: Annotated[str, About("The folder of the results.")]
     n_rows: Annotated[int, Shown("rows of the sweep", "", "")]
     n_done: Annotated[int, Shown("rows computed so far", "", "")]
-    n_failed: Annotated[int, Shown("rows without an answer", "", "", "Each keeps its reason.")]
+    n_failed: Annotated[int, Shown("rows without a result", "", "", "Each keeps its reason.")]
     reasons: Annotated[dict[str, int], About("Reason of failed rows → how many rows.")]
     extremes: Annotated[
         dict[str, dict[str, float]],
         About("Response → its minimum and maximum [SI], and the rows that have them."),
     ]
-    repaired: Annotated[tuple[str, ...], About("Files that were cut off, and were computed anew.")] = ()
+    repaired: Annotated[tuple[str, ...], About("Truncated files that were computed again.")] = ()
 
     @property
     def is_complete(self) -> bool:

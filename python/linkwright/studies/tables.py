@@ -36,7 +36,7 @@ def sweep_tables(sweep: Sweep, units: dict[str, str]) -> list[Table]:
         if len(sweep.reasons) > _REASONS:
             rest = sum(list(sweep.reasons.values())[_REASONS:])
             listed.append((f"{len(sweep.reasons) - _REASONS} further reasons", "", str(rest)))
-        tables.append(Table("failed", "Rows without an answer", ("reason", "", "rows"), listed))
+        tables.append(Table("failed", "Rows without a result", ("reason", "", "rows"), listed))
     return tables
 
 

@@ -53,7 +53,7 @@ class Tolerance(Result):
     """How responses scatter; every table has an entry a response."""
 
     n_rows: Annotated[int, Shown("machines drawn at random", "", "")]
-    n_failed: Annotated[int, Shown("machines without an answer", "", "", "They count as outside the limits.")]
+    n_failed: Annotated[int, Shown("machines without a result", "", "", "They count as outside the limits.")]
     responses: Annotated[
         dict[str, dict[str, float]],
         About(

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 OutFile = Annotated[Path | None, out_option("Write the machine there.", "FILE")]
 Curves = Annotated[bool, Option("--curves", help="With --json: include curves.")]
-TaskFile = Annotated[Path | None, Argument("TASK", "File of the task: what the linkage shall do.")]
+TaskFile = Annotated[Path | None, Argument("TASK", "Task file of the linkage.")]
 TaskOption = Annotated[
     Path | None, Option("--task", metavar="FILE", help="The same as an option.", show_default=False)
 ]
@@ -48,17 +48,17 @@ TimeRatio = Annotated[
 ]
 Frame = Annotated[str, Option("--frame", metavar="LENGTH", help="Distance of the pivots of a crank-rocker.")]
 CouplerMax = Annotated[
-    float, Option("--coupler-max", metavar="X", help="Coupler over rocker of a crank-rocker, at most.")
+    float, Option("--coupler-max", metavar="X", help="Maximum ratio of coupler to rocker of a crank-rocker.")
 ]
 Rod = Annotated[
     str | None,
     Option(
-        "--rod", metavar="LENGTH", help="Rod of a slider-crank; without it, the best one.", show_default=False
+        "--rod", metavar="LENGTH", help="Rod of a slider-crank. Default: the best one.", show_default=False
     ),
 ]
 Kind = Annotated[
     str | None,
-    Option("--kind", metavar="KIND", help="Which linkage; --list names them.", show_default=False),
+    Option("--kind", metavar="KIND", help="Kind of linkage; --list names them.", show_default=False),
 ]
 Length = Annotated[str, Option("--length", metavar="LENGTH", help="Length of the straight line.")]
 Proportions = Annotated[
@@ -66,10 +66,10 @@ Proportions = Annotated[
     Option(
         "--proportion",
         metavar="NAME=X",
-        help="A length other than usual; only ratios count. Repeatable.",
+        help="Proportion other than the default; only ratios matter. Repeatable.",
     ),
 ]
-List = Annotated[bool, Option("--list", help="The catalogue, for this length of line.")]
+List = Annotated[bool, Option("--list", help="List the catalogue for this length of the line.")]
 
 # Seconds after which a bar shows how far it is.
 _PATIENCE = 1.0

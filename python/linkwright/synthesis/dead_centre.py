@@ -56,7 +56,7 @@ _CRANK_ROCKER_TURNS_ALIKE = (
 class CrankRocker(TransmissionResult):
     """A crank-rocker for given dead centres."""
 
-    remedy: ClassVar[str] = "ask for a smaller swing, or a time ratio nearer to 1"
+    remedy: ClassVar[str] = "reduce the swing, or choose a time ratio nearer to 1"
 
     swing: Annotated[float, Shown("swing of the rocker", "ψ_0", "rad", "Between the dead centres.")]
     crank_angle_forward: Annotated[

@@ -153,7 +153,7 @@ def _no_solution(task: FunctionTask, scale: Scale, n_starts: int, *, exact: bool
     if exact:
         return (
             f"no linkage meets the {n} points: Freudenstein's equation has no real solution for them; change "
-            "crank_range or rocker_range, or ask for fewer points"
+            "crank_range or rocker_range, or give fewer points"
         )
     return (
         f"none of {n_starts} starts ended at a linkage that keeps all limits over the range "

@@ -95,7 +95,7 @@ class FunctionModel:
     free : ndarray of bool, shape (5,)
         Which numbers of a row may change.
     ratio_max : float
-        Longest over shortest link, at most.
+        Maximum ratio of longest to shortest link.
     transmission_min : float
         Minimum transmission angle over the range [rad].
     """

@@ -72,7 +72,7 @@ def slider_crank(stroke: float, time_ratio: float = 1.0, *, rod: float | None = 
     time_ratio : float
         Crank angle from the outer dead centre to the inner one over the rest of the revolution [–].
     rod : float, optional
-        Its rod [m]. Without it, the rod of the best transmission angle; at a time ratio of 1 there is none.
+        Its rod [m]. Default: the rod of the best transmission angle; at a time ratio of 1 there is none.
 
     Returns
     -------

@@ -37,7 +37,7 @@ Ratios = Annotated[tuple[float, ...], QuantityList(RATIO)]
 class Task(Description):
     """What all tasks share: a task is checked as a whole, and all its problems are reported."""
 
-    name: str = Field("", description="What the linkage is for; the name of the machine.")
+    name: str = Field("", description="Purpose of the linkage; name of the machine.")
 
     @model_validator(mode="wrap")
     @classmethod
@@ -132,8 +132,8 @@ class FunctionTask(Task):
     x: Ratios | None = Field(None, description="Arguments at which the function shall be met.")
     y: Ratios | None = Field(None, description="Its values there; instead of `function`.")
     range: Ratios | None = Field(None, description="First and last argument; without it, those of `x`.")
-    points: Whole = Field(3, ge=3, le=1000, description="How many points are met, if `x` is not given.")
-    spacing: Literal["chebyshev", "even"] = Field("chebyshev", description="How they are spread.")
+    points: Whole = Field(3, ge=3, le=1000, description="Number of accuracy points, if `x` is not given.")
+    spacing: Literal["chebyshev", "even"] = Field("chebyshev", description="Spacing of the points.")
     crank_range: Angle = Field(description="Angle that the crank turns through over the range; signed.")
     rocker_range: Angle = Field(description="Angle that the rocker turns through over the range; signed.")
     crank_start: Angle | None = Field(
@@ -147,7 +147,7 @@ class FunctionTask(Task):
         0.0, description="Minimum transmission angle over the range."
     )
     length_ratio_max: Annotated[float, positive(RATIO)] = Field(
-        20.0, description="Longest over shortest link, at most."
+        20.0, description="Maximum ratio of longest to shortest link."
     )
 
     @property
@@ -202,20 +202,20 @@ class PathTask(Task):
     y: Lengths = Field(description="Up, one value a point.")
     crank_angle: Angles | None = Field(
         None,
-        description="Crank angle at each point, counted from anywhere; without it, timing is free.",
+        description="Crank angle at each point, from any zero. Default: timing is free.",
     )
     pivots: Box | None = Field(
         None,
-        description="Where the fixed pivots may lie; without it, within four sizes of the path around it.",
+        description="Region of the fixed pivots. Default: within four sizes of the path around it.",
     )
     linkage: Literal["crank-rocker", "double-crank", "any"] = Field(
-        "crank-rocker", description="What the linkage must be; in any case its crank turns round."
+        "crank-rocker", description="Type of linkage; its crank always rotates fully."
     )
     transmission_angle_min: Annotated[float, not_negative(ANGLE)] = Field(
         0.0, description="Minimum transmission angle in the revolution."
     )
     length_ratio_max: Annotated[float, positive(RATIO)] = Field(
-        20.0, description="Longest over shortest link, at most."
+        20.0, description="Maximum ratio of longest to shortest link."
     )
     length_max: PositiveLength | None = Field(
         None, description="Longest link; without it, four sizes of the path."
@@ -223,9 +223,9 @@ class PathTask(Task):
     seed: Whole = Field(
         1, ge=0, description="Seed of the random generator; the same seed gives the same linkage."
     )
-    population: Whole = Field(240, ge=20, le=100_000, description="Starts that are refined.")
+    population: Whole = Field(240, ge=20, le=100_000, description="Number of starts that are refined.")
     generations: Whole = Field(
-        600, ge=1, le=1_000_000, description="Steps of the refinement at most, in its last stage."
+        600, ge=1, le=1_000_000, description="Maximum number of steps of the refinement, in its last stage."
     )
     accuracy: Ratio = Field(
         1e-9,

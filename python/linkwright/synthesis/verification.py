@@ -46,9 +46,9 @@ def transmission_caution(angle: float, remedy: str = "") -> tuple[str, ...]:
     if angle < _NEAR_LOCK:
         meaning = "the linkage nearly locks there: friction may stop it, and joint clearance moves its output"
     elif angle < _FAIR:
-        meaning = "handbooks ask for 40° at least, 30° at low speed and load; joint forces and wear are high"
+        meaning = "handbooks require at least 40°, 30° at low speed and load; joint forces and wear are high"
     else:
-        meaning = "enough at low speed and load; handbooks ask for 40° else"
+        meaning = "sufficient at low speed and load; otherwise handbooks require 40°"
     return (f"{found}: {meaning}" + (f"; {remedy}" if remedy else ""),)
 
 
@@ -96,7 +96,7 @@ def require_met(
         has = "none" if found is None else f"{factor * found:.9g}{unit}"
         raise SynthesisError(
             f"the linkage made for {what} of {factor * wanted:.9g}{unit} has {has} when it is analysed "
-            "again: its links are too unlike in length; ask for something less extreme"
+            "again: its link lengths differ too much; choose a less extreme task"
         )
 
 

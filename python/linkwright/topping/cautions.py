@@ -71,7 +71,7 @@ def field_findings(field: TopperField, topper: Topper) -> Iterator[str]:
         least = field.length_at(limits.complete_min)
         remedy = f"; {least:.4g} m would do" if least < float("inf") else ""
         yield (
-            f"Of the heads {100 * field.share_complete:.4g} % are cut right through, "
+            f"Of the heads {100 * field.share_complete:.4g} % are cut through, "
             f"{100 * limits.complete_min:.4g} % are asked for{remedy}."
         )
     if limits.haulm_max is not None and field.haulm_mean > limits.haulm_max:

@@ -34,17 +34,21 @@ Over = Annotated[
     Option(
         "--over",
         metavar="NAME=LOW:HIGH:N",
-        help='What varies, such as edge_length=0.1:0.3:21 or edge_angle="0 deg":"40 deg":9: edge_length, '
+        help='Variable, such as edge_length=0.1:0.3:21 or edge_angle="0 deg":"40 deg":9: edge_length, '
         "edge_angle, forward_speed, knife_speed, cut_height. A second one: all combinations.",
         show_default=False,
     ),
 ]
 Seed = Annotated[
-    int | None, Option("--seed", metavar="N", help="In place of the field's.", show_default=False)
+    int | None,
+    Option(
+        "--seed",
+        metavar="N",
+        help="Seed of the random generator, in place of that of the field.",
+        show_default=False,
+    ),
 ]
-Level = Annotated[
-    float, Option("--level", metavar="P", help="Probability that the intervals hold the truth.")
-]
+Level = Annotated[float, Option("--level", metavar="P", help="Confidence level of the intervals.")]
 Folder = Annotated[
     Path | None, out_option("Write results.json, curves as CSV, and figures as SVG and PNG there.")
 ]
@@ -64,7 +68,7 @@ def field(
     out: Folder = None,
     force: Force = False,
 ) -> None:
-    """A field of roots: share of heads cut right through, haulm that is left, loss, length for all shares.
+    """A field of roots: share of heads cut through, haulm that is left, loss, length for all shares.
 
     Exit code 1 if the file has [topper.limits] that are not kept.
     """

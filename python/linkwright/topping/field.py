@@ -1,4 +1,4 @@
-r"""A field of roots under the knife: how many heads are cut right through, what is left, what is lost.
+r"""A field of roots under the knife: how many heads are cut through, what is left, what is lost.
 
 Of a root, D, h_p and δ are drawn or measured, and the phase of the knife in which it is met
 (`roots`). `coverage` gives the length L that its head needs; then
@@ -58,11 +58,11 @@ class TopperField(Result):
             shape="(k,)",
         ),
     ]
-    share: Annotated[Floats, Shown("share of heads that a length cuts right through", "", "")]
+    share: Annotated[Floats, Shown("share of heads that a length cuts through", "", "")]
     share_low: Annotated[
         Floats,
         Shown(
-            "minimum share of heads that a length cuts right through",
+            "minimum share of heads that a length cuts through",
             "",
             "",
             "End of its interval, each length by itself.",
@@ -71,7 +71,7 @@ class TopperField(Result):
     share_high: Annotated[
         Floats,
         Shown(
-            "maximum share of heads that a length cuts right through",
+            "maximum share of heads that a length cuts through",
             "",
             "",
             "End of its interval, each length by itself.",
@@ -91,28 +91,26 @@ class TopperField(Result):
     root_loss: Annotated[
         Floats, Shown("volume of each root above the cut", "", "m³", shape="(n,)", over="root_loss")
     ]
-    n_roots: Annotated[
-        int, Shown("roots that were looked at", "", "", "Of measured ones each in all its phases.")
-    ]
+    n_roots: Annotated[int, Shown("roots evaluated", "", "", "Of measured ones each in all its phases.")]
     n_clusters: Annotated[int, Shown("rows, or measured roots", "", "")]
     clusters: Annotated[str, About('``"rows"`` or ``"roots"``.')]
     n_missed: Annotated[int, Shown("roots that the knife passes above", "", "")]
     n_lost: Annotated[int, Shown("roots that the knife passes below", "", "")]
-    level: Annotated[float, Shown("probability that an interval holds the truth", "", "")]
+    level: Annotated[float, Shown("confidence level", "", "")]
     edge_length: Annotated[float, Shown("length of the edge", "L", "m", "That it has.")]
-    share_complete: Annotated[float, Shown("share of heads that are cut right through", "", "")]
+    share_complete: Annotated[float, Shown("share of heads cut through", "", "")]
     share_complete_low: Annotated[
-        float, Shown("minimum share of heads that are cut right through", "", "", "End of its interval.")
+        float, Shown("minimum share of heads cut through", "", "", "End of its interval.")
     ]
     share_complete_high: Annotated[
-        float, Shown("maximum share of heads that are cut right through", "", "", "End of its interval.")
+        float, Shown("maximum share of heads cut through", "", "", "End of its interval.")
     ]
-    haulm_mean: Annotated[float, Shown("mean share of the head that is left", "", "")]
+    haulm_mean: Annotated[float, Shown("mean uncut share of the head", "", "")]
     haulm_mean_low: Annotated[
-        float, Shown("minimum mean share of the head that is left", "", "", "End of its interval.")
+        float, Shown("minimum mean uncut share of the head", "", "", "End of its interval.")
     ]
     haulm_mean_high: Annotated[
-        float, Shown("maximum mean share of the head that is left", "", "", "End of its interval.")
+        float, Shown("maximum mean uncut share of the head", "", "", "End of its interval.")
     ]
     loss_mean: Annotated[float, Shown("mean volume of a root above the cut", "", "m³")]
     loss_mean_low: Annotated[
@@ -196,9 +194,9 @@ def topper_field(
     machine : Machine
         With a topper; without a field, its roots are all alike and stand evenly within the offset.
     seed : int, optional
-        In place of the field's.
+        Seed of the random generator, in place of that of the field.
     level : float
-        Probability that an interval holds the truth.
+        Confidence level of the intervals.
     fine : int
         Stations per revolution of the law.
     watch : callable, optional

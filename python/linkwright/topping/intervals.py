@@ -28,7 +28,7 @@ References
 .. [3] Korn, Graubard, Confidence intervals for proportions with small expected number of positive counts
    estimated from survey data, Survey Methodology 24 (1998) 193-201.
 
-The share of heads that are cut right through, against the length of the edge, and its quantiles.
+The share of heads cut through, against the length of the edge, and its quantiles.
 
 It is the distribution function of the lengths needed.
 
@@ -82,7 +82,7 @@ class Clusters:
     are_free : bool
         Whether pieces of a cluster are independent all the same.
     level : float
-        Probability that an interval holds the truth.
+        Confidence level of the intervals.
     worth : float, optional
         Number of independent pieces that shares of 0 and 1 are worth, where pieces depend on one another.
     """

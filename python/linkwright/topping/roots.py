@@ -172,7 +172,7 @@ def draw_roots(topper: Topper, seed: int | None = None) -> Roots:
     topper : Topper
         The topper; its own sizes count where the field has none.
     seed : int, optional
-        In place of the field's.
+        Seed of the random generator, in place of that of the field.
 
     Returns
     -------

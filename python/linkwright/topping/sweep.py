@@ -57,7 +57,7 @@ class FieldSweep(Result):
     share_complete: Annotated[
         Floats,
         Shown(
-            "share of heads that are cut right through",
+            "share of heads cut through",
             "",
             "",
             "Of each variant.",
@@ -68,7 +68,7 @@ class FieldSweep(Result):
     share_complete_low: Annotated[
         Floats,
         Shown(
-            "minimum share of heads that are cut right through",
+            "minimum share of heads cut through",
             "",
             "",
             "End of its interval.",
@@ -78,18 +78,18 @@ class FieldSweep(Result):
     share_complete_high: Annotated[
         Floats,
         Shown(
-            "maximum share of heads that are cut right through",
+            "maximum share of heads cut through",
             "",
             "",
             "End of its interval.",
             over="share_complete_high",
         ),
     ]
-    haulm_mean: Annotated[Floats, Shown("mean share of the head that is left", "", "", over="haulm_mean")]
+    haulm_mean: Annotated[Floats, Shown("mean uncut share of the head", "", "", over="haulm_mean")]
     haulm_mean_low: Annotated[
         Floats,
         Shown(
-            "minimum mean share of the head that is left",
+            "minimum mean uncut share of the head",
             "",
             "",
             "End of its interval.",
@@ -99,7 +99,7 @@ class FieldSweep(Result):
     haulm_mean_high: Annotated[
         Floats,
         Shown(
-            "maximum mean share of the head that is left",
+            "maximum mean uncut share of the head",
             "",
             "",
             "End of its interval.",
@@ -109,7 +109,7 @@ class FieldSweep(Result):
     loss_mean: Annotated[Floats, Shown("mean volume of a root above the cut", "", "m³", over="loss_mean")]
     length_for_95: Annotated[Floats, Shown("length for 95 % of the heads", "", "m", over="length_for_95")]
     slicing_ratio_mean: Annotated[Floats, Shown("mean draw-cut ratio", "", "", over="slicing_ratio_mean")]
-    level: Annotated[float, Shown("probability that an interval holds the truth", "", "")]
+    level: Annotated[float, Shown("confidence level", "", "")]
 
     def columns(self) -> dict[str, Floats]:
         """All that varied and all that was found, by name."""
@@ -149,9 +149,9 @@ def sweep_field(
         Values of one or two entries of `ENTRIES`; heights of the cut are shifted so that their mean is
         the one asked for.
     seed : int, optional
-        In place of the field's.
+        Seed of the random generator, in place of that of the field.
     level : float
-        Probability that an interval holds the truth.
+        Confidence level of the intervals.
     fine : int
         Stations per revolution of the law.
     watch : callable, optional

@@ -218,8 +218,8 @@ def torsion_study(
     curves = {**({} if machine.train is None else machine.train.measured), **(measured or {})}
     if not is_excited(machine):
         if curves:
-            remedy = "give [train.run], and what excites the train"
-            raise InputError(f"{machine.name}: nothing is computed beside what was measured: {remedy}")
+            remedy = "give [train.run], and an excitation"
+            raise InputError(f"{machine.name}: no computed result to compare with the measurement: {remedy}")
         return TorsionStudy(machine, scheme(machine), free, tables, damped, transient=moved)
     at = excited_train(machine)
     forced = responded(at)
@@ -354,7 +354,7 @@ def _warnings(study: TorsionStudy) -> Iterator[str]:
     run = None if train is None else train.run
     if run is not None and not run.speed_min <= run.service <= run.speed_max:
         near = min(max(run.service, run.speed_min), run.speed_max) * 30 / np.pi
-        yield f"The service speed is not among the speeds analysed: its results are those of {near:.5g} rpm."
+        yield f"The service speed is not among the speeds analysed: the results are those of {near:.5g} rpm."
     if train is not None and train.installed and at.referred.is_free:
         yield from _balance_warnings(train, at)
     yield from _about_loads(study, at)
@@ -376,7 +376,7 @@ def _about_misfires(found: MisfireVerdict) -> Iterator[str]:
             by_cylinder.setdefault(row.cylinder, []).append(f"{words} within {low:.5g} to {high:.5g} rpm")
     for cylinder, parts in by_cylinder.items():
         listed = "; ".join(parts)
-        yield f"Cylinder {cylinder} misfiring: {listed}: restrict the operation with a cylinder out."
+        yield f"Cylinder {cylinder} misfiring: {listed}: restrict the operation with a misfiring cylinder."
 
 
 def _balance_warnings(train: Train, at: ExcitedTrain) -> Iterator[str]:
@@ -415,7 +415,7 @@ def _about_couplings(study: TorsionStudy, forced: ForcedVibration) -> Iterator[s
         if carried > coupling.torque[-1]:
             yield (
                 f"Coupling {name} carries {carried:.4g} N m, but its curve ends at "
-                f"{coupling.torque[-1]:.4g} N m: its last slope is taken beyond."
+                f"{coupling.torque[-1]:.4g} N m: beyond it the last slope is used."
             )
 
 

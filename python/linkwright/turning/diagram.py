@@ -132,7 +132,7 @@ class TurningMomentDiagram(Result):
             "moment of inertia of the flywheel",
             "J_f",
             "kg m²",
-            "That gives the speed fluctuation asked for; zero if none is needed.",
+            "For the required speed fluctuation; zero if none is needed.",
             table="flywheel",
             before="inertia",
         ),

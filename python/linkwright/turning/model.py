@@ -186,7 +186,7 @@ class TurningMoment(CheckedDescription):
     )
     area_scale: Annotated[float, positive(ENERGY)] = Field(1.0, description="Energy of one unit of area.")
     unevenness: Annotated[float, Quantity(RATIO, FRACTION)] | None = Field(
-        None, description="Coefficient of speed fluctuation δ that is asked for; gives the flywheel."
+        None, description="Required coefficient of speed fluctuation δ; gives the flywheel."
     )
     inertia: Annotated[float, positive(INERTIA)] | None = Field(
         None, description="Moment of inertia that the shaft has, without the flywheel that is sought."

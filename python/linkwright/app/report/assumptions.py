@@ -31,8 +31,8 @@ _LOADS = {
     DryFriction: "Dry friction has a constant magnitude and opposes the motion; at rest it holds up to this "
     "magnitude in either direction.",
     ViscousFriction: "Viscous friction is proportional to the speed.",
-    ForcePosition: "A force over position is linear between the given points and constant outside them. It is "
-    "positive against the motion, forward and back.",
+    ForcePosition: "A force over position is linear between the given points and constant outside them. It "
+    "is positive against the motion, forward and back.",
     TorqueSwing: "A torque over the angle of a link is linear between the given angles and constant outside "
     "them. It is positive against the motion, forward and back.",
     TorqueAngle: "A load torque over the crank angle is linear between the given angles.",
@@ -98,8 +98,8 @@ def _mechanism() -> Iterator[str]:
 def _bodies(machine: Machine) -> Iterator[str]:
     if any(_is_slender(body) for body in machine.bodies.values()):
         yield (
-            "A body on a link with a mass, or a mass per length, but no moment of inertia is a uniform slender "
-            "rod: centre of mass in the middle, m l²/12 about it."
+            "A body on a link with a mass, or a mass per length, but no moment of inertia is a uniform "
+            "slender rod: centre of mass in the middle, m l²/12 about it."
         )
     if not machine.bodies:
         yield "No masses are given: only the drive has inertia."

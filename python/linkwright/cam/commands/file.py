@@ -20,25 +20,28 @@ if TYPE_CHECKING:
     from linkwright.kernel.page.table import Table
 
 Folder = Annotated[
-    Path | None, out_option("Write a report, results.json and the drawings of the cams there.")
+    Path | None, out_option("Folder for the report, results.json and the drawings of the cams.")
 ]
 Tolerance = Annotated[
-    str, Option("--tolerance", metavar="LENGTH", help="Largest distance of a drawing from its profile.")
+    str, Option("--tolerance", metavar="LENGTH", help="Maximum distance of a drawing from its profile.")
 ]
 Step = Annotated[str, Option("--step", metavar="ANGLE", help="Step of the tables.")]
 By = Annotated[
-    str, Option("--by", metavar="cam|polar", help="Whether it is one of the cam or of the polar angle.")
+    str,
+    Option(
+        "--by", metavar="cam|polar", help="Whether the step is one of the cam angle or of the polar angle."
+    ),
 ]
 Form = Annotated[
     str,
     Option(
         "--form",
         metavar="arcs|spline|cubic|polyline",
-        help="Outlines in DXF: arcs without kinks, a spline of degree 5 or 3, or chords.",
+        help="Outlines in DXF: arcs, a spline of degree 5 or 3, or chords.",
     ),
 ]
 Formats = Annotated[
-    str, Option("--formats", metavar="LIST", help="Which files, of dxf, csv, svg, step; with commas.")
+    str, Option("--formats", metavar="LIST", help="Files to write: dxf, csv, svg, step (with commas).")
 ]
 Curves = Annotated[bool, Option("--curves", help="With --json: include curves.")]
 

@@ -26,7 +26,7 @@ Vary = Annotated[
     Option(
         "--vary",
         metavar="NAME=LOW:HIGH:N",
-        help='What varies, such as base_radius="20 mm":"60 mm":200 or lift_factor=1:1.2:5: base_radius, '
+        help='Variable, such as base_radius="20 mm":"60 mm":200 or lift_factor=1:1.2:5: base_radius, '
         "roller_radius, offset, arm_length, face_tilt, lift_factor. May be given again: all combinations.",
         show_default=False,
     ),
@@ -36,21 +36,29 @@ Laws = Annotated[
     Option(
         "--law",
         metavar="NAME",
-        help="A law of `linkwright cam laws` for all moving sections. Repeatable. Without it, those "
+        help="A law of `linkwright cam laws` for all moving sections. Repeatable. Default: those "
         "of the file.",
         show_default=False,
     ),
 ]
-CamName = Annotated[str | None, Option("--cam", metavar="NAME", help="Which cam, if there are several.")]
+CamName = Annotated[
+    str | None, Option("--cam", metavar="NAME", help="Name of the cam, if there are several.")
+]
 Steep = Annotated[
     str | None,
-    Option("--pressure-angle", metavar="ANGLE", help="Largest one allowed. Without it, the cam's."),
+    Option(
+        "--pressure-angle",
+        metavar="ANGLE",
+        help="Maximum permitted pressure angle. Default: that of the cam.",
+    ),
 ]
 Tight = Annotated[
     str | None,
-    Option("--curvature-radius", metavar="LENGTH", help="Minimum convex one allowed on the profile."),
+    Option("--curvature-radius", metavar="LENGTH", help="Minimum permitted convex radius of the profile."),
 ]
-Count = Annotated[int, Option("--count", metavar="N", help="How many of the smallest are shown.", min=1)]
+Count = Annotated[
+    int, Option("--count", metavar="N", help="Number of cams to show, the smallest first.", min=1)
+]
 
 # Share by which a cam may pass a limit by rounding.
 _ROUNDING = 1e-12
@@ -202,11 +210,9 @@ def _findings(keeps: NDArray[np.bool_], best: list[Any]) -> list[str]:
     if best:
         return []
     if not keeps.any():
-        return ["None keeps the limits: vary more, or allow more."]
+        return ["No cam keeps the limits: widen the ranges or the limits."]
     looked = min(int(keeps.sum()), SHOWN.most)
-    return [
-        f"None of the {looked} smallest keeps the limits between the angles too: vary more, or allow more."
-    ]
+    return [f"None of the {looked} smallest keeps the limits between the angles too: widen ranges or limits."]
 
 
 def _print(cams: Cams, keeps: NDArray[np.bool_], best: list[Any]) -> None:
@@ -216,7 +222,7 @@ def _print(cams: Cams, keeps: NDArray[np.bool_], best: list[Any]) -> None:
 
     out = console()
     out.print(
-        f"{len(keeps)} cams looked at, {int(cams.is_sound.sum())} sound, {int(keeps.sum())} keep the limits"
+        f"{len(keeps)} cams evaluated, {int(cams.is_sound.sum())} sound, {int(keeps.sum())} keep the limits"
     )
     if not best:
         out.print(f"FINDING  {_findings(keeps, best)[0]}")

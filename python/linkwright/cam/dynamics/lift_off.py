@@ -186,7 +186,7 @@ class LeastPreload(Result):
     """The preload that holds a follower on its cam."""
 
     preload: Annotated[float, Shown("minimum preload", "F₀", "N", "Negative if none is needed.")]
-    cam_angle: Annotated[float, Shown("cam angle that asks for it", "", "rad")]
+    cam_angle: Annotated[float, Shown("cam angle that determines it", "", "rad")]
 
 
 @public

@@ -83,9 +83,7 @@ class LoadedCam(Result):
     force_min: Annotated[float, Shown("minimum normal force", "N_min", "N", "With its sign.")]
     force_min_angle: Annotated[float, Shown("crank angle of the minimum normal force", "φ(N_min)", "rad")]
     speed: Annotated[float, Shown("mean speed of the motion", "ω_m", "rad/s")]
-    side_changes: Annotated[
-        int, Shown("changes of the force from one side to the other", "", "", "In these angles, gone round.")
-    ]
+    side_changes: Annotated[int, Shown("contact-side reversals", "", "", "In these angles, gone round.")]
     speed_lost: Annotated[
         float | None,
         Shown(

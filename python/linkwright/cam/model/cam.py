@@ -65,13 +65,13 @@ class SecondFollower(Description):
     shown_with_part: ClassVar[bool] = True
 
     roller_radius: PositiveLength | None = Field(
-        None, description="Of its roller. Without it, that of the first."
+        None, description="Of its roller. Default: that of the first."
     )
     distance: PositiveLength | None = Field(
         None, description="Of a translating follower: between the two rollers along its line."
     )
     arm_length: PositiveLength | None = Field(
-        None, description="Of an oscillating follower: length of its arm. Without it, that of the first."
+        None, description="Of an oscillating follower: length of its arm. Default: that of the first."
     )
     angle: Annotated[float, Quantity(ANGLE)] | None = Field(
         None, description="Of an oscillating follower: between the two arms, across the cam."
@@ -85,23 +85,24 @@ class Cam(CheckedDescription):
         "translating", description="Whether the follower moves along a line or about a pivot."
     )
     contact: Literal["roller", "point", "flat"] = Field(
-        "roller", description="What touches the cam: a roller, a knife edge, or a flat face."
+        "roller", description="Follower contact: a roller, a knife edge, or a flat face."
     )
     closure: Literal["spring", "groove", "conjugate", "constant_diameter", "constant_breadth"] = Field(
         "spring",
-        description="What keeps the follower on the cam: a force, a groove, a second cam for a second "
-        "follower, or the same cam between two followers (points or rollers; flat faces).",
+        description="Closure that keeps the follower on the cam: a force, a groove, a second cam for a "
+        "second follower, or the same cam between two followers (points or rollers; flat faces).",
     )
-    sections: tuple[MotionSection, ...] = Field(description="How the follower moves over one revolution.")
+    sections: tuple[MotionSection, ...] = Field(
+        description="Motion programme of the follower over one revolution."
+    )
     phase: Angle = Field(0.0, description="Crank angle at which the first section begins.")
     rotation: Literal["same", "opposite"] = Field(
-        "same", description="Whether the cam turns with the crankshaft, or against it as fast."
+        "same",
+        description="Whether the cam rotates with the crankshaft or opposite to it, at the same speed.",
     )
-    pivot: str | None = Field(
-        None, description="Fixed point that the cam turns about. Without it, the origin."
-    )
+    pivot: str | None = Field(None, description="Fixed point that the cam turns about. Default: the origin.")
     base_radius: PositiveLength | None = Field(
-        None, description="Of the cam where the lift is smallest. Without it, from the breadth."
+        None, description="Of the cam where the lift is smallest. Default: from the breadth."
     )
     breadth: PositiveLength | None = Field(
         None,
@@ -124,16 +125,16 @@ class Cam(CheckedDescription):
     )
     second: SecondFollower | None = Field(None, description="Second follower of a conjugate pair.")
     train: FollowerTrain | None = Field(
-        None, description="What vibrates between a translating follower and its load."
+        None, description="Elastic train between a translating follower and its load."
     )
     cutter_radius: PositiveLength | None = Field(None, description="Of the cutter or grinding wheel.")
     pressure_angle_limit: Annotated[float, Quantity(ANGLE, _LIMIT)] | None = Field(
         None,
-        description="Largest pressure angle allowed. Without it, 30 deg for a translating and 35 deg for an "
+        description="Maximum permitted pressure angle. Default: 30 deg for a translating and 35 deg for an "
         "oscillating follower.",
     )
     curvature_limit: PositiveLength | None = Field(
-        None, description="Minimum convex radius of curvature allowed on the profile."
+        None, description="Minimum permitted convex radius of curvature of the profile."
     )
     friction: Annotated[float, not_negative(RATIO)] = Field(
         0.0,

@@ -199,13 +199,13 @@ class LimitedLaw(Law):
 
     kind: Literal["limited"]
     velocity_max: Annotated[float, positive(LIFT_D1)] | None = Field(
-        None, description="Maximum lift per cam angle. Without it, no limit."
+        None, description="Maximum lift per cam angle. Default: no limit."
     )
     acceleration_max: Annotated[float, positive(LIFT_D2)] | None = Field(
         None, description="Maximum second derivative."
     )
     jerk_max: Annotated[float, positive(LIFT_D3)] | None = Field(
-        None, description="Maximum third derivative. Without it, the acceleration jumps."
+        None, description="Maximum third derivative. Default: the acceleration jumps."
     )
     swing_velocity_max: Annotated[float, positive(RATIO)] | None = Field(
         None, description="For an oscillating follower: maximum angle per cam angle."

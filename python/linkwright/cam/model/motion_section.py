@@ -93,16 +93,16 @@ class MotionSection(Description):
     )
     law: AnyLaw | None = Field(
         None,
-        description="How it moves: the name of a law, or a table. Without it, and with a lift, "
+        description="How it moves: the name of a law, or a table. Default: and with a lift, "
         "the polynomial 3-4-5.",
     )
     velocity_start: LiftVelocity | None = Field(
-        None, description="Lift per cam angle at the start. Without it, that of the neighbour, or rest."
+        None, description="Lift per cam angle at the start. Default: that of the neighbour, or rest."
     )
     velocity_end: LiftVelocity | None = Field(None, description="The same at the end.")
     acceleration_start: LiftAcceleration | None = Field(
         None,
-        description="Second derivative at the start. Without it, that of the neighbour, or what the law has.",
+        description="Second derivative at the start. Default: that of the neighbour, or what the law has.",
     )
     acceleration_end: LiftAcceleration | None = Field(None, description="The same at the end.")
     swing_velocity_start: SwingVelocity | None = Field(

@@ -118,7 +118,7 @@ def _undercut(profile: CamProfile, flank: Flank) -> Iterator[str]:
     if not is_roller and _turns_over(profile.cam, flank):
         yield (
             f"{_subject(profile, flank)}: the follower turns as fast as the cam, so that its face rolls "
-            "over it; it takes a longer section or a smaller swing"
+            "over it; use a longer section or a smaller swing"
         )
     elif soundness < _SHARP:
         base = least_sound_base(profile.cam, flank.contact)
@@ -135,7 +135,7 @@ def _undercut(profile: CamProfile, flank: Flank) -> Iterator[str]:
                 f"at {_degrees(worst.angle)}"
             )
         where = _undercut_range(flank, worst.angle)
-        yield f"{_subject(profile, flank)} is undercut {where}: {what}; it takes {change}"
+        yield f"{_subject(profile, flank)} is undercut {where}: {what}; use {change}"
     hollow = shape.least.get("bend")
     if profile.cam.closure == "groove" and hollow and hollow.value < 0:
         least = -1.0 / hollow.value
@@ -188,7 +188,7 @@ def _locked(profile: CamProfile, flank: Flank) -> Iterator[str]:
         yield (
             f"{_subject(profile, flank)} cannot move its follower at "
             f"{_degrees(float(flank.shape.angle[worst]))}: the pressure angle is "
-            f"{np.degrees(abs(gamma[worst])):.4g}°; it takes {change}{limit}"
+            f"{np.degrees(abs(gamma[worst])):.4g}°; use {change}{limit}"
         )
 
 
@@ -206,7 +206,7 @@ def _crossed(profile: CamProfile, flank: Flank) -> Iterator[str]:
         change = _size_for(profile, flank, base) or "longer sections or a smaller lift"
         yield (
             f"the profile of {_subject(profile, flank)} crosses itself: at {at[0]} and {at[1]} it passes "
-            f"the same point, ({1e3 * x:.4g}, {1e3 * y:.4g}) mm; it takes {change}"
+            f"the same point, ({1e3 * x:.4g}, {1e3 * y:.4g}) mm; use {change}"
         )
 
 
@@ -219,7 +219,7 @@ def _hollow(profile: CamProfile, flank: Flank) -> Iterator[str]:
         if cutter is not None and cutter > roller:
             yield (
                 f"{_subject(profile, flank)} cannot be cut with a cutter of {_mm(cutter)} radius: its groove "
-                f"is as wide as the roller of {_mm(roller)} radius; it takes a cutter of at most that"
+                f"is as wide as the roller of {_mm(roller)} radius; use a cutter of at most that radius"
             )
     elif cutter is not None and concave is not None and cutter >= concave.value:
         yield (
@@ -284,7 +284,7 @@ def _places(angles: list[float]) -> str:
 def _jumps(profile: CamProfile) -> Iterator[str]:
     """Places where velocity or acceleration jumps, or jerk: between sections, or inside a law."""
     effects = {
-        1: ("velocity", "a blow, which no force here has in it"),
+        1: ("velocity", "an impact, which the forces here do not include"),
         2: ("acceleration", "a sudden force"),
         3: ("jerk", "by a finite step; acceleration is continuous"),
     }
@@ -301,7 +301,7 @@ def _leaps(profile: CamProfile) -> Iterator[str]:
     if angles:
         # A lift made for a mass on a spring has the acceleration of the wanted motion in it.
         wanted = "a law with continuous acceleration" if profile.cam.train else "a continuous law"
-        yield f"the lift of cam {profile.name} jumps at {_places(angles)}; it takes {wanted}"
+        yield f"the lift of cam {profile.name} jumps at {_places(angles)}; use {wanted}"
 
 
 def _rubs(profile: CamProfile) -> Iterator[str]:

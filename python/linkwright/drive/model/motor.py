@@ -155,10 +155,10 @@ class InductionMotor(Motor):
     speed_synchronous: PositiveSpeed | None = Field(None, description="Speed of zero torque.")
     torque_breakdown: PositiveTorque | None = Field(None, description="Maximum torque.")
     speed_breakdown: PositiveSpeed | None = Field(
-        None, description="Speed of maximum torque. Without it, from the rated point."
+        None, description="Speed of maximum torque. Default: from the rated point."
     )
     torque_start: PositiveTorque | None = Field(
-        None, description="Torque at standstill. Without it, Kloss's formula holds down to standstill."
+        None, description="Torque at standstill. Default: Kloss's formula holds down to standstill."
     )
     torque_pull_up: PositiveTorque | None = Field(
         None, description="Minimum torque between standstill and breakdown."
@@ -294,7 +294,7 @@ class DcMotor(Motor):
     kind: Literal["dc"]
     speed_no_load: PositiveSpeed = Field(description="Speed of zero torque.")
     torque_stall: PositiveTorque | None = Field(
-        None, description="Torque at standstill. Without it, from the rated point."
+        None, description="Torque at standstill. Default: from the rated point."
     )
 
     @classmethod

@@ -29,19 +29,17 @@ from linkwright.linkages.model.topology import Topology
 class Body(CheckedDescription):
     """A mass on a link or on a point."""
 
-    on: str | None = Field(
-        None, description="Link or moving point that carries it. Without it, its own name."
-    )
+    on: str | None = Field(None, description="Link or moving point that carries it. Default: its own name.")
     mass: Annotated[float, not_negative(MASS)] | None = Field(None, description="The mass.")
     mass_per_length: Annotated[float, not_negative(MASS_PER_LENGTH)] | None = Field(
         None, description="Of a uniform rod as long as the link."
     )
     inertia: Annotated[float, not_negative(INERTIA)] | None = Field(
-        None, description="About the centre of mass. Without it, that of a uniform slender rod."
+        None, description="About the centre of mass. Default: that of a uniform slender rod."
     )
     along: Length | None = Field(
         None,
-        description="Centre of mass, from the start of the link along it. Without it, the middle.",
+        description="Centre of mass, from the start of the link along it. Default: the middle.",
     )
     across: Length = Field(0.0, description="Centre of mass, to the left of the link.")
 

@@ -52,9 +52,9 @@ class Guide(Description):
     through: str | None = Field(
         None,
         description="Point of the guide's body that it would pass through without offset. "
-        "Without it, the start of the link, or the origin.",
+        "Default: the start of the link, or the origin.",
     )
-    on: str | None = Field(None, description="Link that carries the guide. Without it, the frame.")
+    on: str | None = Field(None, description="Link that carries the guide. Default: the frame.")
     angle: Angle = Field(0.0, description="Direction of the guide, from the link's direction or from x.")
     offset: Length = Field(0.0, description="Of the guide to the left of its direction.")
 
@@ -77,11 +77,11 @@ class Crank(CheckedDescription):
 
     radius: PositiveLength = Field(description="From the pivot to the pin.")
     phase: Angle = Field(0.0, description="Angle of this crank when the crank angle is zero.")
-    pivot: str | None = Field(None, description="Fixed point that it turns about. Without it, the origin.")
+    pivot: str | None = Field(None, description="Fixed point that it turns about. Default: the origin.")
     law: str | None = Field(
         None,
         description="Angle of the crank in rad as a formula in phi, to which the phase is added: "
-        '"0.6*sin(phi)" swings back and forth. Without it, phi.',
+        '"0.6*sin(phi)" swings back and forth. Default: phi.',
     )
     constants: Constants = Field(
         default_factory=dict, description="Constants of the law by name, in any unit."
@@ -127,9 +127,9 @@ class Slider(Description):
     through: str | None = Field(
         None,
         description="Point that the guide would pass through without offset. "
-        "Without it, the pivot of the crank, or the origin; on a link, its start.",
+        "Default: the pivot of the crank, or the origin; on a link, its start.",
     )
-    on: str | None = Field(None, description="Link that carries the guide. Without it, the frame.")
+    on: str | None = Field(None, description="Link that carries the guide. Default: the frame.")
     assembly: Literal["positive", "negative"] = Field(
         "positive", description="Side of the slider, along the guide, from the driving point."
     )
@@ -198,10 +198,10 @@ class Gear(CheckedDescription):
         "crossed belt reverse the sense.",
     )
     pivot: str = Field(description="Point that it turns about.")
-    meshes: str | None = Field(None, description="Link of the other gear. Without it, that is at rest.")
+    meshes: str | None = Field(None, description="Link of the other gear. Default: that is at rest.")
     carrier: str | None = Field(
         None,
-        description="Link that carries both pivots, the arm of a planetary train. Without it, the frame.",
+        description="Link that carries both pivots, the arm of a planetary train. Default: the frame.",
     )
     size: PositiveNumber = Field(description="Teeth, or radius in any unit that both have.")
     size_other: PositiveNumber = Field(description="Teeth or radius of the other gear.")

@@ -71,7 +71,7 @@ class PolishedRodLoad(Description):
     )
     phase: Angle = Field(0.0, description="Angle τ by which the counterweights lead the crank.")
     counterbalance_effect: Annotated[float, Quantity(FORCE)] | None = Field(
-        None, description="Force of an air cylinder at the polished rod. Without it, that of equal peaks."
+        None, description="Force of an air cylinder at the polished rod. Default: that of equal peaks."
     )
     efficiency: Annotated[float, Quantity(RATIO, FRACTION)] = Field(
         1.0, description="Of the structure between polished rod and crankshaft."

@@ -40,19 +40,19 @@ class RodRotator(Description):
     """A rotator of the rod string on the hanger of a pumping unit."""
 
     regime: Literal["continuous", "intermittent"] = Field(
-        description="Whether the lever turns all round in each stroke, or rocks and works through a clutch."
+        description="Whether the lever rotates fully in each stroke, or rocks and works through a clutch."
     )
     pin_distance: PositiveLength = Field(
         description="Saddle bearing to the link's pin on the front arm, l_3."
     )
     link_length: PositiveLength | None = Field(
-        None, description="Length l_4 of the link. Without it, that which suits the regime."
+        None, description="Length l_4 of the link. Default: that which suits the regime."
     )
     lever_length: PositiveLength | None = Field(
-        None, description="Length l_5 of the lever. Without it, that which suits the regime."
+        None, description="Length l_5 of the lever. Default: that which suits the regime."
     )
     swing: Annotated[float, Quantity(ANGLE, _SWING)] | None = Field(
-        None, description="Required swing of the lever in the intermittent regime. Without it, 90 deg."
+        None, description="Required swing of the lever in the intermittent regime. Default: 90 deg."
     )
     assembly: Literal["left", "right"] = Field(
         "left", description="Side of the joint of link and lever, seen from the pin to the hanger."

@@ -93,7 +93,7 @@ def lengths(unit: PumpingUnit, rotator: RodRotator) -> Lengths:
     if not varies and not unit.reaches_ends:
         raise AssemblyError(
             "the lengths of the rotator follow from the ends of the stroke, which the pumping unit does not "
-            "reach: its crank cannot turn all round; change R, P, C or the place of the saddle bearing",
+            "reach: its crank cannot rotate fully; change R, P, C or the place of the saddle bearing",
             element=ROTATOR,
         )
     if rotator.regime == "continuous":

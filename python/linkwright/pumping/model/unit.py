@@ -78,10 +78,11 @@ class PumpingUnit(Description):
     R: PositiveLength = Field(description="Crank.")
     rotation: Rotation | None = Field(
         None,
-        description="With the well to the right. Without it, clockwise, a Mark II counter-clockwise.",
+        description="With the well to the right. Default: clockwise, a Mark II counter-clockwise.",
     )
     structural_unbalance: Force = Field(
-        0.0, description="Force at the polished rod that holds the beam level with the pitmans off."
+        0.0,
+        description="Force at the polished rod that holds the beam horizontal with the pitmans disconnected.",
     )
     cable: Annotated[float, not_negative(LENGTH)] = Field(
         1.0,

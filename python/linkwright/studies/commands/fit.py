@@ -29,17 +29,15 @@ Vary = Annotated[
     Option(
         "--vary",
         metavar="ADDRESS[=LOW:HIGH]",
-        help='Entry of a machine file that is sought, "drive.flywheel.inertia=50:200". Repeatable.',
+        help='Entry of a machine file to fit, such as  "drive.flywheel.inertia=50:200". Repeatable.',
         show_default=False,
     ),
 ]
 Motion = Annotated[
     Literal["run_up", "run_down", "coast", "steady_state", "manoeuvre"] | None,
-    Option(
-        "--motion", help="What was recorded; without it, as the study says, or run_down.", show_default=False
-    ),
+    Option("--motion", help="Recorded motion. Default: that of the study, or run_down.", show_default=False),
 ]
-Level = Annotated[float, Option("--level", metavar="P", help="Probability that an interval holds the truth.")]
+Level = Annotated[float, Option("--level", metavar="P", help="Confidence level of the intervals.")]
 Out = Annotated[Path | None, out_option("Write the fitted machine, a figure and results.json there.")]
 
 

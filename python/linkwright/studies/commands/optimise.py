@@ -17,17 +17,19 @@ if TYPE_CHECKING:
     from linkwright.studies.plan import StudyPlan
 
 Evaluations = Annotated[
-    int, Option("--evaluations", metavar="N", help="Machines for each combination of choices.", min=10)
+    int, Option("--evaluations", metavar="N", help="Machines for each combination of values.", min=10)
 ]
 Way = Annotated[
     Literal["both", "global", "gradient"],
     Option(
         "--method",
-        help="CMA-ES and from its best by derivatives, CMA-ES alone, or derivatives from many starts.",
+        help="both: CMA-ES, then derivatives; global: CMA-ES; gradient: derivatives from several starts.",
     ),
 ]
 Starts = Annotated[int, Option("--starts", metavar="N", help="Starts of --method gradient.", min=1)]
-Points = Annotated[int, Option("--points", metavar="N", help="Machines of the front of two goals.", min=3)]
+Points = Annotated[
+    int, Option("--points", metavar="N", help="Number of machines of the front of two goals.", min=3)
+]
 Seed = Annotated[int, Option("--seed", metavar="N", help="Seed of the random generator.", min=0)]
 
 

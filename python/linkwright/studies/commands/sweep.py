@@ -24,8 +24,8 @@ StudyArgument = Annotated[
     Argument(metavar="FILE", help="A study file, or a machine file with a table `study`."),
 ]
 Folder = Annotated[Path, Argument(metavar="DIR", help="The folder of a sweep.")]
-Into = Annotated[Path, out_option("Folder of the results; one that was begun is completed.")]
-Drawn = Annotated[Path | None, out_option("Write pictures and results.json there.")]
+Into = Annotated[Path, out_option("Folder of the results; an incomplete one is resumed.")]
+Drawn = Annotated[Path | None, out_option("Write figures and results.json there.")]
 Chunks = Annotated[
     str,
     Option(
@@ -35,7 +35,7 @@ Chunks = Annotated[
         show_default=False,
     ),
 ]
-Workers = Annotated[int, Option("--workers", metavar="N", help="Processes that compute.", min=1)]
+Workers = Annotated[int, Option("--workers", metavar="N", help="Number of processes.", min=1)]
 Cluster = Annotated[
     str,
     Option(
@@ -117,14 +117,14 @@ def _answer(machine: Machine, found: Sweep, units: dict[str, str]) -> Answer:
 
     solved = found.n_done - found.n_failed
     missing = found.n_rows - found.n_done
-    warnings = [f"{name} was cut off and is computed anew." for name in found.repaired]
+    warnings = [f"{name} was truncated and is computed again." for name in found.repaired]
     if missing:
         warnings.append(f"{missing} rows of {found.n_rows} are not computed yet.")
     return Answer(
         machine=machine.name,
         units=machine.units,
         results=lambda _: {"sweep": found.to_dict()},
-        findings=[] if solved else ["No row has an answer."],
+        findings=[] if solved else ["No row has a result."],
         warnings=warnings,
         head=lambda: (
             f"{machine.name}\n{found.n_done} of {found.n_rows} rows in {found.path}, {solved} solved"

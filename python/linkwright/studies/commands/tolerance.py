@@ -57,7 +57,7 @@ def tolerance(
         _hand_over_allocation(plan, allocate, cost_power, rows, seed, json=json)
         return
     found = compute(plan, rows, seed=seed, indices=indices)
-    failed = f"{found.n_failed} of {found.n_rows} machines have no answer; they count as outside the limits."
+    failed = f"{found.n_failed} of {found.n_rows} machines have no result; they count as outside the limits."
     answer = Answer(
         machine=plan.machine.name,
         units=plan.machine.units,

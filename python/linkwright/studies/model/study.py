@@ -36,8 +36,8 @@ class Distribution(CheckedDescription):
     kind: Literal["normal", "lognormal", "uniform", "triangular"]
     mean: Value | None = Field(None, description="Mean; of a triangular one, the most frequent value.")
     deviation: Value | None = Field(None, description="Standard deviation of the whole distribution.")
-    least: Value | None = Field(None, description="What is below is cut off.")
-    greatest: Value | None = Field(None, description="What is above is cut off.")
+    least: Value | None = Field(None, description="Lower truncation.")
+    greatest: Value | None = Field(None, description="Upper truncation.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         bell = ("mean", "deviation")
@@ -59,19 +59,19 @@ class Variable(CheckedDescription):
         min_length=1, description="Address of the entry, or a list of them: all take the same value."
     )
     range: tuple[Value, Value] | None = Field(None, description="Minimum and maximum value.")
-    steps: Whole | None = Field(None, ge=2, description="How many values a grid takes from the range.")
-    scale: Literal["linear", "log"] = Field("linear", description="How a range is divided.")
-    whole: bool = Field(False, description="Whether a range holds whole numbers alone.")
+    steps: Whole | None = Field(None, ge=2, description="Number of values of the range in a grid.")
+    scale: Literal["linear", "log"] = Field("linear", description="Division of the range.")
+    whole: bool = Field(False, description="Whether the range contains only integers.")
     values: tuple[Any, ...] | None = Field(
-        None, min_length=1, description="The values: numbers, or whatever else may stand at the address."
+        None, min_length=1, description="List of values: numbers, texts or tables."
     )
-    distribution: Distribution | None = Field(None, description="How it scatters.")
+    distribution: Distribution | None = Field(None, description="Distribution.")
     tolerance: str | None = Field(
         None,
         description='Limits about the value of the machine: "± 0.2 mm", "+0.1 -0.3 mm", "25 H7" by ISO 286.',
     )
     cost: float | None = Field(
-        None, gt=0, description="Cost of the tolerance as it stands; what has one is allocated anew."
+        None, gt=0, description="Cost of this tolerance; allocation changes tolerances with a cost."
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
@@ -94,7 +94,7 @@ class Response(CheckedDescription):
     quantity: str | None = Field(None, description='Scalar of an analysis, "steady_state.unevenness".')
     curve: str | None = Field(None, description='Curve of an analysis, "steady_state.speed".')
     extreme: Literal["max", "min", "range", "mean", "rms"] | None = Field(
-        None, description="What is taken of the curve, at the places where it is sampled."
+        None, description="Statistic of the samples of the curve."
     )
     index: Whole | None = Field(None, ge=0, description="Place in a list, from 0.")
     at: Angle | None = Field(None, description="Crank angle at which a motion is taken.")
@@ -126,7 +126,7 @@ class Derived(Description):
 
     formula: str = Field(description="Formula of variables and of derived numbers before it, in SI.")
     address: Annotated[tuple[str, ...], BeforeValidator(_as_list)] = Field(
-        (), description="Entries of the machine that it is; none if it serves others alone."
+        (), description="Entries of the machine that it sets; none if only others use it."
     )
 
 
@@ -138,8 +138,8 @@ def _as_derived(value: object) -> object:
 class Constraint(CheckedDescription):
     """Limits of a response, in its unit or with one."""
 
-    min: Value | None = Field(None, description="Minimum that is allowed.")
-    max: Value | None = Field(None, description="Maximum that is allowed.")
+    min: Value | None = Field(None, description="Permitted minimum.")
+    max: Value | None = Field(None, description="Permitted maximum.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         if self.min is None and self.max is None:
@@ -147,13 +147,13 @@ class Constraint(CheckedDescription):
 
 
 class Sweep(CheckedDescription):
-    """How the rows of a sweep are drawn."""
+    """Rows of a sweep."""
 
     method: Literal["grid", "sobol", "latin_hypercube", "random", "list"] = Field(
         "grid", description="All combinations, sequences that fill space, independent rows, or a file."
     )
     rows: Whole | None = Field(
-        None, ge=1, le=SWEEP_ROWS.most, description="How many rows; of a grid and a list they follow."
+        None, ge=1, le=SWEEP_ROWS.most, description="Number of rows; for a grid and a list it follows."
     )
     seed: Whole = Field(0, ge=0, description="Seed of the random generator.")
     file: str | None = Field(
@@ -202,21 +202,21 @@ class StudyFile(Description):
     """A study: beside its machine in a file of its own, or the table ``study`` of a machine file."""
 
     machine: str | None = Field(None, description="The machine file, from the folder of this one.")
-    name: str = Field("", description="What the study asks.")
-    variables: dict[Name, Variable] = Field(default_factory=dict, description="What varies, by name.")
+    name: str = Field("", description="Description of the study.")
+    variables: dict[Name, Variable] = Field(default_factory=dict, description="Variables, by name.")
     derived: dict[Name, Annotated[Derived, BeforeValidator(_as_derived)]] = Field(
-        default_factory=dict, description="What follows from it, by name."
+        default_factory=dict, description="Derived numbers, by name."
     )
     responses: dict[Name, Annotated[Response, BeforeValidator(_as_response)]] = Field(
-        default_factory=dict, description="What is asked, by name."
+        default_factory=dict, description="Responses, by name."
     )
     constraints: dict[str, Constraint] = Field(
         default_factory=dict, description="Limits by the name of the response."
     )
     goals: dict[str, Literal["minimise", "maximise"]] = Field(
-        default_factory=dict, description="What is wanted, by the name of the response."
+        default_factory=dict, description="Goals, by the name of the response."
     )
-    sweep: Sweep = Field(default_factory=Sweep, description="How the rows of a sweep are drawn.")
+    sweep: Sweep = Field(default_factory=Sweep, description="Rows of a sweep.")
     fit: FitOptions | None = Field(None, description="A measured record that the variables are fitted to.")
 
     @model_validator(mode="wrap")

@@ -1,7 +1,7 @@
 r"""The best knife of a topper: shortest edge, or fastest along the row, that keeps its limits.
 
 At an angle α, a speed v_h of the knife and a speed v along the row, one pass over the heads gives the length
-that each needs, and so the minimum edge for the share of heads that has to be cut right through; where the
+that each needs, and so the minimum edge for the share of heads that has to be cut through; where the
 haulm has a limit, the edge is made longer until it is kept. The draw-cut ratio does not depend on the length.
 So only α and v_h are sought, on a grid, and then on ever finer ones about the best:
 
@@ -72,54 +72,54 @@ class BestKnife(Result):
     slicing_ratio_mean: Annotated[float, Shown("mean draw-cut ratio", "", "")]
     share_complete: Annotated[
         float,
-        Shown("share of heads that are cut right through", "", "", "Over the roots that it was sought with."),
+        Shown("share of heads cut through", "", "", "Over the roots that it was sought with."),
     ]
     share_complete_low: Annotated[
-        float, Shown("minimum share of heads that are cut right through", "", "", "End of its interval.")
+        float, Shown("minimum share of heads cut through", "", "", "End of its interval.")
     ]
     share_complete_high: Annotated[
-        float, Shown("maximum share of heads that are cut right through", "", "", "End of its interval.")
+        float, Shown("maximum share of heads cut through", "", "", "End of its interval.")
     ]
     haulm_mean: Annotated[
-        float, Shown("mean share of the head that is left", "", "", "Over the roots that it was sought with.")
+        float, Shown("mean uncut share of the head", "", "", "Over the roots that it was sought with.")
     ]
     haulm_mean_low: Annotated[
-        float, Shown("minimum mean share of the head that is left", "", "", "End of its interval.")
+        float, Shown("minimum mean uncut share of the head", "", "", "End of its interval.")
     ]
     haulm_mean_high: Annotated[
-        float, Shown("maximum mean share of the head that is left", "", "", "End of its interval.")
+        float, Shown("maximum mean uncut share of the head", "", "", "End of its interval.")
     ]
     share_verified: Annotated[
         float,
         Shown(
-            "share of heads that are cut right through, verified",
+            "share of heads cut through, verified",
             "",
             "",
-            "Over other roots, looked at more finely.",
+            "Over other roots, with a finer evaluation.",
         ),
     ]
     share_verified_low: Annotated[
         float,
-        Shown("minimum share of heads that are cut right through, verified", "", "", "End of its interval."),
+        Shown("minimum share of heads cut through, verified", "", "", "End of its interval."),
     ]
     share_verified_high: Annotated[
         float,
-        Shown("maximum share of heads that are cut right through, verified", "", "", "End of its interval."),
+        Shown("maximum share of heads cut through, verified", "", "", "End of its interval."),
     ]
     haulm_verified: Annotated[
         float,
         Shown(
-            "mean share of the head that is left, verified",
+            "mean uncut share of the head, verified",
             "",
             "",
-            "Over other roots, looked at more finely.",
+            "Over other roots, with a finer evaluation.",
         ),
     ]
     haulm_verified_low: Annotated[
-        float, Shown("minimum mean share of the head that is left, verified", "", "", "End of its interval.")
+        float, Shown("minimum mean uncut share of the head, verified", "", "", "End of its interval.")
     ]
     haulm_verified_high: Annotated[
-        float, Shown("maximum mean share of the head that is left, verified", "", "", "End of its interval.")
+        float, Shown("maximum mean uncut share of the head, verified", "", "", "End of its interval.")
     ]
     seed_verified: Annotated[int, Shown("seed of the other roots", "", "")]
     is_verified: Annotated[bool, About(_IS_VERIFIED)]
@@ -135,7 +135,7 @@ class KnifeSearch(Result):
     map_length: Annotated[
         Floats,
         Shown(
-            "minimum edge for the shares asked for",
+            "minimum edge length for the required shares",
             "",
             "m",
             "At the forward speed of the best; NaN where the edge runs backwards, infinite where none does.",
@@ -146,7 +146,7 @@ class KnifeSearch(Result):
     objective: Annotated[Objective, About('``"shortest"`` or ``"fastest"``.')]
     limits: Annotated[TopperLimits, About("What had to be kept.")]
     length_max: Annotated[float, Shown("maximum length of the edge", "", "m", "Infinite without a limit.")]
-    tried: Annotated[int, About("Knives that were looked at.")]
+    tried: Annotated[int, About("Number of knives evaluated.")]
     best: Annotated[BestKnife | None, About("The best one; None if no knife keeps the limits.")]
     failing: Annotated[LimitFailure | None, About("What cannot be kept then.")]
 
@@ -169,7 +169,7 @@ def best_knife(
         The shortest edge at the forward speed of the file; or the maximum forward speed, with an edge of
         at most ``length_max``, without it that of the file.
     seed : int, optional
-        In place of the field's.
+        Seed of the random generator, in place of that of the field.
     watch : callable, optional
         Told how much is done, from 0 to 1.
 

@@ -156,7 +156,7 @@ def failing_limit(chosen: Trial, roots: Roots, limits: TopperLimits, length_max:
     wanted = limits.slicing_min or 0.0
     if chosen.slicing < wanted:
         words = (
-            f"slicing_min = {wanted:.4g} asks for more than the bounds give: the draw-cut ratio comes to "
+            f"slicing_min = {wanted:.4g} exceeds what the bounds permit: the draw-cut ratio comes to "
             f"{chosen.slicing:.4g}, {wanted - chosen.slicing:.4g} too little, at {place}; raise angle_max or "
             "knife_speed_max"
         )
@@ -177,7 +177,7 @@ def _missed(roots: Roots, limits: TopperLimits) -> LimitFailure:
     if 1 - missed < limits.complete_min:
         words = (
             f"complete_min = {100 * limits.complete_min:.4g} % cannot be kept with any edge: at most "
-            f"{100 * (1 - missed):.4g} % of the heads can be cut right through, as {because}"
+            f"{100 * (1 - missed):.4g} % of the heads can be cut through, as {because}"
         )
         return LimitFailure("complete_min", limits.complete_min, 1 - missed, words)
     wanted = limits.haulm_max or 0.0

@@ -46,7 +46,7 @@ _BINS = 60
 
 @styled
 def field_share_figure(field: TopperField) -> Figure:
-    """Draw the share of heads that are cut right through against the length of the edge."""
+    """Draw the share of heads cut through against the length of the edge."""
     figure, (axes,) = panels(1, height=3.8)
     length = 1e3 * field.length
     axes.fill_between(
@@ -63,7 +63,7 @@ def field_share_figure(field: TopperField) -> Figure:
     axes.set_xlim(_start(field), 1.06 * length[-1])
     axes.set_ylim(0, 103)
     axes.set_xlabel(AXES["edge_length"][0])
-    axes.set_ylabel("heads cut right through [%]")
+    axes.set_ylabel("heads cut through [%]")
     legend_above(axes)
     return figure
 
@@ -116,7 +116,7 @@ def field_haulm_figure(field: TopperField, over: FieldSweep) -> Figure:
     _edge(left, field.edge_length)
     left.set_ylim(bottom=0)
     left.set_xlabel(AXES["edge_length"][0])
-    left.set_ylabel("left of the head, mean [%]")
+    left.set_ylabel("uncut share of the head, mean [%]")
     legend_above(left)
     _histogram(lost, 1e6 * field.root_loss, field.n_roots)
     lost.axvline(1e6 * field.loss_mean, color=ORANGE, linewidth=1.4, label="mean")
@@ -146,8 +146,8 @@ def sweep_figure(swept: FieldSweep) -> Figure:
     x = factor * swept.entries[name]
     rows = 1 if name == "edge_length" else 2
     figure, axes = panels(rows, height=2.5 * rows + 0.3, columns=2)
-    _banded(axes[0], x, "share_complete", swept, (BLUE, "heads cut right through [%]"))
-    _banded(axes[1], x, "haulm_mean", swept, (GREEN, "left of the head, mean [%]"))
+    _banded(axes[0], x, "share_complete", swept, (BLUE, "heads cut through [%]"))
+    _banded(axes[1], x, "haulm_mean", swept, (GREEN, "uncut share of the head, mean [%]"))
     if rows > 1:
         axes[2].plot(x, 1e3 * _drawable(swept.length_for_95), color=PURPLE)
         axes[2].set_ylabel("length for 95 % of heads [mm]")
@@ -184,7 +184,7 @@ def sweep_map(swept: FieldSweep) -> Figure:
     """Draw the share of heads and the length for 95 % of them over two entries that vary."""
     figure, axes = panels(1, height=3.3, columns=2, shared=False)
     maps = (
-        (100 * swept.share_complete, "heads cut right through [%]"),
+        (100 * swept.share_complete, "heads cut through [%]"),
         (1e3 * swept.length_for_95, "length for 95 % of heads [mm]"),
     )
     for each, (values, title) in zip(axes, maps, strict=True):

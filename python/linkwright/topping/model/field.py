@@ -37,12 +37,12 @@ class RandomField(RootField):
     """Roots that scatter."""
 
     kind: Literal["random"] = Field(description="By distributions.")
-    roots: Annotated[Whole, Field(ge=2, le=ROOTS.most)] = Field(20_000, description="How many are looked at.")
+    roots: Annotated[Whole, Field(ge=2, le=ROOTS.most)] = Field(20_000, description="Number of roots.")
     rows: Annotated[Whole, Field(ge=2, le=ROOTS.most)] = Field(
-        100, description="In how many rows they stand; each begins at a random phase of the knife."
+        100, description="Number of rows; each begins at a random phase of the knife."
     )
     root_diameter: AnyScatter | None = Field(
-        None, description="Diameter D, a length or a table. Without it, that of [topper]."
+        None, description="Diameter D, a length or a table. Default: that of [topper]."
     )
     cut_height: AnyScatter | None = Field(
         None,
@@ -50,7 +50,7 @@ class RandomField(RootField):
     )
     offset: AnyScatter | None = Field(
         None,
-        description="Axis of the root left of the row. Without it, evenly within ± that of [topper].",
+        description="Axis of the root left of the row. Default: evenly within ± that of [topper].",
     )
     spacing: AnyScatter | None = Field(
         None,

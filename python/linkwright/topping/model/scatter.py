@@ -127,8 +127,8 @@ class BellScatter(Scatter):
 
     mean: Length = Field(description="Mean of the whole distribution.")
     deviation: Deviation = Field(description="Its standard deviation; 0 for a constant.")
-    least: Length | None = Field(None, description="What is below is cut off.")
-    greatest: Length | None = Field(None, description="What is above is cut off.")
+    least: Length | None = Field(None, description="Lower truncation.")
+    greatest: Length | None = Field(None, description="Upper truncation.")
 
     @property
     def ends(self) -> tuple[float, float]:

@@ -66,18 +66,18 @@ Speed = Annotated[float, not_negative(VELOCITY)]
 class TopperLimits(CheckedDescription):
     """Limits of the best knife, and where it is sought."""
 
-    complete_min: Share = Field(0.95, description="Share of heads that have to be cut right through.")
+    complete_min: Share = Field(0.95, description="Minimum share of heads cut through.")
     haulm_max: Share | None = Field(
-        None, description="Maximum mean share of the head that may be left. Without it, any."
+        None, description="Maximum mean share of the head that may be left. Default: any."
     )
     slicing_min: Annotated[float, not_negative(RATIO)] | None = Field(
         None,
-        description="Minimum mean draw-cut ratio: speed along the edge over that normal to it. Without it, "
+        description="Minimum mean draw-cut ratio: speed along the edge over that normal to it. Default: "
         "the shortest edge rests across the row.",
     )
     length_max: PositiveLength | None = Field(
         None,
-        description="Maximum length of the edge. Without it, any; for the fastest, edge_length.",
+        description="Maximum length of the edge. Default: any; for the fastest, edge_length.",
     )
     angle_min: Slant = Field(0.0, description="Minimum angle of the edge.")
     angle_max: Slant = Field(math.radians(60), description="Maximum angle of the edge.")
@@ -104,7 +104,7 @@ class KnifeMotion(Description):
     phase: Angle | None = Field(
         None,
         description="Phase of the motion when the middle of the edge is abreast of the head's centre. "
-        "Without it, every phase is looked at.",
+        "Default: all phases.",
     )
 
 
@@ -114,7 +114,7 @@ class ConstantKnife(KnifeMotion, CheckedDescription):
     kind: Literal["constant"] = Field(description="Constant speed.")
     stroke: PositiveLength | None = Field(
         None,
-        description="Distance between the ends. Without it, the knife does not turn back over a head: the "
+        description="Distance between the ends. Default: the knife does not turn back over a head: the "
         "worse of the two directions is looked at.",
     )
 
@@ -169,9 +169,9 @@ class Topper(CheckedDescription):
         description="Mean speed v_h of the knife across the row; at 0 it stands at mid-stroke, or where "
         "a given phase puts it. A mechanism gives it itself.",
     )
-    motion: AnyKnifeMotion = Field(description="How the knife moves across the row.")
-    field: AnyField | None = Field(None, description="Roots that are not all alike.")
-    limits: TopperLimits = Field(default_factory=TopperLimits, description="What the best knife has to keep.")
+    motion: AnyKnifeMotion = Field(description="Motion of the knife across the row.")
+    field: AnyField | None = Field(None, description="Scatter of the roots.")
+    limits: TopperLimits = Field(default_factory=TopperLimits, description="Limits of the best knife.")
 
     @property
     def has_cycle(self) -> bool:

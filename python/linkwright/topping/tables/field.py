@@ -73,8 +73,8 @@ def _interval(level: float) -> str:
 
 def _rows(field: TopperField) -> Iterator[Row]:
     shares = (
-        ("heads cut right through", "", "share_complete"),
-        ("left of the head, mean", "", "haulm_mean"),
+        ("heads cut through", "", "share_complete"),
+        ("uncut share of the head, mean", "", "haulm_mean"),
         ("loss: share of the roots above the cut", "", "loss_share"),
     )
     for word, symbol, key in shares:
@@ -129,7 +129,7 @@ def sweep_table(swept: FieldSweep) -> Table:
                 number(float(swept.slicing_ratio_mean[i]), 4),
             )
         )
-    found = ("cut right through", _interval(swept.level), "left", "L for 95 %", "loss", "draw-cut ratio")
+    found = ("cut through", _interval(swept.level), "left", "L for 95 %", "loss", "draw-cut ratio")
     some = "" if len(kept) == n else f", {len(kept)} of {n}"
     return Table("topper_field_sweep", f"The same roots, knife varied{some}", (*heads, *found), rows)
 
@@ -160,14 +160,14 @@ def best_table(search: KnifeSearch, best: BestKnife) -> Table:
     rows.append(("mean draw-cut ratio", "", number(best.slicing_ratio_mean), "", least))
     share = _percent(best.share_complete)
     other = _with_ends(best.share_verified, best.share_verified_low, best.share_verified_high)
-    rows.append(("heads cut right through", "", share, other, f"≥ {_percent(limits.complete_min)}"))
+    rows.append(("heads cut through", "", share, other, f"≥ {_percent(limits.complete_min)}"))
     other = _with_ends(best.haulm_verified, best.haulm_verified_low, best.haulm_verified_high)
     most = math.inf if limits.haulm_max is None else 100 * limits.haulm_max
-    rows.append(("left of the head, mean", "", _percent(best.haulm_mean), other, _at_most(most, "%")))
+    rows.append(("uncut share of the head, mean", "", _percent(best.haulm_mean), other, _at_most(most, "%")))
     title = {"shortest": "Shortest edge", "fastest": "Fastest along the row"}[search.objective]
     return Table(
         "topper_best",
-        f"{title}; {search.tried} knives looked at",
+        f"{title}; {search.tried} knives evaluated",
         ("", "", "found", "over other roots", "limit"),
         rows,
     )

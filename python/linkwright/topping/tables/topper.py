@@ -62,8 +62,8 @@ def _lengths(study: TopperStudy, described: Topper) -> Table:
     own = described.edge_length
     steady = study.length_exact_constant_speed
     listed = [
-        ("printed in paper 5", "(10)", study.length_published, "compares times, not what is covered"),
-        ("what its condition (4) gives", "(4)", study.length_consistent, "step from (4) to (5) put right"),
+        ("printed in paper 5", "(10)", study.length_published, "compares times, not the swept area"),
+        ("by its condition (4)", "(4)", study.length_consistent, "step from (4) to (5) corrected"),
         ("knife at rest", "v_h = 0", study.length_at_rest, "(d + 2Δ)/cos α"),
         ("exact at constant speed", "", steady, "no reversal over a head, worse direction"),
         *(() if study.obstacle else _moved(study, described)),

@@ -33,10 +33,10 @@ Ring = Annotated[
     Option("--ring-inertia", metavar="J", help='Of its ring, such as "0.4 kg m^2".', show_default=False),
 ]
 Mode = Annotated[int, Option("--mode", metavar="N", help="Number of the mode, as f_N in the table.")]
-Kinds = Annotated[Kind, Option("--kind", help="Held by a fluid, by a spring and a fluid, or by rubber.")]
+Kinds = Annotated[Kind, Option("--kind", help="viscous: fluid; tuned: spring and fluid; rubber: elastomer.")]
 Loss = Annotated[
     float | None,
-    Option("--loss-factor", metavar="ETA", help="Of the rubber at hand.", show_default=False),
+    Option("--loss-factor", metavar="ETA", help="Loss factor of the rubber.", show_default=False),
 ]
 Folder = Annotated[
     Path | None, out_option("Write damper.json, damper.toml and the response as SVG and PNG there.")

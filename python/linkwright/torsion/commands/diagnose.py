@@ -27,7 +27,7 @@ Noise = Annotated[
     Option(
         "--noise",
         metavar="SPEED",
-        help='Standard deviation of a sample, such as "0.02 rad/s". Without it, from what is left over.',
+        help='Standard deviation of a sample, such as "0.02 rad/s". Default: from the residuals.',
         show_default=False,
     ),
 ]
@@ -36,17 +36,13 @@ Zero = Annotated[
     Option(
         "--zero",
         metavar="CYLINDER",
-        help="The angle is 0 at the firing dead centre of this cylinder. Without it, where throw 1 points to "
+        help="The angle is 0 at the firing dead centre of this cylinder. Default: where throw 1 points to "
         "the vertical.",
         show_default=False,
     ),
 ]
-Level = Annotated[
-    float, Option("--level", metavar="P", help="Probability that the intervals hold the truth.")
-]
-Rigid = Annotated[
-    bool, Option("--rigid", help="Take the train as rigid, to see what neglecting torsion costs.")
-]
+Level = Annotated[float, Option("--level", metavar="P", help="Confidence level of the intervals.")]
+Rigid = Annotated[bool, Option("--rigid", help="Neglect torsion, for comparison.")]
 
 
 def diagnose(

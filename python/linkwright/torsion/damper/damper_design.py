@@ -201,7 +201,7 @@ class DamperDesign(Result):
     damping: Annotated[float, Shown("damping by the mode alone, in closed form", "c", "N m s/rad")]
     stiffness: Annotated[float, Shown("stiffness by the mode alone, in closed form", "k", "N m/rad")]
     loss_factor: Annotated[float, Shown("loss factor by the mode alone, in closed form", "η", "–")]
-    magnification: Annotated[float, Shown("magnification that the closed form promises", "", "–")]
+    magnification: Annotated[float, Shown("magnification by the closed form", "", "–")]
     magnification_rule: Annotated[
         float, Shown("maximum magnification with the damper of the closed form", "", "–")
     ]
@@ -236,7 +236,7 @@ def design_damper(
     kind : str
         ``"viscous"``: a fluid; ``"tuned"``: a spring and a fluid; ``"rubber"``: a spring that loses.
     loss_factor : float, optional
-        η of the rubber at hand. Without it, the best.
+        η of the rubber at hand. Default: the best.
 
     Returns
     -------
@@ -306,7 +306,7 @@ def _twisting(free: FreeVibration, mode: int) -> int:
     """The number of a mode that twists the train."""
     twisting = np.flatnonzero(free.natural_frequencies > 0)
     if mode not in twisting:
-        known = f"one of {twisting[0]} to {twisting[-1]}" if len(twisting) else "a train that twists"
+        known = f"one of {twisting[0]} to {twisting[-1]}" if len(twisting) else "a train with an elastic mode"
         raise InputError(f"mode: found {mode}, expected {known}")
     return mode
 

@@ -104,7 +104,7 @@ class Diagnosis(Result):
     ]
     freedom: Annotated[int, About("Equations less factors told.")]
     is_noise_known: Annotated[bool, About("Whether the noise was given, or estimated.")]
-    warnings: Annotated[tuple[str, ...], About("What limits the diagnosis.")]
+    warnings: Annotated[tuple[str, ...], About("Limitations of the diagnosis.")]
     delay: Annotated[
         Floats | None,
         Shown(

@@ -142,7 +142,7 @@ def record_diagnosis(
     noise : float, optional
         Standard deviation of a sample; without it, estimated from what the cylinders leave over [rad/s].
     zero : int, optional
-        Number of the cylinder at whose firing dead centre the angle is 0. Without it, throw 1 points to the
+        Number of the cylinder at whose firing dead centre the angle is 0. Default: throw 1 points to the
         vertical there, in the revolution in which the first cylinder of the firing order fires.
     rigid : bool
         Whether the train is taken as rigid, to see what that costs.

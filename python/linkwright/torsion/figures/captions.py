@@ -40,9 +40,9 @@ _TURNING = 0.02
 
 def torsion_figures(study: TorsionStudy) -> Iterator[Captioned]:
     """The figures that a study has results for."""
-    caption = "Discs with the height of their inertia, shafts with the length of their compliance."
+    caption = "The height of a disc is its inertia, the length of a shaft its compliance."
     yield Captioned("scheme", "Equivalent scheme", caption, scheme_figure(study.scheme))
-    caption = "Amplitudes of the lowest modes that twist the train; the largest is one."
+    caption = "Amplitudes of the lowest elastic modes; the largest is 1."
     yield Captioned("mode_shapes", "Mode shapes", caption, modes_figure(study.free))
     if study.forced is not None:
         yield from _forced(study, study.forced)
@@ -52,7 +52,7 @@ def torsion_figures(study: TorsionStudy) -> Iterator[Captioned]:
 
 def _manoeuvre(moved: TorsionTransient) -> Iterator[Captioned]:
     """Speeds and torques over time, and what orders they hold."""
-    caption = "Speeds of discs and torques of the shafts that swing most; marked are their extremes."
+    caption = "Speeds of discs and torques of the shafts with the largest amplitudes; extremes are marked."
     yield Captioned("transient", "Manoeuvre", caption, transient_figure(moved))
     # Orders are found by revolutions: while the first disc stands there are none.
     turning = moved.speed[0] > _TURNING * moved.speed[0].max()
@@ -74,7 +74,7 @@ def _manoeuvre(moved: TorsionTransient) -> Iterator[Captioned]:
 def _forced(study: TorsionStudy, forced: ForcedVibration) -> Iterator[Captioned]:
     """What the train does under its torques."""
     if study.campbell is not None:
-        caption = "Natural frequencies over the speed, rays of the orders, and where they meet."
+        caption = "Natural frequencies and excitation orders over the speed, with their intersections."
         yield Captioned("campbell", "Critical speeds", caption, campbell_figure(study.campbell))
     if forced.shafts:
         caption = "Half the peak-to-peak torque, all orders in phase."
@@ -97,7 +97,7 @@ def _forced(study: TorsionStudy, forced: ForcedVibration) -> Iterator[Captioned]
         stars = most_severe(study.campbell, study.stars, _STARS)
         yield Captioned("stars", "Star diagrams", caption, star_figure(stars))
     if study.meshes is not None and np.isfinite(study.meshes.vibratory).any():
-        caption = "Mean torque with the range of its vibration: below zero teeth part."
+        caption = "Mean torque with the range of its vibration; below zero the teeth lose contact."
         yield Captioned("gears", "Torque of the gear stages", caption, gear_figure(study.meshes))
     yield _of_the_freest_disc(forced)
     shown = float(forced.speeds[service_place(study, forced)])
@@ -109,7 +109,7 @@ def _forced(study: TorsionStudy, forced: ForcedVibration) -> Iterator[Captioned]
     yield Captioned("unevenness", "Speed fluctuation", caption, figure)
     parts = _heated(study, forced)
     if parts:
-        yield Captioned("heat", "Heat", "Mean power that damping turns to heat.", heat_figure(forced, parts))
+        yield Captioned("heat", "Heat", "Mean power dissipated by damping.", heat_figure(forced, parts))
 
 
 def _of_the_worst_shaft(study: TorsionStudy, forced: ForcedVibration) -> Captioned:

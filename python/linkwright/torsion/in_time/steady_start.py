@@ -76,7 +76,7 @@ def balanced_start(
     if train.installed:
         return _with_combustion(moving, manoeuvre, left)
     if manoeuvre.motors:
-        return moving, speed, f"nothing drives at the start: {left:.5g} N m slow the train down"
+        return moving, speed, f"no driving torque at the start: {left:.5g} N m slow the train down"
     drives = [
         TrainTorque("driver", driver, -share * left / float(moving.speed[driver]))
         for driver, share in ((moving.discs.index(name), share) for name, share in train.shares.items())

@@ -179,7 +179,7 @@ def torsion_transient(machine: Machine, manoeuvre: TrainTransient | None = None)
     machine : Machine
         With a [train], or with a torsionally flexible driveline.
     manoeuvre : TrainTransient, optional
-        Without it, that of the file, [train.transient]; a driveline needs one. Speeds are those of the first
+        Default: that of the file, [train.transient]; a driveline needs one. Speeds are those of the first
         disc, of a driveline those of the motor.
 
     Returns
@@ -311,7 +311,7 @@ def _given_up(train: MovingTrain, moved: TrainMotion, accuracy: float) -> str:
     if moved.end == "not finite":
         return f"{when}: an acceleration is no finite number; look at the torques"
     frequency, disc = moved.fastest / (2 * np.pi), _fastest_disc(train)
-    stiff = f"{disc} swings on its shafts at up to {frequency:.4g} Hz"
+    stiff = f"{disc} vibrates on its shafts at up to {frequency:.4g} Hz"
     if moved.method == "explicit":
         remedy = 'take method "implicit", or take it together with its neighbour as one disc'
     else:

@@ -56,7 +56,7 @@ class BarredRange(Result):
     speed_min: Annotated[
         float,
         Shown(
-            "minimum speed at which the stress is too large",
+            "lower end of the barred range",
             "ω_min",
             "rad/s",
             "Above what is permitted in continuous operation.",
@@ -65,14 +65,14 @@ class BarredRange(Result):
     speed_max: Annotated[
         float,
         Shown(
-            "maximum speed at which the stress is too large",
+            "upper end of the barred range",
             "ω_max",
             "rad/s",
             "Above what is permitted in continuous operation.",
         ),
     ]
-    open_min: Annotated[bool, About("Whether the range goes on below the speeds looked at.")]
-    open_max: Annotated[bool, About("Whether the range goes on above the speeds looked at.")]
+    open_min: Annotated[bool, About("Whether the range continues below the speeds analysed.")]
+    open_max: Annotated[bool, About("Whether the range continues above the speeds analysed.")]
     worst_speed: Annotated[
         float, Shown("speed at which stress over permitted stress is largest", "", "rad/s")
     ]
@@ -124,7 +124,7 @@ class BarredRange(Result):
     service_speed: Annotated[float, Shown("service speed", "", "rad/s", "That λ = 1 stands for.")]
     ratio_permitted: Annotated[
         float | None,
-        Shown("maximum speed ratio that the rule lets be barred", "λ", "", "None without a rule."),
+        Shown("maximum speed ratio that the rule permits to be barred", "λ", "", "None without a rule."),
     ]
 
     @property

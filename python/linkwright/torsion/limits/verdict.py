@@ -97,7 +97,7 @@ class Verdict(Result):
         tuple[BarredRange, ...],
         About("Ranges in which shafts are stressed more than permitted in continuous operation."),
     ]
-    notes: Annotated[tuple[str, ...], About("What was not judged, and why.")]
+    notes: Annotated[tuple[str, ...], About("Limits without verdict, with the reason.")]
 
     @property
     def state(self) -> State:

@@ -36,18 +36,16 @@ class Coupling(CheckedDescription):
         None, description="Points of its curve, from 0 upwards, in place of the stiffness; odd below."
     )
     torque: Torques | None = Field(None, description="Torque at each twist of the curve, from 0 upwards.")
-    damping: Damping = Field(0.0, description="Torque per speed of twisting.")
+    damping: Damping = Field(0.0, description="Damping torque per relative speed.")
     loss_factor: LossFactor = Field(
         0.0,
         description="Hysteresis η = ψ/(2π), ψ its relative damping: energy lost in a cycle over the largest.",
     )
-    torque_permitted: PositiveTorque | None = Field(None, description="Mean and vibratory torque together.")
+    torque_permitted: PositiveTorque | None = Field(None, description="Sum of mean and vibratory torque.")
     vibratory_torque_permitted: PositiveTorque | None = Field(
         None, description="Amplitude of the torque in continuous operation."
     )
-    heat_permitted: Annotated[float, positive(POWER)] | None = Field(
-        None, description="Heat that it can give off."
-    )
+    heat_permitted: Annotated[float, positive(POWER)] | None = Field(None, description="Permitted heat.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         curve = self.twist is not None or self.torque is not None
@@ -130,15 +128,13 @@ def _hermite(z: Floats, rise: Floats, first: Floats, last: Floats) -> tuple[Floa
 class Damper(CheckedDescription):
     """A damper on a disc: viscous (Lanchester, Houde), or tuned by a spring or rubber."""
 
-    on: str = Field(description="The disc that it sits on; its housing counts with the disc.")
+    on: str = Field(description="Disc that carries it; the inertia of its housing belongs to the disc.")
     kind: Literal["viscous", "tuned"] = Field("viscous", description="Without or with a spring.")
     ring_inertia: Annotated[float, positive(INERTIA)] = Field(description="Of the ring, about the axis.")
     damping: Damping = Field(0.0, description="Torque per speed between ring and disc.")
     stiffness: PositiveStiffness | None = Field(None, description="Of the spring, of a tuned damper.")
     loss_factor: LossFactor = Field(0.0, description="Hysteresis of the spring, of a tuned damper.")
-    heat_permitted: Annotated[float, positive(POWER)] | None = Field(
-        None, description="Heat that it can give off."
-    )
+    heat_permitted: Annotated[float, positive(POWER)] | None = Field(None, description="Permitted heat.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         if self.kind == "tuned" and self.stiffness is None:

@@ -24,7 +24,7 @@ class MeasuredResponse(CheckedDescription):
     kind: Literal["response"] = Field("response", description="Of the table, for a file of its points.")
     on: str = Field(description="The shaft whose stress or torque it is, or the disc whose angle it is.")
     order: PositiveNumber | None = Field(
-        None, description="Order of the first disc that was measured alone. Without it, all together."
+        None, description="Order of the first disc that was measured alone. Default: all together."
     )
     speed: tuple[PositiveSpeed, ...] = Field(description="Of the first disc, increasing.")
     stress: tuple[Annotated[float, not_negative(PRESSURE)], ...] | None = Field(

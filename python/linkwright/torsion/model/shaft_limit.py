@@ -70,14 +70,14 @@ class ShaftLimit(CheckedDescription):
 
     kind: Kind = Field("given", description="Where the permitted vibratory stress comes from.")
     diameter: PositiveLength | None = Field(
-        None, description="Outside, where the stress counts. Without it, that of the weakest section."
+        None, description="Outside, where the stress counts. Default: that of the weakest section."
     )
     inner_diameter: Bore = Field(0.0, description="Of the bore there.")
     section_modulus: Annotated[float, positive(SECTION_MODULUS)] | None = Field(
         None, description="Torque per stress there, in place of the diameter."
     )
     stress_concentration: Annotated[float, positive(RATIO)] | None = Field(
-        None, description="Maximum over nominal stress, which the stresses given hold for. Without it, 1."
+        None, description="Maximum over nominal stress, which the stresses given hold for. Default: 1."
     )
     stress_permitted: Stress | None = Field(
         None, description="Amplitude of the shear stress in continuous operation."
@@ -86,16 +86,16 @@ class ShaftLimit(CheckedDescription):
         None, description="The same, while barred speed ranges are passed quickly."
     )
     stress_greatest: Stress | None = Field(None, description="Shear stress of mean and vibration together.")
-    torque_permitted: PositiveTorque | None = Field(None, description="Mean and vibratory torque together.")
+    torque_permitted: PositiveTorque | None = Field(None, description="Sum of mean and vibratory torque.")
     vibratory_torque_permitted: PositiveTorque | None = Field(
         None, description="Amplitude of the torque in continuous operation."
     )
     tensile_strength: Stress | None = Field(None, description="σ_B that the steel is specified to have.")
     yield_strength: Stress | None = Field(None, description="σ_Y of the steel of a crankshaft.")
     steel: Steel | None = Field(
-        None, description='"carbon" counts carbon-manganese steel too. Without it, carbon.'
+        None, description='"carbon" counts carbon-manganese steel too. Default: carbon.'
     )
-    design: Design | None = Field(None, description="What the shaft has, for C_K. Without it, flanges.")
+    design: Design | None = Field(None, description="What the shaft has, for C_K. Default: flanges.")
     design_factor: Annotated[float, Quantity(RATIO, FRACTION)] | None = Field(
         None, description="C_K itself, in place of the design."
     )

@@ -84,7 +84,7 @@ _FURTHER = tuple(dict.fromkeys(key for pair in _KEYS.values() for keys in pair f
 class ShaftSection(CheckedDescription):
     """A length of a shaft: a cylinder, solid or hollow, or another kind."""
 
-    kind: Kind = Field("cylinder", description="What it is.")
+    kind: Kind = Field("cylinder", description="Kind of section.")
     length: PositiveLength = Field(
         description="Of the section; of a flange its thickness; of a hub what is engaged."
     )
@@ -95,7 +95,7 @@ class ShaftSection(CheckedDescription):
     inner_diameter: Bore = Field(0.0, description="Of the bore; of a taper where it begins.")
     diameter_end: PositiveLength | None = Field(None, description="Of a taper, where it ends.")
     inner_diameter_end: Bore | None = Field(
-        None, description="Bore of a taper where it ends. Without it, as where it begins."
+        None, description="Bore of a taper where it ends. Default: as where it begins."
     )
     bolt_circle: PositiveLength | None = Field(
         None, description="Of a flange: diameter of the circle where it is held."
@@ -103,7 +103,7 @@ class ShaftSection(CheckedDescription):
     root_diameter: PositiveLength | None = Field(None, description="Of a spline, between its teeth.")
     share: Share | None = Field(
         None,
-        description="Of a hub or a spline: how much of the length twists as if it were free. Without it, a "
+        description="Of a hub or a spline: how much of the length twists as if it were free. Default: a "
         "third of a hub, the whole of a spline.",
     )
     keyway_width: PositiveLength | None = Field(None, description="Of a keyway, if there is one.")
@@ -111,11 +111,11 @@ class ShaftSection(CheckedDescription):
         None, description="Of the keyway in the shaft, from the top of the full circle."
     )
     keyways: Literal[1, 2] | None = Field(
-        None, description="How many; two lie opposite. Without it, one if a keyway is given."
+        None, description="How many; two lie opposite. Default: one if a keyway is given."
     )
     fillet: Annotated[float, not_negative(LENGTH)] | None = Field(
         None,
-        description="Radius in the corner of the step to the next section; 0 for a sharp one. Without it, "
+        description="Radius in the corner of the step to the next section; 0 for a sharp one. Default: "
         "the step adds no twist. Of a flange: in the corner with its shaft.",
     )
 

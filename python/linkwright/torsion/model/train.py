@@ -58,9 +58,9 @@ class TrainRun(CheckedDescription):
 
     speed_min: PositiveSpeed = Field(description="Lowest speed of the first disc.")
     speed_max: PositiveSpeed = Field(description="Highest speed of the first disc.")
-    points: Whole = Field(200, ge=2, le=100_000, description="How many speeds, evenly spaced.")
+    points: Whole = Field(200, ge=2, le=100_000, description="Number of speeds, evenly spaced.")
     speed_rated: PositiveSpeed | None = Field(
-        None, description="Speed of service, at which waveforms are shown. Without it, the highest."
+        None, description="Speed of service, at which waveforms are shown. Default: the highest."
     )
     orders_max: Annotated[float, Quantity(COUNT, _ORDER)] = Field(
         24.0, description="Highest order of gas and inertia torques."
@@ -68,7 +68,7 @@ class TrainRun(CheckedDescription):
     loads_follow: bool = Field(
         False,
         description="Whether loads are scaled at each speed so that they take off what the engine gives in "
-        "the mean. Otherwise they are as given, and what is left over accelerates the train.",
+        "the mean. Otherwise they keep their torque, and the excess accelerates the train.",
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
@@ -108,14 +108,14 @@ class ElasticShaft(CheckedDescription):
 
     stiffness: PositiveStiffness | None = Field(None, description="Torque per twist.")
     sections: tuple[ShaftSection, ...] | None = Field(
-        None, description="Its lengths in a row, from its first end, in place of the stiffness."
+        None, description="Its sections in order, from its first end, in place of the stiffness."
     )
     shear_modulus: Modulus = Field(79.3e9, description="Of the sections; usually that of steel.")
-    damping: Damping = Field(0.0, description="Torque per speed of twisting.")
+    damping: Damping = Field(0.0, description="Damping torque per relative speed.")
     loss_factor: LossFactor = Field(
         0.0, description="Hysteresis η: the stiffness is k(1 + iη), a cycle loses 2πη of its largest energy."
     )
-    limit: ShaftLimit | None = Field(None, description="What it bears.")
+    limit: ShaftLimit | None = Field(None, description="Permitted stress.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         if (self.stiffness is None) == (self.sections is None):
@@ -170,7 +170,7 @@ class Shaft(ElasticShaft):
     inertia: ShaftInertia | None = Field(
         None,
         description='How its own inertia counts: "ends" with the discs at its two ends, "distributed" where '
-        "it is, exactly. Without it, as [train] says.",
+        "it is, exactly. Default: as [train] says.",
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
@@ -208,7 +208,7 @@ class TrainGear(CheckedDescription):
         "loop.",
     )
     stiffness: PositiveStiffness | None = Field(
-        None, description="Of the mesh, as torque at the first disc per its angle. Without it, rigid."
+        None, description="Of the mesh, as torque at the first disc per its angle. Default: rigid."
     )
     damping: Damping = Field(
         0.0, description="Of an elastic mesh, as torque at the first disc per its speed."
@@ -242,7 +242,7 @@ class Train(Description):
     gears: dict[Name, TrainGear] = Field(default_factory=dict, description="Gear stages by name.")
     couplings: dict[Name, Coupling] = Field(default_factory=dict, description="Elastic couplings by name.")
     dampers: dict[Name, Damper] = Field(default_factory=dict, description="Torsional dampers by name.")
-    loads: dict[Name, TrainLoad] = Field(default_factory=dict, description="What the train drives, by name.")
+    loads: dict[Name, TrainLoad] = Field(default_factory=dict, description="Driven machines, by name.")
     excitations: dict[Name, Excitation] = Field(
         default_factory=dict, description="Pulsating torques, by name."
     )
@@ -252,10 +252,10 @@ class Train(Description):
     engines: dict[Name, TrainEngine] = Field(
         default_factory=dict,
         description="Several engines, by name, each with discs NAME_throw_1, NAME_throw_2, … and shafts "
-        "NAME_crank_1, … Without it, there is [train.engine] alone.",
+        "NAME_crank_1, … Default: there is [train.engine] alone.",
     )
     driver: str | None = Field(
-        None, description="Disc that drives the loads, where no engine does. Without it, the first."
+        None, description="Disc that drives the loads, where no engine does. Default: the first."
     )
     drivers: dict[Name, TrainDriver] = Field(
         default_factory=dict,
@@ -270,17 +270,17 @@ class Train(Description):
         None,
         ge=1,
         le=200,
-        description="How many modes are sought where inertia is distributed. Without it, as many as discs "
+        description="How many modes are sought where inertia is distributed. Default: as many as discs "
         "and sections of such shafts, and two.",
     )
     modal_damping: ModalDamping | None = Field(
         None, description="Damping ratios of the modes, in addition to what damps single parts."
     )
-    run: TrainRun | None = Field(None, description="Speeds and orders at which it is looked at.")
+    run: TrainRun | None = Field(None, description="Speeds and orders of forced vibration.")
     measured: dict[Name, MeasuredResponse] = Field(
-        default_factory=dict, description="Measured curves that are laid over the computed ones, by name."
+        default_factory=dict, description="Measured curves for comparison, by name."
     )
-    transient: TrainTransient | None = Field(None, description="Manoeuvre that is followed in time.")
+    transient: TrainTransient | None = Field(None, description="Manoeuvre in time.")
 
     @property
     def installed(self) -> tuple[InstalledEngine, ...]:

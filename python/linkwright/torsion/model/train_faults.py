@@ -35,14 +35,14 @@ def train_faults(train: object) -> Iterator[InitErrorDetails]:
     own = keys(look(train, "discs")) if isinstance(look(train, "discs"), dict) else ()
     discs = (*_throw_names(train), *own)
     if not discs:
-        remedy = 'describe what turns as [train.discs], NAME = { inertia = "2 kg m^2" }'
+        remedy = 'describe the rotating parts as [train.discs], NAME = { inertia = "2 kg m^2" }'
         yield fault("train", "discs", expected="at least one disc", remedy=remedy)
         return
     if len(discs) > DISCS.most:
         yield fault("train", "discs", found=f"{len(discs)} of them", expected=DISCS.words)
         return
     if GROUND in discs:
-        remedy = "it is the word for what is held"
+        remedy = "it is the name of the fixed frame"
         yield fault("train", "discs", GROUND, found=GROUND, expected="another name", remedy=remedy)
         return
     wrong = [*_same_names(train), *_name_faults(train, discs), *_engine_faults(train)]

@@ -59,8 +59,8 @@ Share = Annotated[float, not_negative(RATIO)]
 class _Passing(CheckedDescription):
     """An event that may end."""
 
-    time: Instant = Field(description="When it begins.")
-    until: Instant | None = Field(None, description="When it ends. Without it, it lasts.")
+    time: Instant = Field(description="Time at which it begins.")
+    until: Instant | None = Field(None, description="Time at which it ends. Default: never.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         if self.until is not None and self.until <= self.time:
@@ -76,10 +76,10 @@ class LoadStep(Description):
     """A load of the train grows or falls."""
 
     kind: Literal["load_step"]
-    time: Instant = Field(description="When it begins.")
+    time: Instant = Field(description="Time at which it begins.")
     load: str = Field(description="Name of the load.")
     factor: Share = Field(description="Of its torque from then on; 0 throws it off.")
-    over: Instant = Field(0.0, description="Time that it takes.")
+    over: Instant = Field(0.0, description="Duration of the change.")
 
 
 class MotorSwitch(Description):
@@ -94,9 +94,9 @@ class FuelSwitch(Description):
     """The combustion in all cylinders sets in or ends."""
 
     kind: Literal["fuel_on", "fuel_off"]
-    engine: str | None = Field(None, description="Which of several engines. Without it, all.")
-    time: Instant = Field(description="When it begins.")
-    over: Instant = Field(0.0, description="Time that it takes.")
+    engine: str | None = Field(None, description="Which of several engines. Default: all.")
+    time: Instant = Field(description="Time at which it begins.")
+    over: Instant = Field(0.0, description="Duration of the change.")
 
 
 class Misfire(_Passing):
@@ -105,7 +105,7 @@ class Misfire(_Passing):
     kind: Literal["misfire"]
     engine: str | None = Field(None, description="Which of several engines.")
     cylinders: tuple[Annotated[int, Field(ge=1)], ...] = Field(description="Their numbers.")
-    factor: Share = Field(0.0, description="Share of the combustion that is left.")
+    factor: Share = Field(0.0, description="Remaining share of the combustion.")
 
 
 class TorqueStep(_Passing):
@@ -122,7 +122,7 @@ class TorqueCourse(CheckedDescription):
     kind: Literal["torque_course"]
     on: str = Field(description="The disc.")
     times: Instants = Field(description="From the start of the motion, increasing.")
-    torque: Torques = Field(description="At these times, positive if it drives; straight between them.")
+    torque: Torques = Field(description="Torque at these times, positive if it drives; linear between them.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         yield from curve_faults(self, "times", ("torque",))
@@ -134,8 +134,10 @@ class SpeedCourse(CheckedDescription):
     kind: Literal["speed_course"]
     on: str = Field(description="The disc.")
     times: Instants = Field(description="From the start of the motion, increasing.")
-    speed: Speeds = Field(description="Wanted at these times; straight between them.")
-    gain: Annotated[float, positive(TORSIONAL_DAMPING)] = Field(description="Torque per missing speed.")
+    speed: Speeds = Field(description="Required speed at these times; linear between them.")
+    gain: Annotated[float, positive(TORSIONAL_DAMPING)] = Field(
+        description="Torque per deviation of the speed."
+    )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         yield from curve_faults(self, "times", ("speed",))
@@ -178,7 +180,7 @@ class TrainMotor(Description):
 class TrainTransient(CheckedDescription):
     """A manoeuvre: start, stop, change of speed or load, short circuit."""
 
-    duration: Annotated[float, positive(TIME)] = Field(description="Time that is followed.")
+    duration: Annotated[float, positive(TIME)] = Field(description="Duration of the manoeuvre.")
     speed: Annotated[float, not_negative(SPEED)] = Field(
         0.0, description="Of the first disc at the start; 0 is at rest."
     )
@@ -200,19 +202,19 @@ class TrainTransient(CheckedDescription):
     )
     settle: Instant | None = Field(
         None,
-        description="Time before the start in which it swings in, unrecorded. Without it, 1 s for a motion "
+        description="Time before the start in which it swings in, unrecorded. Default: 1 s for a motion "
         "that starts in balance and loaded, else none.",
     )
     fuel: Share = Field(1.0, description="Share of the combustion in all cylinders at the start.")
     gas_speed: PositiveSpeed | None = Field(
         None,
-        description="At which the gas torques over the crank angle are taken. Without it, the speed of the "
+        description="At which the gas torques over the crank angle are taken. Default: the speed of the "
         "start, or that of service.",
     )
     motors: dict[Name, TrainMotor] = Field(default_factory=dict, description="Motors by name.")
-    events: tuple[AnyTrainEvent, ...] = Field((), description="What happens on the way.")
+    events: tuple[AnyTrainEvent, ...] = Field((), description="Events of the manoeuvre.")
     sample_time: Annotated[float, positive(TIME)] | None = Field(
-        None, description="Between the samples of the result. Without it, at most 0.5 ms."
+        None, description="Between the samples of the result. Default: at most 0.5 ms."
     )
     loss_by: Literal["shaft", "mode"] = Field(
         "shaft",
@@ -221,7 +223,7 @@ class TrainTransient(CheckedDescription):
     )
     loss_mode: Annotated[int, Field(ge=1)] | None = Field(
         None,
-        description="Mode of vibration in which viscous damping loses what hysteresis would. Without it, for "
+        description="Mode of vibration in which viscous damping loses what hysteresis would. Default: for "
         "each shaft the lowest mode of whose energy it stores a twentieth or more.",
     )
     accuracy: Annotated[float, Field(ge=1e-13, le=1e-3)] = Field(
@@ -230,7 +232,7 @@ class TrainTransient(CheckedDescription):
     method: Literal["auto", "explicit", "implicit"] = Field(
         "auto", description="Of integration; implicit steps do not follow the swings of very stiff shafts."
     )
-    steps_max: Whole = Field(5_000_000, ge=1, description="Steps after which it is given up.")
+    steps_max: Whole = Field(5_000_000, ge=1, description="Maximum number of steps.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         if self.sample_time is not None and self.duration / self.sample_time > SAMPLES.most:

@@ -164,7 +164,7 @@ def damped_vibration(machine: Machine, speed: float | None = None) -> DampedVibr
         With a [train], or a [drive] that twists.
     speed : float, optional
         Of the first disc, at which the train runs: it sets the damping of loads, and the slope of couplings
-        under their mean torque. Without it, the train stands still without torque [rad/s].
+        under their mean torque. Default: the train stands still without torque [rad/s].
 
     Returns
     -------

@@ -116,7 +116,7 @@ class FreeVibration(Result):
         Floats,
         Shown("twist of each shaft per unit of amplitude", "Δ", "rad", _TWISTS, shape="(modes, shafts)"),
     ]
-    nodes: Annotated[tuple[tuple[Node, ...], ...], About("Places at rest, in each mode; the ground is none.")]
+    nodes: Annotated[tuple[tuple[Node, ...], ...], About("Nodes of each mode; the ground does not count.")]
     kinetic_shares: Annotated[
         Floats,
         Shown(

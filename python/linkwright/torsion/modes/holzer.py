@@ -89,7 +89,7 @@ class HolzerTable(Result):
     ]
     end: Annotated[str, About("Disc that is not in equilibrium.")]
     residual_torque: Annotated[
-        float, Shown("torque that is left over at the end", "", "N m", "Zero at a natural frequency.")
+        float, Shown("residual torque at the end", "", "N m", "Zero at a natural frequency.")
     ]
 
 

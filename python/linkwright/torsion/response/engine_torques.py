@@ -160,12 +160,12 @@ class EngineData(Result):
     """An engine's part of a train."""
 
     own_inertia: Annotated[
-        float, Shown("moment of inertia of what turns with a throw", "J_k", "kg m²", "Without rods.")
+        float, Shown("moment of inertia of the rotating parts of a throw", "J_k", "kg m²", "Without rods.")
     ]
     throw_inertia: Annotated[
         float,
         Shown(
-            "moment of inertia of the disc that stands for a throw",
+            "moment of inertia of the disc of a throw",
             "",
             "kg m²",
             "Mean over the revolution of its exact inertia.",

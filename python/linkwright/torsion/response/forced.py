@@ -58,7 +58,7 @@ class TorsionResponse(Result):
     amplitudes: Annotated[
         Complexes,
         Shown(
-            "angle of each disc beside its steady turning",
+            "vibration angle of each disc",
             "θ",
             "rad",
             "Complex, by orders.",
@@ -203,10 +203,10 @@ class ForcedVibration(TorsionResponse):
     ]
     unevenness_rigid: Annotated[
         Floats,
-        Shown("coefficient of speed fluctuation of the train as a whole", "", "", shape="(discs, speeds)"),
+        Shown("coefficient of speed fluctuation of the rigid train", "", "", shape="(discs, speeds)"),
     ]
     unevenness_torsional: Annotated[
-        Floats, Shown("coefficient of speed fluctuation of the rest", "", "", shape="(discs, speeds)")
+        Floats, Shown("coefficient of speed fluctuation, torsional part", "", "", shape="(discs, speeds)")
     ]
     disc_heat: Annotated[
         Floats, Shown("heat by the damping of each disc", "", "W", "Mean power.", shape="(discs, speeds)")

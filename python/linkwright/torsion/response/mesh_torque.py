@@ -132,8 +132,8 @@ class MeshTorque(Result):
     @property
     def contact_lost(
         self,
-    ) -> Annotated[NDArray[np.bool_], About("Where teeth part, shape (stages, speeds).")]:
-        """Where teeth part, shape (stages, speeds)."""
+    ) -> Annotated[NDArray[np.bool_], About("Where teeth lose contact, shape (stages, speeds).")]:
+        """Where teeth lose contact, shape (stages, speeds)."""
         # Rounding of torques that cancel is no vibration.
         size = np.maximum(np.abs(self.greatest), np.abs(self.least))
         parted: NDArray[np.bool_] = self.drop > np.abs(self.mean) + 1e-12 * size

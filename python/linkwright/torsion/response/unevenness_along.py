@@ -68,7 +68,7 @@ class UnevennessAlong(Result):
     share_rigid: Annotated[
         Floats,
         Shown(
-            "speed fluctuation from each firing to the next, of the train as a whole",
+            "speed fluctuation of the rigid train from each firing to the next",
             "",
             "",
             shape="(discs, cylinders)",
@@ -76,9 +76,7 @@ class UnevennessAlong(Result):
     ]
     share_torsional: Annotated[
         Floats,
-        Shown(
-            "speed fluctuation from each firing to the next, of the rest", "", "", shape="(discs, cylinders)"
-        ),
+        Shown("torsional speed fluctuation from each firing to the next", "", "", shape="(discs, cylinders)"),
     ]
 
     @property
@@ -91,14 +89,14 @@ class UnevennessAlong(Result):
     @property
     def unevenness_rigid(
         self,
-    ) -> Annotated[Floats, Shown("speed fluctuation of the train as a whole", "", "", shape="(discs,)")]:
+    ) -> Annotated[Floats, Shown("speed fluctuation of the rigid train", "", "", shape="(discs,)")]:
         """N of the train rotating as a rigid body, shape (discs,)."""
         return _mean(self.share_rigid)
 
     @property
     def unevenness_torsional(
         self,
-    ) -> Annotated[Floats, Shown("speed fluctuation of the rest", "", "", shape="(discs,)")]:
+    ) -> Annotated[Floats, Shown("speed fluctuation, torsional part", "", "", shape="(discs,)")]:
         """N of the rest, shape (discs,)."""
         return _mean(self.share_torsional)
 

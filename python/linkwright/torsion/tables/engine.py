@@ -125,12 +125,12 @@ def diagnosis_words(read: RecordDiagnosis, level: float) -> str:
         f"cylinder {diagnosis.cylinders[n]} at {diagnosis.factor[n]:.3f} ± {half[n]:.3f}" for n in places
     ]
     if len(weak) == len(diagnosis.cylinders):
-        return f"All cylinders burn less than the file says, most so {listed[0]} of its combustion."
+        return f"All cylinders burn less than in the file, the weakest {listed[0]} of its combustion."
     return f"Weak, the weakest first: {', '.join(listed)} of its combustion."
 
 
 def damper_table(design: DamperDesign) -> Table:
-    """The damper by the mode alone and the best for the train, side by side."""
+    """The damper by the mode alone and the optimum for the train, side by side."""
     values = (
         ("damping", "c [N m s/rad]", design.damping, design.damping_best),
         ("stiffness", "k [N m/rad]", design.stiffness, design.stiffness_best),
@@ -146,7 +146,7 @@ def damper_table(design: DamperDesign) -> Table:
         f"{quantity(design.ring_inertia, 'kg m²', 6)} is {100 * design.mass_ratio:.4g} % "
         "of the modal inertia there"
     )
-    return Table("damper", title, ("", "", "by the mode alone", "best for the train"), rows)
+    return Table("damper", title, ("", "", "by the mode alone", "optimum for the train"), rows)
 
 
 def damper_lines(design: DamperDesign) -> str:

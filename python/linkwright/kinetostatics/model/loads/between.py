@@ -107,7 +107,7 @@ class TorsionalSpring(Load):
 
     kind: Literal["torsional_spring"]
     on: str = Field(description="Link that it acts on.")
-    against: str | None = Field(None, description="Link that it holds on to. Without it, the frame.")
+    against: str | None = Field(None, description="Link that it holds on to. Default: the frame.")
     stiffness: Annotated[float, not_negative(TORSIONAL_STIFFNESS)] = Field(description="Torque per angle.")
     free_angle: Angle = Field(
         0.0, description="Angle without torque, from the link that it holds on to, or from the x axis."
@@ -119,7 +119,7 @@ class TorsionalDamper(Load):
 
     kind: Literal["torsional_damper"]
     on: str = Field(description="Link that it acts on.")
-    against: str | None = Field(None, description="Link that it holds on to. Without it, the frame.")
+    against: str | None = Field(None, description="Link that it holds on to. Default: the frame.")
     damping_torsional: Annotated[float, not_negative(TORSIONAL_DAMPING)] = Field(
         description="Torque per angular speed."
     )

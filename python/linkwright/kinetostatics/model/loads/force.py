@@ -18,9 +18,7 @@ class ConstantForce(Load):
     on: str = Field(description="Moving point or slider that it acts on.")
     force: Force = Field(description="Its size.")
     direction: Angle = Field(0.0, description="Its direction, from the x axis, or from the link `along`.")
-    along: str | None = Field(
-        None, description="Link that it turns with. Without it, it keeps its direction."
-    )
+    along: str | None = Field(None, description="Link that it turns with. Default: it keeps its direction.")
 
 
 class ConstantTorque(Load):

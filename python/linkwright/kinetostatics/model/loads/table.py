@@ -32,7 +32,7 @@ class ForcePosition(Load):
     position: Lengths = Field(description="Positions along the guide, increasing.")
     forward: Forces = Field(description="Force at each position while it moves forward.")
     return_: Forces | None = Field(
-        None, alias="return", description="Force at each position on the way back. Without it, none."
+        None, alias="return", description="Force at each position on the way back. Default: none."
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
@@ -51,7 +51,7 @@ class TorqueSwing(Load):
     angle: Angles = Field(description="Angles of the link, increasing.")
     forward: Torques = Field(description="Torque at each angle while the link turns counter-clockwise.")
     return_: Torques | None = Field(
-        None, alias="return", description="Torque at each angle on the way back. Without it, none."
+        None, alias="return", description="Torque at each angle on the way back. Default: none."
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:

@@ -72,7 +72,7 @@ class Combustion(Gas):
     charge_pressure_unloaded: PositivePressure | None = Field(
         None,
         description="The same without load; in between it is linear in the mean effective pressure. "
-        "Without it, the same at any load.",
+        "Default: the same at any load.",
     )
     charge_temperature: Annotated[float, positive(TEMPERATURE)] = Field(
         340.0, description="Of the gas as the cylinder closes."
@@ -97,7 +97,7 @@ class Combustion(Gas):
     isentropic_exponent: Exponent | None = Field(
         None, description="Of the gas; without it, that of air and burnt gas by its temperature."
     )
-    walls: AnyWallHeat | None = Field(None, description="Loss of heat to the walls. Without it, none.")
+    walls: AnyWallHeat | None = Field(None, description="Loss of heat to the walls. Default: none.")
     valves: Valves = Field(Valves(), description="When valves or ports open and close.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:

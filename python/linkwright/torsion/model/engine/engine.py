@@ -97,10 +97,10 @@ AnyGas = Annotated[Indicator | Combustion, Field(discriminator="kind")]
 class ReciprocatingEngine(CheckedDescription):
     """An engine with one or more banks of cylinders on one crankshaft."""
 
-    strokes: Literal[2, 4] = Field(4, description="Of a working cycle.")
+    strokes: Literal[2, 4] = Field(4, description="Strokes of a working cycle.")
     bore: PositiveLength = Field(description="Diameter of the cylinders.")
     crank_radius: PositiveLength | None = Field(
-        None, description="Half the stroke of a plain crank. Without it, that of the throw."
+        None, description="Half the stroke of a plain crank. Default: that of the throw."
     )
     throws: Angles = Field(
         description="Angle of each throw from the first, counted in the sense of rotation; the first is 0."
@@ -125,10 +125,10 @@ class ReciprocatingEngine(CheckedDescription):
     throw: CrankThrow | None = Field(None, description="Geometry of a throw.")
     throw_inertia: Annotated[float, positive(INERTIA)] | None = Field(
         None,
-        description="Of the rotating parts of one throw, without rods. Without it, that of the throw.",
+        description="Of the rotating parts of one throw, without rods. Default: that of the throw.",
     )
     stiffness: PositiveStiffness | None = Field(
-        None, description="From throw to throw, measured or computed. Without it, by a formula."
+        None, description="From throw to throw, measured or computed. Default: by a formula."
     )
     stiffness_formula: Literal["constrained", "free", "carter", "ker_wilson", "zimanenko"] = Field(
         "constrained", description="For the stiffness of the throw."
@@ -139,7 +139,7 @@ class ReciprocatingEngine(CheckedDescription):
         None,
         description="Permitted stresses of the crankshaft; without a diameter of its own, at the crank pin.",
     )
-    gas: AnyGas = Field(description="Pressure in the cylinders.")
+    gas: AnyGas = Field(description="Gas pressure in the cylinders.")
     factors: dict[str, Annotated[float, not_negative(RATIO)]] = Field(
         default_factory=dict,
         description="Share of the combustion in cylinders that are not sound, by number; 0 misfires.",

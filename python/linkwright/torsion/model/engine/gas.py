@@ -133,7 +133,7 @@ class PropellerGasLoad(GasLoad):
     kind: Literal["propeller"]
     speed: Annotated[float, positive(SPEED)] = Field(description="Of the crank at the rated point.")
     mean_effective_pressure: PositivePressure | None = Field(
-        None, description="Indicated, at the rated point. Without it, that of the gas as described."
+        None, description="Indicated, at the rated point. Default: that of the gas as described."
     )
     friction_pressure: Annotated[float, not_negative(PRESSURE)] = Field(
         0.0, description="Mean effective pressure of the engine's own friction, at any speed."
@@ -170,7 +170,7 @@ class Gas(CheckedDescription):
         101325.0, description="Absolute pressure under the pistons."
     )
     load: AnyGasLoad | None = Field(
-        None, description="Mean effective pressure against speed. Without it, the same diagram at any speed."
+        None, description="Mean effective pressure against speed. Default: the same diagram at any speed."
     )
 
     @abstractmethod

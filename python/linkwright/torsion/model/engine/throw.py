@@ -63,16 +63,18 @@ class CrankWeb(CheckedDescription):
         description="Across the crank, halfway between shaft and pin, which the stiffness counts with. A "
         "disc's is its diameter if left out.",
     )
-    outline: Literal["rectangle", "disc", "polygon"] = Field("rectangle", description="Seen along the shaft.")
+    outline: Literal["rectangle", "disc", "polygon"] = Field(
+        "rectangle", description="Shape, seen along the shaft."
+    )
     length: PositiveLength | None = Field(
         None,
-        description="Of a rectangle, along the crank. Without it, from the far side of the journal to the "
+        description="Of a rectangle, along the crank. Default: from the far side of the journal to the "
         "far side of the pin.",
     )
     diameter: PositiveLength | None = Field(None, description="Of a disc.")
     centre: Length | None = Field(
         None,
-        description="Of a disc or a rectangle with a length, along the crank. Without it, halfway between "
+        description="Of a disc or a rectangle with a length, along the crank. Default: halfway between "
         "shaft and pin.",
     )
     along: Lengths | None = Field(None, description="Corners of a polygon in order, along the crank.")
@@ -162,7 +164,7 @@ class Counterweight(CheckedDescription):
     )
     angle: Angle | None = Field(None, description="Of the sector.")
     thickness: PositiveLength | None = Field(None, description="Of the sector, along the shaft.")
-    density: Density | None = Field(None, description="Of the sector. Without it, that of the throw.")
+    density: Density | None = Field(None, description="Of the sector. Default: that of the throw.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         sector = ("outer_radius", "inner_radius", "angle", "thickness", "density")
@@ -207,7 +209,7 @@ class CrankThrow(CheckedDescription):
     restraint_length: PositiveLength | None = Field(
         None,
         description="Torque over the force that the bearings answer with, for the formula of constrained "
-        "bearings. Without it, from the geometry.",
+        "bearings. Default: from the geometry.",
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:

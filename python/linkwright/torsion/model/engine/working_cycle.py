@@ -98,11 +98,11 @@ class Valves(Description):
     """When valves or ports open and close, after the top dead centre of firing."""
 
     exhaust_opens: PositiveAngle | None = Field(
-        None, description="Without it, 130 deg with four strokes, 110 deg with two."
+        None, description="Default: 130 deg with four strokes, 110 deg with two."
     )
-    exhaust_closes: PositiveAngle | None = Field(None, description="Without it, 370 deg; 250 deg with two.")
-    intake_opens: PositiveAngle | None = Field(None, description="Without it, 350 deg; 140 deg with two.")
-    intake_closes: PositiveAngle | None = Field(None, description="Without it, 580 deg; 220 deg with two.")
+    exhaust_closes: PositiveAngle | None = Field(None, description="Default: 370 deg; 250 deg with two.")
+    intake_opens: PositiveAngle | None = Field(None, description="Default: 350 deg; 140 deg with two.")
+    intake_closes: PositiveAngle | None = Field(None, description="Default: 580 deg; 220 deg with two.")
     blowdown: PositiveAngle | None = Field(
         None,
         description="Angle in which the pressure falls to that of the exhaust; without it 50 deg, or less "
