@@ -95,11 +95,11 @@ def test_what_is_left_is_said_with_its_place() -> None:
     found = studied("short").topper
     assert found is not None
     listed = rows(shown("short")["topper_head"])
-    assert listed["left of a head at worst"][0] == f"{100 * found.uncut_share:.3g} %"
+    assert listed["maximum uncut share of a head"][0] == f"{100 * found.uncut_share:.3g} %"
     sides = {"to the right": found.uncut_right, "to the left": found.uncut_left}
     told = {side for side in sides if f"of that, {side} of the edge" in listed}
     assert told == {side for side, share in sides.items() if share > 0}
-    assert rows(shown("own")["topper_head"])["left of a head at worst"][0] == "nothing"
+    assert rows(shown("own")["topper_head"])["maximum uncut share of a head"][0] == "nothing"
 
 
 def test_mechanism_adds_its_drive() -> None:

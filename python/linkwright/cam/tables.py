@@ -175,7 +175,7 @@ def comparison_table(profile: CamProfile) -> Table:
         rows += [
             _factor_row(name.replace("_", " "), law_factors(LAWS[name].normalised())) for name in _COMPARED
         ]
-    title = f"Laws of cam {profile.name} beside others, for a lift and a length of one"
+    title = f"Laws of cam {profile.name} compared with others, for unit lift and unit length"
     return Table(f"cam_{profile.name}_laws", title, ("law", "jumps", *_FACTORS.values()), rows)
 
 
@@ -218,7 +218,7 @@ def law_table(factors: Mapping[str, LawFactors]) -> Table:
         (_named(name), _jumps(each), *(_shown(getattr(each, factor)) for factor in _COLUMNS))
         for name, each in factors.items()
     ]
-    title = "Motion laws between two dwells, for a lift and a length of one"
+    title = "Motion laws between two dwells, for unit lift and unit length"
     return Table("cam_laws", title, ("law", "jumps", *_COLUMNS.values()), rows)
 
 

@@ -47,7 +47,7 @@ def forces_figure(forces: Forces) -> Figure:
     zero_line(torque)
     for name, colour in zip(_largest(forces), LINES, strict=False):
         sizes.plot(degrees, forces.pairs[name].size, color=colour, label=named(name))
-    sizes.set_ylabel("size of the reaction\n[N]")
+    sizes.set_ylabel("magnitude of the reaction\n[N]")
     legend_above(sizes)
     _angle_axis(torque, degrees, label=False)
     _angle_axis(sizes, degrees)
@@ -87,7 +87,7 @@ def polar_figure(forces: Forces) -> Figure:
     for name, colour in zip(_largest(forces), LINES, strict=False):
         axes.plot(forces.crank_angle, forces.pairs[name].size, color=colour, label=named(name))
     axes.set_xlabel("crank angle φ [°]")
-    axes.set_ylabel("size of the reaction [N]", labelpad=28)
+    axes.set_ylabel("magnitude of the reaction [N]", labelpad=28)
     axes.legend(loc="lower left", bbox_to_anchor=(-0.15, 1.07), ncols=2)
     return figure
 
@@ -150,11 +150,11 @@ def captioned_forces(forces: Forces) -> Iterator[Captioned]:
         f"Joint reactions along the steady motion: {largest} at most {quantity(pins[largest], 'N')}. "
         f"The drive gives up to {quantity(forces.torque_drive_max, 'N m')} at the crank."
     )
-    yield Captioned("forces", "Forces in the pairs", caption, forces_figure(forces))
+    yield Captioned("forces", "Joint reactions", caption, forces_figure(forces))
     caption = (
         f"Ends of the force vectors over one revolution, a mark at φ = 0; the shaking force is up to "
         f"{quantity(forces.shaking_force_max, 'N')}."
     )
     yield Captioned("hodographs", "Hodographs of forces", caption, hodograph_figure(forces))
-    caption = "Size of the largest reactions over the crank angle: where a journal is loaded, and when."
+    caption = "Magnitude of the largest reactions over the crank angle, in polar coordinates."
     yield Captioned("reactions", "Reactions, polar", caption, polar_figure(forces))

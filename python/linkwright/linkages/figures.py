@@ -8,7 +8,18 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.kernel.figure.captioned import Captioned
-from linkwright.kernel.figure.style import INK, LINES, SOFT, legend_above, level, named, panels, roomy, styled
+from linkwright.kernel.figure.style import (
+    INK,
+    LINES,
+    SOFT,
+    legend_above,
+    level,
+    named,
+    panels,
+    roomy,
+    styled,
+    turn_axis,
+)
 from linkwright.kernel.page.numbers import degrees, quantity
 from linkwright.linkages.coupler_curve import CouplerCurve, coupler_curve
 from linkwright.linkages.cycle import Linkage
@@ -38,8 +49,11 @@ def transmission_figure(linkage: Linkage) -> Figure:
     roomy(axes, *drawn, np.array([_POOR, 180 - _POOR]))
     level(axes, _POOR, "40° and 140°")
     axes.axhline(180 - _POOR, color=SOFT, linewidth=1.1, linestyle=(0, (5, 3)))
-    axes.set_xlim(angles[0], angles[-1])
-    axes.set_xlabel("crank angle φ [°]")
+    if (round(angles[0]), round(angles[-1])) == (0, 360):
+        turn_axis(axes)
+    else:
+        axes.set_xlim(angles[0], angles[-1])
+        axes.set_xlabel("crank angle φ [°]")
     axes.set_ylabel("transmission angle μ [°]")
     legend_above(axes)
     return figure
@@ -81,8 +95,8 @@ def linkage_figures(machine: Machine, linkage: Linkage) -> Iterator[Captioned]:
     if worst:
         least = min(worst, key=lambda each: each.transmission_angle_worst or 0.0)
         caption = (
-            "90° is ideal. The poorest transmission is that of "
-            f"{least.element}, {degrees(least.transmission_angle_worst or 0.0)} from being in line."
+            "90° is ideal. The worst transmission angle is "
+            f"{degrees(least.transmission_angle_worst or 0.0)}, at {least.element}."
         )
         yield Captioned("transmission", "Transmission angles", caption, transmission_figure(linkage))
     mechanism = machine.linkage

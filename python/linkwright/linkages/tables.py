@@ -40,7 +40,7 @@ def _travel(linkage: Linkage) -> Table:
 def _travel_row(each: ElementMotion) -> Row:
     """Swing, stroke or turns, where the extremes are, and the ratios."""
     if each.turns is not None:
-        travel, ends = f"{number(each.turns)} revolutions", ("–", "–")
+        travel, ends = f"{number(each.turns)} revolution{'s' if abs(each.turns) != 1 else ''}", ("–", "–")
     elif each.swing is not None:
         travel, ends = (
             measured(each.swing, "rad"),

@@ -74,7 +74,7 @@ def _parts(study: TorsionStudy) -> Iterator[Part]:
     yield Part("Results", list(study_tables(study)), list(torsion_figures(study)))
     details = [table for one in study.critical_holzer for table in holzer_tables(one)]
     if details:
-        yield Part("Holzer's tables of the modes among the speeds", details)
+        yield Part("Holzer's tables of the modes in the speed range", details)
 
 
 def _headline(study: TorsionStudy) -> Iterator[tuple[str, str, str]]:
@@ -136,11 +136,18 @@ def _balanced(train: Train) -> str:
     if not train.installed:
         shares = ", ".join(f"{on} {share:.4g}" for on, share in train.shares.items() if share < 1)
         parts = f", by shares of the power: {shares}" if shares else ""
-        return f"Mean torques balance: the drivers give what the loads take{parts}; their slope damps."
+        return (
+            f"Mean torques balance: the drivers give the torque of the loads{parts}; the slope of these "
+            "torques over the speed damps."
+        )
     if train.run is not None and train.run.loads_follow:
-        return "Mean torques balance: loads take what the engines give; their slope over the speed damps."
+        return (
+            "Mean torques balance: the loads take the torque of the engines; the slope of their torque over "
+            "the speed damps."
+        )
     return (
-        "Loads are as given, their slope over the speed damps; what engines leave over accelerates the train."
+        "Loads keep their given torque, and its slope over the speed damps; the excess torque of the engines "
+        "accelerates the train."
     )
 
 
@@ -148,26 +155,26 @@ def _inertia_of_shafts(study: TorsionStudy) -> str:
     """How the inertia of shafts counts."""
     names = ", ".join(shape.name for shape in study.free.along)
     if not names:
-        return "Discs are rigid; what inertia of shafts is given counts with the discs at their ends."
-    moved = " In the manoeuvre it counts with the discs at their ends." if study.transient is not None else ""
-    return f"Discs are rigid; the inertia of {names} is distributed, exactly.{moved}"
+        return "Discs are rigid; half of the given inertia of a shaft is added to each disc at its ends."
+    moved = " In the manoeuvre it is added to the discs at the ends." if study.transient is not None else ""
+    return f"Discs are rigid; the inertia of {names} is distributed along the shaft, exactly.{moved}"
 
 
 def _assumptions(study: TorsionStudy) -> Iterator[str]:
     """What was taken for granted."""
     yield _inertia_of_shafts(study)
     if study.forced is None:
-        yield "Free vibration is without damping."
+        yield "Free vibration is undamped."
         return
     yield "The vibration is steady and small: torques follow the mean angle, not the vibration."
     yield "Loss factors η do not depend on the frequency."
     train = study.machine.train
     if train is None:
-        yield "The mechanism is a disc with the mean of its inertia; what its change does acts as a torque."
+        yield "The mechanism is a disc with its mean inertia; the variation of its inertia acts as a torque."
         return
     if train.installed:
-        yield "A throw is a disc with the mean of its inertia; what its change does acts as a torque."
-        yield "Gas pressure is that of steady running; cylinders differ by their factors alone."
+        yield "A throw is a disc with its mean inertia; the variation of its inertia acts as a torque."
+        yield "Gas pressure is that of steady running; cylinders differ only by their factors."
     if train.loads:
         yield _balanced(train)
     for name, coupling in train.couplings.items():

@@ -323,7 +323,7 @@ def _balance(study: TorsionStudy) -> Iterator[str]:
             same = f"{least:.4g}" == f"{most:.4g}"
             factor = f"{least:.4g} at all speeds" if same else f"{least:.4g} to {most:.4g} over the speeds"
             yield (
-                f"Steady running: loads were scaled by {factor}, to what the engine gives "
+                f"Steady running: loads were scaled by {factor}, to the torque of the engine "
                 "(train.run.loads_follow = true)."
             )
         return
@@ -331,9 +331,9 @@ def _balance(study: TorsionStudy) -> Iterator[str]:
     taken = np.abs(n[:, None] * at.torques.mean).sum(axis=0)
     if (np.abs(left) > _BALANCED * taken).any():
         yield (
-            f"Steady running: loads are as given; {left.min():+.5g} to {left.max():+.5g} N m of the engine "
-            "are left over at the speeds and accelerate the train (train.run.loads_follow = true "
-            "scales the loads instead)."
+            f"Steady running: loads keep their given torque; an excess torque of {left.min():+.5g} to "
+            f"{left.max():+.5g} N m of the engine accelerates the train (train.run.loads_follow = true scales "
+            "the loads instead)."
         )
 
 

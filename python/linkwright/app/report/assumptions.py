@@ -115,7 +115,7 @@ def _loads(machine: Machine) -> Iterator[str]:
     for load in machine.loads.values():
         if isinstance(load, Gravity):
             way = degrees(load.direction)
-            yield f"All bodies have weight, {quantity(load.acceleration, 'm/s²')} in the direction of {way}."
+            yield f"Gravity acts on all bodies, {quantity(load.acceleration, 'm/s²')} in the direction {way}."
     if not any(isinstance(load, Gravity) for load in machine.loads.values()):
         yield "Weight is neglected: the machine has no load of kind gravity."
 
@@ -130,10 +130,10 @@ def _drive(drive: Drive) -> Iterator[str]:
         return
     gearbox = drive.gearbox
     back = number(float(reverse_factor(drive)))
-    usual = ", the reciprocal of the efficiency" if gearbox.reverse is None else ", as the file says"
+    usual = ", the reciprocal of the efficiency" if gearbox.reverse is None else ", as given"
     yield (
         f"Gearbox: M_d = M i η while the motor drives, with i = {number(gearbox.ratio)} and "
-        f"η = {number(gearbox.efficiency)}; while the load drives the motor, the factor in place of η is "
+        f"η = {number(gearbox.efficiency)}; while the load drives the motor, η is replaced by "
         f"{back}{usual if gearbox.efficiency != 1 or gearbox.reverse is not None else ''}."
     )
 

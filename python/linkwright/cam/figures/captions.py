@@ -28,8 +28,8 @@ def cam_figures(cams: Sequence[CamProfile], loaded: Sequence[LoadedCam] = ()) ->
             f"cam_{name}_lift", f"Motion by cam {name}", _lift_words(profile), lift_figure(profile)
         )
         words = (
-            f"The pressure angle is {degrees(profile.pressure_angle_max)} at most; "
-            f"{degrees(profile.cam.limit)} are allowed. Dotted: segment boundaries."
+            f"The maximum pressure angle is {degrees(profile.pressure_angle_max)}; the limit is "
+            f"{degrees(profile.cam.limit)}. Dotted: segment boundaries."
         )
         figure = pressure_angle_figure(profile)
         yield Captioned(f"cam_{name}_pressure_angle", f"Pressure angle of cam {name}", words, figure)
@@ -45,7 +45,7 @@ def cam_figures(cams: Sequence[CamProfile], loaded: Sequence[LoadedCam] = ()) ->
 
 def _cam_words(profile: CamProfile) -> str:
     """What is drawn, and its circles."""
-    words = "As it stands where the programme begins, seen along the line to its follower's guide or pivot. "
+    words = "Position at the start of the programme, seen along the line to the follower's guide or pivot. "
     words += f"Base circle {_mm(profile.base_radius)}"
     if profile.prime_radius > profile.base_radius:
         words += f", prime circle {_mm(profile.prime_radius)}"
@@ -90,7 +90,7 @@ def _curvature_words(profile: CamProfile) -> str:
     ]
     words = f"Minimum radius of curvature of the profile: {', '.join(parts)}. Positive where convex."
     if profile.cam.curvature_limit is not None:
-        words += f" Allowed are convex radii from {_mm(profile.cam.curvature_limit)} on."
+        words += f" The limit of the convex radius is {_mm(profile.cam.curvature_limit)}."
     if profile.cam.cutter_radius is not None:
         words += f" The cutter has a radius of {_mm(profile.cam.cutter_radius)}."
     return words

@@ -181,14 +181,14 @@ def _groups(content: Content) -> Iterator[str]:
                 f"[{entries}]",
             ]
     yield f"#grid(columns: (2.6cm, 2.6cm, 1fr), column-gutter: 6pt, row-gutter: 7pt, {', '.join(cells)})"
-    yield "#note[Entries in italics were not given: they follow from others or have their usual value.]"
+    yield "#note[Entries in italics are not given: they follow from other entries or are defaults.]"
 
 
 def _repeat(content: Content) -> Iterator[str]:
     """How the same numbers are made again."""
     import linkwright
 
-    made = f"Made by Linkwright {_text(linkwright.__version__)} with"
+    made = f"Computed with Linkwright {_text(linkwright.__version__)}:"
     code = f"#code({_string(content.command)})"
     yield f"#block(breakable: false)[== Reproduce this report\n{made}\n{code}]"
     if content.file:

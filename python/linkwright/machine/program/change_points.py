@@ -32,8 +32,8 @@ def undecided_error(name: str, point: _core.InLine) -> AssemblyError:
     return AssemblyError(
         f"{name} comes within {abs(point.spare):.3g} m of a change point at crank angle "
         f"{np.degrees(point.crank_angle):.6f}°, its links almost in line: its lengths do not determine in "
-        "which of its two assemblies it continues; give lengths that agree to all digits, or that differ by a "
-        f"relative {_TOLD_APART:g} or more",
+        "which of its two assemblies it continues; give lengths that agree to all digits, or that differ by "
+        f"a relative {_TOLD_APART:g} or more",
         element=name,
         crank_angle=point.crank_angle,
     )

@@ -79,13 +79,13 @@ def _view(cut: _Cut) -> Captioned:
     moves = f" in the phase {degrees(phase)}" if cut.edges[0].knife.rate else ""
     where = f"{_place(offset)}{moves}"
     if cut.leaves:
-        words = f"The head of which most is left, {where}: {percent(found.uncut_share)}, hatched."
+        words = f"The head with the maximum uncut share, {where}: {percent(found.uncut_share)}, hatched."
     else:
         words = (
-            f"The head that needs the longest edge, {where}: {mm(found.length_exact)}. The edge of "
-            f"{mm(length)} cuts all of it."
+            f"The head that requires the longest edge, {where}: {mm(found.length_exact)}. The edge of "
+            f"{mm(length)} cuts it completely."
         )
-    words += " Five places of the edge, the later the darker; the machine goes to the right."
+    words += " Five positions of the edge, later ones darker; the machine travels to the right."
     return Captioned("topper_view", "The edge over the worst head, from above", words, figure)
 
 
@@ -100,15 +100,15 @@ def _phases(cut: _Cut) -> Captioned:
     found, length = cut.found, cut.described.edge_length
     if cut.described.motion.phase is None:
         words = (
-            f"At the worst offset heads need from {mm(found.length_best_phase)} to {mm(found.length_exact)}, "
-            f"as the knife meets them."
+            f"At the worst offset heads require {mm(found.length_best_phase)} to {mm(found.length_exact)}, "
+            "depending on the phase."
         )
     else:
-        words = f"Heads come in the phase {degrees(cut.described.motion.phase)} only, dotted."
+        words = f"Heads meet the knife only in the phase {degrees(cut.described.motion.phase)}, dotted."
     if cut.leaves:
         words += f" An edge of {mm(length)} leaves up to {percent(found.uncut_share)} of a head."
     figure = phase_figure(found, length, cut.described.motion.phase)
-    return Captioned("topper_phase", "Length needed over the phase of the knife", words, figure)
+    return Captioned("topper_phase", "Required length over the phase of the knife", words, figure)
 
 
 def _chart(cut: _Cut) -> Captioned:
@@ -117,12 +117,12 @@ def _chart(cut: _Cut) -> Captioned:
     words = (
         f"The chart of paper 5 (its figure 3) for α = {degrees(cut.described.edge_angle)}, cut height "
         f"{mm(cut.described.cut_height)} and Δ = {mm(cut.described.offset)}, at v = {slow}, {own} and {fast} "
-        f"m/s: above over the diameter of roots at this knife's mean speed, {number(chart.knife_speed, 3)} "
-        "m/s, below over the speed of the knife at this machine's root. Solid lines keep one speed over the "
-        "head"
+        f"m/s. Above: over the root diameter at the mean speed of this knife, {number(chart.knife_speed, 3)} "
+        "m/s; below: over the knife speed at the root diameter of this machine. Solid: constant speed over "
+        "the head"
     )
-    words += "; dashed: its true motion." if chart.over_roots.moved.size else "."
-    words += " The dot is this machine."
+    words += "; dashed: true motion." if chart.over_roots.moved.size else "."
+    words += " Dot: this machine."
     return Captioned(
         "topper_lengths", "Lengths printed, consistent and exact", words, length_chart_figure(chart)
     )
@@ -137,10 +137,10 @@ def _verdict(cut: _Cut) -> Captioned:
     ways = [WAYS[demand.way] for demand in judged.demands if demand.holds]
     words = (
         f"Paper 5 gives {low:.2f} to {high:.2f} m for v from {slow:g} to {fast:g} m/s and knife speeds from "
-        f"{least:g} to {most:g} m/s, and does not print angle, cut height and offset. Shaded: for which of "
-        "them the longest edge over these speeds lies in that range, each way of computing it; on the left "
-        "offsets have this machine's share in the band, on the right the root is this machine's. For its own "
-        f"heads, the dot, the range holds {'by the ' + ', the '.join(ways) if ways else 'in no way'}."
+        f"{least:g} to {most:g} m/s, and does not state edge angle, cut height and offset. Shaded, for each "
+        "method: their values for which the maximum length over these speeds lies in that range; on the "
+        "left with the share of the offset in the band of this machine, on the right with its root diameter. "
+        f"For its heads (dot), the range holds {'by the ' + ', the '.join(ways) if ways else 'by no method'}."
     )
     title = f"Where the published {low:.2f} to {high:.2f} m hold"
     return Captioned("topper_verdict", title, words, verdict_figure(chart))
@@ -155,11 +155,11 @@ def _use(cut: _Cut) -> Captioned:
     middle = float(np.interp(0.0, place, use))
     heads = "offsets and phases" if cut.edges[0].knife.rate else "offsets"
     words = (
-        f"How far each place of an edge long enough goes through a head, on average over {heads}: where it "
-        f"wears. The middle of the edge goes through {mm(middle)} of a head."
+        f"Path of each point of a sufficiently long edge through a head, mean over {heads}: a measure of "
+        f"wear. The path of the middle of the edge is {mm(middle)}."
     )
     if share < 1 - 1e-4:
-        words += f" About {percent(1 - share)} of the cut would be done beyond the ends of this edge."
+        words += f" About {percent(1 - share)} of the cut lies beyond the ends of this edge."
     figure = edge_use_figure(place, use, length, found.head_diameter)
     return Captioned("topper_use", "Use of the edge along its length", words, figure)
 
@@ -169,8 +169,8 @@ def _slicing(cut: _Cut) -> Captioned:
     ratio, speed = slicing_over_phase(cut.edges[0], phases)
     found = cut.found
     words = (
-        "The edge draws along itself while it cuts: speed along it over speed normal to it, "
-        f"{number(found.slicing_ratio_mean, 3)} on average over what is cut."
+        "Draw-cut ratio: speed along the edge over speed normal to it; mean over the cut area "
+        f"{number(found.slicing_ratio_mean, 3)}."
     )
     if found.edge_retreats:
         words += " Where it retreats, its back meets the head."

@@ -148,7 +148,7 @@ def _heads(axes: Axes, chart: VerdictChart) -> None:
     axes.set_title(f"at α = {np.degrees(chart.edge_angle):.4g}°")
 
 
-_PHASE = "phase of the knife when it is abreast of the head [°]"
+_PHASE = "phase of the knife at the head [°]"
 
 # Lengths beyond so many times those of heads and edge are not drawn.
 _FAR_BEHIND = 1.8
@@ -166,7 +166,7 @@ def phase_figure(study: TopperStudy, edge_length: float, phase: float | None = N
     leaves = float(study.uncut_by_phase.max()) > NOTHING
     figure, axes = panels(2 if leaves else 1, height=5.2 if leaves else 3.4)
     degrees, needed = np.degrees(study.phase), _MILLI * study.length_by_phase
-    axes[0].plot(degrees, needed, color=GREEN, label="needed")
+    axes[0].plot(degrees, needed, color=GREEN, label="required")
     lines = [
         (edge_length, "the edge", INK),
         (study.length_exact_constant_speed, "exact, constant speed", BLUE),

@@ -71,7 +71,9 @@ def _band(axes: Axes, seen: HeadPass, shown: slice) -> None:
     """All that the edge sweeps, and the way of its middle."""
     axes.add_patch(_swept(_MILLI * seen.ends[:, shown]))
     middle = _MILLI * np.stack([seen.middle_x[shown], seen.middle_y[shown]])
-    axes.plot(*middle, color=BLUE, linewidth=1.1, linestyle=(0, (5, 3)), label="way of the edge's middle")
+    axes.plot(
+        *middle, color=BLUE, linewidth=1.1, linestyle=(0, (5, 3)), label="path of the middle of the edge"
+    )
 
 
 def _swept(ends: Floats) -> PathPatch:

@@ -73,7 +73,7 @@ def _lengths(study: TopperStudy, described: Topper) -> Table:
     ]
     if study.obstacle:
         rows.append(("exact", "L", "–", "–", "not computed: too many strokes over a head"))
-    title = f"Length of the edge; it has {mm(own)}"
+    title = f"Required length of the edge; given length {mm(own)}"
     return Table("topper_lengths", title, ("minimum length", "", "value", "is met", "remark"), rows)
 
 
@@ -116,7 +116,12 @@ def _head(study: TopperStudy, described: Topper) -> Table:
     elif not study.obstacle:
         is_free = study.stroke and described.motion.phase is None
         rows.append(
-            ("left of a head at worst", "", "nothing", "at every offset" + (" and phase" if is_free else ""))
+            (
+                "maximum uncut share of a head",
+                "",
+                "nothing",
+                "at every offset" + (" and phase" if is_free else ""),
+            )
         )
         at = f"x = {mm(_settled(study.last_x, study))}, y = {mm(_settled(study.last_y, study))}"
         rows.append(("point farthest from the edge's middle", "", at, "from the head's centre"))
@@ -133,7 +138,7 @@ def _left(study: TopperStudy, described: Topper) -> Iterator[Row]:
     side = "left" if study.uncut_offset > 0 else "right"
     at = f"head {mm(abs(study.uncut_offset))} to the {side}" if study.uncut_offset else "head on the row"
     moves = f", phase {degrees(study.uncut_phase)}" if study.stroke else ""
-    yield "left of a head at worst", "", percent(study.uncut_share), at + moves
+    yield "maximum uncut share of a head", "", percent(study.uncut_share), at + moves
     sides = (
         ("of that, to the right of the edge", study.uncut_right),
         ("of that, to the left of the edge", study.uncut_left),
@@ -143,7 +148,7 @@ def _left(study: TopperStudy, described: Topper) -> Iterator[Row]:
     for word, share in sides if math.isfinite(study.length_exact) else ():
         if share > 0:
             yield word, "", percent(share), "of the head"
-    yield "left of a head on average", "", percent(study.uncut_share_mean), _mean_over(study, described)
+    yield "mean uncut share of a head", "", percent(study.uncut_share_mean), _mean_over(study, described)
 
 
 def _mean_over(study: TopperStudy, described: Topper) -> str:
@@ -229,7 +234,7 @@ def _verdict(study: TopperStudy, described: Topper) -> Table:
     rows = [_judged(demand) for demand in verdict.demands]
     low, high = PAPER.lengths
     title = f"Published {low:.2f} to {high:.2f} m, for the paper's speeds and this machine's heads"
-    heads = ("length", "", "over the speeds", "within", "would be for d + 2Δ of")
+    heads = ("length", "", "over the speeds", "within", "would hold for d + 2Δ of")
     return Table("topper_verdict", title, heads, rows)
 
 

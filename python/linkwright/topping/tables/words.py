@@ -67,14 +67,14 @@ def topper_headline(described: Topper, study: TopperStudy) -> Iterator[tuple[str
     needed = study.length_exact
     if not study.obstacle:
         yield (
-            "edge needed",
+            "required edge length",
             *(parted(needed, "m", 4, usual="mm") if math.isfinite(needed) else ("none does", "")),
         )
-    yield "edge L", *parted(described.edge_length, "m", 4, usual="mm")
+    yield "edge length L", *parted(described.edge_length, "m", 4, usual="mm")
     if not study.obstacle:
-        yield "left at worst", *parted(100 * study.uncut_share, "%", 3)
+        yield "maximum uncut share", *parted(100 * study.uncut_share, "%", 3)
     if study.stroke:
-        yield "double strokes", *parted(study.frequency, "1/s", 3)
+        yield "knife frequency", *parted(study.frequency, "1/s", 3)
 
 
 def topper_formulas(described: Topper, study: TopperStudy | None) -> list[Formula]:
@@ -94,14 +94,14 @@ def topper_assumptions(described: Topper) -> Iterator[str]:
         "middle of its stroke its own middle is over the axis of the row. Roots stand up to Δ beside it."
     )
     yield (
-        "A point is cut when the edge crosses it, in whichever sense: roots stand fast, nothing bends away "
-        "before the edge, nothing breaks off beside it."
+        "A point is cut when the edge crosses it, in either direction: roots do not yield, and nothing "
+        "breaks off beside the edge."
     )
     phase = described.motion.phase
     if phase is not None:
         yield f"All heads meet the knife in the phase {degrees(phase)}, and at any offset up to Δ."
     else:
-        yield "Heads meet the knife in any phase and at any offset up to Δ; means take all of them as alike."
+        yield "Heads meet the knife in any phase and at any offset up to Δ; means weight them equally."
     yield (
         "The angle of paper 5 has no sign, and its knife keeps one speed, v_h; for other motions v_h is the "
         "mean speed. α is positive where the left end of the edge leads."

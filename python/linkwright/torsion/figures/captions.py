@@ -91,8 +91,8 @@ def _forced(study: TorsionStudy, forced: ForcedVibration) -> Iterator[Captioned]
         yield _of_the_worst_shaft(study, forced)
     if study.stars and study.campbell is not None:
         caption = (
-            "Phase vectors of the throws and discs, as long as they swing in the mode. Red: their sum, as "
-            "long as its share of all lengths together."
+            "Phase vectors of throws and discs, with the length of their amplitude in the mode. Red: the "
+            "vector sum, relative to the sum of all lengths."
         )
         stars = most_severe(study.campbell, study.stars, _STARS)
         yield Captioned("stars", "Star diagrams", caption, star_figure(stars))
@@ -103,7 +103,7 @@ def _forced(study: TorsionStudy, forced: ForcedVibration) -> Iterator[Captioned]
     shown = float(forced.speeds[service_place(study, forced)])
     caption = (
         f"Along the train at {shown * 30 / math.pi:.5g} rpm, and over the speed. The parts are not in "
-        "phase, so they do not add up."
+        "phase and do not add up."
     )
     figure = torsion_unevenness_figure(forced, in_a_row(forced.discs, study.free.joined), shown)
     yield Captioned("unevenness", "Speed fluctuation", caption, figure)
@@ -140,7 +140,8 @@ def _of_the_freest_disc(forced: ForcedVibration) -> Captioned:
     single, total = angular_deflection(forced, name)
     figure = orders_figure(forced, single, total, "angle [°]", 180 / math.pi)
     caption = (
-        "Vibration superposed on steady rotation: amplitude of each order, and half the span of all in phase."
+        "Vibration superposed on steady rotation: amplitude of each order, and half the peak-to-peak value "
+        "of all in phase."
     )
     return Captioned("amplitude", f"Amplitude of {name}", caption, figure)
 

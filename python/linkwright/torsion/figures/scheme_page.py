@@ -157,11 +157,11 @@ class Page:
     def note(self) -> list[str]:
         """What heights and lengths mean, in lines as wide as the picture."""
         text = (
-            "Height of a disc: fourth root of its referred inertia, as diameters of discs of one thickness. "
-            "Length of a shaft: its compliance, as far as words leave room; in metres, that of a solid steel "
+            "Height of a disc: fourth root of its referred inertia, as the diameter at equal thickness. "
+            "Length of a shaft: its compliance, as far as labels permit; in metres: length of a solid steel "
             f"shaft of {1e3 * self.found.diameter:.4g} mm"
         )
-        text += ", cut short where it is broken." if self.broken else "."
+        text += ", shortened at a break." if self.broken else "."
         if (np.abs(self.found.speed - 1) > 1e-9).any():
             text += f" In brackets: referred to the speed of {self.found.discs[0]}."
         return wrap(text, int((self.width - 2 * MARGIN) / wide("x")))

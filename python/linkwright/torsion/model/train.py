@@ -67,8 +67,8 @@ class TrainRun(CheckedDescription):
     )
     loads_follow: bool = Field(
         False,
-        description="Whether loads are scaled at each speed so that they take off what the engine gives in "
-        "the mean. Otherwise they keep their torque, and the excess accelerates the train.",
+        description="Whether loads are scaled at each speed to the mean torque of the engine. Otherwise they "
+        "keep their torque, and the excess accelerates the train.",
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:

@@ -39,7 +39,7 @@ def limit_tables(study: TorsionStudy) -> Iterator[Table]:
             )
             for row in study.misfire.judgements
         ]
-        title = "Limits with one cylinder misfiring, the worst of all"
+        title = "Limits with one cylinder misfiring, worst case"
         yield Table("misfire", title, (*heads, f"at {per_minute()}", "cylinder", "verdict"), rows)
     if study.transient is not None and study.transient.judgements:
         rows = [

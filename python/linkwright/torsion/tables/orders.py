@@ -116,7 +116,7 @@ def star_table(stars: Sequence[PhaseVectors]) -> Table:
         )
         for star in stars
     ]
-    heads = ("critical speed", "", per_minute(), "vector sum", "of at most", "torque", "work per angle")
+    heads = ("critical speed", "", per_minute(), "vector sum", "sum of lengths", "torque", "work per angle")
     return Table("phase_vectors", "Phase vector sums of the most severe critical speeds", heads, rows)
 
 

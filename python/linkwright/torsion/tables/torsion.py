@@ -92,12 +92,8 @@ def _damped(study: TorsionStudy, damped: DampedVibration) -> Table:
     ]
     heads = ("motion", "", "Hz", "damped Hz", "ζ", "log. decrement")
     run = study.machine.train.run if study.machine.train is not None else None
-    at = (
-        f" at {rpm(run.service)} {per_minute()}, loads and mean torques counted"
-        if run and study.forced
-        else ""
-    )
-    return Table("damped", f"Modes with damping{at}", heads, rows)
+    at = f" at {rpm(run.service)} {per_minute()}, with loads and mean torques" if run and study.forced else ""
+    return Table("damped", f"Damped modes{at}", heads, rows)
 
 
 def _kind(natural: float, damped: float) -> str:
@@ -155,7 +151,7 @@ def _shafts(study: TorsionStudy, forced: ForcedVibration) -> Table:
         rows.append((name, "", cells[0], rpm(float(peaks.speed[s])), *cells[1:]))
     service = rpm(forced.speeds[at])
     heads = ("shaft", "", "vibratory", f"at {per_minute()}", "mean", "vibratory", "maximum", "heat")
-    title = f"Torques: largest over speeds and resonances; then at {service} {per_minute()}, with heat"
+    title = f"Shaft torques: maximum over speeds and resonances; at {service} {per_minute()}, with heat"
     return Table("shaft_torques", title, heads, rows)
 
 

@@ -294,9 +294,9 @@
   const shown = usual / duration;
   const factor = shown > 1.05 ? `${shown.toPrecision(2)} times slower than the machine` : "as fast as the machine";
   document.getElementById("sketch-words").textContent = scene.true_speed
-    ? `Moves with the varying speed of steady motion; at the middle playback speed ${factor}. Dots: centres of mass.`
+    ? `Speed of steady motion; at the middle playback speed ${factor}. Dots: centres of mass.`
     : scene.swings
-      ? "Does not close all round: swings within the range of crank angles where it does. Dots: centres of mass."
+      ? "The mechanism does not close over the whole revolution: it oscillates within its range. Dots: centres of mass."
       : "Constant speed: no steady-state solution is available. Dots: centres of mass.";
   draw(0);
   setPlaying(playing);

@@ -183,9 +183,9 @@
   setPhase(scene.phase);
   const slow = scene.seconds / (last - first);
   document.getElementById("topper-words").textContent =
-    `From above; the machine goes to the right, at the middle playback speed ${slow.toPrecision(2)} times slower than in ` +
-    "the field. Green: haulm; yellow: cut; hatched: left. " + (scene.heads.length > 1
-      ? `The head in the middle is the worst one, unless its phase is changed; all stand up to ${(1e3 * scene.offset).toPrecision(3)} mm off the row.`
+    `Top view; the machine travels to the right. At the middle playback speed it is ${slow.toPrecision(2)} times slower than in ` +
+    "the field. Green: haulm; yellow: cut; hatched: uncut. " + (scene.heads.length > 1
+      ? `The head in the middle is the worst one, unless its phase is changed; all are up to ${(1e3 * scene.offset).toPrecision(3)} mm off the row.`
       : "This head is the worst one.");
   // An address that ends in #topper=0.4 shows the place 0.4 of the way.
   const asked = /^#topper=([\d.]+)$/.exec(location.hash);
