@@ -332,8 +332,8 @@ def _balance(study: TorsionStudy) -> Iterator[str]:
     if (np.abs(left) > _BALANCED * taken).any():
         yield (
             f"Steady running: loads keep their given torque; an excess torque of {left.min():+.5g} to "
-            f"{left.max():+.5g} N m of the engine accelerates the train (train.run.loads_follow = true scales "
-            "the loads instead)."
+            f"{left.max():+.5g} N m of the engine accelerates the train (train.run.loads_follow = true "
+            "scales the loads instead)."
         )
 
 
