@@ -111,7 +111,7 @@ sections = [
 """
     text = told('base_radius = "40 mm"\ncontact = "flat"\n', sections)
     # Turned round in time the same stretch begins at zero.
-    assert "all round" not in text
+    assert "over the whole revolution" not in text
     starts = """
 sections = [
   { angle = "60 deg", lift = "-20 mm", law = "harmonic" },

@@ -78,5 +78,6 @@ def _lever(machine: Machine, rotator: RodRotatorMotion) -> Iterator[str]:
     if rotator.change_points and rotator.worm_torque:
         yield (
             "Link and lever of the rotator are in line twice per revolution: there the link has no moment "
-            f"arm, and only the momentum of the lever overcomes the worm torque of {rotator.worm_torque:.4g} N m."
+            "arm, and only the momentum of the lever overcomes the worm torque of "
+            f"{rotator.worm_torque:.4g} N m."
         )

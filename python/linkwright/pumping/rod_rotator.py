@@ -279,7 +279,7 @@ def verdict(known: Lengths, least: float, greatest: float) -> str:
     )
     spare += f"{stretched:.4f} m"
     if greatest > stretched + close or least < folded - close:
-        return f"does not close all round: {spare}"
+        return f"does not close over the whole revolution: {spare}"
     meets = (abs(least - folded) <= close, abs(greatest - stretched) <= close)
     if all(meets):
         return f"rotates fully, through two change points: {spare}"

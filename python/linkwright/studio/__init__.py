@@ -12,7 +12,7 @@ No mechanics is computed here: the studio asks the rooms of the subjects, and th
 | `wire` | Messages: a number, words, arrays |
 | `session` | One tab: the newest machine at once, slow analyses beside, files |
 | `worker` | The process of slow analyses |
-| `analyses` | What can be computed, and what stands in its way |
+| `analyses` | What can be computed, and which data are missing |
 | `shown` | Results for the page, from declared quantities |
 | `drawing` | The drawing with rates, forces and handles |
 | `handles` | Points that can be dragged, and the entries that follow |

@@ -1,4 +1,4 @@
-"""What can be computed of a machine, what stands in its way, and what mends that.
+"""What can be computed of a machine, which data are missing, and how to add them.
 
 Fast analyses follow every change at once; slow ones run beside them, in a process of their own.
 

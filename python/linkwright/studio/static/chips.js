@@ -1,4 +1,4 @@
-// What can be computed: ready, running, or what stands in its way and what mends that; findings and warnings.
+// What can be computed: ready, running, or what data are missing and how to add them; findings and warnings.
 import { html } from "./html.js";
 import { settle, stop } from "./actions.js";
 import * as state from "./state.js";
