@@ -103,7 +103,11 @@ def _undercut_range(flank: Flank, worst: float) -> str:
     down, up = passes.angle[passes.sign < 0], passes.angle[passes.sign > 0]
     if not len(down) or not len(up):
         # None of the sampled angles shows it, or all do.
-        return "over the whole revolution" if (flank.shape.rows["soundness"] < 0).all() else f"at {_degrees(worst)}"
+        return (
+            "over the whole revolution"
+            if (flank.shape.rows["soundness"] < 0).all()
+            else f"at {_degrees(worst)}"
+        )
     ends = [up[np.argmax(up > a)] if (up > a).any() else up[0] for a in down]
     spans = [f"{_degrees(a)} to {_degrees(b)}" for a, b in zip(down, ends, strict=True)]
     return "from cam angle " + ", ".join(spans[:4]) + (", …" if len(spans) > 4 else "")
