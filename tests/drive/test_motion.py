@@ -175,7 +175,7 @@ def test_no_load_no_limit_is_told() -> None:
     [loads]
     drag = { kind = "dry", on = "A", torque = 4 }
     """
-    with pytest.raises(SteadyStateError, match="speeds up without end"):
+    with pytest.raises(SteadyStateError, match="accelerates without limit"):
         lw.steady_state(lw.loads(text))
     with pytest.raises(SteadyStateError, match="needs"):
         lw.steady_state(lw.replace(lw.loads(text), {"loads.drag.torque": 40.0}))

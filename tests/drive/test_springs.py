@@ -240,7 +240,7 @@ def test_knots_of_forward_and_return_are_watched_once() -> None:
 
 
 def test_torsional_spring_on_a_link_that_turns_round() -> None:
-    with pytest.raises(FindingError, match="torsional spring l0 is turned by more than 180"):
+    with pytest.raises(FindingError, match="torsional spring l0 is twisted by more than 180"):
         lw.steady_state(machine('{ kind = "torsional_spring", on = "A", stiffness = 3 }'))
 
 
@@ -249,5 +249,5 @@ def test_gas_spring_pressed_in_too_far() -> None:
         '{ kind = "gas_spring", between = ["F", "K"], force_extended = 300, length_extended = 0.42, '
         "length_compressed = 0.41, progression = 1.5 }"
     )
-    with pytest.raises(FindingError, match="gas spring l0 is pressed in further than its gas allows"):
+    with pytest.raises(FindingError, match="gas spring l0 is compressed beyond its gas volume"):
         lw.steady_state(machine(load))

@@ -94,7 +94,7 @@ def test_loads_stay_as_given_unless_they_shall_follow() -> None:
     J = study.excited.referred.inertia
     wanted = 10.0 + left * 2.0 / J.sum()
     np.testing.assert_allclose(study.forced.mean_torques[-1], wanted, rtol=1e-9)
-    assert f"{left:+.5g} N m of the engine are left over" in study.balance
+    assert f"{left:+.5g} N m of the engine accelerates the train" in study.balance
     assert "loads were scaled by" in lw.torsion_study(made).balance
 
 
