@@ -62,7 +62,7 @@ def test_a_folder_that_is_new_empty_or_ours(tmp_path: Path) -> None:
 
 def test_a_folder_of_others_is_left_alone(tmp_path: Path) -> None:
     (tmp_path / "report.html").write_text("mine")
-    with pytest.raises(InputError, match=r"files of others \(report.html\).*--force"):
+    with pytest.raises(InputError, match=r"with other files \(report.html\).*--force"):
         OutputFolder(tmp_path).write({"report.html": "theirs"})
     assert seen(tmp_path) == {"report.html": "mine"}
     OutputFolder(tmp_path, force=True).write({"report.html": "theirs"})
