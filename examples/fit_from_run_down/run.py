@@ -33,7 +33,7 @@ def study(machine: lw.Machine) -> dict[str, float]:
 
 def figure(machine: lw.Machine):
     """Record, fitted motion, residuals."""
-    from linkwright.studies.figures_of_fit import fit_figure
+    from linkwright.studies.figures import fit_figure
 
     return fit_figure(fitted())
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 import linkwright as lw
-from linkwright.synthesis.function_scale import chebyshev_points
+from linkwright.synthesis.expression import chebyshev_points
 from linkwright.synthesis.task import FunctionTask
 
 X = np.linspace(1, 2, 361)

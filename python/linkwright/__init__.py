@@ -37,14 +37,14 @@ _HOME = {
     "pose": "linkages.pose",
     "motion": "linkages.motion",
     "reduction": "drive.reduction",
-    "constant_energy": "drive.constant_energy",
+    "constant_energy": "drive.evenness",
     "steady_state": "drive.steady_state",
     "transient": "drive.transient",
     "motion_events": "drive.motion_events",
     "motion_extremes": "drive.motion_events",
     "cycle_motion": "drive.cycle_motion",
     "run_up": "drive.run_up",
-    "run_down": "drive.run_down",
+    "run_down": "drive.run_up",
     "step_method": "drive.step_method",
     "gradient": "sensitivity.gradient",
     "forces": "kinetostatics.forces",
@@ -52,8 +52,8 @@ _HOME = {
     "envelope": "kinetostatics.envelope",
     "load_cases": "kinetostatics.envelope",
     "balance": "kinetostatics.balancing",
-    "partial_balance": "kinetostatics.counterweight_formulas",
-    "harmonics": "kinetostatics.harmonics",
+    "partial_balance": "kinetostatics.balancing",
+    "harmonics": "kinetostatics.envelope",
     "mobility": "linkages.model.mobility",
     "cam_laws": "cam.law_factors",
     "law_factors": "cam.law_factors",
@@ -95,7 +95,7 @@ _HOME = {
     "shaft_stress": "torsion.response.stress",
     "barred_ranges": "torsion.limits.barred_range",
     "mesh_torques": "torsion.response.mesh_torque",
-    "read_measured": "torsion.limits.measured_file",
+    "read_measured": "torsion.limits.overlay",
     "engine_diagnosis": "torsion.diagnosis.engine_diagnosis",
     "measured_speed": "torsion.diagnosis.measured_speed",
     "engine_data": "torsion.response.engine_torques",
@@ -184,24 +184,24 @@ if TYPE_CHECKING:
     from linkwright.cam.profile.profile import cam_profile as cam_profile
     from linkwright.cam.search import search_cams as search_cams
     from linkwright.drive.batch import steady_states as steady_states
-    from linkwright.drive.constant_energy import constant_energy as constant_energy
     from linkwright.drive.cycle_motion import cycle_motion as cycle_motion
+    from linkwright.drive.evenness import constant_energy as constant_energy
     from linkwright.drive.model.catalogue import motors as motors
     from linkwright.drive.motion_events import motion_events as motion_events
     from linkwright.drive.motion_events import motion_extremes as motion_extremes
     from linkwright.drive.reduction import reduction as reduction
-    from linkwright.drive.run_down import run_down as run_down
+    from linkwright.drive.run_up import run_down as run_down
     from linkwright.drive.run_up import run_up as run_up
     from linkwright.drive.steady_state import steady_state as steady_state
     from linkwright.drive.step_method import step_method as step_method
     from linkwright.drive.transient import transient as transient
     from linkwright.kinetostatics.balancing import balance as balance
-    from linkwright.kinetostatics.counterweight_formulas import partial_balance as partial_balance
+    from linkwright.kinetostatics.balancing import partial_balance as partial_balance
     from linkwright.kinetostatics.envelope import envelope as envelope
+    from linkwright.kinetostatics.envelope import harmonics as harmonics
     from linkwright.kinetostatics.envelope import load_cases as load_cases
     from linkwright.kinetostatics.forces import forces as forces
     from linkwright.kinetostatics.friction import Friction as Friction
-    from linkwright.kinetostatics.harmonics import harmonics as harmonics
     from linkwright.linkages.circuits import circuits as circuits
     from linkwright.linkages.closure import closure as closure
     from linkwright.linkages.coupler_curve import coupler_curve as coupler_curve
@@ -255,7 +255,7 @@ if TYPE_CHECKING:
     from linkwright.torsion.in_time.transient import torsion_transient as torsion_transient
     from linkwright.torsion.in_time.waterfall import waterfall as waterfall
     from linkwright.torsion.limits.barred_range import barred_ranges as barred_ranges
-    from linkwright.torsion.limits.measured_file import read_measured as read_measured
+    from linkwright.torsion.limits.overlay import read_measured as read_measured
     from linkwright.torsion.modes.campbell import campbell as campbell
     from linkwright.torsion.modes.damped import damped_vibration as damped_vibration
     from linkwright.torsion.modes.free import free_vibration as free_vibration

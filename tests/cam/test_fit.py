@@ -25,8 +25,7 @@ from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.cam.laws.piece import Piece
 from linkwright.cam.manufacture.arcs import equal_errors
 from linkwright.cam.manufacture.curve import Track
-from linkwright.cam.manufacture.deviation import Path, deviation
-from linkwright.cam.manufacture.fit import Form, fit
+from linkwright.cam.manufacture.fit import Form, Path, deviation, fit
 from linkwright.cam.manufacture.outline import Outline
 from linkwright.kernel.errors import ConvergenceError, ExchangeError, InputError
 

@@ -20,6 +20,7 @@ from scipy.integrate import quad, solve_ivp
 
 from linkwright.cam.dynamics.follower_vibration import follower_vibration, vibration_over_speed
 from linkwright.cam.dynamics.one_mass import OneMass
+from linkwright.cam.dynamics.oscillator import continuity, steps
 from linkwright.cam.dynamics.polydyne import polydyne
 from linkwright.cam.dynamics.residual_vibration import (
     residual_amplitude,
@@ -27,7 +28,6 @@ from linkwright.cam.dynamics.residual_vibration import (
     residual_spectrum,
 )
 from linkwright.cam.laws.motion_law import MotionLaw
-from linkwright.cam.profile.lift_steps import continuity, steps
 from linkwright.kernel.errors import FindingError, InputError
 
 # Everything at once: damper in the train and to the frame, closing spring, preload.

@@ -9,7 +9,7 @@ import pytest
 
 import linkwright as lw
 from linkwright.cam.laws.catalogue import LAWS
-from linkwright.cam.laws.osculating import osculating
+from linkwright.cam.laws.spline import osculating
 from linkwright.kernel.errors import LawError, LinkwrightError
 
 HEAD = """

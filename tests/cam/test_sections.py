@@ -13,8 +13,7 @@ from pydantic import Field, ModelWrapValidatorHandler, ValidationError, model_va
 from pydantic_core import InitErrorDetails
 
 from linkwright.cam.laws.programme import Programme
-from linkwright.cam.model.motion_section import Family, MotionSection, programme
-from linkwright.cam.model.section_faults import section_faults
+from linkwright.cam.model.motion_section import Family, MotionSection, programme, section_faults
 from linkwright.kernel.description.base import CheckedDescription, Description
 from linkwright.kernel.description.problems import problems
 from linkwright.kernel.errors import MachineError, MachineFileError, Problem

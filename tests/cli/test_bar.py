@@ -6,8 +6,8 @@ import io
 
 import pytest
 
-from linkwright.kernel.command import bar as module
-from linkwright.kernel.command.bar import bar
+from linkwright.kernel.command import console as module
+from linkwright.kernel.command.console import bar
 
 
 class Terminal(io.StringIO):

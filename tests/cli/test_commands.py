@@ -17,7 +17,7 @@ from linkwright.app.application import application
 from linkwright.kernel.command.common import reports_errors
 from linkwright.kernel.command.parameter import Option, command
 from linkwright.kernel.errors import StartError
-from linkwright.kernel.files.templates import templates
+from linkwright.kernel.files.library import templates
 from linkwright.machine.read import loads
 
 ROOT = Path(__file__).parents[2]

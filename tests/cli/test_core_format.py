@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from linkwright import _core
-from linkwright.kernel.core.core_format import FORMAT, check_format
 from linkwright.kernel.errors import CoreError
+from linkwright.machine.program.core import FORMAT, check_format
 
 ROOT = Path(__file__).parents[2]
 

@@ -13,7 +13,7 @@ from click.testing import CliRunner
 
 from linkwright.app.application import application
 from linkwright.kernel.errors import MachineFileError
-from linkwright.kernel.files.csv_text import csv_text
+from linkwright.kernel.page.table import csv_text
 from linkwright.machine.read import loads
 
 # What each would do where it is taken for more than a name.

@@ -13,7 +13,7 @@ from click.testing import CliRunner, Result
 
 from linkwright.app.application import application
 from linkwright.drive.steady_state import steady_state
-from linkwright.kernel.files.templates import template, templates
+from linkwright.kernel.files.library import template, templates
 from linkwright.machine.read import read
 
 ROOT = Path(__file__).parents[2]

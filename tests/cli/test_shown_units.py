@@ -13,8 +13,7 @@ from click.testing import CliRunner
 
 import linkwright as lw
 from linkwright.app.application import application
-from linkwright.kernel.page.measured import measured
-from linkwright.kernel.page.numbers import degrees, quantity
+from linkwright.kernel.page.numbers import degrees, measured, quantity
 from linkwright.kernel.page.out_units import OutUnits, reading
 from linkwright.linkages.cycle import linkage
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.drive.constant_energy import constant_energy_of
+from linkwright.drive.evenness import constant_energy_of
 from linkwright.machine.program.compiled import compile_machine
 
 

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from linkwright.kernel.errors import InputError, MachineFileError
-from linkwright.kernel.files.columns import read_columns
+from linkwright.kernel.files.points import read_columns
 from linkwright.kernel.units import ANGLE, TIME
 from linkwright.linkages.law_input import read_law_table
 from linkwright.machine.read import read

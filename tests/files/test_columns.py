@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from linkwright.kernel.errors import MachineFileError
-from linkwright.kernel.files.columns import read_columns
+from linkwright.kernel.files.points import read_columns
 from linkwright.kernel.units import ANGLE, SPEED
 from linkwright.machine.read import read
 

@@ -14,7 +14,7 @@ from pydantic import ValidationError
 from linkwright.drive.model.catalogue import motor, motors
 from linkwright.drive.model.motor import DcMotor, InductionMotor
 from linkwright.kernel.errors import MachineError
-from linkwright.kernel.files.templates import template
+from linkwright.kernel.files.library import template
 from linkwright.kernel.units import ANGLE, LENGTH
 from linkwright.linkages.model.mechanism import Mechanism
 from linkwright.machine.address import addresses, get, kind, replace

@@ -44,8 +44,8 @@ def test_one_module_writes() -> None:
                 found.add(str(path.relative_to(PACKAGE)))
     # Figures are written into the memory; a folder for a drawing is made beside the module. A sweep puts its
     # parts into its folder one by one, and completion goes into the files of the user's shell.
-    others = {"kernel/figure/svg.py", "app/figures.py", "cam/manufacture/write.py"}
-    others |= {"studies/folder.py", "kernel/command/completion.py"}
+    others = {"kernel/figure/svg.py", "app/curves.py", "cam/manufacture/write.py"}
+    others |= {"studies/folder.py", "kernel/command/group.py"}
     assert found - others == WRITERS
 
 

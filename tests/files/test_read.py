@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from linkwright.drive.model.motor import InductionMotor
 from linkwright.kernel.errors import InputError, MachineFileError
-from linkwright.kernel.files.templates import template, templates
+from linkwright.kernel.files.library import template, templates
 from linkwright.machine.read import loads, read
 
 MACHINES = sorted((Path(__file__).parents[2] / "machines").glob("*.toml"))

@@ -9,7 +9,7 @@ from typing import Any
 import jsonschema
 import pytest
 
-from linkwright.kernel.files.templates import template, templates
+from linkwright.kernel.files.library import template, templates
 from linkwright.machine.schema import schema
 
 MACHINES = sorted((Path(__file__).parents[2] / "machines").glob("*.toml"))

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from linkwright.kernel.errors import InputError
-from linkwright.kernel.files.templates import template, templates
+from linkwright.kernel.files.library import template, templates
 from linkwright.machine.address import replace
 from linkwright.machine.machine import Machine
 from linkwright.machine.read import loads, read

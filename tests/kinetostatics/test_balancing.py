@@ -8,11 +8,9 @@ from zoo import animal
 
 import linkwright as lw
 from linkwright.kernel.errors import InputError, MachineError, ShapeError
-from linkwright.kinetostatics.balancing import balance
-from linkwright.kinetostatics.counterweight_formulas import four_bar_moments, partial_balance
-from linkwright.kinetostatics.envelope import envelope, load_cases
+from linkwright.kinetostatics.balancing import balance, four_bar_moments, partial_balance
+from linkwright.kinetostatics.envelope import envelope, harmonics, load_cases
 from linkwright.kinetostatics.forces import forces
-from linkwright.kinetostatics.harmonics import harmonics
 from linkwright.kinetostatics.motion import motion_at
 
 FOUR_BAR = "four-bar with coupler point"

@@ -14,10 +14,10 @@ from linkwright.kernel.errors import FindingError, InputError, MachineError, Sha
 from linkwright.kinetostatics.cam_contact import follower_at
 from linkwright.kinetostatics.forces import forces
 from linkwright.kinetostatics.friction import Friction
-from linkwright.kinetostatics.inertia import masses
 from linkwright.kinetostatics.motion import motion_at
 from linkwright.kinetostatics.places import Scene
 from linkwright.kinetostatics.result import Forces
+from linkwright.kinetostatics.wrench import masses
 from linkwright.linkages.model.mobility import mobility
 from linkwright.linkages.model.structure import FRAME, structure
 from linkwright.machine.program.compiled import compile_machine

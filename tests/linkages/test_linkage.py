@@ -12,7 +12,7 @@ import linkwright as lw
 from linkwright.kernel.errors import AssemblyError, InputError, MachineError, ShapeError
 from linkwright.kernel.numerics.roots import minima, zeros
 from linkwright.linkages.closure import closure
-from linkwright.linkages.dead_points import LIMIT, PASSED, REVERSAL
+from linkwright.linkages.cycle import LIMIT, PASSED, REVERSAL
 from linkwright.linkages.grashof import FourBar, four_bars
 from linkwright.linkages.kinematics import kinematics
 from linkwright.machine.program.compiled import compile_machine

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from linkwright.drive.constant_energy import constant_energy
+from linkwright.drive.evenness import constant_energy
 from linkwright.drive.reduction import reduction
 from linkwright.drive.steady_state import steady_state
 from linkwright.kernel.files.library import library_path

@@ -7,7 +7,7 @@ import math
 import pytest
 
 from linkwright.papers.paper import printed_values
-from linkwright.papers.paper5.verdict import printed_claim
+from linkwright.papers.paper5.paper import printed_claim
 from linkwright.topping.required_length import published_lengths
 from linkwright.topping.roots import head_diameter
 from linkwright.topping.verdict import PAPER

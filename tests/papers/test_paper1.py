@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from linkwright.drive.constant_energy import constant_energy
+from linkwright.drive.evenness import constant_energy
 from linkwright.drive.model.motor import InductionMotor
 from linkwright.drive.steady_state import steady_state
 from linkwright.kernel.files.library import library, library_path

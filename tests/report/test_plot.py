@@ -12,7 +12,7 @@ from linkwright.app.study import Study, study
 from linkwright.drive.characteristic import characteristic
 from linkwright.drive.figures import compare_figure, motor_figure, reduction_figure, run_up_figure
 from linkwright.kernel.figure.svg import svg
-from linkwright.kernel.files.templates import template
+from linkwright.kernel.files.library import template
 from linkwright.machine.read import loads, read
 
 TWO_CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"

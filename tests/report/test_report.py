@@ -13,7 +13,7 @@ import pytest
 from linkwright.app.report.page import report_html, write_report
 from linkwright.app.study import Study, study
 from linkwright.kernel.errors import InputError
-from linkwright.kernel.files.templates import template, templates
+from linkwright.kernel.files.library import template, templates
 from linkwright.kernel.page.numbers import number
 from linkwright.machine.read import loads, read
 

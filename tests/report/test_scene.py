@@ -12,7 +12,7 @@ import pytest
 
 from linkwright.app.report.scene import scene
 from linkwright.app.study import study
-from linkwright.kernel.files.templates import template, templates
+from linkwright.kernel.files.library import template, templates
 from linkwright.machine.read import loads, read
 from linkwright.machine.write import dumps
 

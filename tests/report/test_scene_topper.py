@@ -12,7 +12,7 @@ import pytest
 
 from linkwright.app.report.page import knife_scene
 from linkwright.app.study import study
-from linkwright.kernel.files.templates import template
+from linkwright.kernel.files.library import template
 from linkwright.machine.read import loads, read
 from linkwright.topping.edge import edges_of
 

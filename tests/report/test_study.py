@@ -15,7 +15,7 @@ from linkwright.drive.cautions import cautions
 from linkwright.drive.characteristic import characteristic
 from linkwright.drive.steady_state import steady_state
 from linkwright.kernel.errors import InputError
-from linkwright.kernel.files.templates import template
+from linkwright.kernel.files.library import template
 from linkwright.machine.read import loads, read
 
 TWO_CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"

@@ -9,9 +9,9 @@ import pytest
 
 from linkwright.app.report.tables import tables
 from linkwright.app.study import study
-from linkwright.kernel.files.templates import template
-from linkwright.kernel.page.csv import curves_csv
+from linkwright.kernel.files.library import template
 from linkwright.kernel.page.numbers import number
+from linkwright.kernel.page.table import curves_csv
 from linkwright.machine.read import loads, read
 from linkwright.machine.table import machine_parts
 

@@ -6,7 +6,7 @@ import pytest
 import linkwright as lw
 from linkwright.kernel.errors import InputError, LinkwrightError, MachineError
 from linkwright.machine.program.compiled import Translation
-from linkwright.machine.program.directions import directions
+from linkwright.machine.tangents import directions
 
 TWO_CARTS = "machines/roller_two_carts.toml"
 MACHINES = [

@@ -9,8 +9,7 @@ from linkwright.drive.model.motor import InductionMotor
 from linkwright.drive.run_up import run_up
 from linkwright.drive.steady_state import steady_state
 from linkwright.kernel.errors import InputError
-from linkwright.kernel.files.library import library_path
-from linkwright.kernel.files.templates import template
+from linkwright.kernel.files.library import library_path, template
 from linkwright.machine.address import replace
 from linkwright.machine.machine import Machine
 from linkwright.machine.read import loads, read

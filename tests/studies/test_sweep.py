@@ -248,6 +248,6 @@ def test_a_cluster_with_a_worker_killed(
     assert killed
     assert found.is_complete
     assert contents(tmp_path / "rows") == contents(tmp_path / "alone")
-    monkeypatch.setattr("linkwright.studies.cluster._PATIENCE", 0.5)
+    monkeypatch.setattr("linkwright.studies.workers._PATIENCE", 0.5)
     with pytest.raises(InputError, match="found no scheduler"):
         lw.sweep(plan, tmp_path / "other", cluster="nowhere:1")

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import pytest
 from websockets.sync.client import ClientConnection, connect
 
-from linkwright.kernel.files.templates import template
+from linkwright.kernel.files.library import template
 from linkwright.studio.server import Studio
 from linkwright.studio.wire import packed
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
-from linkwright.kernel.files.templates import template
+from linkwright.kernel.files.library import template
 
 from .conftest import Served, Tab
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.files.templates import template
+from linkwright.kernel.files.library import template
 from linkwright.linkages.kinematics import kinematics
 from linkwright.machine.read import loads
 from linkwright.studio.controls import controls

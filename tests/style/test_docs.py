@@ -15,7 +15,7 @@ from click.testing import CliRunner
 
 import linkwright as lw
 from linkwright.app.application import application
-from linkwright.kernel.files.templates import template
+from linkwright.kernel.files.library import template
 from linkwright.machine.read import loads
 
 ROOT = Path(__file__).parents[2]

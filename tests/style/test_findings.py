@@ -51,7 +51,7 @@ SILENT = {
         "_at_critical",
     ): "a mode in which the first disc is at rest has no Holzer table from that disc",
     (
-        "torsion/limits/measured_file.py",
+        "torsion/limits/overlay.py",
         "_kind",
     ): "a unit that none of the quantities has is reported with those that have one",
     ("studies/local.py", "_planes"): "a trial without an answer is taken back: the radius shrinks",

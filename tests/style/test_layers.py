@@ -32,7 +32,6 @@ HOUSE = {
     "studies": STUDY,
     "studies.model": MODEL,
     "studies.figures": COMMANDS,
-    "studies.figures_of_fit": COMMANDS,
     "studies.tables": COMMANDS,
     "studies.commands": COMMANDS,
     "papers": PAPERS,

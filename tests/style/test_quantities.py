@@ -17,7 +17,7 @@ from linkwright.app.study import Study
 from linkwright.drive.steady_state import SteadyState
 from linkwright.drive.tables import drive_tables
 from linkwright.kernel.errors import InputError
-from linkwright.kernel.page.csv import curves_csv
+from linkwright.kernel.page.table import curves_csv
 from linkwright.kernel.quantities import About, Shown, declared, in_table
 from linkwright.kernel.result import Result
 from linkwright.torsion.study import TorsionStudy

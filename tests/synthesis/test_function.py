@@ -10,11 +10,10 @@ from scipy.optimize import minimize
 
 import linkwright as lw
 from linkwright.kernel.errors import InputError, MachineError, SynthesisError
-from linkwright.synthesis.expression import function_of
+from linkwright.synthesis.expression import chebyshev_points, function_of
 from linkwright.synthesis.four_bar import FourBar
 from linkwright.synthesis.freudenstein import lengths, solve
 from linkwright.synthesis.function_refine import FunctionModel, Rows
-from linkwright.synthesis.function_scale import chebyshev_points
 from linkwright.synthesis.task import FunctionTask
 
 DEG = np.pi / 180

@@ -11,7 +11,7 @@ from topper_fields import TOPPER, machine
 
 import linkwright as lw
 from linkwright.kernel.errors import InputError, MachineError
-from linkwright.kernel.files.templates import template
+from linkwright.kernel.files.library import template
 from linkwright.machine.write import dumps
 from linkwright.topping import coverage as passes
 from linkwright.topping.cautions import field_cautions, field_findings

@@ -9,7 +9,7 @@ import pytest
 
 import linkwright as lw
 from linkwright.kernel.errors import InputError
-from linkwright.kernel.files.templates import template
+from linkwright.kernel.files.library import template
 from linkwright.machine.read import read
 from linkwright.torsion.diagnosis.engine_diagnosis import engine_diagnosis
 from linkwright.torsion.diagnosis.engine_speed import EngineSpeed

@@ -9,7 +9,7 @@ import pytest
 
 import linkwright as lw
 from linkwright.kernel.errors import InputError, ShapeError
-from linkwright.kernel.files.templates import template
+from linkwright.kernel.files.library import template
 from linkwright.torsion.diagnosis.measured_speed import recorded_speed
 from linkwright.torsion.diagnosis.record_diagnosis import record_diagnosis
 from linkwright.torsion.model.engine.engine import firing_angles

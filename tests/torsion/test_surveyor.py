@@ -9,7 +9,7 @@ import linkwright as lw
 from linkwright.kernel.errors import InputError, MachineFileError
 from linkwright.torsion.limits.overlay import overlay
 from linkwright.torsion.response.survey import survey
-from linkwright.torsion.tables.measured import measured_words
+from linkwright.torsion.tables.limits import measured_words
 
 GEARED = """
 format = 1

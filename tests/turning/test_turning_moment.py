@@ -15,7 +15,7 @@ import linkwright as lw
 from linkwright.kernel.errors import FindingError, InputError, MachineError
 from linkwright.kernel.numerics.turn_curve import TurnCurve
 from linkwright.kernel.numerics.turn_fit import turn_curve
-from linkwright.kernel.page.csv import curves_csv
+from linkwright.kernel.page.table import curves_csv
 from linkwright.turning import diagram
 
 

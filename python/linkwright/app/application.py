@@ -14,8 +14,7 @@ from typing import Any, NamedTuple
 import click
 
 from linkwright.kernel.command.common import reports_errors
-from linkwright.kernel.command.completion import completion_options
-from linkwright.kernel.command.group import Commands, Entry
+from linkwright.kernel.command.group import Commands, Entry, completion_options
 from linkwright.kernel.command.parameter import command
 
 
@@ -47,7 +46,7 @@ COMMANDS = {
     "motion": Place(
         "Positions, velocities and accelerations of points and links.", "linkages.commands:motion"
     ),
-    "transient": Place("Compute the motion in time.", "drive.commands.transient:transient"),
+    "transient": Place("Compute the motion in time.", "drive.commands:transient"),
     "plot": Place("Draw curves of a machine.", "app.commands.plot:plot"),
     "draw": Place("Draw a mechanism, still or in motion.", "app.commands.draw:draw", False),
     "forces": Place("Compute joint reactions and shaking force.", "kinetostatics.commands:forces"),

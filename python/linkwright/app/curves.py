@@ -1,10 +1,11 @@
-"""Curves of a study by name: those of all its results, and of every point, link and slide over the cycle."""
+"""Curves of a study by name, and their picture: all results, every point, link and slide over the cycle."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from io import BytesIO
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,9 +14,16 @@ from linkwright.app.study import Study
 from linkwright.drive.cycle_motion import CycleMotion
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError
+from linkwright.kernel.figure.style import LINES, legend_above, named, panels, roomy, styled, zero_line
+from linkwright.kernel.page.out_units import reader
 from linkwright.kernel.quantities import declared, over
 from linkwright.kernel.result import Result
 from linkwright.linkages.motion import Motion
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
 
 Floats = NDArray[np.float64]
 
@@ -75,20 +83,9 @@ def _of(analysis: str, result: Result) -> Iterator[Curve]:
 def chosen(study: Study, names: Sequence[str], along: str | None = None) -> list[Curve]:
     """The curves that are asked for, over what is asked for.
 
-    Parameters
-    ----------
-    study : Study
-        The study.
-    names : sequence of str
-        Names in full, or so many of their parts in order that one curve alone has them and ends so:
-        ``"ram.velocity"`` is ``"motion.ram.place.velocity"``.
-    along : str or None
-        Another curve of the same result to draw over; without it, what each runs over by itself.
-
-    Raises
-    ------
-    InputError
-        There is no such curve, or several; or they run over different quantities.
+    `names`: in full, or so many of their parts in order that one curve alone has them and ends so:
+    ``"ram.velocity"`` is ``"motion.ram.place.velocity"``. `along`: another curve of the same result to draw
+    over. Raises `InputError` if there is no such curve, or several; or they run over different quantities.
     """
     known = curves_of(study)
     found = [known[_name(name, known)] for name in names]
@@ -144,20 +141,10 @@ def _over(curve: Curve, along: str, known: dict[str, Curve]) -> Curve:
 
 
 def from_zero(curve: Curve, zero: float) -> Curve:
-    """A curve over the crank angle, counted from another angle.
+    """A curve over the crank angle, counted from another angle [rad]; one over something else stays as it is.
 
-    Parameters
-    ----------
-    curve : Curve
-        Any curve; one that runs over something else stays as it is.
-    zero : float
-        Crank angle in the file [rad].
-
-    Returns
-    -------
-    Curve
-        Over a whole number of revolutions it begins at the new zero, else its angles are shifted. What does
-        not repeat, such as the angle of a link that turns on, goes on where it would begin anew.
+    Over a whole number of revolutions it begins at the new zero, else its angles are shifted. What does not
+    repeat, such as the angle of a link that turns on, goes on where it would begin anew.
     """
     if curve.over != CRANK_ANGLE or zero == 0:
         return curve
@@ -199,21 +186,9 @@ class CurveExtremes(NamedTuple):
 
 
 def extremes(study: Study, curve: Curve, zero: float = 0.0) -> CurveExtremes:
-    """Extremes of a curve: exact ones where its analysis knows them.
+    """Extremes of a curve [SI], exact ones where its analysis knows them; without any number, NaN.
 
-    Parameters
-    ----------
-    study : Study
-        The study that the curve is from.
-    curve : Curve
-        With its crank angles counted from `zero`.
-    zero : float
-        Crank angle in the file [rad].
-
-    Returns
-    -------
-    CurveExtremes
-        In SI; without any number, NaN.
+    `zero`: crank angle [rad] of the file from which those of the curve are counted.
     """
     known = _exact(study, curve)
     if known is not None:
@@ -264,3 +239,69 @@ def _on(curve: Curve, angle: float) -> float:
     while angle > high:
         angle -= turn
     return angle
+
+
+# Height of each axis, and of what stands around them [inch].
+_PANEL, _AROUND = 2.0, 0.8
+
+
+@styled
+def curves_figure(curves: Sequence[Curve], zero: str = "") -> Figure:
+    """Draw curves over one quantity, an axis for each unit; `zero`: from where crank angles are counted."""
+    by_unit: dict[tuple[str, float], list[Curve]] = {}
+    for curve in curves:
+        by_unit.setdefault(_shown(curve.unit), []).append(curve)
+    figure, axes = panels(len(by_unit), height=_AROUND + _PANEL * len(by_unit))
+    colours = iter(LINES * len(curves))
+    for panel, ((unit, factor), group) in zip(axes, by_unit.items(), strict=True):
+        for member in group:
+            x = member.x / _shown(member.over_unit)[1]
+            panel.plot(x, member.values / factor, color=next(colours), label=named(_short(member)))
+        panel.set_ylabel(f"[{unit or '–'}]")
+        roomy(panel, *(member.values[np.isfinite(member.values)] / factor for member in group))
+        zero_line(panel)
+        legend_above(panel)
+    _under(axes[-1], curves, zero)
+    return figure
+
+
+def _under(axes: Axes, curves: Sequence[Curve], zero: str) -> None:
+    """What is along x."""
+    first = curves[0]
+    unit, factor = _shown(first.over_unit)
+    word = "crank angle φ" if first.over == CRANK_ANGLE else first.over
+    if zero and first.over == CRANK_ANGLE:
+        word += f" from the {zero}"
+    axes.set_xlabel(f"{word} [{unit or '–'}]")
+    low = min(float(np.nanmin(curve.x)) for curve in curves) / factor
+    high = max(float(np.nanmax(curve.x)) for curve in curves) / factor
+    if high > low:
+        axes.set_xlim(low, high)
+    if unit == "°" and 0 < high - low <= 720.5:
+        axes.set_xticks(
+            np.arange(np.ceil(low / 45 - 1e-6) * 45, high + 1e-6, 45 if high - low <= 361 else 90)
+        )
+
+
+def _shown(unit: str) -> tuple[str, float]:
+    """The unit of an axis and its size: angles in degrees, unless another unit of angles is wanted."""
+    return reader().shown(unit, "deg" if unit == "rad" else "")
+
+
+def _short(curve: Curve) -> str:
+    """A name without the analysis."""
+    return curve.name.split(".", 1)[1]
+
+
+@styled
+def bytes_of(figure: Figure, ending: str) -> bytes:
+    """A figure as a file: ``".png"``, ``".svg"`` or ``".pdf"``; the same bytes in every run."""
+    from linkwright.kernel.figure.svg import png, svg
+
+    if ending == ".png":
+        return png(figure)
+    if ending == ".svg":
+        return svg(figure).encode()
+    data = BytesIO()
+    figure.savefig(data, format="pdf", metadata={"CreationDate": None})
+    return data.getvalue()

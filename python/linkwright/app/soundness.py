@@ -57,18 +57,7 @@ class Soundness:
 
 
 def soundness(machine: Machine) -> Soundness:
-    """Look at all of a machine that can be judged without solving for its motion.
-
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-
-    Returns
-    -------
-    Soundness
-        What was looked at, and the findings.
-    """
+    """Look at all of a machine that can be judged without solving for its motion; with the findings."""
     findings = Findings()
     looked = [
         *_diagram(machine, findings),
@@ -92,9 +81,9 @@ def _knife(machine: Machine, findings: Findings) -> Iterator[str]:
     described = machine.topper
     if described is None:
         return
+    from linkwright.topping.cautions import knife_look
     from linkwright.topping.coverage import require_advance
     from linkwright.topping.edge import edges_of
-    from linkwright.topping.knife_look import knife_look
     from linkwright.topping.roots import draw_roots
 
     looked = findings.of(lambda: tuple(knife_look(machine, described)))

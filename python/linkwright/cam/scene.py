@@ -37,19 +37,9 @@ _FACE = 0.3
 
 
 def cam_parts(machine: Machine, series: dict[str, int]) -> Iterator[Scene]:
-    """The cams and what touches them.
+    """The cams and what touches them: parts of kinds ``cam`` and ``roller`` or ``face``.
 
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    series : dict of str to int
-        Number of the colour of each element.
-
-    Yields
-    ------
-    dict
-        Parts of kinds ``cam`` and ``roller`` or ``face``.
+    `series`: number of the colour of each element.
     """
     for name, cam in machine.mechanism.cams.items():
         touching = _contacts(machine, name, cam)

@@ -16,8 +16,7 @@ from linkwright.cam.law_factors import LawFactors, law_factors
 from linkwright.cam.laws.catalogue import BOUNDS, LAWS
 from linkwright.cam.profile.least_sizes import LeastSizes
 from linkwright.cam.profile.profile import CamProfile
-from linkwright.kernel.page.measured import measured
-from linkwright.kernel.page.numbers import degrees, number, quantity
+from linkwright.kernel.page.numbers import degrees, measured, number, quantity
 from linkwright.kernel.page.table import Row, Table, with_unit
 
 # Laws that sections are compared with: the usual ones, from the gentlest velocity on.

@@ -5,19 +5,17 @@
 | `batch` | Steady motion of thousands to millions of machines that differ in some entries |
 | `cautions` | What the designer of a machine should know although it runs: sentences with numbers |
 | `characteristic` | The motor's characteristic and the mean load that it works against |
-| `commands/` | ``linkwright transient`` |
-| `constant_energy` | How unevenly would it turn without motor and load? |
+| `commands` | ``linkwright transient``: motion in time |
 | `crank_speed` | At which speed of the crank a command computes, and where that speed comes from |
 | `cycle_motion` | Position, velocity, acceleration of everything over the cycle, with exact extremes |
-| `evenness` | The coefficients δ, H and k_p of a motion |
+| `evenness` | Coefficients δ, H and k_p; their limit at constant energy |
 | `figures` | Figures of a drive over angle and time, and of its motor, with their captions |
 | `figures_of_cycle` | Figures of sliders, rockers and coupler points over the cycle |
 | `model/` | Motors, gearbox, coupling, brake, flywheel |
 | `gradient` | Derivatives of steady motion by entries of the machine |
 | `motion_events` | What happens during a motion in time, and the extremes of its speed and acceleration |
 | `reduction` | What inertia and what load does the crank feel? |
-| `run_down` | How long until it stands? |
-| `run_up` | Does it start, and how long does that take? |
+| `run_up` | Run-up from rest, and run-down with the motor off |
 | `sound_loads` | Whether the loads of a machine can be computed all round, and repeat every revolution |
 | `steady_state` | How does it turn in the long run? |
 | `step_method` | What does the published step method give instead? |

@@ -46,16 +46,8 @@ def crank_speed(machine: Machine, text: str | None) -> CrankSpeed:
 
 
 def speeds_of(speeds: NDArray[np.float64], machine: Machine, text: str | None) -> dict[str, Any]:
-    """The speeds at which something was computed along a motion, for JSON.
-
-    Parameters
-    ----------
-    speeds : ndarray, shape (n,)
-        Along the motion [rad/s].
-    machine : Machine
-        The machine.
-    text : str or None
-        What stands after ``--speed``.
+    """The speeds (n,) [rad/s] at which something was computed along a motion, for JSON; `text`: after
+    ``--speed``.
     """
     has_motor = machine.drive is not None and machine.drive.motor is not None
     source = _OPTION if text is not None else "steady motion" if has_motor else _DESIGN

@@ -5,6 +5,10 @@ r"""How evenly a shaft turns: the coefficients δ, H and k_p, of one motion or o
 
 The mean speed :math:`\omega_m` is that of the extremes or that over time; the caller says which.
 
+With motor and loads switched off the kinetic energy is constant and :math:`\omega\propto 1/\sqrt J`, so the
+measures depend on J(φ) alone: the limit of a machine whose motor's characteristic is flat against its
+inertia.
+
 References
 ----------
 .. [1] Paper 1, (13) to (15).
@@ -12,10 +16,20 @@ References
 
 from __future__ import annotations
 
-from typing import TypeVar
+from dataclasses import dataclass
+from typing import Annotated, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
+
+from linkwright.drive.reduction import NO_INERTIA, Reduction, reduction
+from linkwright.kernel.errors import SteadyStateError
+from linkwright.kernel.numerics.turn_fit import turn_curve
+from linkwright.kernel.public import public
+from linkwright.kernel.quantities import Shown
+from linkwright.kernel.result import Result
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import Compiled, compile_machine
 
 V = TypeVar("V", float, NDArray[np.float64])
 
@@ -40,3 +54,78 @@ def dynamism(least: V, greatest: V, mean: V) -> V:
 def motion_coefficient(delta: V, H: V) -> V:
     """k_p of δ and H [–]."""
     return delta**2 + H
+
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class ConstantEnergy(Result):
+    """Speed fluctuation at constant kinetic energy."""
+
+    unevenness: Annotated[float, Shown("coefficient of speed fluctuation", "δ", "")]
+    dynamism: Annotated[float, Shown("dynamic factor", "H", "")]
+
+    @property
+    def motion_coefficient(self) -> Annotated[float, Shown("combined non-uniformity index", "k_p", "")]:
+        """k_p = δ² + H, paper 1 (15)."""
+        return motion_coefficient(self.unevenness, self.dynamism)
+
+
+@public
+def constant_energy(machine: Machine) -> ConstantEnergy:
+    """Measures of speed fluctuation at constant kinetic energy.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine; its motor and its loads do not count, the motor's inertia does.
+
+    Returns
+    -------
+    ConstantEnergy
+        δ and H, with the mean of the extremes for the mean speed.
+
+    Raises
+    ------
+    AssemblyError
+        The mechanism does not close all round.
+    """
+    return constant_energy_of(reduction(machine, n=1), compile_machine(machine).first())
+
+
+def constant_energy_of(reduced: Reduction, compiled: Compiled | None = None) -> ConstantEnergy:
+    r"""`constant_energy` of a reduced machine.
+
+    With E = 1: :math:`\omega = \sqrt{2/J}`, :math:`\varepsilon = -\tfrac12 J'\omega^2/J = -J'/J^2`.
+    Its peak is exact for a machine. Of curves alone it is found by a parabola through the best sample and its
+    neighbours: with 1440 intervals within 1e-6 of H on the machines that are shipped.
+    """
+    if not reduced.inertia_min > 0:
+        raise SteadyStateError(NO_INERTIA)
+    slow, fast = np.sqrt(2 / reduced.inertia_max), np.sqrt(2 / reduced.inertia_min)
+    mean = mean_of_extremes(float(slow), float(fast))
+    peak = _by_samples(reduced) if compiled is None else _exactly(compiled)
+    delta = unevenness(float(slow), float(fast), mean)
+    return ConstantEnergy(unevenness=delta, dynamism=dynamism(-peak, peak, mean))
+
+
+def _exactly(compiled: Compiled) -> float:
+    """Peak of |J'|/J² from the series of the revolution."""
+
+    def acceleration(phi: Floats) -> Floats:
+        at = compiled.reductions(phi)
+        ratio: Floats = (at.inertia_slope / at.inertia**2)[None]
+        return ratio
+
+    turn = turn_curve(acceleration, compiled.kinks(), "angular acceleration at constant energy")
+    return max(abs(turn.extreme(sign)[0]) for sign in (1, -1))
+
+
+def _by_samples(reduced: Reduction) -> float:
+    """Peak of |J'|/J² by a parabola."""
+    epsilon = np.abs(reduced.inertia_reduced_d1 / reduced.inertia_reduced**2)[:-1]
+    best = int(np.argmax(epsilon))
+    left, top, right = epsilon[best - 1], epsilon[best], epsilon[(best + 1) % len(epsilon)]
+    bend = left - 2 * top + right
+    return float(top if bend == 0 else top - (right - left) ** 2 / (8 * bend))

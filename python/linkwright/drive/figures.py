@@ -11,7 +11,6 @@ from linkwright.drive.characteristic import characteristic
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.motion_events import course, sides
 from linkwright.drive.study import DriveStudy
-from linkwright.kernel.figure.captioned import Captioned
 from linkwright.kernel.figure.style import (
     ACCELERATION,
     BLUE,
@@ -26,6 +25,7 @@ from linkwright.kernel.figure.style import (
     SKY,
     SOFT,
     SPEED,
+    Captioned,
     legend_above,
     level,
     named,

@@ -9,9 +9,17 @@ import numpy as np
 
 from linkwright.drive.cycle_motion import CycleMotion, Extremes
 from linkwright.drive.tables_of_cycle import outputs, speed_words, within_turn
-from linkwright.kernel.figure.captioned import Captioned
-from linkwright.kernel.figure.style import LINES, legend_above, named, panels, roomy, styled, zero_line
-from linkwright.kernel.page.measured import crank_angle, measured
+from linkwright.kernel.figure.style import (
+    LINES,
+    Captioned,
+    legend_above,
+    named,
+    panels,
+    roomy,
+    styled,
+    zero_line,
+)
+from linkwright.kernel.page.numbers import crank_angle, measured
 from linkwright.linkages.cycle import Linkage
 
 if TYPE_CHECKING:

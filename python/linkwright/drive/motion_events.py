@@ -158,19 +158,9 @@ def motion_extremes(motion: Transient) -> tuple[MotionExtreme, ...]:
 
 
 def course(motion: Transient, intervals: int) -> tuple[Floats, Floats, Floats, Floats]:
-    """A motion at equal intervals of time.
+    """A motion at equal intervals of time: t [s], φ [rad], ω [rad/s], ε [rad/s²], (intervals + 1,) each.
 
-    Parameters
-    ----------
-    motion : Transient
-        The motion.
-    intervals : int
-        How many.
-
-    Returns
-    -------
-    tuple of ndarray, shape (intervals + 1,)
-        Time [s], crank angle [rad], speed [rad/s], acceleration [rad/s²]; one instant if it does not move.
+    One instant if it does not move.
     """
     if len(motion.time) < 2:
         return motion.time, motion.crank_angle, motion.speed, motion.acceleration

@@ -1,4 +1,8 @@
-"""Run-up from rest: whether the machine starts, how long it takes, and where it stalls if it does."""
+"""Run-up from rest, and run-down with the motor off.
+
+Whether the machine starts, how long it takes, and where it stalls if it does; how long it turns until the
+brake or its losses stop it.
+"""
 
 from __future__ import annotations
 
@@ -138,12 +142,7 @@ def _steady_or_stall(machine: Machine) -> SteadyState:
 def start_of(machine: Machine) -> None:
     """Raise if the machine cannot move from its start angle and speed.
 
-    Raises
-    ------
-    InputError
-        There is no motor.
-    StartError
-        The drive does not overcome the load at the start.
+    An `InputError` without a motor, a `StartError` if the drive does not overcome the load at the start.
     """
     if machine.drive is None or machine.drive.motor is None:
         raise InputError(f"{machine.name}: a run-up needs a motor; add [drive.motor]")
@@ -243,3 +242,49 @@ def _looks(motion: Transient, until: float = np.inf) -> Floats:
     even = np.linspace(motion.time[:-1], motion.time[1:], 8, endpoint=False, axis=-1)
     every = np.append(even, motion.time[-1])
     return np.append(every[every < until], min(until, float(every[-1])))
+
+
+# Turns after which a run-down is given up: nothing brakes.
+_TURNS_MAX = 1000.0
+
+
+@dataclass(frozen=True)
+class RunDown(Result):
+    """The run-down from the steady speed at φ = 0."""
+
+    turns: Annotated[float, Shown("revolutions of the crank", "n", "", "Until rest.", table="run_down")]
+    time: Annotated[float, Shown("time", "t", "s", "Until rest.", table="run_down")]
+    angle_end: Annotated[float, Shown("crank angle at rest", "φ_end", "rad", table="run_down")]
+    motion: Annotated[Transient, About("The whole motion.")]
+
+
+@public
+def run_down(machine: Machine, *, steady: SteadyState | None = None) -> RunDown:
+    """Let the machine run down from steady motion, motor off, brake applied if there is one.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    steady : SteadyState, optional
+        Its steady motion, if known already.
+
+    Returns
+    -------
+    RunDown
+        Until it stands; where gravity or a spring would swing it back, until it first comes to rest.
+
+    Raises
+    ------
+    SteadyStateError
+        It does not come to rest within 1000 revolutions: nothing brakes it.
+    """
+    steady = steady or steady_state(machine, n=8)
+    speed = float(steady.speed[0])
+    motion = transient(machine, speed=speed, turns=_TURNS_MAX, motor=False, brake=True)
+    if not motion.came_to_rest:
+        raise SteadyStateError(
+            f"does not come to rest within {_TURNS_MAX:.0f} revolutions: add [drive.brake]"
+        )
+    end = float(motion.crank_angle[-1] % (2 * np.pi))
+    return RunDown(turns=motion.turns, time=float(motion.time[-1]), angle_end=end, motion=motion)

@@ -6,9 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.errors import FindingError, SteadyStateError
-from linkwright.kinetostatics.model.loads.base import Load
 from linkwright.kinetostatics.model.loads.between import GasSpring, TorsionalSpring
-from linkwright.kinetostatics.model.loads.formula import FormulaLoad
+from linkwright.kinetostatics.model.loads.force import FormulaLoad, Load
 from linkwright.linkages.closure import require_full_turn, turn_angles
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import Compiled, compile_machine
@@ -26,10 +25,7 @@ _DOUBTFUL = (FormulaLoad, GasSpring, TorsionalSpring)
 def require_turn(machine: Machine) -> Compiled:
     """The machine compiled, if its crank rotates fully, with loads that have a value everywhere.
 
-    Raises
-    ------
-    FindingError
-        What does not close, or the load, and where.
+    Raises `FindingError`: what does not close, or the load, and where.
     """
     compiled = compile_machine(machine)
     require_full_turn(compiled, machine)
@@ -38,13 +34,7 @@ def require_turn(machine: Machine) -> Compiled:
 
 
 def require_same_turns(machine: Machine) -> None:
-    """Raise if a load changes with time itself.
-
-    Raises
-    ------
-    SteadyStateError
-        Names the load.
-    """
+    """Raise `SteadyStateError`, which names the load, if one changes with time itself."""
     for name, load in machine.loads.items():
         if isinstance(load, FormulaLoad) and load.knows_time:
             raise SteadyStateError(
@@ -56,10 +46,7 @@ def require_same_turns(machine: Machine) -> None:
 def require_sound_loads(compiled: Compiled, machine: Machine) -> None:
     """Raise if a load has no value at some angle, or a torsional spring is turned beyond half a revolution.
 
-    Raises
-    ------
-    FindingError
-        Names the load, the angle and the remedy.
+    The `FindingError` names the load, the angle and the remedy.
     """
     doubtful = {name: load for name, load in machine.loads.items() if isinstance(load, _DOUBTFUL)}
     if not doubtful:

@@ -131,13 +131,7 @@ def step_method(machine: Machine, *, step: float = np.radians(1.0)) -> StepMotio
 
 
 def whole_steps(step: float) -> int:
-    """Steps in one revolution.
-
-    Raises
-    ------
-    InputError
-        The step does not divide the revolution.
-    """
+    """Steps in one revolution; an `InputError` if the step does not divide it."""
     in_range(step=(step, positive(ANGLE)))
     n = 2 * np.pi / step if step < np.pi else 0
     require_within(STEPS, n, f"step of {np.degrees(step):.3g}°", "take a longer step; 1° is usual")
@@ -148,21 +142,11 @@ def whole_steps(step: float) -> int:
 
 
 def by_steps(J: Floats, torque: Callable[[int, float], float], *, step: float) -> StepMotion:
-    """The step method itself.
+    """The step method itself, from rest at φ = 0.
 
-    Parameters
-    ----------
-    J : ndarray, shape (n,)
-        Reduced inertia at the steps of one revolution [kg m²].
-    torque : callable
-        Net torque at the crank [N m] at step k of the revolution and speed ω [rad/s].
-    step : float
-        2π/n [rad].
-
-    Returns
-    -------
-    StepMotion
-        From rest at φ = 0. The first step, where (4) divides by zero, is by the energy: ½ I ω² = M Δφ.
+    `J`: (n,), reduced inertia at the steps of one revolution [kg m²]; `torque`: net torque at the crank [N m]
+    at step k of the revolution and speed ω [rad/s]; `step`: 2π/n [rad]. The first step, where (4) divides by
+    zero, is by the energy: ½ I ω² = M Δφ.
     """
     n = len(J)
     first = torque(0, 0.0)

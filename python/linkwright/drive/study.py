@@ -15,11 +15,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from linkwright.drive.cautions import cautions, has_inertia
-from linkwright.drive.constant_energy import ConstantEnergy, constant_energy_of
+from linkwright.drive.evenness import ConstantEnergy, constant_energy_of
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.reduction import Reduction, reduction
-from linkwright.drive.run_down import RunDown, run_down
-from linkwright.drive.run_up import RunUp, run_up, start_of
+from linkwright.drive.run_up import RunDown, RunUp, run_down, run_up, start_of
 from linkwright.drive.steady_state import SteadyState, steady_state
 from linkwright.drive.step_method import StepMotion, step_method
 from linkwright.drive.transient import Transient, transient
@@ -65,16 +64,8 @@ class DriveStudy:
 def drive_study(machine: Machine, findings: Findings, accuracy: float, step: float | None) -> DriveStudy:
     """What follows from bodies, loads and drive.
 
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    findings : Findings
-        Where findings are collected.
-    accuracy : float
-        Relative accuracy of the steady speed.
-    step : float or None
-        Step of the crank angle [rad] for the step method; None without it.
+    `accuracy`: relative, of the steady speed; `step`: of the crank angle [rad] for the step method, None
+    without it.
     """
     reduced = findings.of(reduction, machine, n=INTERVALS)
     if reduced is None:

@@ -7,8 +7,7 @@ from collections.abc import Collection, Iterator, Sequence
 from linkwright.drive.steady_state import SteadyState
 from linkwright.drive.step_method import StepMotion
 from linkwright.drive.study import DriveStudy
-from linkwright.kernel.page.measured import crank_angle
-from linkwright.kernel.page.numbers import degrees, number
+from linkwright.kernel.page.numbers import crank_angle, degrees, number
 from linkwright.kernel.page.table import Row, Table, rows_in, with_unit
 from linkwright.kernel.quantities import in_table, shown
 from linkwright.kernel.result import Result

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from linkwright.drive.cycle_motion import CycleMotion, Extremes
-from linkwright.kernel.page.measured import crank_angle, measured
+from linkwright.kernel.page.numbers import crank_angle, measured
 from linkwright.kernel.page.table import Row, Table
 from linkwright.linkages.cycle import Linkage
 

@@ -72,21 +72,9 @@ class StepPolynomials:
     factors: Floats
 
     def rise(self, z: Floats, step: NDArray[np.intp], which: int) -> Floats:
-        """Change since the start of a step: z (f₀ + (1 − z)(f₁ + z (f₂ + (1 − z)(f₃ + …)))).
+        """Change since the start of steps, (m,): z (f₀ + (1 − z)(f₁ + z (f₂ + (1 − z)(f₃ + …)))).
 
-        Parameters
-        ----------
-        z : ndarray, shape (m,)
-            Shares of the steps, 0 to 1 [–].
-        step : ndarray of int, shape (m,)
-            Steps.
-        which : int
-            0 the angle, 1 the speed.
-
-        Returns
-        -------
-        ndarray, shape (m,)
-            [rad] or [rad/s].
+        `z`: shares of the steps, 0 to 1; `which`: 0 the angle [rad], 1 the speed [rad/s].
         """
         factors = self.factors[step, which]
         rise = np.zeros_like(z)
@@ -95,17 +83,9 @@ class StepPolynomials:
         return rise
 
     def coefficients(self, which: int) -> Floats:
-        """The same polynomials by powers of z, without what the step begins with.
+        """The same polynomials by powers z⁰, whose coefficient is 0, to z⁷, (steps, 8) [rad or rad/s].
 
-        Parameters
-        ----------
-        which : int
-            0 the angle [rad], 1 the speed [rad/s].
-
-        Returns
-        -------
-        ndarray, shape (steps, 8)
-            Of z⁰, which is 0, to z⁷.
+        What the step begins with is left out; `which`: 0 the angle, 1 the speed.
         """
         return self.factors[:, which] @ _POWERS
 

@@ -72,17 +72,8 @@ class Problem:
 
 
 def plain(text: str) -> str:
-    """A text in which what would steer a terminal is written as an escape.
-
-    Parameters
-    ----------
-    text : str
-        Such as a message with words of a file in it.
-
-    Returns
-    -------
-    str
-        The same but for control characters, and those that turn the direction of writing.
+    """A text in which control characters, and those that turn the direction of writing, are written as
+    escapes.
     """
     if text.isprintable():
         return text
@@ -90,13 +81,7 @@ def plain(text: str) -> str:
 
 
 def cut(text: str) -> str:
-    """A text that fits into some lines of a terminal, and does not steer it.
-
-    Parameters
-    ----------
-    text : str
-        Such as what a user wrote.
-    """
+    """A text that fits into some lines of a terminal, and does not steer it."""
     text = plain(text)
     most = MESSAGE_LINE.most
     return text if len(text) <= most else f"{text[: most - 1]}…"
@@ -115,23 +100,9 @@ class InputError(LinkwrightError):
 
 
 def require_within(limit: Limit, number: float, what: str, remedy: str) -> None:
-    """Refuse a count beyond its limit, before memory or time are spent on it.
+    """Refuse a count beyond its limit, before memory or time are spent on it, by an `InputError`.
 
-    Parameters
-    ----------
-    limit : Limit
-        The limit.
-    number : float
-        What there would be.
-    what : str
-        Option or key that asks for it.
-    remedy : str
-        What to change.
-
-    Raises
-    ------
-    InputError
-        It is beyond.
+    `what`: option or key that asks for it; `remedy`: what to change.
     """
     if not number <= limit.most:
         # Beyond 1e15 the digits say nothing.

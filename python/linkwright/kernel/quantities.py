@@ -95,13 +95,7 @@ def quantities_of(owner: type) -> Iterator[DeclaredQuantity]:
 
 
 def shown(owner: type, name: str) -> Shown:
-    """How an attribute of a result is shown.
-
-    Raises
-    ------
-    KeyError
-        It is not declared as a quantity.
-    """
+    """How an attribute of a result is shown; a `KeyError` if it is not declared as a quantity."""
     mark = declared(owner)[name][1]
     if not isinstance(mark, Shown):
         raise KeyError(name)

@@ -156,18 +156,7 @@ class Result(Record):
 
 
 def finite(value: Any) -> Any:
-    """The same tree with None in place of numbers that JSON does not know.
-
-    Parameters
-    ----------
-    value : object
-        Tables, lists and numbers.
-
-    Returns
-    -------
-    object
-        Likewise, with lists for tuples; NaN and infinities are None.
-    """
+    """The same tree, with lists for tuples and None in place of numbers that JSON does not know."""
     if isinstance(value, Mapping):
         return {key: finite(each) for key, each in value.items()}
     if isinstance(value, list | tuple):

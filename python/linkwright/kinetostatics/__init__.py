@@ -7,14 +7,11 @@
 | `cam_contact` | The force with which a cam drives its follower |
 | `collect` | From the unknowns to the result |
 | `commands` | ``linkwright forces`` and ``linkwright balance`` |
-| `counterweight_formulas` | Counterweights by formulas |
-| `envelope` | How large does each force become, and under which loads? |
+| `envelope` | Peaks, root mean squares, means and harmonics of forces; load cases side by side |
 | `equilibrium` | The linear system, its solution, and the iteration over friction |
 | `figures` | Figures of forces over the crank angle, with their captions |
 | `forces` | Which are its joint reactions, its driving torque, its shaking force? |
 | `friction` | Friction in pins, guides and slots, as given by the user |
-| `harmonics` | Of which harmonics does a force consist? |
-| `inertia` | What the accelerated masses do |
 | `model/` | Masses on links and points; loads |
 | `motion` | Crank angle, speed, acceleration and time at which forces are asked for |
 | `pairs` | What each pair can do: directions of its unknown forces, and its friction |

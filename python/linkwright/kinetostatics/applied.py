@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 from linkwright.kernel.description.formula import NUMBERS, parse
 from linkwright.kernel.errors import FindingError
 from linkwright.kernel.numerics.formula_value import value
-from linkwright.kinetostatics.inertia import masses
 from linkwright.kinetostatics.model.loads.between import (
     Damper,
     GasSpring,
@@ -24,12 +23,17 @@ from linkwright.kinetostatics.model.loads.between import (
     TorsionalDamper,
     TorsionalSpring,
 )
-from linkwright.kinetostatics.model.loads.force import ConstantForce, ConstantTorque, Gravity
-from linkwright.kinetostatics.model.loads.formula import FormulaLoad
-from linkwright.kinetostatics.model.loads.friction import DryFriction, ViscousFriction
+from linkwright.kinetostatics.model.loads.force import (
+    ConstantForce,
+    ConstantTorque,
+    DryFriction,
+    FormulaLoad,
+    Gravity,
+    ViscousFriction,
+)
 from linkwright.kinetostatics.model.loads.table import ForcePosition, TorqueAngle, TorqueSpeed, TorqueSwing
 from linkwright.kinetostatics.places import Scene, dot, unit
-from linkwright.kinetostatics.wrench import Wrenches
+from linkwright.kinetostatics.wrench import Wrenches, masses
 from linkwright.linkages.model.structure import FRAME
 from linkwright.machine.program.loads import gas_column
 

@@ -222,7 +222,7 @@ def _results(
 def _files(cases: dict[str, Forces]) -> dict[str, str]:
     """Curves and figures by name."""
     from linkwright.kernel.figure.svg import svg
-    from linkwright.kernel.page.csv import curves_csv
+    from linkwright.kernel.page.table import curves_csv
     from linkwright.kinetostatics.figures import (
         cases_figure,
         forces_figure,
@@ -312,7 +312,7 @@ def _found(
     """The counterweights that the options ask for."""
     from linkwright.kernel.units import LENGTH, SPEED
     from linkwright.kinetostatics.balancing import balance as fit
-    from linkwright.kinetostatics.counterweight_formulas import partial_balance
+    from linkwright.kinetostatics.balancing import partial_balance
 
     at = None if radius is None else option_value("--radius", radius, LENGTH)
     omega = None if speed is None else option_value("--speed", speed, SPEED)

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.kernel.figure.captioned import Captioned
 from linkwright.kernel.figure.style import (
     DRIVE,
     LINES,
     LOAD,
     MATH,
     SOFT,
+    Captioned,
     legend_above,
     named,
     panels,
@@ -94,18 +94,7 @@ def polar_figure(forces: Forces) -> Figure:
 
 @styled
 def cases_figure(cases: Mapping[str, Forces]) -> Figure:
-    """Draw driving torque and shaking force of several load cases.
-
-    Parameters
-    ----------
-    cases : mapping of str to Forces
-        By name of the case.
-
-    Returns
-    -------
-    Figure
-        Two panels, one above the other.
-    """
+    """Draw driving torque and shaking force of load cases by name in two panels, one above the other."""
     figure, (torque, frame) = panels(2, height=4.2)
     for (name, forces), colour in zip(cases.items(), LINES * len(cases), strict=False):
         degrees = np.degrees(forces.crank_angle)

@@ -27,12 +27,11 @@ from linkwright.kinetostatics.applied import Applied, applied, together
 from linkwright.kinetostatics.collect import Collector
 from linkwright.kinetostatics.equilibrium import Equilibrium
 from linkwright.kinetostatics.friction import Friction, checked
-from linkwright.kinetostatics.inertia import inertia_forces
 from linkwright.kinetostatics.motion import Motion, motion_at
 from linkwright.kinetostatics.pairs import PairModel, pair_models, with_pulls
 from linkwright.kinetostatics.places import Scene
 from linkwright.kinetostatics.result import Forces
-from linkwright.kinetostatics.wrench import Wrenches
+from linkwright.kinetostatics.wrench import Wrenches, inertia_forces
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.drive_line import drive_inertia
 

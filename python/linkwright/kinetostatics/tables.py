@@ -22,18 +22,7 @@ _KINDS = {
 
 
 def envelope_table(forces: Forces) -> Table:
-    """Peak, its angle, root mean square and mean of every force.
-
-    Parameters
-    ----------
-    forces : Forces
-        Forces over the crank angle.
-
-    Returns
-    -------
-    Table
-        A row for each quantity.
-    """
+    """Peak, its angle, root mean square and mean of every force."""
     found = envelope(forces)
     scales = _scales(found)
     rows = [_row(each, forces, scales[each.unit]) for each in found]
@@ -66,18 +55,7 @@ def _words(name: str, forces: Forces) -> tuple[str, str]:
 
 
 def cases_table(cases: Mapping[str, Forces]) -> Table:
-    """Peaks of several load cases side by side.
-
-    Parameters
-    ----------
-    cases : mapping of str to Forces
-        By name of the case.
-
-    Returns
-    -------
-    Table
-        A row for each quantity, a column for each case.
-    """
+    """Peaks of several load cases, by name, side by side."""
     columns = {case: {each.name: each for each in envelope(forces)} for case, forces in cases.items()}
     first = next(iter(cases.values()))
     names = list(dict.fromkeys(name for column in columns.values() for name in column))
@@ -91,17 +69,8 @@ def cases_table(cases: Mapping[str, Forces]) -> Table:
 
 
 def contribution_table(forces: Forces) -> Table:
-    """Share of each source in the peaks of torque and of the shaking force.
-
-    Parameters
-    ----------
-    forces : Forces
-        Forces over the crank angle.
-
-    Returns
-    -------
-    Table
-        A row for each source: its share at the angle of the peak, which add up to the peak.
+    """Share of each source in the peaks of torque and of the shaking force, at its angle; they add up to the
+    peak.
     """
     found = {each.name: each for each in envelope(forces)}
     at = [
@@ -124,18 +93,7 @@ def contribution_table(forces: Forces) -> Table:
 
 
 def balance_tables(balance: Balance) -> list[Table]:
-    """The counterweights, and what they do.
-
-    Parameters
-    ----------
-    balance : Balance
-        A machine with counterweights.
-
-    Returns
-    -------
-    list of Table
-        Counterweights; root mean squares before and after.
-    """
+    """The counterweights, and root mean squares before and after."""
     weights: list[Row] = [
         (
             counterweight.link,

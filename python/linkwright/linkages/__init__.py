@@ -7,7 +7,6 @@
 | `commands` | `linkwright motion FILE`: poses at one crank angle, over one revolution or over time |
 | `coupler_curve` | What path does a point draw? |
 | `cycle` | What are its extreme positions, transmission angles, dead points, its Grashof class? |
-| `dead_points` | Where a linkage stops, turns back, or could go two ways |
 | `dyads` | Dyads as the core has them, and the angle at which each passes on its force |
 | `figures` | Figures of a linkage over its cycle, with their captions |
 | `grashof` | Four-bar loops of a mechanism and their class after Grashof |

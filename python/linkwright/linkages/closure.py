@@ -362,10 +362,7 @@ def _passes(compiled: Compiled, at: float) -> bool:
 def require_full_turn(compiled: Compiled, machine: Machine) -> None:
     """Raise if the crank cannot rotate fully.
 
-    Raises
-    ------
-    AssemblyError
-        Says which element does not close, where the mechanism closes, and what to change.
+    The `AssemblyError` says which element does not close, where the mechanism closes, and what to change.
     """
     found = closure_of(compiled)
     if not found.turns_fully:
@@ -375,10 +372,7 @@ def require_full_turn(compiled: Compiled, machine: Machine) -> None:
 def require_one_turn(compiled: Compiled) -> None:
     """Raise if the crank does not feel the same masses and loads again after one revolution.
 
-    Raises
-    ------
-    AssemblyError
-        Says after how many revolutions it does, and what to change.
+    The `AssemblyError` says after how many revolutions it does, and what to change.
     """
     if compiled.one_turn:
         return
@@ -479,13 +473,7 @@ def _deg(angle: float) -> str:
 
 @lru_cache(maxsize=8)
 def turn_angles(n: int) -> NDArray[np.float64]:
-    """Crank angles from 0 to 2π inclusive, ``n`` intervals [rad]; shared by results, so read-only.
-
-    Raises
-    ------
-    InputError
-        ``n`` is less than 1.
-    """
+    """Crank angles from 0 to 2π inclusive, ``n`` ≥ 1 intervals [rad]; shared by results, so read-only."""
     if n < 1:
         raise InputError(f"n = {n}: expected at least 1 interval of the revolution")
     angles = np.linspace(0.0, 2 * np.pi, n + 1)

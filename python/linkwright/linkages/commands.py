@@ -108,8 +108,8 @@ def motion(
 
 def _pose(machine: Machine, at: str, speed: CrankSpeed, zero: Zero, *, json: bool, csv: bool) -> str:
     """One pose as a table, CSV or JSON."""
-    from linkwright.kernel.files.csv_text import csv_text
     from linkwright.kernel.page.numbers import number
+    from linkwright.kernel.page.table import csv_text
     from linkwright.kernel.units import ANGLE
     from linkwright.linkages.pose import pose
 
@@ -222,7 +222,7 @@ def _followed(
     """A motion as a table of the outputs, CSV or JSON of everything; what drives it is said first."""
     import numpy as np
 
-    from linkwright.kernel.page.csv import curves_csv
+    from linkwright.kernel.page.table import curves_csv
     from linkwright.linkages.motion import motion as follow
 
     found = follow(machine, law, np.linspace(*span, steps + 1))
@@ -243,9 +243,9 @@ def _lists(curves: dict[str, Any]) -> dict[str, list[float]]:
 
 def _table(found: Motion) -> str:
     """Positions alone, for people; everything is in the CSV."""
-    from linkwright.kernel.page.csv import head
     from linkwright.kernel.page.numbers import number
     from linkwright.kernel.page.out_units import shown_columns
+    from linkwright.kernel.page.table import head
 
     shown = shown_columns({head(found, name): curve for name, curve in _positions(found).items()})
     width = max(14, *(len(name) + 2 for name in shown))

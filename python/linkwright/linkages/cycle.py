@@ -6,13 +6,19 @@ r"""A linkage over its cycle: extreme positions, time ratios, transmission angle
     \frac{1}{i}
 
 Extremes are zeros of exact derivatives: bracketed on a grid, then located to rounding.
+
+Dead points are where a linkage stops, turns back or can branch. At a limit a radicand passes zero and the
+crank can go no farther. At a change point a radicand touches zero, a double root: both assemblies meet, and
+the motion goes on. At a reversal an output stands still; driven by that output, the mechanism is at a dead
+point there.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,13 +26,72 @@ from numpy.typing import NDArray
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Shown
 from linkwright.kernel.result import Record, Result
-from linkwright.linkages.closure import Closure, closure_error, closure_of
-from linkwright.linkages.dead_points import DeadPoint, dead_points
+from linkwright.linkages.closure import Closure, closure_error, closure_of, limiter_at
 from linkwright.linkages.grashof import FourBar, four_bars
 from linkwright.linkages.period import turns_to_repeat
 from linkwright.linkages.sweep import Cycle, LinkageSweep, Output, sweep
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import compile_machine
+from linkwright.machine.program.compiled import Compiled, compile_machine
+
+if TYPE_CHECKING:
+    from linkwright.linkages.sweep import LinkageSweep
+
+
+LIMIT = "limit of crank rotation"
+PASSED = "change point passed"
+NOT_PASSED = "change point not passed"
+REVERSAL = "dead centre of the output"
+
+
+class DeadPoint(NamedTuple):
+    """One of them.
+
+    Attributes
+    ----------
+    angle : float
+        Crank angle, within one revolution, or within the longer period or range [rad].
+    element : str
+        Name of the dyad, or of the link or slide that turns back.
+    kind : str
+        ``"limit of crank rotation"``, ``"change point passed"``, ``"change point not passed"`` (both links in
+        line, their rates not determined) or ``"dead centre of the output"``.
+    multiplicity : int
+        Of the zero: 1 where a sign changes, 2 where a radicand touches zero.
+    """
+
+    angle: float
+    element: str
+    kind: str
+    multiplicity: int
+
+
+def dead_points(compiled: Compiled, swept: LinkageSweep, where: Closure) -> list[DeadPoint]:
+    """The dead points of a linkage."""
+    found = [*_of_closure(compiled, where), *_passed(swept), *_reversals(swept)]
+    return sorted(found)
+
+
+def _of_closure(compiled: Compiled, where: Closure) -> Iterator[DeadPoint]:
+    """Limits, or a change point that is not passed."""
+    if where.change_point is not None:
+        yield DeadPoint(where.change_point, where.element, NOT_PASSED, 2)
+    elif not where.turns_fully:
+        for end in (end for limits in where.ranges for end in limits):
+            at = end if where.turns is None else end % (2 * np.pi * where.turns)
+            yield DeadPoint(at, limiter_at(compiled, end), LIMIT, 1)
+
+
+def _passed(swept: LinkageSweep) -> Iterator[DeadPoint]:
+    for dyad in swept.dyads:
+        for angle in dyad.change_points:
+            yield DeadPoint(angle, dyad.name, PASSED, 2)
+
+
+def _reversals(swept: LinkageSweep) -> Iterator[DeadPoint]:
+    for k, output in enumerate(swept.outputs):
+        for angle in swept.reversals(k):
+            yield DeadPoint(swept.cycle.named(angle), output.name, REVERSAL, 1)
+
 
 Floats = NDArray[np.float64]
 
@@ -132,12 +197,8 @@ class Linkage(Result):
     ]
 
     def element(self, name: str) -> ElementMotion:
-        """The first entry of an element, or of the link or slide with this name.
-
-        Raises
-        ------
-        KeyError
-            There is none.
+        """The first entry of an element, or of the link or slide with this name; a `KeyError` if there is
+        none.
         """
         for each in self.elements:
             if name in (each.element, each.output):

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.kernel.figure.captioned import Captioned
 from linkwright.kernel.figure.style import (
     INK,
     LINES,
     SOFT,
+    Captioned,
     legend_above,
     level,
     named,

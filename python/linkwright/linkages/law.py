@@ -30,17 +30,8 @@ class Law(Protocol):
     """What moves the crank."""
 
     def at(self, times: Floats) -> Floats:
-        """Angle, speed, acceleration and jerk of the crank.
-
-        Parameters
-        ----------
-        times : ndarray, shape (n,)
-            [s].
-
-        Returns
-        -------
-        ndarray, shape (4, n)
-            [rad, rad/s, rad/s², rad/s³].
+        """Angle, speed, acceleration and jerk of the crank at times (n,) [s]: (4, n) [rad, rad/s, rad/s²,
+        rad/s³].
         """
 
 
@@ -62,15 +53,7 @@ class PolynomialLaw:
 
 
 def constant_speed(speed: float, start: float = 0.0) -> PolynomialLaw:
-    """The crank at a constant speed.
-
-    Parameters
-    ----------
-    speed : float
-        [rad/s].
-    start : float
-        Crank angle at time zero [rad].
-    """
+    """The crank at a constant speed [rad/s], from an angle at time zero [rad]."""
     return PolynomialLaw((start, speed))
 
 
@@ -210,13 +193,7 @@ class FunctionLaw:
         self.function = function
 
     def at(self, times: Floats) -> Floats:
-        """See `Law.at`.
-
-        Raises
-        ------
-        ShapeError
-            The function uses something without a known derivative.
-        """
+        """See `Law.at`; a `ShapeError` if the function uses something without a known derivative."""
         variable = Taylor.variable(np.asarray(times, dtype=float))
         try:
             # Where the law has no value or is beyond all numbers, `motion` says when.

@@ -21,23 +21,10 @@ from linkwright.linkages.law import FunctionLaw
 
 
 def read_law_table(path: Path) -> tuple[list[float], list[float]]:
-    """Read a table of times and angles.
+    """Read times [s] and angles [rad], a line for each point, parted by a comma or a semicolon.
 
-    Parameters
-    ----------
-    path : Path
-        A line for each point, its numbers parted by a comma or a semicolon. A first line without numbers is
-        the head.
-
-    Returns
-    -------
-    times, angles : list of float
-        [s], [rad].
-
-    Raises
-    ------
-    MachineFileError
-        The file cannot be read, or a line is no time and angle; with file and line.
+    A first line without numbers is the head. Raises `MachineFileError`, with file and line, if the file
+    cannot be read, or a line is no time and angle.
     """
     try:
         lines = text_of(path, POINT_BYTES).splitlines()

@@ -161,17 +161,8 @@ def motion_along(
 ) -> Motion:
     """Motion of every point, link and slide along a motion of the crank that was computed already; no jerk.
 
-    Parameters
-    ----------
-    machine : Machine
-        The machine; of a batch, the first.
-    time, angle, speed, acceleration : ndarray, shape (n,)
-        Of the crank [s, rad, rad/s, rad/s²].
-
-    Raises
-    ------
-    AssemblyError
-        The mechanism does not close at one of the angles.
+    Of the crank (n,) each [s, rad, rad/s, rad/s²]; of a batch, the first machine. Raises `AssemblyError` if
+    the mechanism does not close at one of the angles.
     """
     compiled = compile_machine(machine).first()
     phi = np.ascontiguousarray(angle)
@@ -204,19 +195,9 @@ def _path(position: Floats, each: Any, rates: Floats) -> Path:
 
 
 def rates_of(each: Any, speed: Floats, acceleration: Floats) -> tuple[Floats, Floats]:
-    """Velocity and acceleration of a point, a link or a slide under a motion of the crank.
+    """Velocity and acceleration of a point, link or slide [m/s, m/s²; of a link rad/s, rad/s²].
 
-    Parameters
-    ----------
-    each : PointMotion, LinkMotion or SlideMotion
-        Its transfer functions.
-    speed, acceleration : ndarray, shape (n,) or (n, 1)
-        Of the crank at the same angles [rad/s, rad/s²]; in a column for a point.
-
-    Returns
-    -------
-    tuple of ndarray
-        [m/s, m/s²], of a link [rad/s, rad/s²].
+    Those of the crank at the same angles are (n,), in a column (n, 1) for a point [rad/s, rad/s²].
     """
     return each.d1 * speed, each.d2 * speed**2 + each.d1 * acceleration
 

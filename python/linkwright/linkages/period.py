@@ -46,17 +46,8 @@ def period_turns(machine: Machine) -> int | None:
 
 
 def turns_to_repeat(compiled: Compiled) -> int | None:
-    """Revolutions of the crank after which all points and links are where they were.
-
-    Parameters
-    ----------
-    compiled : Compiled
-        A compiled machine.
-
-    Returns
-    -------
-    int or None
-        None if they do not come back within 240 revolutions.
+    """Revolutions of the crank after which all points and links are where they were; None if not within
+    240.
     """
     if compiled.one_turn:
         return 1

@@ -26,20 +26,7 @@ Scene = dict[str, Any]
 
 
 def parts(machine: Machine, motion: Kinematics) -> Iterator[Scene]:
-    """What to draw.
-
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    motion : Kinematics
-        Its motion over the angles that are drawn.
-
-    Yields
-    ------
-    dict
-        From behind to the front; points and links by name.
-    """
+    """What to draw of a motion, from behind to the front; points and links by name."""
     mechanism = machine.linkage
     series = _series(mechanism)
     yield from _guides(mechanism, motion, series)

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from linkwright.kernel.page.measured import crank_angle, measured
-from linkwright.kernel.page.numbers import number, parted, quantity
+from linkwright.kernel.page.numbers import crank_angle, measured, number, parted, quantity
 from linkwright.kernel.page.table import Row, Table
 from linkwright.linkages.cycle import ElementMotion, Linkage
 

@@ -14,10 +14,9 @@ import numpy as np
 from pydantic import TypeAdapter, ValidationError
 
 from linkwright.kernel.description.base import Description, suggestion
-from linkwright.kernel.description.plain import field_names, keys, look
+from linkwright.kernel.description.place import field_names, join, keys, look, split
 from linkwright.kernel.description.problems import problems
 from linkwright.kernel.description.schema_walk import annotation_at, mark_of, words_of
-from linkwright.kernel.description.text import join, split
 from linkwright.kernel.errors import InputError, MachineError, Problem
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import array, number, shown

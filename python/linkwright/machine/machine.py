@@ -11,7 +11,7 @@ from pydantic_core import InitErrorDetails
 from linkwright.drive.model.drive import Drive
 from linkwright.kernel.description.base import Description, Name, Title, fault, faults_of, raise_faults
 from linkwright.kernel.description.deferred_model import deferred_model
-from linkwright.kernel.description.plain import look
+from linkwright.kernel.description.place import look
 from linkwright.kernel.description.problems import problems
 from linkwright.kernel.description.shown_units import ShownUnits
 from linkwright.kernel.errors import MachineError
@@ -26,7 +26,7 @@ from linkwright.machine.whole_mechanism import merged, topology_of, with_followe
 if TYPE_CHECKING:
     from linkwright.pumping.model.rod_rotator import RodRotator
     from linkwright.pumping.model.unit import PumpingUnit
-    from linkwright.studies.model.study import StudyFile
+    from linkwright.studies.model import StudyFile
     from linkwright.topping.model.topper import Topper
     from linkwright.torsion.model.train import Train
     from linkwright.turning.model import TurningMoment
@@ -36,7 +36,7 @@ else:
     Topper = deferred_model("topping.model.topper", "Topper")
     Train = deferred_model("torsion.model.train", "Train")
     TurningMoment = deferred_model("turning.model", "TurningMoment")
-    StudyFile = deferred_model("studies.model.study", "StudyFile")
+    StudyFile = deferred_model("studies.model", "StudyFile")
 
 # The format that this version reads and writes.
 FORMAT = 1

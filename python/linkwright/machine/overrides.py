@@ -7,8 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from linkwright.kernel.description.plain import keys
-from linkwright.kernel.description.text import split
+from linkwright.kernel.description.place import keys, split
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.units import show
 from linkwright.machine.address import resolve

@@ -13,13 +13,12 @@ from typing import Any, TypeVar
 from pydantic import BaseModel
 
 from linkwright.drive.model.motor_file import with_motor_of_file
-from linkwright.kernel.description.text import split
+from linkwright.kernel.description.place import split
 from linkwright.kernel.errors import MachineError, MachineFileError, Problem
-from linkwright.kernel.files.bounds import deep_line, long_number_line, size_problems
 from linkwright.kernel.files.library import library, library_path
 from linkwright.kernel.files.lines import key_lines, line_of
 from linkwright.kernel.files.points import Column, with_points
-from linkwright.kernel.files.text_file import TextError, text_of
+from linkwright.kernel.files.text_file import TextError, deep_line, long_number_line, size_problems, text_of
 from linkwright.kernel.limits import DEPTH, FILE_BYTES
 from linkwright.kernel.public import public
 from linkwright.kernel.units import show
@@ -86,30 +85,10 @@ def read_as(
     *,
     allow_outside: bool = False,
 ) -> Model:
-    """Read a description of some kind from a file, such as the task of a synthesis.
+    """Read a description of some kind, such as the task of a synthesis, from a TOML file; checked, in SI.
 
-    Parameters
-    ----------
-    model : type
-        The description; raises `MachineError` with all problems when it is validated.
-    path : path
-        A TOML file.
-    overrides : sequence of str or Mapping
-        As for `read`.
-    allow_outside : bool
-        Whether an entry `file` may lead out of the folder of the machine file.
-
-    Returns
-    -------
-    Model
-        Checked, in SI.
-
-    Raises
-    ------
-    MachineFileError
-        The file cannot be read or describes no such thing; all problems are listed.
-    InputError
-        An override is malformed.
+    `overrides`, `allow_outside` as for `read`. Raises `MachineFileError` with all problems if the file cannot
+    be read or describes no such thing, `InputError` if an override is malformed.
     """
     return loads_as(model, _text(Path(path)), overrides, path=str(path), allow_outside=allow_outside)
 
@@ -207,24 +186,8 @@ def _similar(path: Path) -> str:
 
 
 def tables_of(text: str, path: str) -> dict[str, Any]:
-    """The tables of a TOML text.
-
-    Parameters
-    ----------
-    text : str
-        The text.
-    path : str
-        Name of the text in messages.
-
-    Returns
-    -------
-    dict
-        As they stand there.
-
-    Raises
-    ------
-    MachineFileError
-        It is no TOML.
+    """The tables of a TOML text as they stand there; a `MachineFileError`, with the name `path`, if it is
+    none.
     """
     if (line := deep_line(text)) is not None:
         found, remedy = "keys or brackets inside one another", "remove what is inside"

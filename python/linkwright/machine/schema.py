@@ -8,13 +8,9 @@ _DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
 
 def schema() -> dict[str, Any]:
-    """JSON Schema of a machine file as it is written, with texts that carry units.
+    """JSON Schema (draft 2020-12) of a machine file as it is written, with texts that carry units.
 
-    Returns
-    -------
-    dict
-        A schema of the draft 2020-12. References between elements, and entries that belong together, are
-        checked by `read` alone.
+    References between elements, and entries that belong together, are checked by `read` alone.
     """
     from linkwright.machine.machine import Machine
 

@@ -9,10 +9,8 @@ from typing import Any, NamedTuple
 from pydantic import BaseModel
 
 from linkwright.kernel.description.base import Description
-from linkwright.kernel.description.plain import field_names, keys, look
-from linkwright.kernel.description.text import join
-from linkwright.kernel.page.measured import measured
-from linkwright.kernel.page.numbers import degrees, number, pretty_unit
+from linkwright.kernel.description.place import field_names, join, keys, look
+from linkwright.kernel.page.numbers import degrees, measured, number, pretty_unit
 from linkwright.kernel.page.out_units import reader
 from linkwright.linkages.model.topology import TABLES
 from linkwright.machine.address import kind
@@ -47,17 +45,8 @@ class Part(NamedTuple):
 
 
 def machine_parts(machine: Machine) -> list[Part]:
-    """All parts of a machine.
-
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-
-    Returns
-    -------
-    list of Part
-        In the order turning moments, topper, drive, train, pumping unit, mechanism, bodies, loads, run-up.
+    """All parts of a machine: turning moments, topper, drive, train, pumping unit, mechanism, bodies, loads,
+    run-up.
     """
     parts = (_diagram, _topper, _drive, _train, _unit, _mechanism, _tables, _run_up)
     return [part for each in parts for part in each(machine)]

@@ -1,12 +1,14 @@
 """Exact derivatives of numbers that follow from the entries of a machine by plain arithmetic.
 
 The entries are exchanged for tangents (`kernel.numerics.tangent`), and whatever is worked out of the
-machine comes out with its derivatives by them.
+machine comes out with its derivatives by them. So do the numbers of
+the core's program: the description is translated a second time.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -16,6 +18,7 @@ from linkwright.kernel.errors import LinkwrightError
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.machine.address import exchanged, get, is_given
 from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import Translation, compile_machine
 
 Floats = NDArray[np.float64]
 
@@ -79,3 +82,46 @@ def _derived(
         if isinstance(number, Tangent):
             row[:] = number.d
     return dict(zip(names, table.T, strict=True))
+
+
+@dataclass(frozen=True)
+class Directions:
+    """Derivatives of the program's numbers.
+
+    `values` is (parameters, variables); `refused` has addresses without a derivative, with the reason.
+    """
+
+    variables: tuple[str, ...]
+    values: Floats
+    refused: Mapping[str, str]
+
+
+_CHANGE_POINTS = (
+    "the mechanism passes change points, which exist for these lengths alone; vary other entries, or lengths "
+    "that keep it clear of them"
+)
+
+
+def directions(machine: Machine, variables: Sequence[str]) -> Directions:
+    """Derivatives of the program's numbers by entries of a machine, in the order of the entries.
+
+    Entries that follow from others are varied one at a time, as `linkwright.machine.tangents.columns` says.
+    """
+    compiled = compile_machine(machine)
+    refused: dict[str, str] = {}
+    found = columns(machine, variables, _numbers, refused)
+    if any(getattr(element, "change_points", ()) for element in compiled.elements):
+        n_own = Translation(machine, motor=True, brake=False).program.n_own
+        moved = [name for name, column in found.items() if column[:n_own].any()]
+        refused.update(dict.fromkeys(moved, _CHANGE_POINTS))
+    known = tuple(name for name in variables if name in found and name not in refused)
+    # Numbers that follow from the motion, at the end, are series at change points: nothing here moves them.
+    values = np.zeros((len(compiled.parameters), len(known)))
+    for place, name in enumerate(known):
+        values[: len(found[name]), place] = found[name]
+    return Directions(known, values, refused)
+
+
+def _numbers(machine: Machine) -> Sequence[Any]:
+    """The program's numbers."""
+    return Translation(machine, motor=True, brake=False).program.parameters

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from pydantic import BaseModel
 
-from linkwright.kernel.description.plain import arrays, keys, look
+from linkwright.kernel.description.place import arrays, keys, look
 from linkwright.linkages.model.element import Crank, LinearDriver
 from linkwright.linkages.model.mechanism import Mechanism
 from linkwright.linkages.model.topology import TABLES, Topology

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from pydantic import BaseModel
 
-from linkwright.kernel.description.plain import field_names
+from linkwright.kernel.description.place import field_names
 from linkwright.kernel.description.schema_walk import annotation_at, mark_of
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.files.output import write_file

@@ -133,13 +133,7 @@ def _cell(column: Mapping[str, str], row: Any) -> Text:
 
 
 def known_paper(number: int) -> int:
-    """The number of a paper, if it is one of `PAPERS`.
-
-    Raises
-    ------
-    InputError
-        There is no such paper.
-    """
+    """The number of a paper, if it is one of `PAPERS`; else an `InputError`."""
     if number not in PAPERS:
         raise InputError(f"no paper {number}; there is {', '.join(map(str, PAPERS))}")
     return number
@@ -154,13 +148,7 @@ def printed_values(number: int) -> dict[str, Any]:
 
 
 def paper(number: int) -> Paper:
-    """Recompute a paper.
-
-    Raises
-    ------
-    InputError
-        There is no such paper.
-    """
+    """Recompute a paper; an `InputError` if there is no such one."""
     n = known_paper(number)
     computed: Paper = getattr(import_module(f"linkwright.papers.paper{n}.paper"), f"paper{n}")()
     return computed

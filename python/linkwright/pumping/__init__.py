@@ -9,6 +9,5 @@
 | `model/` | Pumping units and rotators in a machine file; the mechanism that they are |
 | `rod_rotator` | The rotator of a sucker-rod string |
 | `tables` | Results of pumping units and of rotators as tables of text |
-| `template` | Machine files of the pumping units of the catalogue |
 | `unit` | Beam pumping units |
 """

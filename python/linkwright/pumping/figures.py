@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.kernel.figure.captioned import Captioned
 from linkwright.kernel.figure.style import (
     BLUE,
     GREEN,
     MATH,
     PURPLE,
     RED,
+    Captioned,
     legend_above,
     panels,
     roomy,

@@ -14,8 +14,7 @@ from linkwright.linkages.kinematics import motion_arrays
 from linkwright.linkages.model.mechanism import Mechanism
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import Compiled, compile_machine
-from linkwright.pumping.model.rod_rotator import LEVER, LINK, PIN, RodRotator
-from linkwright.pumping.model.rotator_lengths import Lengths, lengths
+from linkwright.pumping.model.rod_rotator import LEVER, LINK, PIN, Lengths, RodRotator, lengths
 from linkwright.pumping.model.unit import ROD, PumpingUnit
 from linkwright.pumping.unit import PolishedRod, turn_extreme
 

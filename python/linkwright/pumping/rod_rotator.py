@@ -31,8 +31,7 @@ from linkwright.kernel.result import Result
 from linkwright.linkages.closure import turn_angles
 from linkwright.machine.machine import Machine
 from linkwright.pumping.lever import Lever, LeverMotion, swing_of, takes_along, turns_of, worm_turns_of
-from linkwright.pumping.model.rod_rotator import RodRotator
-from linkwright.pumping.model.rotator_lengths import Lengths
+from linkwright.pumping.model.rod_rotator import Lengths, RodRotator
 from linkwright.pumping.unit import PolishedRod, turn_extreme
 
 Floats = NDArray[np.float64]

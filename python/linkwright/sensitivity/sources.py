@@ -21,7 +21,7 @@ from linkwright.kernel.errors import InputError
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.kernel.quantities import Shown, declared, shown
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.directions import directions
+from linkwright.machine.tangents import directions
 
 
 @dataclass(frozen=True)

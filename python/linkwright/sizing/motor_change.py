@@ -9,17 +9,8 @@ from linkwright.machine.machine import Machine
 
 
 def rotor_inertia(known: CatalogueMotor) -> tuple[float, bool]:
-    """Inertia of a type's rotor, and whether it is an estimate.
-
-    Parameters
-    ----------
-    known : CatalogueMotor
-        A type of the catalogue.
-
-    Returns
-    -------
-    tuple of (float, bool)
-        J [kg m²]; False if the catalogue gives it, True if it is estimated from the rated torque.
+    """Inertia of a type's rotor [kg m²], and whether it is an estimate from the rated torque, not in the
+    catalogue.
     """
     if known.inertia is not None:
         return known.inertia, False

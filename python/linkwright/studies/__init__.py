@@ -2,7 +2,7 @@
 
 | module | |
 | --- | --- |
-| `model/` | The study file |
+| `model` | The study file |
 | `read` | A study and its machine from files |
 | `plan` | A study checked against its machine, ready to run |
 | `axes` | Variables: the value of each share between 0 and 1 |
@@ -17,8 +17,7 @@
 | `tolerance` | Scatter of responses, contributions, yield, Sobol indices |
 | `allocation` | The cheapest tolerances for a wanted yield |
 | `front` | Machines of which none is better in both of two goals |
-| `workers` | Files of a sweep by processes beside |
-| `cluster` | The same by a cluster of Dask |
+| `workers` | Files of a sweep by processes beside, or by a cluster |
 | `optimise` | The best machine, by CMA-ES over batches |
 | `local` | Down to the nearest best machine by exact derivatives, and what its limits cost |
 | `fit` | Numbers of a machine from a measured record |
@@ -27,7 +26,6 @@
 | `sought` | The numbers that a record is fitted by |
 | `predicted` | What a machine would have recorded, and its derivatives |
 | `identifiability` | What a record tells of numbers |
-| `show` | Rows of a folder, as they are drawn |
-| `tables`, `figures`, `figures_of_fit` | What is shown |
+| `tables`, `figures` | What is shown |
 | `commands/` | ``linkwright sweep``, ``tolerance``, ``optimise``, ``fit`` |
 """

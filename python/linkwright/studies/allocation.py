@@ -68,18 +68,7 @@ class Allocation(Result):
     n_rows: Annotated[int, Shown("machines drawn for each yield", "", "")]
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
-        """Numbers and tables by name.
-
-        Parameters
-        ----------
-        curves : bool
-            Without effect.
-
-        Returns
-        -------
-        dict
-            Ready for JSON.
-        """
+        """Numbers and tables by name, ready for JSON; `curves` is without effect."""
         return {**super().to_dict(), "tolerances": dict(self.tolerances), "factors": dict(self.factors)}
 
 

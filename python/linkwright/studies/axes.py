@@ -16,7 +16,7 @@ from linkwright.kernel.units import COUNT, LENGTH, Kind, parse
 from linkwright.machine.address import addresses, get, kind, known_place
 from linkwright.machine.machine import Machine
 from linkwright.studies import iso286
-from linkwright.studies.model.study import Distribution, Variable
+from linkwright.studies.model import Distribution, Variable
 
 Floats = NDArray[np.float64]
 
@@ -107,10 +107,8 @@ class Axis:
 def axis(machine: Machine, name: str, variable: Variable) -> Axis:
     """A variable of a study, checked against the machine.
 
-    Raises
-    ------
-    MachineError
-        An address does not exist, or a value is not possible there; keys begin with those of the variable.
+    Raises `MachineError`, keys from those of the variable on, if an address does not exist, or a value is not
+    possible there.
     """
     units = [_kind(machine, name, each) for each in variable.address]
     found = units[0]

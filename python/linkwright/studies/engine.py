@@ -233,12 +233,8 @@ def sound_variant(machine: Machine, entries: Mapping[str, float]) -> Machine:
 def numbers(machine: Machine, wanted: list[Asked]) -> list[float]:
     """Responses of one machine; an analysis is made once for all that share it.
 
-    Raises
-    ------
-    FindingError
-        The machine cannot do it.
-    InputError
-        An analysis needs what the machine does not have.
+    Raises `FindingError` if the machine cannot do it, `InputError` if an analysis needs what it does not
+    have.
     """
     results: dict[Any, Any] = {}
     found = []

@@ -1,18 +1,27 @@
-"""Pictures of the rows of a sweep: curves, maps with contours, a scatter matrix, parallel coordinates."""
+"""Pictures of the rows of a sweep, and of a fit beside its record.
+
+Curves, maps with contours, a scatter matrix, parallel coordinates show all rows of a small sweep, of a large
+one rows spread over all files.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.kernel.figure.style import BLUE, LINES, RED, SOFT, WIDTH, named, panels, roomy, styled
+from linkwright.kernel.errors import FindingError
+from linkwright.kernel.figure.style import BLUE, INK, LINES, RED, SOFT, WIDTH, named, panels, roomy, styled
+from linkwright.studies.fit import Fit
+from linkwright.studies.folder import SweepFolder
+from linkwright.studies.parquet import columns_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
 
 Floats = NDArray[np.float64]
 
@@ -166,3 +175,48 @@ def _scaled(values: Floats) -> Floats:
     """Values from 0 to 1."""
     span = np.ptp(values)
     return (values - values.min()) / span if span > 0 else np.full(len(values), 0.5)
+
+
+_WORDS = {"motor_speed": "motor speed", "angle": "crank angle", "speed": "speed"}
+
+
+@styled
+def fit_figure(fit: Fit) -> Figure:
+    """Draw each channel with the fitted motion, and below it the residuals with twice their noise."""
+    record = fit.record
+    is_angle = record.over == "angle"
+    at = np.degrees(record.at) if is_angle else record.at
+    figure, axes = panels(2 * len(record.channels), height=0.8 + 3.2 * len(record.channels))
+    for place, (name, measured) in enumerate(record.channels.items()):
+        above, below = axes[2 * place], axes[2 * place + 1]
+        unit, fitted = record.unit(name), fit.predicted[name]
+        above.plot(at, measured, ".", color=SOFT, markersize=3, label="record")
+        above.plot(at, fitted, color=BLUE, linewidth=1.2, label="fitted machine")
+        above.set_ylabel(f"{_WORDS.get(name, name)} [{unit or '–'}]")
+        above.legend(loc="best")
+        below.plot(at, measured - fitted, ".", color=RED, markersize=3)
+        for side in (-2, 2):
+            below.axhline(side * fit.noise[name], color=SOFT, linewidth=0.8, linestyle="--")
+        below.axhline(0.0, color=INK, linewidth=0.8)
+        below.set_ylabel(f"residual [{unit or '–'}]")
+    axes[-1].set_xlabel("crank angle [°]" if is_angle else "time [s]")
+    return figure
+
+
+# Rows that are read for pictures; a grid is read as a whole, up to its own limit.
+_ROWS, _GRID = 40_000, 4_000_000
+
+
+def rows_of(folder: SweepFolder) -> dict[str, NDArray[Any]]:
+    """Columns of a sweep, (n,) each; of a large one every k-th row. A `FindingError` without rows yet."""
+    is_grid = folder.manifest["study"].get("sweep", {}).get("method", "grid") == "grid"
+    every = -(-folder.n_rows // (_GRID if is_grid else _ROWS))
+    names = ["row", *folder.units, "status", "reason"]
+    found = []
+    for path in folder.parts():
+        columns = columns_of(path, names)
+        kept = columns["row"] % every == 0
+        found.append({name: column[kept] for name, column in columns.items()})
+    if not found:
+        raise FindingError(f"{folder.path}: no rows are computed yet")
+    return {name: np.concatenate([each[name] for each in found]) for name in names}

@@ -88,17 +88,8 @@ class Fit(Result):
         return all(direction.is_determined for direction in self.directions)
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
-        """Numbers by name.
-
-        Parameters
-        ----------
-        curves : bool
-            Whether to add the record and what the machine would have recorded.
-
-        Returns
-        -------
-        dict
-            Ready for JSON.
+        """Numbers by name, ready for JSON; with `curves` the record and what the machine would have
+        recorded.
         """
         names = ("values", "units", "deviations", "intervals", "correlations", "noise", "reasons")
         found = {**super().to_dict(), **{name: dict(getattr(self, name)) for name in names}}

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.errors import ConvergenceError
-from linkwright.studies.model.study import FitOptions
+from linkwright.studies.model import FitOptions
 from linkwright.studies.plan import StudyPlan
 from linkwright.studies.predicted import Predicted
 from linkwright.studies.record import MeasuredRecord

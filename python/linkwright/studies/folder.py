@@ -25,7 +25,7 @@ from linkwright.kernel.files.output import unwritable, write_file
 from linkwright.machine.read import loads
 from linkwright.machine.write import dumps
 from linkwright.studies.engine import Rows
-from linkwright.studies.model.study import StudyFile
+from linkwright.studies.model import StudyFile
 from linkwright.studies.parquet import encoded, is_whole, require_pyarrow
 from linkwright.studies.plan import StudyPlan, plan
 
@@ -95,10 +95,7 @@ class SweepFolder:
     def begin(self) -> None:
         """Make the folder, or see that it is that of the same study.
 
-        Raises
-        ------
-        InputError
-            It is a file, holds files of others or another study, or cannot be written to.
+        Raises `InputError` if it is a file, holds files of others or another study, or cannot be written to.
         """
         require_pyarrow()
         try:
@@ -118,23 +115,11 @@ class SweepFolder:
             raise unwritable(self.path, error) from None
 
     def write(self, number: int, rows: Rows) -> None:
-        """Write the file of a number.
-
-        Raises
-        ------
-        InputError
-            The disk is full, or cannot be written to.
-        """
+        """Write the file of a number; an `InputError` if the disk is full, or cannot be written to."""
         self.put(number, encoded(rows, self.rows_of(number)[0], self.units, self.about))
 
     def put(self, number: int, data: bytes) -> None:
-        """Write the file of a number as it is, likewise.
-
-        Raises
-        ------
-        InputError
-            The disk is full, or cannot be written to.
-        """
+        """Write the file of a number as it is, likewise."""
         try:
             write_file(self.part(number), data)
         except InputError as error:
@@ -158,13 +143,7 @@ def new_folder(path: Path, ready: StudyPlan) -> SweepFolder:
 
 
 def opened(path: Path) -> SweepFolder:
-    """The folder of a sweep that was begun.
-
-    Raises
-    ------
-    InputError
-        There is no such folder.
-    """
+    """The folder of a sweep that was begun; an `InputError` if there is none."""
     require_pyarrow()
     place = path / MANIFEST
     try:

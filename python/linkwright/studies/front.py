@@ -40,18 +40,7 @@ class Front(Result):
     n_evaluations: Annotated[int, Shown("machines that were computed", "", "")]
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
-        """Numbers by name, each machine as that of `optimise`.
-
-        Parameters
-        ----------
-        curves : bool
-            Without effect.
-
-        Returns
-        -------
-        dict
-            Ready for JSON.
-        """
+        """Numbers by name, each machine as that of `optimise`, ready for JSON; `curves` is without effect."""
         machines = [machine.to_dict() for machine in self.machines]
         return {
             **super().to_dict(),

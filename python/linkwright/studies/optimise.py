@@ -75,18 +75,7 @@ class Optimum(Result):
     reasons: Annotated[dict[str, int], About("Why machines had no answer → how many.")]
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
-        """Numbers and tables by name.
-
-        Parameters
-        ----------
-        curves : bool
-            Without effect.
-
-        Returns
-        -------
-        dict
-            Ready for JSON.
-        """
+        """Numbers and tables by name, ready for JSON; `curves` is without effect."""
         names = ("variables", "responses", "multipliers", "reasons")
         return {**super().to_dict(), **{name: dict(getattr(self, name)) for name in names}}
 

@@ -22,13 +22,7 @@ KEY = b"linkwright"
 
 
 def require_pyarrow() -> None:
-    """Refuse to begin what ends in a Parquet file.
-
-    Raises
-    ------
-    InputError
-        pyarrow is not installed.
-    """
+    """Refuse to begin what ends in a Parquet file, by an `InputError`, without pyarrow."""
     try:
         import pyarrow.parquet  # noqa: F401
     except ImportError:
@@ -38,23 +32,9 @@ def require_pyarrow() -> None:
 
 
 def encoded(rows: Rows, start: int, units: Mapping[str, str], about: bytes) -> bytes:
-    """A Parquet file of rows.
+    """A Parquet file of rows from number `start` on, the same for the same rows.
 
-    Parameters
-    ----------
-    rows : Rows
-        The rows.
-    start : int
-        Number of the first.
-    units : mapping of str to str
-        Unit of each column; it stands in the metadata of the column.
-    about : bytes
-        Description of the study, for the metadata of the file.
-
-    Returns
-    -------
-    bytes
-        The same for the same rows.
+    `units`: of each column, for its metadata; `about`: description of the study, for those of the file.
     """
     import pyarrow as pa
     import pyarrow.parquet as pq
@@ -107,12 +87,9 @@ def _plain(column: pa.ChunkedArray) -> Any:
 
 
 def parquet_columns(path: Path, names: Sequence[str]) -> dict[str, Floats]:
-    """Columns of numbers of somebody's Parquet file, in SI.
+    """Columns of numbers of somebody's Parquet file [SI].
 
-    Raises
-    ------
-    InputError
-        The file cannot be read, or lacks a column of numbers.
+    Raises `InputError` if the file cannot be read, or lacks a column of numbers.
     """
     require_pyarrow()
     import pyarrow as pa

@@ -19,7 +19,7 @@ from linkwright.machine.address import get, known_place
 from linkwright.machine.machine import Machine
 from linkwright.studies import sampling
 from linkwright.studies.axes import Axis, axis
-from linkwright.studies.model.study import StudyFile, Sweep
+from linkwright.studies.model import StudyFile, Sweep
 from linkwright.studies.responses import Asked, asked
 
 Floats = NDArray[np.float64]
@@ -133,26 +133,9 @@ class StudyPlan:
 
 
 def plan(machine: Machine, study: StudyFile, listed: Floats | None = None) -> StudyPlan:
-    """Check a study against its machine.
+    """Check a study against its machine; `listed`: ndarray, shape (n, variables), rows of a list [SI].
 
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    study : StudyFile
-        The study.
-    listed : ndarray, shape (n, variables), optional
-        Rows of a list, in SI.
-
-    Returns
-    -------
-    StudyPlan
-        Ready to run.
-
-    Raises
-    ------
-    MachineError
-        Something in it is wrong; all problems are listed, with keys from the top of the study.
+    Raises `MachineError` with all problems, keys from the top of the study.
     """
     problems: list[Problem] = []
 

@@ -18,8 +18,8 @@ from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.numerics.roots import zeros
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
-from linkwright.machine.program.directions import directions
-from linkwright.studies.model.study import FitOptions
+from linkwright.machine.tangents import directions
+from linkwright.studies.model import FitOptions
 from linkwright.studies.plan import StudyPlan
 from linkwright.studies.record import MeasuredRecord
 from linkwright.studies.slopes import entries_at, machine_at
@@ -80,14 +80,8 @@ class Predicted:
         return self._known[key]
 
     def require(self, x: Floats) -> Floats:
-        """Likewise.
-
-        Raises
-        ------
-        FindingError
-            The machine cannot do it.
-        InputError
-            There is no such machine.
+        """Likewise; a `FindingError` if the machine cannot do it, an `InputError` if there is no such
+        machine.
         """
         self.count += 1
         machine, start = self.machine(x), self._of_record(x)

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.errors import InputError, MachineError, MachineFileError, Problem
-from linkwright.kernel.files.columns import read_columns
 from linkwright.kernel.files.lines import located
+from linkwright.kernel.files.points import read_columns
 from linkwright.kernel.files.text_file import TextError, text_of
 from linkwright.kernel.limits import FILE_BYTES
 from linkwright.kernel.public import public
@@ -22,7 +22,7 @@ from linkwright.machine.address import kind
 from linkwright.machine.machine import Machine
 from linkwright.machine.overrides import Override, apply, parse_all
 from linkwright.machine.read import Overrides, read, tables_of
-from linkwright.studies.model.study import StudyFile
+from linkwright.studies.model import StudyFile
 from linkwright.studies.parquet import parquet_columns
 from linkwright.studies.plan import StudyPlan, plan
 

@@ -12,8 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.errors import InputError
-from linkwright.kernel.files.columns import read_columns
-from linkwright.kernel.files.points import columns_of
+from linkwright.kernel.files.points import columns_of, read_columns
 from linkwright.kernel.public import public, public_type
 from linkwright.kernel.units import ANGLE, COUNT, SPEED, TIME, TORQUE, Kind
 from linkwright.machine.machine import Machine

@@ -23,17 +23,17 @@ from linkwright.kernel.quantities import Shown, declared, is_array
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
-from linkwright.studies.model.study import Response
+from linkwright.studies.model import Response
 
 Floats = NDArray[np.float64]
 
 # Analysis → the function that makes it of a machine, and a name where there are several.
 ANALYSES = {
     "reduction": "drive.reduction:reduction",
-    "constant_energy": "drive.constant_energy:constant_energy",
+    "constant_energy": "drive.evenness:constant_energy",
     "steady_state": "drive.steady_state:steady_state",
     "run_up": "drive.run_up:run_up",
-    "run_down": "drive.run_down:run_down",
+    "run_down": "drive.run_up:run_down",
     "linkage": "linkages.cycle:linkage",
     "forces": "kinetostatics.forces:forces",
     "cam": "cam.profile.profile:cam_profile",
@@ -106,12 +106,8 @@ class Asked:
         )
 
     def number(self, result: Any) -> float:
-        """The number that is asked for, out of a result.
-
-        Raises
-        ------
-        FindingError
-            The machine has no such number.
+        """The number that is asked for, out of a result; a `FindingError` if the machine has no such
+        number.
         """
         value = getattr(result, self.quantity)
         if value is not None and self.extreme is not None:
@@ -151,10 +147,7 @@ def analysis(name: str) -> Callable[..., Result]:
 def asked(machine: Machine, name: str, response: Response) -> Asked:
     """A response of a study, checked against what there is.
 
-    Raises
-    ------
-    MachineError
-        No such analysis or quantity, a curve where a number belongs, or a number where a curve does.
+    Raises `MachineError`: no such analysis or quantity, a curve where a number belongs, or the reverse.
     """
     text = response.quantity or response.curve or ""
     first, *rest = text.split(".")

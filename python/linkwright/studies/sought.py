@@ -11,7 +11,7 @@ from linkwright.kernel.errors import InputError
 from linkwright.machine.address import get
 from linkwright.machine.program.compiled import compile_machine
 from linkwright.studies.axes import Axis
-from linkwright.studies.model.study import FitOptions
+from linkwright.studies.model import FitOptions
 from linkwright.studies.plan import StudyPlan
 from linkwright.studies.record import MeasuredRecord
 
@@ -49,11 +49,8 @@ def numbers_of_record(
 ) -> tuple[FitOptions, tuple[Number, ...]]:
     """What is known of a record, and the numbers of it that are sought besides the variables.
 
-    Raises
-    ------
-    InputError
-        The motion does not have what was recorded, or has it not over time or angle; or its start has to be
-        given.
+    Raises `InputError` if the motion does not have what was recorded, or has it not over time or angle; or
+    its start has to be given.
     """
     _check_variables(plan)
     _check_record(record, options)

@@ -47,17 +47,8 @@ class Sweep(Result):
         return self.n_done == self.n_rows
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
-        """Counts, reasons and extremes by name.
-
-        Parameters
-        ----------
-        curves : bool
-            Without effect: rows are in the folder.
-
-        Returns
-        -------
-        dict
-            Plain numbers, texts and tables, ready for JSON.
+        """Counts, reasons and extremes by name, ready for JSON; `curves` is without effect: rows are in the
+        folder.
         """
         return {**super().to_dict(), "reasons": self.reasons, "extremes": self.extremes}
 
@@ -177,7 +168,7 @@ def _elsewhere(
 ) -> Iterator[int]:
     """Numbers of files as they are written by processes here, or by a cluster."""
     if cluster:
-        from linkwright.studies.cluster import computed_on
+        from linkwright.studies.workers import computed_on
 
         return computed_on(plan, folder, missing, cluster)
     from linkwright.studies.workers import computed

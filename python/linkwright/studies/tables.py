@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from linkwright.kernel.page.measured import measured
-from linkwright.kernel.page.numbers import number
+from linkwright.kernel.page.numbers import measured, number
 from linkwright.kernel.page.table import Row, Table
 from linkwright.studies.allocation import Allocation
 from linkwright.studies.fit import Fit

@@ -87,18 +87,7 @@ class Tolerance(Result):
     level: Annotated[float, Shown("probability that the interval holds the truth", "", "")]
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
-        """Numbers and tables by name.
-
-        Parameters
-        ----------
-        curves : bool
-            Without effect.
-
-        Returns
-        -------
-        dict
-            Ready for JSON.
-        """
+        """Numbers and tables by name, ready for JSON; `curves` is without effect."""
         names = ("responses", "contributions", "slopes", "indices", "ties")
         return {**super().to_dict(), **{name: getattr(self, name) for name in names}}
 

@@ -1,26 +1,43 @@
-"""Files of a sweep computed by processes beside this one.
+"""Files of a sweep computed by processes beside this one, or by a cluster of Dask [1]_.
 
 Each process opens the folder, makes its study from the description there, and computes files by their
 numbers; a file does not depend on who computes it. If a process is lost, killed or out of memory, new ones
 compute what is missing. A file at which that happens again and again is given up, and the others stay.
+
+A cluster needs distributed, the extra ``cluster``. A task is a file: a worker sends the file, which is
+written here, so that workers need no common disk.
+
+References
+----------
+.. [1] Rocklin, Dask: parallel computation with blocked algorithms and task scheduling, Proc. 14th Python in
+   Science Conf. 2015, 126; distributed.dask.org.
 """
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
+from functools import lru_cache
 from multiprocessing import get_context
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright import __version__
 from linkwright.kernel.errors import InputError
+from linkwright.studies.engine import evaluate
 from linkwright.studies.folder import SweepFolder, plan_of
+from linkwright.studies.parquet import encoded
 from linkwright.studies.plan import StudyPlan, plan
+
+if TYPE_CHECKING:
+    from distributed import Client, Future
+
 
 Floats = NDArray[np.float64]
 
@@ -83,3 +100,128 @@ def _compute(number: int) -> None:
 
     assert _own is not None
     compute_part(*_own, number)
+
+
+# How often the workers of one file may be lost; Dask itself allows three losses of each try.
+
+# Files that wait at a worker's thread: one computes, one is ready.
+_AHEAD = 2
+
+# How long to wait for the scheduler and for a first worker [s].
+_PATIENCE = 30
+
+
+def computed_on(ready: StudyPlan, folder: SweepFolder, numbers: list[int], address: str) -> Iterator[int]:
+    """Compute files of a folder on a cluster; gives the number of each as it is written.
+
+    Raises InputError: there is no such cluster, it has another version, workers were lost again and again.
+    """
+    client = _client(address)
+    try:
+        _require_workers(client, address)
+        yield from _gathered(client, ready, folder, numbers)
+    except (OSError, TimeoutError) as error:
+        text = " ".join(str(error).split())
+        raise InputError(
+            f"{address}: the cluster was lost ({text}); what is written stays, the same command goes on"
+        ) from None
+    finally:
+        client.close(timeout=_PATIENCE)
+
+
+def _client(address: str) -> Client:
+    """A connection to the scheduler."""
+    try:
+        from distributed import Client
+    except ImportError:
+        raise InputError(
+            "a cluster needs distributed, which is not installed: pip install 'linkwright[cluster]'"
+        ) from None
+    try:
+        return Client(address, timeout=_PATIENCE, set_as_default=False)
+    except (OSError, ValueError, TimeoutError) as error:
+        text = " ".join(str(error).split())
+        raise InputError(
+            f'{address}: found no scheduler ({text}); expected an address such as "tcp://host:8786"'
+        ) from None
+
+
+def _require_workers(client: Client, address: str) -> None:
+    """Refuse a cluster without workers, or whose workers have another version."""
+    try:
+        client.wait_for_workers(1, timeout=_PATIENCE)
+    except TimeoutError:
+        raise InputError(f"{address}: found no worker; start some: dask worker {address}") from None
+    versions = client.run(_version)
+    other = {worker: version for worker, version in versions.items() if version != __version__}
+    if other:
+        worker, version = next(iter(other.items()))
+        raise InputError(f"{worker}: found linkwright {version}, expected {__version__} as here")
+
+
+def _version() -> str:
+    """The version of a worker."""
+    return __version__
+
+
+def _gathered(client: Client, ready: StudyPlan, folder: SweepFolder, numbers: list[int]) -> Iterator[int]:
+    """Files as they come, some at a time."""
+    from distributed import KilledWorker, as_completed
+
+    losses = dict.fromkeys(numbers, 0)
+    left = iter(numbers)
+    listed = None if ready.listed is None else client.scatter(ready.listed, broadcast=True)
+
+    def asked(number: int) -> Future[bytes]:
+        return client.submit(_part, folder.about, listed, number, pure=False)
+
+    running = {future: number for number in _first(left, _ahead(client)) for future in [asked(number)]}
+    waiting = as_completed(running, loop=client.loop)
+    for future in waiting:
+        number = running.pop(future)
+        try:
+            data = future.result()
+        except KilledWorker:
+            losses[number] += 1
+            if losses[number] > _LOSSES:
+                raise InputError(
+                    f"{folder.part(number).name}: its workers were lost {losses[number]} times; what is "
+                    "written stays, the same command goes on; workers with more memory may do it"
+                ) from None
+            again = asked(number)
+            running[again] = number
+            waiting.add(again)
+            continue
+        folder.put(number, data)
+        for another in _first(left, 1):
+            more = asked(another)
+            running[more] = another
+            waiting.add(more)
+        yield number
+
+
+def _ahead(client: Client) -> int:
+    """How many files are asked for at once."""
+    threads: dict[str, int] = client.nthreads()
+    return _AHEAD * max(sum(threads.values()), 1)
+
+
+def _first(numbers: Iterator[int], n: int) -> list[int]:
+    """The next n, as far as there are."""
+    return [number for _, number in zip(range(n), numbers, strict=False)]
+
+
+def _part(about: bytes, listed: Floats | None, number: int) -> bytes:
+    """A file of rows, at a worker."""
+    folder, ready = _study(about)
+    if listed is not None:
+        ready = plan(ready.machine, ready.study, listed)
+    start, stop = folder.rows_of(number)
+    return encoded(evaluate(ready, ready.rows(start, stop)), start, folder.units, about)
+
+
+@lru_cache(maxsize=4)
+def _study(about: bytes) -> tuple[SweepFolder, StudyPlan]:
+    """The study of a description, made once at each worker."""
+    manifest = json.loads(about)
+    return SweepFolder(Path(), manifest), plan_of(manifest)

@@ -8,14 +8,12 @@ No mechanics is computed here: the studio asks the rooms of the subjects, and th
 | --- | --- |
 | `command` | ``linkwright studio [FILE]`` |
 | `server` | The page, its modules, a socket for each tab |
-| `guards` | Who may ask: hosts, origins, token, headers, sizes |
 | `wire` | Messages: a number, words, arrays |
 | `session` | One tab: the newest machine at once, slow analyses beside, files |
 | `worker` | The process of slow analyses |
 | `analyses` | What can be computed, and which data are missing |
 | `shown` | Results for the page, from declared quantities |
 | `drawing` | The drawing with rates, forces and handles |
-| `handles` | Points that can be dragged, and the entries that follow |
 | `drag` | Which lengths bring a point to a place, and where the linkage no longer closes |
 | `design` | What entries do to a result, and which entries bring it to a value |
 | `search` | Sweeps and optimisations of the machine, in the process beside |

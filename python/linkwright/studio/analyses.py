@@ -24,7 +24,7 @@ from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.steady_state import SteadyState, steady_state
 from linkwright.drive.study import has_motor
 from linkwright.kernel.errors import LinkwrightError
-from linkwright.kernel.figure.captioned import Captioned
+from linkwright.kernel.figure.style import Captioned
 from linkwright.kernel.findings import Findings
 from linkwright.kernel.result import Result
 from linkwright.kinetostatics.forces import forces
@@ -66,16 +66,8 @@ class Obstacle:
 def chips(machine: Machine) -> list[dict[str, Any]]:
     """The analyses of a machine, and what stands in their way.
 
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-
-    Returns
-    -------
-    list of dict
-        ``name``, ``word``, ``lane`` (``fast``, ``study`` or ``torsion``) and, where it is not ready,
-        ``obstacle`` with ``mend`` and ``entries``.
+    Of each ``name``, ``word``, ``lane`` (``fast``, ``study`` or ``torsion``) and, where it is not ready,
+    ``obstacle`` with ``mend`` and ``entries``.
     """
     return [
         {"name": name, "word": word, "lane": lane, **_told(obstacle)}
@@ -163,19 +155,8 @@ class Answers:
 
 
 def fast(machine: Machine, *, held: bool) -> Answers:
-    """What follows every change.
-
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    held : bool
-        Whether a slider or a joint is held: forces are then computed at fewer angles.
-
-    Returns
-    -------
-    Answers
-        Scene, steady motion, forces.
+    """What follows every change: scene, steady motion, forces, at fewer angles while a slider or joint is
+    `held`.
     """
     if not machine.has_crank:
         return Answers([])
@@ -200,19 +181,8 @@ def _forces(machine: Machine, steady: SteadyState, every: int) -> Any:
 
 
 def beside(machine: Machine, lane: str) -> Answers:
-    """What runs beside.
-
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    lane : str
-        ``"study"`` or ``"torsion"``.
-
-    Returns
-    -------
-    Answers
-        Results with the figures of the report that are more than curves.
+    """What runs beside, in the lane ``"study"`` or ``"torsion"``: results with the figures that are more than
+    curves.
     """
     return _LANES[lane](machine)
 

@@ -13,9 +13,8 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticUndefined
 
-from linkwright.kernel.description.plain import field_names
+from linkwright.kernel.description.place import field_names, join
 from linkwright.kernel.description.schema_walk import annotation_at, kinds_at, mark_of, model_of, words_of
-from linkwright.kernel.description.text import join
 from linkwright.kernel.errors import UnitError
 from linkwright.kernel.units import Quantity, QuantityList, parse
 from linkwright.machine.machine import Machine
@@ -24,17 +23,9 @@ Control = dict[str, Any]
 
 
 def controls(raw: Mapping[str, Any]) -> Control:
-    """The controls of a file.
+    """The controls of a file, sound or not, as a group.
 
-    Parameters
-    ----------
-    raw : Mapping
-        Its tables, sound or not.
-
-    Returns
-    -------
-    dict
-        A group: ``address``, ``key``, ``about``, ``entries``, ``groups`` and ``missing``.
+    ``address``, ``key``, ``about``, ``entries``, ``groups`` and ``missing``.
     """
     return _group((), "machine", "", Machine, raw, raw)
 

@@ -41,20 +41,10 @@ _FAR, _HALVINGS = 0.25, 8
 
 
 def slopes(machine: Machine, response: str) -> dict[str, Any]:
-    """Derivatives of a result by every entry.
+    """Derivatives of a result, such as ``"steady_state.unevenness"``, by every entry.
 
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    response : str
-        Such as ``"steady_state.unevenness"``.
-
-    Returns
-    -------
-    dict
-        ``response``, ``word``, ``symbol``, ``unit``, ``value``; ``slopes``, address → derivative [SI];
-        ``tie``, why it has a derivative on either side only; ``responses``, all that have derivatives.
+    ``response``, ``word``, ``symbol``, ``unit``, ``value``; ``slopes``, address → derivative [SI]; ``tie``,
+    why it has a derivative on either side only; ``responses``, all that have derivatives.
     """
     found = gradient(machine)
     if response not in found.responses:
@@ -74,23 +64,10 @@ def slopes(machine: Machine, response: str) -> dict[str, Any]:
 
 
 def reach(machine: Machine, response: str, wanted: float, free: Limits) -> Drag:
-    """Entries that bring a result to a value, or as near as their limits allow.
+    """Entries that bring a result to a value [SI], or as near as their limits allow, and why they stop.
 
-    Parameters
-    ----------
-    machine : Machine
-        As it was when the result was taken hold of.
-    response : str
-        Such as ``"steady_state.unevenness"``.
-    wanted : float
-        Its value [SI].
-    free : mapping of str to (float, float)
-        Entries that may follow, with their limits [SI].
-
-    Returns
-    -------
-    Drag
-        Entries, and why they stop.
+    `machine`: as it was when the result was taken hold of; `free`: entries that may follow, with their limits
+    [SI].
     """
     if not free:
         return Drag({}, "no entry follows: choose one")

@@ -26,24 +26,10 @@ _DIGITS = 7
 
 
 def changed(text: str, entries: Mapping[str, Any]) -> str:
-    """A text with entries exchanged, added or, with None, removed.
+    """A text of sound TOML with entries exchanged, added or, with None, removed.
 
-    Parameters
-    ----------
-    text : str
-        A machine file that is sound TOML.
-    entries : Mapping
-        Address → SI number, written in the unit that stands there; or text, table or None.
-
-    Returns
-    -------
-    str
-        The new text.
-
-    Raises
-    ------
-    InputError
-        The text is no TOML, or an address leads nowhere.
+    `entries`: address → SI number, written in the unit that stands there; or text, table or None. Raises
+    `InputError` if the text is no TOML, or an address leads nowhere.
     """
     try:
         document = tomlkit.parse(text)
@@ -60,17 +46,7 @@ def changed(text: str, entries: Mapping[str, Any]) -> str:
 
 
 def written(raw: Mapping[str, Any], place: tuple[str, ...], value: Any) -> Any:
-    """A new value as the file writes it: a number in the unit of the old one.
-
-    Parameters
-    ----------
-    raw : Mapping
-        Tables of the file.
-    place : tuple of str
-        Keys of the entry.
-    value : object
-        SI number, or what is written as it is.
-    """
+    """A new value at a place of the file as it writes it: an SI number in the unit of the old one."""
     if isinstance(value, bool) or not isinstance(value, int | float):
         return value
     mark = mark_of(annotation_at(Machine, place, raw))
@@ -87,13 +63,7 @@ def written(raw: Mapping[str, Any], place: tuple[str, ...], value: Any) -> Any:
 
 
 def short(value: float) -> str:
-    """A number with as many digits as a file needs.
-
-    Parameters
-    ----------
-    value : float
-        Any finite number.
-    """
+    """A finite number with as many digits as a file needs."""
     return f"{value:.{_DIGITS}g}"
 
 

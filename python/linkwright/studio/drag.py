@@ -24,7 +24,7 @@ from linkwright.linkages.kinematics import motions
 from linkwright.machine.address import get, replace
 from linkwright.machine.machine import Machine
 from linkwright.studio.document import short
-from linkwright.studio.handles import entries_of
+from linkwright.studio.drawing import entries_of
 
 Floats = NDArray[np.float64]
 
@@ -69,25 +69,10 @@ def drag(
     angle: float,
     locked: frozenset[str] = frozenset(),
 ) -> Drag:
-    """The entries that bring a point to a place.
+    """The entries that bring a point to a place [m], and why they stop.
 
-    Parameters
-    ----------
-    machine : Machine
-        As it was when the drag began.
-    point : str
-        Name of a handle.
-    place : (float, float)
-        Where it should be [m].
-    angle : float
-        Crank angle of the drawing [rad].
-    locked : frozenset of str
-        Addresses that hold their values.
-
-    Returns
-    -------
-    Drag
-        Entries, and why they stop.
+    `machine`: as it was when the drag began; `angle`: of the crank in the drawing [rad]; `locked`: addresses
+    that hold their values.
     """
     free = [each for each in entries_of(machine, point) if each not in locked]
     if not free:

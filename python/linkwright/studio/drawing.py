@@ -1,7 +1,21 @@
-"""The drawing of a machine: what the report's sketch draws, with rates of its points, forces and handles."""
+"""The drawing of a machine: what the report's sketch draws, with rates of its points, forces and handles.
+
+Handles are points that can be dragged; the entries of the file follow.
+
+| point | entries |
+| --- | --- |
+| fixed point | its coordinates |
+| pin of a crank | radius and phase |
+| slider | length of the rod |
+| joint of a coupler and a rocker | both lengths |
+| point of a link | its place on the link |
+| joint of bars | lengths of the bars that end there |
+| linear driver | its place at crank angle zero |
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -9,36 +23,25 @@ from numpy.typing import NDArray
 
 from linkwright.app.report.scene import moving_scene
 from linkwright.drive.steady_state import SteadyState
+from linkwright.kernel.description.place import join
 from linkwright.kernel.errors import LinkwrightError
 from linkwright.kinetostatics.result import Forces
+from linkwright.linkages.model.mechanism import Mechanism
 from linkwright.linkages.model.structure import structure
+from linkwright.linkages.model.topology import ORIGIN
 from linkwright.linkages.motion import rates_of
 from linkwright.machine.machine import Machine
 from linkwright.machine.read import loads
 from linkwright.studio.files import Folder, base, opened
-from linkwright.studio.handles import handles
 
 Floats = NDArray[np.float64]
 
 
 def drawing(machine: Machine, steady: SteadyState | None, acting: Forces | None) -> dict[str, Any] | None:
-    """All that the page draws of a mechanism.
+    """All that the page draws of a mechanism along its steady motion, with forces; None where nothing moves.
 
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    steady : SteadyState or None
-        Its steady motion.
-    acting : Forces or None
-        Forces along it.
-
-    Returns
-    -------
-    dict or None
-        As of `moving_scene`; ``velocities`` and ``accelerations`` of moving points, (n, 2) each; ``forces``
-        with the point where they act; ``handles``, points that can be dragged with the entries that follow.
-        None where nothing moves.
+    As of `moving_scene`; ``velocities`` and ``accelerations`` of moving points, (n, 2) each; ``forces`` with
+    the point where they act; ``handles``, points that can be dragged with the entries that follow.
     """
     scene = moving_scene(machine, steady)
     if scene is None:
@@ -59,19 +62,8 @@ def drawing(machine: Machine, steady: SteadyState | None, acting: Forces | None)
 
 
 def thumbnail(folder: Folder, place: str, name: str) -> dict[str, Any] | None:
-    """The drawing of a machine of the gallery, at constant speed.
-
-    Parameters
-    ----------
-    folder : Folder
-        Of the studio.
-    place, name : str
-        As for `opened`.
-
-    Returns
-    -------
-    dict or None
-        As of `moving_scene`; None where nothing moves, or the file is none.
+    """The drawing of a machine of the gallery, at constant speed; None where nothing moves, or the file is
+    none.
     """
     try:
         machine = loads(opened(folder, place, name), path=base(folder, place, name))
@@ -103,3 +95,36 @@ def _acting(machine: Machine, scene: dict[str, Any], acting: Forces) -> list[dic
             if np.isfinite(force).all():
                 found.append({"name": name, "point": points[name], "force": force})
     return found
+
+
+# Table of the mechanism → entries that place its point.
+_PLACES = {
+    "points": ("x", "y"),
+    "cranks": ("radius", "phase"),
+    "sliders": ("rod",),
+    "rockers": ("coupler", "rocker"),
+    "rigid_points": ("along", "across"),
+    "linear_drivers": ("start",),
+}
+
+
+def handles(machine: Machine) -> list[dict[str, Any]]:
+    """The points that can be dragged: ``point``, its name, and ``entries``, addresses of what follows."""
+    found = dict(_handles(machine.mechanism))
+    return [{"point": name, "entries": addresses} for name, addresses in found.items() if addresses]
+
+
+def entries_of(machine: Machine, point: str) -> list[str]:
+    """Addresses of the entries that follow a point; none if it cannot be dragged."""
+    return dict(_handles(machine.mechanism)).get(point, [])
+
+
+def _handles(mechanism: Mechanism) -> Iterator[tuple[str, list[str]]]:
+    for table, names in _PLACES.items():
+        for name, element in getattr(mechanism, table).items():
+            if name != ORIGIN or table != "points":
+                given = [name for name in names if getattr(element, name) is not None]
+                yield name, [join(("mechanism", table, name, each)) for each in given]
+    for name in mechanism.joints:
+        bars = [each for each, bar in mechanism.bars.items() if name in (bar.start, bar.end)]
+        yield name, [join(("mechanism", "bars", bar, "length")) for bar in bars]

@@ -11,8 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from linkwright.kernel.errors import InputError
-from linkwright.kernel.files.library import library, library_path
-from linkwright.kernel.files.templates import template, templates
+from linkwright.kernel.files.library import library, library_path, template, templates
 from linkwright.kernel.files.text_file import TextError, text_of
 from linkwright.kernel.limits import FILE_BYTES
 
@@ -40,22 +39,10 @@ class Folder:
         return cls(path.resolve())
 
     def inside(self, name: str) -> Path:
-        """The real path of a machine file of the folder.
+        """The real path of a machine file below the folder, wherever links lead; an `InputError` if it is
+        none.
 
-        Parameters
-        ----------
-        name : str
-            Relative to the folder, with strokes between its parts.
-
-        Returns
-        -------
-        Path
-            Below the folder, wherever links on the way lead.
-
-        Raises
-        ------
-        InputError
-            It is no machine file below the folder.
+        `name`: relative to the folder, with strokes between its parts.
         """
         if not name.isprintable() or not name.endswith(".toml") or Path(name).is_absolute():
             raise InputError(f"{name!r}: expected the name of a .toml file below the folder of the studio")
@@ -68,18 +55,7 @@ class Folder:
         return path
 
     def read(self, name: str) -> str:
-        """The text of a machine file of the folder.
-
-        Parameters
-        ----------
-        name : str
-            As for `inside`.
-
-        Raises
-        ------
-        InputError
-            It cannot be read.
-        """
+        """The text of a machine file of the folder; an `InputError` if it cannot be read."""
         path = self.inside(name)
         try:
             if path.exists() and not stat.S_ISREG(path.stat().st_mode):
@@ -93,21 +69,8 @@ class Folder:
             raise InputError(f"{name}: {error.strerror}") from None
 
     def write(self, name: str, text: str, *, replace: bool) -> None:
-        """Write a machine file of the folder, whole or not at all.
-
-        Parameters
-        ----------
-        name : str
-            As for `inside`.
-        text : str
-            What it holds.
-        replace : bool
-            Whether it may be there already.
-
-        Raises
-        ------
-        InputError
-            It cannot be written, or is there.
+        """Write a machine file, whole or not at all; an `InputError` if it cannot be written, or is there
+        unreplaced.
         """
         path = self.inside(name)
         if path.exists() and not (replace and path.is_file()):
@@ -166,17 +129,8 @@ def _title(path: Path) -> str:
 
 
 def gallery(folder: Folder) -> list[dict[str, str]]:
-    """All machines that can be opened.
-
-    Parameters
-    ----------
-    folder : Folder
-        Of the studio.
-
-    Returns
-    -------
-    list of dict
-        ``place``, ``name`` and ``title`` of each: of the library, of the templates, of the folder.
+    """All machines that can be opened, of library, templates and folder: ``place``, ``name`` and
+    ``title``.
     """
     kept = [{"place": "library", "name": name, "title": _title(library_path(name))} for name in library()]
     begun = [{"place": "template", "name": name, "title": title} for name, title in templates().items()]
@@ -184,21 +138,10 @@ def gallery(folder: Folder) -> list[dict[str, str]]:
 
 
 def opened(folder: Folder, place: str, name: str) -> str:
-    """The text of a machine of the gallery.
+    """The text of a machine of the gallery by place (``"library"``, ``"template"``, ``"folder"``) and name
+    there.
 
-    Parameters
-    ----------
-    folder : Folder
-        Of the studio.
-    place : str
-        ``"library"``, ``"template"`` or ``"folder"``.
-    name : str
-        Its name there.
-
-    Raises
-    ------
-    InputError
-        There is no such machine.
+    Raises `InputError` if there is none.
     """
     if place == "library":
         return text_of(library_path(name), FILE_BYTES)
@@ -210,13 +153,7 @@ def opened(folder: Folder, place: str, name: str) -> str:
 
 
 def base(folder: Folder, place: str, name: str) -> str:
-    """Path that a machine's further files, such as a table of points, are looked for beside.
-
-    Parameters
-    ----------
-    folder, place, name
-        As for `opened`.
-    """
+    """Path that a machine's further files, such as a table of points, are looked for beside."""
     if place == "library":
         return str(library_path(name))
     return str(folder.inside(name) if place == "folder" and name else folder.root / "unnamed.toml")

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from linkwright.kernel.errors import InputError
 from linkwright.machine.machine import Machine
 from linkwright.studies.engine import SOLVED, evaluate
-from linkwright.studies.model.study import StudyFile
+from linkwright.studies.model import StudyFile
 from linkwright.studies.optimise import optimise
 from linkwright.studies.plan import StudyPlan, plan
 from linkwright.studio.document import short
@@ -29,24 +29,14 @@ _ROWS, _PAUSE = 64, 0.15
 
 
 def search(machine: Machine, asked: Body, tell: Tell) -> Body:
-    """Compute a curve or a map over entries, or the best machine.
+    """Compute a curve or a map over entries, or the best machine, and tell what is there so far.
 
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    asked : dict
-        ``kind``, ``"sweep"`` or ``"optimise"``; ``response``; ``entries``, each with ``address``, ``low`` and
-        ``high`` [SI]. Of a sweep, ``steps`` of each entry; of an optimisation ``direction``,
-        ``"minimise"`` or ``"maximise"``, and ``machines``.
-    tell : callable
-        Told what is there so far.
+    `asked`: ``kind``, ``"sweep"`` or ``"optimise"``; ``response``; ``entries``, each with ``address``,
+    ``low`` and ``high`` [SI]; of a sweep, ``steps`` of each entry; of an optimisation ``direction``,
+    ``"minimise"`` or ``"maximise"``, and ``machines``.
 
-    Returns
-    -------
-    dict
-        All of it: of a sweep ``axes`` and ``values``, NaN as gaps, with ``reasons`` of rows that fail; of an
-        optimisation ``entries``, address → value, ``value``, and how the search went on.
+    Returns all of it: of a sweep ``axes`` and ``values``, NaN as gaps, with ``reasons`` of rows that fail; of
+    an optimisation ``entries``, address → value, ``value``, and how the search went on.
     """
     run = {"sweep": _sweep, "optimise": _optimise}.get(str(asked.get("kind")))
     if run is None:

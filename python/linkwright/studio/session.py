@@ -16,8 +16,8 @@ from typing import Any
 
 from anyio import to_thread
 
+from linkwright.kernel.description.place import split
 from linkwright.kernel.description.schema_walk import annotation_at, mark_of
-from linkwright.kernel.description.text import split
 from linkwright.kernel.errors import LinkwrightError, MachineError, Problem
 from linkwright.kernel.units import Quantity
 from linkwright.machine.address import get, replace
@@ -81,18 +81,7 @@ class Session:
             await self.searcher.end()
 
     def take(self, message: bytes) -> None:
-        """Take one message of the page.
-
-        Parameters
-        ----------
-        message : bytes
-            As `wire` packs it.
-
-        Raises
-        ------
-        WireError
-            It is none, or more wait than a page ever sends.
-        """
+        """Take one message of the page; a `WireError` if it is none, or more wait than a page ever sends."""
         number, body = unpacked(message)
         if body["ask"] == "compute":
             self.newest = (number, body)

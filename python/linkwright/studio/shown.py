@@ -21,20 +21,10 @@ _COLUMN = re.compile(r"(.*) \[(.*)\]")
 
 
 def shown(name: str, result: Result) -> dict[str, Any]:
-    """A result as the page shows it.
+    """A result of an analysis, by its name in ``--json``, as the page shows it.
 
-    Parameters
-    ----------
-    name : str
-        Of the analysis, as in ``--json``.
-    result : Result
-        The result.
-
-    Returns
-    -------
-    dict
-        ``name``; ``scalars`` with name, words, symbol, unit and SI value; ``plots``, each with an abscissa
-        and the curves that have one unit.
+    ``name``; ``scalars`` with name, words, symbol, unit and SI value; ``plots``, each with an abscissa and
+    the curves that have one unit.
     """
     declared = [each._replace(unit=result.unit_of(each.name)) for each in _declared_of(result)]
     return {

@@ -26,19 +26,8 @@ class WireError(ValueError):
 
 
 def packed(number: int, body: Any) -> bytes:
-    """A message.
-
-    Parameters
-    ----------
-    number : int
-        Of the request that it answers.
-    body : object
-        Tables, lists, words, finite numbers and arrays of one or two dimensions.
-
-    Returns
-    -------
-    bytes
-        As the page reads it.
+    """A message that answers a request: tables, lists, words, finite numbers and arrays of one or two
+    dimensions.
     """
     arrays: list[NDArray[np.float64]] = []
     size = 0
@@ -62,23 +51,7 @@ def packed(number: int, body: Any) -> bytes:
 
 
 def unpacked(message: bytes) -> tuple[int, dict[str, Any]]:
-    """Number and table of a message that brings no arrays.
-
-    Parameters
-    ----------
-    message : bytes
-        From the page.
-
-    Returns
-    -------
-    tuple
-        Number and table.
-
-    Raises
-    ------
-    WireError
-        It is none.
-    """
+    """Number and table of a message that brings no arrays; a `WireError` if it is none."""
     if len(message) < _HEAD.size:
         raise WireError("shorter than its head")
     number, length = _HEAD.unpack_from(message)

@@ -10,7 +10,6 @@
 | `function_fit` | The linkages that come nearest to more points of a function than a four-bar can meet |
 | `function_generator` | Function generation |
 | `function_refine` | Least squares of the structural error itself, for many linkages of a function at once |
-| `function_scale` | A function y(x) on the scales of crank and rocker |
 | `line_kinds` | Straight-line linkages in unit size |
 | `path` | Path generation: a four-bar linkage whose coupler point passes given points as its crank turns |
 | `path_model` | Path generation as numbers |

@@ -81,21 +81,10 @@ class FourBar:
         return np.asarray(np.arccos(np.clip(np.abs(cosine), 0, 1)))
 
     def machine(self, name: str, *, points: Mapping[str, complex] | None = None, source: str = "") -> Machine:
-        """The linkage as a machine.
+        """The linkage as a machine with fixed points ``A0``, ``B0``, crank ``A``, rocker ``B``.
 
-        Parameters
-        ----------
-        name : str
-            What the machine is.
-        points : mapping of str to complex
-            Points of the coupler by name: along + i across [m].
-        source : str
-            Where it is from.
-
-        Returns
-        -------
-        Machine
-            With fixed points ``A0``, ``B0``, crank ``A``, rocker ``B``.
+        `name`: what it is; `points`: of the coupler by name, along + i across [m]; `source`: where it is
+        from.
         """
         carried = {key: plain_point("B.coupler", at) for key, at in (points or {}).items()}
         mechanism = {

@@ -20,7 +20,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.kernel.numerics.damped_step import damped_step
+from linkwright.kernel.numerics.least_squares import damped_step
 
 Floats = NDArray[np.float64]
 

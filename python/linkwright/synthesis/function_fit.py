@@ -11,9 +11,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.synthesis.expression import Scale
 from linkwright.synthesis.freudenstein import Fit, begins, residual
 from linkwright.synthesis.function_refine import FunctionModel, Rows, level, refine
-from linkwright.synthesis.function_scale import Scale
 from linkwright.synthesis.path_search import sequence
 from linkwright.synthesis.task import FunctionTask
 

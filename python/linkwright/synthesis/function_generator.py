@@ -22,10 +22,10 @@ from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Shown
 from linkwright.linkages.kinematics import motions
 from linkwright.machine.machine import Machine
+from linkwright.synthesis.expression import Scale
 from linkwright.synthesis.four_bar import FourBar, side_of
 from linkwright.synthesis.freudenstein import EXACT, Fit, lengths, solve
 from linkwright.synthesis.function_fit import nearest
-from linkwright.synthesis.function_scale import Scale
 from linkwright.synthesis.task import FunctionTask
 from linkwright.synthesis.verification import TransmissionResult, require_met
 

@@ -34,7 +34,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.kernel.numerics.damped_step import damped_step
+from linkwright.kernel.numerics.least_squares import damped_step
 from linkwright.synthesis.path_model import (
     MARGIN,
     Bools,

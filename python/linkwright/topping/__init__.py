@@ -14,7 +14,6 @@
 | `head_pass` | One pass over a head, and the outline of what is left of it |
 | `intervals` | Confidence intervals of clustered samples, and of the share of roots over a limit |
 | `knife` | Motion of a knife, and the force and power that drive it |
-| `knife_look` | Whether an edge is long enough, seen at few heads |
 | `model/` | Toppers, fields and limits of a knife in a machine file |
 | `required_length` | Required edge length: published formulas, constant speed, every phase |
 | `roots` | A field of roots, drawn once; head diameter and volume |

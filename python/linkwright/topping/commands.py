@@ -72,7 +72,7 @@ def field(
 
     Exit code 1 if the file has [topper.limits] that are not kept.
     """
-    from linkwright.kernel.command.bar import bar
+    from linkwright.kernel.command.console import bar
     from linkwright.machine.read import read
     from linkwright.topping.cautions import field_cautions, field_findings
     from linkwright.topping.edge import edges_of, require_topper
@@ -158,7 +158,7 @@ def _written(
     def over() -> FieldSweep:
         import numpy as np
 
-        from linkwright.kernel.command.bar import bar
+        from linkwright.kernel.command.console import bar
         from linkwright.topping.sweep import sweep_field
 
         lengths = np.linspace(0, found.length[-1], _LENGTHS)[1:]
@@ -229,7 +229,7 @@ def best(
 
     What is found is looked at over other roots, and more finely. Exit code 1 if no knife keeps the limits.
     """
-    from linkwright.kernel.command.bar import bar
+    from linkwright.kernel.command.console import bar
     from linkwright.machine.read import read
     from linkwright.topping.best.best_knife import best_knife
 

@@ -108,29 +108,13 @@ def coverage(
     length: float | None = None,
     fine: int = FINE,
 ) -> Coverage:
-    """What an edge cuts of heads.
+    """What an edge cuts of n heads.
 
-    Parameters
-    ----------
-    edge : Edge
-        The edge.
-    diameter, offset, phase : array_like, shape (n,) or (1,)
-        d of the discs [m], their centres to the left of the row [m], phase of the knife when the middle of
-        the edge is abreast of the centre [rad]; one, or one a head.
-    length : float, optional
-        Of the edge [m]; without it, only what is needed is looked at.
-    fine : int
-        Stations per revolution of the law; an edge at a large angle takes more.
-
-    Returns
-    -------
-    Coverage
-        Arrays, a head each.
-
-    Raises
-    ------
-    InputError
-        A diameter is negative, a number is not finite.
+    `diameter`, `offset`, `phase`: array_like, shape (n,) or (1,): d of the discs [m], their centres to the
+    left of the row [m], phase of the knife when the middle of the edge is abreast of the centre [rad].
+    `length`: of the edge [m]; without it, only what is needed is looked at. `fine`: stations per revolution
+    of the law; an edge at a large angle takes more. Raises `InputError` for a negative diameter or a number
+    that is not finite.
     """
     radius, place, angle = (
         np.atleast_1d(np.asarray(each, dtype=float)) for each in (diameter, offset, phase)

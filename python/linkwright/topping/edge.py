@@ -64,18 +64,11 @@ class Edge:
     def place(
         self, time: ArrayLike, phase: ArrayLike = 0.0, offset: ArrayLike = 0.0
     ) -> tuple[Floats, Floats]:
-        """Middle of the edge, seen from the centre of a head.
+        """Middle of the edge, seen from the centre of a head: along it, to its left, and normal to it, ahead
+        [m], (...).
 
-        Parameters
-        ----------
-        time, phase, offset : array_like, shape (...)
-            From when it is abreast of the centre [s], phase of the knife then [rad], centre to the left of
-            the row [m]; they broadcast.
-
-        Returns
-        -------
-        q, p : ndarray, shape (...)
-            Along the edge, to its left, and normal to it, ahead [m].
+        `time` from when it is abreast of the centre [s], `phase` of the knife then [rad], `offset` of the
+        centre to the left of the row [m]; they broadcast.
         """
         ahead = self.forward_speed * np.asarray(time, dtype=float)
         aside = self.knife.at(time, phase) - np.asarray(offset, dtype=float)
@@ -83,17 +76,9 @@ class Edge:
         return ahead * sin + aside * cos, ahead * cos - aside * sin
 
     def velocity(self, time: ArrayLike, phase: ArrayLike = 0.0) -> tuple[Floats, Floats]:
-        """Velocity of the edge.
+        """Velocity of the edge: along it, to its left, and normal to it, ahead [m/s], (...).
 
-        Parameters
-        ----------
-        time, phase : array_like, shape (...)
-            [s], and phase of the knife at the time zero [rad]; they broadcast.
-
-        Returns
-        -------
-        u_t, u_n : ndarray, shape (...)
-            Along the edge, to its left, and normal to it, ahead [m/s].
+        `time` [s] and `phase` of the knife at the time zero [rad] broadcast.
         """
         v, across = self.forward_speed, self.knife.at(time, phase, 1)
         sin, cos = np.sin(self.angle), np.cos(self.angle)
@@ -147,24 +132,8 @@ def require_topper(machine: Machine) -> Topper:
 def edges_of(machine: Machine, described: Topper) -> list[Edge]:
     """The edge of a topper; in both directions if its knife does not turn back over a head.
 
-    Parameters
-    ----------
-    machine : Machine
-        What may move the knife.
-    described : Topper
-        The topper.
-
-    Returns
-    -------
-    list of Edge
-        One or two.
-
-    Raises
-    ------
-    AssemblyError
-        The mechanism of the knife does not close all round.
-    FindingError
-        The member that is the knife does not come back with each revolution.
+    Raises `AssemblyError` if the mechanism of the knife does not close all round, `FindingError` if the
+    member that is the knife does not come back with each revolution.
     """
     ways = knives(machine, described)
     return [Edge(way, described.edge_angle, described.forward_speed) for way in ways]

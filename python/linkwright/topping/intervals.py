@@ -104,60 +104,25 @@ class Clusters:
         return coverage_factor(self.level, self.count - 1)
 
     def sums(self, values: Floats) -> Floats:
-        """Sum of the values in each cluster.
-
-        Parameters
-        ----------
-        values : ndarray, shape (n,)
-            A value for each piece.
-
-        Returns
-        -------
-        ndarray, shape (clusters,)
-            The sums.
-        """
+        """Sum of values (n,), one for each piece, in each cluster, (clusters,)."""
         return np.asarray(np.bincount(self.of, values, minlength=self.count), dtype=float)
 
     def mean(self, values: Floats) -> Interval:
-        """Mean of a quantity that is not negative.
-
-        Parameters
-        ----------
-        values : ndarray, shape (n,)
-            A value for each piece.
-        """
+        """Mean of a quantity that is not negative, (n,) a value for each piece."""
         return self.ratio(values, np.ones(len(values)))
 
     def ratio(self, values: Floats, sizes: Floats) -> Interval:
-        """Sum of a quantity that is not negative over the sum of another.
-
-        Parameters
-        ----------
-        values, sizes : ndarray, shape (n,)
-            Of each piece; sizes not negative.
-        """
+        """Sum of a quantity that is not negative over the sum of another, (n,) each, sizes not negative."""
         mean, variance = self._moments(self.sums(values), self.sums(sizes))
         half = self.factor * np.sqrt(variance)
         return Interval(mean, np.maximum(mean - half, 0.0), mean + half)
 
     def share(self, values: Floats) -> Interval:
-        """Mean of a quantity that is between 0 and 1.
-
-        Parameters
-        ----------
-        values : ndarray, shape (n,)
-            A value for each piece.
-        """
+        """Mean of a quantity that is between 0 and 1, (n,) a value for each piece."""
         return self._wilson(self.sums(values), np.inf)
 
     def shares(self, counts: Floats) -> Interval:
-        """Shares of pieces that are something or are not.
-
-        Parameters
-        ----------
-        counts : ndarray, shape (clusters, k)
-            How many pieces of each cluster are.
-        """
+        """Shares of pieces that are something or are not, by how many of each cluster are, (clusters, k)."""
         return self._wilson(counts, float(len(self.of)))
 
     def _wilson(self, sums: Floats, most: float) -> Interval:
@@ -170,17 +135,10 @@ class Clusters:
         return Interval(p, np.clip(middle - half, 0.0, p), np.clip(middle + half, p, 1.0))
 
     def worths(self, counts: Floats) -> Floats:
-        """Numbers of independent pieces whose shares would have the same variance.
+        """Numbers of independent pieces whose shares would have the same variance, (k,); NaN for shares of 0
+        and 1.
 
-        Parameters
-        ----------
-        counts : ndarray, shape (clusters, k)
-            How many pieces of each cluster are.
-
-        Returns
-        -------
-        ndarray, shape (k,)
-            NaN for shares of 0 and 1.
+        `counts`: (clusters, k), how many pieces of each cluster are.
         """
         p, worth = self._worth(counts, float(len(self.of)))
         return np.where(p * (1 - p) > 0, worth, np.nan)
@@ -228,18 +186,7 @@ class ShareCurve:
     clusters: Clusters
 
     def at(self, length: Floats) -> Interval:
-        """Shares at some lengths.
-
-        Parameters
-        ----------
-        length : ndarray, shape (k,)
-            Increasing [m].
-
-        Returns
-        -------
-        Interval
-            Of each length by itself.
-        """
+        """Shares at increasing lengths (k,) [m], each length by itself."""
         return self.clusters.shares(self._counts(length))
 
     def _counts(self, length: Floats) -> Floats:
@@ -252,31 +199,14 @@ class ShareCurve:
         return np.cumsum(table[:, :k], axis=1).astype(float)
 
     def quantiles(self, shares: Sequence[float]) -> Floats:
-        """Minimum lengths that are enough for shares of all heads.
-
-        Parameters
-        ----------
-        shares : sequence of float
-            From 0 to 1.
-
-        Returns
-        -------
-        ndarray, shape (k,)
-            [m]
-        """
+        """Minimum lengths (k,) that are enough for shares, from 0 to 1, of all heads [m]."""
         ordered = self._ordered
         # A share that a whole number of heads makes up is not to be missed by its rounding.
         place = np.ceil(np.asarray(shares) * len(ordered) - 1e-9).astype(int) - 1
         return np.asarray(ordered[np.clip(place, 0, len(ordered) - 1)])
 
     def lengths(self, shares: Sequence[float]) -> Interval:
-        """The same with what holds the true ones.
-
-        Parameters
-        ----------
-        shares : sequence of float
-            From 0 to 1, increasing.
-        """
+        """The same for increasing shares with what holds the true ones."""
         found = self.quantiles(shares)
         # Beyond the heads that can be cut there is no length; their own share is as uncertain.
         finite = self.needed[np.isfinite(self.needed)]
@@ -290,10 +220,7 @@ class ShareCurve:
     def worth(self) -> float | None:
         """Independent heads that the shares at the lengths for 50 and 90 % are worth, the fewer of both.
 
-        Returns
-        -------
-        float or None
-            None if all heads need the same length.
+        None if all heads need the same length.
         """
         found = self.clusters.worths(self._counts(self.quantiles((0.5, 0.9))))
         found = found[np.isfinite(found)]

@@ -127,21 +127,10 @@ class Knife:
         return abs(self.law.peak(2).value) * self.rate**2
 
     def at(self, time: ArrayLike, phase: ArrayLike = 0.0, order: int = 0) -> Floats:
-        """Place, velocity or acceleration across the row.
+        """Place, velocity or acceleration across the row, by the order of the derivative, (...) [m, m/s or
+        m/s²].
 
-        Parameters
-        ----------
-        time : array_like, shape (...)
-            [s]
-        phase : array_like, shape (...)
-            At the time zero [rad]; it broadcasts.
-        order : int
-            0, 1 or 2: how often it is differentiated by the time.
-
-        Returns
-        -------
-        ndarray, shape (...)
-            [m, m/s or m/s²]
+        `time` [s] and `phase` at the time zero [rad] broadcast.
         """
         t = np.asarray(time, dtype=float)
         value = self.law.at(np.mod(np.asarray(phase) + self.rate * t, _TURN), order) * self.rate**order
@@ -158,24 +147,8 @@ class Knife:
 def knives(machine: Machine, topper: Topper) -> tuple[Knife, ...]:
     """The knife of a topper; both of its directions if it does not turn back over a head.
 
-    Parameters
-    ----------
-    machine : Machine
-        What may move it.
-    topper : Topper
-        The topper.
-
-    Returns
-    -------
-    tuple of Knife
-        One or two.
-
-    Raises
-    ------
-    AssemblyError
-        The mechanism does not close all round.
-    FindingError
-        The member does not come back with each revolution.
+    Raises `AssemblyError` if the mechanism does not close all round, `FindingError` if the member does not
+    come back with each revolution.
     """
     motion, speed = topper.motion, topper.knife_speed or 0.0
     if isinstance(motion, MemberKnife):
@@ -334,24 +307,9 @@ class KnifeDrive:
 
 
 def knife_drive(machine: Machine, knife: Knife) -> KnifeDrive | None:
-    """Inertia force of the knife and torque of its drive.
+    """Inertia force of the knife and torque of its drive; None if no mechanism moves it, or nothing has mass.
 
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    knife : Knife
-        Its knife.
-
-    Returns
-    -------
-    KnifeDrive or None
-        None if no mechanism moves the knife, or nothing has mass.
-
-    Raises
-    ------
-    FindingError
-        There are no forces.
+    Raises `FindingError` if there are no forces.
     """
     motion = None if machine.topper is None else machine.topper.motion
     drive = machine.drive

@@ -87,21 +87,10 @@ def constant_speed_lengths(
     forward_speed: ArrayLike,
     knife_speed: ArrayLike,
 ) -> Floats:
-    """Minimum length for each direction of the knife.
+    """Minimum length for each direction of the knife, to the left and to the right, (2, ...) [m].
 
-    Parameters
-    ----------
-    diameter, offset : array_like, shape (...)
-        d of the head and maximum offset Δ [m].
-    edge_angle : array_like, shape (...)
-        α [rad].
-    forward_speed, knife_speed : array_like, shape (...)
-        v > 0 and v_h ≥ 0 [m/s]; all broadcast.
-
-    Returns
-    -------
-    ndarray, shape (2, ...)
-        Knife to the left, then to the right [m]; infinite where the edge moves along itself.
+    d of the head and maximum offset Δ [m], α [rad], v > 0 and v_h ≥ 0 [m/s] broadcast. Infinite where the
+    edge moves along itself.
     """
     given = diameter, offset, edge_angle, forward_speed, knife_speed
     d, delta, alpha, v, v_h = np.broadcast_arrays(*(np.asarray(each, dtype=float) for each in given))
@@ -116,17 +105,9 @@ def constant_speed_lengths(
 def every_phase_length(
     diameter: ArrayLike, offset: ArrayLike, edge_angle: ArrayLike, stroke: ArrayLike
 ) -> Floats:
-    """Minimum length of an edge that never retreats.
+    """Minimum length of an edge that never retreats, (...) [m].
 
-    Parameters
-    ----------
-    diameter, offset, edge_angle, stroke : array_like, shape (...)
-        d of the head and maximum offset Δ [m], α [rad], S [m]; they broadcast.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        [m]
+    d of the head and maximum offset Δ [m], α [rad], stroke S [m] broadcast.
     """
     band = np.asarray(diameter, dtype=float) + 2 * np.asarray(offset, dtype=float)
     return np.asarray((np.asarray(stroke, dtype=float) + band) / np.cos(edge_angle))
@@ -150,27 +131,10 @@ class PublishedLengths(Result):
 def published_lengths(
     band: float, edge_angle: float, edge_length: float, forward_speed: float, knife_speed: float
 ) -> PublishedLengths:
-    """Travels, condition and lengths of the paper.
+    """Travels, condition and lengths by paper 5, (1) to (10).
 
-    Parameters
-    ----------
-    band : float
-        b: diameter d of the head, with offset d + 2Δ [m].
-    edge_angle : float
-        α [rad], between −π/2 and π/2.
-    edge_length : float
-        L [m].
-    forward_speed, knife_speed : float
-        v > 0 and v_h ≥ 0 [m/s].
-
-    Returns
-    -------
-    PublishedLengths
-        By the paper.
-
-    References
-    ----------
-    .. [1] Paper 5, (1) to (10).
+    `band`: b, diameter d of the head, with offset d + 2Δ [m]; α between −π/2 and π/2 [rad]; L [m]; v > 0 and
+    v_h ≥ 0 [m/s].
     """
     sin, cos = abs(np.sin(edge_angle)), np.cos(edge_angle)
     along, across = band * (cos + sin**2), (edge_length - band * sin) * cos
@@ -189,34 +153,18 @@ def published_lengths(
 
 
 def length_published(band: ArrayLike, edge_angle: ArrayLike, ratio: ArrayLike) -> Floats:
-    """Minimum length as printed, (5), (9), (10).
+    """Minimum length as printed, paper 5 (5), (9), (10), (...) [m].
 
-    Parameters
-    ----------
-    band, edge_angle, ratio : array_like, shape (...)
-        d + 2Δ [m], α [rad], v_h/v [–]; they broadcast.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        [m]
+    d + 2Δ [m], α [rad], v_h/v [–] broadcast.
     """
     along = np.asarray(ratio) * np.cos(edge_angle)
     return np.asarray(np.asarray(band) * (along + np.abs(np.sin(edge_angle))))
 
 
 def length_consistent(band: ArrayLike, edge_angle: ArrayLike, ratio: ArrayLike) -> Floats:
-    """Minimum length that follows from (4).
+    """Minimum length that follows from paper 5 (4), (...) [m].
 
-    Parameters
-    ----------
-    band, edge_angle, ratio : array_like, shape (...)
-        d + 2Δ [m], α [rad], v_h/v [–]; they broadcast.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        [m]
+    d + 2Δ [m], α [rad], v_h/v [–] broadcast.
     """
     sin = np.abs(np.sin(edge_angle))
     along = np.asarray(ratio) * (1 + sin * np.abs(np.tan(edge_angle)))

@@ -48,34 +48,17 @@ Floats = NDArray[np.float64]
 
 
 def head_diameter(root_diameter: ArrayLike, cut_height: ArrayLike) -> Floats:
-    """Diameter d of the disc that is cut.
-
-    Parameters
-    ----------
-    root_diameter, cut_height : array_like, shape (...)
-        D and h_p [m]; they broadcast.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        [m]; zero where the cut passes above or below the root.
+    """Diameter d of the disc that is cut of D at h_p, (...) [m]; zero where the cut passes above or below the
+    root.
     """
     D, h = np.asarray(root_diameter, dtype=float), np.asarray(cut_height, dtype=float)
     return np.asarray(2 * np.sqrt(np.clip(h * (D - h), 0.0, None)))
 
 
 def cap_volume(root_diameter: ArrayLike, cut_height: ArrayLike) -> Floats:
-    """Volume V of the root above the cut.
+    """Volume V of the root of D above the cut at h_p, (...) [m³].
 
-    Parameters
-    ----------
-    root_diameter, cut_height : array_like, shape (...)
-        D and h_p [m]; they broadcast.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        [m³]; zero where the cut passes above the root, all of the root where it passes below.
+    Zero where the cut passes above the root, all of the root where it passes below.
     """
     D = np.asarray(root_diameter, dtype=float)
     h = np.clip(np.asarray(cut_height, dtype=float), 0.0, D)
@@ -141,19 +124,9 @@ class Roots(Result):
         return np.asarray(self.cut_height >= self.root_diameter)
 
     def phase(self, rate: float, forward_speed: float) -> Floats:
-        """Phase of the knife when the middle of the edge is abreast of each root.
+        """Phase of the knife, from 0 to 2π, when the middle of the edge is abreast of each root, (n,) [rad].
 
-        Parameters
-        ----------
-        rate : float
-            Phase per time [rad/s].
-        forward_speed : float
-            v [m/s].
-
-        Returns
-        -------
-        ndarray, shape (n,)
-            From 0 to 2π [rad].
+        `rate`: phase per time [rad/s]; `forward_speed`: v [m/s].
         """
         turns = self.start + self.distance * (rate / (2 * np.pi * forward_speed))
         return np.asarray(2 * np.pi * (turns - np.floor(turns)))
@@ -165,24 +138,9 @@ def field_of(topper: Topper) -> RandomField | MeasuredField:
 
 
 def draw_roots(topper: Topper, seed: int | None = None) -> Roots:
-    """Draw the roots of a field.
+    """Draw the roots of a field, the same for the same seed, in place of the field's own if one is given.
 
-    Parameters
-    ----------
-    topper : Topper
-        The topper; its own sizes count where the field has none.
-    seed : int, optional
-        Seed of the random generator, in place of that of the field.
-
-    Returns
-    -------
-    Roots
-        The same for the same seed.
-
-    Raises
-    ------
-    InputError
-        The seed is negative.
+    The topper's own sizes count where the field has none. Raises `InputError` for a negative seed.
     """
     if seed is not None and seed < 0:
         raise InputError(f"seed: found {seed}, expected a whole number of 0 or more")

@@ -53,17 +53,8 @@ class Slicing:
 
 
 def slicing(edges: Sequence[Edge]) -> Slicing:
-    """Draw-cut ratio and cutting speed of an edge in one or two directions.
-
-    Parameters
-    ----------
-    edges : sequence of Edge
-        The edge; of its directions each counts for half of the time.
-
-    Returns
-    -------
-    Slicing
-        Extremes and mean.
+    """Extremes and mean of draw-cut ratio and cutting speed of an edge; each direction counts for half of the
+    time.
     """
     slow, fast = zip(*(_speeds(edge) for edge in edges), strict=True)
     least, greatest = zip(*(_ratios(edge) for edge in edges), strict=True)
@@ -105,20 +96,11 @@ def _speeds(edge: Edge) -> tuple[float, float]:
 
 
 def edge_use(edges: Sequence[Edge], diameter: float, offset: float) -> tuple[Floats, Floats]:
-    """How much of a head each place of the edge cuts, on average.
+    """How much of a head each place of the edge cuts, on average, at d and Δ [m]: place and width, (n,) each.
 
-    Parameters
-    ----------
-    edges : sequence of Edge
-        The edge; offsets and phases are taken evenly, directions alike.
-    diameter, offset : float
-        d and Δ [m].
-
-    Returns
-    -------
-    place, width : ndarray, shape (n,)
-        Position along the edge from its middle [m], and the way that it goes, normal to the edge, through a
-        head [m]: its integral over all places is the area of the head, but for an edge that retreats.
+    Position along the edge from its middle [m], and the way that it goes, normal to the edge, through a head
+    [m]: its integral over all places is the area of the head, but for an edge that retreats. Offsets and
+    phases are taken evenly, directions alike.
     """
     places, widths = zip(*(_use(edge, diameter, offset) for edge in edges), strict=True)
     reach = max(float(place[-1]) for place in places)

@@ -186,23 +186,10 @@ def lengths_over(
     offset: ArrayLike,
     stroke: Stroke | None = None,
 ) -> Floats:
-    """Minimum and maximum length over the speeds of a claim.
+    """Minimum and maximum length over the speeds of a claim, (2, ...) [m]; infinite where no edge does.
 
-    Parameters
-    ----------
-    claim : Claim
-        Ranges of speeds.
-    way : str
-        A key of `WAYS`.
-    edge_angle, diameter, offset : array_like of any shapes
-        α [rad], d and Δ [m]; they broadcast.
-    stroke : Stroke, optional
-        Of the knife; ``"every_phase"`` needs it.
-
-    Returns
-    -------
-    ndarray, shape (2, ...)
-        [m]; infinite where no edge does, and for ``"every_phase"`` where the edge retreats.
+    `way`: a key of `WAYS`; α [rad], d and Δ [m] of any shapes broadcast; `stroke` is needed for
+    ``"every_phase"``, whose length is infinite where the edge retreats.
     """
     ends = np.stack([_length(way, ratio, edge_angle, diameter, offset, stroke) for ratio in claim.ratios])
     greatest = ends.max(axis=0)
@@ -215,23 +202,10 @@ def lengths_over(
 def bands_of(
     claim: Claim, way: str, edge_angle: ArrayLike, offset_share: ArrayLike, stroke: Stroke | None = None
 ) -> Floats:
-    """Bands of heads whose maximum length over the speeds lies at the ends of a claim.
+    """Bands d + 2Δ of heads whose maximum length over the speeds lies at the ends of a claim, (2, ...) [m].
 
-    Parameters
-    ----------
-    claim : Claim
-        Ranges of speeds, and of the length.
-    way : str
-        A key of `WAYS`.
-    edge_angle, offset_share : array_like of any shapes
-        α [rad], 2Δ/(d + 2Δ) [–]; they broadcast.
-    stroke : Stroke, optional
-        Of the knife; ``"every_phase"`` needs it.
-
-    Returns
-    -------
-    ndarray, shape (2, ...)
-        d + 2Δ [m]; zero where no band does.
+    `way`: a key of `WAYS`; α [rad], 2Δ/(d + 2Δ) [–] of any shapes broadcast; `stroke` is needed for
+    ``"every_phase"``. Zero where no band does.
     """
     share = np.asarray(offset_share, dtype=float)
     none, unit = (

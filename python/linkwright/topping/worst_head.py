@@ -60,28 +60,12 @@ def worst_head(
     phase: float | None,
     measure: Measure,
 ) -> Worst:
-    """The head at which a measure has its maximum, over offsets up to Δ on both sides and over all phases.
+    """The head at which a measure has its maximum, over offsets up to Δ [m] on both sides and over all
+    phases.
 
-    Parameters
-    ----------
-    edges : sequence of Edge
-        One edge, or its two directions.
-    offset : float
-        Δ [m].
-    phase : float or None
-        The only phase [rad]; None for all.
-    measure : callable
-        Edge, offsets and phases (n,) → what is looked at, (n,).
-
-    Returns
-    -------
-    Worst
-        Value and place.
-
-    Notes
-    -----
-    A look at many heads, then a look about the best of them that narrows fourfold each round: tops may be
-    smooth or edges.
+    `phase`: the only one [rad], None for all; `measure`: edge, offsets and phases (n,) → what is looked at,
+    (n,). A look at many heads, then a look about the best of them that narrows fourfold each round: tops may
+    be smooth or edges.
     """
     found = [_worst(edge, offset, phase, measure) for edge in edges]
     return max(found, key=lambda each: each.value)

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.kernel.figure.captioned import Captioned
 from linkwright.kernel.figure.style import (
     DRIVE,
     GRID,
     INERTIA,
     LOAD,
     SPEED,
+    Captioned,
     legend_above,
     level,
     panels,

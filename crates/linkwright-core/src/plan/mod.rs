@@ -20,5 +20,5 @@ pub mod loads;
 
 /// Number of the language in which machines, cams and trains cross the border: names of classes and of their fields,
 /// order of lists and of results. It goes up with every change of these, here and in
-/// `linkwright.kernel.core.core_format`.
+/// `linkwright.machine.program.core`.
 pub const FORMAT: u32 = 15;

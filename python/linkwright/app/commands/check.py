@@ -44,18 +44,7 @@ def check(file: File, set: Sets = None, allow_outside: Outside = False, json: Js
 
 
 def summary(machine: Machine) -> str:
-    """What a machine consists of, a line for each part.
-
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-
-    Returns
-    -------
-    str
-        Text of a few lines.
-    """
+    """What a machine consists of, a line for each part."""
     from linkwright.linkages.model.mobility import mobility
 
     rows = [("machine", machine.name), *_diagram(machine), *_topper(machine)]

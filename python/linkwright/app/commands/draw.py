@@ -119,7 +119,7 @@ def _scene(machine: Machine, at: str | None) -> tuple[Scene, float]:
 
 def _data(scene: Scene, place: float, seconds: float, ending: str) -> str | bytes:
     """The file."""
-    from linkwright.app.figures import bytes_of
+    from linkwright.app.curves import bytes_of
     from linkwright.app.report.moving import dxf, gif, mp4
     from linkwright.app.report.sketch import sketch_figure
 

@@ -42,9 +42,9 @@ def new(
 
     It goes to standard output, or to --out.
     """
-    from linkwright.kernel.files.templates import template as text_of
-    from linkwright.kernel.files.templates import templates
-    from linkwright.pumping.template import unit_template
+    from linkwright.kernel.files.library import template as text_of
+    from linkwright.kernel.files.library import templates
+    from linkwright.pumping.model.unit_catalogue import unit_template
 
     if list or template is None:
         click.echo("\n".join(_units() if template == _UNIT else _rows(templates())))

@@ -70,8 +70,7 @@ def plot(
     Any curve that `linkwright run` computes, and motion of points, links and slides; over the crank angle of
     a revolution unless it runs over something else.
     """
-    from linkwright.app.curves import chosen, curves_of, from_zero
-    from linkwright.app.figures import curves_figure
+    from linkwright.app.curves import chosen, curves_figure, curves_of, from_zero
     from linkwright.app.study import study
     from linkwright.linkages.zero import Zero, zero_angle
     from linkwright.machine.read import read
@@ -144,7 +143,7 @@ def _told(study: Study, curves: Sequence[Curve], zero: float) -> dict[str, Any]:
 
 def _write(curves: Sequence[Curve], zero: str, outs: Sequence[str], *, force: bool) -> list[Path]:
     """The picture and the table where they are wanted."""
-    from linkwright.app.figures import bytes_of, curves_figure
+    from linkwright.app.curves import bytes_of, curves_figure
     from linkwright.kernel.files.output import write_file
 
     written: list[Path] = []
@@ -173,8 +172,8 @@ def _csv(curves: Sequence[Curve]) -> str:
     """What they run over, and each of them; curves on other points have what they run over beside them."""
     import numpy as np
 
-    from linkwright.kernel.page.csv import columns_csv
     from linkwright.kernel.page.out_units import reader
+    from linkwright.kernel.page.table import columns_csv
 
     most = max(len(curve.x) for curve in curves)
     columns: dict[str, Any] = {}

@@ -104,7 +104,7 @@ def _files(study: Study) -> dict[str, str]:
     from linkwright.app.report.page import report_html
     from linkwright.kernel.command.console import progress
     from linkwright.kernel.files.output import file_names
-    from linkwright.kernel.page.csv import curves_csv
+    from linkwright.kernel.page.table import curves_csv
 
     with progress("writing the report"):
         names = file_names(dict.fromkeys(study.results(), ".csv"))

@@ -11,7 +11,7 @@ from typing import NamedTuple
 from linkwright.kernel.command.answer import Answer
 from linkwright.kernel.command.common import named_entries
 from linkwright.kernel.errors import InputError
-from linkwright.kernel.figure.captioned import Captioned
+from linkwright.kernel.figure.style import Captioned
 from linkwright.kernel.page.content import Content, Part
 from linkwright.kernel.page.table import Row, Table
 
@@ -24,13 +24,7 @@ class Variant(NamedTuple):
 
 
 def variant(text: str) -> Variant:
-    """A variant by ``"NAME: PATH=VALUE; …"``.
-
-    Raises
-    ------
-    InputError
-        It has no name or no entry.
-    """
+    """A variant by ``"NAME: PATH=VALUE; …"``; an `InputError` without name or entry."""
     example = "heavier: bodies.cart1.mass=900 kg"
     name, entries = named_entries("--variant", text, example)
     if not entries:
@@ -39,13 +33,7 @@ def variant(text: str) -> Variant:
 
 
 def answered(answer: Answer, command: str) -> Content:
-    """What a report of an answer says.
-
-    Raises
-    ------
-    InputError
-        The answer has neither tables nor figures.
-    """
+    """What a report of an answer says; an `InputError` if it has neither tables nor figures."""
     if answer.report is not None:
         return replace(answer.report(), command=command)
     tables = list(answer.tables())
@@ -79,21 +67,9 @@ def _title(name: str) -> str:
 
 
 def compared(content: Content, of: Content, variants: Mapping[str, Content]) -> Content:
-    """A report with what differs between variants before all else.
+    """A report with a table for each table in which a number differs between variants before all else.
 
-    Parameters
-    ----------
-    content : Content
-        What the report says of the machine as it is.
-    of : Content
-        The same before sections were chosen.
-    variants : mapping of str to Content
-        Name → what the report of the variant says.
-
-    Returns
-    -------
-    Content
-        With a table for each table in which a number differs; findings and warnings of variants are named.
+    `of`: the same before sections were chosen. Findings and warnings of variants are named.
     """
     found = list(_compared_tables(_tables(of), {name: _tables(each) for name, each in variants.items()}))
     findings = [f"{name}: {each}" for name, other in variants.items() for each in other.findings]

@@ -17,9 +17,7 @@ from linkwright.drive.tables_in_time import methods_sentence
 from linkwright.kernel.page.numbers import degrees, number, quantity
 from linkwright.kinetostatics.model.body import Body
 from linkwright.kinetostatics.model.loads.between import Damper, GasSpring, Spring, TorsionalSpring
-from linkwright.kinetostatics.model.loads.force import Gravity
-from linkwright.kinetostatics.model.loads.formula import FormulaLoad
-from linkwright.kinetostatics.model.loads.friction import DryFriction, ViscousFriction
+from linkwright.kinetostatics.model.loads.force import DryFriction, FormulaLoad, Gravity, ViscousFriction
 from linkwright.kinetostatics.model.loads.table import ForcePosition, TorqueAngle, TorqueSpeed, TorqueSwing
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.drive_line import drive_inertia, reverse_factor
@@ -48,18 +46,7 @@ _LOADS = {
 
 
 def assumptions(study: Study) -> list[str]:
-    """All that was taken for granted.
-
-    Parameters
-    ----------
-    study : Study
-        The study.
-
-    Returns
-    -------
-    list of str
-        Sentences, from the mechanism to the methods.
-    """
+    """All that was taken for granted: sentences, from the mechanism to the methods."""
     machine = study.machine
     cut = [*_diagram(machine), *_topper(machine)]
     if machine.is_topper_alone or machine.is_diagram_alone:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from linkwright.app.study import Study
 from linkwright.drive.figures import drive_figures
 from linkwright.drive.figures_of_cycle import cycle_figures
-from linkwright.kernel.figure.captioned import Captioned
+from linkwright.kernel.figure.style import Captioned
 from linkwright.kinetostatics.figures import captioned_forces
 from linkwright.linkages.figures import linkage_figures
 

@@ -41,13 +41,7 @@ def gif(scene: Scene, seconds: float) -> bytes:
 
 
 def mp4(scene: Scene, seconds: float) -> bytes:
-    """The motion as MP4 (H.264); ``seconds`` for all of it.
-
-    Raises
-    ------
-    InputError
-        The encoder is not installed.
-    """
+    """The motion as MP4 (H.264); ``seconds`` for all of it. An `InputError` without the encoder."""
     try:
         from imageio_ffmpeg import write_frames
     except ImportError:

@@ -43,17 +43,9 @@ _FINENESS = 1e-5
 
 
 def scene(study: Study) -> Scene | None:
-    """All that the sketch needs, ready for JSON.
+    """All that the sketch needs, ready for JSON: as of `moving_scene`, in lists, without the motion.
 
-    Parameters
-    ----------
-    study : Study
-        The study.
-
-    Returns
-    -------
-    dict or None
-        As of `moving_scene`, in lists without more digits than can be seen; without the motion.
+    They have no more digits than can be seen.
     """
     found = moving_scene(study.machine, study.steady_state)
     if found is None:
@@ -77,25 +69,12 @@ def scene(study: Study) -> Scene | None:
 
 
 def moving_scene(machine: Machine, steady: SteadyState | None, through: float | None = None) -> Scene | None:
-    """All that is drawn of a mechanism in motion.
+    """All that is drawn of a mechanism in motion, with the crank angle `through` [rad] among those drawn.
 
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    steady : SteadyState or None
-        Its steady motion, if that is known.
-    through : float, optional
-        Crank angle [rad] that is among those drawn.
-
-    Returns
-    -------
-    dict or None
-        ``angles`` [rad], ``times`` [s], ``speeds`` [rad/s], ``points``, x and y [m] by name, ``headings``,
-        angles of links [rad] by name, all arrays at the same instants; ``parts`` to draw; ``box``, minimum
-        and maximum x and y; ``swings``, whether the motion goes back and forth; ``true_speed``, whether the
-        times are those of steady motion; ``motion``, the `Kinematics`. None if the mechanism closes nowhere,
-        or nothing moves.
+    ``angles`` [rad], ``times`` [s], ``speeds`` [rad/s], ``points``, x and y [m] by name, ``headings``, angles
+    of links [rad] by name, all arrays at the same instants; ``parts`` to draw; ``box``, minimum and maximum x
+    and y; ``swings``, whether the motion goes back and forth; ``true_speed``, whether the times are those of
+    steady motion; ``motion``, the `Kinematics`. None if the mechanism closes nowhere, or nothing moves.
     """
     if not _closes(machine):
         return None

@@ -29,20 +29,7 @@ _FILL = "#eef1f4"
 
 @styled
 def sketch_figure(scene: Scene, place: float = 0.125) -> Figure:
-    """Draw the mechanism at one instant.
-
-    Parameters
-    ----------
-    scene : dict
-        Of `linkwright.app.report.scene.moving_scene`.
-    place : float
-        Where in the motion that is drawn, from 0 to 1.
-
-    Returns
-    -------
-    Figure
-        To scale.
-    """
+    """Draw a scene of `moving_scene` to scale at one instant, from 0 to 1 of the motion that is drawn."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(WIDTH, _TALLEST), layout="constrained")

@@ -59,23 +59,9 @@ class SideChange:
 
 
 def side_changes(course: CamCourse, force: Floats, mass: float, clearance: float) -> tuple[SideChange, ...]:
-    """Where the force along the way changes its sign.
+    """Where the force along the way, (n,) [N or N m], changes its sign, in the order of the angles.
 
-    Parameters
-    ----------
-    course : CamCourse
-        n angles.
-    force : ndarray, shape (n,)
-        F [N or N m].
-    mass : float
-        m of the follower [kg or kg m²].
-    clearance : float
-        j [m or rad].
-
-    Returns
-    -------
-    tuple of SideChange
-        In the order of their angles.
+    `mass`: m of the follower [kg or kg m²]; `clearance`: j [m or rad].
     """
     # A force that is zero, as in a dwell without load, belongs to the flank that carried before.
     sign = np.sign(force)

@@ -191,20 +191,7 @@ class NoFriction:
     """A bearing of a translating follower that takes whatever comes across the way, without friction."""
 
     def held(self, course: CamCourse, push: Push) -> BearingReaction:
-        """Nothing is lost; the whole reaction counts as that of the near end.
-
-        Parameters
-        ----------
-        course : CamCourse
-            n angles.
-        push : Push
-            Of the contact.
-
-        Returns
-        -------
-        BearingReaction
-            For each angle.
-        """
+        """Nothing is lost; the whole reaction counts as that of the near end, for each angle."""
         none = np.zeros_like(course.cam_angle)
         return BearingReaction(push.along, -push.across, none, none)
 

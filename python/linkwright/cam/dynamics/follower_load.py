@@ -216,24 +216,9 @@ def cam_course(
 
 
 def force_along(course: CamCourse, follower: FollowerLoad) -> Floats:
-    """Force that the follower needs along its way, friction left out.
+    """F, (n,), that the follower needs along its way, friction left out [N or N m].
 
-    Parameters
-    ----------
-    course : CamCourse
-        Motion, n angles.
-    follower : FollowerLoad
-        What acts on it.
-
-    Returns
-    -------
-    ndarray, shape (n,)
-        F [N or N m].
-
-    Raises
-    ------
-    ShapeError
-        The load has another length than the course.
+    Raises `ShapeError` if the load has another length than the course.
     """
     load = alike(cam_angle=course.cam_angle, load=follower.load)["load"]
     along: Floats = (

@@ -21,9 +21,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.cam.dynamics.one_mass import OneMass
-from linkwright.cam.dynamics.oscillator import Indices, Oscillation, in_pieces, oscillation, pole
+from linkwright.cam.dynamics.oscillator import (
+    Ends,
+    Indices,
+    Oscillation,
+    in_pieces,
+    oscillation,
+    pole,
+    steps,
+    without_steps,
+)
 from linkwright.cam.laws.motion_law import Extreme, MotionLaw, combined
-from linkwright.cam.profile.lift_steps import Ends, steps, without_steps
 from linkwright.kernel.errors import require_within
 from linkwright.kernel.limits import VIBRATIONS
 from linkwright.kernel.public import public

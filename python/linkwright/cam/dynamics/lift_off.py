@@ -27,8 +27,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright.cam.dynamics.follower_load import FollowerLoad
+from linkwright.cam.dynamics.oscillator import steps, without_steps
 from linkwright.cam.laws.motion_law import Extreme, MotionLaw, combined
-from linkwright.cam.profile.lift_steps import steps, without_steps
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range

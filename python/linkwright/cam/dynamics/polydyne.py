@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.cam.dynamics.one_mass import OneMass
+from linkwright.cam.dynamics.oscillator import Ends, continuity, steps
 from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.cam.model.follower_motion import polydyne_correction, polydyne_lift
-from linkwright.cam.profile.lift_steps import Ends, continuity, steps
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range

@@ -23,9 +23,8 @@ from numpy.typing import NDArray
 
 from linkwright.cam.dynamics.follower_vibration import Train
 from linkwright.cam.dynamics.one_mass import OneMass
-from linkwright.cam.dynamics.oscillator import in_pieces, nodes_for, pole
+from linkwright.cam.dynamics.oscillator import in_pieces, nodes_for, pole, steps, without_steps
 from linkwright.cam.laws.motion_law import MotionLaw
-from linkwright.cam.profile.lift_steps import steps, without_steps
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.numerics import roots
 from linkwright.kernel.public import public
@@ -144,28 +143,12 @@ def residual_amplitude(
     damping_ratio_frame: float = 0.0,
     share: float = 1.0,
 ) -> Floats:
-    """The residual alone, as `residual_spectrum` gives it, for many ratios in little time.
+    """The residual alone, as `residual_spectrum` gives it, for many ratios τ, (n,), in little time.
 
-    Parameters
-    ----------
-    rise : MotionLaw
-        s over the angle of rise; the follower dwells before and after it [m over rad].
-    ratio : array_like, shape (n,)
-        τ, rise time over natural period [–].
-    damping_ratio, damping_ratio_frame : float
-        ζ of the damper in the train, ζ_f of that to the frame [–].
-    share : float
-        κ = k/(k + k_r) [–].
-
-    Returns
-    -------
-    ndarray, shape (n,)
-        Amplitude of the free vibration as the dwell begins, over the total lift [–].
-
-    Raises
-    ------
-    InputError
-        The lift jumps or has no total lift; a ratio or damping that makes no sense.
+    `rise`: s over the angle of rise, with dwells before and after it [m over rad]; τ: rise time over natural
+    period; `damping_ratio`, `damping_ratio_frame`: ζ of the damper in the train, ζ_f of that to the frame;
+    `share`: κ = k/(k + k_r). Returns the amplitude of the free vibration as the dwell begins, over the total
+    lift, (n,) [–]. Raises `InputError` if the lift jumps or has no total lift, or a number makes no sense.
     """
     tau = np.atleast_1d(np.asarray(ratio, dtype=float))
     kernel = _kernel(rise, tau, (damping_ratio, damping_ratio_frame, share))

@@ -14,7 +14,7 @@ from linkwright.cam.figures.cam import (
     pressure_angle_figure,
 )
 from linkwright.cam.profile.profile import CamProfile
-from linkwright.kernel.figure.captioned import Captioned
+from linkwright.kernel.figure.style import Captioned
 from linkwright.kernel.page.numbers import degrees, quantity
 
 

@@ -8,10 +8,9 @@
 | `limited` | Trapezoidal velocity and S-curve by limits of velocity, acceleration and jerk |
 | `motion_law` | A motion law: lift over angle, or over time, in pieces that are polynomials and harmonics |
 | `optimal` | Laws with minimum mean square or minimum peak of a derivative |
-| `osculating` | Formulas as polynomials that have their value and three derivatives at many places |
 | `piece` | One stretch of a law, polynomial and harmonics, and where it is zero |
 | `polynomial` | Polynomials by conditions at their ends |
 | `programme` | sections over one revolution, and how smoothly they meet |
 | `ramps` | Ramps of the velocity, and laws that start, keep a velocity and stop |
-| `spline` | Splines through points |
+| `spline` | Splines through points; a smooth function as polynomials, within a measured error |
 """

@@ -72,41 +72,18 @@ class Entry:
     parameters: dict[str, Any] = field(default_factory=dict)
 
     def normalised(self, **parameters: Any) -> MotionLaw:
-        """f(z) from rest to rest, z and f from 0 to 1.
-
-        Parameters
-        ----------
-        **parameters
-            Of the law; those that are missing have their usual values.
-
-        Returns
-        -------
-        MotionLaw
-            From 0 to 1.
+        """f(z) from rest to rest, z and f from 0 to 1; parameters that are missing have their usual
+        values.
         """
         if self.law is not None:
             return self.law(**self.parameters | parameters)
         return self.section(REST_TO_REST, **parameters)
 
     def section(self, task: Boundary, **parameters: Any) -> MotionLaw:
-        """The law of a section with any boundary values.
+        """The law x(z) of a section from 0 to 1, beginning with 0, with any boundary values.
 
-        Parameters
-        ----------
-        task : Boundary
-            What the section has to do.
-        **parameters
-            Of the law; those that are missing have their usual values.
-
-        Returns
-        -------
-        MotionLaw
-            x(z) from 0 to 1, beginning with 0.
-
-        Raises
-        ------
-        LawError
-            The law cannot meet these boundary values.
+        Parameters that are missing have their usual values. Raises `LawError` if it cannot meet these
+        boundary values.
         """
         if self.of_task is not None:
             return self.of_task(task, **self.parameters | parameters)

@@ -62,14 +62,8 @@ class MotionLaw:
 
     @classmethod
     def of(cls, start: float, *stretches: tuple[float, Piece]) -> MotionLaw:
-        """A law from lengths and pieces, one after the other.
-
-        Parameters
-        ----------
-        start : float
-            Where the first begins.
-        *stretches : tuple of float and Piece
-            Length and piece; those without length, but for rounding, are left out.
+        """A law from pairs of length and piece, one after the other; those without length, but for rounding,
+        are left out.
         """
         least = _SAME * math.fsum(length for length, _ in stretches)
         kept = [(length, piece) for length, piece in stretches if length > least]
@@ -97,21 +91,9 @@ class MotionLaw:
             yield low, high - low, piece
 
     def at(self, x: ArrayLike, order: int = 0, side: Side = "after") -> Floats:
-        """Value or derivative.
+        """Value, or derivative of an order, of the shape of ``x``; beyond the ends the outer pieces go on.
 
-        Parameters
-        ----------
-        x : array_like, any shape
-            Where; beyond the ends the outer pieces go on.
-        order : int
-            Of the derivative.
-        side : {"after", "before"}
-            Which piece counts at a break.
-
-        Returns
-        -------
-        ndarray
-            Of the shape of ``x``.
+        `side`: which piece counts at a break, that ``"after"`` or ``"before"`` it.
         """
         x = np.asarray(x, dtype=float)
         law = self.derivative(order)
@@ -137,13 +119,7 @@ class MotionLaw:
         return MotionLaw(self.breaks, pieces)
 
     def integral(self, start: float = 0.0) -> MotionLaw:
-        """The law whose derivative this is, continuous, beginning with a value.
-
-        Parameters
-        ----------
-        start : float
-            That value.
-        """
+        """The law whose derivative this is, continuous, beginning with the value `start`."""
         pieces: list[Piece] = []
         for _, length, piece in self._stretches():
             pieces.append(piece.integral(length, start))
@@ -211,18 +187,7 @@ class MotionLaw:
         return found
 
     def extremes(self, order: int = 0) -> tuple[Extreme, Extreme]:
-        """The minimum and maximum value of a derivative.
-
-        Parameters
-        ----------
-        order : int
-            Of the derivative.
-
-        Returns
-        -------
-        tuple of Extreme
-            Minimum and maximum; of equal ones the first.
-        """
+        """Minimum and maximum of the law, or of its derivative of an order; of equal ones the first."""
         ends = [(x, "after") for x in self.breaks[:-1]] + [(x, "before") for x in self.breaks[1:]]
         listed: list[Extreme] = []
         for side in ("after", "before"):
@@ -252,13 +217,7 @@ class MotionLaw:
 
 
 def joined(laws: Sequence[MotionLaw]) -> MotionLaw:
-    """Laws one after the other; each begins where the one before ends.
-
-    Parameters
-    ----------
-    laws : sequence of MotionLaw
-        In their order; their values are taken as they are.
-    """
+    """Laws one after the other; each begins where the one before ends, with its values as they are."""
     breaks = [laws[0].start]
     for law in laws:
         breaks += law.breaks[1:]
@@ -266,13 +225,7 @@ def joined(laws: Sequence[MotionLaw]) -> MotionLaw:
 
 
 def combined(*terms: tuple[float, MotionLaw]) -> MotionLaw:
-    """A sum of laws over the same stretch, each times a factor.
-
-    Parameters
-    ----------
-    *terms : tuple of float and MotionLaw
-        Factor and law.
-    """
+    """A sum of laws over the same stretch, each times a factor: pairs of factor and law."""
     first = terms[0][1]
     breaks: list[float] = []
     for x in sorted({x for _, law in terms for x in law.breaks}):

@@ -45,24 +45,11 @@ from linkwright.kernel.errors import LawError, Problem
 
 
 def optimal(order: int, start: Conditions, end: Conditions) -> MotionLaw:
-    """The law of minimum ∫ (dⁿx/dzⁿ)² dz.
+    """The law of minimum ∫ (dⁿx/dzⁿ)² dz from 0 to 1.
 
-    Parameters
-    ----------
-    order : int
-        n, from 1.
-    start, end : Mapping of int to float
-        Order of the derivative → its value there; the orders below n that are missing are free.
-
-    Returns
-    -------
-    MotionLaw
-        From 0 to 1.
-
-    Raises
-    ------
-    LawError
-        A derivative of order n or more is given, or so few are that the minimum is not one law.
+    `start`, `end`: order of the derivative → its value there; the orders below n that are missing are free.
+    Raises `LawError` if a derivative of order n or more is given, or so few are that the minimum is not one
+    law.
     """
     highest = max((*start, *end), default=0)
     if highest >= order:

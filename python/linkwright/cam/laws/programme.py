@@ -94,18 +94,7 @@ class Joint:
         return next((i for i, jump in enumerate(self.jumps) if jump), len(self.jumps)) - 1
 
     def words(self, unit: str = "m") -> str:
-        """How smooth it is, in words.
-
-        Parameters
-        ----------
-        unit : str
-            Of the lift.
-
-        Returns
-        -------
-        str
-            Such as "continuous up to the acceleration; the jerk jumps by 0.2 m/rad³".
-        """
+        """How smooth it is, such as "continuous up to the acceleration; the jerk jumps by 0.2 m/rad³"."""
         n = self.order + 1
         if n == len(self.jumps):
             return f"continuous up to the {NAMES[-1]}"
@@ -134,25 +123,11 @@ class Programme:
 
 
 def programme(sections: Sequence[Section]) -> Programme:
-    """The programme of some sections.
+    """The programme of sections in their order, closed.
 
-    Parameters
-    ----------
-    sections : sequence of Section
-        In their order; their angles add to a revolution, their lifts to zero.
-
-    Returns
-    -------
-    Programme
-        Closed: what rounding leaves of the revolution is shared by all angles in proportion, and what it
-        leaves of the lift is taken from the largest lift.
-
-    Raises
-    ------
-    InputError
-        Angles or lifts do not close.
-    LawError
-        A law cannot meet its boundary values.
+    What rounding leaves of the revolution is shared by all angles in proportion, and what it leaves of the
+    lift is taken from the largest lift. Raises `InputError` if angles or lifts do not close, `LawError` if a
+    law cannot meet its boundary values.
     """
     closed = _closed(sections)
     tasks = boundaries(closed)

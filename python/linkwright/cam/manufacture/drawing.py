@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.cam.manufacture.curve import ClosedCurve, Side, Track
-from linkwright.cam.manufacture.deviation import Deviation
+from linkwright.cam.manufacture.fit import Deviation
 from linkwright.cam.manufacture.outline import turned
 from linkwright.cam.profile.profile import CamProfile, Flank
 from linkwright.kernel.errors import InputError

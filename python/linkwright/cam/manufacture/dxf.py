@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.cam.manufacture.deviation import FileOutline
 from linkwright.cam.manufacture.drawing import CENTRE, CUTTER_PATH, PITCH_CURVE, TEXT, ZERO_ANGLE, Drawing
+from linkwright.cam.manufacture.fit import FileOutline
 from linkwright.cam.manufacture.outline import Outline
 from linkwright.cam.manufacture.spline import EvaluatedSpline, Spline
 from linkwright.kernel.errors import ExchangeError

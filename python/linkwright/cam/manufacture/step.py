@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.cam.manufacture.deviation import FileOutline
+from linkwright.cam.manufacture.fit import FileOutline
 from linkwright.cam.manufacture.spline import EvaluatedSpline, Spline
 from linkwright.kernel.errors import ExchangeError, InputError
 

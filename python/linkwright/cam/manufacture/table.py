@@ -18,9 +18,9 @@ from numpy.typing import NDArray
 from linkwright.cam.manufacture.curve import Track
 from linkwright.cam.manufacture.outline import cross, dot
 from linkwright.kernel.errors import ExchangeError, InputError, require_within
-from linkwright.kernel.files.csv_text import csv_text
 from linkwright.kernel.files.output import write_file
 from linkwright.kernel.limits import ROWS_OUT
+from linkwright.kernel.page.table import csv_text
 
 Floats = NDArray[np.float64]
 By = Literal["cam", "polar"]

@@ -15,10 +15,9 @@ from pathlib import Path as File
 import numpy as np
 
 from linkwright.cam.manufacture.curve import Track, size
-from linkwright.cam.manufacture.deviation import FileOutline, deviation
 from linkwright.cam.manufacture.drawing import PROFILE, Drawing, MeasuredOutline, WrittenFile
 from linkwright.cam.manufacture.dxf import read_dxf, write_dxf
-from linkwright.cam.manufacture.fit import TOLERANCE, Form, fit
+from linkwright.cam.manufacture.fit import TOLERANCE, FileOutline, Form, deviation, fit
 from linkwright.cam.manufacture.outline import Outline
 from linkwright.cam.manufacture.spline import Spline
 from linkwright.cam.manufacture.step import read_step, write_step

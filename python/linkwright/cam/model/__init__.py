@@ -8,5 +8,4 @@
 | `motion_law` | The motion law of a section, as it is written in a machine file |
 | `motion_section` | A motion programme as it is written in a machine file |
 | `point_law` | Laws through points, as they are written in a machine file: splines and tables |
-| `section_faults` | What is wrong with a motion programme |
 """

@@ -22,8 +22,7 @@ from pydantic import Field
 from pydantic_core import InitErrorDetails
 
 from linkwright.cam.model.follower_motion import FollowerMotion, FollowerTrain, follower_motion
-from linkwright.cam.model.motion_section import MotionSection
-from linkwright.cam.model.section_faults import section_faults
+from linkwright.cam.model.motion_section import MotionSection, section_faults
 from linkwright.kernel.description.base import CheckedDescription, Description, fault
 from linkwright.kernel.units import (
     ACUTE,

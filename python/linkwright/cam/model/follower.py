@@ -85,14 +85,7 @@ def start_of(cam: Cam, size: Sizes) -> Any:
 def follower_of(cam: Cam, points: Mapping[str, FixedPoint], origin: str = "O") -> LinearDriver | Crank:
     """The driver that a cam is in the mechanism, unchecked: its numbers may be arrays.
 
-    Parameters
-    ----------
-    cam : Cam
-        The cam.
-    points : Mapping of str to FixedPoint
-        The fixed points.
-    origin : str
-        Name of the point of a cam without a pivot.
+    `origin`: name of the point of a cam without a pivot.
     """
     size = sizes(cam, points, origin)
     start = start_of(cam, size)
@@ -111,17 +104,9 @@ def follower_of(cam: Cam, points: Mapping[str, FixedPoint], origin: str = "O") -
 
 
 def cam_place_faults(mechanism: Mechanism) -> Iterator[InitErrorDetails]:
-    """Cams whose follower does not reach them.
+    """Cams of a mechanism without other faults whose follower does not reach them.
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        A mechanism without other faults.
-
-    Yields
-    ------
-    InitErrorDetails
-        An offset beyond the prime circle; an arm too short or too long for the base circle, or on its centre.
+    An offset beyond the prime circle; an arm too short or too long for the base circle, or on its centre.
     """
     points = mechanism.fixed_points()
     for name, cam in mechanism.cams.items():

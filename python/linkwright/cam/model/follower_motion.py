@@ -32,8 +32,7 @@ from pydantic_core import InitErrorDetails
 from linkwright.cam.laws.motion_law import MotionLaw, combined
 from linkwright.cam.model.motion_section import Family, MotionSection, programme
 from linkwright.kernel.description.base import CheckedDescription, fault
-from linkwright.kernel.description.plain import arrays
-from linkwright.kernel.description.text import join
+from linkwright.kernel.description.place import arrays, join
 from linkwright.kernel.errors import ShapeError
 from linkwright.kernel.units import FORCE, MASS, RATIO, SPEED, STIFFNESS, Quantity, not_negative, positive
 

@@ -129,7 +129,7 @@ class FormulaLaw(Law):
         return derivatives
 
     def over(self, task: Boundary, angle: float, *, swing: bool) -> MotionLaw:
-        from linkwright.cam.laws.osculating import osculating
+        from linkwright.cam.laws.spline import osculating
 
         text = self.swing if swing else self.lift
         if text is None:

@@ -5,6 +5,5 @@
 | `contact` | Which followers touch which cam, with their curves; the distance of two on opposite sides |
 | `faults` | Is it undercut, pointed, crossed, too hollow for its cutter, too steep? |
 | `least_sizes` | Minimum base circle and maximum roller within the limits of a cam |
-| `lift_steps` | Which derivatives of a lift jump, and where? |
 | `profile` | A cam over one revolution: lift, pressure angle, curvature, and their extremes |
 """

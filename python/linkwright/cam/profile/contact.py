@@ -95,24 +95,7 @@ class Touch(NamedTuple):
 
 
 def touch(cam: Cam, contact: Contact, points: dict[str, FixedPoint], crank_angle: Floats) -> Touch:
-    """Where a follower touches its cam.
-
-    Parameters
-    ----------
-    cam : Cam
-        The cam.
-    contact : Contact
-        One of its contacts.
-    points : dict of str to FixedPoint
-        The fixed points of its mechanism.
-    crank_angle : ndarray, shape (n,)
-        Crank angles [rad].
-
-    Returns
-    -------
-    Touch
-        Places and normals.
-    """
+    """Where a follower touches its cam at crank angles (n,) [rad]: places and normals."""
     angle = np.asarray(crank_angle, dtype=float) - cam.phase
     rows = contact.kernel.rows(np.mod(angle, 2 * np.pi))
     turned = frame_angle(cam, points) + contact.turned + turned_by(cam, angle)
@@ -121,20 +104,7 @@ def touch(cam: Cam, contact: Contact, points: dict[str, FixedPoint], crank_angle
 
 
 def centre_of(cam: Cam, points: dict[str, FixedPoint]) -> tuple[float, float]:
-    """Place of the cam's centre.
-
-    Parameters
-    ----------
-    cam : Cam
-        The cam.
-    points : dict of str to FixedPoint
-        The fixed points of its mechanism.
-
-    Returns
-    -------
-    x, y : float
-        [m].
-    """
+    """Place of the cam's centre, x and y [m]."""
     centre = points.get(cam.pivot or ORIGIN)
     return (0.0, 0.0) if centre is None else (float(centre.x), float(centre.y))
 
@@ -158,28 +128,10 @@ def _turned(x: Floats, y: Floats, angle: Floats) -> Floats:
 
 
 def contacts(cam: Cam, points: dict[str, FixedPoint], name: str = "cam") -> tuple[Contact, ...]:
-    """The contacts of a cam.
+    """The one or two contacts of a cam; `name` for errors.
 
-    Parameters
-    ----------
-    cam : Cam
-        The cam.
-    points : dict of str to FixedPoint
-        The fixed points of its mechanism.
-    name : str
-        The cam's name, for errors.
-
-    Returns
-    -------
-    tuple of Contact
-        One or two.
-
-    Raises
-    ------
-    AssemblyError
-        The second follower does not reach its cam.
-    ShapeError
-        Dimensions vary from machine to machine.
+    Raises `AssemblyError` if the second follower does not reach its cam, `ShapeError` for dimensions that
+    vary from machine to machine.
     """
     size = sizes(cam, points)
     if any(np.ndim(each) for each in (*size, *(value for _, value in cam if not isinstance(value, tuple)))):

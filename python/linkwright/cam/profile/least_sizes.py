@@ -43,22 +43,7 @@ _HALVINGS = 46
 
 
 def base_for_pressure_angle(cam: Cam, contact: Contact, limit: float) -> float | None:
-    """The smallest base radius whose pressure angle keeps a limit.
-
-    Parameters
-    ----------
-    cam : Cam
-        The cam.
-    contact : Contact
-        One of its contacts; all else stays as it is.
-    limit : float
-        Largest pressure angle allowed [rad].
-
-    Returns
-    -------
-    float or None
-        [m]; None if no base radius will do.
-    """
+    """The smallest base radius [m] whose pressure angle keeps a limit [rad]; None if there is none."""
     tangent = float(np.tan(limit))
 
     def spare(contact: Contact) -> float:
@@ -116,17 +101,8 @@ def _crosses(contact: Contact, base: float) -> bool:
 
 
 def largest_roller(contact: Contact) -> float | None:
-    """Radius of the largest roller on the same pitch curve without undercut.
-
-    Parameters
-    ----------
-    contact : Contact
-        A contact with a roller or an edge.
-
-    Returns
-    -------
-    float or None
-        [m]; None where the pitch curve is nowhere convex.
+    """Radius of the largest roller on the same pitch curve without undercut [m]; None where that is nowhere
+    convex.
     """
     bend = contact.kernel.shape(_FINE).greatest["bend"].value
     return 1.0 / bend if bend > 0 else None

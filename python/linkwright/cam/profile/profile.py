@@ -237,26 +237,9 @@ class CamProfile(Result):
 
 
 def the_cam(machine: Machine, name: str | None = None) -> tuple[str, Cam]:
-    """A cam of a machine by name.
+    """A cam of a machine by name, which may be left out if there is one; with its name.
 
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    name : str, optional
-        The cam's name; may be left out if there is one.
-
-    Returns
-    -------
-    name : str
-        Its name.
-    cam : Cam
-        The cam.
-
-    Raises
-    ------
-    InputError
-        There is no cam, none of this name, or several to choose from.
+    Raises `InputError` if there is none, none of this name, or several to choose from.
     """
     cams = machine.mechanism.cams
     if not cams:

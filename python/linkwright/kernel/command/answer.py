@@ -112,19 +112,9 @@ def is_taken(answer: Answer) -> bool:
 
 
 def json_text(answer: Answer, *, curves: bool = False) -> str:
-    """One JSON object on one line: machine, results, findings, warnings.
+    """One JSON object on one line: machine, results (with ``curves`` those too), findings, warnings.
 
-    Parameters
-    ----------
-    answer : Answer
-        What was found.
-    curves : bool
-        Whether the curves are among the results.
-
-    Returns
-    -------
-    str
-        Ends in a line break. Findings stand first among the warnings, too; what is not finite is null.
+    Ends in a line break. Findings stand first among the warnings, too; what is not finite is null.
     """
     from linkwright.kernel.result import finite
 
@@ -154,7 +144,7 @@ def print_answer(answer: Answer) -> None:
     if answer.show is not None:
         answer.show()
         return
-    from linkwright.kernel.command.terminal import print_tables
+    from linkwright.kernel.command.console import print_tables
 
     print_tables(answer.head(), answer.tables(), answer.findings, answer.warnings)
     if tail := answer.tail():
@@ -164,19 +154,8 @@ def print_answer(answer: Answer) -> None:
 def write(answer: Answer, folder: OutputFolder, *, quiet: bool) -> None:
     """Write the JSON object with all curves, the further files and the figures; say where they are.
 
-    Parameters
-    ----------
-    answer : Answer
-        What was found.
-    folder : OutputFolder
-        Where.
-    quiet : bool
-        Whether to say it on standard error, since standard output is JSON.
-
-    Raises
-    ------
-    InputError
-        The folder cannot be written to.
+    `quiet`: say it on standard error, since standard output is JSON. Raises `InputError` if the folder cannot
+    be written to.
     """
     contents: dict[str, str | bytes] = {}
     if answer.results_file:
@@ -187,13 +166,7 @@ def write(answer: Answer, folder: OutputFolder, *, quiet: bool) -> None:
 
 
 def finish(answer: Answer) -> None:
-    """End the command with exit code 1 if the machine cannot do something.
-
-    Raises
-    ------
-    click.exceptions.Exit
-        There are findings.
-    """
+    """End the command with exit code 1 (`click.exceptions.Exit`) if there are findings."""
     if answer.findings:
         raise click.exceptions.Exit(1)
 
@@ -207,32 +180,12 @@ def hand_over(
     out: Path | None = None,
     force: bool = False,
 ) -> None:
-    """Print an answer, write its files, and end the command.
+    """Print an answer, write its files, and end the command; with exit code 1 if there are findings.
 
-    Parameters
-    ----------
-    answer : Answer
-        What was found.
-    json : bool
-        Print the JSON object in place of tables. It is printed when all files are written: whoever reads an
-        object on standard output has the whole answer.
-    curves : bool
-        Whether the object that is printed has the curves.
-    folder : OutputFolder or None
-        Where files are wanted.
-    out : path or None
-        Where the machine file is wanted, if there is one.
-    force : bool
-        Replace a machine file that exists.
-
-    Raises
-    ------
-    InputError
-        The folder or the file cannot be written to.
-    InternalError
-        There is no finding, and no machine to write where one is wanted.
-    click.exceptions.Exit
-        There are findings.
+    With `json` the object is printed in place of tables, with `curves` those too, when all files are written:
+    whoever reads an object on standard output has the whole answer. `folder`, `out`: where files and the
+    machine file are wanted; `force`: replace a machine file that exists. Raises `InputError` if one cannot be
+    written, `InternalError` if there is no finding and no machine to write where one is wanted.
     """
     if _TAKER.get() is not None and (json or folder is not None or out is not None):
         raise InputError("a report is written where its own --to says; leave out --json and --out")

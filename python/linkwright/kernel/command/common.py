@@ -65,18 +65,8 @@ def reports_errors(
     """Let a command end with a message on standard error and its exit code, without a traceback.
 
     A finding that ends a command is its answer all the same, and with ``--json`` it is reported as any other.
-
-    Parameters
-    ----------
-    command : callable
-        A command; errors that this package does not raise on purpose pass through.
-    machine_name : callable
-        Arguments of the command → name of its machine, None where there is none.
-
-    Returns
-    -------
-    callable
-        The same command.
+    Errors that this package does not raise on purpose pass through. `machine_name`: arguments of the command
+    → name of its machine, None where there is none.
     """
 
     @wraps(command)
@@ -105,12 +95,8 @@ def reports_errors(
 
 
 def named_entries(option: str, text: str, example: str) -> tuple[str, list[str]]:
-    """Name and overrides of ``"NAME: PATH=VALUE; …"``.
-
-    Raises
-    ------
-    InputError
-        There is no colon, or no name before it.
+    """Name and overrides of ``"NAME: PATH=VALUE; …"``; an `InputError` without a colon, or a name
+    before it.
     """
     name, colon, entries = text.partition(":")
     if not colon or not name.strip():
@@ -121,10 +107,8 @@ def named_entries(option: str, text: str, example: str) -> tuple[str, list[str]]
 def option_value(option: str, text: str, kind: Kind) -> float:
     """The value of an option that is a quantity; a bare number is SI, where it can mean but one unit.
 
-    Raises
-    ------
-    InputError
-        It is not such a quantity, or an angle or a speed without its unit; names the option.
+    Raises `InputError`, which names the option, for anything else, and for an angle or a speed without its
+    unit.
     """
     from linkwright.kernel.units import ANGLE, SPEED, parse
 

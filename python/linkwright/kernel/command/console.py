@@ -1,32 +1,33 @@
-"""The terminal, by rich: words of a file are printed as they are, whatever rich would make of them.
+"""The terminal, by rich: texts, progress, tables; findings in red, warnings in yellow.
 
-`[red]` in a name is a name. Style comes from `rich.text.Text` and from the ``style`` of columns alone; a test
-sees to it that no other module makes a console.
+Words of a file are printed as they are, whatever rich would make of them: `[red]` in a name is a name. Style
+comes from `rich.text.Text` and from the ``style`` of columns alone; a test sees to it that no other module
+makes a console.
 """
 
 from __future__ import annotations
 
 import sys
-from contextlib import AbstractContextManager, nullcontext
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager, contextmanager, nullcontext
+from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
+from linkwright.kernel.limits import SENTENCES, TABLE_ROWS, TABLES, grouped
+from linkwright.kernel.page.table import Table
+
 if TYPE_CHECKING:
-    from rich.console import Console
+    from rich.console import Console, RenderableType
     from rich.progress import Progress
     from rich.text import Text
+
 
 # Width for files and pipes, which have none of their own.
 _WIDTH = 100
 
 
 def console(*, error: bool = False) -> Console:
-    """A console that reads no markup, no emoji codes and no numbers in what it prints.
-
-    Parameters
-    ----------
-    error : bool
-        Standard error in place of standard output.
-    """
+    """A console on standard output or `error` that reads no markup, emoji codes or numbers in texts."""
     from rich.console import Console
 
     stream = sys.stderr if error else sys.stdout
@@ -51,14 +52,9 @@ def progress(words: str) -> AbstractContextManager[Any]:
 
 
 def progress_bar(words: str, total: float) -> Progress:
-    """A bar on standard error that vanishes when it is stopped; its task is the first.
+    """A bar on standard error that vanishes when it is stopped; its task, of size `total`, is the first.
 
-    Parameters
-    ----------
-    words : str
-        What is being done; words of this package, never of a file.
-    total : float
-        At which it is done.
+    `words`: what is being done; words of this package, never of a file.
     """
     from rich.progress import Progress
 
@@ -66,3 +62,88 @@ def progress_bar(words: str, total: float) -> Progress:
     drawn.add_task(words, total=total)
     drawn.start()
     return drawn
+
+
+# From when on a bar is shown [s].
+_PATIENCE = 1.0
+
+
+@contextmanager
+def bar(words: str) -> Iterator[Callable[[float], None]]:
+    """Show progress while something takes long and somebody looks; yields a call that takes the share."""
+    from time import monotonic
+
+    start, shown = monotonic(), None
+
+    def watch(done: float) -> None:
+        nonlocal shown
+        if shown is None and monotonic() - start > _PATIENCE and sys.stderr.isatty():
+            shown = progress_bar(words, 1.0)
+        if shown is not None:
+            shown.update(shown.task_ids[0], completed=done)
+
+    try:
+        yield watch
+    finally:
+        if shown is not None:
+            shown.stop()
+
+
+# Letters in a line of a column's head.
+_HEAD = 12
+
+
+def print_tables(
+    head: str, tables: Sequence[Table], findings: Sequence[str], warnings: Sequence[str] = ()
+) -> None:
+    """Print a head, tables, and sentences below them."""
+    out = console()
+    if head:
+        out.print(head)
+    for nth, table in enumerate(tables[: TABLES.most]):
+        if head or nth:
+            out.print()
+        out.print(_drawn(table))
+        _print_more(len(table.rows) - TABLE_ROWS.most, "rows")
+    _print_more(len(tables) - TABLES.most, "tables")
+    for part in _sentences(findings, warnings):
+        out.print()
+        out.print(part)
+
+
+def _print_more(count: int, words: str) -> None:
+    """How much is not shown."""
+    if count > 0:
+        console().print(f"… and {grouped(count)} more {words}; --json has all")
+
+
+def _drawn(table: Table) -> RenderableType:
+    """A table of words, symbols and numbers."""
+    from rich import box
+    from rich.table import Table as Drawn
+
+    drawn = Drawn(
+        title=table.title,
+        title_justify="left",
+        title_style="bold",
+        box=box.SIMPLE_HEAD,
+        show_edge=False,
+        pad_edge=False,
+    )
+    drawn.add_column(table.heads[0])
+    drawn.add_column(table.heads[1], style="cyan", no_wrap=True)
+    for n, head in enumerate(table.heads[2:], start=2):
+        # A narrow terminal may break words and lists of them, never a number.
+        listed = any(", " in row[n] for row in table.rows)
+        drawn.add_column(fill(head, _HEAD), no_wrap=not listed)
+    for row in table.rows[: TABLE_ROWS.most]:
+        drawn.add_row(*row)
+    return drawn
+
+
+def _sentences(findings: Sequence[str], warnings: Sequence[str]) -> Iterator[RenderableType]:
+    for word, colour, texts in (("FINDING", "red", findings), ("WARNING", "yellow", warnings)):
+        for text in texts[: SENTENCES.most]:
+            yield styled((f"{word}  ", f"bold {colour}"), (text, colour))
+        if (more := len(texts) - SENTENCES.most) > 0:
+            yield styled((f"… and {grouped(more)} more of these; --json has all", colour))

@@ -25,14 +25,8 @@ def _place(text: str) -> Path:
 
 
 def out_option(words: str, metavar: str = "DIR") -> Any:
-    """The option for a folder, or a file, to write.
-
-    Parameters
-    ----------
-    words : str
-        What is written there, for the help.
-    metavar : str
-        ``"DIR"`` or ``"FILE"``.
+    """The option for a folder (``"DIR"``) or ``"FILE"`` to write; `words`: what is written there, for the
+    help.
     """
     return Option("--out", metavar=metavar, help=words, show_default=False, parser=_place)
 
@@ -42,12 +36,8 @@ Force = Annotated[bool, Option("--force", help="Replace files that exist.")]
 
 
 def output_folder(out: Path | None, *, force: bool) -> OutputFolder | None:
-    """The folder of ``--out``; what it cannot be is reported before anything is computed.
-
-    Raises
-    ------
-    InputError
-        It is no folder, or holds files of others.
+    """The folder of ``--out``; an `InputError` before anything is computed if it is none, or holds files of
+    others.
     """
     if out is None:
         return None
@@ -59,12 +49,10 @@ def output_folder(out: Path | None, *, force: bool) -> OutputFolder | None:
 
 
 def output_files(option: str, names: Sequence[str], endings: Sequence[str], *, force: bool) -> list[Path]:
-    """The files that an option names; what cannot be one is reported before anything is computed.
+    """The files that an option names.
 
-    Raises
-    ------
-    InputError
-        A file ends in none of the endings, has no folder, or exists and is not to be replaced.
+    Raises `InputError`, before anything is computed, for one that ends in none of the endings, has no folder,
+    or exists and is not to be replaced.
     """
     for name in names:
         place = Path(name)
@@ -86,25 +74,10 @@ def write_folder(
     quiet: bool,
     remarks: Mapping[str, str] | None = None,
 ) -> None:
-    """Write files, and figures as SVG and PNG; say where they are.
+    """Write files, and figures as SVG and PNG; say where they are, with remarks beside their names.
 
-    Parameters
-    ----------
-    folder : OutputFolder
-        Where.
-    contents : mapping of str to str or bytes
-        Name → what the file holds.
-    figures : mapping of str to Figure, optional
-        Name without ending → figure.
-    quiet : bool
-        Whether to say it on standard error, since standard output is JSON.
-    remarks : mapping of str to str, optional
-        Name → words beside it.
-
-    Raises
-    ------
-    InputError
-        The folder cannot be written to.
+    `contents`, `figures`: by name, figures without ending; `quiet`: say it on standard error, since standard
+    output is JSON. Raises `InputError` if the folder cannot be written to.
     """
     drawn: dict[str, str | bytes] = {}
     if figures:
@@ -116,38 +89,15 @@ def write_folder(
 
 
 def say_written(paths: Sequence[Path], *, quiet: bool, remarks: Mapping[str, str] | None = None) -> None:
-    """Say where files are.
-
-    Parameters
-    ----------
-    paths : sequence of Path
-        The files.
-    quiet : bool
-        Whether to say it on standard error.
-    remarks : mapping of str to str, optional
-        Name → words beside it.
-    """
+    """Say where files are, on standard error if `quiet`; `remarks`: name → words beside it."""
     words = remarks or {}
     rows = [f"  {path}" + (f": {words[path.name]}" if path.name in words else "") for path in paths]
     click.echo("Written:\n" + "\n".join(rows), err=quiet)
 
 
 def put(text: str, out: Path | None, *, force: bool = False) -> None:
-    """Print a text, or write it to a file.
-
-    Parameters
-    ----------
-    text : str
-        What to put; ends in a line break.
-    out : path or None
-        The file; None for standard output.
-    force : bool
-        Replace a file that exists.
-
-    Raises
-    ------
-    InputError
-        The file exists, or cannot be written.
+    """Print a text, or write it to a file; an `InputError` if that exists and is not forced, or cannot be
+    written.
     """
     if out is None:
         click.echo(text, nl=False)

@@ -79,26 +79,10 @@ class Argument(NamedTuple):
 def command(
     function: Callable[..., Any], name: str | None = None, *, shows_quantities: bool = False
 ) -> click.Command:
-    """The command that a function is.
+    """The command that a function is: its parameters are marked, its docstring is the help.
 
-    Parameters
-    ----------
-    function : callable
-        Its parameters are marked; its docstring is the help.
-    name : str, optional
-        Name of the command; without it, that of the function.
-    shows_quantities : bool
-        Whether there is ``--units``, in which the command shows its numbers.
-
-    Returns
-    -------
-    click.Command
-        With all options in the order of the parameters.
-
-    Raises
-    ------
-    TypeError
-        A parameter has no mark.
+    `name`: that of the function without it; `shows_quantities`: whether there is ``--units``. Options have
+    the order of the parameters. A parameter without a mark is a `TypeError`.
     """
     hints = get_type_hints(function, include_extras=True)
     params = [

@@ -33,19 +33,9 @@ class Curve:
 
 
 def straight(x: ArrayLike, y: ArrayLike, beyond: Beyond = "held") -> Curve:
-    """Straight lines between points.
+    """Straight lines between points (x never decreasing; equal places are a step), (points,) each.
 
-    Parameters
-    ----------
-    x, y : array_like, shape (points,)
-        Places, never decreasing, and values; equal places are a step.
-    beyond : str
-        Whether the end values are held outside, or the end lines go on.
-
-    Returns
-    -------
-    Curve
-        With a kink at each point.
+    Outside the end values are held, or the end lines go on. There is a kink at each point.
     """
     places, values = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
     width = np.diff(places)
@@ -55,19 +45,9 @@ def straight(x: ArrayLike, y: ArrayLike, beyond: Beyond = "held") -> Curve:
 
 
 def smooth(x: ArrayLike, y: ArrayLike, slope: ArrayLike, beyond: Beyond = "straight") -> Curve:
-    """Cubics between points with their slopes.
+    """Cubics between points with values and slopes, (points,) each, x increasing.
 
-    Parameters
-    ----------
-    x, y, slope : array_like, shape (points,)
-        Places, increasing, values, and slopes there.
-    beyond : str
-        Whether the end values are held outside, or straight lines go on with the end slopes.
-
-    Returns
-    -------
-    Curve
-        Without kinks, but for those at ends that are held.
+    Outside the end values are held, which makes kinks, or straight lines go on with the end slopes.
     """
     places, values, slopes = (np.asarray(each, dtype=float) for each in (x, y, slope))
     before, after = slopes.copy(), slopes.copy()
@@ -77,17 +57,8 @@ def smooth(x: ArrayLike, y: ArrayLike, slope: ArrayLike, beyond: Beyond = "strai
 
 
 def odd(x: ArrayLike, y: ArrayLike, slope: ArrayLike) -> Curve:
-    """A curve of zero and above, turned about zero: the torque of a coupling over its twist.
-
-    Parameters
-    ----------
-    x, y, slope : array_like, shape (points,)
-        From x = 0 upwards, y = 0 there.
-
-    Returns
-    -------
-    Curve
-        Straight beyond its ends.
+    """A curve from x = 0, y = 0 upwards, turned about zero: the torque of a coupling over its twist; straight
+    beyond.
     """
     places, values, slopes = (np.asarray(each, dtype=float) for each in (x, y, slope))
     return smooth(
@@ -98,20 +69,7 @@ def odd(x: ArrayLike, y: ArrayLike, slope: ArrayLike) -> Curve:
 
 
 def backlash(gap: float, stiffness: float) -> Curve:
-    """No torque within a gap, and a stiffness at both its sides.
-
-    Parameters
-    ----------
-    gap : float
-        From side to side [rad].
-    stiffness : float
-        Outside the gap [N m/rad].
-
-    Returns
-    -------
-    Curve
-        Torque over twist.
-    """
+    """Torque over twist: none within a gap [rad] from side to side, outside it a stiffness [N m/rad]."""
     half = 0.5 * gap
     return straight(
         [-1.0 - half, -half, half, 1.0 + half], [-stiffness, 0.0, 0.0, stiffness], beyond="straight"
@@ -119,20 +77,11 @@ def backlash(gap: float, stiffness: float) -> Curve:
 
 
 def switched(changes: Iterable[tuple[float, float, float]], start: float = 1.0) -> Curve:
-    """A factor over time that changes now and then.
+    """A factor over time that changes now and then: straight lines and steps.
 
-    Parameters
-    ----------
-    changes : iterable of tuple
-        Time [s], factor from then on, and time over which it comes to it [s]; zero for a step. A change that
-        is still on its way when the next begins stays where it is then.
-    start : float
-        Factor until the first change.
-
-    Returns
-    -------
-    Curve
-        Straight lines and steps.
+    `changes`: time [s], factor from then on, and time over which it comes to it [s], zero for a step. A
+    change that is still on its way when the next begins stays where it is then. `start`: factor until the
+    first.
     """
     listed = sorted(changes, key=lambda change: change[0])
     times, factors = [0.0], [start]
@@ -147,17 +96,8 @@ def switched(changes: Iterable[tuple[float, float, float]], start: float = 1.0) 
 
 
 def product(first: Curve, second: Curve) -> Curve:
-    """The product of two factors over time, where one of both is level.
-
-    Parameters
-    ----------
-    first, second : Curve
-        Straight lines and steps, their ends held.
-
-    Returns
-    -------
-    Curve
-        Straight lines and steps.
+    """The product of two factors over time, straight lines and steps with ends held, where one of both is
+    level.
     """
     places = np.union1d(first.x, second.x)
     left, right = (_at(first, places, side) * _at(second, places, side) for side in ("left", "right"))

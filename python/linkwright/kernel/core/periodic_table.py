@@ -62,19 +62,10 @@ class PeriodicTable:
 
 
 def smooth(values: ArrayLike, period: float = 2 * np.pi) -> PeriodicTable:
-    """The trigonometric polynomial through even samples.
+    """The trigonometric polynomial through even samples, (samples,), over one period [rad], with at least 512
+    knots.
 
-    Parameters
-    ----------
-    values : array_like, shape (samples,)
-        Over one period, the first at angle zero, without the repetition at its end.
-    period : float
-        [rad].
-
-    Returns
-    -------
-    PeriodicTable
-        With at least 512 knots.
+    The first sample is at angle zero; its repetition at the end is left out.
     """
     y = np.asarray(values, dtype=np.float64)
     n = len(y)
@@ -93,19 +84,10 @@ def smooth(values: ArrayLike, period: float = 2 * np.pi) -> PeriodicTable:
 
 
 def spline(values: ArrayLike, period: float = 2 * np.pi) -> PeriodicTable:
-    """The periodic cubic spline through even samples.
+    """The periodic cubic spline through even samples, (samples,), over one period [rad].
 
-    Parameters
-    ----------
-    values : array_like, shape (samples,)
-        Over one period, the first at angle zero, without the repetition at its end.
-    period : float
-        [rad].
-
-    Returns
-    -------
-    PeriodicTable
-        With a knot at each sample; the core's quintics are then the spline's cubics.
+    The first sample is at angle zero; its repetition at the end is left out. There is a knot at each sample;
+    the core's quintics are then the spline's cubics.
     """
     y = np.asarray(values, dtype=np.float64)
     h = period / len(y)
@@ -121,23 +103,10 @@ def spline(values: ArrayLike, period: float = 2 * np.pi) -> PeriodicTable:
 def waves(
     orders: Sequence[float], amplitudes: ArrayLike, phases: ArrayLike, turns: int = 1, mean: float = 0.0
 ) -> PeriodicTable:
-    r"""Harmonics :math:`\sum M_\nu \cos(\nu\varphi + \beta_\nu)` about a mean.
+    r"""Harmonics :math:`\sum M_\nu \cos(\nu\varphi + \beta_\nu)` about a mean, exact at the knots.
 
-    Parameters
-    ----------
-    orders : sequence of float
-        ν, cycles per revolution; ν times the turns are whole numbers.
-    amplitudes, phases : array_like, shape (orders,)
-        M_ν, and β_ν [rad].
-    turns : int
-        Of a period.
-    mean : float
-        Added to the harmonics.
-
-    Returns
-    -------
-    PeriodicTable
-        Exact at its knots.
+    ν in cycles per revolution, whole numbers times the `turns` of a period; M_ν and β_ν [rad], (orders,)
+    each.
     """
     nu, amplitude, phase = (np.atleast_1d(np.asarray(x, dtype=float)) for x in (orders, amplitudes, phases))
     highest = float(nu.max(initial=0.0)) * turns

@@ -7,9 +7,8 @@
 | `deferred_model` | Tables of a machine file that another room describes |
 | `formula` | Formulas as texts |
 | `formula_faults` | What can be wrong with a formula in a file: its text, its names, its constants |
-| `plain` | Look into a description that may be a checked model or the raw tables of a file |
+| `place` | Places in a description: addresses as text, and what stands there, checked or raw |
 | `problems` | Errors of pydantic, told in the words of the file |
 | `schema_walk` | What belongs at an address, read from the annotations of the models |
 | `shown_units` | Units in which tables, figures and CSV of a machine show its numbers |
-| `text` | Entries by address |
 """

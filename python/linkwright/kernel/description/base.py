@@ -24,17 +24,10 @@ class Description(BaseModel):
     shown_with_part: ClassVar[bool] = False
 
     def with_entries(self, entries: Mapping[str, Any]) -> Self:
-        """Copy with some entries exchanged, unchecked, so that an entry may be an array over many machines.
+        """Copy with some entries exchanged [SI], unchecked, so that an entry may be an array over many
+        machines.
 
-        Parameters
-        ----------
-        entries : Mapping
-            Name of the field → its new value, in SI.
-
-        Returns
-        -------
-        Self
-            The copy; a description that completes its own entries completes them anew.
+        A description that completes its own entries completes them anew.
         """
         return self.model_copy(update={name: held(value) for name, value in entries.items()})
 
@@ -52,16 +45,8 @@ def wrong(found: str, expected: str, remedy: str = "") -> PydanticCustomError:
 
 
 def fault(*place: str | int, found: object = None, expected: str, remedy: str = "") -> InitErrorDetails:
-    """One fault at a place below the description that reports it.
-
-    Parameters
-    ----------
-    *place : str or int
-        Keys from the reporting description down to the entry.
-    found : object
-        The value that stands there; None if nothing does.
-    expected, remedy : str
-        What belongs there, and what to change.
+    """One fault at a place, keys from the reporting description down; what was found, belongs there, and a
+    remedy.
     """
     text = "nothing" if found is None else show(found)
     return InitErrorDetails(type=wrong(text, expected, remedy), loc=place, input=found)

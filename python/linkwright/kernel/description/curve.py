@@ -14,21 +14,9 @@ from linkwright.kernel.units import worded
 
 
 def curve_faults(owner: BaseModel, argument: str, values: Iterable[str]) -> Iterator[InitErrorDetails]:
-    """What is wrong with a curve.
+    """What is wrong with a curve: too few points, arguments that do not increase, lists of different length.
 
-    Parameters
-    ----------
-    owner : BaseModel
-        The description that holds the points.
-    argument : str
-        Field with the arguments, which must increase.
-    values : iterable of str
-        Fields with one value per argument; a field that is None is left out.
-
-    Yields
-    ------
-    InitErrorDetails
-        Too few points, arguments that do not increase or are not distinct, lists of different length.
+    `argument`, `values`: fields of the owner; one that is None is left out.
     """
     points: tuple[float, ...] = getattr(owner, argument)
     mark = mark_of(annotation_at(type(owner), (argument,)))
@@ -45,20 +33,8 @@ def curve_faults(owner: BaseModel, argument: str, values: Iterable[str]) -> Iter
 def not_rising(
     owner: BaseModel, name: str, place: int, before: float, here: float, apart: float = 0.0
 ) -> InitErrorDetails:
-    """The fault of a value that should be more than the one before it.
-
-    Parameters
-    ----------
-    owner : BaseModel
-        The description that holds the points.
-    name : str
-        Field with the values.
-    place : int
-        Of the value in its list.
-    before, here : float
-        The one before it, and itself, in SI.
-    apart : float
-        Minimum difference of the two [SI]; 0 where any will do.
+    """The fault of a value, at a place of the list `name`, that is not `apart` [SI] above the one
+    before it.
     """
     mark = mark_of(annotation_at(type(owner), (name,)))
     least = f"{before:.6g}" if mark is None else worded(before, mark.kind)

@@ -89,22 +89,8 @@ class FormulaError(Exception):
 
 @lru_cache(maxsize=256)
 def parse(text: str) -> Node:
-    """Read a formula.
-
-    Parameters
-    ----------
-    text : str
-        Such as ``1200*max(0, sin(phi))^2``.
-
-    Returns
-    -------
-    Node
-        Its tree.
-
-    Raises
-    ------
-    FormulaError
-        The text is no formula; says at which character.
+    """The tree of a formula such as ``1200*max(0, sin(phi))^2``; a `FormulaError` says at which character it
+    fails.
     """
     return _Reader(text).formula()
 
@@ -134,18 +120,10 @@ def terms(node: Node) -> tuple[Node, ...]:
 
 
 def program(node: Node) -> Program:
-    """Instructions in postfix order.
+    """Instructions of a formula in postfix order, each with its operand.
 
-    Parameters
-    ----------
-    node : Node
-        The formula.
-
-    Returns
-    -------
-    tuple of (str, operand)
-        ``number`` with its value, ``name`` with the name, ``power`` with a whole exponent, and without an
-        operand the operators and functions of the grammar.
+    ``number`` with its value, ``name`` with the name, ``power`` with a whole exponent, and without an operand
+    the operators and functions of the grammar.
     """
     return tuple(_instructions(node))
 

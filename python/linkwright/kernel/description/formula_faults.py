@@ -27,19 +27,8 @@ _NAME = re.compile(r"[A-Za-z_]\w*")
 
 
 def constant_faults(constants: dict[str, Any], text: str) -> Iterator[InitErrorDetails]:
-    """Constants that a formula cannot ask for, or does not.
-
-    Parameters
-    ----------
-    constants : dict
-        Numbers by name.
-    text : str
-        The formula.
-
-    Yields
-    ------
-    InitErrorDetails
-        Names with a meaning of their own, names that are none, names that the formula does not ask for.
+    """Constants with a meaning of their own, with names that are none, and such as the formula does not ask
+    for.
     """
     taken = VARIABLES | FUNCTIONS.keys() | NUMBERS.keys()
     for name, value in constants.items():
@@ -65,24 +54,7 @@ def used_names(text: str) -> dict[str, int] | None:
 def text_faults(
     key: str, text: str, constants: dict[str, Any], variables: Iterable[str] = VARIABLES
 ) -> Iterator[InitErrorDetails]:
-    """A text that is no formula, and names in it that stand for nothing.
-
-    Parameters
-    ----------
-    key : str
-        Where the text stands.
-    text : str
-        The formula.
-    constants : dict
-        Numbers by name.
-    variables : iterable of str
-        Variables that it may ask for.
-
-    Yields
-    ------
-    InitErrorDetails
-        One for each fault.
-    """
+    """A text at a key that is no formula, and names in it that are neither constants nor variables."""
     try:
         tree = parse(text)
     except FormulaError as found:

@@ -9,9 +9,8 @@ from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
 from linkwright.kernel.description.base import close_match
-from linkwright.kernel.description.plain import field_names, look
+from linkwright.kernel.description.place import field_names, join, look
 from linkwright.kernel.description.schema_walk import annotation_at, kinds_at, model_of, words_of
-from linkwright.kernel.description.text import join
 from linkwright.kernel.errors import Problem
 from linkwright.kernel.units import show
 
@@ -19,23 +18,9 @@ from linkwright.kernel.units import show
 def problems(
     error: ValidationError, model: type[BaseModel], data: object, at: tuple[str, ...] = ()
 ) -> list[Problem]:
-    """All problems that an error holds.
+    """All problems that an error of pydantic and our own checks holds, each once, without file and line.
 
-    Parameters
-    ----------
-    error : ValidationError
-        What pydantic and our own checks found.
-    model : type
-        The model that was to be made.
-    data : object
-        What it was to be made of.
-    at : tuple of str
-        Keys down to the part of it that was checked, if that was not the whole.
-
-    Returns
-    -------
-    list of Problem
-        Without file and line, each once.
+    `model`, `data`: what was to be made, and of what; `at`: keys down to the part that was checked.
     """
     details = error.errors(include_url=False)
     for detail in details:

@@ -9,23 +9,16 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 from pydantic import BaseModel
 
 from linkwright.kernel.description.deferred_model import DeferredModel
-from linkwright.kernel.description.plain import field_names, look
+from linkwright.kernel.description.place import field_names, look
 from linkwright.kernel.units import Quantity, QuantityList
 
 Mark = Quantity | QuantityList
 
 
 def annotation_at(model: type[BaseModel], place: Sequence[str], data: object = None) -> Any:
-    """The annotation of the entry at a place; None if no such entry exists.
+    """The annotation of the entry at a place, keys from the top down; None if no such entry exists.
 
-    Parameters
-    ----------
-    model : type
-        The model at the top.
-    place : sequence of str
-        Keys from the top down.
-    data : object
-        The description, checked or raw; its ``kind`` entries choose among motors and among loads.
+    `data`: the description, checked or raw; its ``kind`` entries choose among motors and among loads.
     """
     annotation: Any = model
     for key in place:

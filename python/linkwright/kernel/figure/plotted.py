@@ -20,24 +20,9 @@ _HEIGHT = 1.9
 
 @styled
 def plotted(result: Any, names: tuple[str, ...]) -> Figure:
-    """Draw curves of a result over what they run over.
+    """Draw curves of a result, all without names, over what they run over.
 
-    Parameters
-    ----------
-    result : Result
-        The result.
-    names : tuple of str
-        Attributes; all curves without any.
-
-    Returns
-    -------
-    Figure
-        Of matplotlib.
-
-    Raises
-    ------
-    InputError
-        The result has no such curve, none at all, or curves over different quantities were asked for.
+    Raises `InputError` if it has no such curve, none at all, or if they run over different quantities.
     """
     owner: type = type(result)
     known = {each.name: each for each in quantities_of(owner) if each.kind == "curve"}

@@ -1,11 +1,11 @@
-"""What all figures share: colours, fonts, axes."""
+"""What all figures share: colours, fonts, axes; a figure of the page with its words."""
 
 from __future__ import annotations
 
 import warnings
 from collections.abc import Callable
 from functools import wraps
-from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, ParamSpec, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,7 @@ from linkwright.kernel.page.out_units import reader
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -107,22 +108,7 @@ def styled(draw: Callable[P, R]) -> Callable[P, R]:
 
 
 def panels(rows: int, *, height: float, columns: int = 1, shared: bool = True) -> tuple[Figure, list[Axes]]:
-    """A figure with axes above one another, or side by side, that share what is along x.
-
-    Parameters
-    ----------
-    rows, columns : int
-        How many axes.
-    height : float
-        Of the figure [inch].
-    shared : bool
-        Whether the axes in a column share their x.
-
-    Returns
-    -------
-    Figure, list of Axes
-        Row by row.
-    """
+    """A figure of a height [inch] with rows and columns of axes, row by row, that share what is along x."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(WIDTH, height), layout="constrained")
@@ -179,3 +165,12 @@ def roomy(axes: Axes, *values: Floats, share: float = 0.12) -> None:
     span = high - low if high - low > 1e-6 * max(abs(low), abs(high)) else 0.2 * (abs(high) or 1.0)
     middle = 0.5 * (low + high)
     axes.set_ylim(middle - (0.5 + share) * span, middle + (0.5 + share) * span)
+
+
+class Captioned(NamedTuple):
+    """A figure, its name in the page, its title, and its caption."""
+
+    name: str
+    title: str
+    caption: str
+    figure: Figure

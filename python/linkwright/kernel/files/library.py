@@ -1,4 +1,4 @@
-"""The library: machine files that come with the package, each with its source; and those of the examples."""
+"""Machine files that come with the package: the library, the examples, and templates to start from."""
 
 from __future__ import annotations
 
@@ -15,23 +15,7 @@ def library() -> tuple[str, ...]:
 
 
 def library_path(name: str) -> Path:
-    """The file of a machine of the library.
-
-    Parameters
-    ----------
-    name : str
-        One of `library`.
-
-    Returns
-    -------
-    Path
-        The machine file.
-
-    Raises
-    ------
-    InputError
-        There is no such machine; names close ones.
-    """
+    """The file of a machine of the library; an `InputError` names close ones if there is none."""
     known = _files()
     if name not in known:
         remedy = suggestion(name, tuple(known))
@@ -46,3 +30,22 @@ def _files() -> dict[str, Path]:
     machines = {path.stem: path for path in (package / "library").glob("*.toml")}
     examples = {path.parent.name: path for path in (package / "examples").glob("*/machine.toml")}
     return machines | examples
+
+
+_FOLDER = Path(__file__).with_name("templates")
+
+
+def templates() -> dict[str, str]:
+    """Names of the templates → what they describe, from their first lines."""
+    paths = sorted(_FOLDER.glob("*.toml"))
+    return {path.stem: path.read_text(encoding="utf-8").split("\n", 1)[0].lstrip("# ") for path in paths}
+
+
+def template(name: str) -> str:
+    """The text of a template such as ``"slider-crank"``; an `InputError` names close ones if there is
+    none.
+    """
+    known = templates()
+    if name not in known:
+        raise InputError(f'there is no template "{name}": {suggestion(name, known)}')
+    return (_FOLDER / f"{name}.toml").read_text(encoding="utf-8")

@@ -11,7 +11,7 @@ import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
-from linkwright.kernel.description.text import split
+from linkwright.kernel.description.place import split
 from linkwright.kernel.errors import Problem
 
 Place = tuple[str, ...]
@@ -31,22 +31,12 @@ _PLAIN = re.compile(r"[^,\]}#\n]+")
 
 
 def key_lines(text: str) -> dict[Place, int]:
-    """Line of every key, table and list entry.
+    r"""Line of every key, table and list entry of valid TOML, counted from 1.
 
-    Parameters
-    ----------
-    text : str
-        Valid TOML.
+    Places in a list are numbers as text. A table that is only implied by the name of another one has the line
+    of its first mention.
 
-    Returns
-    -------
-    dict of tuple to int
-        Keys from the top down → line, counted from 1. Places in a list are numbers as text. A table that is
-        only implied by the name of another one has the line of its first mention.
-
-    Examples
-    --------
-    >>> key_lines("[a]\\nb = 1\\nc = [2, 3]")[("a", "c", "1")]
+    >>> key_lines("[a]\nb = 1\nc = [2, 3]")[("a", "c", "1")]
     3
     """
     scanner = _Scanner(text)
@@ -55,41 +45,13 @@ def key_lines(text: str) -> dict[Place, int]:
 
 
 def line_of(lines: dict[Place, int], place: Sequence[str]) -> int:
-    """Line of a key, or of the nearest table above it that stands in the text.
-
-    Parameters
-    ----------
-    lines : dict
-        From `key_lines`.
-    place : sequence of str
-        Keys from the top down.
-
-    Returns
-    -------
-    int
-        Counted from 1; 1 if nothing above it stands in the text.
-    """
+    """Line of a key, or of the nearest table above it that stands in the text; 1 if nothing above it does."""
     known = (lines.get(tuple(place[:n])) for n in range(len(place), 0, -1))
     return next((line for line in known if line is not None), 1)
 
 
 def located(problems: Sequence[Problem], text: str, path: str, at: Place = ()) -> list[Problem]:
-    """Problems of a file, or of a table of it, with their lines.
-
-    Parameters
-    ----------
-    problems : sequence of Problem
-        Keys from the table down.
-    text, path : str
-        The file and its name.
-    at : tuple of str
-        Keys down to the table.
-
-    Returns
-    -------
-    list of Problem
-        In the order of the file, keys from the top down.
-    """
+    """Problems of a file, or of its table `at`, with their lines, in the order of the file."""
     lines = key_lines(text)
     found = []
     for problem in problems:

@@ -47,21 +47,10 @@ Contents = Mapping[str, str | bytes]
 
 
 def write_file(path: str | os.PathLike[str], content: str | bytes, *, replace: bool = True) -> None:
-    """Write one file, whole or not at all.
+    """Write one file, whole or not at all; a text becomes UTF-8 as it is.
 
-    Parameters
-    ----------
-    path : path
-        The file.
-    content : str or bytes
-        What it holds; a text becomes UTF-8 as it is.
-    replace : bool
-        Whether a file that exists is replaced.
-
-    Raises
-    ------
-    InputError
-        The file exists and is not to be replaced, is a link or no file, or cannot be written.
+    Raises `InputError` if the file exists and is not to be replaced, is a link or no file, or cannot be
+    written.
     """
     place = Path(path)
     try:
@@ -78,15 +67,7 @@ def write_file(path: str | os.PathLike[str], content: str | bytes, *, replace: b
 def trial(path: Path) -> Iterator[Path]:
     """A file for a program that writes by itself: it gets its name if all goes well, else it vanishes.
 
-    Parameters
-    ----------
-    path : Path
-        The file; replaced if it exists.
-
-    Yields
-    ------
-    Path
-        Where to write meanwhile: in the same folder, with the same ending.
+    Yields where to write meanwhile: in the same folder, with the same ending. A file that exists is replaced.
     """
     if os.path.lexists(path):
         _require_file(path)
@@ -117,12 +98,8 @@ class OutputFolder:
     force: bool = False
 
     def require(self) -> None:
-        """Refuse a folder with files of others in it, before anything is computed for it.
-
-        Raises
-        ------
-        InputError
-            It is no folder, cannot be read, or holds files that are not of an earlier run.
+        """Refuse what is no folder, cannot be read, or holds files that are not of an earlier run
+        (`InputError`).
         """
         try:
             names = sorted(each.name for each in self.path.iterdir() if not each.name.startswith(_PART))
@@ -141,22 +118,10 @@ class OutputFolder:
             )
 
     def write(self, contents: Contents) -> list[Path]:
-        """Write files, all of them or, if the disk is full, none.
+        """Write files, name → content, all of them or, if the disk is full, none; returns their paths.
 
-        Parameters
-        ----------
-        contents : mapping of str to str or bytes
-            Name → what the file holds.
-
-        Returns
-        -------
-        list of Path
-            The files.
-
-        Raises
-        ------
-        InputError
-            As `require`; or a file of others has one of the names; or the folder cannot be written to.
+        Raises `InputError` as `require`, if a file of others has one of the names, or if it cannot be written
+        to.
         """
         self.require()
         try:
@@ -199,17 +164,8 @@ class OutputFolder:
 
 
 def file_name(words: str) -> str:
-    """A name of a file that every file system takes.
-
-    Parameters
-    ----------
-    words : str
-        Any text, such as the name of a cam.
-
-    Returns
-    -------
-    str
-        Its letters, digits, points, ``-`` and ``_``; others become ``_``. Without an ending of its own.
+    """A name that every file system takes: letters, digits, points, ``-`` and ``_``, others as ``_``; no
+    ending.
     """
     kept = "".join(letter if letter.isalnum() or letter in "-_." else "_" for letter in words.strip())
     name = kept.encode()[:_NAME_BYTES].decode(errors="ignore").strip("_. ")
@@ -220,15 +176,8 @@ def file_name(words: str) -> str:
 def file_names(words: Mapping[str, str]) -> dict[str, str]:
     """Names of files for texts that may be the same but for letters that file systems do not take.
 
-    Parameters
-    ----------
-    words : mapping of str to str
-        Text → ending, such as ``{"cam.A/1": ".csv"}``.
-
-    Returns
-    -------
-    dict of str to str
-        Text → name with its ending, no two the same, not even in letters of the other case.
+    Text → ending, such as ``{"cam.A/1": ".csv"}``, becomes text → name with its ending, no two the same, not
+    even in letters of the other case.
     """
     names: dict[str, str] = {}
     taken: set[str] = set()

@@ -1,4 +1,4 @@
-"""Points from files of comma-separated values that a machine file names.
+"""Columns of files of comma-separated values: points that a machine file names, and measurements.
 
 A table of the machine file with the entry ``file`` gets the columns of that file as lists. The head names
 each column, with its unit in brackets: ``angle [deg], lift [mm]``; without a unit the numbers are SI. Lines
@@ -9,18 +9,22 @@ from __future__ import annotations
 
 import csv
 import math
+import os
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from io import StringIO
 from pathlib import Path
 from typing import Any
 
-from linkwright.kernel.description.text import join
-from linkwright.kernel.errors import MachineFileError, Problem
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.description.place import join
+from linkwright.kernel.errors import MachineFileError, Problem, UnitError
 from linkwright.kernel.files.text_file import TextError, text_of
 from linkwright.kernel.limits import POINT_BYTES, ROWS
-from linkwright.kernel.units import NUMBER, show
+from linkwright.kernel.units import NUMBER, Kind, parse, show
 
 # Kinds of tables whose points may be in a file, and a head for each.
 _EXAMPLES = {
@@ -66,26 +70,11 @@ class Column:
 
 
 def with_points(tables: dict[str, Any], folder: Path, *, allow_outside: bool = False) -> list[Column]:
-    """Put the points of all files that are named into the tables.
+    """Put the points of all files that are named into the tables, in place; returns the lists that came from
+    files.
 
-    Parameters
-    ----------
-    tables : dict
-        Tables of a machine file; changed in place.
-    folder : Path
-        Where the machine file is.
-    allow_outside : bool
-        Whether a file may lie elsewhere than in this folder, or in one below it.
-
-    Returns
-    -------
-    list of Column
-        All lists that came from a file.
-
-    Raises
-    ------
-    MachineFileError
-        A file lies outside or cannot be read, which is a problem of the machine file; or it has no points.
+    `folder`: that of the machine file, in or below which files lie unless `allow_outside`. Raises
+    `MachineFileError` for a file that lies elsewhere, cannot be read or has no points.
     """
     columns: list[Column] = []
     for place, table in _tables(tables, ()):
@@ -131,28 +120,11 @@ def _tables(node: Any, place: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...]
 
 
 def columns_of(path: Path, key: str, kind: str = "table") -> tuple[dict[str, list[Any]], list[int]]:
-    """The columns of a file of comma-separated values.
+    """Columns of a file of comma-separated values by name, entries with their units, and the number of each
+    line.
 
-    Parameters
-    ----------
-    path : Path
-        The file.
-    key : str
-        Entry that names it, for messages; empty if none does.
-    kind : str
-        Of the table that names it, for the example of a head.
-
-    Returns
-    -------
-    columns : dict
-        By name, each entry with its unit, as it would stand in a machine file.
-    lines : list of int
-        Number of each line, head first.
-
-    Raises
-    ------
-    MachineFileError
-        The file cannot be read, has no head or a row that does not fit it.
+    The line of the head is first. `key`, `kind`: entry and table that name it, for messages. Raises
+    `MachineFileError` for what cannot be read, has no head or a row that does not fit it.
     """
     lines = lines_of(path, key)
     heads = [_HEAD.fullmatch(cell) for cell in lines[0][1]] if lines else []
@@ -220,3 +192,34 @@ def _is_number(cell: str) -> bool:
 def _with_unit(number: str, unit: str | None) -> Any:
     """An entry as it would stand in the machine file."""
     return f"{number} {unit}" if unit else float(number)
+
+
+def read_columns(path: str | os.PathLike[str], kinds: Mapping[str, Kind]) -> dict[str, NDArray[np.float64]]:
+    """Columns of a file, (n,) each [SI], by name and kind; others in it are passed over.
+
+    Raises `MachineFileError`, with file and line, if it cannot be read, lacks a column, or holds something
+    else.
+    """
+    place = Path(path)
+    columns, lines = columns_of(place, "")
+    missing = [name for name in kinds if name not in columns]
+    if missing:
+        wanted = ", ".join(f"{name} [{kind.unit}]" for name, kind in kinds.items())
+        found = f"no column {missing[0]} among {show(', '.join(columns))}"
+        remedy = f"begin the file with a head such as: {wanted}"
+        raise MachineFileError([Problem("", found, "a column of each name", remedy, str(place), lines[0])])
+    return {name: _values(columns[name], kind, name, place, lines[1:]) for name, kind in kinds.items()}
+
+
+def _values(
+    entries: Sequence[Any], kind: Kind, name: str, path: Path, lines: Sequence[int]
+) -> NDArray[np.float64]:
+    """The entries of a column in SI."""
+    found = []
+    for entry, line in zip(entries, lines, strict=True):
+        try:
+            found.append(parse(entry, kind))
+        except UnitError as error:
+            problem = replace(error.problem, key=f"column {name}", path=str(path), line=line)
+            raise MachineFileError([problem]) from None
+    return np.array(found)

@@ -1,10 +1,20 @@
-"""The text of a file that a user names: read whole, up to a limit, as UTF-8."""
+"""The text of a file that a user names, read whole up to a limit, as UTF-8; and sizes of what it holds.
+
+Sizes are looked at before any of it is understood, by loops over the file: what is nested deeper than
+Python's stack, or longer than its patience, is reported like any other fault.
+"""
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
-from linkwright.kernel.limits import Limit
+from linkwright.kernel.description.place import join
+from linkwright.kernel.errors import Problem
+from linkwright.kernel.limits import DEPTH, ENTRIES, LIST, NAME, TEXT, Limit, grouped
+from linkwright.kernel.units import show
 
 
 class TextError(Exception):
@@ -18,27 +28,10 @@ class TextError(Exception):
 
 
 def text_of(path: Path, limit: Limit) -> str:
-    """The text of a file.
+    """The text of a file of at most so many bytes.
 
     A device without end is read no farther than the limit. A mark that editors on Windows put in front of the
-    text is left out.
-
-    Parameters
-    ----------
-    path : Path
-        The file.
-    limit : Limit
-        Bytes that it may have.
-
-    Returns
-    -------
-    str
-        Its text.
-
-    Raises
-    ------
-    TextError
-        It cannot be read, is too large, or is no UTF-8 text.
+    text is left out. Raises `TextError` if it cannot be read, is too large, or is no UTF-8 text.
     """
     try:
         with path.open("rb") as file:
@@ -67,3 +60,72 @@ def _decoded(data: bytes) -> str:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise TextError(f"no UTF-8 text (byte {error.start + 1})", "save the file as UTF-8") from None
+
+
+# More faults of one kind than anybody reads.
+_ENOUGH = 100
+
+# A whole number that the core holds.
+_WHOLE = 2**63
+
+# A key with too many parts, where a key may stand: tomllib takes the square of their number.
+_PART = r"""[ \t]*(?:"[^"\n]*"|'[^'\n]*'|[A-Za-z0-9_-]+)[ \t]*"""
+_DEEP_KEY = re.compile(rf"(?:^|[\n{{,\[])(?:{_PART}\.){{{DEPTH.most}}}")
+_BRACKETS = re.compile(rf"(?:[\[{{]\s*(?:{_PART}=\s*)?){{{DEPTH.most + 1}}}")
+
+# Digits of a number that Python still reads.
+_DIGITS = re.compile(r"[0-9_]{1001}")
+
+
+def deep_line(text: str) -> int | None:
+    """Line of the first key or list that is nested too deep to be read, counted from 1; None if none is."""
+    found = _DEEP_KEY.search(text) or _BRACKETS.search(text)
+    return None if found is None else text.count("\n", 0, found.end()) + 1
+
+
+def long_number_line(text: str) -> int | None:
+    """Line of the first number that has more digits than can be read, counted from 1; None if none has."""
+    found = _DIGITS.search(text)
+    return None if found is None else text.count("\n", 0, found.start()) + 1
+
+
+def size_problems(tables: dict[str, Any]) -> list[Problem]:
+    """Lists, tables, names, texts and numbers that are too large, with their keys; not all, if they are
+    many.
+    """
+    problems: list[Problem] = []
+    places: list[tuple[tuple[str, ...], Any]] = [((), tables)]
+    while places and len(problems) < _ENOUGH:
+        place, node = places.pop()
+        problems += _problems(place, node)
+        if len(place) < DEPTH.most and isinstance(node, dict | list) and len(node) <= _most(node):
+            below = node.items() if isinstance(node, dict) else enumerate(node)
+            places += [((*place, str(key)), each) for key, each in below]
+    return problems
+
+
+def _most(node: dict[str, Any] | list[Any]) -> int:
+    return (ENTRIES if isinstance(node, dict) else LIST).most
+
+
+def _problems(place: tuple[str, ...], node: Any) -> Iterator[Problem]:
+    """What is too large at one place."""
+    key = join(each[: NAME.most] for each in place[:_SHOWN_DEPTH])
+    if place and len(place[-1]) > NAME.most:
+        yield Problem(key, f"a name of {grouped(len(place[-1]))} characters", NAME.words, "shorten it")
+    if isinstance(node, dict | list):
+        limit = ENTRIES if isinstance(node, dict) else LIST
+        word = "a table with" if isinstance(node, dict) else "a list of"
+        if len(node) > limit.most:
+            remedy = "" if isinstance(node, dict) else "take fewer, or a file of points (file = …)"
+            yield Problem(key, f"{word} {grouped(len(node))} entries", limit.words, remedy)
+        elif len(place) >= DEPTH.most and node:
+            yield Problem(key, "tables or lists inside one another", DEPTH.words, "remove what is inside")
+    elif isinstance(node, str) and len(node) > TEXT.most:
+        yield Problem(key, f"a text of {grouped(len(node))} characters", TEXT.words, "shorten it")
+    elif isinstance(node, int) and abs(node) >= _WHOLE:
+        yield Problem(key, show(node), "a number below 9.2e18", "write it as 1e19, or with another unit")
+
+
+# Parts of a key that a message shows.
+_SHOWN_DEPTH = 8

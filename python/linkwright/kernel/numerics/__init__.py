@@ -3,9 +3,8 @@
 | module | |
 | --- | --- |
 | `confidence` | How far estimates may be from the truth |
-| `damped_step` | Steps of Levenberg and Marquardt's method for many least-squares problems at once |
 | `formula_value` | The value of a formula: its tree worked through with numpy |
-| `least_squares` | Linear least squares with what it can tell, by singular values |
+| `least_squares` | Linear least squares with what it can tell; damped steps for many problems |
 | `roots` | Zeros and extremes of smooth functions of the crank angle, many at once, to rounding |
 | `tangent` | Numbers that carry their derivatives by entries through the translation of a description |
 | `taylor` | Numbers that carry their first three derivatives by time, for functions written with numpy |

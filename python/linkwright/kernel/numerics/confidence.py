@@ -11,24 +11,10 @@ from linkwright.kernel.errors import InputError
 
 
 def coverage_factor(level: float, freedom: int | None = None) -> float:
-    """Half width of an interval over the standard deviation.
+    """Half width over the standard deviation of an interval that holds the truth with a probability `level`.
 
-    Parameters
-    ----------
-    level : float
-        Probability that the interval holds the truth, between 0 and 1.
-    freedom : int, optional
-        Degrees of freedom from which the deviation was estimated; without them it is known.
-
-    Returns
-    -------
-    float
-        1.96 for 95 % and a known deviation.
-
-    Raises
-    ------
-    InputError
-        The level is no probability.
+    `freedom`: degrees of freedom from which the deviation was estimated; without them it is known, and 95 %
+    give 1.96. Raises `InputError` for a level outside 0 ≤ level < 1.
     """
     if not 0 <= level < 1:
         raise InputError(f"level of confidence {level}: expected a number from 0 to below 1, such as 0.95")
@@ -42,19 +28,7 @@ def coverage_factor(level: float, freedom: int | None = None) -> float:
 def chance_of_ratio(ratio: float, above: int, below: int | None = None) -> float:
     """Probability that a ratio of two variances is at least as large by chance.
 
-    Parameters
-    ----------
-    ratio : float
-        F, variance above over variance below.
-    above : int
-        Degrees of freedom of the variance above.
-    below : int, optional
-        Of that below; without them it is known.
-
-    Returns
-    -------
-    float
-        Between 0 and 1.
+    `above`, `below`: degrees of freedom of the two; without those below, that one is known.
     """
     from scipy.special import chdtrc, fdtrc
 

@@ -40,21 +40,10 @@ OPERATIONS: dict[str, Callable[..., Any]] = {
 def value(
     node: Node, names: Mapping[str, Any], operations: Mapping[str, Callable[..., Any]] = OPERATIONS
 ) -> Any:
-    """The value of a formula.
+    """The value of a formula, a number or (n,); NaN or infinite where it has none.
 
-    Parameters
-    ----------
-    node : Node
-        Its tree.
-    names : mapping
-        Number or array of each variable and constant.
-    operations : mapping
-        What operators and functions are; others than those of numpy serve other kinds of numbers.
-
-    Returns
-    -------
-    float or ndarray, shape (n,)
-        NaN or infinite where it has none.
+    `names`: number or array of each variable and constant; `operations`: what operators and functions are, as
+    others than those of numpy serve other kinds of numbers.
     """
     if node.op == "number":
         return float(node.value)

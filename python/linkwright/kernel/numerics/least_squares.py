@@ -1,4 +1,4 @@
-r"""Linear least squares with what it can tell, by singular values.
+r"""Linear least squares with what it can tell, by singular values; damped steps for many problems at once.
 
 .. math:: A = U S V^T, \qquad \hat x = V S^{-1} U^T y, \qquad \mathrm{cov}\, \hat x = \sigma^2 V S^{-2} V^T
 
@@ -8,6 +8,8 @@ value is left at zero, and the parameters that take part in it are open.
 References
 ----------
 .. [1] Golub and Van Loan, Matrix Computations, 4th ed. 2013, section 5.5: least squares by singular values.
+.. [2] D. Marquardt, An algorithm for least-squares estimation of nonlinear parameters, SIAM 11 (1963)
+   431–441: the damped step.
 """
 
 from __future__ import annotations
@@ -56,21 +58,9 @@ class Fit(NamedTuple):
 
 
 def least_squares(A: Floats, y: Floats, *, is_known: bool) -> Fit:
-    """Fit parameters to equations.
+    """Fit parameters to equations A (equations, parameters) with right-hand sides y (equations,).
 
-    Parameters
-    ----------
-    A : ndarray, shape (equations, parameters)
-        The equations.
-    y : ndarray, shape (equations,)
-        Their right-hand sides.
-    is_known : bool
-        Whether the noise of each is 1, or estimated from what is left over.
-
-    Returns
-    -------
-    Fit
-        The parameters with their uncertainty.
+    `is_known`: whether the noise of each is 1, or estimated from what is left over.
     """
     # Rows of Vt beyond the equations are what these leave open; columns of U beyond the parameters are idle.
     U, s, Vt = np.linalg.svd(A, full_matrices=A.shape[0] < A.shape[1])
@@ -94,13 +84,22 @@ def least_squares(A: Floats, y: Floats, *, is_known: bool) -> Fit:
 
 
 def scaled(fit: Fit, factor: float) -> Fit:
-    """The same fit with larger uncertainty.
-
-    Parameters
-    ----------
-    fit : Fit
-        The fit.
-    factor : float
-        By which its deviations are larger.
-    """
+    """The same fit with deviations larger by a factor."""
     return fit._replace(deviation=factor * fit.deviation, covariance=factor**2 * fit.covariance)
+
+
+def damped_step(residual: Floats, J: Floats, damping: Floats) -> Floats:
+    """Damped Gauss–Newton steps, (m, k): least squares of the Jacobian with the damping below it [2]_.
+
+    Residuals (m, n) and their derivatives (m, n, k) of m problems; damping (m,) is the share of each column's
+    length that is laid below it, squared. The augmented system is solved by orthogonal factors, so that the
+    residual of an exact solution reaches rounding.
+    """
+    k = J.shape[2]
+    scale = np.sqrt(damping)[:, None] * np.maximum(np.linalg.norm(J, axis=1), 1e-12)
+    below = scale[:, :, None] * np.eye(k)
+    tall = np.concatenate([J, below], axis=1)
+    right = np.concatenate([-residual, np.zeros((len(J), k))], axis=1)
+    Q, R = np.linalg.qr(tall)
+    step: Floats = np.linalg.solve(R, np.einsum("mnk,mn->mk", Q, right)[:, :, None])[:, :, 0]
+    return step

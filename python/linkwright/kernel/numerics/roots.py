@@ -24,25 +24,14 @@ _GOLDEN_ROUNDS = 38
 
 
 def zeros(function: Function, low: Floats, high: Floats) -> tuple[Floats, Floats]:
-    """Zeros between angles at which a function has different signs.
+    """Zeros of a function, (k,) to (k,), between angles at which it has different signs, by Chandrupatla
+    [1]_.
 
-    Parameters
-    ----------
-    function : callable
-        Takes and gives arrays of shape (k,).
-    low, high : ndarray, shape (k,)
-        Ends of the brackets.
+    Returns where the function is nearest to zero, and the other end of what is left of the bracket; the sign
+    differs between them, and they are a few units of rounding apart.
 
-    Returns
-    -------
-    near, far : ndarray, shape (k,)
-        Where the function is nearest to zero, and the other end of what is left of the bracket; the sign
-        differs between them, and they are a few units of rounding apart.
-
-    References
-    ----------
-    .. [1] Chandrupatla, A new hybrid quadratic/bisection algorithm for finding the zero of a nonlinear
-       function without using derivatives, Advances in Engineering Software 28 (1997) 145–149.
+    .. [1] A new hybrid quadratic/bisection algorithm for finding the zero of a nonlinear function without
+       using derivatives, Advances in Engineering Software 28 (1997) 145–149.
     """
     a, b = np.array(high, dtype=float), np.array(low, dtype=float)
     fa, fb = function(a), function(b)
@@ -83,19 +72,9 @@ def _share(a: Floats, b: Floats, c: Floats, fa: Floats, fb: Floats, fc: Floats) 
 
 
 def minima(function: Function, low: Floats, high: Floats) -> tuple[Floats, Floats]:
-    """Minimum values of a function in brackets that hold one minimum each, by golden section.
+    """Minima of a function, (k,) to (k,), in brackets that hold one each, by golden section.
 
-    Parameters
-    ----------
-    function : callable
-        Takes and gives arrays of shape (k,).
-    low, high : ndarray, shape (k,)
-        Ends of the brackets.
-
-    Returns
-    -------
-    at, least : ndarray, shape (k,)
-        Angles, good to the root of rounding, and values, good to rounding.
+    Returns angles, good to the root of rounding, and values, good to rounding.
     """
     a, b = np.array(low, dtype=float), np.array(high, dtype=float)
     x, y = b - _GOLDEN * (b - a), a + _GOLDEN * (b - a)
@@ -111,17 +90,10 @@ def minima(function: Function, low: Floats, high: Floats) -> tuple[Floats, Float
 
 
 def brackets(values: Floats) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Where sampled functions change their sign.
+    """Where functions sampled at n angles, (k, n), change their sign: function and sample before it, (m,)
+    each.
 
-    Parameters
-    ----------
-    values : ndarray, shape (k, n)
-        Values of k functions at n angles.
-
-    Returns
-    -------
-    row, column : ndarray of int, shape (m,)
-        Function, and the sample before the change; a sample that is zero counts as positive.
+    A sample that is zero counts as positive.
     """
     finite = np.isfinite(values)
     negative = values < 0

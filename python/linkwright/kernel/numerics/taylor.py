@@ -35,13 +35,7 @@ class Taylor:
 
     @classmethod
     def variable(cls, times: Floats) -> Taylor:
-        """The time itself.
-
-        Parameters
-        ----------
-        times : ndarray, shape (n,)
-            [s].
-        """
+        """The time itself, (n,) [s]."""
         return cls(np.stack([times, np.ones_like(times), np.zeros_like(times), np.zeros_like(times)]))
 
     @property

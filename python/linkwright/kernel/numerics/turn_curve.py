@@ -102,21 +102,8 @@ class TurnCurve:
         return float(sign * values[at]), float(angles[at])
 
     def excess(self, k: int, other: int, factor: float) -> TurnCurve:
-        r"""A continuous quantity :math:`\int (f_k - \bar f_k)\,d\varphi + c f_o`, from the first end.
-
-        Parameters
-        ----------
-        k : int
-            Quantity whose excess over its mean is integrated.
-        other : int
-            Quantity that is added.
-        factor : float
-            c.
-
-        Returns
-        -------
-        TurnCurve
-            One quantity.
+        r"""The continuous quantity :math:`\int (f_k - \bar f_k)\,d\varphi + c f_o` with c the factor, from
+        the first end.
         """
         n = self.series.shape[-1]
         surplus = self.series[:, k].copy()

@@ -60,30 +60,12 @@ _ERROR_MAX = 1e-8
 
 
 def turn_curve(of: Quantities, kinks: Floats, what: str) -> TurnCurve:
-    """Quantities over a revolution, as exactly as their rounding allows.
+    """Quantities over a revolution, as exactly as their rounding allows; `what` they are, for messages.
 
-    Parameters
-    ----------
-    of : callable
-        Values at crank angles.
-    kinks : ndarray, shape (m + 1,)
-        Angles between which they are smooth, from the start to the end of the revolution [rad]. One that is
-        left out costs pieces, not accuracy.
-    what : str
-        What the quantities are, for messages.
-
-    Returns
-    -------
-    TurnCurve
-        The series; the error of the integrals is below 1e-9 of the mean size of each quantity, and near
-        rounding as a rule.
-
-    Raises
-    ------
-    FindingError
-        A quantity has no value at some angle.
-    ConvergenceError
-        The error of an integral is greater.
+    `kinks`: (m + 1,), angles between which they are smooth, from start to end of the revolution [rad]; one
+    that is left out costs pieces, not accuracy. The error of the integrals is below 1e-9 of the mean size of
+    each quantity, and near rounding as a rule: a `ConvergenceError` if it is greater, a `FindingError` if a
+    quantity has no value at some angle.
     """
     fit = _Fit(of, what)
     fit.begin(kinks)

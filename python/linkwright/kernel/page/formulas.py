@@ -150,17 +150,9 @@ STEPS = Formula(
 
 
 def formulas(*, induction: bool, motor: bool, steps: bool) -> list[Formula]:
-    """The formulas that a report needs.
+    """The formulas that a report needs, from the motion to its measures.
 
-    Parameters
-    ----------
-    induction, motor, steps : bool
-        Whether there is an induction motor, any motor, the step method.
-
-    Returns
-    -------
-    list of Formula
-        From the motion to its measures.
+    With those of an induction motor, of any motor, of the step method if these are in it.
     """
     found = [MOTION, INERTIA, LOAD]
     found += [KLOSS] if induction else []

@@ -53,18 +53,7 @@ def _data() -> dict[str, dict[str, list[str]]]:
 
 @cache
 def glossary(language: str = "en") -> tuple[Term, ...]:
-    """All terms that have words in a language.
-
-    Parameters
-    ----------
-    language : str
-        Code of a language that the file has.
-
-    Returns
-    -------
-    tuple of Term
-        In the order of the file: by subject.
-    """
+    """All terms that have words in a language, in the order of the file: by subject."""
     rest = ("subject", "source", "symbol", "unit")
     return tuple(
         Term(
@@ -85,19 +74,8 @@ def allowed() -> tuple[str, ...]:
 
 
 def matching(word: str, language: str = "en") -> tuple[Term, ...]:
-    """Terms in which a word occurs: in the term, among its names, as its symbol, or as a word it replaces.
-
-    Parameters
-    ----------
-    word : str
-        What is looked for, in upper or lower case.
-    language : str
-        Code of a language that the file has.
-
-    Returns
-    -------
-    tuple of Term
-        Terms that have the word in them; empty if there is none.
+    """Terms in which a word occurs, in upper or lower case: in the term, its names, its symbol, words it
+    replaces.
     """
     wanted = word.casefold()
 

@@ -8,8 +8,7 @@ from base64 import b64encode
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from linkwright.kernel.figure.inline import inline_svg
-from linkwright.kernel.figure.readout import readout
+from linkwright.kernel.figure.svg import inline_svg, readout
 from linkwright.kernel.page.content import Content
 from linkwright.kernel.page.formulas import mathml
 from linkwright.kernel.result import finite
@@ -25,17 +24,9 @@ INDEX = re.compile(r"\b([^\W\d_])_(\w+(?:,\w+)?)")
 
 
 def html(content: Content) -> str:
-    """A report as one HTML page that needs nothing else: style, figures and scripts are in it.
+    """A report as one HTML page that needs nothing else; the same content gives the same page.
 
-    Parameters
-    ----------
-    content : Content
-        What it says.
-
-    Returns
-    -------
-    str
-        The page; the same content gives the same page.
+    Style, figures and scripts are in it.
     """
     import linkwright
 

@@ -11,19 +11,8 @@ from linkwright.kernel.quantities import quantities_of
 
 
 def table_html(title: str, rows: Iterable[Sequence[str]]) -> str:
-    """A small table.
-
-    Parameters
-    ----------
-    title : str
-        Above it.
-    rows : iterable of sequences of str
-        Cells; the first of each row is its head.
-
-    Returns
-    -------
-    str
-        HTML; letters of machine files are letters there.
+    """A small table as HTML, the first cell of each row its head; letters of machine files are letters
+    there.
     """
     lines = [
         f'<tr><th scope="row" style="text-align:left">{escape(head)}</th>'
@@ -36,19 +25,8 @@ def table_html(title: str, rows: Iterable[Sequence[str]]) -> str:
 
 
 def result_html(result: Any, title: str = "") -> str:
-    """The scalars of a result, and which curves it has.
-
-    Parameters
-    ----------
-    result : Result
-        The result.
-    title : str
-        Above the table; without it the name of the class.
-
-    Returns
-    -------
-    str
-        HTML.
+    """The scalars of a result as HTML, and which curves it has; the title is the name of the class without
+    one.
     """
     owner: type = type(result)
     declared = list(quantities_of(owner))

@@ -1,4 +1,4 @@
-"""Numbers as text."""
+"""Numbers as text, and cells of tables that know their number, so that it can be shown in another unit."""
 
 from __future__ import annotations
 
@@ -12,31 +12,14 @@ _NOISE = 1e-12
 
 
 def number(value: float | None, digits: int = 5, scale: float = 0.0) -> str:
-    """A number as text.
+    """A number as text, with a true minus sign and a power of ten where it is very large or small; None is a
+    dash.
 
-    Parameters
-    ----------
-    value : float or None
-        The number; None is a dash.
-    digits : int
-        Significant digits.
-    scale : float
-        Peak absolute value of what the number belongs to: of a row, a curve, quantities of one unit. What is
-        rounding beside it is zero.
+    `scale`: peak absolute value of what the number belongs to (a row, a curve, quantities of one unit); what
+    is rounding beside it is zero.
 
-    Returns
-    -------
-    str
-        With a true minus sign, and a power of ten where it is very large or very small.
-
-    Examples
-    --------
-    >>> number(0.08495914)
-    '0.084959'
-    >>> number(-1.4051e-08, 3)
-    '−1.41·10⁻⁸'
-    >>> number(3.9e-13, scale=512.0)
-    '0'
+    >>> number(0.08495914), number(-1.4051e-08, 3), number(3.9e-13, scale=512.0)
+    ('0.084959', '−1.41·10⁻⁸', '0')
     """
     if value is None or not math.isfinite(value):
         return "–"
@@ -70,27 +53,10 @@ def degrees(angle: float) -> str:
 def quantity(
     value: float | None, unit: str, digits: int = 5, scale: float = 0.0, before: str = "", usual: str = ""
 ) -> str:
-    """A number with its unit as text, in the unit that the reader wants.
+    """A number with its unit as text, such as ``0.084959 m``, in the unit that the reader wants; None is a
+    dash.
 
-    Parameters
-    ----------
-    value : float or None
-        In `unit`; None is a dash.
-    unit : str
-        As it is printed; empty for none.
-    digits : int
-        Significant digits.
-    scale : float
-        Peak absolute value of what the number belongs to: what is rounding beside it is zero.
-    before : str
-        What stands before the number.
-    usual : str
-        Unit in which it is shown where the reader wants no other; empty for `unit`.
-
-    Returns
-    -------
-    str
-        Such as ``0.084959 m``.
+    `scale` as of `number`; `before`: what stands before it; `usual`: unit where the reader wants no other.
     """
     if value is None or not math.isfinite(value):
         return "–"
@@ -107,3 +73,65 @@ def parted(value: float, unit: str, digits: int = 5, scale: float = 0.0, usual: 
 def pretty_unit(unit: str) -> str:
     """A unit as it is printed: ``kg m^2`` becomes ``kg m²``."""
     return unit.replace("^2", "²").replace("^3", "³")
+
+
+class Measured(str):
+    """Text of a number with its SI unit; an angle is in degrees.
+
+    Attributes
+    ----------
+    value : float
+        In SI.
+    unit : str
+        SI unit as it is printed.
+    digits : int
+        Significant digits.
+    is_crank_angle : bool
+        Whether it is an angle of the crank, which may be counted from a dead centre.
+    before : str
+        What stands before the number.
+    """
+
+    value: float
+    unit: str
+    digits: int
+    is_crank_angle: bool
+    before: str
+
+
+def measured(
+    value: float | None,
+    unit: str,
+    scale: float = 0.0,
+    digits: int = 5,
+    before: str = "",
+    usual: str = "",
+) -> str:
+    """A value [SI] with its unit, a `Measured`; None is a dash. Angles are in degrees without a unit.
+
+    `scale` as of `number`; `before`: what stands before it; `usual`: unit where the reader wants no other.
+    """
+    if value is None or not math.isfinite(value):
+        return "–"
+    plain = degrees(value) if unit == "rad" else quantity(value, unit, digits, scale, usual=usual)
+    return _marked(
+        before + plain, value if number(value, digits, scale) != "0" else 0.0, unit, digits, before
+    )
+
+
+def crank_angle(angle: float | None, before: str = "") -> str:
+    """A crank angle [rad] within a revolution, from 0° on; a full revolution is 0°."""
+    if angle is None or not math.isfinite(angle):
+        return "–"
+    text = degrees(angle)
+    plain = "0°" if text == "360°" else text
+    return _marked(before + plain, angle, "rad", 5, before, is_crank_angle=True)
+
+
+def _marked(
+    text: str, value: float, unit: str, digits: int, before: str, *, is_crank_angle: bool = False
+) -> Measured:
+    marked = Measured(text)
+    marked.value, marked.unit, marked.digits, marked.before = value, unit, digits, before
+    marked.is_crank_angle = is_crank_angle
+    return marked

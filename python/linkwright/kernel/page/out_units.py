@@ -73,12 +73,10 @@ class OutUnits:
 
     @classmethod
     def of(cls, text: str, where: str = "--units") -> OutUnits:
-        """Units by a list such as ``"mm, rpm, kN"``; `where`: who asks for them, in messages.
+        """Units by a list such as ``"mm, rpm, kN"``; an `InputError` if one is unknown, or two measure the
+        same.
 
-        Raises
-        ------
-        InputError
-            A unit is not known, or two measure the same.
+        `where`: who asks for them, in messages.
         """
         found: list[_Unit] = []
         for name in (part.strip() for part in text.split(",") if part.strip()):
@@ -109,19 +107,10 @@ class OutUnits:
         return self.over(OutUnits.of("deg"))
 
     def shown(self, unit: str, usual: str = "") -> tuple[str, float]:
-        """How a quantity is shown.
+        """The unit in which a quantity is shown, and by what its value is divided.
 
-        Parameters
-        ----------
-        unit : str
-            Unit that it is in, as it is printed; empty for a plain number.
-        usual : str
-            Unit in which it is shown where no other is wanted; empty for the same.
-
-        Returns
-        -------
-        str, float
-            The unit in which it is shown, and by what its value is divided.
+        `unit`: that it is in, empty for a plain number; `usual`: where no other is wanted, empty for the
+        same.
         """
         if " per " in unit:
             # Of a derivative: by an entry that has its own unit.

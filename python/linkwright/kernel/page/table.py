@@ -1,12 +1,28 @@
-"""A table of text, and the rows that attributes of results make."""
+"""A table of text, the rows that attributes of results make, and tables and curves as CSV.
+
+Comma-separated values (RFC 4180) are such that a spreadsheet takes them as they are, with the unit of each
+column in its head.
+
+A spreadsheet runs a cell that begins with ``=``, ``+``, ``-`` or ``@`` as a formula, and names of a machine
+file may begin so: such a text gets an apostrophe in front, by which a spreadsheet knows a text. Numbers are
+written as they are and read back exactly.
+
+Source: OWASP, *CSV Injection*.
+"""
 
 from __future__ import annotations
 
+import csv
 import math
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from io import StringIO
 from typing import NamedTuple
 
-from linkwright.kernel.page.measured import measured
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.page.numbers import measured
+from linkwright.kernel.page.out_units import shown_columns
 from linkwright.kernel.quantities import Shown, in_table, shown
 from linkwright.kernel.result import Result
 
@@ -51,23 +67,9 @@ def rows_of(result: Result, *names: str) -> list[Row]:
 def rows_in(
     result: Result, table: str, beside: Mapping[str, str] | None = None, *, without: Collection[str] = ()
 ) -> list[Row]:
-    """The rows of a table by the declarations of a result.
+    """Rows for the attributes of a result that are declared with a table.
 
-    Parameters
-    ----------
-    result : Result
-        The result.
-    table : str
-        Name of the table in the declarations.
-    beside : mapping of str to str, optional
-        What the last column says, by attribute.
-    without : collection of str
-        Attributes that this result has no use for.
-
-    Returns
-    -------
-    list of tuple of str
-        A row for each attribute that is declared with this table.
+    `beside`: what the last column says, by attribute; `without`: attributes that this result has no use for.
     """
     names = (name for name in in_table(type(result), table) if name not in without)
     return [row(result, name, (beside or {}).get(name, "")) for name in names]
@@ -79,3 +81,50 @@ def known_rows(
     """`rows_in`, without attributes that are None."""
     unknown = [name for name in in_table(type(result), table) if getattr(result, name) is None]
     return rows_in(result, table, beside, without=[*unknown, *without])
+
+
+# Also in the wide forms of East Asian writing, which some spreadsheets take for the same.
+_FORMULA = ("=", "+", "-", "@", "\t", "\r", "＝", "＋", "－", "＠")
+
+
+def csv_text(heads: Sequence[str], rows: Iterable[Sequence[str | float]]) -> str:
+    """A table as CSV: a line for the heads and one for each row; NaN is an empty cell."""
+    text = StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow([_cell(head) for head in heads])
+    writer.writerows([_cell(entry) for entry in row] for row in rows)
+    return text.getvalue()
+
+
+def _cell(entry: str | float) -> str | float:
+    """A text that is no formula, or a number."""
+    if isinstance(entry, str):
+        return f"'{entry}" if entry.startswith(_FORMULA) else entry
+    return "" if entry != entry else entry
+
+
+Floats = NDArray[np.float64]
+
+
+def curves_csv(result: Result) -> str:
+    """The curves of a result as CSV, one column a curve such as ``speed [rad/s]``; empty without curves.
+
+    Numbers read back exactly; where there is none, the cell is empty.
+    """
+    columns = {head(result, name): curve for name, curve in result.curves().items()} | result.columns()
+    return columns_csv(columns) if columns else ""
+
+
+def columns_csv(columns: Mapping[str, Floats]) -> str:
+    """Columns as CSV in the units that the reader wants: head with the unit → values, (n,).
+
+    Numbers read back exactly; NaN is an empty cell.
+    """
+    shown = shown_columns(columns)
+    rows = zip(*(column.tolist() for column in shown.values()), strict=True)
+    return csv_text(list(shown), rows)
+
+
+def head(result: Result, name: str) -> str:
+    """Head of a column: the curve's name with its unit."""
+    return f"{name} [{result.unit_of(name) or '-'}]"

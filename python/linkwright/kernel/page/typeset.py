@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from linkwright.kernel.errors import InputError
-from linkwright.kernel.figure.captioned import Captioned
+from linkwright.kernel.figure.style import Captioned
 from linkwright.kernel.figure.svg import svg
 from linkwright.kernel.page.content import Content, Heading
 from linkwright.kernel.page.formulas import Formula, typst
@@ -18,23 +18,7 @@ _WIDE, _BROAD = 6, 10
 
 
 def pdf(content: Content) -> bytes:
-    """A report as PDF.
-
-    Parameters
-    ----------
-    content : Content
-        What it says.
-
-    Returns
-    -------
-    bytes
-        The file; the same content gives the same file.
-
-    Raises
-    ------
-    InputError
-        Typst is not installed.
-    """
+    """A report as a PDF file; the same content gives the same file. An `InputError` without Typst."""
     try:
         import typst as compiler
     except ImportError:

@@ -25,18 +25,7 @@ T = TypeVar("T")
 
 
 def public_type(kind: type[T]) -> type[T]:
-    """Check what a frozen dataclass is made of by its annotations.
-
-    Parameters
-    ----------
-    kind : type
-        A dataclass of the package that users make themselves.
-
-    Returns
-    -------
-    type
-        The same class.
-    """
+    """Check what a frozen dataclass, such as users make themselves, is made of by its annotations."""
     kind.__init__ = public(kind.__init__)  # type: ignore[method-assign]
     return kind
 

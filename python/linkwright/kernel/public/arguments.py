@@ -60,28 +60,9 @@ _SHOWN = 60
 
 
 def number(name: str, value: Any, *, finite: bool = True, infinite: bool = False) -> float:
-    """A real number as a float.
+    """A real number as a float; an `InputError` if it is none, not `finite`, or out of its range.
 
-    Parameters
-    ----------
-    name : str
-        Of the argument, for messages.
-    value : object
-        What was given.
-    finite : bool
-        Whether it must be a number at all, and not infinite.
-    infinite : bool
-        Whether it may be infinite all the same.
-
-    Returns
-    -------
-    float
-        The number.
-
-    Raises
-    ------
-    InputError
-        It is none, is not finite, or is out of its range.
+    `infinite`: whether it may be infinite all the same.
     """
     if isinstance(value, np.ndarray) and value.ndim == 0:
         value = value[()]
@@ -98,25 +79,7 @@ def number(name: str, value: Any, *, finite: bool = True, infinite: bool = False
 
 
 def integer(name: str, value: Any) -> int:
-    """A whole number.
-
-    Parameters
-    ----------
-    name : str
-        Of the argument, for messages.
-    value : object
-        What was given.
-
-    Returns
-    -------
-    int
-        The number.
-
-    Raises
-    ------
-    InputError
-        It is none, or is out of its range.
-    """
+    """A whole number; an `InputError` if it is none, or out of its range."""
     try:
         found = operator.index(value)
     except TypeError:
@@ -129,28 +92,9 @@ def integer(name: str, value: Any) -> int:
 
 
 def array(name: str, value: Any, *, finite: bool = True, complex_too: bool = False) -> NDArray[Any]:
-    """Finite numbers as an array that is its own and stays as it is.
+    """Numbers of any shape as a contiguous array of floats, or complex, that is its own and read-only.
 
-    Parameters
-    ----------
-    name : str
-        Of the argument, for messages.
-    value : array_like, any shape
-        What was given, of any shape.
-    finite : bool
-        Whether all must be finite.
-    complex_too : bool
-        Whether the numbers may be complex.
-
-    Returns
-    -------
-    ndarray
-        Of floats, or of complex numbers, contiguous and read-only.
-
-    Raises
-    ------
-    ShapeError
-        They are no numbers, or not finite, or rows of different length.
+    Raises `ShapeError` if they are no numbers, rows of different length, or not finite where they must be.
     """
     try:
         given = np.asarray(value)
@@ -171,25 +115,7 @@ def array(name: str, value: Any, *, finite: bool = True, complex_too: bool = Fal
 
 
 def rows(name: str, value: Any) -> Floats:
-    """A list of finite numbers.
-
-    Parameters
-    ----------
-    name : str
-        Of the argument, for messages.
-    value : array_like, shape (n,)
-        What was given.
-
-    Returns
-    -------
-    ndarray, shape (n,)
-        Contiguous and read-only.
-
-    Raises
-    ------
-    ShapeError
-        It is no list of finite numbers, or an empty one.
-    """
+    """A list of finite numbers, (n,), contiguous and read-only; a `ShapeError` if it is none, or empty."""
     found = array(name, value)
     if found.ndim != 1 or not len(found):
         raise ShapeError(f"{name}: found an array of shape {found.shape}, expected a list of numbers")
@@ -207,17 +133,9 @@ def shown(value: Any) -> str:
 
 
 def checks_of(function: Callable[..., Any]) -> dict[str, Check]:
-    """Checks of the arguments of a function, by its annotations.
+    """Checks of the arguments of a function by name: what takes name and value, and returns the value.
 
-    Parameters
-    ----------
-    function : callable
-        Its annotations are texts, as with ``from __future__ import annotations``.
-
-    Returns
-    -------
-    dict of str to callable
-        Name of the argument → what takes its name and value, and returns the value.
+    Its annotations are texts, as with ``from __future__ import annotations``.
     """
     parameters = inspect.signature(function).parameters.values()
     found = {parameter.name: _check(str(parameter.annotation), parameter.default) for parameter in parameters}

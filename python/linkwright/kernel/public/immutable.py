@@ -66,18 +66,7 @@ class Looked(Mapping[K, V]):
 
 
 def held(value: Any) -> Any:
-    """A value that a frozen object may hold.
-
-    Parameters
-    ----------
-    value : object
-        An array is copied, so that whoever gave it may go on writing to it.
-
-    Returns
-    -------
-    object
-        A read-only array, a `Table`, or the value.
-    """
+    """A value that a frozen object may hold: a read-only copy of an array, a `Table`, or the value."""
     if type(value) is dict:
         return Table(value)
     if isinstance(value, np.ndarray):
@@ -87,13 +76,7 @@ def held(value: Any) -> Any:
 
 
 def freeze(result: Any) -> None:
-    """Make the arrays and tables that a result holds read-only.
-
-    Parameters
-    ----------
-    result : object
-        A dataclass, or a tuple or dictionary of such; anything else is left alone.
-    """
+    """Make the arrays and tables that a dataclass, a tuple or a dictionary of such holds read-only."""
     if isinstance(result, tuple):
         for each in result:
             _inside(each)

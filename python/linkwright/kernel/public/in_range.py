@@ -18,18 +18,10 @@ Floats = NDArray[np.float64]
 
 
 def in_range(**arguments: tuple[Any, Quantity]) -> None:
-    """Raise unless every number is such a quantity.
+    """Raise `InputError`, which says which and where, unless every number is such a quantity.
 
-    Parameters
-    ----------
-    **arguments : tuple
-        By the name that the message shall have: a number or an array of numbers [SI], and the mark of what it
-        is, as ``positive(SPEED)``. None, for an argument that was left out, is passed over.
-
-    Raises
-    ------
-    InputError
-        One is not finite, beyond the range of its kind, beyond its bound, or no number; says which and where.
+    By the name that the message shall have: a number or an array [SI], and the mark of what it is, as
+    ``positive(SPEED)``. None, for an argument that was left out, is passed over.
     """
     for name, (value, mark) in arguments.items():
         if value is not None:

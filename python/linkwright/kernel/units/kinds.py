@@ -214,18 +214,7 @@ KINDS = (
 
 
 def range_words(kind: Kind) -> str:
-    """The range of a kind, in words.
-
-    Parameters
-    ----------
-    kind : Kind
-        The quantity.
-
-    Returns
-    -------
-    str
-        Such as ``"a length is between 1e-9 and 1e6 m in size"``.
-    """
+    """The range of a kind, such as ``"a length is between 1e-9 and 1e6 m in size"``."""
     least, most = size_words(kind)
     return f"{kind.word} is between {least} and {most} {kind.unit}".rstrip() + " in size"
 

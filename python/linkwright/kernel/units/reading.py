@@ -31,27 +31,11 @@ _NO_COMMA = "write the decimal point as a point, not as a comma, and thousands w
 
 
 def parse(value: object, kind: Kind) -> float:
-    """Read a number (SI) or a text with a unit as a quantity of one kind.
+    """A number [SI] or a text with a unit as a quantity of one kind, finite, in the SI unit of the kind.
 
-    Parameters
-    ----------
-    value : object
-        A real number, taken as SI, or a text such as ``"0.2 m"``.
-    kind : Kind
-        The quantity that is asked for.
+    Raises `UnitError` for a wrong type or dimension, an unknown unit, or a value beyond the range of the
+    kind.
 
-    Returns
-    -------
-    float
-        The value in the SI unit of ``kind``, finite.
-
-    Raises
-    ------
-    UnitError
-        The value is no such quantity: wrong type or dimension, unknown unit, beyond the range of the kind.
-
-    Examples
-    --------
     >>> parse("0.5 kN", FORCE), parse(3, FORCE)
     (500.0, 3.0)
     """
@@ -67,25 +51,8 @@ def parse(value: object, kind: Kind) -> float:
 
 
 def parse_any(value: object) -> float:
-    """Read a number, or a text with a unit of whatever quantity.
+    """A number [SI], or a text with a unit of whatever quantity, in the coherent SI unit; else a `UnitError`.
 
-    Parameters
-    ----------
-    value : object
-        A real number, taken as SI, or a text such as ``"200 N/m"``.
-
-    Returns
-    -------
-    float
-        The value in the coherent SI unit of its quantity, finite.
-
-    Raises
-    ------
-    UnitError
-        The value is no number, or its unit is not known.
-
-    Examples
-    --------
     >>> parse_any("2 kN/m"), parse_any(3)
     (2000.0, 3.0)
     """
@@ -99,27 +66,10 @@ def parse_any(value: object) -> float:
 
 
 def parse_list(value: object, kind: Kind) -> list[float]:
-    """Read a list of numbers and texts, or one text with one unit, as quantities of one kind.
+    """A list of numbers and texts, an array, or one text with one unit, as quantities of one kind [SI].
 
-    Parameters
-    ----------
-    value : object
-        ``[0, 0.1]``, ``["0 m", "10 cm"]`` or ``"0, 10 cm"``; an array of numbers too.
-    kind : Kind
-        The quantity that is asked for.
+    Raises `UnitError` if one of the values is no such quantity.
 
-    Returns
-    -------
-    list of float
-        The values in the SI unit of ``kind``.
-
-    Raises
-    ------
-    UnitError
-        One of the values is no such quantity.
-
-    Examples
-    --------
     >>> parse_list("0, 10, 25 cm", LENGTH)
     [0.0, 0.1, 0.25]
     """
@@ -127,43 +77,12 @@ def parse_list(value: object, kind: Kind) -> list[float]:
 
 
 def to_text(value: float, kind: Kind) -> str:
-    """Write an SI value with its unit, so that `parse` gives back the very same float.
-
-    Parameters
-    ----------
-    value : float
-        The value in the SI unit of ``kind``.
-    kind : Kind
-        The quantity that it is.
-
-    Returns
-    -------
-    str
-        Such as ``"0.2 m"``.
-
-    Examples
-    --------
-    >>> to_text(0.2, LENGTH)
-    '0.2 m'
-    """
+    """A value [SI] with its unit, such as ``"0.2 m"``; `parse` gives back the very same float."""
     return f"{float(value)!r} {kind.unit}".removesuffix(" ").replace(".0 ", " ")
 
 
 def worded(value: float, kind: Kind) -> str:
-    """Write an SI value for a message, with its unit: angles in degrees, all else in SI.
-
-    Parameters
-    ----------
-    value : float
-        The value in the SI unit of ``kind``.
-    kind : Kind
-        The quantity that it is.
-
-    Returns
-    -------
-    str
-        With six digits, such as ``"30 deg"``.
-    """
+    """A value [SI] for a message, with six digits and its unit: angles in degrees, all else in SI."""
     if kind is ANGLE:
         return f"{math.degrees(value):.6g} deg"
     return f"{value:.6g} {kind.unit}".removesuffix(" ")

@@ -21,7 +21,7 @@ from pydantic import BaseModel, Field
 from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import CheckedDescription, fault, suggestion
-from linkwright.kernel.description.plain import keys, look
+from linkwright.kernel.description.place import keys, look
 from linkwright.kernel.units import INERTIA, MASS, MASS_PER_LENGTH, Length, not_negative
 from linkwright.linkages.model.topology import Topology
 
@@ -70,19 +70,9 @@ class Body(CheckedDescription):
 
 
 def body_faults(topology: Topology, bodies: object) -> Iterator[InitErrorDetails]:
-    """What is wrong between the bodies and the mechanism.
+    """What is wrong between the bodies, checked or raw, and the mechanism.
 
-    Parameters
-    ----------
-    topology : Topology
-        Names of the mechanism.
-    bodies : object
-        The table of bodies, checked or raw.
-
-    Yields
-    ------
-    InitErrorDetails
-        Bodies on nothing or on the frame; entries on a point that only a link can have.
+    Bodies on nothing or on the frame; entries on a point that only a link can have.
     """
     for name in keys(bodies):
         body = look(bodies, name)

@@ -26,7 +26,7 @@ from pydantic import Field
 from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import Description, fault, suggestion
-from linkwright.kernel.description.plain import keys, look
+from linkwright.kernel.description.place import keys, look
 from linkwright.kernel.errors import UnitError
 from linkwright.kernel.units import ANGLE, LENGTH, Kind, Lengths, parse, parse_list, positive
 from linkwright.linkages.model.topology import ORIGIN, Topology

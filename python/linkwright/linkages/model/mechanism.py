@@ -123,12 +123,8 @@ class Mechanism(Description):
         return tuple(Topology.of(self).slides)
 
     def links(self) -> dict[str, Link]:
-        """The links by name.
-
-        Returns
-        -------
-        dict of str to Link
-            A crank has the name of its element; ``"cart1.rod"`` is the rod of the slider ``cart1``.
+        """The links by name: a crank has that of its element; ``"cart1.rod"`` is the rod of the slider
+        ``cart1``.
         """
         found: dict[str, Link] = {}
         for name, crank in self.cranks.items():

@@ -133,18 +133,7 @@ class Structure:
 
 
 def structure(mechanism: Mechanism) -> Structure:
-    """Members and pairs of a mechanism.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-        The mechanism.
-
-    Returns
-    -------
-    Structure
-        In the order of the tables of the file.
-    """
+    """Members and pairs of a mechanism, in the order of the tables of the file."""
     return _Builder(mechanism).run()
 
 

@@ -33,7 +33,7 @@ from pydantic import BaseModel
 from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import fault, suggestion
-from linkwright.kernel.description.plain import keys, look
+from linkwright.kernel.description.place import keys, look
 from linkwright.linkages.model.assembly import Build, Part, build
 from linkwright.linkages.model.guide_faults import guide_faults
 
@@ -161,12 +161,8 @@ class Topology:
 
     @classmethod
     def of(cls, mechanism: object) -> Topology:
-        """Topology of a mechanism, checked or raw.
-
-        Parameters
-        ----------
-        mechanism : object
-            A `Mechanism`, or the table of a file; entries that are no tables are passed over.
+        """Topology of a `Mechanism`, or of the table of a file; entries that are no tables are passed
+        over.
         """
         known = _known.get(id(mechanism))
         if known is not None and known[0] is mechanism:
@@ -241,10 +237,7 @@ class Topology:
     def faults(self, *, values_fit: bool = True) -> list[InitErrorDetails]:
         """What is wrong: names twice, references to nothing, circles, joints held too little or too much.
 
-        Parameters
-        ----------
-        values_fit : bool
-            Whether every element is sound by itself; otherwise the mobility is left for later.
+        `values_fit`: whether every element is sound by itself; otherwise the mobility is left for later.
         """
         driven = [element for element in self.elements if element.kind.table not in ("points", *DRIVERS)]
         if driven and not self.names(*DRIVERS):

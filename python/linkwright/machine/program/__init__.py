@@ -2,10 +2,9 @@
 
 | module | |
 | --- | --- |
-| `directions` | How the numbers of the program follow the entries of the description |
 | `change_points` | Change points of a dyad, of one machine or of each of a batch |
 | `compiled` | A machine in the core's terms, and what it is asked for |
-| `core` | The compiled core, refused if it was built from other sources; what a program consists of |
+| `core` | The compiled core, refused if it was built from other sources |
 | `drive_line` | Motor, gearbox, and the inertia that turns with the crank |
 | `elements` | Drivers, dyads, gears, racks, cables and rigid points, one by one |
 | `initial_assembly` | What must be known of the motion before the first revolution |

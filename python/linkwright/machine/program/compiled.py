@@ -11,11 +11,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright import _core
-from linkwright.kernel.description.plain import arrays
-from linkwright.kernel.description.text import join
+from linkwright.kernel.description.place import arrays, join
 from linkwright.kernel.errors import InputError, MachineError, Problem, ShapeError
 from linkwright.kernel.numerics.tangent import plain
-from linkwright.kinetostatics.model.loads.formula import FormulaLoad
+from linkwright.kinetostatics.model.loads.force import FormulaLoad
 from linkwright.kinetostatics.model.loads.table import TorqueSpeed
 from linkwright.machine.address import addresses
 from linkwright.machine.machine import Machine
@@ -167,13 +166,7 @@ class Compiled:
 
     @property
     def one(self) -> Floats:
-        """The parameters of a single machine.
-
-        Raises
-        ------
-        ShapeError
-            Entries vary from machine to machine.
-        """
+        """The parameters of a single machine; a `ShapeError` if entries vary from machine to machine."""
         if self.n_rows > 1 or len(self.slots):
             raise ShapeError(
                 f"this analysis takes one machine, and the entries describe {self.n_rows}; "
@@ -241,28 +234,11 @@ class Compiled:
 
 
 def compile_machine(machine: Machine, *, motor: bool = True, brake: bool = False) -> Compiled:
-    """Translate a description.
+    """Translate a description into plan and parameters; entries may be arrays of one common length.
 
-    Parameters
-    ----------
-    machine : Machine
-        The machine; entries may be arrays of one common length.
-    motor : bool
-        Whether the motor is on. Its inertia counts in any case.
-    brake : bool
-        Whether the brake is applied.
-
-    Returns
-    -------
-    Compiled
-        Plan and parameters.
-
-    Raises
-    ------
-    ShapeError
-        Arrays of different length, or an array in a table.
-    InputError
-        The machine is a torsional train, or a topper whose knife moves by a law, and nothing else.
+    `motor`: whether it is on, its inertia counts in any case; `brake`: whether it is applied. Raises
+    `ShapeError` for arrays of different length, or an array in a table; `InputError` if the machine is a
+    torsional train, or a topper whose knife moves by a law, and nothing else.
     """
     _require_mechanism(machine)
     try:

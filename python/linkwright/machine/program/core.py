@@ -1,9 +1,22 @@
-"""The compiled core, of which a program is made: refused here if it was built from other sources."""
+"""The compiled core, of which a program is made; one that was built from other sources is refused."""
 
 from __future__ import annotations
 
 from linkwright import _core
-from linkwright.kernel.core.core_format import check_format
+from linkwright.kernel.errors import CoreError
+
+# As `FORMAT` in `crates/linkwright-core/src/plan/mod.rs`: the two change together.
+FORMAT = 15
+
+
+def check_format(core: object) -> None:
+    """Refuse a core that was built from other sources: a `CoreError` if its number is another one, or
+    missing.
+    """
+    found = getattr(core, "FORMAT", None)
+    if found != FORMAT:
+        raise CoreError(found, FORMAT, str(getattr(core, "__file__", "linkwright._core")))
+
 
 check_format(_core)
 

@@ -123,11 +123,8 @@ class InitialAssembly:
     def run(self) -> None:
         """Settles all that is pending, in build order.
 
-        Raises
-        ------
-        AssemblyError
-            A law cannot be followed, a group does not close where it is assembled, a link turns irregularly,
-            or a redundant bar does not fit.
+        Raises `AssemblyError` if a law cannot be followed, a group does not close where it is assembled, a
+        link turns irregularly, or a redundant bar does not fit.
         """
         self._check_laws()
         for each in self.program.pending:

@@ -9,8 +9,7 @@ import numpy as np
 
 from linkwright import _core
 from linkwright.kernel.description import formula
-from linkwright.kernel.description.plain import arrays
-from linkwright.kernel.description.text import join
+from linkwright.kernel.description.place import arrays, join
 from linkwright.kernel.errors import ShapeError
 from linkwright.kinetostatics.model.body import Body
 from linkwright.kinetostatics.model.loads.between import (
@@ -20,9 +19,14 @@ from linkwright.kinetostatics.model.loads.between import (
     TorsionalDamper,
     TorsionalSpring,
 )
-from linkwright.kinetostatics.model.loads.force import ConstantForce, ConstantTorque, Gravity
-from linkwright.kinetostatics.model.loads.formula import FormulaLoad
-from linkwright.kinetostatics.model.loads.friction import DryFriction, ViscousFriction
+from linkwright.kinetostatics.model.loads.force import (
+    ConstantForce,
+    ConstantTorque,
+    DryFriction,
+    FormulaLoad,
+    Gravity,
+    ViscousFriction,
+)
 from linkwright.kinetostatics.model.loads.table import ForcePosition, TorqueAngle, TorqueSpeed, TorqueSwing
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.mechanism import MechanismProgram

@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from linkwright.drive.constant_energy import constant_energy_of
+from linkwright.drive.evenness import constant_energy_of
 from linkwright.drive.reduction import Reduction, reduction
 from linkwright.drive.run_up import RunUp, run_up
 from linkwright.drive.steady_state import SteadyState, steady_state

@@ -11,7 +11,7 @@ import numpy as np
 from linkwright.drive.model.motor import InductionMotor
 from linkwright.drive.reduction import Reduction, reduction
 from linkwright.drive.step_method import StepMotion
-from linkwright.kinetostatics.model.loads.friction import DryFriction
+from linkwright.kinetostatics.model.loads.force import DryFriction
 from linkwright.machine.address import replace as with_entries
 from linkwright.papers.claim import cell_of
 from linkwright.papers.paper import Paper, printed_values

@@ -22,7 +22,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.drive.constant_energy import ConstantEnergy, constant_energy_of
+from linkwright.drive.evenness import ConstantEnergy, constant_energy_of
 from linkwright.drive.model.motor import InductionMotor
 from linkwright.drive.reduction import Reduction
 from linkwright.drive.step_method import StepMotion, by_steps, whole_steps

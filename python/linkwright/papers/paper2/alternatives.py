@@ -19,7 +19,7 @@ from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.cam.profile.profile import cam_profile
 from linkwright.drive.steady_state import SteadyState, steady_state
 from linkwright.kernel.files.library import library_path
-from linkwright.kinetostatics.model.loads.friction import DryFriction
+from linkwright.kinetostatics.model.loads.force import DryFriction
 from linkwright.linkages.kinematics import SlideMotion, kinematics
 from linkwright.machine.machine import Machine
 from linkwright.machine.read import read

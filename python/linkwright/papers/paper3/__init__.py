@@ -4,7 +4,6 @@
 | --- | --- |
 | `checks` | Checks of weak couplings and of speed fluctuation in paper 3 |
 | `crank_train` | Crank throw, swing of the connecting rod, and inertia of the crank train by paper 3 |
-| `engine` | the V-12, and what another inertia or stiffness does to its frequencies |
 | `figures` | Figures to paper 3: the train and its modes, discs and what formulas make of them, vibration |
 | `paper` | paper 3 computed anew: its formulas on a V-12 with articulated rods |
 """

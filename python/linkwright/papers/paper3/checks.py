@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 
 from linkwright.machine.address import replace
 from linkwright.machine.machine import Machine
-from linkwright.papers.paper3.engine import TrialEngine
+from linkwright.papers.paper3.crank_train import TrialEngine
 from linkwright.torsion.diagnosis.diagnosis import diagnosis
 from linkwright.torsion.diagnosis.measured_speed import MeasuredSpeed
 from linkwright.torsion.model.engine.engine import firing_angles
-from linkwright.torsion.model.train_drivers import throw_names
+from linkwright.torsion.model.train_torques import throw_names
 from linkwright.torsion.response.engine_torques import cylinder_torques
 from linkwright.torsion.response.excited_train import ExcitedTrain, excited_train
 from linkwright.torsion.response.forced import ForcedVibration, forced_vibration, responded

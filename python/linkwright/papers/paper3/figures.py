@@ -26,7 +26,7 @@ from linkwright.kernel.figure.style import (
     turn_axis,
     zero_line,
 )
-from linkwright.papers.paper3.engine import MODES
+from linkwright.papers.paper3.crank_train import MODES
 from linkwright.torsion.figures.scheme import scheme_figure
 from linkwright.torsion.model.engine.engine_motion import reduced_throw
 from linkwright.torsion.modes.scheme import scheme

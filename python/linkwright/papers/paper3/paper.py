@@ -17,8 +17,14 @@ from linkwright.papers.claim import holding, tolerance
 from linkwright.papers.page import share, shown
 from linkwright.papers.paper import Paper, printed_values
 from linkwright.papers.paper3.checks import UnevennessChecks, WeakChecks, unevenness_checks, weak_checks
-from linkwright.papers.paper3.crank_train import PENDULUM, inertia_checks, swing_checks, throw_checks
-from linkwright.papers.paper3.engine import Shift, TrialEngine
+from linkwright.papers.paper3.crank_train import (
+    PENDULUM,
+    Shift,
+    TrialEngine,
+    inertia_checks,
+    swing_checks,
+    throw_checks,
+)
 
 
 @dataclass(frozen=True)

@@ -5,5 +5,4 @@
 | `figures` | Figures 3 to 6 of paper 4, computed anew |
 | `formulas` | the closed forms of paper 4, a second way beside the core |
 | `paper` | paper 4 computed anew: the rotator in both regimes |
-| `unit` | the pumping unit of paper 4, as far as its numbers leave it open |
 """

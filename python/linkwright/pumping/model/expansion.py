@@ -16,12 +16,11 @@ from pydantic import BaseModel
 from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import fault
-from linkwright.kernel.description.plain import keys, look
+from linkwright.kernel.description.place import keys, look
 from linkwright.linkages.model.element import Cable, Crank, FixedPoint, RigidPoint, Rocker
 from linkwright.linkages.model.mechanism import Mechanism
 from linkwright.linkages.model.topology import TABLES
-from linkwright.pumping.model.rod_rotator import PIN, ROTATOR, RodRotator
-from linkwright.pumping.model.rotator_lengths import lengths
+from linkwright.pumping.model.rod_rotator import PIN, ROTATOR, RodRotator, lengths
 from linkwright.pumping.model.unit import BEAM, BEAM_LINK, CRANK, CRANKSHAFT, ROD, SADDLE, PumpingUnit
 
 T = TypeVar("T", bound=BaseModel)
@@ -40,19 +39,10 @@ ROTATOR_PARTS: dict[str, dict[str, dict[str, str]]] = {
 
 
 def mechanism_of(unit: PumpingUnit, rotator: RodRotator | None = None) -> Mechanism:
-    """The mechanism that a pumping unit is, with its rotator if it has one.
+    """The mechanism that a pumping unit is, with its rotator if it has one; numbers may be arrays over many
+    units.
 
-    Parameters
-    ----------
-    unit : PumpingUnit
-        The unit; its numbers may be arrays over many units.
-    rotator : RodRotator, optional
-        The rotator.
-
-    Returns
-    -------
-    Mechanism
-        Its elements, unchecked: a unit that does not close is reported by the analyses.
+    Its elements are unchecked: a unit that does not close is reported by the analyses.
     """
     x, y = unit.saddle
     parts: dict[str, dict[str, Any]] = {
@@ -97,18 +87,9 @@ def _made(model: type[T], **entries: Any) -> T:
 
 
 def expansion_faults(machine: object) -> Iterator[InitErrorDetails]:
-    """What is wrong between a mechanism and what a pumping unit adds to it.
+    """What is wrong between a mechanism, checked or raw, and what a pumping unit adds to it.
 
-    Parameters
-    ----------
-    machine : object
-        The machine, checked or raw.
-
-    Yields
-    ------
-    InitErrorDetails
-        Neither mechanism nor unit; a rotator without a unit, or too far out on the beam; names that are
-        taken.
+    Neither mechanism nor unit; a rotator without a unit, or too far out on the beam; names that are taken.
     """
     own, unit, rotator = (look(machine, key) for key in ("mechanism", "pumping_unit", "rod_rotator"))
     if unit is None:

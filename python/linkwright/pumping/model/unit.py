@@ -217,20 +217,9 @@ POUND_FORCE = 4.4482216152605
 
 
 def rating_of(designation: str) -> Rating | None:
-    """Read a designation of API Spec 11E.
+    """The rating [SI] of a designation of API Spec 11E such as ``"C-114D-133-54"``; None if it has another
+    form.
 
-    Parameters
-    ----------
-    designation : str
-        Such as ``"C-114D-133-54"``.
-
-    Returns
-    -------
-    Rating or None
-        In SI; None if the text has another form.
-
-    Examples
-    --------
     >>> round(rating_of("C-114D-133-54").stroke, 4)
     1.3716
     """

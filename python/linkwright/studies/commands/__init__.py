@@ -2,7 +2,6 @@
 
 | module | |
 | --- | --- |
-| `progress` | Rows done, rate and remaining time |
 | `optimise` | ``linkwright optimise`` |
 | `fit` | ``linkwright fit`` |
 | `tolerance` | ``linkwright tolerance`` |

@@ -149,6 +149,6 @@ def _head(name: str, found: Fit) -> str:
 
 
 def _figures(found: Fit) -> dict[str, Any]:
-    from linkwright.studies.figures_of_fit import fit_figure
+    from linkwright.studies.figures import fit_figure
 
     return {"fit": fit_figure(found)}

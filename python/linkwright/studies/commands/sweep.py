@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
+from time import monotonic
 from typing import TYPE_CHECKING, Annotated, Any
+
+import click
 
 from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import Json, Outside, Sets
+from linkwright.kernel.command.console import progress_bar
 from linkwright.kernel.command.out import Force, out_option, output_folder
 from linkwright.kernel.command.parameter import Argument, Option
 
@@ -18,6 +25,7 @@ if TYPE_CHECKING:
     from linkwright.studies.figures import Shown
     from linkwright.studies.folder import SweepFolder
     from linkwright.studies.sweep import Sweep
+
 
 StudyArgument = Annotated[
     Path,
@@ -61,7 +69,6 @@ def sweep(
 
     Rows that fail keep their reason. Exit code 1 if none has an answer.
     """
-    from linkwright.studies.commands.progress import rows_bar
     from linkwright.studies.read import read_study
     from linkwright.studies.sweep import sweep as compute
 
@@ -144,9 +151,8 @@ def shown_of(folder: SweepFolder) -> Shown:
     """Rows of a folder with their labels, angles in degrees."""
     import numpy as np
 
-    from linkwright.studies.figures import Shown
+    from linkwright.studies.figures import Shown, rows_of
     from linkwright.studies.folder import plan_of
-    from linkwright.studies.show import rows_of
 
     plan, rows = plan_of(folder.manifest), rows_of(folder)
     names = [*(axis.name for axis in plan.axes), *plan.responses]
@@ -161,3 +167,35 @@ def shown_of(folder: SweepFolder) -> Shown:
         plan.responses,
         plan.sweep.method == "grid",
     )
+
+
+# From when on progress is shown [s], and how far apart lines in a log are.
+_PATIENCE, _LINES = 1.0, 30.0
+
+
+@contextmanager
+def rows_bar() -> Iterator[Callable[[int, int, float], None]]:
+    """Show how many rows are done; yields a call that takes rows done, rows in all and rows a second."""
+    start = monotonic()
+    shown = None
+    told = start
+
+    def watch(done: int, total: int, rate: float) -> None:
+        nonlocal shown, told
+        now = monotonic()
+        if not sys.stderr.isatty():
+            if now - told > _LINES:
+                told = now
+                left = (total - done) / rate
+                click.echo(f"{done} of {total} rows, {rate:.4g} rows/s, {left:.0f} s left", err=True)
+            return
+        if shown is None and now - start > _PATIENCE:
+            shown = progress_bar("rows", total)
+        if shown is not None:
+            shown.update(shown.task_ids[0], completed=done, description=f"{rate:,.0f} rows/s")
+
+    try:
+        yield watch
+    finally:
+        if shown is not None:
+            shown.stop()

@@ -9,7 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
-from linkwright.kernel.figure.captioned import Captioned
+from linkwright.kernel.figure.style import Captioned
 from linkwright.kernel.page.numbers import degrees, number
 from linkwright.machine.machine import Machine
 from linkwright.topping.charts import length_chart, verdict_chart

@@ -34,7 +34,7 @@ from pydantic import Field
 from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import CheckedDescription, Description, fault, suggestion
-from linkwright.kernel.description.plain import look
+from linkwright.kernel.description.place import look
 from linkwright.kernel.units import (
     ANGLE,
     INSIDE_ONE,
@@ -196,19 +196,8 @@ class Topper(CheckedDescription):
 
 
 def topper_faults(machine: object, slides: Sequence[str]) -> Iterator[InitErrorDetails]:
-    """What is wrong between a topper and the mechanism that moves its knife.
-
-    Parameters
-    ----------
-    machine : object
-        The machine, checked or raw.
-    slides : sequence of str
-        Names of the coordinates along guides.
-
-    Yields
-    ------
-    InitErrorDetails
-        The knife follows no slide of the mechanism, or the crank has no speed.
+    """What is wrong with a topper: its knife follows none of the slides of the mechanism, or the crank has no
+    speed.
     """
     motion = look(look(machine, "topper"), "motion")
     if look(motion, "kind") != "member":

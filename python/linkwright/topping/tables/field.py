@@ -13,9 +13,8 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.kernel.page.csv import columns_csv
 from linkwright.kernel.page.numbers import number, quantity
-from linkwright.kernel.page.table import Row, Table
+from linkwright.kernel.page.table import Row, Table, columns_csv
 from linkwright.topping.best.best_knife import BestKnife, KnifeSearch
 from linkwright.topping.field import TopperField
 from linkwright.topping.sweep import FieldSweep

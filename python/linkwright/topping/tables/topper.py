@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from linkwright.kernel.page.csv import columns_csv, head
 from linkwright.kernel.page.numbers import degrees, number, quantity
-from linkwright.kernel.page.table import Row, Table, row, rows_in, rows_of
+from linkwright.kernel.page.table import Row, Table, columns_csv, head, row, rows_in, rows_of
 from linkwright.kernel.quantities import shown
 from linkwright.topping.model.topper import Topper
 from linkwright.topping.topper import TopperStudy, leaves

@@ -58,7 +58,7 @@ def diagnose(
     json: Json = False,
 ) -> None:
     """Which cylinder of an engine is weak, from the speed of a disc over the crank angle."""
-    from linkwright.kernel.files.columns import read_columns
+    from linkwright.kernel.files.points import read_columns
     from linkwright.kernel.units import ANGLE, SPEED
     from linkwright.machine.read import read
     from linkwright.torsion.diagnosis.record_diagnosis import record_diagnosis

@@ -65,7 +65,7 @@ def torsion(
     """
     from linkwright.kernel.command.console import progress
     from linkwright.machine.read import read
-    from linkwright.torsion.limits.measured_file import read_measured
+    from linkwright.torsion.limits.overlay import read_measured
     from linkwright.torsion.study import torsion_study
 
     folder = output_folder(out, force=force)
@@ -115,7 +115,7 @@ def _tables(study: TorsionStudy) -> list[Table]:
 
 def _tail(study: TorsionStudy) -> str:
     """What measured curves say of the computed ones."""
-    from linkwright.torsion.tables.measured import measured_words
+    from linkwright.torsion.tables.limits import measured_words
 
     return "".join(f"{measured_words(one)}\n" for one in study.overlays)
 

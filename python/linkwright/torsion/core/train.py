@@ -23,8 +23,7 @@ from linkwright import _core
 from linkwright.kernel.errors import MachineError, Problem
 from linkwright.kernel.numerics.tangent import plain
 from linkwright.torsion.core.rod import Rod
-from linkwright.torsion.model.modal_damping import ModalDamping
-from linkwright.torsion.model.train import GROUND, Shaft, Train, TrainGear
+from linkwright.torsion.model.train import GROUND, ModalDamping, Shaft, Train, TrainGear
 from linkwright.torsion.model.whole_train import RodShaft, parts_of, speeds, whole_train
 
 Floats = NDArray[np.float64]

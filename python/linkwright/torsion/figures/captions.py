@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from linkwright.kernel.errors import LinkwrightError
-from linkwright.kernel.figure.captioned import Captioned
+from linkwright.kernel.figure.style import Captioned
 from linkwright.torsion.figures.forced import (
     gear_figure,
     heat_figure,
@@ -28,7 +28,7 @@ from linkwright.torsion.modes.phase_vectors import most_severe
 from linkwright.torsion.response.forced import ForcedVibration, angular_deflection
 from linkwright.torsion.response.stress import ShaftStress
 from linkwright.torsion.study import TorsionStudy
-from linkwright.torsion.tables.measured import measured_words, words
+from linkwright.torsion.tables.limits import measured_words, words
 from linkwright.torsion.tables.torsion import service_place
 
 # Star diagrams in a figure.

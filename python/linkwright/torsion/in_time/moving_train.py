@@ -34,8 +34,7 @@ from linkwright.torsion.core.transient import MovingTrain, VariableInertia, movi
 from linkwright.torsion.model.engine.engine import ReciprocatingEngine, firing_angles
 from linkwright.torsion.model.engine.engine_motion import reduced_throw
 from linkwright.torsion.model.train import Train
-from linkwright.torsion.model.train_drivers import InstalledEngine
-from linkwright.torsion.model.train_torques import Harmonic, LoadHarmonic, TrainLoad
+from linkwright.torsion.model.train_torques import Harmonic, InstalledEngine, LoadHarmonic, TrainLoad
 from linkwright.torsion.model.train_transient import (
     FuelSwitch,
     LoadStep,

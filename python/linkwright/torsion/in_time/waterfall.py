@@ -57,17 +57,8 @@ class Waterfall(Result):
     turns: Annotated[int, Shown("revolutions of a window", "", "")]
 
     def order(self, wanted: float) -> Floats:
-        """Amplitudes of one order over the windows.
-
-        Parameters
-        ----------
-        wanted : float
-            Cycles per revolution; the nearest order is taken.
-
-        Returns
-        -------
-        ndarray, shape (windows,)
-            In the unit of the signal.
+        """Amplitudes of the order nearest to the one wanted, over the windows, (windows,), in the unit of the
+        signal.
         """
         amplitudes: Floats = self.amplitudes[:, int(np.abs(self.orders - wanted).argmin())]
         return amplitudes

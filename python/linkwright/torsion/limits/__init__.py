@@ -4,7 +4,6 @@
 | --- | --- |
 | `barred_range` | Speeds that shafts do not bear indefinitely |
 | `criteria` | What is asked of the parts of a train, and where over the speed it is exceeded |
-| `measured_file` | Measured curves from a file |
 | `misfire` | The worst single misfire |
 | `overlay` | A measured curve laid over the computed one |
 | `peak_judgement` | Whether shafts and couplings bear a manoeuvre |

@@ -6,16 +6,13 @@
 | `drive_train` | Gearbox, coupling, flywheel, brake; a driveline whose shafts twist, as a train |
 | `engine/` | Reciprocating engines: descriptions of their parts, and what follows from them in closed form |
 | `measured_response` | A measured response over the speed |
-| `modal_damping` | Damping ratios of the modes of a train as a whole |
 | `permitted_stress` | Vibratory stress permitted by IACS UR M68 and by the Korean Register |
 | `shaft_flexibility` | Closed forms for the twist of cones and of steps |
 | `shaft_limit` | The permitted stress of the shaft: where its stress counts, and what is permitted there |
-| `shaft_rod` | A shaft as a rod, piece by piece, for distributed inertia |
 | `shaft_row` | Sections of a shaft in a row: their flexibilities with those of the steps between them |
 | `shaft_section` | Sections of a shaft |
 | `train` | A torsional train: discs, shafts, gear stages; speeds and orders of its forced vibration |
 | `train_base` | Quantities that several parts of a train have |
-| `train_drivers` | What drives a train: engines, turbines, motors, each with its part of the power |
 | `train_faults` | What is wrong with a train as a whole |
 | `train_torques` | Torques on a train from outside: what it drives, and what makes it pulsate |
 | `train_transient` | A manoeuvre of a train, followed in time, and its events |

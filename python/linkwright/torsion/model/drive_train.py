@@ -25,7 +25,7 @@ from pydantic_core import InitErrorDetails
 from linkwright.drive.model.drive import Drive
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.kernel.description.base import fault
-from linkwright.kernel.description.plain import look
+from linkwright.kernel.description.place import look
 from linkwright.kernel.errors import MachineError, Problem
 from linkwright.kernel.numerics.tangent import plain
 from linkwright.torsion.model.train import GROUND, Disc, ElasticShaft, Shaft, Train, TrainGear

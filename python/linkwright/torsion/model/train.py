@@ -7,10 +7,16 @@ A shaft of sections in a row has the compliance of all of them together,
 Angles of discs are counted in the sense in which each disc turns when the train runs, so that a gear stage
 does not change the sign of an amplitude. Whether a stage reverses the sense counts where stages close a loop.
 
+Modes of the train as a whole may be damped by ratios ζ, measured or assumed, whatever damps [2]_:
+
+.. math:: \ddot p_k + 2\zeta_k\omega_k\,\dot p_k + \omega_k^2 p_k = \Phi_k^T M
+
 References
 ----------
 .. [1] Ker Wilson, Practical Solution of Torsional Vibration Problems, vol. 1, 1956, chapter 3: stiffness of
    shafts.
+.. [2] Clough and Penzien, Dynamics of Structures, 2nd ed. 1993, section 12-4: damping of given
+   modal ratios.
 """
 
 from __future__ import annotations
@@ -26,19 +32,45 @@ from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import CheckedDescription, Description, Name, Whole, fault
 from linkwright.kernel.numerics.tangent import total
-from linkwright.kernel.units import COUNT, INERTIA, Bound, Quantity, positive
+from linkwright.kernel.units import COUNT, INERTIA, RATIO, Bound, Quantity, QuantityList, positive
 from linkwright.linkages.model.element import PositiveNumber
 from linkwright.torsion.model.coupling import Coupling, Damper
 from linkwright.torsion.model.engine.engine import ReciprocatingEngine
 from linkwright.torsion.model.measured_response import MeasuredResponse
-from linkwright.torsion.model.modal_damping import ModalDamping
 from linkwright.torsion.model.shaft_limit import ShaftLimit
 from linkwright.torsion.model.shaft_row import fillet_faults, flexibilities, place
 from linkwright.torsion.model.shaft_section import Density, Modulus, ShaftSection
 from linkwright.torsion.model.train_base import GROUND, Damping, LossFactor, PositiveSpeed, PositiveStiffness
-from linkwright.torsion.model.train_drivers import InstalledEngine, TrainDriver, TrainEngine
-from linkwright.torsion.model.train_torques import Excitation, TrainLoad
+from linkwright.torsion.model.train_torques import (
+    Excitation,
+    InstalledEngine,
+    TrainDriver,
+    TrainEngine,
+    TrainLoad,
+)
 from linkwright.torsion.model.train_transient import TrainTransient
+
+_BELOW = "a ratio from 0 to below 1, as a mode that vibrates has"
+
+
+class ModalDamping(CheckedDescription):
+    """Damping ratios of the modes of vibration, in addition to what damps single parts."""
+
+    ratios: Annotated[tuple[float, ...], QuantityList(RATIO)] = Field(
+        (), description="ζ of the modes of vibration by frequency, from the lowest above zero."
+    )
+    others: Annotated[float, Quantity(RATIO)] = Field(0.0, description="ζ of all further modes.")
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        for n, ratio in enumerate(self.ratios):
+            if not 0 <= ratio < 1:
+                yield fault("ratios", n, found=ratio, expected=_BELOW)
+        if not 0 <= self.others < 1:
+            yield fault("others", found=self.others, expected=_BELOW)
+        if not self.ratios and not self.others:
+            remedy = 'give the same for all modes as others = "1 %"'
+            yield fault(expected="ratios of some modes", remedy=remedy)
+
 
 # As far as gas torques are computed.
 _HIGHEST = 48.0

@@ -9,11 +9,11 @@ from itertools import pairwise
 from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import close_match, fault, suggestion
-from linkwright.kernel.description.plain import keys, look
+from linkwright.kernel.description.place import keys, look
 from linkwright.kernel.errors import AssemblyError, InputError
 from linkwright.kernel.limits import DISCS
 from linkwright.torsion.model.train import GROUND, Train
-from linkwright.torsion.model.train_drivers import crank_names, throw_names
+from linkwright.torsion.model.train_torques import crank_names, throw_names
 from linkwright.torsion.model.train_transient import transient_faults
 from linkwright.torsion.model.whole_train import (
     Contradiction,

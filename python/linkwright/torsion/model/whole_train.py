@@ -16,10 +16,9 @@ from pydantic import Field
 
 from linkwright.torsion.model.coupling import Coupling, Damper
 from linkwright.torsion.model.engine.engine_motion import mean_throw_inertia, throw_stiffness
-from linkwright.torsion.model.shaft_rod import RodPiece, rod_pieces
-from linkwright.torsion.model.shaft_row import end_inertias
+from linkwright.torsion.model.shaft_row import RodPiece, end_inertias, rod_pieces
 from linkwright.torsion.model.train import GROUND, Disc, Shaft, ShaftInertia, Train
-from linkwright.torsion.model.train_drivers import InstalledEngine
+from linkwright.torsion.model.train_torques import InstalledEngine
 
 
 def whole_train(train: Train) -> Train:

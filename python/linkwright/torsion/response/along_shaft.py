@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from linkwright.torsion.core.rod import along
 from linkwright.torsion.core.train import HELD
 from linkwright.torsion.model.shaft_limit import StressedSection
-from linkwright.torsion.model.shaft_rod import RodPiece
+from linkwright.torsion.model.shaft_row import RodPiece
 from linkwright.torsion.model.train import Shaft
 from linkwright.torsion.model.whole_train import RodShaft
 from linkwright.torsion.modes.free import lead_speeds

@@ -5,7 +5,6 @@
 | `engine` | Tables of an engine, of its cylinders, of a damper for its train |
 | `gears` | Gear stages: torque, application factor, tooth contact |
 | `limits` | Limits in normal firing, with a misfire, in the manoeuvre |
-| `measured` | Measured curves beside the computed ones |
 | `orders` | Every order over the speed, and the curves of a manoeuvre |
 | `torsion` | Tables of the torsional vibration of a train |
 """

@@ -6,9 +6,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from linkwright.kernel.page.csv import columns_csv
 from linkwright.kernel.page.numbers import quantity
-from linkwright.kernel.page.table import Row, Table
+from linkwright.kernel.page.table import Row, Table, columns_csv
 from linkwright.torsion.response.mesh_torque import MeshTorque
 from linkwright.torsion.tables.limits import per_minute, rpm
 

@@ -1,16 +1,16 @@
-"""Tables of limits: in normal firing, with a cylinder misfiring, in the manoeuvre."""
+"""Tables of limits (normal firing, misfiring, manoeuvre) and of measured curves beside the computed ones."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from linkwright.kernel.page.measured import measured
-from linkwright.kernel.page.numbers import parted, quantity
+from linkwright.kernel.page.numbers import measured, parted, quantity
 from linkwright.kernel.page.out_units import reader
 from linkwright.kernel.page.table import Row, Table
 from linkwright.kernel.units import Kind
+from linkwright.torsion.limits.overlay import Overlay, PeakComparison
 from linkwright.torsion.study import TorsionStudy
 
 _STATES = {"ok": "within limit", "bar": "barred speed range required", "exceeds": "limit exceeded"}
@@ -77,3 +77,63 @@ def rpm(speed: float) -> str:
 def per_minute() -> str:
     """The unit of speeds."""
     return reader().shown("rad/s", "rpm")[0]
+
+
+def measured_tables(overlays: Sequence[Overlay]) -> Iterator[Table]:
+    """Each measured peak beside the computed one."""
+    rows: list[Row] = [
+        (
+            f"{one.name}: {words(one)}" if one.name != one.part else words(one),
+            "",
+            rpm(peak.speed),
+            "–" if peak.speed_computed is None else rpm(peak.speed_computed),
+            percent(peak.speed_difference),
+            shown(peak.value, one.kind),
+            "–" if peak.value_computed is None else shown(peak.value_computed, one.kind),
+            percent(peak.value_difference),
+        )
+        for one in overlays
+        for peak in one.peaks
+    ]
+    heads = ("peak", "", f"measured {per_minute()}", "computed", "differs", "measured", "computed", "differs")
+    if rows:
+        yield Table("measured", "Measured and computed peaks", heads, rows)
+
+
+def words(one: Overlay) -> str:
+    """What was measured."""
+    order = "" if one.order is None else f", order {one.order:.4g}"
+    return f"{one.what} of {one.part}{order}"
+
+
+def percent(share: float | None) -> str:
+    """A difference."""
+    return "–" if share is None else f"{100 * share:+.1f} %".replace("-", "−")
+
+
+def measured_words(one: Overlay) -> str:
+    """What the comparison says, in a sentence."""
+    highest = max(one.peaks, key=lambda peak: peak.value)
+    what, value = words(one), shown(highest.value, one.kind)
+    text = f"{what[0].upper()}{what[1:]}: highest measured {value} at {rpm(highest.speed)} {per_minute()}"
+    return f"{text}, {_beside(one, highest)}{_permitted(one)}."
+
+
+def _beside(one: Overlay, peak: PeakComparison) -> str:
+    """The computed peak beside a measured one."""
+    if peak.speed_computed is None or peak.value_computed is None:
+        return "no computed peak within 15 % of its speed"
+    value, at = shown(peak.value_computed, one.kind), rpm(peak.speed_computed)
+    speed, size = percent(peak.speed_difference), percent(peak.value_difference)
+    return f"computed {value} at {at} {per_minute()}: speed {speed}, amplitude {size}"
+
+
+def _permitted(one: Overlay) -> str:
+    """Whether what was measured is permitted."""
+    if one.permitted is None:
+        return ""
+    over = one.speeds[one.measured > one.permitted]
+    if not len(over):
+        return "; the measured stress is within the limit of continuous operation"
+    between = f"{rpm(float(over[0]))} to {rpm(float(over[-1]))} {per_minute()}"
+    return f"; the measured stress exceeds the limit of continuous operation within {between}"

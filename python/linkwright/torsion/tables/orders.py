@@ -8,9 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.kernel.page.csv import columns_csv
 from linkwright.kernel.page.numbers import number, quantity
-from linkwright.kernel.page.table import Row, Table
+from linkwright.kernel.page.table import Row, Table, columns_csv
 from linkwright.torsion.in_time.transient import TorsionTransient
 from linkwright.torsion.modes.phase_vectors import PhaseVectors
 from linkwright.torsion.response.excited_train import ExcitedTrain

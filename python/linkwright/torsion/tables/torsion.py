@@ -19,8 +19,7 @@ from linkwright.torsion.response.forced import ForcedVibration
 from linkwright.torsion.study import TorsionStudy
 from linkwright.torsion.tables.engine import engine_tables
 from linkwright.torsion.tables.gears import gear_tables
-from linkwright.torsion.tables.limits import limit_tables, per_minute, rpm
-from linkwright.torsion.tables.measured import measured_tables
+from linkwright.torsion.tables.limits import limit_tables, measured_tables, per_minute, rpm
 from linkwright.torsion.tables.orders import excitation_tables, star_table
 
 Floats = NDArray[np.float64]

@@ -5,11 +5,8 @@ The name of a crank means its pin for `force` and `damping`, its link for `torqu
 
 | module | |
 | --- | --- |
-| `base` | What all loads have in common |
 | `between` | Springs and dampers: between two points, and between two links or a link and the frame |
-| `force` | Moving point | a force of fixed direction, or one that turns with a link | `force` |
-| `formula` | Point or link | a force or torque by a formula | `formula` |
-| `friction` | Resistances: dry and viscous friction on a point, a slider or a link |
+| `force` | What all loads have in common; constant forces, weight, friction, formulas on a point or link |
 | `references` | What is wrong between the loads and the mechanism |
 | `table` | Loads by tables: over position, over the angle of a link, over crank angle or speed |
 """
@@ -20,7 +17,6 @@ from typing import Annotated
 
 from pydantic import Field
 
-from linkwright.kinetostatics.model.loads.base import Load
 from linkwright.kinetostatics.model.loads.between import (
     BetweenPoints,
     Damper,
@@ -29,9 +25,15 @@ from linkwright.kinetostatics.model.loads.between import (
     TorsionalDamper,
     TorsionalSpring,
 )
-from linkwright.kinetostatics.model.loads.force import ConstantForce, ConstantTorque, Gravity
-from linkwright.kinetostatics.model.loads.formula import FormulaLoad
-from linkwright.kinetostatics.model.loads.friction import DryFriction, ViscousFriction
+from linkwright.kinetostatics.model.loads.force import (
+    ConstantForce,
+    ConstantTorque,
+    DryFriction,
+    FormulaLoad,
+    Gravity,
+    Load,
+    ViscousFriction,
+)
 from linkwright.kinetostatics.model.loads.table import ForcePosition, TorqueAngle, TorqueSpeed, TorqueSwing
 
 AnyLoad = Annotated[

@@ -28,7 +28,7 @@ from linkwright.kernel.units import (
     not_negative,
     positive,
 )
-from linkwright.kinetostatics.model.loads.base import Load, number_or_curve
+from linkwright.kinetostatics.model.loads.force import Load, number_or_curve
 
 _ABOVE_ONE = Bound(" above 1,", {"exclusiveMinimum": 1}, lambda value: value > 1)
 _FROM_ONE = Bound(" of 1 or more,", {"minimum": 1}, lambda value: value >= 1)

@@ -1,14 +1,57 @@
-"""Forces and torques of constant size, and weight."""
+"""Loads on a point or a link: forces and torques of constant size, weight, friction, formulas.
+
+A formula is a text: ``force = "-200*v - 50*sign(v)"``.
+"""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import Annotated, Literal
 
 from pydantic import Field
+from pydantic_core import InitErrorDetails
 
-from linkwright.kernel.units import ACCELERATION, Angle, Force, Torque, not_negative
-from linkwright.kinetostatics.model.loads.base import Load
+from linkwright.kernel.description.base import CheckedDescription, fault
+from linkwright.kernel.description.formula import VARIABLES, names, parse
+from linkwright.kernel.description.formula_faults import constant_faults, text_faults, used_names
+from linkwright.kernel.units import (
+    ACCELERATION,
+    DAMPING,
+    FORCE,
+    TORQUE,
+    TORSIONAL_DAMPING,
+    Angle,
+    AnyQuantity,
+    Force,
+    Torque,
+    not_negative,
+)
+
+
+class Load(CheckedDescription):
+    """What all loads have in common."""
+
+
+def one_of(load: Load, for_points: str, for_links: str) -> Iterator[InitErrorDetails]:
+    """The fault of a load that has neither or both of two entries."""
+    given = [name for name in (for_points, for_links) if getattr(load, name) is not None]
+    if len(given) == 2:
+        remedy = f"{for_points} acts on a point or a slider, {for_links} on a link"
+        yield fault(for_links, found=getattr(load, for_links), expected="only one of the two", remedy=remedy)
+    if not given:
+        yield fault(expected=f"{for_points} (on a point or a slider) or {for_links} (on a link)")
+
+
+def number_or_curve(load: Load, number: str, argument: str, value: str) -> Iterator[InitErrorDetails]:
+    """The fault of a load that is not described by either one number or a curve of two lists."""
+    curve = [name for name in (argument, value) if getattr(load, name) is not None]
+    if getattr(load, number) is not None and curve:
+        yield fault(
+            curve[0], found=getattr(load, curve[0]), expected=f"either {number}, or {argument} and {value}"
+        )
+    elif len(curve) == 1 or (getattr(load, number) is None and not curve):
+        yield fault(expected=f"{number}, or a curve by {argument} and {value}")
 
 
 class ConstantForce(Load):
@@ -37,3 +80,81 @@ class Gravity(Load):
         9.81, description="Acceleration of free fall."
     )
     direction: Angle = Field(-math.pi / 2, description="Direction of gravity, from the x axis.")
+
+
+class DryFriction(Load):
+    """Resistance of constant size that always opposes the motion."""
+
+    kind: Literal["dry"]
+    on: str = Field(description="Moving point, slider or link that it acts on.")
+    force: Annotated[float, not_negative(FORCE)] | None = Field(None, description="On a point or a slider.")
+    torque: Annotated[float, not_negative(TORQUE)] | None = Field(None, description="On a link.")
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        return one_of(self, "force", "torque")
+
+
+class ViscousFriction(Load):
+    """Resistance in proportion to the speed, against the motion."""
+
+    kind: Literal["viscous"]
+    on: str = Field(description="Moving point, slider or link that it acts on.")
+    damping: Annotated[float, not_negative(DAMPING)] | None = Field(
+        None, description="Force per velocity, on a point or a slider."
+    )
+    damping_torsional: Annotated[float, not_negative(TORSIONAL_DAMPING)] | None = Field(
+        None, description="Torque per angular speed, on a link."
+    )
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        return one_of(self, "damping", "damping_torsional")
+
+
+class FormulaLoad(Load):
+    """A force or a torque by a formula in angle, speed, time, position and velocity of what it acts on."""
+
+    kind: Literal["formula"]
+    on: str = Field(description="Moving point, slider or link that it acts on.")
+    force: str | None = Field(None, description="Formula of a force in N, on a point or a slider.")
+    torque: str | None = Field(None, description="Formula of a torque in N m, on a link, counter-clockwise.")
+    direction: Angle | None = Field(
+        None, description="Direction of the force, from the x axis, or from the link `along`."
+    )
+    along: str | None = Field(None, description="Link that the force turns with.")
+    constants: dict[str, Annotated[float, AnyQuantity()]] = Field(
+        default_factory=dict, description="Constants of the formula by name, in any unit."
+    )
+
+    @property
+    def text(self) -> str:
+        """The formula."""
+        return self.force if self.force is not None else self.torque or ""
+
+    @property
+    def knows_time(self) -> bool:
+        """Whether the load changes with time itself."""
+        return "t" in names(parse(self.text))
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        yield from one_of(self, "force", "torque")
+        yield from constant_faults(self.constants, self.text)
+        for key in ("force", "torque"):
+            text = getattr(self, key)
+            if text is not None:
+                yield from text_faults(key, text, self.constants)
+        for key in ("direction", "along"):
+            if self.torque is not None and getattr(self, key) is not None:
+                expected = "nothing: a torque is counter-clockwise"
+                yield fault(key, found=getattr(self, key), expected=expected)
+
+
+def variable_faults(key: str, text: object, known: frozenset[str], on: str) -> Iterator[tuple[str, str, str]]:
+    """Variables that what a load acts on does not have.
+
+    `on`: what the load acts on, in words. Returns: key, what is expected, and the remedy.
+    """
+    used = used_names(text) if isinstance(text, str) else None
+    for name, at in (used or {}).items():
+        if name in VARIABLES and name not in known:
+            remedy = f"{on} has {', '.join(sorted(known))}"
+            yield key, f'another variable at character {at}, where "{name}" stands', remedy

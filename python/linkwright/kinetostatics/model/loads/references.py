@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import fault, suggestion
-from linkwright.kernel.description.plain import keys, look
-from linkwright.kinetostatics.model.loads.formula import variable_faults
+from linkwright.kernel.description.place import keys, look
+from linkwright.kinetostatics.model.loads.force import variable_faults
 from linkwright.linkages.model.topology import Topology, Wanted
 
 # Loads between two points.
@@ -46,20 +46,10 @@ _OF_LINKS = frozenset({"psi", "psi_dot"})
 
 
 def load_faults(topology: Topology, loads: object) -> Iterator[InitErrorDetails]:
-    """What is wrong between the loads and the mechanism.
+    """What is wrong between the loads, checked or raw, and the mechanism.
 
-    Parameters
-    ----------
-    topology : Topology
-        Names of the mechanism.
-    loads : object
-        The table of loads, checked or raw.
-
-    Yields
-    ------
-    InitErrorDetails
-        Loads on nothing; entries that do not belong to what the load acts on. As in the errors of pydantic,
-        the kind of the load stands in the place, before its key.
+    Loads on nothing; entries that do not belong to what the load acts on. As in the errors of pydantic, the
+    kind of the load stands in the place, before its key.
     """
     for name in keys(loads):
         load = look(loads, name)

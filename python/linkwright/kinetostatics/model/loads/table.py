@@ -13,7 +13,7 @@ from pydantic_core import InitErrorDetails
 from linkwright.kernel.description.base import fault
 from linkwright.kernel.description.curve import curve_faults
 from linkwright.kernel.units import Angles, Forces, Lengths, Speeds, Torques
-from linkwright.kinetostatics.model.loads.base import Load
+from linkwright.kinetostatics.model.loads.force import Load
 
 # A curve over one revolution may close exactly; printed degrees and π are rounded.
 _ONE_TURN = 2 * math.pi * (1 + 1e-9)

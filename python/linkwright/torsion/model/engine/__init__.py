@@ -12,7 +12,6 @@
 | `gas` | What all descriptions of the gas in a cylinder share; load maps |
 | `heat` | Release of heat by Wiebe's function, loss of heat to the walls |
 | `indicator` | A measured indicator diagram: pressure in the cylinder over the crank angle of a whole cycle |
-| `indicator_faults` | What can be wrong with an indicator diagram |
 | `pendulum` | Moments of inertia of a rod from pendulum tests |
 | `polygon` | Closed polygons: area and its moments by Green's theorem, crossings, points inside |
 | `rod` | Connecting rods: length, mass, and how the mass is spread along them |

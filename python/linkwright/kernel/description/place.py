@@ -1,17 +1,54 @@
-"""Look into a description that may be a checked model or the raw tables of a file.
+"""Places in a description: addresses as text, and what stands there, in a checked model or in the raw tables.
+
+``bodies."cart1.rod".mass`` is an address; a part with a point in it stands in quotes.
 
 Names that refer to nothing should be reported together with wrong values, so the references of a file are
-checked even where its tables could not be turned into models. Both are read through these two functions.
+checked even where its tables could not be turned into models. Both are read through `keys` and `look`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import re
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
 from typing import Any
 
 import numpy as np
 from pydantic import BaseModel
+
+from linkwright.kernel.errors import InputError
+
+_PART = re.compile(r"""\s*(?:"([^"]*)"|'([^']*)'|([^."'\s][^."']*?))\s*(\.|$)""")
+# What TOML calls a bare key; every other key needs quotes.
+_BARE = re.compile(r"[A-Za-z0-9_-]+")
+
+
+def split(address: str) -> tuple[str, ...]:
+    """The parts of an address, without quotes; an `InputError` if the text is none.
+
+    >>> split('bodies."cart1.rod".mass')
+    ('bodies', 'cart1.rod', 'mass')
+    """
+    parts, position, more = [], 0, True
+    while more:
+        match = _PART.match(address, position)
+        if match is None:
+            raise InputError(f'"{address}" is not an address: expected keys with points between them')
+        parts.append(match[1] or match[2] or match[3] or "")
+        position, more = match.end(), match[4] == "."
+    return tuple(parts)
+
+
+def join(parts: Iterable[str]) -> str:
+    """The address of keys from the top down, with quotes where a key needs them; the inverse of `split`."""
+    return ".".join(part if _BARE.fullmatch(part) else _quoted(part) for part in parts)
+
+
+def _quoted(part: str) -> str:
+    """A part in quotes; no name has both kinds, and a key that has is quoted with one."""
+    if '"' in part and "'" in part:
+        part = part.replace('"', "'")
+    return f"'{part}'" if '"' in part else f'"{part}"'
 
 
 @cache

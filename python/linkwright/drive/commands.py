@@ -203,7 +203,7 @@ def _tables(of: _Followed) -> list[Table]:
 
 
 def _files(of: _Followed) -> dict[str, str]:
-    from linkwright.kernel.page.csv import columns_csv, head
+    from linkwright.kernel.page.table import columns_csv, head
 
     course = _course(of)
     curves = course.curves() | {"crank_angle": course.crank_angle - of.zero.angle}

@@ -1,6 +1,0 @@
-"""Commands about drives.
-
-| module | |
-| --- | --- |
-| `transient` | ``linkwright transient FILE``: motion in time |
-"""
