@@ -2,7 +2,8 @@
 #
 #   make demo    virtual environment, build, run the main example, say where the report lies
 #   make test    lint and all tests
-#   make test-deep   random cases for MINUTES (60): machine files, formulas, tables, plans, machines and their laws
+#   make test-deep   the random tests with many more cases; then random cases for MINUTES (60): machine files,
+#                formulas, tables, plans, machines and their laws
 #   make wheel-test  the wheel, installed outside the clone: commands of README and documentation as printed
 #   make lint    formatting, clippy, ruff, types
 #   make bench   the product against what a user would use instead
@@ -17,6 +18,8 @@ BUILT := $(VENV)/built
 TOOLS := $(VENV)/tools
 RUST := $(shell find crates -name '*.rs' -o -name Cargo.toml) Cargo.toml Cargo.lock
 
+# Some environments forbid compiled files of Python: every process of the tests would compile all modules anew.
+unexport PYTHONDONTWRITEBYTECODE
 export VIRTUAL_ENV := $(CURDIR)/$(VENV)
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
@@ -66,7 +69,7 @@ rust-test: $(BUILT)
 	cargo test --release -p linkwright-core -p linkwright-py --features pyo3/extension-module --locked
 
 python-test: $(TOOLS)
-	$(BIN)/python -m pytest -n $(shell nproc) --ignore=$(PRINTED)
+	$(BIN)/python -m pytest -n $(shell nproc) --dist worksteal --ignore=$(PRINTED)
 
 # The module is built already, so that the wheel is only packed. Its environment borrows the dependencies alone.
 WHEEL := $(CURDIR)/$(VENV)/wheel
@@ -94,6 +97,7 @@ studio-test: $(TOOLS)
 MINUTES ?= 60
 
 test-deep: $(TOOLS)
+	LINKWRIGHT_DEEP=1 $(BIN)/python -m pytest -n $(shell nproc) --dist worksteal -m "deep or hypothesis"
 	$(BIN)/python tests/fuzz/deep.py --minutes $(MINUTES) --jobs $(shell nproc)
 
 bench: $(TOOLS)

@@ -7,6 +7,8 @@ import os
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 from hypothesis import settings
+from sizes import DEEP
 
 settings.register_profile("same cases, any speed", derandomize=True, deadline=None)
-settings.load_profile("same cases, any speed")
+settings.register_profile("other cases each time", max_examples=1000, deadline=None)
+settings.load_profile("other cases each time" if DEEP else "same cases, any speed")

@@ -54,12 +54,11 @@ def test_engine_stress_verdict_and_measure_are_there(told: dict[str, Any]) -> No
     assert told["findings"] == []
 
 
-def test_every_entry_can_be_set() -> None:
-    plain = json.loads(run(V12, "--json").stdout)
+def test_every_entry_can_be_set(told: dict[str, Any]) -> None:
     missing = run(V12, "--json", "--set", "train.engine.factors.3=0")
     found = json.loads(missing.stdout)
     way = ("results", "forced", "unevenness", "flywheel")
-    before, after = plain, found
+    before, after = told, found
     for key in way:
         before, after = before[key], after[key]
     assert max(after) > max(before)

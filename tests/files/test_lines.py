@@ -9,6 +9,7 @@ from typing import Any
 import tomlkit
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from sizes import cases
 
 from linkwright.kernel.files.lines import key_lines, line_of
 
@@ -29,7 +30,7 @@ def places(node: Any, place: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]]:
         yield from places(value, (*place, key))
 
 
-@settings(deadline=None, max_examples=200)
+@settings(deadline=None, max_examples=cases(200, 2000))
 @given(TABLES)
 def test_every_key_is_found(tables: dict[str, Any]) -> None:
     text = tomlkit.dumps(tables)

@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from sizes import cases
 
 from linkwright.drive.model.motor import InductionMotor
 from linkwright.kernel.errors import InputError, MachineFileError
@@ -126,7 +127,7 @@ ADDRESSES = st.sampled_from(
 )
 
 
-@settings(deadline=None, max_examples=500)
+@settings(deadline=None, max_examples=cases(250, 5000))
 @given(st.dictionaries(ADDRESSES, VALUES, min_size=1, max_size=3))
 def test_any_value_anywhere_is_read_or_gives_problems(changes: dict[str, Any]) -> None:
     message = "read"

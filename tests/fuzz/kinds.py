@@ -33,19 +33,19 @@ class Kind(NamedTuple):
 
 
 KINDS: dict[str, Kind] = {
-    "file": Kind(texts.file_of_a_machine, 150, 8),
-    "override": Kind(texts.override, 100, 8),
-    "bytes": Kind(texts.bytes_of_a_file, 100, 1),
+    "file": Kind(texts.file_of_a_machine, 80, 8),
+    "override": Kind(texts.override, 60, 8),
+    "bytes": Kind(texts.bytes_of_a_file, 60, 1),
     "table": Kind(texts.table, 60, 1),
     "formula text": Kind(texts.formula_text, 1000, 1),
     "formula value": Kind(texts.formula_value, 300, 1),
-    "results": Kind(texts.results, 100, 6),
+    "results": Kind(texts.results, 60, 6),
     "plan": Kind(plans.plan, 1500, 2),
     "train": Kind(random_parts.train, 60, 2),
     "cam": Kind(random_parts.cam, 60, 2),
-    "drive": Kind(drive_laws.drive, 30, 8),
-    "batch": Kind(drive_laws.batch, 60, 4),
-    "topper": Kind(random_parts.topper, 4, 1),
+    "drive": Kind(drive_laws.drive, 15, 8),
+    "batch": Kind(drive_laws.batch, 40, 4),
+    "topper": Kind(random_parts.topper, 2, 1),
 }
 
 

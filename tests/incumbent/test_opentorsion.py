@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from sizes import cases
 
 import linkwright as lw
 
@@ -39,7 +40,7 @@ def ours(discs: list[tuple[float, float]], shafts: list[tuple[int, int, float, f
 
 
 @given(trees())
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=cases(50, 500), deadline=None)
 def test_frequencies_and_damping_agree(
     case: tuple[list[tuple[float, float]], list[tuple[int, int, float, float]]],
 ) -> None:

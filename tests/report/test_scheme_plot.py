@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from matplotlib.transforms import Bbox
+from sizes import cases
 from trains import Gear, Shaft, text
 
 import linkwright as lw
@@ -185,7 +186,7 @@ def branched(draw: st.DrawFn) -> str:
 
 
 @given(branched())
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=cases(15, 150), deadline=None)
 def test_any_tree_is_drawn_clean(case: str) -> None:
     it = scheme(lw.loads(case))
     figure = scheme_figure(it)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from sizes import cases
 
 import linkwright as lw
 from linkwright.kernel.errors import InputError, SynthesisError
@@ -26,7 +27,7 @@ def extremes(machine: lw.Machine) -> tuple[float, float, float, float]:
     return found[0], found[2], found[1], found[3]
 
 
-@settings(max_examples=40, deadline=None, derandomize=True)
+@settings(max_examples=cases(40, 400), deadline=None, derandomize=True)
 @given(swing=st.floats(15, 110), share=st.floats(-0.6, 0.6))
 def test_swing_and_time_ratio_come_out_again(swing: float, share: float) -> None:
     # Crank angles between the dead centres over most of the range that VDI 2130 gives.
@@ -105,7 +106,7 @@ def test_reversed_time_ratio_is_the_mirror_image() -> None:
     assert a.turns_alike != b.turns_alike
 
 
-@settings(max_examples=40, deadline=None, derandomize=True)
+@settings(max_examples=cases(40, 400), deadline=None, derandomize=True)
 @given(stroke=st.floats(0.01, 10), ratio=st.floats(0.6, 1.7).filter(lambda x: abs(x - 1) > 0.01))
 def test_stroke_and_time_ratio_come_out_again(stroke: float, ratio: float) -> None:
     found = lw.slider_crank(stroke, ratio)

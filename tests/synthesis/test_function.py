@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import minimize
+from sizes import cases
 
 import linkwright as lw
 from linkwright.kernel.errors import InputError, MachineError, SynthesisError
@@ -63,7 +64,7 @@ def test_structural_error_is_that_of_a_finer_analysis() -> None:
     assert (np.diff(signs) != 0).sum() == 3
 
 
-@settings(max_examples=60, deadline=None, derandomize=True)
+@settings(max_examples=cases(60, 600), deadline=None, derandomize=True)
 @given(
     st.tuples(st.floats(0.3, 3), st.floats(0.3, 3), st.floats(0.3, 3)),
     st.floats(-3, 3),

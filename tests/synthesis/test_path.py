@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from sizes import cases
 
 import linkwright as lw
 from linkwright.kernel.errors import MachineError, SynthesisError
@@ -67,10 +68,11 @@ UNTIMED = {
 }
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize("name", UNTIMED)
 def test_every_seed_finds_the_same_best(name: str) -> None:
     points, least = UNTIMED[name]
-    for seed in range(1, 11):
+    for seed in range(1, 1 + cases(3, 10)):
         task = PathTask(x=tuple(points.real), y=tuple(points.imag), seed=seed, population=48, generations=200)
         found = lw.path_generator(task)
         assert found.error_relative == pytest.approx(least, rel=0.01, abs=1e-12)

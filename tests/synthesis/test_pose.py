@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from sizes import cases
 
 import linkwright as lw
 from linkwright.kernel.errors import MachineError, SynthesisError
@@ -46,7 +47,7 @@ def test_three_poses_are_met(linkage: str) -> None:
     assert loads(dumps(guide.machine)) == guide.machine
 
 
-@settings(max_examples=60, deadline=None, derandomize=True)
+@settings(max_examples=cases(60, 600), deadline=None, derandomize=True)
 @given(turn=st.floats(0.3, 2.5), other=st.floats(-2.5, -0.3), sign=st.sampled_from([1, -1]))
 def test_two_poses_and_the_turns_of_the_links(turn: float, other: float, sign: int) -> None:
     poses = Poses(x=(0, 0.1), y=(0, 0.03), angle=(0.1, 0.5))
@@ -86,7 +87,7 @@ def test_a_known_linkage_is_found_again() -> None:
     assert found.type == "crank-rocker"
 
 
-@settings(max_examples=60, deadline=None, derandomize=True)
+@settings(max_examples=cases(60, 600), deadline=None, derandomize=True)
 @given(
     st.tuples(*4 * [st.floats(-1, 1)]),
     st.tuples(*2 * [st.floats(-3, 3)]),

@@ -28,6 +28,7 @@ from knife_sweep import (
     uncut_share,
     worst,
 )
+from sizes import cases
 
 import linkwright as lw
 from linkwright.kernel.errors import InputError
@@ -281,7 +282,7 @@ def test_edge_that_all_but_stands_still_at_times(law: str, beyond: float) -> Non
     st.floats(-80, 80),
     st.floats(0, 360),
 )
-@settings(max_examples=25)
+@settings(max_examples=cases(25, 250))
 def test_any_knife_over_any_head(
     law: str, stroke: float, speed: float, angle: float, v: float, d: float, offset: float, phase: float
 ) -> None:

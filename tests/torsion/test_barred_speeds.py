@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from sizes import cases
 
 import linkwright as lw
 from linkwright.torsion.limits.barred_range import surveyed_ranges
@@ -122,7 +123,8 @@ def _peaks(speeds: Floats, values: Floats, counts: NDArray[np.bool_]) -> Floats:
     return speeds[1:-1][here]
 
 
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.deep
+@pytest.mark.parametrize("seed", range(cases(6, 40)))
 def test_random_trains(seed: int) -> None:
     machine = lw.loads(random_train(seed))
     seen = [with_limits(machine, share) for share in SHARES]

@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pydantic import ValidationError
 from scipy.integrate import quad
+from sizes import cases
 
 from linkwright.kernel.errors import InputError
 from linkwright.torsion.model.engine.polygon import area_moments, first_crossing, holds, signed_area
@@ -225,7 +226,7 @@ def stars(draw: st.DrawFn) -> tuple[tuple[float, float], ...]:
 
 
 @given(stars(), st.floats(0, 6.28))
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=cases(80, 800), deadline=None)
 def test_polygons_turned_and_taken_apart(corners: tuple[tuple[float, float], ...], angle: float) -> None:
     """The middle and the moments go with the turning; triangles from a corner add up to the whole."""
     area, centre, polar = area_moments(corners)

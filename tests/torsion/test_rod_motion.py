@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import minimize_scalar
+from sizes import cases
 
 from linkwright.kernel.errors import AssemblyError, InputError
 from linkwright.torsion.model.engine.rod import ArticulatedRod, Rod
@@ -147,7 +148,7 @@ def test_points_of_a_rod() -> None:
         assert across == pytest.approx(0.01j * found.direction, abs=1e-15)
 
 
-@settings(deadline=None, max_examples=50)
+@settings(deadline=None, max_examples=cases(50, 500))
 @given(st.floats(0.12, 0.5), st.floats(-0.02, 0.02), st.floats(-3, 3))
 def test_dead_centres_on_the_crank_pin(length: float, offset: float, bank: float) -> None:
     """Crank and rod in line: closed form of stroke and angles."""
@@ -163,7 +164,7 @@ def test_dead_centres_on_the_crank_pin(length: float, offset: float, bank: float
     assert found.stroke == pytest.approx(highest - lowest, rel=1e-13)
 
 
-@settings(deadline=None, max_examples=30)
+@settings(deadline=None, max_examples=cases(30, 300))
 @given(gears)
 def test_dead_centres_of_articulated_rods_against_a_search(throw: tuple[RunningGear, ...]) -> None:
     """Golden sections over the other geometry; they see a flat top to the root of rounding."""

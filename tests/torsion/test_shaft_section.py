@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 from scipy.integrate import quad
 from scipy.optimize import brentq
+from sizes import cases
 from torsion_fields import flange_flexibility, keyed_constant, spline_constant, step_length
 
 import linkwright as lw
@@ -55,7 +56,7 @@ shares = st.floats(0.0, 0.97)
 
 
 @given(sizes, sizes, shares, shares)
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=cases(60, 600), deadline=None)
 def test_a_taper_is_the_integral(first: float, second: float, bore: float, other: float) -> None:
     each = section(
         kind="taper",
@@ -76,7 +77,7 @@ def test_a_taper_is_the_integral(first: float, second: float, bore: float, other
 
 
 @given(sizes, sizes, shares)
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=cases(40, 400), deadline=None)
 def test_a_hollow_taper_whose_bore_vanishes_is_solid(first: float, second: float, share: float) -> None:
     solid = cone_integral(1.0, (first, second))
     # The bore counts by its fourth power.
@@ -211,7 +212,7 @@ def test_strength_of_the_weakest_place() -> None:
 
 
 @given(sizes, sizes, shares)
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=cases(40, 400), deadline=None)
 def test_inertia_is_the_integral(first: float, second: float, bore: float) -> None:
     inside = bore * min(first, second)
     each = section(kind="taper", diameter=first, diameter_end=second, inner_diameter=inside)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from sizes import cases
 from throw_models import frame_stiffness, solid_compliance
 
 from linkwright.kernel.errors import InputError
@@ -70,7 +71,7 @@ def bare(each: CrankThrow, k: float) -> float:
 
 
 @given(throws())
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=cases(60, 600), deadline=None)
 def test_restraint_is_that_of_a_frame_of_beams(each: CrankThrow) -> None:
     """Bearings that leave the second web only its turning answer with M/k, and the twist is that of (17)."""
     K, k = frame_stiffness(each), restraint_length(each)
@@ -80,13 +81,13 @@ def test_restraint_is_that_of_a_frame_of_beams(each: CrankThrow) -> None:
 
 
 @given(throws())
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=cases(60, 600), deadline=None)
 def test_free_bearings_are_a_free_frame(each: CrankThrow) -> None:
     assert bare(each, 1e12) == pytest.approx(np.linalg.inv(frame_stiffness(each))[3, 3], rel=1e-7)
 
 
 @given(throws())
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=cases(60, 600), deadline=None)
 def test_restraint_is_the_least_of_the_energy(each: CrankThrow) -> None:
     """Castigliano: no other force of the bearings would do with less energy; k is above two thirds of R."""
     K = frame_stiffness(each)
@@ -201,7 +202,7 @@ def test_formulas_differ_by_a_tenth_to_a_third(name: str) -> None:
 
 
 @given(throws(), st.floats(0.1, 10.0))
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=cases(50, 500), deadline=None)
 def test_compliance_goes_with_the_cube_of_the_size(each: CrankThrow, scale: float) -> None:
     """Similar throws: e ∝ 1/(G · size³)."""
 

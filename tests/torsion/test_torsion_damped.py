@@ -11,6 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.linalg import eig
+from sizes import cases
 
 import linkwright as lw
 from linkwright.kernel.errors import InputError
@@ -143,7 +144,7 @@ def trains(draw: st.DrawFn) -> tuple[dict[str, tuple[float, float]], list[Shaft]
 
 
 @given(trains())
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=cases(150, 1500), deadline=None)
 def test_laws_on_any_train(case: tuple[dict[str, tuple[float, float]], list[Shaft]]) -> None:
     found = damped(*case)
     J, C, K, H = matrices(*case)
@@ -177,7 +178,7 @@ def _ground_damps(discs: Mapping[str, tuple[float, float]], shafts: Sequence[Sha
 
 
 @given(trains())
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=cases(100, 1000), deadline=None)
 def test_the_eigenvalues_of_scipy(case: tuple[dict[str, tuple[float, float]], list[Shaft]]) -> None:
     """Linearised in angles and speeds, viscous damping alone."""
     discs, shafts = case[0], [(*shaft[:4], 0.0) for shaft in case[1]]
@@ -195,7 +196,7 @@ def test_the_eigenvalues_of_scipy(case: tuple[dict[str, tuple[float, float]], li
 
 
 @given(trains(), st.just(0.0) | st.floats(0.01, 0.5), st.floats(0.0, 1e-4))
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=cases(50, 500), deadline=None)
 def test_proportional_damping(
     case: tuple[dict[str, tuple[float, float]], list[Shaft]], alpha: float, beta: float
 ) -> None:

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.linalg import eigh
+from sizes import cases
 from trains import Gear, Shaft, matrices, omega, text, train
 
 import linkwright as lw
@@ -93,7 +94,7 @@ def trees(draw: st.DrawFn) -> tuple[dict[str, float], list[Shaft], list[Gear]]:
 
 
 @given(trees())
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=cases(150, 1500), deadline=None)
 def test_laws_on_any_tree(case: tuple[dict[str, float], list[Shaft], list[Gear]]) -> None:
     discs = case[0]
     found, (J, K) = train(*case), matrices(*case)
@@ -121,7 +122,7 @@ def test_laws_on_any_tree(case: tuple[dict[str, float], list[Shaft], list[Gear]]
 
 
 @given(trees(), st.floats(0.1, 10.0))
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=cases(50, 500), deadline=None)
 def test_the_speed_that_is_referred_to_does_not_matter(
     case: tuple[dict[str, float], list[Shaft], list[Gear]], speed: float
 ) -> None:

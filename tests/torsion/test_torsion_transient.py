@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import cos, sin
 
 import numpy as np
 import pytest
@@ -129,16 +130,17 @@ def test_resonance_passed_as_by_scipy() -> None:
     found = follow_train(train, duration=3.0, speed=80.0, accuracy=1e-11, sample_time=2e-3)
 
     def rates(t: float, y: Floats) -> list[float]:
-        a, b, v, w = y
-        J, slope = 0.5 + 0.06 * np.cos(2 * a), -0.12 * np.sin(2 * a)
+        a, b, v, w = y.tolist()
+        J, slope = 0.5 + 0.06 * cos(2 * a), -0.12 * sin(2 * a)
         shaft = k * (a - b) + c * (v - w)
-        first = (M2 * np.cos(2 * a + 0.4) - shaft - 0.5 * slope * v * v) / J
+        first = (M2 * cos(2 * a + 0.4) - shaft - 0.5 * slope * v * v) / J
         return [v, w, first, (gain * (80 + 40 * t - w) + shaft) / J2]
 
     peaks = []
-    for method in ("DOP853", "Radau"):
+    # A method of one step and one of many, which agree to 1e-8 of the peak.
+    for method, rtol in (("DOP853", 1e-10), ("LSODA", 1e-12)):
         exact = solve_ivp(
-            rates, (0, 3), [0, 0, 80, 80], method=method, t_eval=found.time, rtol=1e-10, atol=1e-11
+            rates, (0, 3), [0, 0, 80, 80], method=method, t_eval=found.time, rtol=rtol, atol=0.1 * rtol
         )
         torque = k * (exact.y[0] - exact.y[1]) + c * (exact.y[2] - exact.y[3])
         peaks.append(np.abs(torque).max())
