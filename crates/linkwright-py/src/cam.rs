@@ -71,7 +71,7 @@ pub(crate) struct CamPasses {
     sign: Py<PyArray1<f64>>,
 }
 
-/// A contact over a turn.
+/// A contact over a revolution.
 #[pyclass(frozen, get_all, module = "linkwright._core")]
 pub(crate) struct CamShape {
     angle: Py<PyArray1<f64>>,

@@ -44,7 +44,7 @@ pub(crate) fn torsion_modes(
     Ok(Some(TorsionModes { omega: omega.unbind(), shapes: shapes.unbind() }))
 }
 
-/// A train, its discs in an order in which each hangs on an earlier one.
+/// A train, its discs in an order in which each is connected to an earlier one.
 fn tree(parent: &Ints<'_>, inertia: &Floats<'_>, stiffness: &[f64]) -> PyResult<Train> {
     let parent: Vec<usize> =
         parent.as_slice()?.iter().map(|&i| usize::try_from(i).unwrap_or(usize::MAX)).collect();

@@ -159,7 +159,7 @@ _PORTION = 8192
 class Pass:
     """What an edge does to roots; arrays (n,), a root each."""
 
-    # (n,): minimum length that cuts the head right through [m]; infinite for a root that is missed, zero for
+    # (n,): minimum length that cuts through the head [m]; infinite for a root that is missed, zero for
     # one that is lost.
     length_needed: Floats
     # (n,): share of the head that is left [–]: all of one that is missed, nothing of one that is lost. Zero

@@ -3,7 +3,7 @@ r"""A field of roots under the knife: how many heads are cut through, what is le
 Of a root, D, h_p and δ are drawn or measured, and the phase of the knife in which it is met
 (`roots`). `coverage` gives the length L that its head needs; then
 
-* the share of heads that an edge cuts right through is the distribution function of the lengths needed, for
+* the share of heads that an edge cuts through is the distribution function of the lengths needed, for
   all lengths of the edge at once, and its quantiles are the lengths for 50, 90, 95, 99 and 99.9 % of heads;
 * the haulm that remains is the mean share of the head's area that is not crossed: haulm grows from the disc;
 * the loss is the cap of the root above the cut, whether all of it comes off or not.

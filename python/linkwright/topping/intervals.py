@@ -190,7 +190,7 @@ class ShareCurve:
         return self.clusters.shares(self._counts(length))
 
     def _counts(self, length: Floats) -> Floats:
-        """Heads of each cluster that each of the lengths cuts right through."""
+        """Heads of each cluster that each of the lengths cuts through."""
         # The first of the lengths that is enough for each head.
         k = len(length)
         first = np.searchsorted(length, self.needed)

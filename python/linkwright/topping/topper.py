@@ -223,7 +223,7 @@ def topper(machine: Machine, *, charts: bool = True) -> TopperStudy:
 
 
 def leaves(study: TopperStudy) -> bool:
-    """Whether anything is left of a head."""
+    """Whether a head is not cut completely."""
     return study.uncut_share > NOTHING
 
 

@@ -3,7 +3,7 @@
 //! | module | answers |
 //! | --- | --- |
 //! | here | one contact, exactly, in any number |
-//! | [`shape`] | a whole turn: arrays, extremes, undercut, inflections |
+//! | [`shape`] | a whole revolution: arrays, extremes, undercut, inflections |
 //! | [`crossing`] | where a profile crosses itself |
 //! | [`search`] | many cams of one law |
 //!

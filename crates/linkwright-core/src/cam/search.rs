@@ -27,7 +27,7 @@ pub struct Cams<'a> {
     pub n: usize,
 }
 
-/// Looks at all cams at about `angles` angles a turn; `out` holds [`RESULTS`] numbers a cam.
+/// Looks at all cams at about `angles` angles per revolution; `out` holds [`RESULTS`] numbers a cam.
 pub fn search(law: &MotionLaw, cams: &Cams<'_>, per_turn: usize, out: &mut [f64]) {
     let lifts: Vec<[f64; 3]> =
         law.pieces().iter().flat_map(|piece| angles(piece, per_turn).map(|phi| piece.at(phi))).collect();

@@ -1,4 +1,4 @@
-//! A cam over the whole turn: contacts at many angles, extremes and zeros located to rounding.
+//! A cam over the whole revolution: contacts at many angles, extremes and zeros located to rounding.
 //!
 //! Each piece of the law is looked at by itself, both ends included: a derivative that jumps at a joint has two
 //! values there, and both count. Between neighbouring angles an extreme is a zero of the exact derivative (dual
@@ -61,7 +61,7 @@ pub struct Extreme {
     pub value: f64,
 }
 
-/// Angles of a piece, both ends included: its share of n a turn.
+/// Angles of a piece, both ends included: its share of n per revolution.
 pub(super) fn angles(piece: &Piece, n: usize) -> impl Iterator<Item = f64> + use<> {
     let steps = ((n as f64 * piece.length / TAU).round() as usize).max(LEAST);
     let (start, step) = (piece.start, piece.length / steps as f64);
@@ -72,7 +72,7 @@ pub(super) fn angles(piece: &Piece, n: usize) -> impl Iterator<Item = f64> + use
 const LEAST: usize = 16;
 
 impl Cam<f64> {
-    /// Contacts at about n angles a turn, piece by piece, in lanes.
+    /// Contacts at about n angles per revolution, piece by piece, in lanes.
     pub fn shape(&self, law: &MotionLaw, n: usize) -> Shape {
         in_lanes(Sampling { cam: self, law, n })
     }

@@ -1,6 +1,6 @@
 //! The way from the crank to one point, link or slide, in registers.
 //!
-//! What is asked for often hangs on the crank by a chain: each dyad has its pin on the one before and its pivot or its
+//! What is asked for often depends on the crank by a chain: each dyad has its pin on the one before and its pivot or its
 //! guide on the ground. Then one moving point is all that goes from dyad to dyad, and it stays in registers; what else
 //! the dyads move is not computed. The formulas are those of the elements ([`super::dyads`], [`super::mechanism`]).
 //!
@@ -65,7 +65,7 @@ enum Found<R> {
 }
 
 impl Chain {
-    /// The chain to a target; `None` where it hangs on the crank in another way.
+    /// The chain to a target; `None` where it depends on the crank in another way.
     pub fn to(mechanism: &Mechanism, target: Channel) -> Option<Self> {
         let (end, mut pin) = found(mechanism, target)?;
         let mut lead = Vec::new();

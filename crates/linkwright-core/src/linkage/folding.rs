@@ -149,7 +149,7 @@ fn sign_of<R: Real>(
         // One that a machine of a batch does not have.
         product = product * q[at.reach].select_lt(R::splat(0.0), R::splat(1.0), factor);
     }
-    // A side that is not known is NaN, and so is all that hangs on it.
+    // A side that is not known is NaN, and so is all that depends on it.
     let unknown = side * 0.0;
     product.select_lt(R::splat(0.0), R::splat(-1.0), R::splat(1.0)) + unknown
 }

@@ -82,7 +82,7 @@ const ROUNDS_MAX: usize = 12;
 /// Correction in lengths of the group's size at which Newton has converged: squared, it is below rounding.
 const CONVERGED: f64 = 1e-9;
 
-/// The two factors of a condition and which points they hang on.
+/// The two factors of a condition and which points they depend on.
 struct Factors<R> {
     a: [Vec2<R>; 3],
     b: [Vec2<R>; 3],
@@ -213,7 +213,7 @@ impl Group {
                     bar(m, each.link, &from, &to, q[each.inverse_length]);
                 }
                 self.slide(q, m);
-                // Not converged: told as not closing.
+                // Not converged: reported as not closing.
                 let scale = self.scale(q, m);
                 let open = (residual - scale.squared() * 1e-10).select_lt(
                     R::splat(0.0),
@@ -323,7 +323,7 @@ impl Group {
         )
     }
 
-    /// The Jacobian: for each condition its gradient by the points it hangs on, carried to the unknowns.
+    /// The Jacobian: for each condition its gradient by the points it depends on, carried to the unknowns.
     #[inline(always)]
     fn linearise<R: Real>(&self, q: &[R], m: &Motion<R>, system: &mut System<R>) {
         R::outline(
@@ -375,7 +375,7 @@ impl Group {
         )
     }
 
-    /// Hands the gradients that carried points keep on to their ends, from the last to the first: each hangs on
+    /// Hands the gradients that carried points keep on to their ends, from the last to the first: each depends on
     /// points that come before it. K ↦ (α + iβ) B turns back to g ↦ (α − iβ) g.
     #[inline(always)]
     fn hand_on<R: Real>(&self, row: usize, q: &[R], system: &mut System<R>) {

@@ -67,7 +67,7 @@ impl Builder {
         Ok(())
     }
 
-    /// Adds an element behind those that it hangs on; gives its number.
+    /// Adds an element behind those that it depends on; gives its number.
     ///
     /// # Errors
     /// It uses what was not made before, what it makes is not the next of its kind, a list has the wrong length, or a

@@ -1,4 +1,4 @@
-//! Bodies, loads and laws: what hangs on the mechanism.
+//! Bodies, loads and laws on the mechanism.
 
 use super::builder::{Builder, all_below};
 use crate::drive::loads::{Body, Carrier, ForceElement, FormulaLoad, Law, Load};

@@ -24,7 +24,7 @@ pub struct Heads<'a> {
     pub n: usize,
 }
 
-/// Looks at all heads; `fine` stations a turn of the law; areas are zero without an edge. `out` holds [`RESULTS`]
+/// Looks at all heads; `fine` stations per revolution of the law; areas are zero without an edge. `out` holds [`RESULTS`]
 /// numbers a head.
 pub fn cover(knife: &Knife, heads: &Heads<'_>, length: Option<f64>, fine: usize, out: &mut [f64]) {
     let longest = longest(knife, heads);

@@ -46,7 +46,7 @@ fn series<R: Real>(coefficients: &[[f64; 2]], phase: R) -> [R; 3] {
 #[derive(Clone, Debug)]
 pub struct Knife {
     pub law: Law,
-    /// Phases at which the law or one of its first two derivatives jumps, increasing, in one turn.
+    /// Phases at which the law or one of its first two derivatives jumps, increasing, in one revolution.
     pub corners: Vec<f64>,
     /// sin α and cos α of the edge's angle to the transverse axis.
     pub direction: [f64; 2],

@@ -10,7 +10,7 @@ use super::uncut::crossing;
 use crate::kernel::gauss::{B, C};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// What is left of a head, and what it needs.
+/// The uncut parts of a head, and the length it requires.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Left {
     /// Half of the length that would leave nothing.

@@ -6,7 +6,7 @@
 //! s = k (1 + iη) + iωc          D = −ω² J + iωc₀  of every disc
 //! ```
 //!
-//! D θ + Σ s (θ − θ′) = M is solved from the leaves to the root and back: what hangs on a shaft answers
+//! D θ + Σ s (θ − θ′) = M is solved from the leaves to the root and back: the discs beyond a shaft respond
 //!
 //! ```text
 //! D_p ← D_p + s D_c/(D_c + s)      M_p ← M_p + s M_c/(D_c + s)      θ_c = (M_c + s θ_p)/(D_c + s)

@@ -1,4 +1,4 @@
-//! Which discs hang together by shafts, and in which order each hangs on an earlier one.
+//! Which discs are connected by shafts, and in which order each is connected to an earlier one.
 //!
 //! A train falls apart where a shaft has no stiffness, as the fluid of a damper has none: its ring is then a train of
 //! its own. Each part begins with a disc at an end, so that a chain is in its own order.

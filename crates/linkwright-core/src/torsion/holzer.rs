@@ -1,6 +1,6 @@
 //! Holzer's table at any λ = ω²: how many natural frequencies lie below, and where the next are.
 //!
-//! A disc and all that hangs on it are carried through the angle θ, which takes the torque M; one shaft further
+//! A disc and all discs beyond it are carried through the angle θ, which takes the torque M; one shaft further
 //!
 //! ```text
 //! M = M_c + (k_0 − λ J + Σ x) θ        θ_p = θ + M/k        x = M/θ_p of each side branch
@@ -25,11 +25,11 @@ struct Step {
     inertia: f64,
     /// To the ground \[N m/rad\].
     ground: f64,
-    /// 1/k of the shaft to the disc that it hangs on \[rad/(N m)\].
+    /// 1/k of the shaft to the disc before it \[rad/(N m)\].
     flexibility: f64,
-    /// The disc that it hangs on.
+    /// The disc before it.
     parent: usize,
-    /// Whether others hang on it by the side of the way.
+    /// Whether other branches are connected to it.
     gathers: bool,
     /// Whether angles are brought back to one here.
     rescales: bool,

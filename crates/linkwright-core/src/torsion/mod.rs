@@ -13,9 +13,9 @@
 //! | [`waves`] | what harmonics add up to |
 //! | [`transient`] | motion in time, with inertias that change with the angle |
 //!
-//! A train without loops is a tree: every disc but the first hangs on one other by a shaft. Gear stages are
+//! A train without loops is a tree: a shaft connects every disc but the first to one before it. Gear stages are
 //! referred to one speed before, so that shafts carry k (θ_a − θ_b). Looked at from its leaves to the root, each
-//! disc with all that hangs on it answers a twist θ e^{iωt} with a torque x θ, its dynamic stiffness
+//! disc with all discs beyond it responds to a twist θ e^{iωt} with a torque x θ, its dynamic stiffness
 //!
 //! ```text
 //! x_c = k_0 − ω² J_c + Σ s        s = k x_c/(k + x_c), that of shaft and disc in series
@@ -39,14 +39,14 @@ pub mod transient;
 mod trees;
 pub mod waves;
 
-/// A train referred to one speed, its discs in an order in which each hangs on an earlier one.
+/// A train referred to one speed, its discs in an order in which each is connected to an earlier one.
 #[derive(Clone, Debug, Default)]
 pub struct Train {
-    /// The disc that each hangs on; that of the first is itself.
+    /// The disc before each; that of the first is itself.
     parent: Vec<usize>,
     /// J \[kg m²\].
     inertia: Vec<f64>,
-    /// Of the shaft to the disc that each hangs on; of the first, none \[N m/rad\].
+    /// Of the shaft to the disc before each; of the first, none \[N m/rad\].
     stiffness: Vec<f64>,
     /// From each disc to the ground \[N m/rad\].
     ground: Vec<f64>,
@@ -54,7 +54,7 @@ pub struct Train {
 
 impl Train {
     /// A train; `None` unless inertias and stiffnesses are positive (the first stiffness, to the ground, may be zero) and each
-    /// disc hangs on an earlier one.
+    /// disc is connected to an earlier one.
     pub fn new(parent: &[usize], inertia: &[f64], stiffness: &[f64]) -> Option<Self> {
         let n = inertia.len();
         let fits = n > 0 && parent.len() == n && stiffness.len() == n;

@@ -1,6 +1,6 @@
 //! Mode shapes of a train, all at once, a lane each.
 //!
-//! One sweep from the leaves gives what every disc and all that hangs on it answers, x; another from the root what the
+//! One sweep from the leaves gives the response of every disc and all discs beyond it, x; another from the root what the
 //! rest answers there, y. At the disc where both fit together best, γ = x + y least, the shape begins; from there
 //! outwards all its ratios are stable,
 //!
@@ -101,7 +101,7 @@ fn neighbours(lambda: &[f64], first: usize, lanes: usize, to: &mut Vec<f64>) {
 /// What a disc and its shaft are in the sweeps.
 #[derive(Clone, Copy)]
 struct Sweep<R> {
-    /// Answer of the disc and all that hangs on it, x; then that of the rest, y.
+    /// Response of the disc and all discs beyond it, x; then that of the rest, y.
     answer: R,
     /// Of the disc and those of its branches that come later than the one from which one comes.
     later: R,

@@ -80,7 +80,7 @@ impl Piece {
     }
 }
 
-/// A motion law over a turn.
+/// A motion law over a revolution.
 #[pyclass(frozen, from_py_object, module = "linkwright._core")]
 #[derive(Clone)]
 pub(crate) struct MotionLaw(pub(crate) CoreLaw);

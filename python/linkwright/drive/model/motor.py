@@ -4,7 +4,7 @@ r"""Motors: torque against speed of the motor shaft.
 | --- | --- |
 | `induction` | Kloss's formula, through the breakdown point |
 | `dc` | straight line from stall to no load |
-| `table` | linear between given points, end values held |
+| `table` | linear between given points, constant outside |
 | `constant_torque` | the same torque at any speed |
 | `constant_speed` | the same speed under any load |
 
@@ -320,7 +320,7 @@ class DcMotor(Motor):
 
 
 class TableMotor(Motor):
-    """Motor whose torque is given at some speeds; linear between them, the end values held outside."""
+    """Motor whose torque is given at some speeds; linear between them and constant outside."""
 
     kind: Literal["table"]
     speed: Speeds = Field(description="Speeds of the motor shaft, increasing.")

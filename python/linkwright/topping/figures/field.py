@@ -106,7 +106,7 @@ def _histogram(axes: Axes, values: Floats, total: int) -> None:
 
 @styled
 def field_haulm_figure(field: TopperField, over: FieldSweep) -> Figure:
-    """Draw what is left of the heads against the length, and what the roots lose."""
+    """Draw the uncut share of the heads over the length, and what the roots lose."""
     figure, (left, lost) = panels(1, height=3.0, columns=2, shared=False)
     length = 1e3 * over.entries["edge_length"]
     left.fill_between(

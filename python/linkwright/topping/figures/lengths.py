@@ -196,7 +196,7 @@ def _share(axes: Axes, degrees: Floats, share: Floats) -> None:
     axes.fill_between(degrees, 0, share, color=RED, alpha=0.2, linewidth=0)
     axes.plot(degrees, share, color=RED)
     axes.set_ylim(0, 1.1 * share.max())
-    axes.set_ylabel("left of the head [%]")
+    axes.set_ylabel("uncut share of the head [%]")
 
 
 def _only(axes: Axes, phase: float | None) -> None:

@@ -1,4 +1,4 @@
-//! The motion from mark to mark: where something outside switches, a step ends, and the next begins anew.
+//! The motion from mark to mark: where something outside switches, a step ends, and the next begins.
 
 use super::equilibrium::Equilibrium;
 use super::explicit::{Explicit, STABLE_PHASE};

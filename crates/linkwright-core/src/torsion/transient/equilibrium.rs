@@ -22,7 +22,7 @@ const UNRESOLVED: f64 = 100.0;
 /// Share of a twist's acceleration by which the polynomial's may be off.
 const DOUBT: f64 = 0.01;
 
-/// No mass hangs on the shaft.
+/// No mass is connected to the shaft.
 const NONE: usize = usize::MAX;
 
 /// Which shafts are as good as rigid in a step, and the trees that they form.

@@ -44,7 +44,7 @@ impl Extremes {
     }
 
     /// Sets the torques of shafts as good as rigid at both ends of a step, with the rates of the parabola through them and the
-    /// torque amid the step: those of the equations of motion are rounding times the stiffness.
+    /// torque within the step: those of the equations of motion are rounding times the stiffness.
     pub fn balance(
         &mut self,
         rates: &mut Rates<'_>,

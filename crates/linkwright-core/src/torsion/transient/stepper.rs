@@ -8,7 +8,7 @@ use crate::kernel::rk::{over, worse};
 /// [`Stepper::component`], [`Stepper::slope`], [`Stepper::work`], [`Stepper::advance`]. Where the polynomial errs too much,
 /// [`Stepper::shorten`], and the step is taken again.
 pub trait Stepper {
-    /// Starts anew at an event, with a length to try first.
+    /// Restarts at an event, with a length to try first.
     fn begin(&mut self, rates: &mut Rates<'_>, t: f64, state: &[f64], first: f64);
 
     /// Takes a step of at most `longest` and writes where it leads; its length, or `None` if no step keeps the accuracy.

@@ -24,7 +24,7 @@ class ForcePosition(Load):
 
     It acts on sliders, yokes, linear drivers, racks, joints on a guide and followers. The position counts
     along the guide from the foot of the point that the guide passes through. Between the given points the
-    force is linear, outside them the end values hold.
+    force is linear, and constant outside them.
     """
 
     kind: Literal["force_position"]
@@ -42,7 +42,7 @@ class ForcePosition(Load):
 class TorqueSwing(Load):
     """A torque on a link that swings, against its motion; it depends on the angle of the link and on the way.
 
-    Between the given angles the torque is linear, outside them the end values hold; angles count from the x
+    Between the given angles the torque is linear, and constant outside them; angles count from the x
     axis and span at most a revolution.
     """
 
@@ -105,7 +105,7 @@ class TorqueAngle(Load):
 
 
 class TorqueSpeed(Load):
-    """A load torque on the crankshaft by its speed, linear between the given speeds, end values held."""
+    """A load torque on the crankshaft by its speed, linear between the given speeds, constant outside."""
 
     kind: Literal["torque_speed"]
     speed: Speeds = Field(description="Speeds of the crankshaft, increasing.")

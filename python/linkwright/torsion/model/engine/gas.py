@@ -3,7 +3,7 @@ r"""What all descriptions of the gas in a cylinder share, and the load map of an
 | kind | mean effective pressure |
 | --- | --- |
 | `constant` | the same at any speed |
-| `table` | linear between given points, end values held |
+| `table` | linear between given points, constant outside |
 | `propeller` | rises from the friction with a power of the speed through a rated point |
 
 .. math:: p_i = p_f + (p_{i,n} - p_f) \left(\frac{ω}{ω_n}\right)^2
