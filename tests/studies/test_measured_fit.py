@@ -179,7 +179,7 @@ def test_what_a_record_does_not_tell_is_said_in_words() -> None:
     worst = found.directions[0]
     # All three in proportion.
     assert worst.parts == pytest.approx({"dry": 1.0, "oil": 1.0, "inertia": 1.0}, rel=1e-3)
-    assert worst.words.endswith("the record does not tell")
+    assert worst.words.endswith("the record does not determine them")
     assert np.isinf([found.deviations[name] for name in ("dry", "oil", "inertia")]).all()
     assert found.deviations["speed_start"] < 0.1
 
