@@ -142,7 +142,7 @@ class TopperField(Result):
     ]
 
     def length_at(self, share: float) -> float:
-        """Minimum length that cuts a share, from 0 to 1, of the heads right through [m]."""
+        """Minimum length that cuts through a share, from 0 to 1, of the heads [m]."""
         place = int(np.ceil(share * self.n_roots - 1e-9)) - 1
         return float(np.sort(self.length_needed)[max(place, 0)])
 
