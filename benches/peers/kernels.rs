@@ -111,14 +111,22 @@ pub unsafe extern "C" fn four_bars(
     let (cos, sin) = (std::slice::from_raw_parts(cos, n), std::slice::from_raw_parts(sin, n));
     let out = std::slice::from_raw_parts_mut(out, 8 * n * machines);
     let share = machines.div_ceil(threads);
-    scope(|scope| {
-        for (lengths, out) in lengths.chunks(6 * share).zip(out.chunks_mut(8 * n * share)) {
-            scope.spawn(move || {
-                for (row, out) in lengths.chunks_exact(6).zip(out.chunks_exact_mut(8 * n)) {
-                    FourBar::of(row).sweep(cos, sin, out);
-                }
-            });
+    let tasks = lengths.chunks(6 * share).zip(out.chunks_mut(8 * n * share)).collect();
+    in_threads(tasks, |(lengths, out): (&[f64], &mut [f64])| {
+        for (row, out) in lengths.chunks_exact(6).zip(out.chunks_exact_mut(8 * n)) {
+            FourBar::of(row).sweep(cos, sin, out);
         }
+    });
+}
+
+/// A thread for each task but the last, which is done here.
+fn in_threads<T: Send>(mut tasks: Vec<T>, work: impl Fn(T) + Sync) {
+    let (last, work) = (tasks.pop(), &work);
+    scope(|scope| {
+        for task in tasks {
+            scope.spawn(move || work(task));
+        }
+        last.map(work);
     });
 }
 
@@ -140,20 +148,17 @@ pub unsafe extern "C" fn four_bar_over(
         .chunks_exact_mut(n)
         .map(|run| run.chunks_mut(share(n, threads)))
         .collect();
-    scope(|scope| {
-        for phi in phi.chunks(share(n, threads)) {
-            let mut pieces: Vec<&mut [f64]> = runs.iter_mut().filter_map(Iterator::next).collect();
-            scope.spawn(move || {
-                let mut found = [[0.0; BLOCK]; 8];
-                for (k, phi) in phi.chunks(BLOCK).enumerate() {
-                    let (mut cos, mut sin) = ([1.0; BLOCK], [0.0; BLOCK]);
-                    turned(phi, &mut cos, &mut sin);
-                    linkage.block(&cos, &sin, &mut found);
-                    for (piece, found) in pieces.iter_mut().zip(&found) {
-                        piece[k * BLOCK..k * BLOCK + phi.len()].copy_from_slice(&found[..phi.len()]);
-                    }
-                }
-            });
+    let mut pieces = || runs.iter_mut().filter_map(Iterator::next).collect::<Vec<_>>();
+    let tasks = phi.chunks(share(n, threads)).map(|phi| (phi, pieces())).collect();
+    in_threads(tasks, |(phi, mut pieces): (&[f64], Vec<&mut [f64]>)| {
+        let mut found = [[0.0; BLOCK]; 8];
+        for (k, phi) in phi.chunks(BLOCK).enumerate() {
+            let (mut cos, mut sin) = ([1.0; BLOCK], [0.0; BLOCK]);
+            turned(phi, &mut cos, &mut sin);
+            linkage.block(&cos, &sin, &mut found);
+            for (piece, found) in pieces.iter_mut().zip(&found) {
+                piece[k * BLOCK..k * BLOCK + phi.len()].copy_from_slice(&found[..phi.len()]);
+            }
         }
     });
 }
@@ -276,16 +281,12 @@ pub unsafe extern "C" fn drives(
     let numbers = std::slice::from_raw_parts(numbers, NUMBERS * machines);
     let out = std::slice::from_raw_parts_mut(out, machines);
     let share = machines.div_ceil(threads).next_multiple_of(LANES);
-    scope(|scope| {
-        for (task, out) in out.chunks_mut(share).enumerate() {
-            scope.spawn(move || {
-                for (k, out) in out.chunks_exact_mut(LANES).enumerate() {
-                    let first = task * share + k * LANES;
-                    let q: [Lanes; NUMBERS] =
-                        std::array::from_fn(|n| each(|i| numbers[n * machines + first + i]));
-                    out.copy_from_slice(&follow(&q, steps, turns));
-                }
-            });
+    let tasks = out.chunks_mut(share).enumerate().collect();
+    in_threads(tasks, |(task, out): (usize, &mut [f64])| {
+        for (k, out) in out.chunks_exact_mut(LANES).enumerate() {
+            let first = task * share + k * LANES;
+            let q: [Lanes; NUMBERS] = std::array::from_fn(|n| each(|i| numbers[n * machines + first + i]));
+            out.copy_from_slice(&follow(&q, steps, turns));
         }
     });
 }

@@ -78,17 +78,31 @@ class CylinderStates:
 
 def cylinder_torques(engine: ReciprocatingEngine, speeds: Floats, highest: float = 24.0) -> CylinderTorques:
     """Gas torques of the cylinders of an engine, each with its phase. `speeds`: (speeds,) [rad/s]."""
-    banks = []
-    for positions in piston_positions(engine):
-        cylinder = Cylinder(engine.bore, engine.strokes, positions)
-        banks.append(gas_torque(engine.gas.cycle_pressure(cylinder, speeds), cylinder, highest))
+    banks = _banks(engine, speeds, highest)
     orders = banks[0].orders
     fires, _ = firing_angles(engine.places, engine.firing_order, engine.cycle)
     phase = np.exp(-1j * np.outer(fires, orders))[:, :, None]
     of_bank = [place.bank for place in engine.places]
     firing = np.stack([bank.firing.T for bank in banks])[of_bank] * phase
     motored = np.stack([bank.motored.T for bank in banks])[of_bank] * phase
-    return CylinderTorques(orders, firing, motored, tuple(banks))
+    return CylinderTorques(orders, firing, motored, banks)
+
+
+# Rounding of a place of a piston, over the radius of the crank.
+_ALIKE = 1e-14
+
+
+def _banks(engine: ReciprocatingEngine, speeds: Floats, highest: float) -> tuple[GasTorque, ...]:
+    """Gas torque of a cylinder of each bank; pistons of rods side by side share one."""
+    made: list[tuple[Floats, GasTorque]] = []
+    for places in piston_positions(engine):
+        alike = (gas for known, gas in made if np.abs(known - places).max() <= _ALIKE * engine.radius)
+        gas = next(alike, None)
+        if gas is None:
+            cylinder = Cylinder(engine.bore, engine.strokes, places)
+            gas = gas_torque(engine.gas.cycle_pressure(cylinder, speeds), cylinder, highest)
+        made.append((places, gas))
+    return tuple(gas for _, gas in made)
 
 
 class EnginePlace(NamedTuple):
