@@ -6,6 +6,7 @@ of a parameter or as a string without a blank is no text.
 
 from __future__ import annotations
 
+import ast
 import importlib
 import io
 import pkgutil
@@ -183,3 +184,16 @@ def test_terms_are_defined_once() -> None:
     assert [term.key for term in matching("δ")] == ["speed_fluctuation"]
     assert [term.key for term in matching("unevenness")] == ["speed_fluctuation"]
     assert matching("xyzzy") == ()
+
+
+def test_local_names_say_what_they_are() -> None:
+    # Names that would fit anything: a variable is called what it is (a mode, a peak, a row).
+    anything = {"each", "told"}
+    wrong = []
+    for path in sorted((ROOT / "python").glob("linkwright/**/*.py")):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            stored = isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)
+            name = node.arg if isinstance(node, ast.arg) else node.id if stored else ""
+            if name in anything:
+                wrong.append(f"{path.relative_to(ROOT)}:{node.lineno}: {name}")
+    assert not wrong, "\n".join(wrong)

@@ -61,7 +61,7 @@ class Curve:
 
 def curves_of(study: Study) -> dict[str, Curve]:
     """All curves of a study by name."""
-    return {each.name: each for name, result in study.results().items() for each in _of(name, result)}
+    return {curve.name: curve for name, result in study.results().items() for curve in _of(name, result)}
 
 
 def _of(analysis: str, result: Result) -> Iterator[Curve]:
@@ -88,17 +88,17 @@ def chosen(study: Study, names: Sequence[str], along: str | None = None) -> list
     over. Raises `InputError` if there is no such curve, or several; or they run over different quantities.
     """
     known = curves_of(study)
-    found = [known[_name(name, known)] for name in names]
+    curves = [known[_name(name, known)] for name in names]
     if along is not None:
-        found = [_over(each, along, known) for each in found]
-    first = found[0]
-    for each in found[1:]:
-        if (each.over, each.over_unit) != (first.over, first.over_unit):
+        curves = [_over(curve, along, known) for curve in curves]
+    first = curves[0]
+    for curve in curves[1:]:
+        if (curve.over, curve.over_unit) != (first.over, first.over_unit):
             raise InputError(
-                f"{each.name} runs over {each.over}, {first.name} over {first.over}: draw them apart, or "
+                f"{curve.name} runs over {curve.over}, {first.name} over {first.over}: draw them apart, or "
                 "give --over with a quantity that both have"
             )
-    return found
+    return curves
 
 
 def _name(asked: str, known: dict[str, Curve]) -> str:
@@ -135,7 +135,7 @@ def _over(curve: Curve, along: str, known: dict[str, Curve]) -> Curve:
     if along == curve.over:
         return curve
     analysis = curve.name.split(".")[0]
-    same = {name: each for name, each in known.items() if name.split(".")[0] == analysis}
+    same = {name: curve for name, curve in known.items() if name.split(".")[0] == analysis}
     other = known[_name(along, same or known)]
     return replace(curve, over=other.name.removeprefix(f"{analysis}."), over_unit=other.unit, x=other.values)
 
@@ -212,8 +212,8 @@ def _exact(study: Study, curve: Curve) -> tuple[float, float, float, float] | No
     if isinstance(result, CycleMotion):
         if name in ("speed", "acceleration") and result.is_steady:
             return _declared(study.steady_state, name)
-        found = result.extremes.get(name)
-        numbers = () if found is None else tuple(vars(found).values())
+        extremes = result.extremes.get(name)
+        numbers = () if extremes is None else tuple(vars(extremes).values())
         return _four(numbers)
     return _declared(result, name)
 

@@ -47,7 +47,9 @@ def quantities(of: Any) -> tuple[DeclaredQuantity, ...]:
     if isinstance(of, type) and issubclass(of, Result):
         return tuple(quantities_of(of))
     if isinstance(of, Result):
-        return tuple(each._replace(unit=of.unit_of(each.name)) for each in quantities_of(type(of)))
+        return tuple(
+            quantity._replace(unit=of.unit_of(quantity.name)) for quantity in quantities_of(type(of))
+        )
     return tuple(
         quantity._replace(name=f"{name}.{quantity.name}", over=quantity.over and f"{name}.{quantity.over}")
         for name, result in _parts(of).items()

@@ -125,15 +125,16 @@ class Study(DriveStudy):
             "run_down",
             "forces",
         )
-        found: dict[str, Result | None] = {name: getattr(self, name) for name in names}
+        results: dict[str, Result | None] = {name: getattr(self, name) for name in names}
         single = len(self.cams) == 1
         cams: dict[str, Result] = {"cam" if single else f"cam.{cam.name}": cam for cam in self.cams}
         cams |= {"cam_sizes" if single else f"cam_sizes.{size.name}": size for size in self.cam_sizes}
         cams |= {"cam_force" if single else f"cam_force.{cam.name}": cam for cam in self.loaded_cams}
         cams |= {
-            "cam_vibration" if single else f"cam_vibration.{name}": each for name, each in self.cam_vibrations
+            "cam_vibration" if single else f"cam_vibration.{name}": vibration
+            for name, vibration in self.cam_vibrations
         }
-        return {**cams, **{name: result for name, result in found.items() if result is not None}}
+        return {**cams, **{name: result for name, result in results.items() if result is not None}}
 
     def _repr_html_(self) -> str:
         """Failed checks, warnings and all results, as a notebook shows them."""
@@ -144,7 +145,7 @@ class Study(DriveStudy):
         words += [("warning", warning) for warning in self.warnings]
         head = table_html(self.machine.name, words or [("checks", "none failed")])
         with with_units_of(self.machine.units):
-            return head + "".join(result_html(each, name) for name, each in self.results().items())
+            return head + "".join(result_html(result, name) for name, result in self.results().items())
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Name, results, findings and warnings, ready for JSON.

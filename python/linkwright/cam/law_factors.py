@@ -131,12 +131,12 @@ def _of_unit(law: MotionLaw) -> LawFactors:
 def _jumps(law: MotionLaw, order: int) -> list[str]:
     """Where a derivative jumps, in words: at the start, inside, at the end."""
     limit = _ROUNDING * max(1.0, abs(law.peak(order).value))
-    found = {
+    jumps = {
         "at the start": abs(float(law.at(0.0, order))),
         "inside": float(np.abs(law.jumps(order)).max(initial=0.0)),
         "at the end": abs(float(law.at(1.0, order, "before"))),
     }
-    return [where for where, size in found.items() if size > limit]
+    return [where for where, size in jumps.items() if size > limit]
 
 
 def _peak_of_product(law: MotionLaw) -> float:

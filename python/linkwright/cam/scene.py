@@ -106,7 +106,7 @@ def _cam(name: str, cam: Cam, contact: Contact, series: int, *, second: bool) ->
     """One cam with its outlines."""
     radius = contact.sizes.roller_radius
     away = (-radius, radius) if cam.closure == "groove" else (-radius,)
-    outlines = [_outline(CamCurve(contact, each)) for each in away]
+    outlines = [_outline(CamCurve(contact, point)) for point in away]
     digits = max(0, math.ceil(-math.log10(_FINE * float(np.abs(outlines[0]).max()))))
     return {
         "kind": "cam",

@@ -83,8 +83,8 @@ class Cams(Result):
         of curvature allowed [m] → one for each cam, (n,).
         """
         steep = self.pressure_angle_max <= pressure_angle
-        found: NDArray[np.bool_] = self.is_sound & steep & (self.curvature_radius_min >= curvature_radius)
-        return found
+        keeps: NDArray[np.bool_] = self.is_sound & steep & (self.curvature_radius_min >= curvature_radius)
+        return keeps
 
     def smallest(self, keeps: NDArray[np.bool_], count: int = 1) -> NDArray[np.intp]:
         """The cams of minimum base radius among some, then of minimum pressure angle.
@@ -146,36 +146,36 @@ def search_cams(
     columns = {
         key: np.tile(column, repeats) if len(column) > 1 else column for key, column in columns.items()
     }
-    found = {name: np.full(len(numbers), np.nan) for name in _SEARCHED}
+    results = {name: np.full(len(numbers), np.nan) for name in _SEARCHED}
     points = machine.mechanism.fixed_points()
-    for i, each in enumerate(_variants(cam, laws)):
+    for i, candidate in enumerate(_variants(cam, laws)):
         rows = np.flatnonzero(numbers == i)
         if len(rows):
-            contact = contacts(each, points, name)[0]
+            contact = contacts(candidate, points, name)[0]
             part = {key: column[rows] if len(column) > 1 else column for key, column in columns.items()}
             sizes = Sizes(*(part.get(key, size) for key, size in zip(ENTRIES, contact.sizes, strict=False)))
             cams = contact.kernel.search(sizes, part.get("lift_factor", 1.0), per_turn)
-            for quantity, column in found.items():
+            for quantity, column in results.items():
                 column[rows] = getattr(cams, quantity)
-    return _cams(cam, columns, tuple(laws), numbers, found)
+    return _cams(cam, columns, tuple(laws), numbers, results)
 
 
-def variant(machine: Machine, name: str, found: Cams, i: int) -> Machine:
+def variant(machine: Machine, name: str, searched: Cams, i: int) -> Machine:
     """The machine with one of the cams."""
-    if "distance" in found.entries:
+    if "distance" in searched.entries:
         raise InputError(
             f"the distance of the pivots is no entry of cam {name}: move the point of its arm_pivot instead"
         )
     cam = machine.mechanism.cams[name]
-    if found.laws:
-        law = found.laws[int(found.law[i])]
+    if searched.laws:
+        law = searched.laws[int(searched.law[i])]
         cam = cam.with_entries({"sections": tuple(_with(section, law) for section in cam.sections)})
     entries: dict[str, Any] = {
-        key: float(column[i]) for key, column in found.entries.items() if key != "lift_factor"
+        key: float(column[i]) for key, column in searched.entries.items() if key != "lift_factor"
     }
     if "base_radius" in entries:
         entries["breadth"] = None
-    factor = found.entries.get("lift_factor")
+    factor = searched.entries.get("lift_factor")
     if factor is not None:
         entries["sections"] = tuple(_times(section, float(factor[i])) for section in cam.sections)
     cams = {**machine.mechanism.cams, name: cam.with_entries(entries)}
@@ -262,10 +262,10 @@ def _cams(
     columns: dict[str, Floats],
     laws: tuple[str, ...],
     numbers: NDArray[np.intp],
-    found: dict[str, Floats],
+    results: dict[str, Floats],
 ) -> Cams:
     """The results in the field's terms."""
-    lead, sound, most, least = (found[name] for name in _SEARCHED)
+    lead, sound, most, least = (results[name] for name in _SEARCHED)
     n = len(numbers)
     roller = np.broadcast_to(columns.get("roller_radius", np.array([cam.radius_of_roller])), n)
     with np.errstate(divide="ignore", invalid="ignore"):

@@ -17,9 +17,9 @@ from linkwright.machine.machine import Machine
 def sound_cams(machine: Machine, findings: Findings) -> tuple[tuple[CamProfile, ...], tuple[CamProfile, ...]]:
     """All cams, and those that can be made; what makes one impossible is a finding."""
     looked = [findings.of(cam_profile, machine, name) for name in machine.mechanism.cams]
-    told = [(each, cam_faults(each)) for each in looked if each is not None]
-    findings.add(text for _, faults in told for text in faults)
-    return tuple(each for each, _ in told), tuple(each for each, faults in told if not faults)
+    judged = [(name, cam_faults(name)) for name in looked if name is not None]
+    findings.add(text for _, faults in judged for text in faults)
+    return tuple(profile for profile, _ in judged), tuple(profile for profile, faults in judged if not faults)
 
 
 def loaded_cams(
@@ -31,14 +31,14 @@ def loaded_cams(
         return ()
     along = None if borne is not None else speed
     loaded = [findings.of(loaded_cam, machine, cam, along) for cam in cams]
-    return tuple(each for each in loaded if each is not None)
+    return tuple(cam for cam in loaded if cam is not None)
 
 
 def cam_vibrations(
     cams: tuple[CamProfile, ...], findings: Findings
 ) -> tuple[tuple[str, FollowerVibration], ...]:
     """Names of the cams whose follower vibrates, and how at the design speed."""
-    return tuple(each for cam in cams for each in _vibration(cam, findings))
+    return tuple(vibration for cam in cams for vibration in _vibration(cam, findings))
 
 
 def _vibration(profile: CamProfile, findings: Findings) -> Iterator[tuple[str, FollowerVibration]]:

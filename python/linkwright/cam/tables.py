@@ -37,7 +37,7 @@ def cam_tables(
     cams: Sequence[CamProfile], sizes: Sequence[LeastSizes] = (), loaded: Sequence[LoadedCam] = ()
 ) -> Iterator[Table]:
     """The tables of all cams of a machine."""
-    borne = {each.name: each for each in loaded}
+    borne = {cam.name: cam for cam in loaded}
     least = {size.name: size for size in sizes}
     for profile in cams:
         yield profile_table(profile)
@@ -214,8 +214,8 @@ _COLUMNS = {
 def law_table(factors: Mapping[str, LawFactors]) -> Table:
     """Factors of laws, a law a row."""
     rows = [
-        (_named(name), _jumps(each), *(_shown(getattr(each, factor)) for factor in _COLUMNS))
-        for name, each in factors.items()
+        (_named(name), _jumps(law_factors), *(_shown(getattr(law_factors, factor)) for factor in _COLUMNS))
+        for name, law_factors in factors.items()
     ]
     title = "Motion laws between two dwells, for unit lift and unit length"
     return Table("cam_laws", title, ("law", "jumps", *_COLUMNS.values()), rows)

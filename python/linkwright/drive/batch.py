@@ -156,15 +156,15 @@ def steady_states(
             "motor's characteristic, the mechanism, its bodies or its loads"
         )
     require_one_turn(compiled)
-    found = compiled.steady_rows(accuracy)
-    status, columns = found.status, {name: getattr(found, name) for name in _COLUMNS}
+    motions = compiled.steady_rows(accuracy)
+    status, columns = motions.status, {name: getattr(motions, name) for name in _COLUMNS}
     if not compiled.two_turns[0]:
         # The first machine was checked above.
         longer = np.broadcast_to(compiled.two_turns, status.shape)
         status[longer] = int(Status.TWO_TURNS)
         for column in columns.values():
             column[longer] = np.nan
-    return SteadyStates(entries=arrays, status=status, turns_swept=found.turns_swept, **columns)
+    return SteadyStates(entries=arrays, status=status, turns_swept=motions.turns_swept, **columns)
 
 
 def _columns(machine: Machine, entries: Mapping[str, ArrayLike]) -> dict[str, Floats]:

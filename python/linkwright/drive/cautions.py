@@ -38,17 +38,17 @@ _ROUNDING = 1e-12
 def cautions(machine: Machine, reduced: Reduction, steady: SteadyState | None) -> tuple[str, ...]:
     """All that should be known. Returns: sentences, empty if there is nothing to say."""
     drive = machine.drive
-    found = [*_unloaded(machine), *_reduced(reduced)]
+    sentences = [*_unloaded(machine), *_reduced(reduced)]
     if drive is None or drive.motor is None:
-        return (*found, "The machine has no motor: steady motion and run-up are not computed.")
-    found += _without_run_up(drive)
-    found += _start_by_kloss(machine, drive)
-    found += _without_rotor(drive)
-    found += _least_breakdown(drive)
+        return (*sentences, "The machine has no motor: steady motion and run-up are not computed.")
+    sentences += _without_run_up(drive)
+    sentences += _start_by_kloss(machine, drive)
+    sentences += _without_rotor(drive)
+    sentences += _least_breakdown(drive)
     if steady is not None:
-        found += [*_cycle(steady), *_design_speed(drive, steady), *_overload(drive, steady)]
-        found += [*_breakdown(drive, steady), *_generator(drive, steady), *_gear_gain(drive, steady)]
-    return tuple(found)
+        sentences += [*_cycle(steady), *_design_speed(drive, steady), *_overload(drive, steady)]
+        sentences += [*_breakdown(drive, steady), *_generator(drive, steady), *_gear_gain(drive, steady)]
+    return tuple(sentences)
 
 
 def _without_rotor(drive: Drive) -> Iterator[str]:

@@ -169,7 +169,7 @@ def _head(of: _Followed) -> str:
 
 def _results(of: _Followed, curves: bool) -> dict[str, Any]:
     """Extremes, events, and the curves at even times."""
-    told: dict[str, Any] = {
+    results: dict[str, Any] = {
         "end": of.motion.end.name.lower(),
         "duration": float(of.motion.time[-1]),
         "turns": of.motion.turns,
@@ -184,8 +184,8 @@ def _results(of: _Followed, curves: bool) -> dict[str, Any]:
         "events": [event._asdict() for event in of.events],
     }
     if curves:
-        told |= {name: values.tolist() for name, values in _course(of).curves().items()}
-    return {"transient": told}
+        results |= {name: values.tolist() for name, values in _course(of).curves().items()}
+    return {"transient": results}
 
 
 def _course(of: _Followed, intervals: int | None = None) -> Motion:

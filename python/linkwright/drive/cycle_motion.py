@@ -84,12 +84,12 @@ class CycleMotion(Motion):
 
         A slide has a point of its own, and its velocity is that along the guide.
         """
-        found = super().curves()
+        curves = super().curves()
         for name, path in self.points.items():
             if name not in self.slides:
-                found[f"{name}.velocity"] = np.hypot(*path.velocity.T)
-                found[f"{name}.acceleration"] = np.hypot(*path.acceleration.T)
-        return found
+                curves[f"{name}.velocity"] = np.hypot(*path.velocity.T)
+                curves[f"{name}.acceleration"] = np.hypot(*path.acceleration.T)
+        return curves
 
     def unit_of(self, name: str) -> str:
         """SI unit of an attribute or a column by its name."""
@@ -98,13 +98,13 @@ class CycleMotion(Motion):
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Extremes by name of the curve, and where the speed comes from. Returns: plain numbers in SI."""
-        told: dict[str, Any] = {
+        results: dict[str, Any] = {
             "is_steady": self.is_steady,
             "speed_source": self.speed_source,
-            "extremes": {name: asdict(each) for name, each in self.extremes.items()},
+            "extremes": {name: asdict(extremes) for name, extremes in self.extremes.items()},
         }
-        columns = {name: each.tolist() for name, each in self.curves().items()} if curves else {}
-        return super().to_dict(curves=curves) | columns | told
+        columns = {name: curve.tolist() for name, curve in self.curves().items()} if curves else {}
+        return super().to_dict(curves=curves) | columns | results
 
 
 _SIZES = {"velocity": "m/s", "acceleration": "m/s²"}
@@ -164,17 +164,17 @@ def cycle_motion_of(
     turns = known.period_turns or 1
     drawn = np.linspace(low, high, _DRAWN * turns + 1)
     motion = _along(machine, crank, drawn)
-    found = CycleMotion(
+    cycle = CycleMotion(
         **vars(motion),
         is_steady=steady is not None,
         speed_source=source,
         extremes={},
         coupler_points=_coupler_points(machine),
     )
-    search = _Search(machine, crank, list(found.curves())[len(_CRANK) :])
+    search = _Search(machine, crank, list(cycle.curves())[len(_CRANK) :])
     looked = _looked_at(compiled, low, high, turns)
     limit = None if known.closure.turns_fully else (low, high)
-    return CycleMotion(**{**vars(found), "extremes": search.extremes(looked, limit)})
+    return CycleMotion(**{**vars(cycle), "extremes": search.extremes(looked, limit)})
 
 
 # Columns that are the crank's own, first in `curves`.
@@ -258,12 +258,12 @@ class _Search:
             self._turns_on(name, float(x)) for name, x in zip(self.names, rise, strict=True)
         ]
         sought = np.flatnonzero(moves & ~endless)
-        found: dict[str, Extremes] = {self.names[k]: _NONE for k in np.flatnonzero(endless)}
+        extremes: dict[str, Extremes] = {self.names[k]: _NONE for k in np.flatnonzero(endless)}
         if len(sought):
             parts = self._of([self.names[k] for k in sought])._peaks(looked, values[sought], span[sought])
             for k, *numbers in zip(sought, *parts, strict=True):
-                found[self.names[k]] = Extremes(*(float(x) for x in numbers))
-        return {name: found[name] for name in self.names if name in found}
+                extremes[self.names[k]] = Extremes(*(float(x) for x in numbers))
+        return {name: extremes[name] for name in self.names if name in extremes}
 
     def _of(self, names: list[str]) -> _Search:
         """The search among some of the columns."""
@@ -306,11 +306,11 @@ class _Search:
             y = self.values(x.ravel())[np.repeat(of, _POINTS), np.arange(x.size)].reshape(x.shape)
             y = np.where(np.isfinite(y), sign[:, None] * y, -np.inf)
             top = y.argmax(axis=1)
-            each = np.arange(len(row))
+            every = np.arange(len(row))
             x_top, y_top = _vertex(x, y, top)
-            better = y[each, top] > best
-            rise = np.where(better, y[each, top] - best, 0.0)
-            best, best_at = np.where(better, y[each, top], best), np.where(better, x[each, top], best_at)
+            better = y[every, top] > best
+            rise = np.where(better, y[every, top] - best, 0.0)
+            best, best_at = np.where(better, y[every, top], best), np.where(better, x[every, top], best_at)
             # The parabola through the best three says how much there is still to gain.
             left = np.maximum(y_top - best, 0.0)
             if (np.maximum(rise, left) <= _AGREE * span[of]).all():
@@ -320,7 +320,7 @@ class _Search:
             low, high = np.maximum(centre - width, low), np.minimum(centre + width, high)
         order = np.lexsort((-best_at, best, row))
         last = order[np.append(np.diff(row[order]) > 0, True)]
-        (low, high), (low_at, high_at) = (each[last].reshape(2, -1) for each in (sign * best, best_at))
+        (low, high), (low_at, high_at) = (peak[last].reshape(2, -1) for peak in (sign * best, best_at))
         return low, low_at, high, high_at
 
 
@@ -339,13 +339,13 @@ def _candidates(signed: Floats, span: Floats) -> tuple[NDArray[np.intp], NDArray
 
 def _vertex(x: Floats, y: Floats, top: NDArray[np.intp]) -> tuple[Floats, Floats]:
     """Place and value of the vertex of the parabola through the best of some points and its neighbours."""
-    each = np.arange(len(x))
+    row = np.arange(len(x))
     middle = np.clip(top, 1, x.shape[1] - 2)
-    a, b, c = (y[each, middle + k] for k in (-1, 0, 1))
-    step = x[each, middle] - x[each, middle - 1]
+    a, b, c = (y[row, middle + k] for k in (-1, 0, 1))
+    step = x[row, middle] - x[row, middle - 1]
     bend = a - 2 * b + c
     with np.errstate(all="ignore"):
         share = np.where(bend < 0, 0.5 * (a - c) / bend, 0.0)
         share = np.where(np.isfinite(share), np.clip(share, -1, 1), 0.0)
         value = b - 0.25 * (a - c) * share
-    return x[each, middle] + share * step, np.where(np.isfinite(value), value, b)
+    return x[row, middle] + share * step, np.where(np.isfinite(value), value, b)

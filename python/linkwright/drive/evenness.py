@@ -47,8 +47,8 @@ def unevenness(slow: V, fast: V, mean: V) -> V:
 def dynamism(least: V, greatest: V, mean: V) -> V:
     """H of the minimum and maximum angular acceleration, at a mean speed [–]."""
     steepest: V = np.maximum(np.abs(least), np.abs(greatest))
-    found: V = steepest / mean**2
-    return found
+    factor: V = steepest / mean**2
+    return factor
 
 
 def motion_coefficient(delta: V, H: V) -> V:

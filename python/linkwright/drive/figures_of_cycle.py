@@ -112,13 +112,15 @@ def _words(motion: CycleMotion, names: Sequence[str], quantities: Sequence[tuple
     ending, word, _ = quantities[-2]
     parts = []
     for name in names:
-        found = motion.extremes.get(name + ending)
-        if found is None:
+        extremes = motion.extremes.get(name + ending)
+        if extremes is None:
             continue
-        if found.minimum is None or found.maximum is None:
+        if extremes.minimum is None or extremes.maximum is None:
             parts.append(f"the {word} of {name} becomes infinite at the limits of crank rotation")
             continue
-        peak, at = max((abs(found.minimum), found.minimum_angle), (abs(found.maximum), found.maximum_angle))
+        peak, at = max(
+            (abs(extremes.minimum), extremes.minimum_angle), (abs(extremes.maximum), extremes.maximum_angle)
+        )
         value = measured(peak, motion.unit_of(name + ending))
         parts.append(f"the peak {word} of {name} is {value} at φ = {crank_angle(within_turn(motion, at))}")
     return "; ".join(parts) or "at rest"

@@ -110,7 +110,7 @@ def _of_motor(
     """
     speeds = np.array([state.speed_min, state.speed_max])
     torques = compiled.motor_torques(speeds)[0]
-    found: dict[str, Tangent] = {}
+    tangents: dict[str, Tangent] = {}
     for at in range(2):
         torque = Tangent(torques[at], curves.torque_motor[at])
         power = torque * Tangent(speeds[at], curves.speed[at]) * ratio
@@ -121,8 +121,8 @@ def _of_motor(
         ):
             extreme = getattr(state, name)
             if abs(value.value - extreme) <= _SAME * max(abs(extreme), float(np.ptp(state.torque_motor))):
-                found[name] = value
-    return found
+                tangents[name] = value
+    return tangents
 
 
 def _ties(compiled: Compiled, state: SteadyState, solution: SteadySolution) -> dict[str, str]:
@@ -173,11 +173,11 @@ class _Peaks:
         low = np.roll(self.angles, 1)[peaks] - 2 * np.pi * (peaks == 0)
         high = np.roll(self.angles, -1)[peaks] + 2 * np.pi * (peaks == len(curve) - 1)
         places, heights = self._refined(low, high, quantity, sign)
-        found = [at]
+        angles = [at]
         for angle in places[heights >= top - _TIE * span] % (2 * np.pi):
-            if _apart(np.array(found), angle).min() > _APART:
-                found.append(float(angle))
-        return sorted(found)
+            if _apart(np.array(angles), angle).min() > _APART:
+                angles.append(float(angle))
+        return sorted(angles)
 
     def _refined(self, low: Floats, high: Floats, quantity: str, sign: float) -> tuple[Floats, Floats]:
         """Angles [rad] and heights of the peaks between angles, closed in on from reading to reading."""

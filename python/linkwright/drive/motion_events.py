@@ -114,7 +114,7 @@ def motion_events(machine: Machine, motion: Transient) -> tuple[MotionEvent, ...
     before, after = sides(motion)
     scale = float(np.abs([before, after]).max()) if len(before) else 0.0
     away = _from_kink(motion.crank_angle, compile_machine(machine).first().kinks())
-    found = [_event(motion, 0, "start", None, _at(after, 0))]
+    events = [_event(motion, 0, "start", None, _at(after, 0))]
     for first, last in _passages(motion, away):
         # A short step may lead over the kink itself: what comes after is read behind it.
         behind = next((k for k in range(first, last + 1) if away[k] > 0), last)
@@ -123,9 +123,9 @@ def motion_events(machine: Machine, motion: Transient) -> tuple[MotionEvent, ...
         kind = "jump of the acceleration" if jumps else "kink" if is_kink else ""
         kind = "standstill" if motion.speed[first] == 0 else kind
         if kind:
-            found.append(_event(motion, first, kind, float(before[first - 1]), float(after[behind])))
+            events.append(_event(motion, first, kind, float(before[first - 1]), float(after[behind])))
     end = _event(motion, len(motion.time) - 1, _ENDS[motion.end], _at(before, -1), None)
-    return (*found, end._replace(torque_drive=motion.torque_drive_end, torque_load=motion.torque_load_end))
+    return (*events, end._replace(torque_drive=motion.torque_drive_end, torque_load=motion.torque_load_end))
 
 
 @public
@@ -148,13 +148,15 @@ def motion_extremes(motion: Transient) -> tuple[MotionExtreme, ...]:
     step = np.diff(motion.time)
     acceleration = polynomial.polyder(speed.T).T / step[:, None]
     speed[:, 0] = motion.speed[:-1]
-    found = []
+    extremes = []
     for name, curves in (("speed", speed), ("acceleration", acceleration)):
         for kind, sign in (("minimum", -1.0), ("maximum", 1.0)):
             value, k, z = _largest(sign * curves)
             time = float(motion.time[k] + z * step[k])
-            found.append(MotionExtreme(name, kind, sign * value + 0.0, time, float(motion.at([time])[0][0])))
-    return tuple(found)
+            extremes.append(
+                MotionExtreme(name, kind, sign * value + 0.0, time, float(motion.at([time])[0][0]))
+            )
+    return tuple(extremes)
 
 
 def course(motion: Transient, intervals: int) -> tuple[Floats, Floats, Floats, Floats]:
@@ -190,7 +192,7 @@ def _largest(curves: Floats) -> tuple[float, int, float]:
     hidden = bend * (_LOOK[1] - _LOOK[0]) ** 2 / 8
     best = float(looked.max())
     candidates = np.flatnonzero(looked.max(axis=1) + hidden >= best)
-    return max((_peak(curves[k], int(k)) for k in candidates), key=lambda found: found[0])
+    return max((_peak(curves[k], int(k)) for k in candidates), key=lambda curve: curve[0])
 
 
 def _peak(curve: Floats, k: int) -> tuple[float, int, float]:
@@ -232,7 +234,7 @@ def _at_full_turn(angle: float) -> bool:
 
 
 def _event(motion: Transient, k: int, kind: str, before: float | None, after: float | None) -> MotionEvent:
-    time, angle, speed = (float(each[k]) for each in (motion.time, motion.crank_angle, motion.speed))
+    time, angle, speed = (float(curve[k]) for curve in (motion.time, motion.crank_angle, motion.speed))
     return MotionEvent(kind, time, angle, speed, before, after)
 
 

@@ -74,8 +74,8 @@ def in_time_tables(
     zero: Zero,
 ) -> list[Table]:
     """The tables of a motion in time."""
-    found = [_extremes(extremes, zero), _events(events, zero), _course(course, zero)]
-    return [table for table in found if table.rows]
+    tables = [_extremes(extremes, zero), _events(events, zero), _course(course, zero)]
+    return [table for table in tables if table.rows]
 
 
 def _extremes(extremes: Sequence[MotionExtreme], zero: Zero) -> Table:
@@ -94,7 +94,11 @@ def _extremes(extremes: Sequence[MotionExtreme], zero: Zero) -> Table:
 
 def _events(events: Sequence[MotionEvent], zero: Zero) -> Table:
     heads = ("event", "", "time", "crank angle", "speed", "acceleration before", "after")
-    rates = (each for event in events for each in (event.acceleration_before, event.acceleration_after))
+    rates = (
+        acceleration
+        for event in events
+        for acceleration in (event.acceleration_before, event.acceleration_after)
+    )
     most = max((abs(rate) for rate in rates if rate is not None), default=0.0)
     rows: list[Row] = [
         (
@@ -117,7 +121,7 @@ def _course(course: Motion, zero: Zero) -> Table:
     heads: Row = ("time", "", "crank angle", "speed", "acceleration")
     heads = (*heads, *(word for name, _ in slides for word in (name, f"velocity of {name}")))
     curves = [(course.speed, _SPEED), (course.acceleration, _ACCELERATION)]
-    curves += [each for _, path in slides for each in ((path.position, "m"), (path.velocity, "m/s"))]
+    curves += [curve for _, path in slides for curve in ((path.position, "m"), (path.velocity, "m/s"))]
     columns = [_column(curve, si) for curve, si in curves]
     first = [
         (quantity(float(time), "s"), "", _angle(float(angle), zero))

@@ -59,17 +59,17 @@ def outputs(motion: CycleMotion, linkage: Linkage) -> Iterator[tuple[str, tuple[
 
 def _row(motion: CycleMotion, name: str, ending: str, word: str, symbol: str) -> Iterator[Row]:
     """One quantity with its extremes; none of what is at rest or turns on."""
-    found = motion.extremes.get(name + ending)
-    if found is None or (ending == ".angle" and found.maximum is None):
+    extremes = motion.extremes.get(name + ending)
+    if extremes is None or (ending == ".angle" and extremes.maximum is None):
         return
-    unit, scale = motion.unit_of(name + ending), _scale(found)
+    unit, scale = motion.unit_of(name + ending), _scale(extremes)
     yield (
         f"{name}, {word}",
         symbol,
-        measured(found.minimum, unit, scale),
-        crank_angle(within_turn(motion, found.minimum_angle)),
-        measured(found.maximum, unit, scale),
-        crank_angle(within_turn(motion, found.maximum_angle)),
+        measured(extremes.minimum, unit, scale),
+        crank_angle(within_turn(motion, extremes.minimum_angle)),
+        measured(extremes.maximum, unit, scale),
+        crank_angle(within_turn(motion, extremes.maximum_angle)),
     )
 
 
@@ -81,4 +81,6 @@ def within_turn(motion: CycleMotion, angle: float | None) -> float | None:
 
 def _scale(extremes: Extremes) -> float:
     """Peak absolute value."""
-    return max((abs(each) for each in (extremes.minimum, extremes.maximum) if each is not None), default=0.0)
+    return max(
+        (abs(extreme) for extreme in (extremes.minimum, extremes.maximum) if extreme is not None), default=0.0
+    )

@@ -253,30 +253,30 @@ def transient(
         raise InputError("a motor of constant speed has no run-up: it turns at its speed under any load")
     compiled = compile_machine(machine, motor=motor, brake=brake)
     require_half_turns(compiled, machine)
-    found = compiled.transient((angle, speed), duration, turns, accuracy)
-    end = End[found.end]
+    motion = compiled.transient((angle, speed), duration, turns, accuracy)
+    end = End[motion.end]
     if end == End.DOES_NOT_CLOSE:
         require_full_turn(compiled, machine)
         require_sound_loads(compiled, machine)
         raise SteadyStateError(NO_INERTIA)
-    if not np.isfinite([found.torque_drive_end, found.torque_load_end]).all():
+    if not np.isfinite([motion.torque_drive_end, motion.torque_load_end]).all():
         require_sound_loads(compiled, machine)
     if end == End.INACCURATE:
         raise ConvergenceError(
-            f"the motion was given up at {found.time[-1]:.6g} s: steps became too small or too many for an "
+            f"the motion was given up at {motion.time[-1]:.6g} s: steps became too small or too many for an "
             f"accuracy of {accuracy:g}",
             method="DOP853 and Radau IIA",
-            iterations=len(found.time),
+            iterations=len(motion.time),
         )
     return Transient(
-        time=found.time,
-        crank_angle=found.crank_angle,
-        speed=found.speed,
-        acceleration=found.acceleration,
+        time=motion.time,
+        crank_angle=motion.crank_angle,
+        speed=motion.speed,
+        acceleration=motion.acceleration,
         end=end,
-        torque_drive_end=found.torque_drive_end,
-        torque_load_end=found.torque_load_end,
-        evaluations=found.evaluations,
-        between=StepPolynomials(found.between),
-        implicit=found.implicit,
+        torque_drive_end=motion.torque_drive_end,
+        torque_load_end=motion.torque_load_end,
+        evaluations=motion.evaluations,
+        between=StepPolynomials(motion.between),
+        implicit=motion.implicit,
     )

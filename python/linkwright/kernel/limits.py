@@ -92,4 +92,4 @@ LATIN_ROWS = Limit(
 )
 SAMPLES = Limit(200_000, "samples of a manoeuvre of a train", "8 MB for each disc and five shafts")
 
-ALL = tuple(each for each in list(globals().values()) if isinstance(each, Limit))
+ALL = tuple(limit for limit in list(globals().values()) if isinstance(limit, Limit))

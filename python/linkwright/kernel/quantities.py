@@ -116,9 +116,9 @@ def over(owner: type, name: str) -> str:
     mark = shown(owner, name)
     if not is_array(owner, name):
         return ""
-    first = next(each for each in declared(owner) if is_array(owner, each))
-    found = mark.over or first
-    return "" if found == name else found
+    first = next(attribute for attribute in declared(owner) if is_array(owner, attribute))
+    abscissa = mark.over or first
+    return "" if abscissa == name else abscissa
 
 
 def is_array(owner: type, name: str) -> bool:
@@ -138,13 +138,13 @@ def _declared(owner: type) -> dict[str, tuple[Any, Shown | About]]:
         for name, member in vars(kind).items():
             if isinstance(member, property) and member.fget is not None:
                 hints[name] = get_type_hints(member.fget, include_extras=True).get("return")
-    found = {}
+    marks = {}
     for name, hint in hints.items():
         if get_origin(hint) is Annotated:
-            mark = next((each for each in hint.__metadata__ if isinstance(each, Shown | About)), None)
+            mark = next((mark for mark in hint.__metadata__ if isinstance(mark, Shown | About)), None)
             if mark is not None:
-                found[name] = (hint.__origin__, mark)
-    return found
+                marks[name] = (hint.__origin__, mark)
+    return marks
 
 
 def _about(owner: type, name: str) -> str:

@@ -74,19 +74,19 @@ class Result(Record):
         dict
             Plain numbers, texts and lists, ready for JSON.
         """
-        found: dict[str, Any] = {}
+        tree: dict[str, Any] = {}
         for name, value in self._entries().items():
             if isinstance(value, np.ndarray):
                 if curves:
-                    found[name] = value.tolist()
+                    tree[name] = value.tolist()
             elif isinstance(value, tuple):
                 if all(x is None or isinstance(x, _PLAIN) for x in value):
-                    found[name] = list(value)
+                    tree[name] = list(value)
             elif isinstance(value, np.generic):
-                found[name] = value.item()
+                tree[name] = value.item()
             elif value is None or isinstance(value, bool | int | float | str):
-                found[name] = value
-        return found
+                tree[name] = value
+        return tree
 
     def to_frame(self) -> pd.DataFrame:
         """The curves as a table, one column each.
@@ -158,7 +158,7 @@ class Result(Record):
 def finite(value: Any) -> Any:
     """The same tree, with lists for tuples and None in place of numbers that JSON does not know."""
     if isinstance(value, Mapping):
-        return {key: finite(each) for key, each in value.items()}
+        return {key: finite(entry) for key, entry in value.items()}
     if isinstance(value, list | tuple):
-        return [finite(each) for each in value]
+        return [finite(entry) for entry in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value

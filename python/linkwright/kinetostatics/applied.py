@@ -43,16 +43,16 @@ Floats = NDArray[np.float64]
 def formula_wrenches(scene: Scene, load: FormulaLoad) -> Wrenches:
     """What a load by a formula does. Raises FindingError: the formula has no value at some crank angle."""
     with np.errstate(all="ignore"):
-        found = value(parse(load.text), _names(scene, load)) * np.ones(scene.n)
-    if not np.isfinite(found).all():
-        at = np.degrees(scene.motion.crank_angle[int(np.argmin(np.isfinite(found)))])
+        force = value(parse(load.text), _names(scene, load)) * np.ones(scene.n)
+    if not np.isfinite(force).all():
+        at = np.degrees(scene.motion.crank_angle[int(np.argmin(np.isfinite(force)))])
         raise FindingError(f'the formula "{load.text}" on {load.on} has no value at crank angle {at:.4g}°')
     if load.torque is not None:
-        return Wrenches(scene).couple(load.on, found)
+        return Wrenches(scene).couple(load.on, force)
     if load.direction is None and load.along is None:
-        return Wrenches(scene).along_slide(load.on, found)
+        return Wrenches(scene).along_slide(load.on, force)
     direction = unit(scene.angle(load.along) + (load.direction or 0.0))
-    return Wrenches(scene).at_point(load.on, found[:, None] * direction)
+    return Wrenches(scene).at_point(load.on, force[:, None] * direction)
 
 
 def _names(scene: Scene, load: FormulaLoad) -> dict[str, Any]:
@@ -128,11 +128,11 @@ def applied(scene: Scene, load: Any) -> Applied:
 
 def together(scene: Scene, sources: Iterable[Applied]) -> Applied:
     """The sum of several loads."""
-    found = Applied(Wrenches(scene), np.zeros(scene.n))
+    applied = Applied(Wrenches(scene), np.zeros(scene.n))
     for source in sources:
-        found.wrenches.values += source.wrenches.values
-        found.resisting += source.resisting
-    return found
+        applied.wrenches.values += source.wrenches.values
+        applied.resisting += source.resisting
+    return applied
 
 
 def _sense(rate: Floats, size: float, scene: Scene) -> Floats:
@@ -190,8 +190,8 @@ def along_line(scene: Scene, between: tuple[str, str], pull: Callable[[Floats, F
     e = u / np.where(length > 0, length, 1.0)[:, None]
     parting = dot(e, scene.point(second, 1) - scene.point(first, 1)) * scene.motion.speed
     force = pull(length, parting)[:, None] * e
-    found = Wrenches(scene).force(scene.carrier(first), force, scene.point(first))
-    return found.force(scene.carrier(second), -force, scene.point(second))
+    wrenches = Wrenches(scene).force(scene.carrier(first), force, scene.point(first))
+    return wrenches.force(scene.carrier(second), -force, scene.point(second))
 
 
 def _spring(scene: Scene, load: Spring) -> Wrenches:
@@ -221,8 +221,8 @@ def _gas(scene: Scene, load: GasSpring) -> Wrenches:
                 f"the gas spring between {' and '.join(load.between)} is pressed in by all of its gas at "
                 f"crank angle {at:.4g}°; make length_compressed smaller or place it elsewhere"
             )
-        found: Floats = -load.force_extended * (h / rest) ** load.exponent
-        return found
+        force: Floats = -load.force_extended * (h / rest) ** load.exponent
+        return force
 
     return along_line(scene, load.between, pull)
 

@@ -138,7 +138,7 @@ def balance(
 def _check_links(scene: Scene, links: Sequence[str]) -> None:
     """Links must turn about fixed points."""
     members = scene.structure.members
-    able = [n for n, each in members.items() if each.link == n and scene.carrier(each.point) == FRAME]
+    able = [n for n, member in members.items() if member.link == n and scene.carrier(member.point) == FRAME]
     wrong = [link for link in links if link not in able]
     if wrong or not links:
         expected = f"links that turn about fixed points: {', '.join(able)}"
@@ -152,7 +152,7 @@ def _unit_forces(scene: Scene, link: str) -> list[Floats]:
     e, motion = unit(scene.angle(link)), scene.motion
     rate = (scene.angle(link, 1) * motion.speed)[:, None]
     gain = (scene.angle(link, 2) * motion.speed**2 + scene.angle(link, 1) * motion.acceleration)[:, None]
-    return [-(gain * left(each) - rate**2 * each) for each in (e, left(e))]
+    return [-(gain * left(direction) - rate**2 * direction) for direction in (e, left(e))]
 
 
 def _time_weights(motion: Motion) -> Floats:
@@ -171,18 +171,18 @@ def with_counterweights(
     the new machine.
     """
     largest = max(float(np.hypot(*u)) for u in moments.values())
-    found, bodies = [], dict(machine.bodies)
+    counterweights, bodies = [], dict(machine.bodies)
     for link, u in moments.items():
         at = radius.get(link) if isinstance(radius, Mapping) else radius
         at = scene.links[link].length if at is None else at
         in_range(**{f"radius of {link}": (at, positive(LENGTH))})
         size, angle = float(np.hypot(*u)), float(np.arctan2(u[1], u[0]))
-        found.append(Counterweight(link, size, angle, size / at, at))
+        counterweights.append(Counterweight(link, size, angle, size / at, at))
         if size > _NOTHING * largest:
             place = {"along": at * float(np.cos(angle)), "across": at * float(np.sin(angle))}
             bodies[_free_name(link, bodies)] = Body(on=link, mass=size / at, inertia=0.0, **place)
     balanced = machine.with_entries({"bodies": bodies})
-    return Balance(balanced, tuple(found), before, forces(balanced, scene.motion))
+    return Balance(balanced, tuple(counterweights), before, forces(balanced, scene.motion))
 
 
 def require_turning(speed: float | None) -> None:
@@ -249,7 +249,9 @@ def partial_balance(
     part = machine.linkage.sliders.get(slider)
     if part is None or part.crank not in machine.linkage.cranks:
         able = [
-            name for name, each in machine.linkage.sliders.items() if each.crank in machine.linkage.cranks
+            name
+            for name, candidate in machine.linkage.sliders.items()
+            if candidate.crank in machine.linkage.cranks
         ]
         expected = f"a slider on the pin of a crank: {', '.join(able) or 'there is none'}"
         raise MachineError([Problem("slider", slider, expected, suggestion(slider, able))])

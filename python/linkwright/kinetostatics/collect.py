@@ -65,7 +65,7 @@ class Collector:
     def forces(self) -> Forces:
         """Everything, by name."""
         shares = {
-            name: self._contribution(k, name, each) for k, (name, each) in enumerate(self.columns.items())
+            name: self._contribution(k, name, column) for k, (name, column) in enumerate(self.columns.items())
         }
         total = self.solution.x.sum(axis=-1)
         spans = list(zip(self.models, self.spans, strict=True))

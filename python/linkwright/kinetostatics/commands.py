@@ -94,9 +94,9 @@ def forces(
     def read_with(entries: list[str]) -> Machine:
         return read(file, [*(set or []), *entries], allow_outside=allow_outside)
 
-    found, machine = _cases(read_with, case or [], friction or [], _motion(speed, angles, pressure_angle))
-    speeds = {name: speeds_of(each.speed, machine, speed) for name, each in found.items()}
-    hand_over(_answer(machine, found, speeds), json=json, curves=curves, folder=folder)
+    cases, machine = _cases(read_with, case or [], friction or [], _motion(speed, angles, pressure_angle))
+    speeds = {name: speeds_of(result.speed, machine, speed) for name, result in cases.items()}
+    hand_over(_answer(machine, cases, speeds), json=json, curves=curves, folder=folder)
 
 
 def _answer(machine: Machine, cases: dict[str, Forces], speeds: dict[str, dict[str, Any]]) -> Answer:
@@ -116,7 +116,7 @@ def _answer(machine: Machine, cases: dict[str, Forces], speeds: dict[str, dict[s
 
 def _head(speeds: dict[str, dict[str, Any]]) -> str:
     """At what speed, and which case, where there are several."""
-    words = {name: speed_words(each) for name, each in speeds.items()}
+    words = {name: speed_words(speed) for name, speed in speeds.items()}
     return "\n".join(
         [f"{name}: {said}" for name, said in words.items()] if len(words) > 1 else words.values()
     )
@@ -145,7 +145,7 @@ def _motion(speed: str | None, span: str | None, pressure_angle: str) -> dict[st
     if speed is not None:
         options["speed"] = option_value("--speed", speed, SPEED)
     if span is not None:
-        ends = [option_value("--angles", each.strip(), ANGLE) for each in span.split(",")]
+        ends = [option_value("--angles", end.strip(), ANGLE) for end in span.split(",")]
         if len(ends) != 2 or ends[0] >= ends[1] or speed is None:
             found = f'"{span}"' + ("" if speed is not None else " without --speed")
             raise InputError(f"--angles: found {found}, expected two increasing angles, and --speed")
@@ -165,8 +165,8 @@ def _cases(
     if not cases:
         return {machine.name: compute(machine, **options)}, machine
     named = dict(named_entries("--case", text, "idle: loads.work.force=0") for text in cases)
-    found = {name: compute(read_with(entries), **options) for name, entries in named.items()}
-    return found, machine
+    results = {name: compute(read_with(entries), **options) for name, entries in named.items()}
+    return results, machine
 
 
 def _frictions(machine: Machine, texts: list[str]) -> dict[str, Friction]:
@@ -214,7 +214,9 @@ def _results(
 
     results = {}
     for name, result in cases.items():
-        rows = {each.name: {k: v for k, v in vars(each).items() if k != "name"} for each in envelope(result)}
+        rows = {
+            extent.name: {k: v for k, v in vars(extent).items() if k != "name"} for extent in envelope(result)
+        }
         results[name] = result.to_dict(curves=curves) | speeds[name] | {"envelope": rows}
     return results
 
@@ -296,9 +298,9 @@ def balance(
     from linkwright.machine.read import read
 
     machine = read(file, set or (), allow_outside=allow_outside)
-    found = _found(machine, links, slider, share, radius, speed)
-    speeds = speeds_of(found.before.speed, machine, speed)
-    hand_over(_balance_answer(machine, found, speeds), json=json, out=out, force=force)
+    balanced = _found(machine, links, slider, share, radius, speed)
+    speeds = speeds_of(balanced.before.speed, machine, speed)
+    hand_over(_balance_answer(machine, balanced, speeds), json=json, out=out, force=force)
 
 
 def _found(
@@ -321,32 +323,32 @@ def _found(
         raise InputError(f"--links or --slider: found {found}, expected one of them")
     if slider is not None:
         return partial_balance(machine, slider, share=share, speed=omega, radius=at)
-    names = [each.strip() for each in (links or "").split(",") if each.strip()]
+    names = [name.strip() for name in (links or "").split(",") if name.strip()]
     return fit(machine, names, speed=omega, radius=at)
 
 
-def _balance_answer(machine: Machine, found: Balance, speeds: dict[str, Any]) -> Answer:
+def _balance_answer(machine: Machine, balanced: Balance, speeds: dict[str, Any]) -> Answer:
     """The counterweights, and what they change."""
     from linkwright.machine.write import dumps
 
-    measures = {name: {"before": a, "after": b} for name, (a, b) in found.measures().items()}
+    measures = {name: {"before": a, "after": b} for name, (a, b) in balanced.measures().items()}
     weights = {
         counterweight.link: {k: v for k, v in vars(counterweight).items() if k != "link"}
-        for counterweight in found.counterweights
+        for counterweight in balanced.counterweights
     }
     return Answer(
         machine=machine.name,
         units=machine.units,
         results=lambda _: {"balance": {**speeds, "counterweights": weights, "rms": measures}},
-        findings=found.after.findings,
+        findings=balanced.after.findings,
         head=lambda: speed_words(speeds),
-        tables=partial(_balance_rows, found),
-        machine_file=lambda: dumps(found.machine),
+        tables=partial(_balance_rows, balanced),
+        machine_file=lambda: dumps(balanced.machine),
     )
 
 
-def _balance_rows(found: Balance) -> list[Table]:
+def _balance_rows(balanced: Balance) -> list[Table]:
     """Tables for people."""
     from linkwright.kinetostatics.tables import balance_tables
 
-    return balance_tables(found)
+    return balance_tables(balanced)

@@ -143,8 +143,8 @@ class Harmonics(Record):
     @property
     def amplitude(self) -> Annotated[Floats, About("Amplitudes.", "(order + 1, components)")]:
         """√(a_k² + b_k²) of each component."""
-        found: Floats = np.hypot(self.cosine, self.sine)
-        return found
+        amplitude: Floats = np.hypot(self.cosine, self.sine)
+        return amplitude
 
 
 @public

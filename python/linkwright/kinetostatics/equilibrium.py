@@ -97,10 +97,10 @@ class Equilibrium:
 
     def _matrix(self, columns: list[Floats], row_scale: Floats) -> Floats:
         """Wrenches as columns, (n, equations, columns)."""
-        found: Floats = np.stack(
+        matrix: Floats = np.stack(
             [column.reshape(len(column), -1)[:, self.rows] for column in columns], axis=-1
         )
-        return found * row_scale[:, None]
+        return matrix * row_scale[:, None]
 
     def solve(self) -> Solution:
         """Solve at all angles."""
@@ -172,11 +172,11 @@ class Equilibrium:
         # Numbers without any pattern that a mechanism could have: squares of whole numbers, in radians.
         random = np.cos(np.arange(1.0, A.shape[1] * _PROBES + 1) ** 2).reshape(A.shape[1], _PROBES)
         probes = np.broadcast_to(random, (len(A), *random.shape))
-        found, singular = _solved(A, np.concatenate((-b[where], probes), axis=-1))
-        growth = np.abs(found[..., -_PROBES:]).max(axis=(1, 2))
+        solution, singular = _solved(A, np.concatenate((-b[where], probes), axis=-1))
+        growth = np.abs(solution[..., -_PROBES:]).max(axis=(1, 2))
         singular |= ~(growth < _UNBOUNDED)
         x = np.zeros((len(b), A.shape[1], b.shape[-1]))
-        x[where] = found[..., :-_PROBES] * self.column_scale[:, None]
+        x[where] = solution[..., :-_PROBES] * self.column_scale[:, None]
         everywhere = np.zeros(len(b), dtype=bool)
         everywhere[where] = singular
         return x, everywhere
@@ -193,12 +193,12 @@ def _require_room(n: int, equations: int, unknowns: int) -> None:
 
 def _rows(scene: Scene) -> tuple[NDArray[np.intp], Floats]:
     """Equations among all components of the members, and their scale; the frame has none."""
-    found, scale = [], []
+    rows, scale = [], []
     for i, member in enumerate(scene.structure.members.values()):
         for component in range(3 if member.turns else 2):
-            found.append(3 * i + component)
+            rows.append(3 * i + component)
             scale.append(1.0 if component < 2 else 1.0 / scene.size)
-    return np.array(found), np.array(scale)
+    return np.array(rows), np.array(scale)
 
 
 def _solved(A: Floats, b: Floats) -> tuple[Floats, Bools]:
@@ -214,5 +214,5 @@ def _solved(A: Floats, b: Floats) -> tuple[Floats, Bools]:
     except np.linalg.LinAlgError:
         singular = unknown | np.asarray(~(np.linalg.cond(A) < _UNBOUNDED))
         A = np.where(singular[:, None, None], np.eye(A.shape[1]), A)
-        found = np.linalg.solve(A, np.where(singular[:, None, None], 0.0, b))
-        return np.asarray(found, dtype=np.float64), singular
+        solution = np.linalg.solve(A, np.where(singular[:, None, None], 0.0, b))
+        return np.asarray(solution, dtype=np.float64), singular

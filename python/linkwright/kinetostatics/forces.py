@@ -115,19 +115,19 @@ def forces(
     solution = Equilibrium(scene, models, loads).solve()
     if with_pulls(scene, models, solution.x.sum(axis=-1)):
         solution = Equilibrium(scene, models, loads).solve()
-    found = Collector(scene, models, sources, columns, solution).forces()
-    return found if contributions else replace(found, contributions={})
+    result = Collector(scene, models, sources, columns, solution).forces()
+    return result if contributions else replace(result, contributions={})
 
 
 def _sources(scene: Scene, models: list[PairModel]) -> dict[str, Applied]:
     """Inertia, viscous friction, and the loads."""
     motion, drive = scene.motion, scene.machine.drive or Drive()
     at_shaft = float(drive_inertia(drive)) * motion.acceleration
-    found = {"inertia": Applied(inertia_forces(scene), at_shaft)}
+    sources = {"inertia": Applied(inertia_forces(scene), at_shaft)}
     if any(model.friction.viscous for model in models):
         slow = Wrenches(scene)
         for model in models:
             if model.extra is not None:
                 slow.values += model.viscous[:, None, None] * model.extra.values
-        found["friction"] = Applied(slow, np.zeros(scene.n))
-    return found | {f"loads.{name}": applied(scene, load) for name, load in scene.machine.loads.items()}
+        sources["friction"] = Applied(slow, np.zeros(scene.n))
+    return sources | {f"loads.{name}": applied(scene, load) for name, load in scene.machine.loads.items()}

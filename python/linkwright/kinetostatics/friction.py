@@ -51,13 +51,13 @@ def checked(friction: Mapping[str, Friction], pairs: Mapping[str, Pair]) -> dict
     `friction`: by name of the pair. Raises MachineError: a pair that does not exist or has no friction of
     this kind; a number that is missing; InputError: a number that is negative or beyond its range.
     """
-    problems = [found for name, each in friction.items() if (found := _problem(name, each, pairs))]
+    problems = [problem for name, entry in friction.items() if (problem := _problem(name, entry, pairs))]
     if problems:
         raise MachineError(problems)
     return dict(friction)
 
 
-def _problem(name: str, each: Friction, pairs: Mapping[str, Pair]) -> Problem | None:
+def _problem(name: str, friction: Friction, pairs: Mapping[str, Pair]) -> Problem | None:
     """What is wrong with the friction of one pair."""
     able = [key for key, pair in pairs.items() if pair.kind in ("pin", "guide", "slot")]
     key = f"friction.{name}"
@@ -68,7 +68,7 @@ def _problem(name: str, each: Friction, pairs: Mapping[str, Pair]) -> Problem | 
     unit_of_viscous = TORSIONAL_DAMPING if pairs[name].kind == "pin" else DAMPING
     in_range(
         **{
-            f"{key}.{entry}": (getattr(each, entry), not_negative(kind))
+            f"{key}.{entry}": (getattr(friction, entry), not_negative(kind))
             for entry, kind in (
                 ("coefficient", RATIO),
                 ("radius", LENGTH),
@@ -77,10 +77,10 @@ def _problem(name: str, each: Friction, pairs: Mapping[str, Pair]) -> Problem | 
             )
         }
     )
-    if pairs[name].kind == "pin" and each.coefficient and not each.radius:
+    if pairs[name].kind == "pin" and friction.coefficient and not friction.radius:
         return Problem(f"{key}.radius", "none", "the radius of the pin, since its torque is μ r R")
-    if pairs[name].kind != "pin" and each.radius:
-        return Problem(f"{key}.radius", f"{each.radius:g}", "no radius: this is a guide or a slot")
-    if pairs[name].kind != "guide" and each.length:
-        return Problem(f"{key}.length", f"{each.length:g}", "no length: this is not a guide")
+    if pairs[name].kind != "pin" and friction.radius:
+        return Problem(f"{key}.radius", f"{friction.radius:g}", "no radius: this is a guide or a slot")
+    if pairs[name].kind != "guide" and friction.length:
+        return Problem(f"{key}.length", f"{friction.length:g}", "no length: this is not a guide")
     return None

@@ -88,13 +88,13 @@ def motion_at(
 
 def _require_full_turn(machine: Machine) -> None:
     """Raise AssemblyError if the crank does not rotate fully, with the angles that it has."""
-    found = closure(machine)
-    if found.turns_fully:
+    closed = closure(machine)
+    if closed.turns_fully:
         return
-    error = closure_error(found, machine)
-    if not found.moves:
+    error = closure_error(closed, machine)
+    if not closed.moves:
         raise error
-    low, high = np.degrees(found.ranges[0]) - (360.0 if found.ranges[0][1] > 2 * np.pi else 0.0)
+    low, high = np.degrees(closed.ranges[0]) - (360.0 if closed.ranges[0][1] > 2 * np.pi else 0.0)
     low, high = np.ceil(10 * low + 1) / 10, np.floor(10 * high - 1) / 10
     raise AssemblyError(
         f"{error}; within that range forces are found at a speed, between given crank angles, such as "

@@ -83,7 +83,7 @@ class PairModel:
 
     def slopes(self, x: Floats) -> Floats:
         """Derivatives of the extra force by the unknowns at their values x, (n, unknowns)."""
-        found = np.zeros_like(x)
+        slopes = np.zeros_like(x)
         if self.kind in ("mesh", "rack"):
             return self.spread * np.sign(x)
         drag = -self.friction.coefficient * self.sense
@@ -93,11 +93,11 @@ class PairModel:
         if self.kind == "guide" and self.friction.length:
             share = x[:, 1] / self.friction.length
             ends = np.sign(0.5 * x[:, 0] + share), np.sign(0.5 * x[:, 0] - share)
-            found[:, 0] = 0.5 * drag * (ends[0] + ends[1])
-            found[:, 1] = drag * (ends[0] - ends[1]) / self.friction.length
+            slopes[:, 0] = 0.5 * drag * (ends[0] + ends[1])
+            slopes[:, 1] = drag * (ends[0] - ends[1]) / self.friction.length
         elif self.kind in ("guide", "slot", "contact"):
-            found[:, 0] = drag * np.sign(x[:, 0])
-        return found
+            slopes[:, 0] = drag * np.sign(x[:, 0])
+        return slopes
 
     @property
     def is_nonlinear(self) -> bool:

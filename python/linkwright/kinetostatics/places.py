@@ -67,15 +67,15 @@ class Scene:
         """Position, first or second derivative of a point by the crank angle, (n, 2)."""
         if name == "":
             return self._still
-        found = self.kinematics.points[name]
-        return (found.position, found.d1, found.d2)[order]
+        motion = self.kinematics.points[name]
+        return (motion.position, motion.d1, motion.d2)[order]
 
     def angle(self, link: str | None, order: int = 0) -> Floats:
         """Angle of a link, or its derivative by the crank angle, (n,); zero for what does not turn."""
         if link is None:
             return np.zeros(self.n)
-        found = self.kinematics.links[link]
-        return (found.angle, found.d1, found.d2)[order]
+        motion = self.kinematics.links[link]
+        return (motion.angle, motion.d1, motion.d2)[order]
 
     def reference(self, member: str, order: int = 0) -> Floats:
         """A member's point that its moments count about, (n, 2); the origin for the frame."""
@@ -88,11 +88,11 @@ class Scene:
     @cached_property
     def rates(self) -> Floats:
         """First derivatives of the members' places and angles, (n, members + 1, 3); zero for the frame."""
-        found = np.zeros((self.n, len(self.index), 3))
+        rates = np.zeros((self.n, len(self.index), 3))
         for name, i in self.index.items():
             if name != FRAME:
-                found[:, i, :2], found[:, i, 2] = self.reference(name, 1), self.turning(name)
-        return found
+                rates[:, i, :2], rates[:, i, 2] = self.reference(name, 1), self.turning(name)
+        return rates
 
     def moved(self, member: str, place: Floats) -> Floats:
         """First derivative, by the crank angle, of the place (n, 2) as a point of a member."""

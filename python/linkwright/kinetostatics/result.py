@@ -51,8 +51,8 @@ class PairForce(Record):
     @property
     def size(self) -> Annotated[Floats, Shown("size of the force", "", "N", shape="(n,)")]:
         """On the second member."""
-        found: Floats = np.hypot(self.force[:, 0], self.force[:, 1])
-        return found
+        size: Floats = np.hypot(self.force[:, 0], self.force[:, 1])
+        return size
 
 
 @dataclass(frozen=True)
@@ -142,19 +142,19 @@ class Forces(Result):
     def columns(self) -> dict[str, Floats]:
         """Components of the forces by name and unit: the frame, each pair with its moment, each driver."""
         unit = self.unit_of("shaking_force")
-        found = {f"shaking_force_{axis} [{unit}]": self.shaking_force[:, k] for k, axis in enumerate("xy")}
+        columns = {f"shaking_force_{axis} [{unit}]": self.shaking_force[:, k] for k, axis in enumerate("xy")}
         for name, pair in self.pairs.items():
-            found |= {f"{name}_{axis} [N]": pair.force[:, k] for k, axis in enumerate("xy")}
-            found[f"{name}_moment [N m]"] = pair.moment
-        return found | {f"{name}_drive [N m or N]": values for name, values in self.drives.items()}
+            columns |= {f"{name}_{axis} [N]": pair.force[:, k] for k, axis in enumerate("xy")}
+            columns[f"{name}_moment [N m]"] = pair.moment
+        return columns | {f"{name}_drive [N m or N]": values for name, values in self.drives.items()}
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Scalars and maximum forces by name, with ``curves`` also all forces as lists. Returns: plain
         numbers, texts and lists, ready for JSON.
         """
-        found = super().to_dict(curves=curves) | {"reaction_max": self.reaction_max}
+        results = super().to_dict(curves=curves) | {"reaction_max": self.reaction_max}
         if curves:
-            found["reactions"] = {name: pair.force.tolist() for name, pair in self.pairs.items()}
-            found["moments"] = {name: pair.moment.tolist() for name, pair in self.pairs.items()}
-            found["drives"] = {name: torque.tolist() for name, torque in self.drives.items()}
-        return found
+            results["reactions"] = {name: pair.force.tolist() for name, pair in self.pairs.items()}
+            results["moments"] = {name: pair.moment.tolist() for name, pair in self.pairs.items()}
+            results["drives"] = {name: torque.tolist() for name, torque in self.drives.items()}
+        return results

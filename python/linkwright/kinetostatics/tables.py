@@ -23,23 +23,25 @@ _KINDS = {
 
 def envelope_table(forces: Forces) -> Table:
     """Peak, its angle, root mean square and mean of every force."""
-    found = envelope(forces)
-    scales = _scales(found)
-    rows = [_row(each, forces, scales[each.unit]) for each in found]
+    extents = envelope(forces)
+    scales = _scales(extents)
+    rows = [_row(extent, forces, scales[extent.unit]) for extent in extents]
     return Table("forces", "Forces", ("quantity", "", "peak", "at φ", "rms", "mean"), rows)
 
 
-def _row(each: Extent, forces: Forces, scale: float) -> Row:
-    word, symbol = _words(each.name, forces)
-    peak, rms, mean = (with_unit(value, each.unit, scale) for value in (each.peak, each.rms, each.mean))
-    return word, symbol, peak, degrees(each.peak_angle), rms, mean
+def _row(extent: Extent, forces: Forces, scale: float) -> Row:
+    word, symbol = _words(extent.name, forces)
+    peak, rms, mean = (
+        with_unit(value, extent.unit, scale) for value in (extent.peak, extent.rms, extent.mean)
+    )
+    return word, symbol, peak, degrees(extent.peak_angle), rms, mean
 
 
 def _scales(extents: Iterable[Extent]) -> dict[str, float]:
     """Unit → peak absolute value of all forces, or moments, of a machine."""
     scales: dict[str, float] = {}
-    for each in extents:
-        scales[each.unit] = max(scales.get(each.unit, 0.0), abs(each.peak))
+    for extent in extents:
+        scales[extent.unit] = max(scales.get(extent.unit, 0.0), abs(extent.peak))
     return scales
 
 
@@ -56,14 +58,16 @@ def _words(name: str, forces: Forces) -> tuple[str, str]:
 
 def cases_table(cases: Mapping[str, Forces]) -> Table:
     """Peaks of several load cases, by name, side by side."""
-    columns = {case: {each.name: each for each in envelope(forces)} for case, forces in cases.items()}
+    columns = {case: {extent.name: extent for extent in envelope(forces)} for case, forces in cases.items()}
     first = next(iter(cases.values()))
     names = list(dict.fromkeys(name for column in columns.values() for name in column))
-    scales = _scales(each for column in columns.values() for each in column.values())
+    scales = _scales(extent for column in columns.values() for extent in column.values())
     rows: list[Row] = []
     for name in names:
-        found = [column.get(name) for column in columns.values()]
-        peaks = (with_unit(each.peak, each.unit, scales[each.unit]) if each else "–" for each in found)
+        extents = [column.get(name) for column in columns.values()]
+        peaks = (
+            with_unit(extent.peak, extent.unit, scales[extent.unit]) if extent else "–" for extent in extents
+        )
         rows.append((*_words(name, first), *peaks))
     return Table("load_cases", "Peaks by load case", ("quantity", "", *cases), rows)
 
@@ -72,16 +76,16 @@ def contribution_table(forces: Forces) -> Table:
     """Share of each source in the peaks of torque and of the shaking force, at its angle; they add up to the
     peak.
     """
-    found = {each.name: each for each in envelope(forces)}
+    extents = {extent.name: extent for extent in envelope(forces)}
     at = [
-        int(abs(forces.crank_angle - found[name].peak_angle).argmin())
+        int(abs(forces.crank_angle - extents[name].peak_angle).argmin())
         for name in ("torque_drive", "shaking_force")
     ]
     total = forces.shaking_force[at[1]]
     size = float((total**2).sum() ** 0.5) or 1.0
-    torques = {name: float(each.torque_drive[at[0]]) for name, each in forces.contributions.items()}
+    torques = {name: float(share.torque_drive[at[0]]) for name, share in forces.contributions.items()}
     along = {
-        name: float(each.shaking_force[at[1]] @ total) / size for name, each in forces.contributions.items()
+        name: float(share.shaking_force[at[1]] @ total) / size for name, share in forces.contributions.items()
     }
     largest = [max(map(abs, shares.values()), default=0.0) for shares in (torques, along)]
     rows: list[Row] = [

@@ -84,8 +84,8 @@ class Wrenches:
 
     def on_member(self, member: str) -> Floats:
         """Force and moment on one member, (n, 3)."""
-        found: Floats = self.values[:, self.scene.index[member]]
-        return found
+        wrench: Floats = self.values[:, self.scene.index[member]]
+        return wrench
 
     def power(self) -> Floats:
         """Σ F·p′ + M ψ′ over the members, (n,) [N m]; times the speed it is power."""
@@ -110,9 +110,9 @@ def turns_guide(guide: Guide, scene: Scene) -> str:
 
 def _keeps_direction(member: str, scene: Scene) -> bool:
     """Whether a member slides without turning, and can take a moment: a block, or a yoke on the frame."""
-    found = scene.structure.members[member]
+    body = scene.structure.members[member]
     yoke = scene.mechanism.yokes.get(member)
-    return found.turns and (found.link is None or (yoke is not None and yoke.guide.on is None))
+    return body.turns and (body.link is None or (yoke is not None and yoke.guide.on is None))
 
 
 class Mass(NamedTuple):
@@ -129,8 +129,8 @@ class Mass(NamedTuple):
     def acceleration(self, scene: Scene) -> Floats:
         """Of the centre, (n, 2) [m/s²]."""
         motion = scene.motion
-        found: Floats = self.d2 * motion.speed[:, None] ** 2 + self.d1 * motion.acceleration[:, None]
-        return found
+        acceleration: Floats = self.d2 * motion.speed[:, None] ** 2 + self.d1 * motion.acceleration[:, None]
+        return acceleration
 
 
 def masses(scene: Scene) -> Iterator[Mass]:

@@ -89,7 +89,7 @@ def circuits(machine: Machine) -> tuple[Circuit, ...]:
         for signs in product((1.0, -1.0), repeat=len(slots))
         for branch in _branches(compiled, slots, signs)
     ]
-    return tuple(Circuit(tuple(each for each, _ in group)) for group in _joined(branches))
+    return tuple(Circuit(tuple(sign for sign, _ in group)) for group in _joined(branches))
 
 
 def _slots(compiled: Compiled, machine: Machine) -> dict[str, int]:
@@ -102,7 +102,7 @@ def _slots(compiled: Compiled, machine: Machine) -> dict[str, int]:
             f"{_tied(compiled)}, followed in the given assembly alone; change a length by more than 1e-8 to "
             "leave a change point, or give another assembly and look at its closure"
         )
-    slots = {each.name: each.element.sign for each in dyads_of(compiled) if isinstance(each.element, _SIGNED)}
+    slots = {dyad.name: dyad.element.sign for dyad in dyads_of(compiled) if isinstance(dyad.element, _SIGNED)}
     if len(slots) > _DYADS_MAX:
         raise InputError(
             f"{machine.name} has {len(slots)} dyads with two assemblies each; circuits are found for up to "
@@ -121,9 +121,9 @@ def _is_tied(element: Element) -> bool:
 def _tied(compiled: Compiled) -> str:
     """What keeps assemblies from being exchanged, change points with their crank angles."""
     points = [
-        f"a change point of {each.name} at {', '.join(f'{np.degrees(x):.4g}°' for x in each.change_points)}"
-        for each in dyads_of(compiled)
-        if len(each.change_points)
+        f"a change point of {dyad.name} at {', '.join(f'{np.degrees(x):.4g}°' for x in dyad.change_points)}"
+        for dyad in dyads_of(compiled)
+        if len(dyad.change_points)
     ]
     return " and ".join(points) or "gears on moving links or a group"
 

@@ -129,10 +129,10 @@ def closure(machine: Machine) -> Closure:
 
 def closure_of(compiled: Compiled) -> Closure:
     """`closure` of a compiled machine: every analysis asks for it, and it is found once."""
-    found: Closure | None = compiled.kept.get("closure")
-    if found is None:
-        found = compiled.kept["closure"] = _found_closure(compiled)
-    return found
+    kept: Closure | None = compiled.kept.get("closure")
+    if kept is None:
+        kept = compiled.kept["closure"] = _found_closure(compiled)
+    return kept
 
 
 def _found_closure(compiled: Compiled) -> Closure:
@@ -217,11 +217,11 @@ class _Search:
         before, after = np.roll(room, 1), np.roll(room, -1)
         bend = np.maximum(before + after - 2 * room, 1e-30)
         lowest = room - (after - before) ** 2 / (8 * bend)
-        found = np.flatnonzero((room <= before) & (room <= after) & (room >= -_ZERO) & (lowest < _CLOSE))
-        if not len(found):
+        places = np.flatnonzero((room <= before) & (room <= after) & (room >= -_ZERO) & (lowest < _CLOSE))
+        if not len(places):
             return []
         step = 2 * np.pi / _ANGLES
-        near = self.angles[found]
+        near = self.angles[places]
         at, least = minima(lambda x: sign * self.spare(x), near - step, near + step)
         missed = least < -_ZERO
         order = np.argsort(angles := np.concatenate([self.angles, at[missed] % self.period]))
@@ -329,8 +329,8 @@ def _first_end(compiled: Compiled, angles: Floats, closes: Flags) -> float | Non
         return None
 
     def least(at: Floats) -> Floats:
-        found: Floats = np.fmin.reduce(compiled.gaps(at), axis=0)
-        return found
+        gap: Floats = np.fmin.reduce(compiled.gaps(at), axis=0)
+        return gap
 
     first = int(np.argmin(closes))
     return float(zeros(least, angles[first - 1 : first], angles[first : first + 1])[0][0])
@@ -364,9 +364,9 @@ def require_full_turn(compiled: Compiled, machine: Machine) -> None:
 
     The `AssemblyError` says which element does not close, where the mechanism closes, and what to change.
     """
-    found = closure_of(compiled)
-    if not found.turns_fully:
-        raise closure_error(found, machine)
+    closed = closure_of(compiled)
+    if not closed.turns_fully:
+        raise closure_error(closed, machine)
 
 
 def require_one_turn(compiled: Compiled) -> None:
@@ -410,16 +410,16 @@ def require_closed(compiled: Compiled, machine: Machine, angles: Floats) -> None
     if closes.all() and not has_levers(compiled):
         return
     at = float(angles[int(np.argmin(closes))])
-    found = closure_of(compiled)
+    closed = closure_of(compiled)
     if closes.all():
-        if _meets_change_point(found, angles):
-            raise closure_error(found, machine)
+        if _meets_change_point(closed, angles):
+            raise closure_error(closed, machine)
         return
-    if found.turns_fully:
+    if closed.turns_fully:
         # Less than nothing by rounding alone.
         return
-    text = f"at crank angle {_deg(at)}° {_sentence(found, machine)}"
-    raise AssemblyError(text, element=found.element, crank_angle=at)
+    text = f"at crank angle {_deg(at)}° {_sentence(closed, machine)}"
+    raise AssemblyError(text, element=closed.element, crank_angle=at)
 
 
 def has_levers(compiled: Compiled) -> bool:
@@ -427,35 +427,35 @@ def has_levers(compiled: Compiled) -> bool:
     return any(isinstance(element, Element.SlottedLever) for element in compiled.elements)
 
 
-def _meets_change_point(found: Closure, angles: Floats) -> bool:
+def _meets_change_point(closed: Closure, angles: Floats) -> bool:
     """Whether a change point where the motion does not go on lies at one of the angles, or between them."""
-    if found.change_point is None or found.turns is None:
+    if closed.change_point is None or closed.turns is None:
         return False
-    turns = (angles - found.change_point) / (2 * np.pi * found.turns)
-    near = np.abs(turns - np.round(turns)) * 2 * np.pi * found.turns < _BESIDE
+    turns = (angles - closed.change_point) / (2 * np.pi * closed.turns)
+    near = np.abs(turns - np.round(turns)) * 2 * np.pi * closed.turns < _BESIDE
     return bool(near.any() or np.ptp(np.floor(turns)) > 0)
 
 
-def closure_error(found: Closure, machine: Machine) -> AssemblyError:
+def closure_error(closed: Closure, machine: Machine) -> AssemblyError:
     """The error for a mechanism that does not turn fully: what does not close, where, and what to change.
 
-    `found`: of a mechanism that does not turn fully.
+    `closed`: of a mechanism that does not turn fully.
     """
-    at = found.ranges[0][1] if found.ranges else 0.0
-    at = at if found.turns is None else at % (2 * np.pi * found.turns)
-    return AssemblyError(_sentence(found, machine), element=found.element, crank_angle=at)
+    at = closed.ranges[0][1] if closed.ranges else 0.0
+    at = at if closed.turns is None else at % (2 * np.pi * closed.turns)
+    return AssemblyError(_sentence(closed, machine), element=closed.element, crank_angle=at)
 
 
-def _sentence(found: Closure, machine: Machine) -> str:
+def _sentence(closed: Closure, machine: Machine) -> str:
     """What does not close, where, and the remedy."""
-    if found.change_point is not None:
-        what, remedy = change_point(found.element, machine)
-        where = f"a change point at crank angle {_deg(found.change_point)}°"
-        return f"{found.element} reaches {where}: {what}; {remedy}"
-    what, remedy = describe(found.element, machine)
-    if not found.ranges:
+    if closed.change_point is not None:
+        what, remedy = change_point(closed.element, machine)
+        where = f"a change point at crank angle {_deg(closed.change_point)}°"
+        return f"{closed.element} reaches {where}: {what}; {remedy}"
+    what, remedy = describe(closed.element, machine)
+    if not closed.ranges:
         return f"the mechanism does not close at any crank angle: {what}; {remedy}"
-    where = " and ".join(_range(low, high, found.turns) for low, high in found.ranges)
+    where = " and ".join(_range(low, high, closed.turns) for low, high in closed.ranges)
     return f"the mechanism closes only at crank angles {where}: beyond, {what}; {remedy}"
 
 

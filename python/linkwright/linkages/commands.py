@@ -113,12 +113,12 @@ def _pose(machine: Machine, at: str, speed: CrankSpeed, zero: Zero, *, json: boo
     from linkwright.kernel.units import ANGLE
     from linkwright.linkages.pose import pose
 
-    found = pose(machine, option_value("--at", at, ANGLE) + zero.angle, speed=speed.value)
+    placed = pose(machine, option_value("--at", at, ANGLE) + zero.angle, speed=speed.value)
     if json:
-        told = found.to_dict() | {"speed_source": speed.source} | _zero_told(zero)
-        return json_text(Answer(machine=machine.name, results=lambda _: {"pose": told}))
-    phi = found.crank_angle - zero.angle
-    rows = [("crank angle", "φ [rad]", (phi, found.speed, found.acceleration)), *_pose_rows(found)]
+        results = placed.to_dict() | {"speed_source": speed.source} | _zero_told(zero)
+        return json_text(Answer(machine=machine.name, results=lambda _: {"pose": results}))
+    phi = placed.crank_angle - zero.angle
+    rows = [("crank angle", "φ [rad]", (phi, placed.speed, placed.acceleration)), *_pose_rows(placed)]
     rows = [_row_shown(row) for row in rows]
     if csv:
         click.echo(speed, err=True)
@@ -134,8 +134,8 @@ def _pose(machine: Machine, at: str, speed: CrankSpeed, zero: Zero, *, json: boo
         + "".join(f"{number(value, 8, scale):>16}" for value, scale in zip(numbers, scales, strict=False))
         for name, what, numbers in rows
     ]
-    if found.near_limit:
-        lines.append(f"near a limit: {', '.join(found.near_limit)}")
+    if placed.near_limit:
+        lines.append(f"near a limit: {', '.join(placed.near_limit)}")
     return "\n".join(lines) + "\n"
 
 
@@ -161,8 +161,8 @@ def _pose_rows(pose: Pose) -> list[tuple[str, str, tuple[float, ...]]]:
             numbers = (point.position[k], point.velocity[k], point.acceleration[k])
             rows.append((name, f"{axis} [m]", numbers))
     for unit, part in (("angle [rad]", pose.links), ("place [m]", pose.slides)):
-        for name, each in part.items():
-            rows.append((name, unit, (each.position, each.velocity, each.acceleration)))
+        for name, entry in part.items():
+            rows.append((name, unit, (entry.position, entry.velocity, entry.acceleration)))
     for name, mu in pose.transmission_angles.items():
         rows.append((name, "μ [rad]", (mu,)))
     return rows
@@ -187,10 +187,10 @@ def _turn(machine: Machine, speed: CrankSpeed, zero: Zero, steps: int, *, json: 
         expected = f"a speed above zero for a revolution, {SPEED.least:g} rad/s or more"
         raise InputError(f"--speed: found {speed.value:g} rad/s, expected {expected}")
     times = (0.0, 2 * pi / speed.value)
-    told = {"crank_speed": speed.value, "speed_source": speed.source} | _zero_told(zero)
+    results = {"crank_speed": speed.value, "speed_source": speed.source} | _zero_told(zero)
     head = f"one revolution of the crank{_from(zero)} in {times[1]:.6g} s, {speed}"
     law = constant_speed(speed.value, zero.angle)
-    return _followed(machine, law, times, steps, head, told, zero, json=json, csv=csv)
+    return _followed(machine, law, times, steps, head, results, zero, json=json, csv=csv)
 
 
 def _under_law(machine: Machine, law: str, duration: str, steps: int, *, json: bool, csv: bool) -> str:
@@ -213,7 +213,7 @@ def _followed(
     span: tuple[float, float],
     steps: int,
     head: str,
-    told: dict[str, Any],
+    results: dict[str, Any],
     zero: Zero,
     *,
     json: bool,
@@ -225,29 +225,29 @@ def _followed(
     from linkwright.kernel.page.table import curves_csv
     from linkwright.linkages.motion import motion as follow
 
-    found = follow(machine, law, np.linspace(*span, steps + 1))
+    followed = follow(machine, law, np.linspace(*span, steps + 1))
     if json:
-        moved = told | found.to_dict(curves=True) | _lists(found.curves())
+        moved = results | followed.to_dict(curves=True) | _lists(followed.curves())
         return json_text(Answer(machine=machine.name, results=lambda _: {"motion": moved}))
     if zero.angle:
-        found = replace(found, crank_angle=found.crank_angle - zero.angle)
+        followed = replace(followed, crank_angle=followed.crank_angle - zero.angle)
     if csv:
         click.echo(head, err=True)
-        return curves_csv(found)
-    return f"{head}\n{_table(found)}"
+        return curves_csv(followed)
+    return f"{head}\n{_table(followed)}"
 
 
 def _lists(curves: dict[str, Any]) -> dict[str, list[float]]:
     return {name: curve.tolist() for name, curve in curves.items()}
 
 
-def _table(found: Motion) -> str:
+def _table(followed: Motion) -> str:
     """Positions alone, for people; everything is in the CSV."""
     from linkwright.kernel.page.numbers import number
     from linkwright.kernel.page.out_units import shown_columns
     from linkwright.kernel.page.table import head
 
-    shown = shown_columns({head(found, name): curve for name, curve in _positions(found).items()})
+    shown = shown_columns({head(followed, name): curve for name, curve in _positions(followed).items()})
     width = max(14, *(len(name) + 2 for name in shown))
     lines = ["".join(f"{name:>{width}}" for name in shown)]
     units = [name.rpartition("[")[2] for name in shown]
@@ -263,9 +263,9 @@ def _table(found: Motion) -> str:
 _AT_REST = 1e-12
 
 
-def _positions(found: Motion) -> dict[str, Any]:
+def _positions(followed: Motion) -> dict[str, Any]:
     """Time, crank angle, and positions of what moves by more than rounding."""
-    curves = found.curves()
+    curves = followed.curves()
     places = {
         name: curve for name, curve in curves.items() if name.endswith((".x", ".y", ".angle", ".place"))
     }

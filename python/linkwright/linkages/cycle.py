@@ -67,8 +67,8 @@ class DeadPoint(NamedTuple):
 
 def dead_points(compiled: Compiled, swept: LinkageSweep, where: Closure) -> list[DeadPoint]:
     """The dead points of a linkage."""
-    found = [*_of_closure(compiled, where), *_passed(swept), *_reversals(swept)]
-    return sorted(found)
+    points = [*_of_closure(compiled, where), *_passed(swept), *_reversals(swept)]
+    return sorted(points)
 
 
 def _of_closure(compiled: Compiled, where: Closure) -> Iterator[DeadPoint]:
@@ -165,13 +165,13 @@ class ElementMotion(Record):
 
     def to_dict(self) -> dict[str, Any]:
         """Scalars by name, without those that do not exist."""
-        found = {name: value for name, value in vars(self).items() if name not in ("element", "four_bar")}
-        found["transmission_angle_worst"] = self.transmission_angle_worst
+        entries = {name: value for name, value in vars(self).items() if name not in ("element", "four_bar")}
+        entries["transmission_angle_worst"] = self.transmission_angle_worst
         if self.four_bar is not None:
-            found["grashof"] = self.grashof
-            found["grashof_sum_extremes"] = self.four_bar.sum_extremes
-            found["grashof_sum_others"] = self.four_bar.sum_others
-        return {name: value for name, value in found.items() if value is not None}
+            entries["grashof"] = self.grashof
+            entries["grashof_sum_extremes"] = self.four_bar.sum_extremes
+            entries["grashof_sum_others"] = self.four_bar.sum_others
+        return {name: value for name, value in entries.items() if value is not None}
 
 
 _VELOCITY_RATIOS = "Speed of the output over that of the crank, by name of the link or slide [– or m/rad]."
@@ -200,9 +200,9 @@ class Linkage(Result):
         """The first entry of an element, or of the link or slide with this name; a `KeyError` if there is
         none.
         """
-        for each in self.elements:
-            if name in (each.element, each.output):
-                return each
+        for element in self.elements:
+            if name in (element.element, element.output):
+                return element
         raise KeyError(name)
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
@@ -212,24 +212,24 @@ class Linkage(Result):
         elements: dict[str, Any] = {}
         for element in self.elements:
             elements[element.output if element.element in elements else element.element] = element.to_dict()
-        found: dict[str, Any] = {
+        results: dict[str, Any] = {
             "turns_fully": self.closure.turns_fully,
             "period_turns": self.period_turns,
             "elements": elements,
             "dead_points": [point._asdict() for point in self.dead_points],
         }
         if curves:
-            found |= {name: curve.tolist() for name, curve in self.curves().items()}
-        return found
+            results |= {name: curve.tolist() for name, curve in self.curves().items()}
+        return results
 
     def curves(self) -> dict[str, np.ndarray]:
         """The curves by name: ``R.transmission_angle``, ``R.rocker.velocity_ratio``, ``S.stroke_ratio``."""
-        found = {"crank_angle": self.crank_angle}
-        found |= {f"{name}.transmission_angle": curve for name, curve in self.transmission_angles.items()}
+        curves = {"crank_angle": self.crank_angle}
+        curves |= {f"{name}.transmission_angle": curve for name, curve in self.transmission_angles.items()}
         slides = {element.output for element in self.elements if element.stroke is not None}
         for name, curve in self.velocity_ratios.items():
-            found[f"{name}.stroke_ratio" if name in slides else f"{name}.velocity_ratio"] = curve
-        return found
+            curves[f"{name}.stroke_ratio" if name in slides else f"{name}.velocity_ratio"] = curve
+        return curves
 
     def unit_of(self, name: str) -> str:
         """SI unit of an attribute or a curve by its name."""
@@ -275,11 +275,11 @@ def linkage(machine: Machine) -> Linkage:
     loops = {bar.element: bar for bar in four_bars(compiled)}
     return Linkage(
         crank_angle=cycle.angles,
-        transmission_angles={each.name: swept.mu[k] for k, each in enumerate(swept.dyads)},
-        velocity_ratios={each.name: swept.d1[k] for k, each in enumerate(swept.outputs)},
+        transmission_angles={dyad.name: swept.mu[k] for k, dyad in enumerate(swept.dyads)},
+        velocity_ratios={output.name: swept.d1[k] for k, output in enumerate(swept.outputs)},
         elements=tuple(
-            _element(swept, k, each, _parallel(loops.get(each.element), swept.d1[k]))
-            for k, each in enumerate(swept.outputs)
+            _element(swept, k, output, _parallel(loops.get(output.element), swept.d1[k]))
+            for k, output in enumerate(swept.outputs)
         ),
         closure=where,
         period_turns=period,

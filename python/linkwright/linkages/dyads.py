@@ -112,20 +112,20 @@ def transmission_channels(compiled: Compiled, dyad: Dyad) -> list[Channel]:
         case Element.GuidedRod(link=link, line=line):
             return [Channel.Link(link), *_carrier(line)]
         case Element.Crossing(lines=lines):
-            return [each for line in lines for each in _carrier(line)]
+            return [channel for line in lines for channel in _carrier(line)]
     return []
 
 
-def transmission(compiled: Compiled, dyad: Dyad, found: list[Floats]) -> tuple[Floats, Floats]:
+def transmission(compiled: Compiled, dyad: Dyad, values: list[Floats]) -> tuple[Floats, Floats]:
     """Transmission angle, and a smooth function with the sign changes of its derivative, up to the sign.
 
-    `found` (4, n) and (3, n): what the core gave for `transmission_channels`. Returns: mu: (n,) 0 to π [rad];
-    slope: (n,) ±dμ/dφ, for a dyad RPR ±ds/dφ of its slot; NaN at a limit of crank rotation.
+    `values` (4, n) and (3, n): what the core gave for `transmission_channels`. Returns: mu: (n,) 0 to π
+    [rad]; slope: (n,) ±dμ/dφ, for a dyad RPR ±ds/dφ of its slot; NaN at a limit of crank rotation.
     """
     if isinstance(dyad.element, Element.SlottedLever):
         offset = compiled.parameters[dyad.element.offset]
-        return np.arctan2(np.abs(found[0][0]), offset), found[0][1] * float(offset != 0)
-    (e, e1), (f, f1) = _directions(compiled, dyad, list(found))
+        return np.arctan2(np.abs(values[0][0]), offset), values[0][1] * float(offset != 0)
+    (e, e1), (f, f1) = _directions(compiled, dyad, list(values))
     cross, dot = e[0] * f[1] - e[1] * f[0], e[0] * f[0] + e[1] * f[1]
     # At a limit of crank rotation both rates are infinite, and their difference is no number.
     with np.errstate(invalid="ignore"):
@@ -133,19 +133,19 @@ def transmission(compiled: Compiled, dyad: Dyad, found: list[Floats]) -> tuple[F
     return np.arctan2(np.abs(cross), dot), slope
 
 
-def _directions(compiled: Compiled, dyad: Dyad, found: list[Floats]) -> list[tuple[Floats, Floats]]:
+def _directions(compiled: Compiled, dyad: Dyad, values: list[Floats]) -> list[tuple[Floats, Floats]]:
     """The two directions between which μ lies, with the rates of their angles."""
     q = compiled.parameters
     match dyad.element:
         case Element.SliderRod(cos=cos, sin=sin):
-            return [(found[0][:2], found[0][2]), (np.array([[-q[sin]], [q[cos]]]), np.zeros(1))]
+            return [(values[0][:2], values[0][2]), (np.array([[-q[sin]], [q[cos]]]), np.zeros(1))]
         case Element.GuidedRod(line=line):
-            rod = found.pop(0)
-            along, rate = _guide(compiled, line, found)
+            rod = values.pop(0)
+            along, rate = _guide(compiled, line, values)
             return [(rod[:2], rod[2]), (np.stack([-along[1], along[0]]), rate)]
         case Element.Crossing(lines=lines):
-            return [_guide(compiled, line, found) for line in lines]
-    return [(each[:2], each[2]) for each in found]
+            return [_guide(compiled, line, values) for line in lines]
+    return [(value[:2], value[2]) for value in values]
 
 
 def _carrier(line: Line) -> list[Channel]:
@@ -153,11 +153,11 @@ def _carrier(line: Line) -> list[Channel]:
     return [] if line.link is None else [Channel.Link(line.link)]
 
 
-def _guide(compiled: Compiled, line: Line, found: list[Floats]) -> tuple[Floats, Floats]:
+def _guide(compiled: Compiled, line: Line, values: list[Floats]) -> tuple[Floats, Floats]:
     """Direction of a guide and the rate of its angle; takes its link from what was found."""
     cos, sin = (compiled.parameters[slot] for slot in (line.cos, line.sin))
     if line.link is None:
         return np.array([[cos], [sin]]), np.zeros(1)
-    carrier = found.pop(0)
+    carrier = values.pop(0)
     x, y = carrier[:2]
     return np.stack([x * cos - y * sin, x * sin + y * cos]), carrier[2]

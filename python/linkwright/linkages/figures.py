@@ -93,7 +93,7 @@ def linkage_figures(machine: Machine, linkage: Linkage) -> Iterator[Captioned]:
     """The figures of a machine's linkage over its cycle."""
     worst = [element for element in linkage.elements if element.transmission_angle_worst is not None]
     if worst:
-        least = min(worst, key=lambda each: each.transmission_angle_worst or 0.0)
+        least = min(worst, key=lambda curve: curve.transmission_angle_worst or 0.0)
         caption = (
             "90° is ideal. The worst transmission angle is "
             f"{degrees(least.transmission_angle_worst or 0.0)}, at {least.element}."
@@ -116,7 +116,7 @@ def _on_ground(machine: Machine) -> set[str]:
 
 def _links(machine: Machine, angle: float) -> list[tuple[np.ndarray, bool]]:
     """Ends of the links at a crank angle, with the points that they carry."""
-    places = {name: np.array(each.position) for name, each in pose(machine, angle).points.items()}
+    places = {name: np.array(point.position) for name, point in pose(machine, angle).points.items()}
     fixed = machine.linkage.fixed_points()
     links = []
     for link in machine.linkage.links().values():
@@ -131,7 +131,7 @@ def _words(curves: list[CouplerCurve]) -> str:
     """Length and what is special of each path."""
     parts = []
     for curve in curves:
-        extras = [f"{len(each)} {word}" for each, word in _special(curve) if each]
+        extras = [f"{len(point)} {word}" for point, word in _special(curve) if point]
         more = f", {' and '.join(extras)}" if extras else ""
         parts.append(
             f"{curve.point}: {quantity(curve.length, 'm')} long, straight over "

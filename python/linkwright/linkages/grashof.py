@@ -165,7 +165,7 @@ def _carried(element: Element, centres: dict[int, int], grounds: dict[int, Float
         case Element.RigidPoint(point=point, link=link) if link in centres:
             return [(point, centres[link])]
         case Element.Group(carried=carried):
-            return [(each.point, each.start) for each in carried if each.start in grounds]
+            return [(name.point, name.start) for name in carried if name.start in grounds]
     return []
 
 

@@ -128,20 +128,20 @@ def everything(compiled: Compiled) -> list[tuple[str, str]]:
     return [(part, name) for part, known in names.items() for name in known if not name.endswith(hidden)]
 
 
-def with_third(compiled: Compiled, found: Kinematics, what: list[tuple[str, str]]) -> Kinematics:
+def with_third(compiled: Compiled, kinematics: Kinematics, what: list[tuple[str, str]]) -> Kinematics:
     """The same motion with third derivatives. Raises ShapeError: entries vary from machine to machine."""
     if len(compiled.slots):
         raise ShapeError("third derivatives are for one machine, and entries vary from machine to machine")
     known = {"points": compiled.points, "links": compiled.links, "slides": compiled.slides}
-    table = compiled.third(found.angles, [_CHANNELS[part](known[part][name]) for part, name in what])
+    table = compiled.third(kinematics.angles, [_CHANNELS[part](known[part][name]) for part, name in what])
     parts: dict[str, dict[str, Any]] = {part: {} for part in _WIDTHS}
     at = 0
     for part, name in what:
         rows = table[at : at + _THIRD[part]]
         at += _THIRD[part]
         d3 = np.stack((rows[0], rows[1]), axis=-1) if part == "points" else rows[0]
-        parts[part][name] = replace(getattr(found, part)[name], d3=d3)
-    return Kinematics(found.angles, **parts)
+        parts[part][name] = replace(getattr(kinematics, part)[name], d3=d3)
+    return Kinematics(kinematics.angles, **parts)
 
 
 def checked_angles(angles: ArrayLike) -> Floats:
@@ -164,7 +164,7 @@ def _collect(phi: Floats, table: Floats, what: list[tuple[str, str]]) -> Kinemat
     for part, name in what:
         makers[part][name] = partial(_MOTIONS[part], table, at)
         at += _WIDTHS[part]
-    return Kinematics(phi, **{part: Looked(each) for part, each in makers.items()})
+    return Kinematics(phi, **{part: Looked(maker) for part, maker in makers.items()})
 
 
 def _point(table: Floats, at: int) -> PointMotion:

@@ -108,16 +108,16 @@ class RampLaw:
         scale = T ** -np.arange(4.0)[:, None]
         inside = (times >= 0) & (times <= T)
         if self.angle:
-            found = self.angle * rise * scale
-            found[1:] *= inside
+            angle = self.angle * rise * scale
+            angle[1:] *= inside
         else:
             # φ = ω T ∫ rise du, and ω (t − T) beyond.
             whole = [0.0, *(c / (k + 1) for k, c in enumerate(_RISES[self.shape]))]
-            found = np.stack([_polynomial(whole, u)[0], rise[0], rise[1], rise[2]]) * self.speed * T * scale
-            found[0] += self.speed * np.maximum(times - T, 0.0)
-            found[2:] *= inside
-        found[0] += self.start
-        return found
+            angle = np.stack([_polynomial(whole, u)[0], rise[0], rise[1], rise[2]]) * self.speed * T * scale
+            angle[0] += self.speed * np.maximum(times - T, 0.0)
+            angle[2:] *= inside
+        angle[0] += self.start
+        return angle
 
 
 class TableLaw:
@@ -136,7 +136,7 @@ class TableLaw:
 
     def __init__(self, times: ArrayLike, angles: ArrayLike) -> None:
         in_range(times=(times, Quantity(TIME)), angles=(angles, Quantity(ANGLE)))
-        t, phi = (np.asarray(each, dtype=float) for each in (times, angles))
+        t, phi = (np.asarray(values, dtype=float) for values in (times, angles))
         if t.ndim != 1 or t.shape != phi.shape or len(t) < 3:
             raise ShapeError(
                 f"a table of times and angles needs two lists of one length, at least 3 numbers each; "

@@ -77,13 +77,13 @@ class FormulaLaw:
     def __post_init__(self) -> None:
         """Read it once, for its errors. Raises InputError: it is no formula of t."""
         try:
-            found = names(parse(self.text))
+            asked = names(parse(self.text))
         except FormulaError as error:
             remedy = f"; {error.remedy}" if error.remedy else ""
             raise InputError(
                 f'law: found "{self.text}", expected a formula of t: {error.expected}{remedy}'
             ) from None
-        wrong = [name for name in found if name != "t" and name not in NUMBERS]
+        wrong = [name for name in asked if name != "t" and name not in NUMBERS]
         if wrong:
             raise InputError(
                 f'law: found "{wrong[0]}" in "{self.text}", expected t, pi, g, numbers and functions'

@@ -64,15 +64,15 @@ class Motion(Result):
 
     def curves(self) -> dict[str, np.ndarray]:
         """All columns by name: ``K.x``, ``K.x.velocity``, ``R.rocker.angle``, …."""
-        found = super().curves()
+        curves = super().curves()
         for name, path in self.points.items():
             for k, axis in enumerate("xy"):
-                found |= _columns(f"{name}.{axis}", path, k)
+                curves |= _columns(f"{name}.{axis}", path, k)
         for name, path in self.links.items():
-            found |= _columns(f"{name}.angle", path, ...)
+            curves |= _columns(f"{name}.angle", path, ...)
         for name, path in self.slides.items():
-            found |= _columns(f"{name}.place", path, ...)
-        return found
+            curves |= _columns(f"{name}.place", path, ...)
+        return curves
 
     def unit_of(self, name: str) -> str:
         """SI unit of an attribute or a column by its name."""
@@ -150,9 +150,9 @@ def motion(
         speed=rates[1],
         acceleration=rates[2],
         crank_jerk=rates[3],
-        points={name: _path(each.position, each, columns) for name, each in kinematics.points.items()},
-        links={name: _path(each.angle, each, rates) for name, each in kinematics.links.items()},
-        slides={name: _path(each.position, each, rates) for name, each in kinematics.slides.items()},
+        points={name: _path(point.position, point, columns) for name, point in kinematics.points.items()},
+        links={name: _path(link.angle, link, rates) for name, link in kinematics.links.items()},
+        slides={name: _path(slide.position, slide, rates) for name, slide in kinematics.slides.items()},
     )
 
 
@@ -176,30 +176,30 @@ def motion_along(
         speed=speed,
         acceleration=acceleration,
         crank_jerk=None,
-        points={name: _rates(each.position, each, columns) for name, each in kinematics.points.items()},
-        links={name: _rates(each.angle, each, rates) for name, each in kinematics.links.items()},
-        slides={name: _rates(each.position, each, rates) for name, each in kinematics.slides.items()},
+        points={name: _rates(point.position, point, columns) for name, point in kinematics.points.items()},
+        links={name: _rates(link.angle, link, rates) for name, link in kinematics.links.items()},
+        slides={name: _rates(slide.position, slide, rates) for name, slide in kinematics.slides.items()},
     )
 
 
-def _rates(position: Floats, each: Any, rates: Floats) -> Path:
+def _rates(position: Floats, part: Any, rates: Floats) -> Path:
     """The chain rule up to the acceleration."""
     w, a = rates
-    return Path(position, each.d1 * w, each.d2 * w**2 + each.d1 * a)
+    return Path(position, part.d1 * w, part.d2 * w**2 + part.d1 * a)
 
 
-def _path(position: Floats, each: Any, rates: Floats) -> Path:
+def _path(position: Floats, point: Any, rates: Floats) -> Path:
     """The chain rule."""
     _, w, a, j = rates
-    return Path(position, *rates_of(each, w, a), each.d3 * w**3 + 3 * each.d2 * w * a + each.d1 * j)
+    return Path(position, *rates_of(point, w, a), point.d3 * w**3 + 3 * point.d2 * w * a + point.d1 * j)
 
 
-def rates_of(each: Any, speed: Floats, acceleration: Floats) -> tuple[Floats, Floats]:
+def rates_of(part: Any, speed: Floats, acceleration: Floats) -> tuple[Floats, Floats]:
     """Velocity and acceleration of a point, link or slide [m/s, m/s²; of a link rad/s, rad/s²].
 
     Those of the crank at the same angles are (n,), in a column (n, 1) for a point [rad/s, rad/s²].
     """
-    return each.d1 * speed, each.d2 * speed**2 + each.d1 * acceleration
+    return part.d1 * speed, part.d2 * speed**2 + part.d1 * acceleration
 
 
 def _require_within(compiled: Compiled, machine: Machine, law: Law, times: Floats) -> None:
@@ -237,7 +237,7 @@ def _range_around(start: float, ranges: tuple[tuple[float, float], ...]) -> tupl
     # At a limit, by rounding.
     return min(
         ((low + turn, high + turn) for low, high in ranges for turn in (0.0, -2 * np.pi)),
-        key=lambda each: min(abs(start - each[0]), abs(start - each[1])),
+        key=lambda curve: min(abs(start - curve[0]), abs(start - curve[1])),
     )
 
 

@@ -85,12 +85,12 @@ def _bars_at(joints: tuple[str, ...], mechanism: Mechanism) -> str:
         name for name, part in mechanism.rigid_points.items() if _hangs_on(part.link, joints, mechanism)
     }
     ends = {*joints, *carried}
-    found = [
+    bars = [
         f"{name} ({bar.length:g} m)"
         for name, bar in mechanism.bars.items()
         if {bar.start, bar.end} & ends and not bar.redundant
     ]
-    return " and ".join(filter(None, [", ".join(found[:-1]), *found[-1:]]))
+    return " and ".join(filter(None, [", ".join(bars[:-1]), *bars[-1:]]))
 
 
 def _hangs_on(link: str, joints: tuple[str, ...], mechanism: Mechanism) -> bool:

@@ -59,16 +59,16 @@ class Pose(Record):
     def to_dict(self) -> dict[str, Any]:
         """Everything by name, ready for JSON. Returns: SI numbers; x and y as lists."""
         parts = {
-            part: {name: _plain(each) for name, each in getattr(self, part).items()}
+            part: {name: _plain(motion) for name, motion in getattr(self, part).items()}
             for part in ("points", "links", "slides")
         }
         whole = {"crank_angle": self.crank_angle, "speed": self.speed, "acceleration": self.acceleration}
-        found = {"transmission_angles": dict(self.transmission_angles), "near_limit": list(self.near_limit)}
-        return whole | parts | found
+        results = {"transmission_angles": dict(self.transmission_angles), "near_limit": list(self.near_limit)}
+        return whole | parts | results
 
 
-def _plain(each: PosePoint | PoseCoordinate) -> dict[str, Any]:
-    return {name: list(x) if isinstance(x, tuple) else x for name, x in vars(each).items()}
+def _plain(part: PosePoint | PoseCoordinate) -> dict[str, Any]:
+    return {name: list(x) if isinstance(x, tuple) else x for name, x in vars(part).items()}
 
 
 @public
@@ -115,20 +115,22 @@ def pose(machine: Machine, crank_angle: float, *, speed: float = 1.0, accelerati
         crank_angle=float(crank_angle),
         speed=float(speed),
         acceleration=float(acceleration),
-        points={name: _point(each, *rates) for name, each in kinematics.points.items()},
-        links={name: _coordinate(each.angle, each, *rates) for name, each in kinematics.links.items()},
-        slides={name: _coordinate(each.position, each, *rates) for name, each in kinematics.slides.items()},
+        points={name: _point(point, *rates) for name, point in kinematics.points.items()},
+        links={name: _coordinate(link.angle, link, *rates) for name, link in kinematics.links.items()},
+        slides={
+            name: _coordinate(slide.position, slide, *rates) for name, slide in kinematics.slides.items()
+        },
         transmission_angles=mu,
         near_limit=tuple(name for name, angle in mu.items() if np.sin(angle) < _NEAR),
     )
 
 
-def _point(each: Any, speed: float, acceleration: float) -> PosePoint:
-    v, a = each.d1[0] * speed, each.d2[0] * speed**2 + each.d1[0] * acceleration
-    (x, y), (vx, vy), (ax, ay) = (pair.tolist() for pair in (each.position[0], v, a))
+def _point(motion: Any, speed: float, acceleration: float) -> PosePoint:
+    v, a = motion.d1[0] * speed, motion.d2[0] * speed**2 + motion.d1[0] * acceleration
+    (x, y), (vx, vy), (ax, ay) = (pair.tolist() for pair in (motion.position[0], v, a))
     return PosePoint((x, y), (vx, vy), (ax, ay))
 
 
-def _coordinate(position: Any, each: Any, speed: float, acceleration: float) -> PoseCoordinate:
-    d1, d2 = float(each.d1[0]), float(each.d2[0])
+def _coordinate(position: Any, motion: Any, speed: float, acceleration: float) -> PoseCoordinate:
+    d1, d2 = float(motion.d1[0]), float(motion.d2[0])
     return PoseCoordinate(float(position[0]), d1 * speed, d2 * speed**2 + d1 * acceleration)

@@ -44,9 +44,9 @@ def straightest(at: Places, cycle: Cycle, straight: float) -> tuple[float, float
         around = range(max(0, start - stride), start + stride + 1), range(end - stride, end + stride + 1)
         for first, last in product(*around):
             fits = 0 < last - first <= n and last < len(path)
-            found = _chord(path[first : last + 1]) if fits else (0.0, 0.0)
-            if found[0] > chord and found[1] <= straight * found[0]:
-                start, end, chord = first, last, found[0]
+            best = _chord(path[first : last + 1]) if fits else (0.0, 0.0)
+            if best[0] > chord and best[1] <= straight * best[0]:
+                start, end, chord = first, last, best[0]
     low, high = cycle.angles[0] + cycle.span / n * np.array([start, end])
     return _confirmed(at, float(low), float(high), straight)
 

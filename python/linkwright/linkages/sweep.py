@@ -108,11 +108,11 @@ class LinkageSweep:
 
     def __init__(self, compiled: Compiled, mechanism: Mechanism, cycle: Cycle) -> None:
         self.compiled, self.cycle = compiled, cycle
-        self.dyads: list[Dyad] = [each for each in dyads_of(compiled) if each.kind != "group"]
+        self.dyads: list[Dyad] = [dyad for dyad in dyads_of(compiled) if dyad.kind != "group"]
         self.outputs: list[Output] = outputs_of(compiled, mechanism)
         channels = [transmission_channels(compiled, dyad) for dyad in self.dyads]
         self._ends = np.cumsum([0, *(len(channel) for channel in channels)])
-        self._channels = [each for part in channels for each in part]
+        self._channels = [channel for part in channels for channel in part]
         self._channels += [output.channel for output in self.outputs]
         self.mu, self.position, slopes = self._at(cycle.angles)
         for k, output in enumerate(self.outputs):
@@ -123,19 +123,19 @@ class LinkageSweep:
 
     def _at(self, angles: Floats) -> tuple[Floats, Floats, Floats]:
         """μ, positions, and what changes sign at extremes: dμ/dφ, then d1, then d2 of the outputs."""
-        found = evaluate(self.compiled, self._channels, angles)
+        values = evaluate(self.compiled, self._channels, angles)
         pairs = [
-            transmission(self.compiled, dyad, found[self._ends[k] : self._ends[k + 1]])
+            transmission(self.compiled, dyad, values[self._ends[k] : self._ends[k + 1]])
             for k, dyad in enumerate(self.dyads)
         ]
-        rest = found[self._ends[-1] :]
+        rest = values[self._ends[-1] :]
         links = [output.kind == "swing" for output in self.outputs]
         place = [np.arctan2(f[1], f[0]) if link else f[0] for f, link in zip(rest, links, strict=True)]
         d1 = [f[2] if link else f[1] for f, link in zip(rest, links, strict=True)]
         d2 = [f[3] if link else f[2] for f, link in zip(rest, links, strict=True)]
         n = len(angles)
-        mu = np.array([np.broadcast_to(each, n) for each, _ in pairs]).reshape(len(pairs), n)
-        slopes = np.array([*(np.broadcast_to(each, n) for _, each in pairs), *d1, *d2])
+        mu = np.array([np.broadcast_to(pair, n) for pair, _ in pairs]).reshape(len(pairs), n)
+        slopes = np.array([*(np.broadcast_to(pair, n) for _, pair in pairs), *d1, *d2])
         return mu, np.array(place).reshape(len(rest), n), slopes.reshape(len(pairs) + 2 * len(rest), n)
 
     def _locate(self, slopes: Floats) -> list[Floats]:
@@ -197,7 +197,7 @@ class LinkageSweep:
 
     def transmission(self, element: str) -> tuple[float, float, float, float] | None:
         """Minimum and maximum μ of a dyad, and their crank angles."""
-        k = next((k for k, each in enumerate(self.dyads) if each.name == element), None)
+        k = next((k for k, dyad in enumerate(self.dyads) if dyad.name == element), None)
         if k is None:
             return None
         at = np.concatenate(
@@ -259,7 +259,7 @@ def outputs_of(compiled: Compiled, mechanism: Mechanism) -> list[Output]:
     drivers.
     """
     names = _Names(compiled, mechanism)
-    return [each for element in compiled.elements for each in names.of(element)]
+    return [name for element in compiled.elements for name in names.of(element)]
 
 
 class _Names:

@@ -36,25 +36,31 @@ def _travel(linkage: Linkage) -> Table:
     )
 
 
-def _travel_row(each: ElementMotion) -> Row:
+def _travel_row(element: ElementMotion) -> Row:
     """Swing, stroke or turns, where the extremes are, and the ratios."""
-    if each.turns is not None:
-        travel, ends = f"{number(each.turns)} revolution{'s' if abs(each.turns) != 1 else ''}", ("–", "–")
-    elif each.swing is not None:
+    if element.turns is not None:
         travel, ends = (
-            measured(each.swing, "rad"),
-            (crank_angle(each.low_angle), crank_angle(each.high_angle)),
+            f"{number(element.turns)} revolution{'s' if abs(element.turns) != 1 else ''}",
+            ("–", "–"),
+        )
+    elif element.swing is not None:
+        travel, ends = (
+            measured(element.swing, "rad"),
+            (crank_angle(element.low_angle), crank_angle(element.high_angle)),
         )
     else:
-        travel, ends = measured(each.stroke, "m"), (crank_angle(each.low_angle), crank_angle(each.high_angle))
-    low, high = each.velocity_ratio_min, each.velocity_ratio_max
+        travel, ends = (
+            measured(element.stroke, "m"),
+            (crank_angle(element.low_angle), crank_angle(element.high_angle)),
+        )
+    low, high = element.velocity_ratio_min, element.velocity_ratio_max
     # Of what goes in a straight line, a length per angle.
-    per = "m/rad" if each.stroke is not None else ""
+    per = "m/rad" if element.stroke is not None else ""
     ratios = "–" if low is None else f"{parted(low, per, 4)[0]} to {quantity(high, per, 4)}"
-    unit = "1/m" if each.stroke is not None else ""
-    advantage = each.mechanical_advantage_min
+    unit = "1/m" if element.stroke is not None else ""
+    advantage = element.mechanical_advantage_min
     gain = measured(advantage, unit, digits=4, before="≥ ")
-    return each.output, "", travel, *ends, number(each.time_ratio, 4), ratios, gain
+    return element.output, "", travel, *ends, number(element.time_ratio, 4), ratios, gain
 
 
 def _transmission(linkage: Linkage) -> Table:

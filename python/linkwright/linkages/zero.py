@@ -60,13 +60,13 @@ def zero_angle(machine: Machine, where: str) -> Zero:
         The mechanism closes nowhere.
     """
     name, end = _parts(where)
-    each = _output(machine, name)
+    output = _output(machine, name)
     if end in ("top", "bottom"):
-        end, said = _end_at(machine, each, end), end
+        end, said = _end_at(machine, output, end), end
     else:
         said = end
-    angle = each.high_angle if end == "outer" else each.low_angle
-    return Zero(float(angle % (2 * np.pi)), f"{said} dead centre of {each.output}")
+    angle = output.high_angle if end == "outer" else output.low_angle
+    return Zero(float(angle % (2 * np.pi)), f"{said} dead centre of {output.output}")
 
 
 def _parts(where: str) -> tuple[str, str]:
@@ -96,19 +96,19 @@ def _output(machine: Machine, name: str) -> ElementMotion:
     raise InputError(f'zero: found "{wanted}", expected one of {", ".join(names)}')
 
 
-def _end_at(machine: Machine, each: ElementMotion, end: str) -> str:
+def _end_at(machine: Machine, output: ElementMotion, end: str) -> str:
     """Which end is the higher or the lower one."""
     heights = []
-    for angle in (each.low_angle, each.high_angle):
+    for angle in (output.low_angle, output.high_angle):
         points = pose(machine, float(angle)).points
-        place = points.get(each.output) or points.get(each.element)
+        place = points.get(output.output) or points.get(output.element)
         if place is None:
             raise InputError(
-                f"zero: {each.output} has no point whose height tells its {end}; use outer, inner"
+                f"zero: {output.output} has no point whose height tells its {end}; use outer, inner"
             )
         heights.append(float(place.position[1]))
     low, high = heights
-    travel = each.high - each.low
+    travel = output.high - output.low
     if abs(high - low) <= 1e-6 * travel:
-        raise InputError(f"zero: {each.output} is as high at both dead centres; use outer or inner")
+        raise InputError(f"zero: {output.output} is as high at both dead centres; use outer or inner")
     return "outer" if (high > low) == (end == "top") else "inner"

@@ -141,14 +141,14 @@ def resolve(node: object, address: str) -> tuple[str, ...]:
     top down; keys that do not exist are taken as they are written.
     """
     parts = split(address)
-    found: list[str] = []
+    addresses: list[str] = []
     while parts:
         known = keys(node)
         n = next((n for n in range(len(parts), 1, -1) if ".".join(parts[:n]) in known), 1)
         key = ".".join(parts[:n])
-        found.append(key)
+        addresses.append(key)
         node, parts = look(node, key), parts[n:]
-    return tuple(found)
+    return tuple(addresses)
 
 
 def known_place(machine: Machine, address: str) -> tuple[str, ...]:
@@ -190,15 +190,15 @@ def _numbers_of(address: str, value: Any, kind: Kind) -> Any:
     try:
         if not is_single:
             return array(address, value, finite=False)
-        found = number(address, value)
+        real = number(address, value)
     except InputError:
         expected = f"{kind.word} as a finite number in SI, or an array of numbers"
         raise MachineError([Problem(address, shown(value), expected)]) from None
-    if abs(found) > kind.most:
+    if abs(real) > kind.most:
         expected = f"{kind.word} of at most {kind.most:g} {kind.unit}".rstrip()
-        raise MachineError([Problem(address, f"{found:g}", expected)])
+        raise MachineError([Problem(address, f"{real:g}", expected)])
     # A whole number stays one.
-    return value if isinstance(value, int) else found
+    return value if isinstance(value, int) else real
 
 
 class _Leaf:

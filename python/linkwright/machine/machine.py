@@ -166,7 +166,7 @@ def _reference_faults(machine: object) -> list[InitErrorDetails]:
     train, topper = look(machine, "train"), look(machine, "topper")
     faults = list(_faults_of_train(machine, train))
     diagram = look(machine, "turning_moment")
-    stands_alone = any(each is not None for each in (unit, train, topper, diagram))
+    stands_alone = any(part is not None for part in (unit, train, topper, diagram))
     if not stands_alone and (mechanism is None or _is_left_out(machine)):
         return [fault("mechanism", expected="a table")]
     faults += _faults_of_unit(machine)

@@ -179,7 +179,7 @@ def _similar(path: Path) -> str:
     try:
         if path.exists():
             return ""
-        names = [each.name for each in path.parent.glob("*.toml")]
+        names = [file.name for file in path.parent.glob("*.toml")]
     except OSError:
         return ""
     return close_match(path.name, [*names, *(library() if _is_bare_name(path) else ())])
@@ -236,7 +236,7 @@ def _located(
     in_columns, others = _of_columns(problems, columns)
     # A file of points that is no such file has its place already.
     found = [other if other.path else _placed(other, lines, path, places) for other in others]
-    return [*sorted(found, key=lambda each: (each.line is None, each.line or 0)), *in_columns]
+    return [*sorted(found, key=lambda problem: (problem.line is None, problem.line or 0)), *in_columns]
 
 
 def _of_columns(
@@ -264,7 +264,7 @@ def _placed(
 ) -> Problem:
     """One problem with its place."""
     key = split(problem.key) if problem.key else ()
-    change = next((each for place, each in places if _touches(place, key, lines)), None)
+    change = next((column for place, column in places if _touches(place, key, lines)), None)
     if change is not None:
         return replace(problem, path=str(change))
     return replace(problem, path=path, line=line_of(lines, key))

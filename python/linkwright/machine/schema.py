@@ -22,7 +22,7 @@ def schema() -> dict[str, Any]:
 def _tidy(node: Any) -> Any:
     """Leave out what a TOML file cannot hold (null) and titles that repeat their key."""
     if isinstance(node, list):
-        return [_tidy(each) for each in node if each != {"type": "null"}]
+        return [_tidy(entry) for entry in node if entry != {"type": "null"}]
     if not isinstance(node, dict):
         return node
     kept = {key: _tidy(value) for key, value in node.items() if not _idle(key, value)}

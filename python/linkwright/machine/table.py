@@ -49,7 +49,7 @@ def machine_parts(machine: Machine) -> list[Part]:
     run-up.
     """
     parts = (_diagram, _topper, _drive, _train, _unit, _mechanism, _tables, _run_up)
-    return [part for each in parts for part in each(machine)]
+    return [part for one in parts for part in one(machine)]
 
 
 def _diagram(machine: Machine) -> Iterator[Part]:
@@ -156,11 +156,13 @@ def _entries(machine: Machine, place: Place, node: object, before: str = "") -> 
     for key in keys(node):
         value, word = look(node, key), f"{before}{key}".replace("_", " ")
         if isinstance(value, tuple) and value and isinstance(value[0], BaseModel):
-            for n, each in enumerate(value):
-                yield Entry(f"{word.removesuffix('s')} {n + 1}", _words(machine, (*place, key, str(n)), each))
-        elif isinstance(value, dict) and any(isinstance(each, BaseModel) for each in value.values()):
-            for name, each in value.items():
-                yield Entry(f"{word.removesuffix('s')} {name}", _words(machine, (*place, key, name), each))
+            for n, entry in enumerate(value):
+                yield Entry(
+                    f"{word.removesuffix('s')} {n + 1}", _words(machine, (*place, key, str(n)), entry)
+                )
+        elif isinstance(value, dict) and any(isinstance(entry, BaseModel) for entry in value.values()):
+            for name, entry in value.items():
+                yield Entry(f"{word.removesuffix('s')} {name}", _words(machine, (*place, key, name), entry))
         elif isinstance(value, Description) and value.shown_with_part:
             yield from _entries(machine, (*place, key), value, f"{word} ")
         # A zero that nobody wrote says nothing.
@@ -195,7 +197,9 @@ def _not_given(node: object) -> set[str]:
 def _value(machine: Machine, place: Place, value: Any) -> str:
     """One entry as text, with its unit."""
     if isinstance(value, dict):
-        return ", ".join(f"{name} = {_value(machine, (*place, name), each)}" for name, each in value.items())
+        return ", ".join(
+            f"{name} = {_value(machine, (*place, name), entry)}" for name, entry in value.items()
+        )
     if isinstance(value, tuple):
         if value and isinstance(value[0], str):
             return ", ".join(value)
@@ -215,11 +219,11 @@ def _list(machine: Machine, place: Place, values: tuple[float, ...]) -> str:
     shown = values[:_LONGEST_LIST]
     usual = "deg" if unit == "rad" else ""
     name, factor = reader().shown(pretty_unit(unit), usual)
-    texts = [number(each / factor, 6 if unit != "rad" else 5) for each in shown]
+    texts = [number(entry / factor, 6 if unit != "rad" else 5) for entry in shown]
     more = ["…"] if len(values) > len(shown) else []
     return f"{', '.join(texts + more)} {name}".rstrip()
 
 
 def grouped(parts: list[Part]) -> list[tuple[str, list[Part]]]:
     """Parts of a machine with the heading of each group."""
-    return [(group, list(found)) for group, found in groupby(parts, key=lambda part: part.group)]
+    return [(group, list(members)) for group, members in groupby(parts, key=lambda part: part.group)]

@@ -36,10 +36,10 @@ def columns(
     """
     together = [name for name in names if is_given(machine, name)]
     groups = [together, *([name] for name in names if name not in set(together))]
-    found: dict[str, Floats] = {}
+    derivatives: dict[str, Floats] = {}
     for group in filter(None, groups):
-        found |= _of_group(machine, group, numbers, refused)
-    return found
+        derivatives |= _of_group(machine, group, numbers, refused)
+    return derivatives
 
 
 def _of_group(
@@ -55,10 +55,10 @@ def _of_group(
             refused[names[0]] = _reason(names[0], error)
             return {}
     # One of them has no derivative: which, is found one by one.
-    found: dict[str, Floats] = {}
+    derivatives: dict[str, Floats] = {}
     for name in names:
-        found |= _of_group(machine, [name], numbers, refused)
-    return found
+        derivatives |= _of_group(machine, [name], numbers, refused)
+    return derivatives
 
 
 def _reason(name: str, error: Exception) -> str:
@@ -109,16 +109,16 @@ def directions(machine: Machine, variables: Sequence[str]) -> Directions:
     """
     compiled = compile_machine(machine)
     refused: dict[str, str] = {}
-    found = columns(machine, variables, _numbers, refused)
+    derivatives = columns(machine, variables, _numbers, refused)
     if any(getattr(element, "change_points", ()) for element in compiled.elements):
         n_own = Translation(machine, motor=True, brake=False).program.n_own
-        moved = [name for name, column in found.items() if column[:n_own].any()]
+        moved = [name for name, column in derivatives.items() if column[:n_own].any()]
         refused.update(dict.fromkeys(moved, _CHANGE_POINTS))
-    known = tuple(name for name in variables if name in found and name not in refused)
+    known = tuple(name for name in variables if name in derivatives and name not in refused)
     # Numbers that follow from the motion, at the end, are series at change points: nothing here moves them.
     values = np.zeros((len(compiled.parameters), len(known)))
     for place, name in enumerate(known):
-        values[: len(found[name]), place] = found[name]
+        values[: len(derivatives[name]), place] = derivatives[name]
     return Directions(known, values, refused)
 
 

@@ -39,8 +39,8 @@ def _driven(own: Mechanism) -> Mechanism:
 
     points = own.fixed_points()
     made = {name: follower_of(cam, points) for name, cam in own.cams.items()}
-    cranks = {name: each for name, each in made.items() if isinstance(each, Crank)}
-    drivers = {name: each for name, each in made.items() if isinstance(each, LinearDriver)}
+    cranks = {name: driver for name, driver in made.items() if isinstance(driver, Crank)}
+    drivers = {name: driver for name, driver in made.items() if isinstance(driver, LinearDriver)}
     return own.with_entries(
         {
             "cams": {},
@@ -107,8 +107,8 @@ def topology_of(machine: object) -> Topology:
 
 def _joined(table: str, own: object, *expanded: Mapping[str, Any]) -> dict[str, Any]:
     """One table of names: those of the file and those that are expanded."""
-    found = look(own, table)
-    joined = {name: look(found, name) for name in keys(found)}
-    for each in expanded:
-        joined |= each.get(table, {})
+    elements = look(own, table)
+    joined = {name: look(elements, name) for name in keys(elements)}
+    for element in expanded:
+        joined |= element.get(table, {})
     return joined

@@ -103,11 +103,11 @@ def _plain(value: Any, place: tuple[str, ...], machine: Machine) -> Any:
     if isinstance(value, BaseModel):
         return _table(value, place, machine)
     if isinstance(value, dict):
-        return {key: _plain(each, (*place, key), machine) for key, each in value.items()}
+        return {key: _plain(entry, (*place, key), machine) for key, entry in value.items()}
     if isinstance(value, tuple):
-        is_tables = any(isinstance(each, BaseModel) for each in value)
+        is_tables = any(isinstance(entry, BaseModel) for entry in value)
         return [
-            _plain(each, (*place, str(n)), machine) if is_tables else each for n, each in enumerate(value)
+            _plain(entry, (*place, str(n)), machine) if is_tables else entry for n, entry in enumerate(value)
         ]
     if not isinstance(value, str | int | float):
         raise InputError(f"{'.'.join(place)}: {show(value)} is not one value; write one machine at a time")

@@ -81,8 +81,8 @@ def _several(values: list[Any], spec: str, join: str) -> str:
     if not values:
         return "none"
     form, _, unit = spec.partition(" ")
-    each = [shown(value, f"{form} ({unit.strip('()')})" if unit else form) for value in values]
-    return join.join(each) + (UNITS[unit][1] if unit and not unit.startswith("(") else "")
+    texts = [shown(value, f"{form} ({unit.strip('()')})" if unit else form) for value in values]
+    return join.join(texts) + (UNITS[unit][1] if unit and not unit.startswith("(") else "")
 
 
 def _number(value: float, spec: str) -> str:
@@ -115,8 +115,8 @@ def conclusion(data: Mapping[str, Any], values: Mapping[str, Any]) -> str:
     enumerations in it: name → ``of``, ``text`` and ``join``.
     """
     lists = {
-        name: each["join"].join(filled(each["text"], item) for item in named(values, each["of"]))
-        for name, each in data.get("lists", {}).items()
+        name: entries["join"].join(filled(entries["text"], item) for item in named(values, entries["of"]))
+        for name, entries in data.get("lists", {}).items()
     }
     text = filled(data["text"], ChainMap(lists, dict(values)))
     return text if named(values, data["holds"]) else f"Not so by the numbers computed: {text}"

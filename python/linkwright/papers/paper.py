@@ -92,18 +92,18 @@ class Paper:
     @property
     def rows(self) -> tuple[Row, ...]:
         """Every claim with its verdict."""
-        return tuple(judged(each, self.values) for each in self.published["claim"])
+        return tuple(judged(claim, self.values) for claim in self.published["claim"])
 
     @property
     def conclusions(self) -> list[str]:
         """What the numbers say, in a few sentences each."""
         values = self.values | {"rows": self.rows}
-        return [conclusion(each, values) for each in self.published["conclusion"]]
+        return [conclusion(entry, values) for entry in self.published["conclusion"]]
 
     @property
     def tables(self) -> list[Table]:
         """Further tables."""
-        return [table for each in self.published.get("table", ()) for table in _tables(each, self.values)]
+        return [table for entry in self.published.get("table", ()) for table in _tables(entry, self.values)]
 
     def text(self, name: str) -> str:
         """One of the texts in the file of data, filled."""
@@ -111,8 +111,8 @@ class Paper:
 
     def to_dict(self) -> dict[str, Any]:
         """Everything, ready for JSON."""
-        told = {"rows": [row.to_dict() for row in self.rows], "conclusions": self.conclusions}
-        return self.entries() | told
+        results = {"rows": [row.to_dict() for row in self.rows], "conclusions": self.conclusions}
+        return self.entries() | results
 
 
 def _tables(data: Mapping[str, Any], values: Mapping[str, Any]) -> Iterator[Table]:

@@ -23,14 +23,14 @@ def unit_cautions(
     machine: Machine, unit: PumpingUnitMotion | None, rotator: RodRotatorMotion | None
 ) -> tuple[str, ...]:
     """All that should be known of a unit and its rotator."""
-    found: list[str] = []
+    sentences: list[str] = []
     if unit is not None:
-        found += _stroke(unit)
-        found += _fall(unit)
-        found += _gear(unit.gear) if unit.gear else []
+        sentences += _stroke(unit)
+        sentences += _fall(unit)
+        sentences += _gear(unit.gear) if unit.gear else []
     if rotator is not None:
-        found += _lever(machine, rotator)
-    return tuple(found)
+        sentences += _lever(machine, rotator)
+    return tuple(sentences)
 
 
 def _stroke(unit: PumpingUnitMotion) -> Iterator[str]:

@@ -62,16 +62,16 @@ class Lever:
     def motion(self, angles: Floats) -> LeverMotion:
         """Link and lever at crank angles [rad]."""
         asked = [("points", PIN), ("points", ROD), ("links", LINK), ("links", LEVER)]
-        found = motion_arrays(self.compiled, np.ascontiguousarray(angles), asked)[0]
-        if not np.isfinite(found).all():
-            at = float(angles[int(np.argmin(np.isfinite(found).all(axis=0)))])
+        motion = motion_arrays(self.compiled, np.ascontiguousarray(angles), asked)[0]
+        if not np.isfinite(motion).all():
+            at = float(angles[int(np.argmin(np.isfinite(motion).all(axis=0)))])
             raise AssemblyError(
                 f"the pin of the rotator passes over the hanger at crank angle {np.degrees(at):.2f}°, where "
                 "the lever may point anywhere; give the hanger cable a free length (pumping_unit.cable)",
                 element="rotator",
                 crank_angle=at,
             )
-        pin, hanger, link, lever = found[0:2], found[6:8], found[12:16], found[16:20]
+        pin, hanger, link, lever = motion[0:2], motion[6:8], motion[12:16], motion[16:20]
         l_4, l_5 = self.lengths
         gap = pin + l_4 * link[:2] - hanger - l_5 * lever[:2]
         return LeverMotion(

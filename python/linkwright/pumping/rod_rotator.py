@@ -259,7 +259,7 @@ def _missed(rotator: RodRotator, known: Lengths, turns: float, swing: float) -> 
 def _change_points(known: Lengths, rod: PolishedRod, at_ends: Floats) -> tuple[float, ...]:
     """Crank angles at the ends of the stroke where link and lever are in line."""
     in_line = (abs(known.link - known.lever), known.link + known.lever)
-    is_change = [abs(each - other) <= 1e-12 * each for each, other in zip(at_ends, in_line, strict=True)]
+    is_change = [abs(end - other) <= 1e-12 * end for end, other in zip(at_ends, in_line, strict=True)]
     return tuple(sorted(angle for angle, yes in zip((rod.top, rod.bottom), is_change, strict=True) if yes))
 
 

@@ -62,18 +62,19 @@ def sensitivity(
 
     folder = output_folder(out, force=force)
     machine = read(file, set or (), allow_outside=allow_outside)
-    found = gradient(machine, of, by)
-    told = found if of else _few(found)
+    derivatives = gradient(machine, of, by)
+    shown = derivatives if of else _few(derivatives)
     hand_over(
         Answer(
             machine=machine.name,
             units=machine.units,
-            results=lambda curves: found.to_dict(),
+            results=lambda curves: derivatives.to_dict(),
             warnings=[
-                f"{name} has a derivative on either side only: {why}" for name, why in found.ties.items()
+                f"{name} has a derivative on either side only: {why}"
+                for name, why in derivatives.ties.items()
             ],
-            tables=lambda: list(gradient_tables(told)),
-            figures=partial(_figures, told),
+            tables=lambda: list(gradient_tables(shown)),
+            figures=partial(_figures, shown),
         ),
         json=json,
         folder=folder,

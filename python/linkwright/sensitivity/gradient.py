@@ -49,8 +49,8 @@ class Gradient(Result):
     def elasticities(self) -> Annotated[Floats, About("Share of change of response over that of variable.")]:
         """x/y · dy/dx, (n, m) [–]; NaN where the response is zero."""
         with np.errstate(divide="ignore", invalid="ignore"):
-            found = self.derivatives * self.at / self.values[:, None]
-        return np.where(np.isfinite(found), found, np.nan)
+            elasticities = self.derivatives * self.at / self.values[:, None]
+        return np.where(np.isfinite(elasticities), elasticities, np.nan)
 
     def of(self, response: str) -> dict[str, float]:
         """Derivatives of one response by address [SI]."""
@@ -135,26 +135,26 @@ def gradient(
         get(machine, name)
     asked = [usual_analysis(machine)] if responses is None else list(dict.fromkeys(responses))
     sources = {name: source(machine, name, names) for name in dict.fromkeys(map(analysis_of, asked))}
-    refused = {name: why for each in sources.values() for name, why in each.refused.items()}
+    refused = {name: why for source in sources.values() for name, why in source.refused.items()}
     if variables is not None and refused:
         name, reason = next(iter(refused.items()))
         raise InputError(f"{name}: it has no derivative: {reason}; leave it out")
     known = tuple(name for name in names if name not in refused)
-    found = [
-        (sources[analysis_of(name)], each)
+    asked_of = [
+        (sources[analysis_of(name)], response)
         for name in asked
-        for each in _named(sources[analysis_of(name)], name)
+        for response in _named(sources[analysis_of(name)], name)
     ]
     return Gradient(
-        responses=tuple(name for _, name in found),
-        words=tuple(each.words[name] for each, name in found),
+        responses=tuple(name for _, name in asked_of),
+        words=tuple(source.words[name] for source, name in asked_of),
         variables=known,
-        units=tuple(each.units[name] for each, name in found),
+        units=tuple(source.units[name] for source, name in asked_of),
         variable_units=tuple(_unit(machine, name) for name in known),
-        values=np.array([each.tangents[name].value for each, name in found]),
+        values=np.array([source.tangents[name].value for source, name in asked_of]),
         at=np.array([float(get(machine, name)) for name in known]),
-        derivatives=np.stack([_row(each, name, known) for each, name in found]),
-        ties={name: each.ties[name] for each, name in found if name in each.ties},
+        derivatives=np.stack([_row(source, name, known) for source, name in asked_of]),
+        ties={name: source.ties[name] for source, name in asked_of if name in source.ties},
         refused=refused,
     )
 
@@ -176,5 +176,5 @@ def _row(of: Source, name: str, variables: Sequence[str]) -> Floats:
 
 
 def _unit(machine: Machine, address: str) -> str:
-    found = kind(machine, address)
-    return found.unit if found else ""
+    entry = kind(machine, address)
+    return entry.unit if entry else ""

@@ -59,19 +59,19 @@ def source(machine: Machine, analysis: str, variables: Sequence[str]) -> Source:
 
 def _steady(machine: Machine, variables: Sequence[str]) -> Source:
     """Scalars of steady motion."""
-    found = directions(machine, variables)
-    steady = steady_tangents(machine, found.values)
+    program = directions(machine, variables)
+    steady = steady_tangents(machine, program.values)
     listed = [name for name, (_, mark) in declared(SteadyState).items() if isinstance(mark, Shown)]
     values = {name: getattr(steady.state, name) for name in listed}
     tangents = {name: value for name, value in values.items() if isinstance(value, Tangent)}
     marks = {name: shown(SteadyState, name) for name in tangents}
     return Source(
-        found.variables,
+        program.variables,
         {f"steady_state.{name}": value for name, value in tangents.items()},
         {f"steady_state.{name}": f"{mark.word} {mark.symbol}".strip() for name, mark in marks.items()},
         {f"steady_state.{name}": mark.unit for name, mark in marks.items()},
         {f"steady_state.{name}": reason for name in tangents if (reason := _tie(name, steady.ties))},
-        found.refused,
+        program.refused,
         [f"steady_state.{name}" for name in tangents],
     )
 
@@ -100,10 +100,12 @@ def _free(machine: Machine, variables: Sequence[str]) -> Source:
 
     tangents = mode_tangents(machine, variables)
     frequencies = {
-        f"free_vibration.natural_frequencies.{i}": each for i, each in tangents.natural_frequencies.items()
+        f"free_vibration.natural_frequencies.{i}": tangent
+        for i, tangent in tangents.natural_frequencies.items()
     }
     shapes = {
-        f"free_vibration.mode_shapes.{i}.{disc}": each for (i, disc), each in tangents.mode_shapes.items()
+        f"free_vibration.mode_shapes.{i}.{disc}": tangent
+        for (i, disc), tangent in tangents.mode_shapes.items()
     }
     words = {name: f"natural frequency of mode {name.rsplit('.', 1)[-1]}" for name in frequencies}
     words |= {
@@ -121,18 +123,18 @@ def _forced(machine: Machine, variables: Sequence[str]) -> Source:
     """Largest torques of shafts over the speeds."""
     from linkwright.torsion.gradient.forced import forced_tangents
 
-    found = forced_tangents(machine, variables)
+    forced = forced_tangents(machine, variables)
     kinds = {"vibratory": "shaft_torque_vibratory", "greatest": "shaft_torque_max"}
     said = {"vibratory": "largest vibratory torque of", "greatest": "largest torque of"}
     tangents, words, ties = {}, {}, {}
     for kind, quantity in kinds.items():
-        for shaft, each in getattr(found, kind).items():
+        for shaft, tangent in getattr(forced, kind).items():
             name = f"forced_vibration.{quantity}.{shaft}"
-            tangents[name], words[name] = each, f"{said[kind]} {shaft} over the speeds"
-            if reason := found.ties.get(f"{kind}.{shaft}"):
+            tangents[name], words[name] = tangent, f"{said[kind]} {shaft} over the speeds"
+            if reason := forced.ties.get(f"{kind}.{shaft}"):
                 ties[name] = reason
     units = dict.fromkeys(tangents, "N m")
-    return Source(found.variables, tangents, words, units, ties, found.refused, list(tangents))
+    return Source(forced.variables, tangents, words, units, ties, forced.refused, list(tangents))
 
 
 # Analysis → its results with derivatives.

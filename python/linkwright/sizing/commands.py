@@ -130,12 +130,12 @@ def _tracked(types: Sequence[CatalogueMotor]) -> Iterator[CatalogueMotor]:
     from time import monotonic
 
     start, bar = monotonic(), None
-    for done, each in enumerate(types):
+    for done, motor in enumerate(types):
         if bar is None and monotonic() - start > _PATIENCE and sys.stderr.isatty():
             bar = progress_bar("motors", len(types))
         if bar is not None:
             bar.update(bar.task_ids[0], completed=done)
-        yield each
+        yield motor
     if bar is not None:
         bar.stop()
 
@@ -237,10 +237,10 @@ def _considered_table(motor: MotorChoice) -> Grid:
     for word in ("type", unit, "ratio", "inertia", "verdict"):
         table.add_column(word, justify="left" if word in ("type", "verdict") else "right")
     moment, heavy = reader().shown("kg m²")
-    for each in _shown(motor):
-        inertia = f"{number(each.inertia / heavy, 3)}{'*' if each.inertia_estimated else ''}"
-        power = f"{each.known.power_rated / size:.4g}"
-        table.add_row(each.type, power, f"{each.ratio:.4g}", inertia, _verdict(each, motor))
+    for candidate in _shown(motor):
+        inertia = f"{number(candidate.inertia / heavy, 3)}{'*' if candidate.inertia_estimated else ''}"
+        power = f"{candidate.known.power_rated / size:.4g}"
+        table.add_row(candidate.type, power, f"{candidate.ratio:.4g}", inertia, _verdict(candidate, motor))
     others = len(motor.candidates) - len(_suited(motor))
     remark = f"; {others} types have another speed: see --free-ratio" if others else ""
     table.caption, table.caption_justify = f"inertia in {moment}; * estimated{remark}", "left"
@@ -249,13 +249,13 @@ def _considered_table(motor: MotorChoice) -> Grid:
 
 def _shown(motor: MotorChoice) -> list[Candidate]:
     """Motors from half the required power to a little beyond the one that is chosen."""
-    ranked = sorted(_suited(motor), key=lambda each: each.known.power_rated)
-    enough = [each for each in ranked if each.known.power_rated >= 0.5 * motor.required.power]
+    ranked = sorted(_suited(motor), key=lambda candidate: candidate.known.power_rated)
+    enough = [candidate for candidate in ranked if candidate.known.power_rated >= 0.5 * motor.required.power]
     enough = enough if len(enough) > _BEYOND else ranked[-_BEYOND - 1 :]
     if motor.chosen is None:
         return enough
-    at = next(n for n, each in enumerate(enough) if each is motor.chosen)
-    beyond = [each for each in enough[at + 1 :] if each.passes]
+    at = next(n for n, candidate in enumerate(enough) if candidate is motor.chosen)
+    beyond = [candidate for candidate in enough[at + 1 :] if candidate.passes]
     return [*enough[: at + 1], *beyond[:_BEYOND]]
 
 
@@ -266,10 +266,14 @@ def _suited(motor: MotorChoice) -> list[Candidate]:
     )
 
 
-def _verdict(each: Candidate, motor: MotorChoice) -> str | Text:
-    if each is motor.chosen:
+def _verdict(candidate: Candidate, motor: MotorChoice) -> str | Text:
+    if candidate is motor.chosen:
         return styled(("chosen", "bold green"))
-    return "passes, larger than needed" if each.passes else ", ".join(check.brief for check in each.failed)
+    return (
+        "passes, larger than needed"
+        if candidate.passes
+        else ", ".join(check.brief for check in candidate.failed)
+    )
 
 
 def _flywheel_words(flywheel: FlywheelChoice) -> Text:
@@ -313,7 +317,7 @@ def motors(poles: Poles = None, power_min: PowerMin = "0 W", series: Series = ""
     hand_over(
         Answer(
             machine=None,
-            results=lambda curves: {"motors": [_entries(each) for each in chosen]},
+            results=lambda curves: {"motors": [_entries(known) for known in chosen]},
             tables=partial(_tables, chosen),
         ),
         json=json,
@@ -328,21 +332,21 @@ def _chosen(poles: int | None, power_min: str, series: str) -> list[CatalogueMot
     from linkwright.kernel.units import POWER
 
     power, known = option_value("--power-min", power_min, POWER), motors()
-    names = list(dict.fromkeys(each.series for each in known))
+    names = list(dict.fromkeys(motor.series for motor in known))
     if series and series not in names:
         raise InputError(f'--series: there is no series "{series}": {suggestion(series, names)}')
-    numbers = sorted({each.poles for each in known})
+    numbers = sorted({motor.poles for motor in known})
     if poles is not None and poles not in numbers:
         listed = ", ".join(map(str, numbers))
         raise InputError(f"--poles: found {poles}, the catalogue has motors with {listed} poles")
-    found = [
-        each
-        for each in known
-        if each.power_rated >= power and poles in (None, each.poles) and series in ("", each.series)
+    chosen = [
+        motor
+        for motor in known
+        if motor.power_rated >= power and poles in (None, motor.poles) and series in ("", motor.series)
     ]
-    if not found:
+    if not chosen:
         raise InputError(f"no motor of the catalogue has {power:.6g} W or more and is as asked for")
-    return sorted(found, key=lambda each: (each.poles, each.power_rated))
+    return sorted(chosen, key=lambda motor: (motor.poles, motor.power_rated))
 
 
 def _entries(motor: CatalogueMotor) -> dict[str, Any]:
@@ -353,11 +357,11 @@ def _entries(motor: CatalogueMotor) -> dict[str, Any]:
     return {**asdict(motor), "inertia": inertia, "inertia_is_estimated": estimated}
 
 
-def _tables(found: list[CatalogueMotor]) -> list[Table]:
+def _tables(motors: list[CatalogueMotor]) -> list[Table]:
     from linkwright.kernel.page.table import Table
 
     heads = ("type", "", "poles", "power", "speed", "torque", "breakdown", "start", "inertia", "series")
-    return [Table("motors", "Motors of the catalogue", heads, [_row(each) for each in found])]
+    return [Table("motors", "Motors of the catalogue", heads, [_row(motor) for motor in motors])]
 
 
 def _row(motor: CatalogueMotor) -> Row:

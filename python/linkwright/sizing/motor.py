@@ -140,7 +140,7 @@ class MotorChoice(Record):
                 f"no motor of the catalogue suits the ratio at {self.required.speed:.4g} rad/s: ratios from "
                 f"{ratios[0]:.3g} to {ratios[-1]:.3g} would, see free_ratio"
             )
-        best = min(suited, key=lambda each: (each.worst, abs(each.known.power_rated - need)))
+        best = min(suited, key=lambda candidate: (candidate.worst, abs(candidate.known.power_rated - need)))
         return (
             f"no motor of the catalogue suffices: {need / 1e3:.4g} kW are needed; the nearest, {best.type} "
             f"({best.known.power_rated / 1e3:.4g} kW), is refused: {best.reason}"
@@ -222,19 +222,19 @@ def choose_motor(
         )
     given = own_inertia(machine) | {catalogue_motor(type).type: J for type, J in (inertias or {}).items()}
     judge = _Judge(machine, required, reserve, by, free_ratio or not _has_ratio(machine), unevenness, given)
-    found = sorted((judge.candidate(known) for known in track(motors())), key=_rank)
-    chosen = found[0] if found[0].passes else None
+    candidates = sorted((judge.candidate(known) for known in track(motors())), key=_rank)
+    chosen = candidates[0] if candidates[0].passes else None
     present = present_checks(machine, required, reserve)
-    warnings = (*judge.doubts(chosen), *_smaller(found, chosen, by))
-    return MotorChoice(required, reserve, by, tuple(found), chosen, present, warnings)
+    warnings = (*judge.doubts(chosen), *_smaller(candidates, chosen, by))
+    return MotorChoice(required, reserve, by, tuple(candidates), chosen, present, warnings)
 
 
 def _smaller(candidates: Sequence[Candidate], chosen: Candidate | None, by: By) -> list[str]:
     """The smaller motor that would do if the machine need not start from its worst angle."""
     if by != "all":
         return []
-    would = [replace(each, decisive=DECISIVE["fixed-start"]) for each in candidates]
-    least = min((each for each in would if each.passes), key=_rank, default=None)
+    would = [replace(candidate, decisive=DECISIVE["fixed-start"]) for candidate in candidates]
+    least = min((candidate for candidate in would if candidate.passes), key=_rank, default=None)
     if least is None or (chosen and least.known.power_rated >= chosen.known.power_rated):
         return []
     power = least.known.power_rated / 1e3
@@ -276,9 +276,9 @@ def _lacking(known: CatalogueMotor) -> Check | None:
     return Check("torque_peak", None, None, "N m", None, note=note)
 
 
-def _rank(each: Candidate) -> tuple[bool, float, str]:
+def _rank(candidate: Candidate) -> tuple[bool, float, str]:
     """Those that pass first, then the smaller ones."""
-    return not each.passes, each.known.power_rated, each.type
+    return not candidate.passes, candidate.known.power_rated, candidate.type
 
 
 @dataclass(frozen=True)

@@ -177,14 +177,14 @@ class _Problem:
         """The cheapest ones that keep all limits by z deviations; the narrowest if none do, (variables,)."""
         from scipy.optimize import minimize
 
-        found = np.ones(len(self.costs))
+        factors = np.ones(len(self.costs))
         own, fixed = self.table[:, self.free], np.delete(self.table, self.free, axis=1).sum(axis=1)
         costs = self.costs[self.free] / self.costs.sum()
         edge = np.log(_FACTOR)
         room = z**-2.0 - fixed
         if (room <= own.sum(axis=1) * np.exp(-2 * edge)).any():
-            found[self.free] = 1 / _FACTOR
-            return found
+            factors[self.free] = 1 / _FACTOR
+            return factors
 
         def use(x: Floats) -> Floats:
             used: Floats = np.log(own @ np.exp(2 * x) / room)
@@ -212,8 +212,8 @@ class _Problem:
             raise ConvergenceError(
                 f"the cheapest tolerances were not found ({best.message})", method="SLSQP", iterations=300
             )
-        found[self.free] = np.exp(best.x)
-        return found
+        factors[self.free] = np.exp(best.x)
+        return factors
 
     def active(self, factors: Floats, z: float) -> tuple[str, ...]:
         """Limits that are nearest by their deviations."""
@@ -225,7 +225,7 @@ def _moments(plan: StudyPlan) -> tuple[Floats, Floats]:
     """Means and standard deviations of the variables as they are cut off."""
     shares = (np.arange(2000) + 0.5) / 2000
     values = [axis.values(shares) for axis in plan.axes]
-    return np.array([each.mean() for each in values]), np.array([each.std() for each in values])
+    return np.array([column.mean() for column in values]), np.array([column.std() for column in values])
 
 
 def _widened(axis: Axis, factor: float) -> Axis:

@@ -99,8 +99,8 @@ class Axis:
         if self.is_log:
             # Both ends are met exactly.
             powers = np.log(self.low) * (1 - shares) + np.log(self.high) * shares
-            found: Floats = np.clip(np.exp(powers), self.low, self.high)
-            return found
+            values: Floats = np.clip(np.exp(powers), self.low, self.high)
+            return values
         return self.low * (1 - shares) + self.high * shares
 
 
@@ -110,7 +110,7 @@ def axis(machine: Machine, name: str, variable: Variable) -> Axis:
     Raises `MachineError`, keys from those of the variable on, if an address does not exist, or a value is not
     possible there.
     """
-    units = [_kind(machine, name, each) for each in variable.address]
+    units = [_kind(machine, name, address) for address in variable.address]
     found = units[0]
     if any(unit is not None and found is not None and unit.unit != found.unit for unit in units):
         words = " and ".join(unit.word for unit in units if unit is not None)
@@ -160,18 +160,18 @@ def _kind(machine: Machine, name: str, address: str) -> Kind | None:
     return COUNT if isinstance(value, int | float) and not isinstance(value, bool) else None
 
 
-def _choices(machine: Machine, name: str, variable: Variable, found: Kind | None) -> tuple[Any, ...]:
+def _choices(machine: Machine, name: str, variable: Variable, kind: Kind | None) -> tuple[Any, ...]:
     """The values of a list, numbers in SI."""
     given = variable.values or ()
-    if found is None:
+    if kind is None:
         return given
-    return tuple(_parsed(name, f"values.{i}", value, found) for i, value in enumerate(given))
+    return tuple(_parsed(name, f"values.{i}", value, kind) for i, value in enumerate(given))
 
 
-def _parsed(name: str, key: str, value: object, found: Kind) -> float:
+def _parsed(name: str, key: str, value: object, kind: Kind) -> float:
     """A value as the quantity of its entry."""
     try:
-        return parse(value, found)
+        return parse(value, kind)
     except UnitError as error:
         problem = error.problem
         raise _problem(name, key, problem.found, problem.expected, problem.remedy) from None
@@ -188,13 +188,13 @@ def _check_range(name: str, variable: Variable, low: float, high: float) -> None
         raise _problem(name, "steps", str(variable.steps), "nothing: a range of whole numbers has its own")
 
 
-def _toleranced(name: str, value: object, text: str, found: Kind) -> tuple[float, float]:
+def _toleranced(name: str, value: object, text: str, kind: Kind) -> tuple[float, float]:
     """Limits of an entry by the text of its tolerance."""
     if not isinstance(value, int | float):
         raise _problem(name, "tolerance", "an entry without a value", "an entry that the machine has")
     plain = text.replace("−", "-")
     if code := iso286.CODE.fullmatch(plain):
-        return _coded(name, float(value), text, code, found)
+        return _coded(name, float(value), text, code, kind)
     if match := _EVEN.fullmatch(plain):
         parts, unit = [f"-{match[1]}", match[1]], match[2]
     elif match := _UNEVEN.fullmatch(plain):
@@ -202,7 +202,7 @@ def _toleranced(name: str, value: object, text: str, found: Kind) -> tuple[float
     else:
         raise _problem(name, "tolerance", show(text), 'such as "± 0.2 mm", "+0.1 -0.3 mm" or "25 H7"')
     ends = [
-        _parsed(name, "tolerance", f"{part} {unit}".strip() if unit else float(part), found) for part in parts
+        _parsed(name, "tolerance", f"{part} {unit}".strip() if unit else float(part), kind) for part in parts
     ]
     low, high = sorted(value + end for end in ends)
     if not low < high:
@@ -210,11 +210,11 @@ def _toleranced(name: str, value: object, text: str, found: Kind) -> tuple[float
     return low, high
 
 
-def _coded(name: str, value: float, text: str, code: re.Match[str], found: Kind) -> tuple[float, float]:
+def _coded(name: str, value: float, text: str, code: re.Match[str], kind: Kind) -> tuple[float, float]:
     """Limits of a size by its class of ISO 286; the nominal size is that of the machine."""
-    if found.unit != LENGTH.unit:
+    if kind.unit != LENGTH.unit:
         raise _problem(
-            name, "tolerance", f"{show(text)} of {found.word}", "limits with a unit: classes are of lengths"
+            name, "tolerance", f"{show(text)} of {kind.word}", "limits with a unit: classes are of lengths"
         )
     size, letter, grade = code.groups()
     if size is not None and abs(float(size) * 1e-3 - value) > 1e-9 * abs(value):
@@ -227,10 +227,10 @@ def _coded(name: str, value: float, text: str, code: re.Match[str], found: Kind)
     return value + limits[0], value + limits[1]
 
 
-def _scatter(name: str, given: Distribution, found: Kind) -> tuple[tuple[str, float, float], float, float]:
+def _scatter(name: str, given: Distribution, kind: Kind) -> tuple[tuple[str, float, float], float, float]:
     """Kind, mean, deviation; and the ends of a distribution."""
     read = {
-        key: _parsed(name, f"distribution.{key}", value, found)
+        key: _parsed(name, f"distribution.{key}", value, kind)
         for key in ("mean", "deviation", "least", "greatest")
         if (value := getattr(given, key)) is not None
     }
@@ -299,8 +299,8 @@ def _bell(kind: str, mean: float, deviation: float) -> tuple[float, float]:
 
 def _unscored(kind: str, mean: float, deviation: float, scores: Floats) -> Floats:
     middle, width = _bell(kind, mean, deviation)
-    found = middle + width * scores
-    return np.exp(found) if kind == "lognormal" else found
+    values = middle + width * scores
+    return np.exp(values) if kind == "lognormal" else values
 
 
 def _problem(name: str, key: str, found: str, expected: str, remedy: str = "") -> MachineError:

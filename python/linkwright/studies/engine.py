@@ -90,8 +90,8 @@ def evaluate(plan: StudyPlan, variables: Mapping[str, Floats]) -> Rows:
     columns = {name: np.asarray(column, dtype=float) for name, column in variables.items()}
     rows = Rows(columns, np.zeros(n, np.uint8), np.zeros(n, np.int32), [""])
     _add_formulas(rows, plan.derived, IMPOSSIBLE)
-    for each in plan.asked:
-        columns[each.name] = np.full(n, np.nan)
+    for asked in plan.asked:
+        columns[asked.name] = np.full(n, np.nan)
     entries = _entries(plan, columns)
     for machine, members in _machines(plan, rows):
         _solve(plan, machine, entries, rows, members)
@@ -107,7 +107,7 @@ def evaluate(plan: StudyPlan, variables: Mapping[str, Floats]) -> Rows:
 def _entries(plan: StudyPlan, columns: Mapping[str, Floats]) -> dict[str, Floats]:
     """Address → its values, of all that are numbers."""
     numbers = [(axis.name, axis.addresses) for axis in plan.axes if axis.is_number]
-    numbers += [(each.name, each.addresses) for each in plan.derived]
+    numbers += [(entry.name, entry.addresses) for entry in plan.derived]
     return {place: columns[name] for name, addresses in numbers for place in addresses}
 
 
@@ -122,9 +122,9 @@ def _machines(plan: StudyPlan, rows: Rows) -> Any:
     kinds, members = np.unique(places, axis=0, return_inverse=True)
     for nth, kind in enumerate(kinds):
         changes = [
-            (address, each.choices[place])
-            for each, place in zip(choices, kind, strict=True)
-            for address in each.addresses
+            (address, choice.choices[place])
+            for choice, place in zip(choices, kind, strict=True)
+            for address in choice.addresses
         ]
         own = sound[members.ravel() == nth]
         try:
@@ -137,16 +137,16 @@ def variant(machine: Machine, changes: list[tuple[str, Any]]) -> Machine:
     """The machine with entries exchanged as by ``--set``, and checked as a whole."""
     tables: dict[str, Any] = machine.model_dump(by_alias=True, exclude_unset=True)
     tables = _open(tables)
-    for address, each in changes:
-        apply(tables, Override(address, each, ""))
+    for address, entry in changes:
+        apply(tables, Override(address, entry, ""))
     return Machine.model_validate(tables)
 
 
 def _open(node: Any) -> Any:
     """Tables and lists that may be written to."""
     if isinstance(node, Mapping):
-        return {key: _open(each) for key, each in node.items()}
-    return [_open(each) for each in node] if isinstance(node, list | tuple) else node
+        return {key: _open(entry) for key, entry in node.items()}
+    return [_open(entry) for entry in node] if isinstance(node, list | tuple) else node
 
 
 def _solve(
@@ -155,11 +155,11 @@ def _solve(
     """All responses of the rows of one machine."""
     if not len(members):
         return
-    batch = [each for each in plan.asked if each.is_batch and entries]
-    single = [each for each in plan.asked if each not in batch]
+    batch = [asked for asked in plan.asked if asked.is_batch and entries]
+    single = [asked for asked in plan.asked if asked not in batch]
     own = {address: column[members] for address, column in entries.items()}
     for name, solve in (("steady_state", _steady), (MOTION, _motion)):
-        wanted = [each for each in batch if each.analysis == name]
+        wanted = [asked for asked in batch if asked.analysis == name]
         if wanted:
             try:
                 solve(machine, own, wanted, rows, members)
@@ -172,12 +172,12 @@ def _solve(
 
 def _with_first(machine: Machine, entries: Mapping[str, Floats]) -> dict[str, Floats]:
     """The entries with those of the machine itself in front."""
-    found = {}
+    columns = {}
     for address, column in entries.items():
         first = get(machine, address)
         number = first if isinstance(first, int | float) else column[0]
-        found[address] = np.concatenate([[number], column])
-    return found
+        columns[address] = np.concatenate([[number], column])
+    return columns
 
 
 def _steady(
@@ -186,8 +186,8 @@ def _steady(
     """Steady motion of all rows at once."""
     states = steady_states(machine, _with_first(machine, entries))
     status = states.status[1:]
-    for each in wanted:
-        rows.columns[each.name][members] = getattr(states, each.quantity)[1:]
+    for asked in wanted:
+        rows.columns[asked.name][members] = getattr(states, asked.quantity)[1:]
     for code in np.unique(status[status != 0]):
         rows.fail(members[status == code], FAILED, STATUS[int(code)])
 
@@ -198,12 +198,12 @@ def _motion(
     """Points of all rows at once."""
     machines = replace(machine, _with_first(machine, entries))
     turn = np.linspace(0.0, 2 * np.pi, SAMPLES, endpoint=False)
-    for each in wanted:
-        angles = turn if each.at is None else np.array([each.at])
-        table = motions(machines, angles, points=each.of)[1:, "xy".index(each.quantity), :]
-        found = taken(table, each.extreme) if each.extreme else table[:, 0]
-        rows.columns[each.name][members] = found
-        open_rows = members[~np.isfinite(found)]
+    for asked in wanted:
+        angles = turn if asked.at is None else np.array([asked.at])
+        table = motions(machines, angles, points=asked.of)[1:, "xy".index(asked.quantity), :]
+        values = taken(table, asked.extreme) if asked.extreme else table[:, 0]
+        rows.columns[asked.name][members] = values
+        open_rows = members[~np.isfinite(values)]
         rows.fail(open_rows, FAILED, "The links do not close at every required crank angle.")
 
 
@@ -216,8 +216,8 @@ def _one_by_one(
             continue
         try:
             own = sound_variant(machine, {address: float(c[nth]) for address, c in entries.items()})
-            for each, number in zip(wanted, numbers(own, wanted), strict=True):
-                rows.columns[each.name][row] = number
+            for asked, number in zip(wanted, numbers(own, wanted), strict=True):
+                rows.columns[asked.name][row] = number
         except FindingError as error:
             rows.fail(row, FAILED, _sentence(error))
         except InputError as error:
@@ -237,23 +237,23 @@ def numbers(machine: Machine, wanted: list[Asked]) -> list[float]:
     have.
     """
     results: dict[Any, Any] = {}
-    found = []
-    for each in wanted:
-        if each.analysis == MOTION:
-            found.append(_place(machine, each))
+    answers = []
+    for asked in wanted:
+        if asked.analysis == MOTION:
+            answers.append(_place(machine, asked))
             continue
-        if each.key not in results:
-            results[each.key] = analysis(each.analysis)(machine, *each.of)
-        found.append(each.number(results[each.key]))
-    return found
+        if asked.key not in results:
+            results[asked.key] = analysis(asked.analysis)(machine, *asked.of)
+        answers.append(asked.number(results[asked.key]))
+    return answers
 
 
-def _place(machine: Machine, each: Asked) -> float:
+def _place(machine: Machine, asked: Asked) -> float:
     """A number of the motion of a point of one machine."""
     turn = np.linspace(0.0, 2 * np.pi, SAMPLES, endpoint=False)
-    angles = turn if each.at is None else np.array([each.at])
-    curve = motions(machine, angles, points=each.of)[0, "xy".index(each.quantity), :]
-    place = float(taken(curve, each.extreme) if each.extreme else curve[0])
+    angles = turn if asked.at is None else np.array([asked.at])
+    curve = motions(machine, angles, points=asked.of)[0, "xy".index(asked.quantity), :]
+    place = float(taken(curve, asked.extreme) if asked.extreme else curve[0])
     if not np.isfinite(place):
         raise FindingError("the links do not close at every required crank angle")
     return place
@@ -264,16 +264,16 @@ def _add_formulas(rows: Rows, formulas: tuple[Formula, ...], status: int) -> Non
     n = len(rows)
     for formula in formulas:
         with np.errstate(all="ignore"):
-            found = value(formula.tree, {**NUMBERS, **rows.columns})
-        column = np.array(np.broadcast_to(np.asarray(found, dtype=float), (n,)))
+            values = value(formula.tree, {**NUMBERS, **rows.columns})
+        column = np.array(np.broadcast_to(np.asarray(values, dtype=float), (n,)))
         rows.columns[formula.name] = column
         rows.fail(~np.isfinite(column), status, _NO_NUMBER.format(formula.name))
 
 
 def _require_finite(rows: Rows, plan: StudyPlan) -> None:
     """Let rows fail whose response is no number: NaN is never an answer."""
-    for each in plan.asked:
-        rows.fail(~np.isfinite(rows.columns[each.name]), FAILED, _NO_NUMBER.format(each.name))
+    for asked in plan.asked:
+        rows.fail(~np.isfinite(rows.columns[asked.name]), FAILED, _NO_NUMBER.format(asked.name))
 
 
 def _sentence(error: Exception) -> str:

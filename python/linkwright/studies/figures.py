@@ -76,7 +76,7 @@ def map_figure(shown: Shown, response: str) -> Figure:
     """Draw a response over two variables as colours and contours, with its minimum and maximum."""
     figure, (panel,) = panels(1, height=4.6)
     first, second = shown.variables
-    x, y = (np.unique(shown.columns[each]) for each in (first, second))
+    x, y = (np.unique(shown.columns[name]) for name in (first, second))
     table = np.full((len(y), len(x)), np.nan)
     at = np.searchsorted(y, shown.columns[second]), np.searchsorted(x, shown.columns[first])
     table[at] = shown.columns[response]
@@ -153,10 +153,10 @@ def figures(shown: Shown) -> dict[str, Figure]:
     """The pictures that suit the rows: a curve of one variable, maps of a grid of two, else two overviews."""
     if len(shown.variables) == 1:
         return {"curve": curve_figure(shown)}
-    found: dict[str, Figure] = {}
+    drawn: dict[str, Figure] = {}
     if shown.is_grid and len(shown.variables) == 2:
-        found |= {f"map_{response}": map_figure(shown, response) for response in shown.responses}
-        return found
+        drawn |= {f"map_{response}": map_figure(shown, response) for response in shown.responses}
+        return drawn
     return {"scatter": scatter_figure(shown), "parallel": parallel_figure(shown)}
 
 
@@ -212,11 +212,11 @@ def rows_of(folder: SweepFolder) -> dict[str, NDArray[Any]]:
     is_grid = folder.manifest["study"].get("sweep", {}).get("method", "grid") == "grid"
     every = -(-folder.n_rows // (_GRID if is_grid else _ROWS))
     names = ["row", *folder.units, "status", "reason"]
-    found = []
+    parts = []
     for path in folder.parts():
         columns = columns_of(path, names)
         kept = columns["row"] % every == 0
-        found.append({name: column[kept] for name, column in columns.items()})
-    if not found:
+        parts.append({name: column[kept] for name, column in columns.items()})
+    if not parts:
         raise FindingError(f"{folder.path}: no rows are computed yet")
-    return {name: np.concatenate([each[name] for each in found]) for name in names}
+    return {name: np.concatenate([part[name] for part in parts]) for name in names}

@@ -92,17 +92,22 @@ class Fit(Result):
         recorded.
         """
         names = ("values", "units", "deviations", "intervals", "correlations", "noise", "reasons")
-        found = {**super().to_dict(), **{name: dict(getattr(self, name)) for name in names}}
-        found["directions"] = [
-            {"parts": each.parts, "deviation": each.deviation, "effect": each.effect, "words": each.words}
-            for each in self.directions
+        results = {**super().to_dict(), **{name: dict(getattr(self, name)) for name in names}}
+        results["directions"] = [
+            {
+                "parts": direction.parts,
+                "deviation": direction.deviation,
+                "effect": direction.effect,
+                "words": direction.words,
+            }
+            for direction in self.directions
         ]
-        found["is_determined"] = self.is_determined
+        results["is_determined"] = self.is_determined
         if curves:
             record = {self.record.over: self.record.at, **self.record.channels}
-            found["record"] = {name: np.asarray(column).tolist() for name, column in record.items()}
-            found["predicted"] = {name: column.tolist() for name, column in self.predicted.items()}
-        return found
+            results["record"] = {name: np.asarray(column).tolist() for name, column in record.items()}
+            results["predicted"] = {name: column.tolist() for name, column in self.predicted.items()}
+        return results
 
 
 @public
@@ -221,22 +226,22 @@ class _Judged:
 
     def _correlated(self, curves: Floats) -> list[str]:
         """Channels whose residuals follow from sample to sample."""
-        found = []
+        sentences = []
         for (name, measured), curve in zip(self.model.record.channels.items(), curves, strict=True):
             left = measured - curve
             if not left.any():
                 continue
             share = float((left[1:] * left[:-1]).sum() / (left**2).sum())
             if abs(share) > _CORRELATED / np.sqrt(len(left)):
-                found.append(
+                sentences.append(
                     f"residuals of {name} are correlated ({share:.2f} from sample to sample): the machine "
                     "lacks something, or the record was filtered; intervals are too narrow"
                 )
-        return found
+        return sentences
 
     def _curved(self, names: list[str]) -> list[str]:
         """Numbers at whose intervals' ends the sum of squares is not that of the linear approximation."""
-        found = []
+        sentences = []
         measured = self.model.record.stacked
         least = (((self.model.at(self.x) - measured) * self.weight) ** 2).sum()
         for i in self.inner:
@@ -249,9 +254,9 @@ class _Judged:
                 rise = ((((there - measured) * self.weight) ** 2).sum() - least) / self.factor**2
                 if not abs(rise - 1) <= _CURVED:
                     end = "upper" if sign > 0 else "lower"
-                    told = f"{rise:.2f} times" if np.isfinite(rise) else "without an answer instead of"
-                    found.append(
-                        f"at the {end} end of the interval of {names[i]} the sum of squares rises {told} "
+                    words = f"{rise:.2f} times" if np.isfinite(rise) else "without an answer instead of"
+                    sentences.append(
+                        f"at the {end} end of the interval of {names[i]} the sum of squares rises {words} "
                         "what the linear approximation has: the interval is rough"
                     )
-        return found
+        return sentences

@@ -102,14 +102,14 @@ def _least_squares(model: Predicted, x: Floats, noise: Floats) -> Floats:
 
     # Changes that are lost in any interval: the sum of squares and the numbers, relative.
     options: Any = {"ftol": 1e-10, "xtol": 1e-9, "gtol": None, "max_nfev": 300, "x_scale": "jac"}
-    found = least_squares(
+    solution = least_squares(
         residuals, np.clip(x / scale, low, high), jac=jacobian, bounds=(low, high), **options
     )
-    if not found.success:
+    if not solution.success:
         raise ConvergenceError(
             "the fit did not converge; start nearer to the solution, or fit fewer parameters",
             method="trust region",
             iterations=300,
         )
-    at: Floats = found.x * scale
+    at: Floats = solution.x * scale
     return at

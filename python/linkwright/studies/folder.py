@@ -104,7 +104,7 @@ class SweepFolder:
                 return
             if self.path.exists() and not self.path.is_dir():
                 raise InputError(f"{self.path}: found a file, expected a folder")
-            if self.path.exists() and any(not _is_ours(each) for each in self.path.iterdir()):
+            if self.path.exists() and any(not _is_ours(path) for path in self.path.iterdir()):
                 raise InputError(
                     f"{self.path}: found a folder with other files, expected a new or empty one, or that of "
                     "an earlier run of the same study"
@@ -128,7 +128,7 @@ class SweepFolder:
 
 def new_folder(path: Path, ready: StudyPlan) -> SweepFolder:
     """The folder of a sweep, not made yet."""
-    is_batch = all(each.is_batch for each in ready.asked)
+    is_batch = all(asked.is_batch for asked in ready.asked)
     study = ready.study.model_dump(mode="json", by_alias=True, exclude_unset=True)
     known = {
         "machine": dumps(ready.machine),

@@ -101,19 +101,19 @@ def front(
         )
 
     ends = sought(first), sought(second)
-    found, failed = list(ends), {}
+    optimums, failed = list(ends), {}
     for limit in np.linspace(ends[0].responses[second], ends[1].responses[second], points)[1:-1]:
         try:
-            found.append(sought(first, float(limit)))
+            optimums.append(sought(first, float(limit)))
         except FindingError as error:
             word = "at most" if way == "minimise" else "at least"
             failed[f"{second} {word} {limit:.6g} {plan.units[second]}".rstrip()] = str(error)
     signs = np.array([1.0 if goal == "minimise" else -1.0 for goal in plan.study.goals.values()])
     return Front(
         (first, second),
-        _best(found, (first, second), signs),
+        _best(optimums, (first, second), signs),
         failed,
-        sum(each.n_evaluations for each in found),
+        sum(optimum.n_evaluations for optimum in optimums),
     )
 
 
@@ -130,7 +130,7 @@ def _of_one(plan: StudyPlan, goal: str, second: str, limit: float | None) -> Stu
 
 def _best(optimums: list[Optimum], goals: tuple[str, str], signs: Any) -> tuple[Optimum, ...]:
     """Those that none of the others beats in both goals, in the order of the first."""
-    table = signs * np.array([[each.responses[goal] for goal in goals] for each in optimums])
+    table = signs * np.array([[optimum.responses[goal] for goal in goals] for optimum in optimums])
     order = np.lexsort((table[:, 1], table[:, 0]))
     slack = _SAME * np.ptp(table[:, 1])
     kept: list[int] = []

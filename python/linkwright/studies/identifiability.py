@@ -64,10 +64,10 @@ def covariance(J: Floats, rounding: float) -> Floats:
     """
     _, S, V = np.linalg.svd(J, full_matrices=False)
     kept = rounding * S[0] < S
-    found: Floats = (V[kept].T / S[kept] ** 2) @ V[kept]
+    matrix: Floats = (V[kept].T / S[kept] ** 2) @ V[kept]
     is_open = (V[~kept] ** 2).sum(axis=0) > _OPEN
-    found[np.diag_indices(len(found))] = np.where(is_open, np.inf, np.diag(found))
-    return found
+    matrix[np.diag_indices(len(matrix))] = np.where(is_open, np.inf, np.diag(matrix))
+    return matrix
 
 
 # Part of a number in what the record does not tell from which on it is open itself.
@@ -77,7 +77,7 @@ _OPEN = 1e-8
 def singular_directions(J: Floats, numbers: Sequence[Number], rounding: float) -> tuple[Direction, ...]:
     """Combinations of numbers from the one known worst to the one known best, by the same derivatives."""
     _, S, V = np.linalg.svd(J, full_matrices=False)
-    found = []
+    directions = []
     for size, way in zip(S[::-1], V[::-1], strict=True):
         unit = way / way[int(np.abs(way).argmax())]
         parts = {n.name: float(x) for n, x in zip(numbers, unit, strict=True) if abs(x) > _PART}
@@ -85,8 +85,8 @@ def singular_directions(J: Floats, numbers: Sequence[Number], rounding: float) -
         is_open = size <= rounding * S[0]
         deviation = np.inf if is_open else float(1 / (size * length))
         effect = 0.01 * float(size) * length / float(np.sqrt(len(J)))
-        found.append(Direction(parts, deviation, effect, _words(numbers, parts, deviation, effect)))
-    return tuple(found)
+        directions.append(Direction(parts, deviation, effect, _words(numbers, parts, deviation, effect)))
+    return tuple(directions)
 
 
 def _words(numbers: Sequence[Number], parts: dict[str, float], deviation: float, effect: float) -> str:

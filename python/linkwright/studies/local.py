@@ -90,9 +90,9 @@ class Descent:
         self.size = max(abs(first.goal * self.size), 1e-300)
         self._known.clear()
         best = self._planes(self._slsqp(start[self.free]))
-        found = self.base.copy()
-        found[self.free] = best.share
-        return found
+        end = self.base.copy()
+        end[self.free] = best.share
+        return end
 
     def at(self, share: Floats) -> _Place:
         """Goal and limits at a place, its free shares given."""
@@ -105,17 +105,17 @@ class Descent:
     def _computed(self, share: Floats) -> _Place:
         whole = self.base.copy()
         whole[self.free] = np.clip(share, 0.0, 1.0)
-        _, rates, found = _slopes(self.plan, whole)
-        slope = {name: (each * rates)[self.free] for name, each in found.slopes.items()}
+        _, rates, slopes = _slopes(self.plan, whole)
+        slope = {name: (slope * rates)[self.free] for name, slope in slopes.slopes.items()}
         over, over_slope = [], []
         for name, limit, way in limits(self.plan):
             size = abs(limit) or 1.0
-            over.append(way * (found.values[name] - limit) / size + _MARGIN)
+            over.append(way * (slopes.values[name] - limit) / size + _MARGIN)
             over_slope.append(way * slope[name] / size)
         n = len(self.free)
         return _Place(
             share.copy(),
-            self.sign * found.values[self.goal] / self.size,
+            self.sign * slopes.values[self.goal] / self.size,
             self.sign * slope[self.goal] / self.size,
             np.array(over),
             np.array(over_slope).reshape(len(over), n),
@@ -148,7 +148,7 @@ class Descent:
 
     def _least(self) -> _Place:
         """The best place so far."""
-        return min(self._known.values(), key=lambda each: each.merit)
+        return min(self._known.values(), key=lambda point: point.merit)
 
     def _planes(self, best: _Place) -> _Place:
         """The best place by cutting planes about one."""
@@ -178,32 +178,32 @@ class Descent:
         n, m = len(best.share), len(best.over)
         reach = 4 * radius
         rows, ends = [], []
-        for each in near:
-            away = best.share - each.share
+        for limit in near:
+            away = best.share - limit.share
             if np.abs(away).max() > reach:
                 continue
             # A tangent that passes above the best place, as on a hump, is lowered to it.
-            height = min(float(each.goal + each.goal_slope @ away), best.goal)
-            rows.append(np.concatenate([each.goal_slope, [-1.0], np.zeros(m)]))
+            height = min(float(limit.goal + limit.goal_slope @ away), best.goal)
+            rows.append(np.concatenate([limit.goal_slope, [-1.0], np.zeros(m)]))
             ends.append(best.goal - height)
             for k in range(m):
-                level = min(float(each.over[k] + each.over_slope[k] @ away), max(float(best.over[k]), 0.0))
-                rows.append(np.concatenate([each.over_slope[k], [0.0], -np.eye(m)[k]]))
+                level = min(float(limit.over[k] + limit.over_slope[k] @ away), max(float(best.over[k]), 0.0))
+                rows.append(np.concatenate([limit.over_slope[k], [0.0], -np.eye(m)[k]]))
                 ends.append(-level)
         # Unknowns in radii, so that the smallest are no rounding: steps, the goal's change, passing of the
         # limits.
         box = [(max(-1.0, -share / radius), min(1.0, (1.0 - share) / radius)) for share in best.share]
         cost = np.concatenate([np.zeros(n), [1.0], np.full(m, _PENALTY)])
-        found = linprog(
+        solution = linprog(
             cost,
             A_ub=np.array(rows),
             b_ub=np.array(ends) / radius,
             bounds=[*box, (None, None), *[(0.0, None)] * m],
         )
-        if not found.success or found.x is None:
+        if not solution.success or solution.x is None:
             return best.share, 0.0
-        passed = _PENALTY * (np.maximum(best.over, 0.0).sum() - radius * found.x[n + 1 :].sum())
-        return np.clip(best.share + radius * found.x[:n], 0.0, 1.0), float(passed - radius * found.x[n])
+        passed = _PENALTY * (np.maximum(best.over, 0.0).sum() - radius * solution.x[n + 1 :].sum())
+        return np.clip(best.share + radius * solution.x[:n], 0.0, 1.0), float(passed - radius * solution.x[n])
 
 
 def limits(plan: StudyPlan) -> list[tuple[str, float, float]]:
@@ -255,19 +255,19 @@ def prices(plan: StudyPlan, goal: str, sign: float, share: Floats, near: float) 
     """
     from scipy.optimize import nnls
 
-    values, rates, found = _slopes(plan, share)
+    values, rates, slopes = _slopes(plan, share)
     free = _free(plan)
-    listed = list(_active(plan, found.values, values, rates, found.slopes, near))
-    if not listed or goal in found.ties:
+    listed = list(_active(plan, slopes.values, values, rates, slopes.slopes, near))
+    if not listed or goal in slopes.ties:
         return []
-    down = -(sign * found.slopes[goal] * rates)[free]
-    ways = np.array([each.outward[free] for each in listed]).T
+    down = -(sign * slopes.slopes[goal] * rates)[free]
+    ways = np.array([limit.outward[free] for limit in listed]).T
     found_lambda, rest = nnls(ways, down)
     if rest > _EXPLAINED * np.linalg.norm(down):
         return []
     return [
-        Price(each.what, each.of, each.limit, each.is_upper, float(x / each.unit))
-        for each, x in zip(listed, found_lambda, strict=True)
+        Price(limit.what, limit.of, limit.limit, limit.is_upper, float(x / limit.unit))
+        for limit, x in zip(listed, found_lambda, strict=True)
     ]
 
 
@@ -286,7 +286,7 @@ class _Touched(NamedTuple):
 
 def _active(
     plan: StudyPlan,
-    found: dict[str, float],
+    row: dict[str, float],
     values: Floats,
     rates: Floats,
     slope: dict[str, Floats],
@@ -294,7 +294,7 @@ def _active(
 ) -> Iterator[_Touched]:
     """Active limits of responses and of ranges."""
     for name, limit, way in limits(plan):
-        if abs(found[name] - limit) <= near * max(abs(limit), abs(found[name])):
+        if abs(row[name] - limit) <= near * max(abs(limit), abs(row[name])):
             word = "maximum" if way > 0 else "minimum"
             yield _Touched(f"{word} of {name}", name, limit, way > 0, way * slope[name] * rates, 1.0)
     for i, axis in enumerate(plan.axes):

@@ -105,7 +105,7 @@ class Response(CheckedDescription):
         given = [way for way in ways if getattr(self, way) is not None]
         if len(given) != 1:
             yield fault(found=" and ".join(given) or None, expected="one of quantity, curve, formula")
-        picks = [each for each in ("extreme", "index", "at") if getattr(self, each) is not None]
+        picks = [pick for pick in ("extreme", "index", "at") if getattr(self, pick) is not None]
         if self.curve is not None and len(picks) != 1:
             remedy = "a response is one number"
             found = " and ".join(picks) or None

@@ -124,7 +124,7 @@ def optimise(
     search = _Search(plan, *next(iter(plan.study.goals.items())), watch)
     choices = [axis for axis in plan.axes if axis.choices]
     for shares in product(*(choice.levels for choice in choices)):
-        fixed = {each.name: float(s) for each, s in zip(choices, shares, strict=True)}
+        fixed = {choice.name: float(s) for choice, s in zip(choices, shares, strict=True)}
         search.run(fixed, evaluations, seed, method, starts)
     return search.result()
 
@@ -174,7 +174,7 @@ class _Search:
         self, fixed: Mapping[str, float], evaluations: int, seed: int, method: Method, starts: int
     ) -> None:
         """One combination of choices."""
-        free = [i for i, each in enumerate(self.plan.axes) if not each.choices]
+        free = [i for i, axis in enumerate(self.plan.axes) if not axis.choices]
         shares = np.array([fixed.get(axis.name, 0.5) for axis in self.plan.axes])
         before, self.best = self.best, None
         if not free:
@@ -205,10 +205,10 @@ class _Search:
         while used < evaluations and not strategy.should_stop():
             asked = [strategy.ask() for _ in range(strategy.population_size)]
             points = np.tile(shares, (len(asked), 1))
-            points[:, free] = np.array([each[0] for each in asked])[:, : len(free)]
+            points[:, free] = np.array([shares[0] for shares in asked])[:, : len(free)]
             keys = self._told(np.clip(points, 0.0, 1.0))
             order = {key: float(rank) for rank, key in enumerate(sorted(set(keys)))}
-            strategy.tell([(each[1], order[key]) for each, key in zip(asked, keys, strict=True)])
+            strategy.tell([(shares[1], order[key]) for shares, key in zip(asked, keys, strict=True)])
             used += len(asked)
 
     def _started(self, shares: Floats, free: list[int], seed: int, starts: int) -> list[Floats]:
@@ -266,9 +266,9 @@ class _Search:
         rows = evaluate(plan, values)
         responses = {name: float(rows.columns[name][0]) for name in plan.responses}
         kind = {
-            each.name: _chosen(each, s)
-            for each, s in zip(plan.axes, self.best[1], strict=True)
-            if each.choices
+            axis.name: _chosen(axis, s)
+            for axis, s in zip(plan.axes, self.best[1], strict=True)
+            if axis.choices
         }
         worth = self._prices()
         return Optimum(
@@ -277,8 +277,8 @@ class _Search:
             variables={axis.name: kind.get(axis.name, float(values[axis.name][0])) for axis in plan.axes},
             responses=responses,
             active=(*_active(plan, responses), *_ends(plan, self.best[1])),
-            multipliers={each.what: each.multiplier for each in worth},
-            worth=tuple(_in_words(plan, self.goal, self.sign, each) for each in worth),
+            multipliers={price.what: price.multiplier for price in worth},
+            worth=tuple(_in_words(plan, self.goal, self.sign, price) for price in worth),
             tried=tuple(self.tried) if kind else (),
             n_evaluations=self.count,
             n_failed=sum(self.reasons.values()),
@@ -305,7 +305,7 @@ class _Search:
 
 def settled(plan: StudyPlan, shares: Floats) -> tuple[StudyPlan, list[int]]:
     """The study with what is no number chosen, and the places of the variables that are left."""
-    kept = [i for i, each in enumerate(plan.axes) if each.is_number]
+    kept = [i for i, axis in enumerate(plan.axes) if axis.is_number]
     pairs = zip(plan.axes, shares, strict=True)
     machine = _with_choices(plan, {axis.name: _chosen(axis, s) for axis, s in pairs if not axis.is_number})
     return replace(plan, machine=machine, axes=tuple(plan.axes[i] for i in kept)), kept
@@ -321,12 +321,12 @@ def _with_choices(plan: StudyPlan, chosen: Mapping[str, Any]) -> Machine:
 
 def _ends(plan: StudyPlan, shares: Floats) -> tuple[str, ...]:
     """Ends of ranges that a machine touches."""
-    found = []
-    for each, share in zip(plan.axes, shares, strict=True):
-        if not each.choices and min(share, 1.0 - share) <= _ACTIVE:
-            word, value = ("lower", each.low) if share < 0.5 else ("upper", each.high)
-            found.append(f"{each.name} is at the {word} end of its range, {value:.6g} {each.unit}".rstrip())
-    return tuple(found)
+    ends = []
+    for axis, share in zip(plan.axes, shares, strict=True):
+        if not axis.choices and min(share, 1.0 - share) <= _ACTIVE:
+            word, value = ("lower", axis.low) if share < 0.5 else ("upper", axis.high)
+            ends.append(f"{axis.name} is at the {word} end of its range, {value:.6g} {axis.unit}".rstrip())
+    return tuple(ends)
 
 
 def _in_words(plan: StudyPlan, goal: str, sign: float, price: Price) -> str:
@@ -342,9 +342,9 @@ def _in_words(plan: StudyPlan, goal: str, sign: float, price: Price) -> str:
 def machine_of(plan: StudyPlan, rows: Rows) -> Machine:
     """The machine of the first row."""
     lists = [axis for axis in plan.axes if not axis.is_number]
-    base = _with_choices(plan, {each.name: each.choices[int(rows.columns[each.name][0])] for each in lists})
+    base = _with_choices(plan, {axis.name: axis.choices[int(rows.columns[axis.name][0])] for axis in lists})
     named = [(axis.name, axis.addresses) for axis in plan.axes if axis.is_number]
-    named += [(each.name, each.addresses) for each in plan.derived]
+    named += [(entry.name, entry.addresses) for entry in plan.derived]
     return sound_variant(
         base, {place: float(rows.columns[name][0]) for name, places in named for place in places}
     )
@@ -362,11 +362,11 @@ def _chosen(axis: Axis, share: float) -> Any:
 
 def _active(plan: StudyPlan, responses: dict[str, float]) -> tuple[str, ...]:
     """Limits that a machine touches."""
-    found = []
+    active = []
     for name, (low, high) in plan.limits.items():
         for limit, word in ((low, "minimum"), (high, "maximum")):
             if np.isfinite(limit) and abs(responses[name] - limit) <= _ACTIVE * max(
                 abs(limit), abs(responses[name])
             ):
-                found.append(f"{name} is at its {word}, {limit:.6g} {plan.units[name]}".rstrip())
-    return tuple(found)
+                active.append(f"{name} is at its {word}, {limit:.6g} {plan.units[name]}".rstrip())
+    return tuple(active)

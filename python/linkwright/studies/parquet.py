@@ -105,8 +105,8 @@ def parquet_columns(path: Path, names: Sequence[str]) -> dict[str, Floats]:
         raise InputError(
             f"{path}: found no column {missing[0]} among {listed}; name columns as the variables"
         )
-    found = {name: table.column(name) for name in names}
-    for name, column in found.items():
+    columns = {name: table.column(name) for name in names}
+    for name, column in columns.items():
         if not (pa.types.is_floating(column.type) or pa.types.is_integer(column.type)):
             raise InputError(f"{path}: column {name}: found {column.type}, expected numbers in SI")
-    return {name: column.to_numpy().astype(float) for name, column in found.items()}
+    return {name: column.to_numpy().astype(float) for name, column in columns.items()}

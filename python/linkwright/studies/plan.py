@@ -89,7 +89,7 @@ class StudyPlan:
         if self.listed is not None:
             return len(self.listed)
         if self.sweep.method == "grid":
-            return int(np.prod([each.n_levels for each in self.axes], dtype=float))
+            return int(np.prod([axis.n_levels for axis in self.axes], dtype=float))
         return self.sweep.rows or 0
 
     @property
@@ -100,20 +100,22 @@ class StudyPlan:
     @property
     def units(self) -> dict[str, str]:
         """SI unit of each variable and response; empty for a number without one, and for a formula."""
-        known = {each.name: each.unit for each in self.axes} | {each.name: each.unit for each in self.asked}
+        known = {axis.name: axis.unit for axis in self.axes} | {
+            asked.name: asked.unit for asked in self.asked
+        }
         return {name: known.get(name, "") for name in self.columns}
 
     @property
     def columns(self) -> tuple[str, ...]:
         """Names of variables, derived numbers and responses."""
-        return (*(each.name for each in self.axes), *(each.name for each in self.derived), *self.responses)
+        return (*(axis.name for axis in self.axes), *(entry.name for entry in self.derived), *self.responses)
 
     def shares(self, start: int, stop: int) -> Floats:
         """Rows of the sweep as shares between 0 and 1, (stop - start, variables)."""
         n, seed = len(self.axes), self.sweep.seed
         match self.sweep.method:
             case "grid":
-                return sampling.grid([each.levels for each in self.axes], start, stop)
+                return sampling.grid([axis.levels for axis in self.axes], start, stop)
             case "sobol":
                 return sampling.sobol(n, seed, start, stop)
             case "latin_hypercube":
@@ -123,13 +125,13 @@ class StudyPlan:
     def rows(self, start: int, stop: int) -> dict[str, Floats]:
         """Values of the variables in some rows of the sweep, (stop - start,) each, in SI."""
         if self.listed is not None:
-            return {each.name: self.listed[start:stop, i] for i, each in enumerate(self.axes)}
+            return {axis.name: self.listed[start:stop, i] for i, axis in enumerate(self.axes)}
         return self.values(self.shares(start, stop))
 
     def values(self, shares: Floats) -> dict[str, Floats]:
         """Values of the variables at shares, shape (n, variables) → (n,) each, in SI."""
         columns = enumerate(self.axes)
-        return {each.name: np.ascontiguousarray(each.values(shares[:, i])) for i, each in columns}
+        return {axis.name: np.ascontiguousarray(axis.values(shares[:, i])) for i, axis in columns}
 
 
 def plan(machine: Machine, study: StudyFile, listed: Floats | None = None) -> StudyPlan:
@@ -142,23 +144,27 @@ def plan(machine: Machine, study: StudyFile, listed: Floats | None = None) -> St
     def gather(items: Iterable[tuple[str, Any]], read: Any) -> tuple[Any, ...]:
         """All that can be read; problems are kept for the end."""
         results = []
-        for name, each in items:
+        for name, item in items:
             try:
-                results.append(read(name, each))
+                results.append(read(name, item))
             except MachineError as error:
                 problems.extend(error.problems)
         return tuple(results)
 
-    axes = gather(study.variables.items(), lambda name, each: axis(machine, name, each))
+    axes = gather(study.variables.items(), lambda name, variable: axis(machine, name, variable))
     known = [*study.variables]
-    derived = gather(study.derived.items(), lambda name, each: _derived(machine, known, name, each))
-    plain = [(name, each) for name, each in study.responses.items() if each.formula is None]
-    made = [(name, each) for name, each in study.responses.items() if each.formula is not None]
-    responses = gather(plain, lambda name, each: asked(machine, name, each))
+    derived = gather(study.derived.items(), lambda name, entry: _derived(machine, known, name, entry))
+    plain = [(name, response) for name, response in study.responses.items() if response.formula is None]
+    made = [(name, response) for name, response in study.responses.items() if response.formula is not None]
+    responses = gather(plain, lambda name, response: asked(machine, name, response))
     known += [*study.derived, *(name for name, _ in plain)]
-    formulas = gather(made, lambda name, each: _formula(known, f"responses.{name}", name, each.formula or ""))
+    formulas = gather(
+        made, lambda name, response: _formula(known, f"responses.{name}", name, response.formula or "")
+    )
     units = {response.name: response.unit for response in responses}
-    limits = gather(study.constraints.items(), lambda name, each: (name, _limits(study, units, name, each)))
+    limits = gather(
+        study.constraints.items(), lambda name, constraint: (name, _limits(study, units, name, constraint))
+    )
     problems += _further_problems(study, listed)
     if problems:
         raise MachineError(problems)
@@ -182,11 +188,11 @@ def _further_problems(study: StudyFile, listed: Floats | None) -> Iterable[Probl
     for name in study.goals:
         if name not in study.responses:
             yield Problem(f"goals.{name}", show(name), "a response", suggestion(name, study.responses))
-    for name, each in study.variables.items():
-        is_given = any((each.range, each.values, each.distribution, each.tolerance))
+    for name, variable in study.variables.items():
+        is_given = any((variable.range, variable.values, variable.distribution, variable.tolerance))
         if not is_given and listed is None and study.fit is None:
             yield Problem(f"variables.{name}", "nothing", "one of range, values, distribution, tolerance")
-        needs_steps = each.values is None and not each.whole and each.steps is None
+        needs_steps = variable.values is None and not variable.whole and variable.steps is None
         is_grid = study.sweep.method == "grid" and _is_swept(study)
         if is_grid and is_given and needs_steps:
             yield Problem(f"variables.{name}.steps", "nothing", "how many values a grid takes")
@@ -202,8 +208,8 @@ def _taken_twice(study: StudyFile) -> Iterable[Problem]:
     """Entries that two variables set."""
     setters: dict[str, str] = {}
     for table in ("variables", "derived"):
-        for name, each in getattr(study, table).items():
-            for address in each.address:
+        for name, entry in getattr(study, table).items():
+            for address in entry.address:
                 if address in setters:
                     expected = f"an entry that {setters[address]} does not set"
                     yield Problem(f"{table}.{name}.address", show(address), expected)
@@ -215,14 +221,14 @@ def _check_rows(ready: StudyPlan) -> None:
     limit = LATIN_ROWS if ready.sweep.method == "latin_hypercube" else SWEEP_ROWS
     require_within(limit, ready.n_rows, "rows of the sweep", "vary less, or more coarsely")
     if ready.sweep.method == "grid" and ready.listed is None:
-        for each in ready.axes:
-            require_within(LEVELS, each.n_levels, f"levels of {each.name}", "vary it more coarsely")
+        for axis in ready.axes:
+            require_within(LEVELS, axis.n_levels, f"levels of {axis.name}", "vary it more coarsely")
 
 
-def _derived(machine: Machine, known: list[str], name: str, each: Any) -> Formula:
+def _derived(machine: Machine, known: list[str], name: str, entry: Any) -> Formula:
     """A derived number; from then on it is known."""
-    formula = _formula(known, f"derived.{name}", name, each.formula)
-    for address in each.address:
+    formula = _formula(known, f"derived.{name}", name, entry.formula)
+    for address in entry.address:
         try:
             known_place(machine, address)
         except MachineError as error:
@@ -234,7 +240,7 @@ def _derived(machine: Machine, known: list[str], name: str, each: Any) -> Formul
                 [Problem(f"derived.{name}.address", show(address), "an entry that is a number")]
             )
     known.append(name)
-    return Formula(name, formula.tree, each.address)
+    return Formula(name, formula.tree, entry.address)
 
 
 def _formula(known: list[str], key: str, name: str, text: str) -> Formula:
@@ -252,7 +258,7 @@ def _formula(known: list[str], key: str, name: str, text: str) -> Formula:
     return Formula(name, tree)
 
 
-def _limits(study: StudyFile, units: Mapping[str, str], name: str, each: Any) -> tuple[float, float]:
+def _limits(study: StudyFile, units: Mapping[str, str], name: str, constraint: Any) -> tuple[float, float]:
     """Minimum and maximum of a response in SI."""
     if name not in study.responses:
         remedy = suggestion(name, study.responses)
@@ -260,7 +266,7 @@ def _limits(study: StudyFile, units: Mapping[str, str], name: str, each: Any) ->
     kind = _kind_of(units.get(name, ""))
     low, high = (
         default if value is None else _quantity(f"constraints.{name}.{key}", value, kind)
-        for key, value, default in (("min", each.min, -np.inf), ("max", each.max, np.inf))
+        for key, value, default in (("min", constraint.min, -np.inf), ("max", constraint.max, np.inf))
     )
     if low > high:
         found = f"{low:.6g} to {high:.6g}"

@@ -76,7 +76,7 @@ def read_study(
     try:
         study = StudyFile.model_validate(given)
         source = place if is_machine else _machine_of(place, study)
-        options = {each.address: each.value for each in of_machine}
+        options = {path.address: path.value for path in of_machine}
         whole = read(source, options, allow_outside=allow_outside)
         # Results are those of the machine and of this study, whatever other study stands in its file.
         machine = whole if whole.study is None else whole.with_entries({"study": None})
@@ -151,7 +151,9 @@ def _listed(path: Path, machine: Machine, study: StudyFile) -> Floats | None:
     if place.suffix == ".parquet":
         columns = parquet_columns(place, names)
     else:
-        kinds = {name: kind(machine, each.address[0]) or COUNT for name, each in study.variables.items()}
+        kinds = {
+            name: kind(machine, variable.address[0]) or COUNT for name, variable in study.variables.items()
+        }
         columns = read_columns(place, kinds)
     rows = np.stack([columns[name] for name in names], axis=1)
     if not len(rows):

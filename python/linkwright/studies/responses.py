@@ -140,8 +140,8 @@ def taken(curve: Floats, extreme: str) -> Any:
 def analysis(name: str) -> Callable[..., Result]:
     """The function of an analysis, imported now."""
     module, _, function = ANALYSES[name].partition(":")
-    found: Callable[..., Result] = getattr(import_module(f"linkwright.{module}"), function)
-    return found
+    analyse: Callable[..., Result] = getattr(import_module(f"linkwright.{module}"), function)
+    return analyse
 
 
 def asked(machine: Machine, name: str, response: Response) -> Asked:
@@ -157,7 +157,7 @@ def asked(machine: Machine, name: str, response: Response) -> Asked:
     if first not in ANALYSES or not rest:
         raise _wrong(name, key, text, "analysis.quantity", suggestion(first, (*ANALYSES, MOTION)))
     owner = get_type_hints(analysis(first))["return"]
-    known = {each: mark for each, (_, mark) in declared(owner).items() if isinstance(mark, Shown)}
+    known = {attribute: mark for attribute, (_, mark) in declared(owner).items() if isinstance(mark, Shown)}
     *of, quantity = rest
     if quantity not in known:
         raise _wrong(name, key, text, f"a quantity of {first}", suggestion(quantity, known))

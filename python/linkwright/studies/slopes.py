@@ -51,24 +51,24 @@ def slopes(plan: StudyPlan, at: Floats, steps: Floats) -> Slopes:
     answer.
     """
     known = _variables(plan, at)
-    is_followed = not any(each is None for each in known.values())
+    is_followed = not any(tangent is None for tangent in known.values())
     exact, ties = _analysed(plan, known) if is_followed else ({}, {})
     known |= exact
     differenced: dict[str, Tangent] = {}
-    missing = [each.name for each in plan.asked if each.name not in exact]
+    missing = [asked.name for asked in plan.asked if asked.name not in exact]
     if missing or not is_followed or _worked_all(plan, known) is None:
         differenced = _differences(plan, at, steps)
     known |= {name: differenced[name] for name in missing}
     rough = set(missing)
     for formula in plan.formulas:
-        found = _worked(formula, known) if is_followed else None
-        known[formula.name] = differenced[formula.name] if found is None else found
-        if found is None or rough & set(names_in(formula.tree)):
+        tangent = _worked(formula, known) if is_followed else None
+        known[formula.name] = differenced[formula.name] if tangent is None else tangent
+        if tangent is None or rough & set(names_in(formula.tree)):
             rough.add(formula.name)
     responses = {name: _tangent(known[name], len(at)) for name in plan.responses}
     return Slopes(
-        {name: each.value for name, each in responses.items()},
-        {name: each.d for name, each in responses.items()},
+        {name: response.value for name, response in responses.items()},
+        {name: response.d for name, response in responses.items()},
         frozenset(set(plan.responses) - rough),
         ties,
     )
@@ -100,7 +100,7 @@ def machine_at(plan: StudyPlan, entries: Mapping[str, Any]) -> Machine:
 def _entries(plan: StudyPlan, known: Mapping[str, Any]) -> dict[str, Any]:
     """Address → its value, as variables and derived numbers are known."""
     named = [(axis.name, axis.addresses) for axis in plan.axes]
-    named += [(each.name, each.addresses) for each in plan.derived]
+    named += [(entry.name, entry.addresses) for entry in plan.derived]
     strange = [name for name, _ in named if known[name] is None]
     if strange:
         raise InputError(f"derived.{strange[0]}: found a formula without derivatives, expected a smooth one")
@@ -116,10 +116,10 @@ def _worked(formula: Formula, known: Mapping[str, Any]) -> Any:
     """The value of a formula with its derivatives; None if a function in it has no rule for them."""
     try:
         with np.errstate(all="ignore"):
-            found = value(formula.tree, {**NUMBERS, **known})
+            tangent = value(formula.tree, {**NUMBERS, **known})
     except (TypeError, KeyError, ArithmeticError, ValueError):
         return None
-    return found.item() if isinstance(found, np.ndarray) and found.ndim == 0 else found
+    return tangent.item() if isinstance(tangent, np.ndarray) and tangent.ndim == 0 else tangent
 
 
 def _worked_all(plan: StudyPlan, known: Mapping[str, Any]) -> dict[str, Any] | None:
@@ -137,38 +137,38 @@ def _analysed(plan: StudyPlan, known: Mapping[str, Any]) -> tuple[dict[str, Tang
     entries = _entries(plan, known)
     machine = machine_at(plan, entries)
     sources: dict[str, Source | None] = {}
-    found: dict[str, Tangent] = {}
+    tangents: dict[str, Tangent] = {}
     ties: dict[str, str] = {}
-    for each in plan.asked:
-        if each.analysis not in SOURCES or each.extreme is not None:
+    for asked in plan.asked:
+        if asked.analysis not in SOURCES or asked.extreme is not None:
             continue
-        if each.analysis not in sources:
-            sources[each.analysis] = _source(machine, each.analysis, tuple(entries))
-        own, name = sources[each.analysis], _address(each)
+        if asked.analysis not in sources:
+            sources[asked.analysis] = _source(machine, asked.analysis, tuple(entries))
+        own, name = sources[asked.analysis], _address(asked)
         if own is None or name not in own.tangents:
             continue
         tangent = own.tangents[name]
         by = zip(own.variables, tangent.d, strict=True)
         slope = sum((d * entries[place].d for place, d in by), start=np.zeros(len(plan.axes)))
-        found[each.name] = Tangent(tangent.value, slope)
+        tangents[asked.name] = Tangent(tangent.value, slope)
         if name in own.ties:
-            ties[each.name] = own.ties[name]
-    return found, ties
+            ties[asked.name] = own.ties[name]
+    return tangents, ties
 
 
 def _source(machine: Any, analysis: str, entries: tuple[str, ...]) -> Source | None:
     """Results with derivatives by entries; None if some have no derivative."""
     try:
-        found = source(machine, analysis, entries)
+        tangents = source(machine, analysis, entries)
     except InputError:
         return None
-    return None if found.refused else found
+    return None if tangents.refused else tangents
 
 
-def _address(each: Asked) -> str:
+def _address(asked: Asked) -> str:
     """The name of a response among the results that have derivatives."""
-    place = () if each.index is None else (str(each.index),)
-    return ".".join((each.analysis, *each.of, each.quantity, *place))
+    place = () if asked.index is None else (str(asked.index),)
+    return ".".join((asked.analysis, *asked.of, asked.quantity, *place))
 
 
 def _differences(plan: StudyPlan, at: Floats, steps: Floats) -> dict[str, Tangent]:
@@ -179,7 +179,7 @@ def _differences(plan: StudyPlan, at: Floats, steps: Floats) -> dict[str, Tangen
     """
     n = len(at)
     points = np.vstack([at, *(at + k * np.diag(steps) for k in (1, -1, 2, -2))])
-    rows = evaluate(plan, {each.name: points[:, i].copy() for i, each in enumerate(plan.axes)})
+    rows = evaluate(plan, {axis.name: points[:, i].copy() for i, axis in enumerate(plan.axes)})
     if (rows.status != SOLVED).any():
         worst = int(np.flatnonzero(rows.status)[0])
         place = "there" if not worst else f"a step beside in {plan.axes[(worst - 1) % n].name}"

@@ -97,23 +97,23 @@ def sweep(
         raise InputError("cluster: found it beside workers, expected one of them")
     if not 1 <= workers <= 1000:
         raise InputError(f"workers {workers}: expected 1 to 1000 processes")
-    found = begun(plan, folder)
-    missing, repaired = _missing(found, chunks)
+    sweeps = begun(plan, folder)
+    missing, repaired = _missing(sweeps, chunks)
     if workers == 1 and not cluster:
-        _compute(plan, found, missing, watch)
+        _compute(plan, sweeps, missing, watch)
     else:
-        _compute_beside(found, missing, _elsewhere(plan, found, missing, workers, cluster), watch)
-    return summary(found, plan.responses, repaired)
+        _compute_beside(sweeps, missing, _elsewhere(plan, sweeps, missing, workers, cluster), watch)
+    return summary(sweeps, plan.responses, repaired)
 
 
 def begun(plan: StudyPlan, folder: str | os.PathLike[str]) -> SweepFolder:
     """The folder of a sweep, made if need be; the study is tried on its machine first."""
     if not plan.n_rows:
         raise InputError("sweep: found no rows; give ranges `steps`, or name another method in [sweep]")
-    found = new_folder(Path(folder), plan)
+    made = new_folder(Path(folder), plan)
     _try(plan)
-    found.begin()
-    return found
+    made.begin()
+    return made
 
 
 def _try(plan: StudyPlan) -> None:

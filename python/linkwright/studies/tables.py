@@ -21,12 +21,12 @@ def sweep_tables(sweep: Sweep, units: dict[str, str]) -> list[Table]:
         (
             name,
             "",
-            with_unit(each["min"], units[name]),
-            str(each["min_row"]),
-            with_unit(each["max"], units[name]),
-            str(each["max_row"]),
+            with_unit(extremes["min"], units[name]),
+            str(extremes["min_row"]),
+            with_unit(extremes["max"], units[name]),
+            str(extremes["max_row"]),
         )
-        for name, each in sweep.extremes.items()
+        for name, extremes in sweep.extremes.items()
     ]
     heads = ("response", "", "minimum", "in row", "maximum", "in row")
     tables = [Table("sweep", "Responses", heads, rows)] if rows else []
@@ -47,7 +47,7 @@ def with_unit(value: float, unit: str) -> str:
 def tolerance_tables(tolerance: Tolerance, units: dict[str, str]) -> list[Table]:
     """Scatter of the responses, and what contributes to it."""
     scatter: list[Row] = []
-    for name, each in tolerance.responses.items():
+    for name, response in tolerance.responses.items():
         keys = (
             "mean",
             "deviation",
@@ -57,7 +57,7 @@ def tolerance_tables(tolerance: Tolerance, units: dict[str, str]) -> list[Table]
             "worst_low",
             "worst_high",
         )
-        scatter.append((name, "", *(with_unit(each[key], units[name]) for key in keys)))
+        scatter.append((name, "", *(with_unit(response[key], units[name]) for key in keys)))
     heads = ("response", "", "mean", "standard deviation", "to first order", "99.73 % from", "to")
     tables = [Table("scatter", "Scatter", (*heads, "worst case from", "to"), scatter)]
     shares: list[Row] = []
@@ -92,8 +92,12 @@ def optimum_tables(optimum: Optimum, units: dict[str, str]) -> list[Table]:
     if optimum.tried:
         heads = [*optimum.tried[0]]
         listed: list[Row] = [
-            (str(each[heads[0]]), "", *("–" if each[key] is None else str(each[key]) for key in heads[1:]))
-            for each in optimum.tried
+            (
+                str(candidate[heads[0]]),
+                "",
+                *("–" if candidate[key] is None else str(candidate[key]) for key in heads[1:]),
+            )
+            for candidate in optimum.tried
         ]
         tables.append(Table("tried", "Choices", (heads[0], "", *heads[1:]), listed))
     return tables
@@ -104,13 +108,13 @@ def front_tables(front: Front, units: dict[str, str]) -> list[Table]:
     first = front.machines[0]
     names = [*front.goals, *first.variables, *(name for name in first.responses if name not in front.goals)]
     rows: list[Row] = []
-    for nth, each in enumerate(front.machines, start=1):
-        values = {**each.variables, **each.responses}
+    for nth, machine in enumerate(front.machines, start=1):
+        values = {**machine.variables, **machine.responses}
         shown = [
             with_unit(values[name], units[name]) if isinstance(values[name], float) else str(values[name])
             for name in names
         ]
-        rows.append((str(nth), "", *shown, "; ".join(each.active) or "–"))
+        rows.append((str(nth), "", *shown, "; ".join(machine.active) or "–"))
     return [
         Table("front", "Machines of which none is better in both goals", ("", "", *names, "active"), rows)
     ]
@@ -121,7 +125,7 @@ def fit_tables(fit: Fit) -> list[Table]:
     rows: list[Row] = []
     for name, value in fit.values.items():
         low, high = fit.intervals[name]
-        shown = (with_unit(each, fit.units[name]) for each in (value, fit.deviations[name], low, high))
+        shown = (with_unit(number, fit.units[name]) for number in (value, fit.deviations[name], low, high))
         rows.append((name, "", *shown))
     heads = ("number", "", "value", "standard deviation", f"{100 * fit.level:g} % from", "to")
     tables = [Table("fit", "Fitted numbers", heads, rows)]

@@ -180,7 +180,7 @@ def _bends(plan: StudyPlan) -> tuple[dict[str, float], dict[str, Floats]]:
     steps = np.array([_STEP * spread[1] for spread in spreads])
     n = len(middles)
     points = np.vstack([middles, middles + np.diag(steps), middles - np.diag(steps)])
-    rows = evaluate(plan, {each.name: points[:, i].copy() for i, each in enumerate(plan.axes)})
+    rows = evaluate(plan, {axis.name: points[:, i].copy() for i, axis in enumerate(plan.axes)})
     if (rows.status != SOLVED).any():
         worst = int(np.flatnonzero(rows.status)[0])
         place = (
@@ -250,7 +250,7 @@ def _indices(plan: StudyPlan, seed: int, n: int) -> tuple[dict[str, dict[str, tu
         mixed[i, :, i] = b[:, i]
     rows = evaluate(plan, plan.values(np.vstack([a, b, mixed.reshape(d * n, d)])))
     kept = (rows.status == SOLVED).reshape(d + 2, n).all(axis=0)
-    found: dict[str, dict[str, tuple[float, float]]] = {}
+    indices: dict[str, dict[str, tuple[float, float]]] = {}
     if kept.sum() < 2:
         raise FindingError("too few blocks of the Sobol indices have an answer in all their rows")
     for name in plan.responses:
@@ -260,7 +260,7 @@ def _indices(plan: StudyPlan, seed: int, n: int) -> tuple[dict[str, dict[str, tu
         variance = f[:2].var()
         first = (f[1] * (f[2:] - f[0])).mean(axis=1) / variance if variance > 0 else np.zeros(d)
         total = 0.5 * ((f[0] - f[2:]) ** 2).mean(axis=1) / variance if variance > 0 else np.zeros(d)
-        found[name] = {
-            each.name: (float(s), float(t)) for each, s, t in zip(plan.axes, first, total, strict=True)
+        indices[name] = {
+            axis.name: (float(s), float(t)) for axis, s, t in zip(plan.axes, first, total, strict=True)
         }
-    return found, int((~kept).sum())
+    return indices, int((~kept).sum())

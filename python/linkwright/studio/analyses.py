@@ -195,30 +195,30 @@ def lanes(machine: Machine) -> list[str]:
 def _study(machine: Machine) -> Answers:
     from linkwright.app.report.figures import figures
 
-    found = study(machine)
-    known = [shown(name, result) for name, result in _new_results(found)]
-    drawn = [figure for figure in figures(found) if figure.name not in _CURVES]
-    return Answers(known, found.findings, found.warnings, figures=tuple(map(_svg, drawn)))
+    results = study(machine)
+    known = [shown(name, result) for name, result in _new_results(results)]
+    drawn = [figure for figure in figures(results) if figure.name not in _CURVES]
+    return Answers(known, results.findings, results.warnings, figures=tuple(map(_svg, drawn)))
 
 
 # Figures of the report that plots of the studio show in more detail.
 _CURVES = {"speed", "torque", "time", "reduction", "run_up"}
 
 
-def _new_results(found: Study) -> Iterator[tuple[str, Result]]:
+def _new_results(results: Study) -> Iterator[tuple[str, Result]]:
     """What the fast lane has not shown."""
     known = ("steady_state", "forces")
-    yield from ((name, each) for name, each in found.results().items() if name not in known)
+    yield from ((name, result) for name, result in results.results().items() if name not in known)
 
 
 def _torsion(machine: Machine) -> Answers:
     from linkwright.torsion.figures.captions import torsion_figures
     from linkwright.torsion.study import torsion_study
 
-    found = torsion_study(machine)
-    parts = {field.name: getattr(found, field.name) for field in fields(found)}
+    results = torsion_study(machine)
+    parts = {field.name: getattr(results, field.name) for field in fields(results)}
     known = [shown(name, part) for name, part in parts.items() if isinstance(part, Result)]
-    return Answers(known, figures=tuple(map(_svg, torsion_figures(found))))
+    return Answers(known, figures=tuple(map(_svg, torsion_figures(results))))
 
 
 def _svg(drawn: Captioned) -> dict[str, str]:

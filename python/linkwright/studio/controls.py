@@ -66,7 +66,7 @@ def _items(node: Any) -> Iterator[tuple[str, Any]]:
 def _is_table(value: Any) -> bool:
     """Whether a value is a table, or a list of tables."""
     if isinstance(value, list):
-        return bool(value) and all(isinstance(each, Mapping) for each in value)
+        return bool(value) and all(isinstance(entry, Mapping) for entry in value)
     return isinstance(value, Mapping)
 
 
@@ -114,9 +114,9 @@ def _bounds(mark: Quantity) -> dict[str, float]:
 
 def _choices(annotation: Any) -> Iterator[str]:
     """The words that an entry may have."""
-    for each in (annotation, *get_args(annotation)):
-        if get_origin(each) is Literal:
-            yield from (str(choice) for choice in get_args(each) if isinstance(choice, str))
+    for branch in (annotation, *get_args(annotation)):
+        if get_origin(branch) is Literal:
+            yield from (str(choice) for choice in get_args(branch) if isinstance(choice, str))
 
 
 def _missing(place: tuple[str, ...], model: type[BaseModel], node: Any, raw: Any) -> Iterator[Control]:

@@ -46,20 +46,20 @@ def slopes(machine: Machine, response: str) -> dict[str, Any]:
     ``response``, ``word``, ``symbol``, ``unit``, ``value``; ``slopes``, address → derivative [SI]; ``tie``,
     why it has a derivative on either side only; ``responses``, all that have derivatives.
     """
-    found = gradient(machine)
-    if response not in found.responses:
+    derivatives = gradient(machine)
+    if response not in derivatives.responses:
         raise InputError(f"{response} has no derivative; choose a result of the steady motion")
     words = shown(SteadyState, response.partition(".")[2])
-    rows = found.of(response)
+    rows = derivatives.of(response)
     return {
         "response": response,
         "word": words.word,
         "symbol": words.symbol,
         "unit": words.unit,
-        "value": float(found.values[found.responses.index(response)]),
+        "value": float(derivatives.values[derivatives.responses.index(response)]),
         "slopes": {address: slope for address, slope in rows.items() if math.isfinite(slope)},
-        "tie": found.ties.get(response, ""),
-        "responses": list(found.responses),
+        "tie": derivatives.ties.get(response, ""),
+        "responses": list(derivatives.responses),
     }
 
 
@@ -91,16 +91,16 @@ class _Reach:
         """Step until the value is there, or nothing leads nearer."""
         reason = ""
         for _ in range(_STEPS):
-            found = self._gradient()
-            miss = self.wanted - float(found.values[0])
-            if abs(miss) <= _NEAR * max(abs(self.wanted), abs(float(found.values[0]))):
+            rates = self._gradient()
+            miss = self.wanted - float(rates.values[0])
+            if abs(miss) <= _NEAR * max(abs(self.wanted), abs(float(rates.values[0]))):
                 return Drag(self._entries())
-            step = self._step(found.derivatives[0], miss)
+            step = self._step(rates.derivatives[0], miss)
             if not step.any():
-                return Drag(self._entries(), self._held(found.derivatives[0]))
+                return Drag(self._entries(), self._held(rates.derivatives[0]))
             reason = self._walk(step, abs(miss))
             if reason:
-                return Drag(self._entries(), found.ties.get(self.response, "") or reason)
+                return Drag(self._entries(), rates.ties.get(self.response, "") or reason)
         return Drag(self._entries(), reason)
 
     def _gradient(self) -> Gradient:
@@ -120,8 +120,8 @@ class _Reach:
             return np.zeros_like(pull)
         step = pull * miss / size
         most = float(np.abs(step).max())
-        found: Floats = step * min(1.0, _FAR / most) * self.range
-        return found
+        bounded: Floats = step * min(1.0, _FAR / most) * self.range
+        return bounded
 
     def _walk(self, step: Floats, miss: float) -> str:
         """Go a part of the step that leads nearer; why there is none."""
@@ -142,8 +142,8 @@ class _Reach:
         """What holds the result."""
         moved = [
             name
-            for name, each, width in zip(self.names, slope, self.range, strict=True)
-            if each != 0 and width > 0
+            for name, rate, width in zip(self.names, slope, self.range, strict=True)
+            if rate != 0 and width > 0
         ]
         if not moved:
             return f"{self._name()} does not depend on the entries that may follow"

@@ -74,10 +74,10 @@ def drag(
     `machine`: as it was when the drag began; `angle`: of the crank in the drawing [rad]; `locked`: addresses
     that hold their values.
     """
-    free = [each for each in entries_of(machine, point) if each not in locked]
+    free = [entry for entry in entries_of(machine, point) if entry not in locked]
     if not free:
         return Drag({}, f"all entries of {point} are locked")
-    before = np.array([float(get(machine, each)) for each in free])
+    before = np.array([float(get(machine, entry)) for entry in free])
     search = _Search(machine, point, np.array(place), angle, free, before, closure(machine).turns_fully)
     return search.stopped(search.nearest())
 
@@ -96,27 +96,27 @@ class _Search:
 
     def nearest(self) -> Floats:
         """Entries with the point as near as they allow, whether or not the linkage still turns."""
-        at, found = self.before, self._placed(self.before[None])[0]
+        at, place = self.before, self._placed(self.before[None])[0]
         size = float(np.hypot(*self.place)) + float(np.abs(self.before).max()) or 1.0
         for _ in range(_STEPS):
-            if np.hypot(*(self.place - found)) < _NEAR * size:
+            if np.hypot(*(self.place - place)) < _NEAR * size:
                 break
             moved = at + _PROBE * size * np.eye(len(at))
-            slopes = (self._placed(moved) - found).T / (_PROBE * size)
-            step = np.linalg.lstsq(slopes, self.place - found, rcond=1e-6)[0]
-            better = self._improved(at, found, step, size)
+            slopes = (self._placed(moved) - place).T / (_PROBE * size)
+            step = np.linalg.lstsq(slopes, self.place - place, rcond=1e-6)[0]
+            better = self._improved(at, place, step, size)
             if better is None:
                 break
-            at, found = better
+            at, place = better
         return at
 
-    def _improved(self, at: Floats, found: Floats, step: Floats, size: float) -> tuple[Floats, Floats] | None:
+    def _improved(self, at: Floats, place: Floats, step: Floats, size: float) -> tuple[Floats, Floats] | None:
         """The first of ever shorter steps that brings the point nearer."""
         shares = 0.5 ** np.arange(_SHARES)
         tried = self._allowed(at + shares[:, None] * step, size)
         places = self._placed(tried)
         away = np.hypot(*(places - self.place).T)
-        nearer = np.flatnonzero(away < np.hypot(*(found - self.place)))
+        nearer = np.flatnonzero(away < np.hypot(*(place - self.place)))
         return (tried[nearer[0]], places[nearer[0]]) if len(nearer) else None
 
     def _allowed(self, rows: Floats, size: float) -> Floats:
@@ -161,23 +161,23 @@ class _Search:
 
     def _out_of_reach(self, wanted: Floats) -> str:
         """What holds the point, where the entries do not lead to the place."""
-        found = self._placed(wanted[None])[0]
-        away, size = float(np.hypot(*(found - self.place))), float(np.hypot(*self.place)) or 1.0
+        place = self._placed(wanted[None])[0]
+        away, size = float(np.hypot(*(place - self.place))), float(np.hypot(*self.place)) or 1.0
         if not math.isfinite(away) or away < 1e-3 * size:
             return ""
-        names = " and ".join(each.rsplit(".", 1)[-1] for each in self.free)
+        names = " and ".join(entry.rsplit(".", 1)[-1] for entry in self.free)
         return f"{self.point} moves with {names} alone"
 
     def _reason(self, row: Floats) -> str:
         """Why the linkage with these entries does not move as the one before; empty if it does."""
         try:
             machine = self.moved(row)
-            found = closure(machine)
+            closed = closure(machine)
         except LinkwrightError as error:
             return str(error)
-        if found.turns_fully or not self.turned:
-            return "" if found.ranges else str(closure_error(found, machine))
-        return str(closure_error(found, machine))
+        if closed.turns_fully or not self.turned:
+            return "" if closed.ranges else str(closure_error(closed, machine))
+        return str(closure_error(closed, machine))
 
     def _entries(self, row: Floats) -> dict[str, float]:
         """Entries with the digits that the file will have."""

@@ -86,15 +86,15 @@ def _acting(machine: Machine, scene: dict[str, Any], acting: Forces) -> list[dic
     """Forces of pins at their points, over the angles of the scene."""
     points = {name: pair.point for name, pair in structure(machine.linkage).pairs.items()}
     within = np.mod(scene["angles"], 2 * np.pi)
-    found = []
+    forces = []
     for name, pair in acting.pairs.items():
         if pair.kind in ("pin", "guide") and points.get(name) in scene["points"]:
             force = np.stack(
                 [np.interp(within, acting.crank_angle, pair.force[:, k]) for k in (0, 1)], axis=-1
             )
             if np.isfinite(force).all():
-                found.append({"name": name, "point": points[name], "force": force})
-    return found
+                forces.append({"name": name, "point": points[name], "force": force})
+    return forces
 
 
 # Table of the mechanism → entries that place its point.
@@ -110,8 +110,8 @@ _PLACES = {
 
 def handles(machine: Machine) -> list[dict[str, Any]]:
     """The points that can be dragged: ``point``, its name, and ``entries``, addresses of what follows."""
-    found = dict(_handles(machine.mechanism))
-    return [{"point": name, "entries": addresses} for name, addresses in found.items() if addresses]
+    points = dict(_handles(machine.mechanism))
+    return [{"point": name, "entries": addresses} for name, addresses in points.items() if addresses]
 
 
 def entries_of(machine: Machine, point: str) -> list[str]:
@@ -124,7 +124,7 @@ def _handles(mechanism: Mechanism) -> Iterator[tuple[str, list[str]]]:
         for name, element in getattr(mechanism, table).items():
             if name != ORIGIN or table != "points":
                 given = [name for name in names if getattr(element, name) is not None]
-                yield name, [join(("mechanism", table, name, each)) for each in given]
+                yield name, [join(("mechanism", table, name, entry)) for entry in given]
     for name in mechanism.joints:
-        bars = [each for each, bar in mechanism.bars.items() if name in (bar.start, bar.end)]
+        bars = [joint for joint, bar in mechanism.bars.items() if name in (bar.start, bar.end)]
         yield name, [join(("mechanism", "bars", bar, "length")) for bar in bars]

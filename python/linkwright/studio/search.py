@@ -50,9 +50,9 @@ def _plan(machine: Machine, asked: Body, **more: Any) -> StudyPlan:
     if not entries:
         raise InputError("no entry varies; choose one")
     variables = {
-        f"v{n}": {"address": each["address"], "range": (float(each["low"]), float(each["high"]))}
-        | ({"steps": int(each["steps"])} if "steps" in each else {})
-        for n, each in enumerate(entries)
+        f"v{n}": {"address": entry["address"], "range": (float(entry["low"]), float(entry["high"]))}
+        | ({"steps": int(entry["steps"])} if "steps" in entry else {})
+        for n, entry in enumerate(entries)
     }
     tables = {"variables": variables, "responses": {"y": str(asked["response"])}, **more}
     return plan(machine, StudyFile.model_validate(tables))
@@ -89,24 +89,24 @@ def _optimise(machine: Machine, asked: Body, tell: Tell) -> Body:
     """The best machine within the limits of the entries."""
     direction, machines = str(asked.get("direction")), min(int(asked.get("machines", 2000)), _MACHINES)
     study = _plan(machine, asked, goals={"y": direction})
-    addresses = {f"v{n}": each["address"] for n, each in enumerate(asked["entries"])}
+    addresses = {f"v{n}": entry["address"] for n, entry in enumerate(asked["entries"])}
     counts: list[int] = []
     course: list[float] = []
-    told = [monotonic()]
+    last = [monotonic()]
 
     def body(at: dict[str, float], value: float | None, **more: Any) -> Body:
-        entries = {addresses[name]: float(short(each)) for name, each in at.items()}
-        found = {"of": "search", "kind": "optimise", "response": asked["response"], "rows": machines}
-        found |= {"course": {"machines": np.array(counts, float), "best": np.array(course)}}
-        return found | {"done": counts[-1] if counts else 0, "entries": entries, "value": value, **more}
+        entries = {addresses[name]: float(short(value)) for name, value in at.items()}
+        answer = {"of": "search", "kind": "optimise", "response": asked["response"], "rows": machines}
+        answer |= {"course": {"machines": np.array(counts, float), "best": np.array(course)}}
+        return answer | {"done": counts[-1] if counts else 0, "entries": entries, "value": value, **more}
 
     def watch(count: int, value: float | None, at: dict[str, float]) -> None:
         counts.append(count)
         course.append(np.nan if value is None else value)
-        if monotonic() - told[0] > _PAUSE:
-            told[0] = monotonic()
+        if monotonic() - last[0] > _PAUSE:
+            last[0] = monotonic()
             tell(body(at, value))
 
-    found = optimise(study, machines, watch=watch)
-    best = {name: float(value) for name, value in found.variables.items()}
-    return body(best, found.responses["y"], last=True, failed=found.n_failed)
+    optimum = optimise(study, machines, watch=watch)
+    best = {name: float(value) for name, value in optimum.variables.items()}
+    return body(best, optimum.responses["y"], last=True, failed=optimum.n_failed)

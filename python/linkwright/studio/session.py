@@ -167,16 +167,16 @@ class Session:
         start = self._machine({})
         place = (float(pull["x"]), float(pull["y"]))
         locked = frozenset(map(str, pull.get("locked", ())))
-        found = drag(start, str(pull["point"]), place, float(pull["angle"]), locked)
-        entries |= found.entries
-        return {"reason": found.reason}
+        dragged = drag(start, str(pull["point"]), place, float(pull["angle"]), locked)
+        entries |= dragged.entries
+        return {"reason": dragged.reason}
 
     def _reached(self, pull: Body, entries: dict[str, Any]) -> Body:
         """The entries that follow a result; they are put to the others."""
         free = {str(address): (float(low), float(high)) for address, (low, high) in pull["free"].items()}
-        found = reach(self._machine({}), str(pull["of"]), float(pull["value"]), free)
-        entries |= found.entries
-        return {"reason": found.reason}
+        reached = reach(self._machine({}), str(pull["of"]), float(pull["value"]), free)
+        entries |= reached.entries
+        return {"reason": reached.reason}
 
     def _around(self, machine: Machine | None) -> Body:
         """Controls, chips and lanes of a machine that is not being pulled at."""
@@ -315,4 +315,4 @@ def _problems(error: LinkwrightError) -> list[Body]:
     """What is wrong with a file, each with its place."""
     listed = error.problems if isinstance(error, MachineError) else [Problem(found=str(error))]
     names = ("key", "found", "expected", "remedy", "line")
-    return [{name: getattr(each, name) for name in names} for each in listed[:100]]
+    return [{name: getattr(problem, name) for name in names} for problem in listed[:100]]

@@ -26,7 +26,7 @@ def shown(name: str, result: Result) -> dict[str, Any]:
     ``name``; ``scalars`` with name, words, symbol, unit and SI value; ``plots``, each with an abscissa and
     the curves that have one unit.
     """
-    declared = [each._replace(unit=result.unit_of(each.name)) for each in _declared_of(result)]
+    declared = [quantity._replace(unit=result.unit_of(quantity.name)) for quantity in _declared_of(result)]
     return {
         "name": name,
         "scalars": list(_scalars(result, declared)),
@@ -48,40 +48,42 @@ def _declared(owner: type) -> tuple[DeclaredQuantity, ...]:
 
 def _scalars(result: Result, declared: list[DeclaredQuantity]) -> Iterator[dict[str, Any]]:
     """Single numbers that are finite."""
-    for each in declared:
-        value = getattr(result, each.name, None) if each.kind == "scalar" else None
+    for quantity in declared:
+        value = getattr(result, quantity.name, None) if quantity.kind == "scalar" else None
         if isinstance(value, int | float | np.number) and math.isfinite(value):
-            yield {**_words(each), "value": float(value)}
+            yield {**_words(quantity), "value": float(value)}
 
 
-def _words(each: DeclaredQuantity) -> dict[str, str]:
-    return {"name": each.name, "word": each.word, "symbol": each.symbol, "unit": each.unit}
+def _words(quantity: DeclaredQuantity) -> dict[str, str]:
+    return {"name": quantity.name, "word": quantity.word, "symbol": quantity.symbol, "unit": quantity.unit}
 
 
 def _plots(name: str, result: Result, declared: list[DeclaredQuantity]) -> Iterator[dict[str, Any]]:
     """Curves over one abscissa in one unit share a plot."""
-    known = {each.name: each for each in declared if each.kind == "curve"}
+    known = {quantity.name: quantity for quantity in declared if quantity.kind == "curve"}
     groups: dict[tuple[str, str], list[DeclaredQuantity]] = {}
-    for each in known.values():
-        if each.over in known:
-            groups.setdefault((each.over, each.unit), []).append(each)
+    for quantity in known.values():
+        if quantity.over in known:
+            groups.setdefault((quantity.over, quantity.unit), []).append(quantity)
     for (over, unit), curves in groups.items():
         x = _list_of(result, over)
         listed = [(curve, _list_of(result, curve.name)) for curve in curves]
-        drawn = [(each, y) for each, y in listed if y is not None and x is not None and y.shape == x.shape]
+        drawn = [
+            (quantity, y) for quantity, y in listed if y is not None and x is not None and y.shape == x.shape
+        ]
         if x is not None and drawn and len(x) > 1:
             yield {
                 "key": f"{name}.{drawn[0][0].name}",
                 "title": drawn[0][0].word if len(drawn) == 1 else _common(drawn),
                 "unit": unit,
                 "x": {**_words(known[over]), "values": x},
-                "curves": [{**_words(each), "values": y} for each, y in drawn],
+                "curves": [{**_words(quantity), "values": y} for quantity, y in drawn],
             }
 
 
 def _common(drawn: list[tuple[DeclaredQuantity, Floats]]) -> str:
     """Title of a plot of several curves: their words, as many as a line holds."""
-    words = [each.word for each, _ in drawn]
+    words = [quantity.word for quantity, _ in drawn]
     return ", ".join(words[:2]) + (", …" if len(words) > 2 else "")
 
 
@@ -95,7 +97,7 @@ def _list_of(result: Result, name: str) -> Floats | None:
 def _of_columns(name: str, result: Result) -> Iterator[dict[str, Any]]:
     """Columns of a result's parts, those of one part and one unit in one plot."""
     columns = result.columns()
-    first = next((each for each in _declared_of(result) if each.kind == "curve"), None)
+    first = next((quantity for quantity in _declared_of(result) if quantity.kind == "curve"), None)
     x = _list_of(result, first.name) if first else None
     if first is None or x is None:
         return

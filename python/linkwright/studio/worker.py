@@ -34,8 +34,8 @@ def main() -> None:
     out = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
 
-    def send(number: int, found: dict[str, Any], *, is_last: bool) -> None:
-        body = packed(number, found)
+    def send(number: int, answer: dict[str, Any], *, is_last: bool) -> None:
+        body = packed(number, answer)
         out.write(_HEAD.pack(len(body), is_last) + body)
         out.flush()
 
@@ -47,15 +47,15 @@ def main() -> None:
             if lane == "search":
                 from linkwright.studio.search import search
 
-                found = search(machine, job["search"], partial(send, number, is_last=False))
+                answer = search(machine, job["search"], partial(send, number, is_last=False))
             else:
-                found = {"of": "beside", "lane": lane, **beside(machine, lane).body()}
+                answer = {"of": "beside", "lane": lane, **beside(machine, lane).body()}
         except LinkwrightError as error:
             if lane == "search":
-                found = {"of": "search", "ended": True, "words": str(error)}
+                answer = {"of": "search", "ended": True, "words": str(error)}
             else:
-                found = {"of": "beside", "lane": lane, **failed(error).body()}
-        send(number, found, is_last=True)
+                answer = {"of": "beside", "lane": lane, **failed(error).body()}
+        send(number, answer, is_last=True)
 
 
 class Worker:

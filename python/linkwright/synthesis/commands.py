@@ -202,13 +202,13 @@ def line(
         lines = straight_lines(wanted)
         answer = Answer(
             machine=None,
-            results=lambda _: {"straight_lines": [each.to_dict() for each in lines]},
+            results=lambda _: {"straight_lines": [line.to_dict() for line in lines]},
             show=partial(print_catalogue, lines),
         )
         hand_over(answer, json=json)
         return
-    found = straight_line(kind, wanted, proportions=_proportions(proportion or []))
-    _finish("straight_line", found, json, out, force, curves=curves)
+    straight = straight_line(kind, wanted, proportions=_proportions(proportion or []))
+    _finish("straight_line", straight, json, out, force, curves=curves)
 
 
 # In the order of the help.
@@ -250,13 +250,13 @@ def _tracked() -> Iterator[Any]:
 
 
 def _finish(
-    what: str, found: Result, json: bool, out: Path | None, force: bool, *, curves: bool = False
+    what: str, result: Result, json: bool, out: Path | None, force: bool, *, curves: bool = False
 ) -> None:
     """Write the machine and print the result."""
     from linkwright.machine.write import dumps
 
-    machine: Machine = found.machine  # type: ignore[attr-defined]
-    entries = found.to_dict(curves=curves)
+    machine: Machine = result.machine  # type: ignore[attr-defined]
+    entries = result.to_dict(curves=curves)
     # Lines of the catalogue have none.
     warnings = entries.pop("warnings", [])
     answer = Answer(
@@ -325,10 +325,10 @@ def print_catalogue(lines: tuple[Any, ...]) -> None:
         f"{'kind':<14} {'exact':<6} {'links':>5} {'deviation':>11} {'crank range':>20} "
         f"{'longest':>9}  rotates"
     )
-    for each in lines:
-        span = f"{degrees(each.crank_angle_start):.1f}° to {degrees(each.crank_angle_end):.1f}°"
-        deviation = "0" if each.exact else f"{each.deviation:.3g} m"
+    for kind in lines:
+        span = f"{degrees(kind.crank_angle_start):.1f}° to {degrees(kind.crank_angle_end):.1f}°"
+        deviation = "0" if kind.exact else f"{kind.deviation:.3g} m"
         click.echo(
-            f"{each.kind:<14} {words('', each.exact):<6} {each.links:>5} {deviation:>11} {span:>20} "
-            f"{each.size:>7.3g} m  {words('', each.turns_fully)}"
+            f"{kind.kind:<14} {words('', kind.exact):<6} {kind.links:>5} {deviation:>11} {span:>20} "
+            f"{kind.size:>7.3g} m  {words('', kind.turns_fully)}"
         )

@@ -133,8 +133,8 @@ def crank_rocker(
     delta = delta_of(time_ratio)
     families = [_Family(swing, delta, side) for side in (1.0, -1.0)]
     low = max(np.sin(abs(delta) / 2), np.sin(swing / 2) / coupler_max)
-    found = [(family, *best(family.transmission, low)) for family in families]
-    family, t, mu = max(found, key=lambda each: np.nan_to_num(each[2]))
+    linkages = [(family, *best(family.transmission, low)) for family in families]
+    family, t, mu = max(linkages, key=lambda linkage: np.nan_to_num(linkage[2]))
     if not mu > 0:
         raise SynthesisError(_no_crank_rocker(swing, time_ratio, coupler_max))
     return _verified(family.result(t, time_ratio, frame))
@@ -149,9 +149,9 @@ def _verified(made: CrankRocker) -> CrankRocker:
     return made
 
 
-def slow_over_quick(time_ratio: float, found: float | None) -> tuple[float, float | None]:
+def slow_over_quick(time_ratio: float, default: float | None) -> tuple[float, float | None]:
     """A time ratio as the analysis counts it, the slower way first; without a slower way it is 1."""
-    return max(time_ratio, 1 / time_ratio), 1.0 if found is None else found
+    return max(time_ratio, 1 / time_ratio), 1.0 if default is None else default
 
 
 def delta_of(time_ratio: float) -> float:
@@ -162,7 +162,7 @@ def delta_of(time_ratio: float) -> float:
 def best(transmission: Callable[[Floats], Floats], low: float) -> tuple[float, float]:
     """The free parameter of the best transmission angle, and that angle; NaN if there is no linkage."""
     least, high = low, 1.0
-    found, angle = np.nan, np.nan
+    largest, angle = np.nan, np.nan
     # Each look is a thousand times closer than the one before; five pass the limit of rounding.
     for _ in range(5 if low < high else 0):
         t = np.linspace(low, high, _LOOKS + 2)[1:-1]
@@ -170,9 +170,9 @@ def best(transmission: Callable[[Floats], Floats], low: float) -> tuple[float, f
         if np.isnan(angles).all():
             break
         at = int(np.nanargmax(angles))
-        found, angle, step = float(t[at]), float(angles[at]), t[1] - t[0]
-        low, high = max(found - step, least), min(found + step, 1.0)
-    return found, angle
+        largest, angle, step = float(t[at]), float(angles[at]), t[1] - t[0]
+        low, high = max(largest - step, least), min(largest + step, 1.0)
+    return largest, angle
 
 
 def joints(t: Floats, delta: float) -> tuple[Floats, Floats, Complexes, Complexes]:

@@ -88,11 +88,11 @@ def solve(
     if free.any():
         K, starts = _positive(*_refined(crank, rocker, K, starts, free), free)
     residuals = residual(crank, rocker, K, starts)
-    found = []
+    solutions = []
     for i in np.flatnonzero(residuals < EXACT):
         phi, psi = (float(np.angle(np.exp(1j * start))) for start in starts[i])
-        found.append(Fit(K[i], phi, psi, float(residuals[i])))
-    return _distinct(found), len(residuals)
+        solutions.append(Fit(K[i], phi, psi, float(residuals[i])))
+    return _distinct(solutions), len(residuals)
 
 
 def residual(crank: Floats, rocker: Floats, K: Floats, starts: Floats) -> Floats:

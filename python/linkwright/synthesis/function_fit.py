@@ -54,14 +54,14 @@ def nearest(task: FunctionTask, scale: Scale) -> tuple[list[Fit], int]:
     rows = _starts(task, scale, model)
     if not len(rows.x):
         return [], 0
-    found, rms, broken = refine(model, rows)
+    refined, rms, broken = refine(model, rows)
     kept = np.flatnonzero((broken <= 0.0) & np.isfinite(rms))
     kept = kept[np.argsort(rms[kept], kind="stable")]
     minima, counts = _minima(rms, kept)
     if not len(minima):
         return [], len(rows.x)
     levelled, largest = level(
-        model.over(scale.crank_over[::_EVERY], scale.rocker_over[::_EVERY]), found.take(minima)
+        model.over(scale.crank_over[::_EVERY], scale.rocker_over[::_EVERY]), refined.take(minima)
     )
     fits = []
     for i in np.argsort(largest, kind="stable"):
@@ -72,14 +72,14 @@ def nearest(task: FunctionTask, scale: Scale) -> tuple[list[Fit], int]:
 
 def _minima(rms: Floats, kept: NDArray[np.intp]) -> tuple[NDArray[np.intp], list[int]]:
     """One linkage of each of the lowest minima, and how many ended there; ``kept`` in order of ``rms``."""
-    found: list[int] = []
+    minima: list[int] = []
     counts: list[int] = []
-    while len(kept) and len(found) < _LEVELLED:
+    while len(kept) and len(minima) < _LEVELLED:
         same = rms[kept] <= (1 + _SAME) * rms[kept[0]]
-        found.append(int(kept[0]))
+        minima.append(int(kept[0]))
         counts.append(int(same.sum()))
         kept = kept[~same]
-    return np.array(found, dtype=np.intp), counts
+    return np.array(minima, dtype=np.intp), counts
 
 
 def _starts(task: FunctionTask, scale: Scale, model: FunctionModel) -> Rows:
@@ -136,7 +136,7 @@ def _of_equation(task: FunctionTask, scale: Scale, model: FunctionModel) -> Rows
 def _fit(scale: Scale, rows: Rows, i: int, found_by: int) -> Fit:
     """A row as a solution of Freudenstein's equation."""
     r, c, b = np.exp(rows.x[i, :3])
-    r, b = (-each if turned else each for each, turned in zip((r, b), rows.turned[i], strict=True))
+    r, b = (-angles if turned else angles for angles, turned in zip((r, b), rows.turned[i], strict=True))
     K = np.array([1 / r, 1 / b, (1 + r * r + b * b - c * c) / (2 * r * b)])
     phi, psi = (float(np.angle(np.exp(1j * start))) for start in rows.x[i, 3:])
     at = residual(scale.crank, scale.rocker, K[None], rows.x[i : i + 1, 3:])

@@ -97,11 +97,11 @@ class FunctionGenerator(TransmissionResult):
         is_search = self.starts > 1 and len(self.points) > 3
         if not is_search or self.found_by >= _SURE:
             return super().warnings
-        told = (
+        words = (
             f"only {self.found_by} of {self.starts} starts ended at this linkage: there may be a better one; "
             "give crank_start or rocker_start near the ones found to look there"
         )
-        return (told, *super().warnings)
+        return (words, *super().warnings)
 
 
 @public
@@ -143,7 +143,7 @@ def function_generator(task: FunctionTask) -> FunctionGenerator:
     results, reasons = _usable(task, scale, fits)
     if not results:
         raise SynthesisError(_none(fits, reasons))
-    best = min(results, key=lambda each: each.angle_error_max)
+    best = min(results, key=lambda fit: fit.angle_error_max)
     return FunctionGenerator(**{**vars(best), "solutions": len(results), "starts": n_starts})
 
 
@@ -177,10 +177,10 @@ def _usable(task: FunctionTask, scale: Scale, fits: list[Fit]) -> tuple[list[Fun
 
 def _generator(task: FunctionTask, scale: Scale, fit: Fit) -> FunctionGenerator:
     """The result of one solution; a finding if it cannot be driven through the range."""
-    found = lengths(fit.K, task.frame)
-    if found is None:
+    sides = lengths(fit.K, task.frame)
+    if sides is None:
         raise SynthesisError("its coupler would have an imaginary length")
-    r, c, b = found
+    r, c, b = sides
     size = (task.frame, abs(r), c, abs(b))
     if max(size) > task.length_ratio_max * min(size):
         ratio = max(size) / min(size)
@@ -258,9 +258,9 @@ def _rocker_angles(machine: Machine, angles: Floats) -> Floats:
 
 def _none(fits: list[Fit], reasons: list[str]) -> str:
     """Why none of the solutions can be used, the commonest reason with its numbers first."""
-    told = "; ".join(dict.fromkeys(reasons[:3]))
+    causes = "; ".join(dict.fromkeys(reasons[:3]))
     n = f"{len(fits)} solution{'s' if len(fits) > 1 else ''}"
     return (
-        f"Freudenstein's equation has {n}, none of which can be used: {told}. Change crank_range, "
+        f"Freudenstein's equation has {n}, none of which can be used: {causes}. Change crank_range, "
         "rocker_range or the start angles"
     )

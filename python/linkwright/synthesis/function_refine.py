@@ -219,9 +219,9 @@ def refine(
             active = active[~rests]
         if not len(active):
             break
-    found = Rows(x, rows.side, rows.turned)
-    rms = np.sqrt((model.errors(found)[0] ** 2).mean(axis=1))
-    return found, rms, model.excess(found)[0].max(axis=1) - _MARGIN
+    refined = Rows(x, rows.side, rows.turned)
+    rms = np.sqrt((model.errors(refined)[0] ** 2).mean(axis=1))
+    return refined, rms, model.excess(refined)[0].max(axis=1) - _MARGIN
 
 
 def level(model: FunctionModel, rows: Rows) -> tuple[Rows, Floats]:

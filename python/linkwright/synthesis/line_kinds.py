@@ -182,8 +182,8 @@ def _even(half: float) -> Callable[[dict[str, float]], tuple[float, float]]:
 
 
 KINDS: dict[str, LineKind] = {
-    each.kind: each
-    for each in (
+    kind.kind: kind
+    for kind in (
         LineKind(
             "hoeken",
             "Hoeken's linkage",

@@ -108,16 +108,18 @@ class PathGenerator(TransmissionResult):
     @property
     def warnings(self) -> tuple[str, ...]:
         """What to know of the search and of the linkage."""
-        told = []
+        sentences = []
         if self.found_by < _SURE:
-            told.append(
+            sentences.append(
                 f"only {self.found_by} of {self.starts} starts ended at this error: there may be a better "
                 "linkage; raise population"
             )
         if self.limited_by:
             keys = " and ".join(self.limited_by)
-            told.append(f"the linkage stands at its limit of {keys}: a wider one may allow a smaller error")
-        return (*told, *super().warnings)
+            sentences.append(
+                f"the linkage stands at its limit of {keys}: a wider one may allow a smaller error"
+            )
+        return (*sentences, *super().warnings)
 
 
 @public

@@ -233,7 +233,7 @@ class PathModel:
     def _limits(self, p: Floats, is_double: Bools) -> Iterator[tuple[str, Floats]]:
         """Each constraint by the key of the task that sets it, with its excess, (m,)."""
         lengths, _ = shape(p[:, :3], is_double)
-        s, z, t = (each[:, 0] for each in self.pose(p))
+        s, z, t = (pose[:, 0] for pose in self.pose(p))
         frame = np.maximum(np.abs(s), 1e-300)
         sizes = np.column_stack([frame, frame[:, None] * lengths])
         point = z * np.conj(s) / frame
@@ -277,7 +277,7 @@ class PathModel:
     def linkage(self, row: Linkages) -> tuple[FourBar, complex, Floats]:
         """Linkage, coupler point [m] and crank angles of the points [rad] of a single row."""
         lengths, _ = shape(row.p[:, :3], row.is_double)
-        s, z, t = (complex(each[0, 0]) * self.size for each in self.pose(row.p))
+        s, z, t = (complex(number[0, 0]) * self.size for number in self.pose(row.p))
         A0 = t + self.middle
         crank, coupler, rocker = (abs(s) * float(length) for length in lengths[0])
         way = float(np.angle(s))

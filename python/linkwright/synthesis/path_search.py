@@ -77,10 +77,10 @@ def starts(model: PathModel, count: int) -> Linkages:
     number = np.arange(count * TRIALS)
     size = max(1, _TOGETHER // (TRIALS * len(model.target)))
     groups = [slice(i * TRIALS, min(i + size, count) * TRIALS) for i in range(0, count, size)]
-    found = [_best(model, _trials(model, shares[group], number[group])) for group in groups]
+    best = [_best(model, _trials(model, shares[group], number[group])) for group in groups]
     return Linkages(
         *(
-            np.concatenate([getattr(each, name) for each in found])
+            np.concatenate([getattr(population, name) for population in best])
             for name in ("p", "phi", "is_double", "side")
         )
     )
@@ -114,7 +114,7 @@ def _trials(model: PathModel, shares: Floats, number: NDArray[np.intp]) -> Linka
     phi = start + (model.timed if model.timed is not None else way * _timing(model.target, shares[:, 4:]))
     A, e = pin_and_coupler(shape(q, is_double)[0], side, phi)
     pose = _posed(model.target, A, e)
-    p = np.column_stack([q, *(part for each in pose for part in (each.real, each.imag))])
+    p = np.column_stack([q, *(part for column in pose for part in (column.real, column.imag))])
     if model.timed is not None:
         p = np.column_stack([p, start])
     return Linkages(p, phi, is_double, side)
@@ -148,9 +148,9 @@ def _posed(target: Complexes, A: Complexes, e: Complexes) -> tuple[Complexes, Co
     middle = target.mean()
     a, f = A - A.mean(axis=1, keepdims=True), e - e.mean(axis=1, keepdims=True)
     w = target - middle
-    aa, ff = ((np.abs(each) ** 2).sum(axis=1) for each in (a, f))
+    aa, ff = ((np.abs(point) ** 2).sum(axis=1) for point in (a, f))
     af = (np.conj(a) * f).sum(axis=1)
-    aw, fw = ((np.conj(each) * w).sum(axis=1) for each in (a, f))
+    aw, fw = ((np.conj(point) * w).sum(axis=1) for point in (a, f))
     apart = _APART * (aa + ff)
     aa, ff = aa + apart, ff + apart
     determinant = aa * ff - np.abs(af) ** 2

@@ -110,21 +110,21 @@ def straight_line(
     ----------
     .. [1] Hartenberg, Denavit, Kinematic Synthesis of Linkages, 1964.
     """
-    found = _kind(kind)
+    line = _kind(kind)
     in_range(length=(length, positive(LENGTH)))
-    chosen = found.proportions | _checked(found, proportions or {})
+    chosen = line.proportions | _checked(line, proportions or {})
     try:
         with np.errstate(all="raise"):
-            span = crank_range or found.span(chosen)
-            tables = found.build(chosen)
+            span = crank_range or line.span(chosen)
+            tables = line.build(chosen)
     except (FloatingPointError, ValueError):
-        raise SynthesisError(_impossible(found, chosen)) from None
+        raise SynthesisError(_impossible(line, chosen)) from None
     if not span[0] < span[1]:
         raise InputError("crank_range: expected the smaller angle first")
-    unit = _extent(*_line(machine_of(found.title, tables), found, chosen, span)[:2])[0]
-    name = f"{found.title}, line of {length:.6g} m"
-    machine = machine_of(name, _scaled(tables, length / unit), f"{SOURCE}: {found.source}")
-    return _measured(found, machine, chosen, span, tables, length / unit)
+    unit = _extent(*_line(machine_of(line.title, tables), line, chosen, span)[:2])[0]
+    name = f"{line.title}, line of {length:.6g} m"
+    machine = machine_of(name, _scaled(tables, length / unit), f"{SOURCE}: {line.source}")
+    return _measured(line, machine, chosen, span, tables, length / unit)
 
 
 @public
@@ -168,10 +168,10 @@ def _hull(x: Floats, y: Floats) -> NDArray[np.complex128]:
     chain: list[complex] = []
     for listed in (points, points[::-1]):
         part: list[complex] = []
-        for each in (complex(*point) for point in listed):
-            while len(part) > 1 and ((part[-1] - part[-2]).conjugate() * (each - part[-2])).imag <= 0:
+        for corner in (complex(*point) for point in listed):
+            while len(part) > 1 and ((part[-1] - part[-2]).conjugate() * (corner - part[-2])).imag <= 0:
                 part.pop()
-            part.append(each)
+            part.append(corner)
         chain += part[:-1]
     return np.array(chain)
 

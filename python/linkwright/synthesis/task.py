@@ -256,10 +256,10 @@ class PathTask(Task):
                 )
 
 
-def same_length(place: tuple[str, ...], found: int, wanted: int, what: str) -> Iterator[InitErrorDetails]:
+def same_length(place: tuple[str, ...], length: int, wanted: int, what: str) -> Iterator[InitErrorDetails]:
     """The fault of a list that has not one value for each of something."""
-    if found != wanted:
-        yield fault(*place, found=values(found), expected=f"{values(wanted)}, one a {what}")
+    if length != wanted:
+        yield fault(*place, found=values(length), expected=f"{values(wanted)}, one a {what}")
 
 
 def values(n: int) -> str:

@@ -81,19 +81,19 @@ MET = 1e-6
 
 
 def require_met(
-    what: str, wanted: float, found: float | None, unit: str = "", size: float | None = None
+    what: str, wanted: float, value: float | None, unit: str = "", size: float | None = None
 ) -> None:
     """Raise unless a linkage has what was asked for.
 
-    `wanted`, `found`: what was asked for, and what the analysis of the machine finds; None if it has no such
+    `wanted`, `value`: what was asked for, and what the analysis of the machine finds; None if it has no such
     thing; `unit`: unit of both, for the message; angles in ``"rad"`` are reported in degrees; `size`: what
     the difference is compared with, instead of the wanted value.
     """
     size = abs(wanted) if size is None else size
     # "not less or equal" holds for NaN too.
-    if found is None or not abs(found - wanted) <= MET * size:
+    if value is None or not abs(value - wanted) <= MET * size:
         factor, unit = (180 / np.pi, "°") if unit == "rad" else (1.0, f" {unit}".rstrip())
-        has = "none" if found is None else f"{factor * found:.9g}{unit}"
+        has = "none" if value is None else f"{factor * value:.9g}{unit}"
         raise SynthesisError(
             f"the linkage made for {what} of {factor * wanted:.9g}{unit} has {has} when it is analysed "
             "again: its link lengths differ too much; choose a less extreme task"
@@ -139,7 +139,7 @@ def travel(
     ways = [_unrolled(np.asarray(angles, dtype=float), sign) for sign in (1.0, -1.0)]
     if turn is not None:
         ways = ways[:1] if turn > 0 else ways[1:]
-    for unrolled in sorted(ways, key=lambda each: abs(each[-1] - each[0])):
+    for unrolled in sorted(ways, key=lambda angle: abs(angle[-1] - angle[0])):
         if abs(unrolled[-1] - unrolled[0]) > 2 * np.pi:
             continue
         spare = gap(np.linspace(unrolled[0], unrolled[-1], _STEPS))

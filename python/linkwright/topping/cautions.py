@@ -157,7 +157,7 @@ def _look(described: Topper, edge: Edge, d: float) -> tuple[float, float, float]
     n = _PHASES if knife.rate and given is None else 1
     phases = np.linspace(0.0, 2 * np.pi, n, endpoint=False) if given is None else np.array([given])
     offsets = np.linspace(-described.offset, described.offset, _OFFSETS if described.offset else 1)
-    phi, delta = (each.ravel() for each in np.meshgrid(phases, offsets))
+    phi, delta = (values.ravel() for values in np.meshgrid(phases, offsets))
     needed = coverage(edge, d, delta, phi).length_needed
     worst = slice(k := int(np.argmax(needed)), k + 1)
     there = coverage(edge, d, delta[worst], phi[worst], length=described.edge_length)

@@ -103,11 +103,11 @@ def length_chart(described: Topper, edges: Sequence[Edge]) -> LengthChart:
     over_speeds = _lines(described, forward, np.full(_POINTS, D), speeds)
     if edges[0].knife.rate:
         d = head_diameter(few, described.cut_height).tolist()
-        moved = np.array([_moved(described, edges, each) for each in d])
+        moved = np.array([_moved(described, edges, diameter) for diameter in d])
         over_roots = replace(over_roots, moved_along=few, moved=moved)
         some = np.linspace(greatest / _FEW, greatest, _FEW)
         own = float(head_diameter(D, described.cut_height))
-        moved = np.array([_moved(described, edges, own, each / v_h) for each in some.tolist()])
+        moved = np.array([_moved(described, edges, own, value / v_h) for value in some.tolist()])
         over_speeds = replace(over_speeds, moved_along=some, moved=moved)
     over_speeds = replace(over_speeds, along=speeds)
     return LengthChart(forward, D, v_h, described.edge_length, over_roots, over_speeds)

@@ -83,7 +83,7 @@ def field(
     machine, axes = read(file, set or [], allow_outside=allow_outside), _axes(over or [])
     described = require_topper(machine)
     with bar("heads") as watch:
-        found = topper_field(machine, seed=seed, level=level, watch=watch)
+        result = topper_field(machine, seed=seed, level=level, watch=watch)
     swept = None
     if axes:
         with bar("variants") as watch:
@@ -91,19 +91,19 @@ def field(
     answer = Answer(
         machine=machine.name,
         units=machine.units,
-        results=lambda _: _results(found, swept),
-        findings=list(field_findings(found, described)),
-        warnings=list(field_cautions(found, described, edges_of(machine, described)[0].knife)),
+        results=lambda _: _results(result, swept),
+        findings=list(field_findings(result, described)),
+        warnings=list(field_cautions(result, described, edges_of(machine, described)[0].knife)),
         head=lambda: machine.name,
-        tables=partial(_tables, found, swept),
-        **_written(machine, found, swept, seed),
+        tables=partial(_tables, result, swept),
+        **_written(machine, result, swept, seed),
     )
     hand_over(answer, json=json, folder=folder)
 
 
 def _axes(wanted: list[str]) -> dict[str, Any]:
     """Values of all entries that vary."""
-    axes = dict(_axis(each) for each in wanted)
+    axes = dict(_axis(text) for text in wanted)
     if len(axes) < len(wanted):
         raise InputError("--over: found the same name twice, expected each once")
     if len(axes) > 2:
@@ -133,24 +133,24 @@ def _axis(text: str) -> tuple[str, Any]:
     return name, np.linspace(low, high, count)
 
 
-def _results(found: TopperField, swept: FieldSweep | None) -> dict[str, Any]:
+def _results(result: TopperField, swept: FieldSweep | None) -> dict[str, Any]:
     """The field, and what varies over it."""
-    results: dict[str, Any] = {"topper_field": found.to_dict()}
+    results: dict[str, Any] = {"topper_field": result.to_dict()}
     if swept is not None:
         columns = {key: column.tolist() for key, column in swept.columns().items()}
         results["topper_field_sweep"] = {"shape": list(swept.shape), **columns}
     return results
 
 
-def _tables(found: TopperField, swept: FieldSweep | None) -> list[Table]:
+def _tables(result: TopperField, swept: FieldSweep | None) -> list[Table]:
     """Tables for people."""
     from linkwright.topping.tables.field import field_tables, sweep_table
 
-    return [*field_tables(found), *([] if swept is None else [sweep_table(swept)])]
+    return [*field_tables(result), *([] if swept is None else [sweep_table(swept)])]
 
 
 def _written(
-    machine: Machine, found: TopperField, swept: FieldSweep | None, seed: int | None
+    machine: Machine, result: TopperField, swept: FieldSweep | None, seed: int | None
 ) -> dict[str, Any]:
     """Curves and figures; the field over all lengths of the edge, which both show, is computed once."""
 
@@ -161,27 +161,27 @@ def _written(
         from linkwright.kernel.command.console import bar
         from linkwright.topping.sweep import sweep_field
 
-        lengths = np.linspace(0, found.length[-1], _LENGTHS)[1:]
+        lengths = np.linspace(0, result.length[-1], _LENGTHS)[1:]
         with bar("lengths") as watch:
-            return sweep_field(machine, {"edge_length": lengths}, seed=seed, level=found.level, watch=watch)
+            return sweep_field(machine, {"edge_length": lengths}, seed=seed, level=result.level, watch=watch)
 
     return {
-        "files": lambda: _files(found, over(), swept),
-        "figures": lambda: _figures(found, over(), swept),
+        "files": lambda: _files(result, over(), swept),
+        "figures": lambda: _figures(result, over(), swept),
     }
 
 
-def _files(found: TopperField, over: FieldSweep, swept: FieldSweep | None) -> dict[str, str]:
+def _files(result: TopperField, over: FieldSweep, swept: FieldSweep | None) -> dict[str, str]:
     """Curves as CSV."""
     from linkwright.topping.tables.field import field_csv
 
-    texts = {"share.csv": field_csv(found.curves()), "haulm.csv": field_csv(over.columns())}
+    texts = {"share.csv": field_csv(result.curves()), "haulm.csv": field_csv(over.columns())}
     if swept is not None:
         texts["sweep.csv"] = field_csv(swept.columns())
     return texts
 
 
-def _figures(found: TopperField, over: FieldSweep, swept: FieldSweep | None) -> dict[str, Figure]:
+def _figures(result: TopperField, over: FieldSweep, swept: FieldSweep | None) -> dict[str, Figure]:
     """Figures by name."""
     from linkwright.topping.figures.field import (
         field_haulm_figure,
@@ -191,9 +191,9 @@ def _figures(found: TopperField, over: FieldSweep, swept: FieldSweep | None) -> 
     )
 
     figures = {
-        "share": field_share_figure(found),
-        "length_needed": field_length_figure(found),
-        "haulm_and_loss": field_haulm_figure(found, over),
+        "share": field_share_figure(result),
+        "length_needed": field_length_figure(result),
+        "haulm_and_loss": field_haulm_figure(result, over),
     }
     return figures if swept is None else figures | sweep_figures(swept)
 

@@ -117,12 +117,12 @@ def coverage(
     that is not finite.
     """
     radius, place, angle = (
-        np.atleast_1d(np.asarray(each, dtype=float)) for each in (diameter, offset, phase)
+        np.atleast_1d(np.asarray(values, dtype=float)) for values in (diameter, offset, phase)
     )
-    if not all(np.isfinite(each).all() for each in (radius, place, angle)) or (radius < 0).any():
+    if not all(np.isfinite(values).all() for values in (radius, place, angle)) or (radius < 0).any():
         raise InputError("heads: found a negative diameter or a number that is not finite")
     radius = 0.5 * radius
-    n = max(len(each) for each in (radius, place, angle))
+    n = max(len(values) for values in (radius, place, angle))
     discs = np.pi * np.broadcast_to(radius, n) ** 2
     if edge.stands:
         none = np.zeros(n)
@@ -187,9 +187,9 @@ def pass_over(
     for edge, heads in _shared(edges, phase, diameter):
         for start in range(0, len(heads), _PORTION):
             part = heads[start : start + _PORTION]
-            found = coverage(edge, diameter[part], roots.offset[part], phase[part], length=length, fine=fine)
-            needed[part] = found.length_needed
-            left[part] = np.clip(found.uncut / (0.25 * np.pi * diameter[part] ** 2), 0.0, 1.0)
+            cut = coverage(edge, diameter[part], roots.offset[part], phase[part], length=length, fine=fine)
+            needed[part] = cut.length_needed
+            left[part] = np.clip(cut.uncut / (0.25 * np.pi * diameter[part] ** 2), 0.0, 1.0)
             done += len(part)
             if watch is not None:
                 watch(done / len(phase))

@@ -214,21 +214,21 @@ def topper_field(
     in_range(level=(level, Quantity(RATIO, INSIDE_ONE)))
     roots = draw_roots(topper, seed)
     edges = edges_of(machine, topper)
-    found = pass_over(edges, roots, length=topper.edge_length, fine=fine, watch=watch)
-    return field_result(topper, edges, roots, found, level)
+    passed = pass_over(edges, roots, length=topper.edge_length, fine=fine, watch=watch)
+    return field_result(topper, edges, roots, passed, level)
 
 
 def field_result(
-    topper: Topper, edges: Sequence[Edge], roots: Roots, found: Pass, level: float = 0.95
+    topper: Topper, edges: Sequence[Edge], roots: Roots, passed: Pass, level: float = 0.95
 ) -> TopperField:
     """Sum up a pass of an edge over roots."""
     is_random = topper.field is None or topper.field.kind == "random"
     # Phases mean nothing to a knife that rests.
     are_free = roots.are_free or (is_random and not edges[0].knife.rate)
     clusters = Clusters(roots.cluster, roots.n_clusters, are_free, level)
-    clusters = replace(clusters, worth=ShareCurve(found.length_needed, clusters).worth())
-    curve = ShareCurve(found.length_needed, clusters)
-    top = float(found.length_needed[np.isfinite(found.length_needed)].max(initial=topper.edge_length))
+    clusters = replace(clusters, worth=ShareCurve(passed.length_needed, clusters).worth())
+    curve = ShareCurve(passed.length_needed, clusters)
+    top = float(passed.length_needed[np.isfinite(passed.length_needed)].max(initial=topper.edge_length))
     length = np.linspace(0.0, top, _LENGTHS)
     share = curve.at(length)
     density = field_of(topper).root_density
@@ -238,9 +238,9 @@ def field_result(
         share=share.value,
         share_low=share.low,
         share_high=share.high,
-        length_needed=found.length_needed,
+        length_needed=passed.length_needed,
         root_loss=roots.cap,
-        n_roots=len(found.length_needed),
+        n_roots=len(passed.length_needed),
         n_clusters=roots.n_clusters,
         clusters="rows" if is_random else "roots",
         n_missed=int(roots.is_missed.sum()),
@@ -248,7 +248,7 @@ def field_result(
         level=level,
         edge_length=topper.edge_length,
         **_named("share_complete", curve.at(np.array([topper.edge_length]))),
-        **_named("haulm_mean", clusters.share(found.left)),
+        **_named("haulm_mean", clusters.share(passed.left)),
         **_named("loss_mean", loss),
         **_named("loss_share", clusters.ratio(roots.cap, roots.volume)),
         loss_mass_mean=None if density is None else density * float(loss.value),
@@ -260,11 +260,11 @@ def field_result(
 def _named(name: str, interval: Interval) -> dict[str, Any]:
     """An estimate and the ends of its interval as entries."""
     keys = (name, f"{name}_low", f"{name}_high")
-    return {key: float(np.squeeze(each)) for key, each in zip(keys, interval, strict=True)}
+    return {key: float(np.squeeze(value)) for key, value in zip(keys, interval, strict=True)}
 
 
 def _quantiles(curve: ShareCurve) -> dict[str, Any]:
     """Lengths for the usual shares, with what holds the true ones."""
     keys = ("quantile_length", "quantile_length_low", "quantile_length_high")
-    found = (tuple(length.tolist()) for length in curve.lengths(QUANTILES))
-    return {"quantile": QUANTILES, **dict(zip(keys, found, strict=True))}
+    lengths = (tuple(length.tolist()) for length in curve.lengths(QUANTILES))
+    return {"quantile": QUANTILES, **dict(zip(keys, lengths, strict=True))}

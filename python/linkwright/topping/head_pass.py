@@ -108,8 +108,8 @@ def worse_edge(edges: Sequence[Edge], diameter: float, offset: float, phase: flo
     """
 
     def badness(edge: Edge) -> tuple[float, float]:
-        found = coverage(edge, diameter, offset, phase, length=length)
-        return float(found.uncut[0]), float(found.length_needed[0])
+        covered = coverage(edge, diameter, offset, phase, length=length)
+        return float(covered.uncut[0]), float(covered.length_needed[0])
 
     return max(edges, key=badness)
 

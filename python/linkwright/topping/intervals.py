@@ -207,24 +207,24 @@ class ShareCurve:
 
     def lengths(self, shares: Sequence[float]) -> Interval:
         """The same for increasing shares with what holds the true ones."""
-        found = self.quantiles(shares)
+        lengths = self.quantiles(shares)
         # Beyond the heads that can be cut there is no length; their own share is as uncertain.
         finite = self.needed[np.isfinite(self.needed)]
-        share, low, high = self.at(np.minimum(found, finite.max(initial=0.0)))
+        share, low, high = self.at(np.minimum(lengths, finite.max(initial=0.0)))
         asked = np.asarray(shares)
         ends = (asked - (share - low), asked + (high - share))
         low, high = (self.quantiles(np.clip(end, 0.0, 1.0).tolist()) for end in ends)
         # A greater share needs no less: what bounds the one bounds the other.
-        return Interval(found, np.maximum.accumulate(low), np.minimum.accumulate(high[::-1])[::-1])
+        return Interval(lengths, np.maximum.accumulate(low), np.minimum.accumulate(high[::-1])[::-1])
 
     def worth(self) -> float | None:
         """Independent heads that the shares at the lengths for 50 and 90 % are worth, the fewer of both.
 
         None if all heads need the same length.
         """
-        found = self.clusters.worths(self._counts(self.quantiles((0.5, 0.9))))
-        found = found[np.isfinite(found)]
-        return float(found.min()) if len(found) else None
+        worths = self.clusters.worths(self._counts(self.quantiles((0.5, 0.9))))
+        worths = worths[np.isfinite(worths)]
+        return float(worths.min()) if len(worths) else None
 
     @cached_property
     def _ordered(self) -> Floats:

@@ -200,11 +200,11 @@ def _moved(machine: Machine, member: str) -> Knife:
     if member in machine.mechanism.cams:
         cam = machine.mechanism.cams[member]
         return _centred(cam.lift.shifted(cam.phase), corners, rate)
-    found = None if corners else _harmonics(motion(np.linspace(0.0, _TURN, _ANGLES, endpoint=False))[0])
-    if found is not None:
-        least, greatest = _smooth(found, rate).law.extremes()
-        found[0, 0] -= 0.5 * (least.value + greatest.value)
-        return _smooth(found, rate)
+    harmonics = None if corners else _harmonics(motion(np.linspace(0.0, _TURN, _ANGLES, endpoint=False))[0])
+    if harmonics is not None:
+        least, greatest = _smooth(harmonics, rate).law.extremes()
+        harmonics[0, 0] -= 0.5 * (least.value + greatest.value)
+        return _smooth(harmonics, rate)
     return _centred(*_in_pieces(motion, corners), rate)
 
 
@@ -228,8 +228,8 @@ def _centred(law: MotionLaw, corners: tuple[float, ...], rate: float) -> Knife:
 def _joints(machine: Machine) -> tuple[float, ...]:
     """Crank angles at which sections of cams meet, increasing from 0 to 2π."""
     cams = machine.mechanism.cams.values()
-    found = {float(np.mod(at + cam.phase, _TURN)) for cam in cams for at in cam.lift.breaks[:-1]}
-    return tuple(sorted(found))
+    joints = {float(np.mod(at + cam.phase, _TURN)) for cam in cams for at in cam.lift.breaks[:-1]}
+    return tuple(sorted(joints))
 
 
 def _harmonics(samples: Floats) -> Floats | None:
@@ -316,14 +316,14 @@ def knife_drive(machine: Machine, knife: Knife) -> KnifeDrive | None:
     if not isinstance(motion, MemberKnife) or drive is None or drive.speed is None or not machine.bodies:
         return None
     mass = sum(body.mass or 0.0 for name, body in machine.bodies.items() if (body.on or name) == motion.of)
-    found = forces(machine, speed=drive.speed, n=_DRIVE_ANGLES)
+    acting = forces(machine, speed=drive.speed, n=_DRIVE_ANGLES)
     # The revolution's end is its start.
-    mean = float(np.mean(found.torque_drive[:-1]))
+    mean = float(np.mean(acting.torque_drive[:-1]))
     return KnifeDrive(
         mass=float(mass),
         inertia_force_max=float(mass * knife.acceleration_max),
-        torque_max=_highest(machine, drive.speed, found.crank_angle, found.torque_drive, 1.0),
-        torque_min=-_highest(machine, drive.speed, found.crank_angle, found.torque_drive, -1.0),
+        torque_max=_highest(machine, drive.speed, acting.crank_angle, acting.torque_drive, 1.0),
+        torque_min=-_highest(machine, drive.speed, acting.crank_angle, acting.torque_drive, -1.0),
         torque_mean=mean,
         power_mean=mean * drive.speed,
     )

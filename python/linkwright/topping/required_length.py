@@ -93,13 +93,13 @@ def constant_speed_lengths(
     edge moves along itself.
     """
     given = diameter, offset, edge_angle, forward_speed, knife_speed
-    d, delta, alpha, v, v_h = np.broadcast_arrays(*(np.asarray(each, dtype=float) for each in given))
+    d, delta, alpha, v, v_h = np.broadcast_arrays(*(np.asarray(values, dtype=float) for values in given))
     speed = np.hypot(v, v_h)
     along, across = v * np.cos(alpha), v_h * np.sin(alpha)
     advance = np.abs(np.stack([along - across, along + across]))
     with np.errstate(divide="ignore"):
-        found = (d * speed + 2 * delta * v) / advance
-    return np.where(advance > ALONG_ITSELF * speed, found, np.inf)
+        lengths = (d * speed + 2 * delta * v) / advance
+    return np.where(advance > ALONG_ITSELF * speed, lengths, np.inf)
 
 
 def every_phase_length(

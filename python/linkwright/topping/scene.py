@@ -123,8 +123,8 @@ def _box(
 ) -> list[float]:
     """Minimum x, minimum y, maximum x, maximum y of the edge over its way, and of the heads."""
     lean, across = (
-        0.5 * described.edge_length * each
-        for each in (abs(math.sin(described.edge_angle)), math.cos(described.edge_angle))
+        0.5 * described.edge_length * share
+        for share in (abs(math.sin(described.edge_angle)), math.cos(described.edge_angle))
     )
     drifts = abs(edge.knife.drift) * ends[1] / described.forward_speed
     knife = across + 0.5 * edge.knife.stroke + drifts

@@ -177,16 +177,16 @@ def sweep_field(
     grid = np.meshgrid(*axes.values(), indexing="ij")
     columns = {name: values.ravel() for name, values in zip(axes, grid, strict=True)}
     roots, n = draw_roots(topper, seed), int(np.prod(shape))
-    found = []
+    results = []
     for i in range(n):
         part = None if watch is None else _part(watch, i, n)
         entries = {name: float(column[i]) for name, column in columns.items()}
-        found.append(_tried(machine, topper, roots, entries, level, fine=fine, watch=part))
-    refused = [each for each in found if isinstance(each, FindingError)]
+        results.append(_tried(machine, topper, roots, entries, level, fine=fine, watch=part))
+    refused = [result for result in results if isinstance(result, FindingError)]
     if len(refused) == n:
         raise refused[0]
     arrays: dict[str, Any] = {
-        name: np.array([getattr(each, name, np.nan) for each in found]) for name in _FOUND
+        name: np.array([getattr(result, name, np.nan) for result in results]) for name in _FOUND
     }
     return FieldSweep(entries=columns, shape=shape, level=level, **arrays)
 
@@ -215,8 +215,8 @@ def _variant(
         roots = replace(roots, cut_height=roots.cut_height + (height - roots.cut_height.mean()))
     changed = topper.with_entries({key: x for key, x in entries.items() if key != "cut_height"})
     edges = edges_with(machine, changed, entries.get("knife_speed"))
-    found = pass_over(edges, roots, length=changed.edge_length, **how)
-    return field_result(changed, edges, roots, found, level)
+    passed = pass_over(edges, roots, length=changed.edge_length, **how)
+    return field_result(changed, edges, roots, passed, level)
 
 
 def edges_with(machine: Machine, topper: Topper, knife_speed: float | None) -> list[Edge]:

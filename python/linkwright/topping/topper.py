@@ -271,18 +271,18 @@ def _lengths(described: Topper, edge: Edge, d: float) -> dict[str, Any]:
 
 def _slices(described: Topper, edges: list[Edge], d: float) -> dict[str, Any]:
     """How the edge slices."""
-    found = slicing(edges)
+    sliced = slicing(edges)
     place, use = edge_use(edges, d, described.offset)
     return {
         "edge_place": place,
         "edge_use": use,
         "edge_retreats": any(edge.retreats for edge in edges),
         "least_advance": min(edge.least_advance for edge in edges),
-        "slicing_ratio_min": found.ratio_min,
-        "slicing_ratio_mean": found.ratio_mean,
-        "slicing_ratio_max": found.ratio_max,
-        "cutting_speed_min": found.speed_min,
-        "cutting_speed_max": found.speed_max,
+        "slicing_ratio_min": sliced.ratio_min,
+        "slicing_ratio_mean": sliced.ratio_mean,
+        "slicing_ratio_max": sliced.ratio_max,
+        "cutting_speed_min": sliced.speed_min,
+        "cutting_speed_max": sliced.speed_max,
     }
 
 

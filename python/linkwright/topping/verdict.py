@@ -161,8 +161,8 @@ def length_verdict(
         offset=(offset, Quantity(LENGTH)),
     )
     ways = [way for way in WAYS if stroke or way != "every_phase"]
-    found = (_demand(claim, way, edge_angle, diameter, offset, stroke) for way in ways)
-    return LengthVerdict(edge_angle, diameter + 2 * offset, tuple(found))
+    demands = (_demand(claim, way, edge_angle, diameter, offset, stroke) for way in ways)
+    return LengthVerdict(edge_angle, diameter + 2 * offset, tuple(demands))
 
 
 def _demand(
@@ -209,8 +209,8 @@ def bands_of(
     """
     share = np.asarray(offset_share, dtype=float)
     none, unit = (
-        lengths_over(claim, way, edge_angle, each * (1 - share), each * share / 2, stroke)[1]
-        for each in (0.0, 1.0)
+        lengths_over(claim, way, edge_angle, bound * (1 - share), bound * share / 2, stroke)[1]
+        for bound in (0.0, 1.0)
     )
     does = np.isfinite(unit)
     start = np.where(does, none, 0.0)

@@ -67,8 +67,8 @@ def worst_head(
     (n,). A look at many heads, then a look about the best of them that narrows fourfold each round: tops may
     be smooth or edges.
     """
-    found = [_worst(edge, offset, phase, measure) for edge in edges]
-    return max(found, key=lambda each: each.value)
+    heads = [_worst(edge, offset, phase, measure) for edge in edges]
+    return max(heads, key=lambda head: head.value)
 
 
 def _worst(edge: Edge, offset: float, phase: float | None, measure: Measure) -> Worst:
@@ -83,14 +83,14 @@ def _worst(edge: Edge, offset: float, phase: float | None, measure: Measure) -> 
         share = np.arange(-_BESIDE, _BESIDE + 1) / _BESIDE
         phases = best.phase + 2 * wide[0] * share if wide[0] else np.array([best.phase])
         offsets = np.clip(best.offset + 2 * wide[1] * share, -offset, offset) if wide[1] else np.zeros(1)
-        best = max(best, _best(edge, phases, offsets, measure), key=lambda each: each.value)
-        wide = [_NARROWER * each for each in wide]
+        best = max(best, _best(edge, phases, offsets, measure), key=lambda place: place.value)
+        wide = [_NARROWER * place for place in wide]
     return Worst(best.value, float(np.mod(best.phase, 2 * np.pi)), best.offset, edge)
 
 
 def _best(edge: Edge, phases: Floats, offsets: Floats, measure: Measure) -> Worst:
     """The maximum of a grid."""
-    phi, delta = (each.ravel() for each in np.meshgrid(phases, offsets, indexing="ij"))
+    phi, delta = (values.ravel() for values in np.meshgrid(phases, offsets, indexing="ij"))
     values = measure(edge, delta, phi)
     at = int(np.argmax(values))
     return Worst(float(values[at]), float(phi[at]), float(delta[at]), edge)
@@ -106,10 +106,10 @@ _MEAN_PHASES, _MEAN_OFFSETS = 90, 41
 
 def every_head(described: Topper, edges: list[Edge], d: float, *, charts: bool = True) -> dict[str, Any]:
     """What heads need, and what is left of them. ``d``: diameter of the heads [m]."""
-    found = unknown_heads() | _needed(described, edges, d)
-    if charts or found["length_exact"] > described.edge_length:
-        found |= _left(described, edges, d)
-    return found | _by_phase(described, edges, d) if charts else found
+    heads = unknown_heads() | _needed(described, edges, d)
+    if charts or heads["length_exact"] > described.edge_length:
+        heads |= _left(described, edges, d)
+    return heads | _by_phase(described, edges, d) if charts else heads
 
 
 def unknown_heads() -> dict[str, Any]:
@@ -167,9 +167,9 @@ def _by_phase(described: Topper, edges: list[Edge], d: float) -> dict[str, Any]:
     offsets = np.linspace(-described.offset, described.offset, n_offsets if described.offset else 1)
     phi, delta = np.meshgrid(phases, offsets, indexing="ij")
     length = described.edge_length
-    found = [coverage(edge, d, delta.ravel(), phi.ravel(), length=length) for edge in edges]
-    needed = np.stack([each.length_needed.reshape(phi.shape) for each in found])
-    left = np.stack([each.uncut.reshape(phi.shape) for each in found]) / (0.25 * np.pi * d**2)
+    cuts = [coverage(edge, d, delta.ravel(), phi.ravel(), length=length) for edge in edges]
+    needed = np.stack([cut.length_needed.reshape(phi.shape) for cut in cuts])
+    left = np.stack([cut.uncut.reshape(phi.shape) for cut in cuts]) / (0.25 * np.pi * d**2)
     by_phase = needed.max(axis=(0, 2))
     best = int(np.argmin(by_phase))
     return {
@@ -189,7 +189,7 @@ def _mean_left(described: Topper, edges: list[Edge], d: float) -> float:
     offsets = offset * _amid(_MEAN_OFFSETS // sparing) if offset else np.zeros(1)
     moves = phase is None and any(edge.knife.rate for edge in edges)
     phases = np.pi * (1 + _amid(_MEAN_PHASES // sparing)) if moves else np.array([phase or 0.0])
-    phi, delta = (each.ravel() for each in np.meshgrid(phases, offsets))
+    phi, delta = (values.ravel() for values in np.meshgrid(phases, offsets))
     left = [coverage(edge, d, delta, phi, length=described.edge_length).uncut for edge in edges]
     return float(np.mean(left) / (0.25 * np.pi * d**2))
 

@@ -58,7 +58,7 @@ def _content(study: TorsionStudy, command: str) -> Content:
         notes=[("Scaled loads", study.balance)] if study.balance else [],
         findings=study.findings,
         warnings=study.warnings,
-        headline=[Few(*each) for each in _headline(study)],
+        headline=[Few(*line) for line in _headline(study)],
         parts=list(_parts(study)),
         formulas=list(_formulas(study)),
         papers=_SOURCES,

@@ -119,8 +119,8 @@ class TorsionStudy:
     @property
     def findings(self) -> list[str]:
         """What the machine does not bear, in sentences."""
-        found = [] if self.verdict is None else self.verdict.judgements
-        steady = [f"{each.words}." for each in found if each.state == "exceeds"]
+        judgements = [] if self.verdict is None else self.verdict.judgements
+        steady = [f"{judgement.words}." for judgement in judgements if judgement.state == "exceeds"]
         return steady + ([] if self.transient is None else self.transient.findings)
 
     @property
@@ -208,7 +208,7 @@ def torsion_study(
         The machine has no train; a frequency that makes no sense.
     """
     free = free_vibration(machine)
-    frequencies = [holzer_frequency(each, free) for each in holzer]
+    frequencies = [holzer_frequency(mode, free) for mode in holzer]
     in_range(holzer=(frequencies, not_negative(FREQUENCY)))
     tables = tuple(holzer_table(machine, frequency) for frequency in frequencies)
     damped = damped_vibration(machine, _service(machine)) if _is_damped(machine) else None
@@ -366,10 +366,10 @@ def _warnings(study: TorsionStudy) -> Iterator[str]:
         yield f"Orders {listed} have no common base with the others: their amplitudes are added."
 
 
-def _about_misfires(found: MisfireVerdict) -> Iterator[str]:
+def _about_misfires(verdict: MisfireVerdict) -> Iterator[str]:
     """Limits that are not kept with a cylinder out, by the cylinder."""
     by_cylinder: dict[str, list[str]] = {}
-    for row in found.judgements:
+    for row in verdict.judgements:
         if row.above is not None:
             low, high = (speed * 30 / np.pi for speed in row.above)
             words = f"{row.part}, {row.what}, {row.found / row.permitted:.3g} times the limit"

@@ -237,8 +237,8 @@ def _of_areas(described: TurningMoment) -> TurningMomentDiagram:
     change = float(after.max() - after.min())
     evened = _evened(described, change)
     rows = tuple(
-        {"start": None, "end": None, "energy": float(each), "energy_after": float(then)}
-        for each, then in zip(areas, after, strict=True)
+        {"start": None, "end": None, "energy": float(area), "energy_after": float(then)}
+        for area, then in zip(areas, after, strict=True)
     )
     return TurningMomentDiagram(
         cycle=described.cycle,

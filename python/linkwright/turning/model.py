@@ -96,8 +96,8 @@ class FormulaShaftTorque(ShaftTorque):
     def at(self, phi: Floats, cycle: float) -> Floats:
         # Where a formula has no value the fit says so, with the angle.
         with np.errstate(all="ignore"):
-            found = value(parse(self.torque), {**NUMBERS, **self.constants, "phi": phi})
-        torque: Floats = np.broadcast_to(np.asarray(found, dtype=float), phi.shape)
+            values = value(parse(self.torque), {**NUMBERS, **self.constants, "phi": phi})
+        torque: Floats = np.broadcast_to(np.asarray(values, dtype=float), phi.shape)
         return torque
 
 
@@ -213,8 +213,8 @@ class TurningMoment(CheckedDescription):
         for key, torque in torques.items():
             if torque is None:
                 continue
-            for each in torque.cycle_faults(self.cycle):
-                yield {**each, "loc": (key, torque.kind, *each["loc"])}
+            for wrong in torque.cycle_faults(self.cycle):
+                yield {**wrong, "loc": (key, torque.kind, *wrong["loc"])}
             if self.areas:
                 yield fault(key, found="a table", expected="nothing beside areas")
         if self.radius_of_gyration is not None and self.unevenness is None:

@@ -27,18 +27,18 @@ def check(file: File, set: Sets = None, allow_outside: Outside = False, json: Js
     from linkwright.machine.read import read
 
     machine = read(file, set or (), allow_outside=allow_outside)
-    found = soundness(machine)
-    count = len(found.findings)
+    judged = soundness(machine)
+    count = len(judged.findings)
     verdict = f"{count} FINDING{'S' if count > 1 else ''}" if count else "OK"
-    checked = f"\n  {'':<14} ".join(found.looked_at)
-    told = [f"{verdict}  {file}\n\n{summary(machine)}\n\n  {'checked':<14} {checked}"]
-    told += [f"\nFINDING  {text}" for text in found.findings]
+    checked = f"\n  {'':<14} ".join(judged.looked_at)
+    report = [f"{verdict}  {file}\n\n{summary(machine)}\n\n  {'checked':<14} {checked}"]
+    report += [f"\nFINDING  {text}" for text in judged.findings]
     answer = Answer(
         machine=machine.name,
         units=machine.units,
-        results=lambda curves: {"checked": list(found.looked_at)},
-        findings=found.findings,
-        show=lambda: click.echo("\n".join(told)),
+        results=lambda curves: {"checked": list(judged.looked_at)},
+        findings=judged.findings,
+        show=lambda: click.echo("\n".join(report)),
     )
     hand_over(answer, json=json)
 
@@ -63,12 +63,12 @@ def _diagram(machine: Machine) -> list[tuple[str, str]]:
     if described is None:
         return []
     if described.areas:
-        told = f"{len(described.areas)} areas between driver and load"
+        words = f"{len(described.areas)} areas between driver and load"
     else:
         torques = {"driver": described.driver, "load": described.load}
-        told = ", ".join(f"{name} {'constant' if t is None else t.kind}" for name, t in torques.items())
+        words = ", ".join(f"{name} {'constant' if t is None else t.kind}" for name, t in torques.items())
     turns = "one revolution" if described.turns == 1 else f"{described.turns} revolutions"
-    return [("turning moment", f"{told}; cycle of {turns}, {quantity(described.speed, 'rad/s', 4)}")]
+    return [("turning moment", f"{words}; cycle of {turns}, {quantity(described.speed, 'rad/s', 4)}")]
 
 
 def _topper(machine: Machine) -> list[tuple[str, str]]:

@@ -87,10 +87,10 @@ def _lasting(text: str | None) -> float:
     """How long a moving picture lasts [s]."""
     from linkwright.kernel.units import TIME
 
-    found = _USUAL if text is None else option_value("--seconds", text, TIME)
-    if not 0.1 <= found <= _LONGEST:
+    seconds = _USUAL if text is None else option_value("--seconds", text, TIME)
+    if not 0.1 <= seconds <= _LONGEST:
         raise InputError(f"--seconds: found {text}, expected 0.1 s to {_LONGEST:g} s")
-    return found
+    return seconds
 
 
 def _scene(machine: Machine, at: str | None) -> tuple[Scene, float]:

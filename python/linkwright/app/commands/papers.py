@@ -46,8 +46,8 @@ def papers(number: Number = None, json: Json = False, out: Folder = None, force:
         return
     folder, known = output_folder(out, force=force), known_paper(number)
     with progress(f"paper {known}"):
-        found = paper(known)
-    hand_over(_answer(found), json=json, folder=folder)
+        recomputed = paper(known)
+    hand_over(_answer(recomputed), json=json, folder=folder)
 
 
 def _answer(paper: Paper) -> Answer:

@@ -77,11 +77,11 @@ def plot(
 
     machine = read(file, set or [], allow_outside=allow_outside)
     counted = zero_angle(machine, zero) if zero is not None else Zero()
-    found = study(machine)
+    results = study(machine)
     if not quantity:
-        hand_over(_list_of(found, curves_of(found)), json=json)
+        hand_over(_list_of(results, curves_of(results)), json=json)
         return
-    curves = [from_zero(each, counted.angle) for each in chosen(found, quantity, over)]
+    curves = [from_zero(curve, counted.angle) for curve in chosen(results, quantity, over)]
     with as_wanted(machine.units):
         written = _write(curves, counted.words, out or [], force=force)
         if csv:
@@ -89,10 +89,10 @@ def plot(
     answer = Answer(
         machine=machine.name,
         units=machine.units,
-        results=lambda _: {"plot": _told(found, curves, counted.angle)},
-        findings=found.findings,
-        warnings=found.warnings,
-        tables=lambda: [_extremes(found, curves, counted.angle), _values(curves)],
+        results=lambda _: {"plot": _told(results, curves, counted.angle)},
+        findings=results.findings,
+        warnings=results.warnings,
+        tables=lambda: [_extremes(results, curves, counted.angle), _values(curves)],
         figures=lambda: {"curves": curves_figure(curves, counted.words)},
         head=lambda: f"Crank angles from the {counted.words}" if counted.words else "",
     )
@@ -206,12 +206,12 @@ def _extremes(study: Study, curves: Sequence[Curve], zero: float) -> Table:
     rows: list[Row] = []
     rough = []
     for curve in curves:
-        found = extremes(study, curve, zero)
-        if not found.is_exact:
+        extreme = extremes(study, curve, zero)
+        if not extreme.is_exact:
             rough.append(curve.name)
-        scale = max(abs(found.minimum), abs(found.maximum))
-        values = [_shown(value, curve.unit, scale) for value in (found.minimum, found.maximum)]
-        places = [_shown(at, curve.over_unit, _PLACE) for at in (found.minimum_at, found.maximum_at)]
+        scale = max(abs(extreme.minimum), abs(extreme.maximum))
+        values = [_shown(value, curve.unit, scale) for value in (extreme.minimum, extreme.maximum)]
+        places = [_shown(at, curve.over_unit, _PLACE) for at in (extreme.minimum_at, extreme.maximum_at)]
         rows.append((curve.name, "", values[0], places[0], values[1], places[1]))
     heads = ("curve", "", "minimum", f"at {curves[0].over}", "maximum", f"at {curves[0].over}")
     title = f"Extremes; of {', '.join(rough)} among the points of the curve" if rough else "Extremes"
@@ -231,11 +231,11 @@ def _values(curves: Sequence[Curve]) -> Table:
         (
             _cell(first.x, int(k), first.over_unit),
             "",
-            *(_cell(each.values, int(k), each.unit) for each in same),
+            *(_cell(curve.values, int(k), curve.unit) for curve in same),
         )
         for k in at
     ]
-    heads = (each.name.split(".", 1)[1].replace(".", " ") for each in same)
+    heads = (curve.name.split(".", 1)[1].replace(".", " ") for curve in same)
     return Table("values", "Values", (first.over, "", *heads), rows)
 
 

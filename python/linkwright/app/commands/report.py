@@ -84,13 +84,13 @@ def report(
     places = output_files("--to", to or ["report.html"], (".html", ".pdf"), force=force)
     wanted = _sections(sections)
     head = read_heading(company) if company is not None else Heading()
-    variants = [of_text(each) for each in variant or ()]
-    if len({each.name for each in variants}) < len(variants):
+    variants = [of_text(text) for text in variant or ()]
+    if len({one.name for one in variants}) < len(variants):
         raise InputError("--variant: found one name twice, expected a name for each")
     whole = _content(words, command_line())
     content = whole if wanted is None else whole.only(wanted)
     if variants:
-        others = {each.name: _content(_varied(words, each), "") for each in variants}
+        others = {one.name: _content(_varied(words, one), "") for one in variants}
         content = compared(content, whole, others)
     _write(replace(content, heading=head), places, force=force)
     finish(Answer(machine=None, findings=content.findings))
@@ -103,7 +103,7 @@ def _sections(text: str | None) -> list[str] | None:
 
     if text is None:
         return None
-    wanted = [each.strip() for each in text.split(",") if each.strip()]
+    wanted = [section.strip() for section in text.split(",") if section.strip()]
     for name in wanted:
         if name not in SECTIONS:
             raise InputError(

@@ -68,7 +68,7 @@ def _answer(study: Study) -> Answer:
     return Answer(
         machine=study.machine.name,
         units=study.machine.units,
-        results=lambda curves: {k: each.to_dict(curves=curves) for k, each in study.results().items()},
+        results=lambda curves: {k: result.to_dict(curves=curves) for k, result in study.results().items()},
         findings=study.findings,
         warnings=study.warnings,
         head=partial(_head, study),

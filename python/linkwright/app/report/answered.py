@@ -71,17 +71,19 @@ def compared(content: Content, of: Content, variants: Mapping[str, Content]) -> 
 
     `of`: the same before sections were chosen. Findings and warnings of variants are named.
     """
-    found = list(_compared_tables(_tables(of), {name: _tables(each) for name, each in variants.items()}))
-    findings = [f"{name}: {each}" for name, other in variants.items() for each in other.findings]
+    differences = list(
+        _compared_tables(_tables(of), {name: _tables(content) for name, content in variants.items()})
+    )
+    findings = [f"{name}: {finding}" for name, other in variants.items() for finding in other.findings]
     warnings = [
-        f"{name}: {each}"
+        f"{name}: {warning}"
         for name, other in variants.items()
-        for each in other.warnings
-        if each not in of.warnings
+        for warning in other.warnings
+        if warning not in of.warnings
     ]
     return replace(
         content,
-        parts=[*([Part("Variants", found)] if found else []), *content.parts],
+        parts=[*([Part("Variants", differences)] if differences else []), *content.parts],
         findings=[*content.findings, *findings],
         warnings=[*content.warnings, *warnings],
     )
@@ -95,7 +97,7 @@ def _compared_tables(base: Sequence[Table], others: Mapping[str, Sequence[Table]
     """Rows of which the first number is another one in a variant."""
     for table in base:
         same = {
-            name: {_key(row): row for each in tables if each.name == table.name for row in each.rows}
+            name: {_key(row): row for own in tables if own.name == table.name for row in own.rows}
             for name, tables in others.items()
         }
         rows = []

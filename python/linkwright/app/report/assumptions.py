@@ -51,10 +51,10 @@ def assumptions(study: Study) -> list[str]:
     cut = [*_diagram(machine), *_topper(machine)]
     if machine.is_topper_alone or machine.is_diagram_alone:
         return cut
-    found = [*cut, *_mechanism(), *_bodies(machine), *_loads(machine)]
+    sentences = [*cut, *_mechanism(), *_bodies(machine), *_loads(machine)]
     if machine.drive is not None:
-        found += [*_drive(machine.drive), *_motor(machine.drive)]
-    return [*found, *_methods(study)]
+        sentences += [*_drive(machine.drive), *_motor(machine.drive)]
+    return [*sentences, *_methods(study)]
 
 
 def _diagram(machine: Machine) -> list[str]:

@@ -50,13 +50,13 @@ def write_report(
     InputError
         The file cannot be written, or Typst is not installed.
     """
-    told = replace(content(study, command), heading=heading or Heading())
+    report = replace(content(study, command), heading=heading or Heading())
     if Path(path).suffix.lower() != ".pdf":
-        write_file(path, html(told))
+        write_file(path, html(report))
         return
     from linkwright.kernel.page.typeset import pdf
 
-    write_file(path, pdf(told))
+    write_file(path, pdf(report))
 
 
 def report_html(study: Study, *, command: str = "") -> str:
@@ -86,13 +86,13 @@ def content(study: Study, command: str = "") -> Content:
 def _content(study: Study, command: str) -> Content:
     machine = study.machine
     drawn, listed = list(figures(study)), tables(study)
-    moving = [each for each in drawn if each.name.startswith(_MOTION_FIGURES)]
-    motion = [each for each in listed if each.name in MOTION_TABLES]
-    details = [each for each in listed if each.name in DETAIL_TABLES]
-    results = [each for each in listed if each not in motion and each not in details]
+    moving = [figure for figure in drawn if figure.name.startswith(_MOTION_FIGURES)]
+    motion = [table for table in listed if table.name in MOTION_TABLES]
+    details = [table for table in listed if table.name in DETAIL_TABLES]
+    results = [table for table in listed if table not in motion and table not in details]
     parts = (
         Part("Motion", motion, moving),
-        Part("Results", results, [each for each in drawn if each not in moving]),
+        Part("Results", results, [figure for figure in drawn if figure not in moving]),
         Part("Details", details),
     )
     scenes = {"topper": knife_scene(study), "mechanism": scene(study)}
@@ -102,8 +102,8 @@ def _content(study: Study, command: str) -> Content:
         source=machine.source or "",
         findings=study.findings,
         warnings=study.warnings,
-        headline=[Few(*each) for each in _headline(study)],
-        scenes={name: each for name, each in scenes.items() if each is not None},
+        headline=[Few(*line) for line in _headline(study)],
+        scenes={name: scene for name, scene in scenes.items() if scene is not None},
         sketch=_sketch(study) if scenes["mechanism"] is not None else None,
         parts=[part for part in parts if part.tables or part.figures],
         formulas=_formulas(study),
@@ -181,15 +181,17 @@ def _motion_headline(study: Study) -> Iterator[tuple[str, str, str]]:
     if study.linkage is None:
         return
     moving = [element for element in study.linkage.elements if element.turns is None]
-    for each in (
-        [*{each.output: each for each in moving[::-1]}.values()][::-1] if len(moving) <= _OUTPUTS else ()
+    for moved in (
+        [*{element.output: element for element in moving[::-1]}.values()][::-1]
+        if len(moving) <= _OUTPUTS
+        else ()
     ):
-        if each.stroke is not None:
-            yield f"stroke of {each.output}", *parted(each.stroke, "m", 4)
-        elif each.swing is not None:
-            yield f"swing of {each.output}", degrees(each.swing), ""
-        if each.time_ratio is not None:
-            yield f"time ratio of {each.output}", number(each.time_ratio, 4), ""
+        if moved.stroke is not None:
+            yield f"stroke of {moved.output}", *parted(moved.stroke, "m", 4)
+        elif moved.swing is not None:
+            yield f"swing of {moved.output}", degrees(moved.swing), ""
+        if moved.time_ratio is not None:
+            yield f"time ratio of {moved.output}", number(moved.time_ratio, 4), ""
     worst = [element.transmission_angle_worst for element in study.linkage.elements]
     known = [angle for angle in worst if angle is not None]
     if known:

@@ -47,24 +47,24 @@ def scene(study: Study) -> Scene | None:
 
     They have no more digits than can be seen.
     """
-    found = moving_scene(study.machine, study.steady_state)
-    if found is None:
+    moving = moving_scene(study.machine, study.steady_state)
+    if moving is None:
         return None
-    box = found["box"]
+    box = moving["box"]
     fineness = _FINENESS * max(box[2] - box[0], box[3] - box[1])
-    times, speeds = found["times"], found["speeds"]
+    times, speeds = moving["times"], moving["speeds"]
     return {
-        "angles": _rounded(found["angles"], 1e-5),
+        "angles": _rounded(moving["angles"], 1e-5),
         "times": _rounded(times, 1e-6 * float(times[-1])),
         "speeds": _rounded(speeds, 1e-5 * float(np.max(np.abs(speeds)))),
         "points": {
             name: [_rounded(xy[:, 0], fineness), _rounded(xy[:, 1], fineness)]
-            for name, xy in found["points"].items()
+            for name, xy in moving["points"].items()
         },
-        "headings": {name: _rounded(angle, _FINENESS) for name, angle in found["headings"].items()},
+        "headings": {name: _rounded(angle, _FINENESS) for name, angle in moving["headings"].items()},
         # Unit of the speed that is printed, and its size.
         "speed_unit": reader().shown("rad/s"),
-        **{key: found[key] for key in ("parts", "box", "swings", "true_speed")},
+        **{key: moving[key] for key in ("parts", "box", "swings", "true_speed")},
     }
 
 
@@ -78,8 +78,8 @@ def moving_scene(machine: Machine, steady: SteadyState | None, through: float | 
     """
     if not _closes(machine):
         return None
-    found = closure(machine)
-    angles = _angles(found) if through is None else np.union1d(_angles(found), [through])
+    closed = closure(machine)
+    angles = _angles(closed) if through is None else np.union1d(_angles(closed), [through])
     motion = kinematics(machine, angles)
     drawn = _points(machine, motion)
     listed = list(parts(machine, motion))
@@ -96,7 +96,7 @@ def moving_scene(machine: Machine, steady: SteadyState | None, through: float | 
         "headings": {name: headings[name] for name in sorted(turning)},
         "parts": listed,
         "box": _box(machine, drawn, listed, motion),
-        "swings": not found.turns_fully,
+        "swings": not closed.turns_fully,
         "true_speed": steady is not None,
         "motion": motion,
     }
@@ -130,13 +130,13 @@ def _closes(machine: Machine) -> bool:
         return False
 
 
-def _angles(found: Closure) -> Floats:
+def _angles(closed: Closure) -> Floats:
     """Crank angles of the motion that is drawn [rad]."""
-    if not found.turns_fully:
+    if not closed.turns_fully:
         # Without its very ends, where a radicand may round to below zero.
-        low, high = found.ranges[0]
+        low, high = closed.ranges[0]
         return np.linspace(low + _MARGIN, high - _MARGIN, _INTERVALS + 1)
-    turns = found.turns or 1
+    turns = closed.turns or 1
     return np.linspace(0.0, 2 * np.pi * turns, _INTERVALS * min(turns, _TURNS_FINE) + 1)
 
 

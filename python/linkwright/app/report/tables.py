@@ -18,9 +18,9 @@ DETAIL_TABLES = ("grashof", "dead_points", "numerical")
 
 def tables(study: Study) -> list[Table]:
     """All results of a study as tables: its subject, motion, drive, forces, and numerical details last."""
-    found = [*_slices(study), *_motion(study), *drive_tables(study)]
+    first = [*_slices(study), *_motion(study), *drive_tables(study)]
     forces = envelope_table(study.forces) if study.forces else None
-    return [*found, *([forces] if forces is not None else []), *_rest(study)]
+    return [*first, *([forces] if forces is not None else []), *_rest(study)]
 
 
 def _motion(study: Study) -> Iterator[Table]:

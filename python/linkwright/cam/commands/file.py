@@ -87,7 +87,7 @@ def _options(tolerance: str, step: str, by: str, form: str, formats: str) -> dic
     from linkwright.cam.manufacture.write import ALL_FORMATS
     from linkwright.kernel.units import ANGLE, LENGTH
 
-    wanted = tuple(each.strip() for each in formats.split(",") if each.strip())
+    wanted = tuple(ending.strip() for ending in formats.split(",") if ending.strip())
     for option, values, known in (
         ("--form", (form,), FORMS),
         ("--by", (by,), ("cam", "polar")),
@@ -133,7 +133,7 @@ def _drawn(study: Study, options: dict[str, Any]) -> tuple[dict[str, _Drawn], li
     # Names may differ in letters alone that no file can have.
     stems = file_names({drawing.name: "" for _, drawing in drawings})
     findings: list[str] = []
-    found: dict[str, _Drawn] = {}
+    drawn: dict[str, _Drawn] = {}
     with TemporaryDirectory() as folder:
         for profile, drawing in drawings:
             try:
@@ -141,8 +141,8 @@ def _drawn(study: Study, options: dict[str, Any]) -> tuple[dict[str, _Drawn], li
             except ExchangeError as error:
                 findings.append(f"Cam {profile.name}: {error}.")
             else:
-                found |= {each.path.name: _Drawn(each.path.read_bytes(), each.outlines) for each in written}
-    return found, findings
+                drawn |= {file.path.name: _Drawn(file.path.read_bytes(), file.outlines) for file in written}
+    return drawn, findings
 
 
 def _answer(
@@ -163,8 +163,8 @@ def _answer(
             "deviation": outline.deviation.largest,
             "tolerance": outline.tolerance,
         }
-        for name, each in drawn.items()
-        for outline in each.outlines
+        for name, drawing in drawn.items()
+        for outline in drawing.outlines
     ]
     cams = {name: result for name, result in study.results().items() if name.startswith("cam")}
     return Answer(
@@ -178,7 +178,7 @@ def _answer(
         tables=partial(_tables, study),
         files=partial(_files, study, drawn),
         report=partial(_report, study),
-        remarks={name: _measured(name, each) for name, each in drawn.items()},
+        remarks={name: _measured(name, drawing) for name, drawing in drawn.items()},
     )
 
 
@@ -203,7 +203,7 @@ def _files(study: Study, drawn: dict[str, _Drawn]) -> dict[str, str | bytes]:
 
     return {
         "report.html": report_html(study, command=command_line()),
-        **{name: each.data for name, each in drawn.items()},
+        **{name: drawing.data for name, drawing in drawn.items()},
     }
 
 

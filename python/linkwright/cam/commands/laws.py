@@ -48,8 +48,8 @@ def laws(law: Names = None, json: Json = False, out: Folder = None, force: Force
 
     folder = output_folder(out, force=force)
     wanted = [_read(text) for text in law] if law else [_Chosen(name, name, {}) for name in LAWS]
-    chosen = {each.words: each for each in wanted}
-    shapes = {words: LAWS[each.name].normalised(**each.parameters) for words, each in chosen.items()}
+    chosen = {word.words: word for word in wanted}
+    shapes = {words: LAWS[law.name].normalised(**law.parameters) for words, law in chosen.items()}
     factors = {words: law_factors(shape) for words, shape in shapes.items()}
     drawn = {words: shape for words, shape in shapes.items() if law or words in _DRAWN}
     answer = Answer(
@@ -90,15 +90,15 @@ def _read(text: str) -> _Chosen:
     for entry in filter(None, (part.strip() for part in rest.split(","))):
         key, sign, value = (part.strip() for part in entry.partition("="))
         if not sign or key not in usual:
-            listed = ", ".join(f"{each}={value}" for each, value in usual.items()) or "no parameters"
+            listed = ", ".join(f"{key}={value}" for key, value in usual.items()) or "no parameters"
             raise InputError(f'--law: found "{entry}", and {name} has {listed}')
         given[key] = _value(value)
     try:
         TypeAdapter(AnyLaw).validate_python({"kind": name, **given})
     except ValidationError as error:
         fault = error.errors()[0]
-        found = ", ".join(f"{key}={value}" for key, value in given.items())
-        raise InputError(f'--law: {name}: found "{found}": {fault["msg"]}') from None
+        parameters = ", ".join(f"{key}={value}" for key, value in given.items())
+        raise InputError(f'--law: {name}: found "{parameters}": {fault["msg"]}') from None
     return _Chosen(text if given else name, name, given)
 
 
@@ -119,10 +119,10 @@ def _results(chosen: dict[str, _Chosen], factors: dict[str, LawFactors]) -> dict
     laws = {
         words: {
             **factors[words].to_dict(),
-            "parameters": LAWS[each.name].parameters | each.parameters,
-            "source": LAWS[each.name].source,
+            "parameters": LAWS[law.name].parameters | law.parameters,
+            "source": LAWS[law.name].source,
         }
-        for words, each in chosen.items()
+        for words, law in chosen.items()
     }
     return {"cam_laws": laws, "cam_law_bounds": {bound.name: bound._asdict() for bound in BOUNDS}}
 

@@ -112,7 +112,7 @@ def _columns(wanted: list[str]) -> dict[str, NDArray[np.float64]]:
     """All combinations of what varies, as columns."""
     import numpy as np
 
-    axes = dict(_axis(each) for each in wanted)
+    axes = dict(_axis(name) for name in wanted)
     if not axes:
         raise InputError(
             "--vary: found nothing that varies, expected such as --vary base_radius=0.02:0.06:200"

@@ -66,12 +66,12 @@ def side_changes(course: CamCourse, force: Floats, mass: float, clearance: float
     # A force that is zero, as in a dwell without load, belongs to the flank that carried before.
     sign = np.sign(force)
     known = np.flatnonzero(sign)
-    found = []
+    changes = []
     for a, b in pairwise(known.tolist()):
         if sign[a] != sign[b]:
             share = float(force[b - 1] / (force[b - 1] - force[b])) if b - a == 1 else 0.0
-            found.append(_change(course, force, (int(b), share), mass, clearance))
-    return tuple(found)
+            changes.append(_change(course, force, (int(b), share), mass, clearance))
+    return tuple(changes)
 
 
 def _change(

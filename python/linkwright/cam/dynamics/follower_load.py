@@ -151,8 +151,8 @@ class CamCourse:
     @property
     def velocity(self) -> Floats:
         """ṡ = s′ω, (n,) [m/s or rad/s]."""
-        found: Floats = self.lift_d1 * self.speed
-        return found
+        velocity: Floats = self.lift_d1 * self.speed
+        return velocity
 
     @property
     def lift_ddot(self) -> Floats:

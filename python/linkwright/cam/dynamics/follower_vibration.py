@@ -244,17 +244,17 @@ def _size(extremes: tuple[Extreme, Extreme]) -> float:
 
 def _findings(impulses: tuple[Impulse, ...], low: Extreme) -> tuple[str, ...]:
     """What a designer must know."""
-    found = [
+    sentences = [
         f"the velocity of the lift jumps by {impulse.velocity_step:.4g} m/s at "
         f"{np.degrees(impulse.cam_angle):.4g}°: the cam strikes"
         for impulse in impulses
     ]
     if low.value <= 0:
-        found.append(
+        sentences.append(
             f"the train would have to pull with {-low.value:.4g} N at {np.degrees(low.at):.4g}°: the "
             f"follower leaves the cam there; {-low.value:.4g} N more preload would hold it"
         )
-    return tuple(found)
+    return tuple(sentences)
 
 
 @dataclass(frozen=True)
@@ -296,7 +296,9 @@ def vibration_over_speed(lift: MotionLaw, model: OneMass, speeds: Column) -> Vib
     """
     in_range(speeds=(speeds, positive(SPEED)))
     speed = np.atleast_1d(np.asarray(speeds, dtype=float))
-    found = [follower_vibration(lift, model, float(omega), n=1) for omega in speed]
+    vibrations = [follower_vibration(lift, model, float(omega), n=1) for omega in speed]
     names = ("force_max", "force_min", "acceleration_max", "departure_max")
-    high, low, acceleration, departure = (np.array([getattr(each, name) for each in found]) for name in names)
+    high, low, acceleration, departure = (
+        np.array([getattr(vibration, name) for vibration in vibrations]) for name in names
+    )
     return VibrationSweep(speed, high, low, acceleration, departure, low > 0)

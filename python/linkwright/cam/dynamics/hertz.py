@@ -153,7 +153,7 @@ def line_contact(
     load = np.maximum(given["force"], 0.0)
     p0 = np.sqrt(load / length * kappa / (math.pi * compliance))
     b = np.sqrt(4 * load / length * compliance / (math.pi * kappa))
-    mises, depth = max(von_mises_largest(each.poisson) for each in (material, material_other))
+    mises, depth = max(von_mises_largest(body.poisson) for body in (material, material_other))
     sharpest = np.maximum(np.abs(1 / given["radius"]), np.abs(1 / given["radius_other"]))
     return LineContact(
         force=given["force"],

@@ -144,8 +144,8 @@ def loaded_cam(machine: Machine, profile: CamProfile, speed: float | None = None
     cam = profile.cam
     pressed = partial(_pressed, machine, speed)
     angles = _angles(profile)
-    found = pressed(angles)
-    force = found.drives[profile.name]
+    contact = pressed(angles)
+    force = contact.drives[profile.name]
     rows = [flank.contact.kernel.rows(np.mod(angles - cam.phase, 2 * np.pi)) for flank in profile.flanks]
     greatest = _largest(lambda phi: pressed(phi).drives[profile.name], angles, force)
     least = _largest(lambda phi: -pressed(phi).drives[profile.name], angles, -force)
@@ -163,7 +163,7 @@ def loaded_cam(machine: Machine, profile: CamProfile, speed: float | None = None
         greatest.angle,
         -least.value,
         least.angle,
-        found.motion.mean(found.speed),
+        contact.motion.mean(contact.speed),
         int(np.count_nonzero(np.diff(np.sign([*carrying[-1:], *carrying])))),
         lost[0] if lost else None,
         lost[1] if lost else None,
@@ -172,7 +172,7 @@ def loaded_cam(machine: Machine, profile: CamProfile, speed: float | None = None
         float(hertz.shear[hardest]) if hertz else None,
         float(hertz.shear_depth[hardest]) if hertz else None,
         hertz.pressure if hertz else None,
-        (*misfit, *_left(profile, -least.value, least.angle, size, found), *found.findings),
+        (*misfit, *_left(profile, -least.value, least.angle, size, contact), *contact.findings),
     )
 
 
@@ -211,13 +211,13 @@ def _largest(function: Callable[[Floats], Floats], angles: Floats, values: Float
     return best
 
 
-def _left(profile: CamProfile, least: float, at: float, size: float, found: Forces) -> tuple[str, ...]:
+def _left(profile: CamProfile, least: float, at: float, size: float, acting: Forces) -> tuple[str, ...]:
     """A follower that nothing keeps on its cam."""
     if profile.cam.closure != "spring" or least >= -_NOTHING * size:
         return ()
     return (
         f"the follower leaves cam {profile.name}: at a crank angle of {np.degrees(at):.4g}° and "
-        f"{abs(float(np.nanmax(found.speed))):.4g} rad/s it would have to be pulled with {-least:.4g} N; "
+        f"{abs(float(np.nanmax(acting.speed))):.4g} rad/s it would have to be pulled with {-least:.4g} N; "
         "a spring that presses with so much more there, a lower speed, or a groove keeps it on the cam",
     )
 

@@ -114,8 +114,8 @@ class Oscillation:
 
         ``x`` (m,): places inside the law → numbers of the steps, (m,).
         """
-        found = np.searchsorted(self.starts, x, side="right") - 1
-        return np.asarray(np.clip(found, 0, len(self.pieces) - 1))
+        step = np.searchsorted(self.starts, x, side="right") - 1
+        return np.asarray(np.clip(step, 0, len(self.pieces) - 1))
 
     def extremes(self, value: Value, slope: Value) -> tuple[Extreme, Extreme]:
         """Minimum and maximum of a quantity that is smooth inside the steps."""
@@ -129,10 +129,10 @@ class Oscillation:
             inner, _ = roots.zeros(lambda places: slope(row, places), x[row, column], x[row, column + 1])
         places = np.concatenate([x[:, 0], x[:, -1], inner])
         steps = np.concatenate([step[:, 0], step[:, 0], row])
-        found = value(steps, places)
-        least, most = int(np.argmin(found)), int(np.argmax(found))
+        values = value(steps, places)
+        least, most = int(np.argmin(values)), int(np.argmax(values))
         sides = ["after"] * len(x) + ["before"] * len(x) + ["after"] * len(inner)
-        low, high = (Extreme(float(places[k]), float(found[k]), sides[k]) for k in (least, most))  # type: ignore[arg-type]
+        low, high = (Extreme(float(places[k]), float(values[k]), sides[k]) for k in (least, most))  # type: ignore[arg-type]
         return low, high
 
 
@@ -199,11 +199,11 @@ def steps(law: MotionLaw, order: int, ends: Ends) -> Floats:
     """By how much a derivative jumps at each break, (pieces + 1,)."""
     first, last = float(law.at(law.start, order)), float(law.at(law.end, order, "before"))
     outer = [first - last, 0.0] if ends == "turn" else [first, -last]
-    found = np.concatenate([outer[:1], law.jumps(order), outer[1:]])
+    jumps = np.concatenate([outer[:1], law.jumps(order), outer[1:]])
     if ends == "dwell" and order == 0:
         # A dwell may be at any height.
-        found[[0, -1]] = 0.0
-    return np.where(np.abs(found) > _ROUNDING * size(law, order), found, 0.0)
+        jumps[[0, -1]] = 0.0
+    return np.where(np.abs(jumps) > _ROUNDING * size(law, order), jumps, 0.0)
 
 
 def size(law: MotionLaw, order: int) -> float:

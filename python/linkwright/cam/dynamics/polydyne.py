@@ -119,19 +119,19 @@ def _jump(wanted: MotionLaw, ends: Ends, order: int) -> str:
 
 def _findings(wanted: MotionLaw, lift: MotionLaw, smooth: int) -> list[str]:
     """What a designer must know of the lift."""
-    found = []
+    sentences = []
     if smooth == 2:
-        found.append(
+        sentences.append(
             "the third derivative of the wanted motion jumps, so the velocity of the lift jumps and the cam "
             "strikes; choose a law with continuous jerk, such as the polynomial 4-5-6-7"
         )
     if smooth == 3:
-        found.append(
+        sentences.append(
             "the fourth derivative of the wanted motion jumps, so the acceleration of the lift jumps; choose "
             "a law with four continuous derivatives, such as the polynomial 5-6-7-8-9, to avoid it"
         )
     at_rest = min(float(lift.at(lift.start)), float(lift.at(lift.end, 0, "before")))
     dip = at_rest - lift.extremes()[0].value
     if dip > _ROUNDING * float(np.ptp(wanted.at(np.linspace(wanted.start, wanted.end, 65)))):
-        found.append(f"the lift dips by {1e3 * dip:.4g} mm below its lower end")
-    return found
+        sentences.append(f"the lift dips by {1e3 * dip:.4g} mm below its lower end")
+    return sentences

@@ -121,7 +121,7 @@ def residual_spectrum(
     kernel = _kernel(rise, tau, (damping_ratio, damping_ratio_frame, share))
     height = _height(rise)
     residual = np.abs(kernel.amplitude(tau)) / height
-    primary = np.array([_primary(kernel.course, kernel.unit, float(each)) for each in tau]) / height
+    primary = np.array([_primary(kernel.course, kernel.unit, float(ratio)) for ratio in tau]) / height
     return ResidualSpectrum(
         ratio=tau,
         residual=residual,
@@ -231,7 +231,7 @@ class _Kernel:
     def with_slope(self, tau: Floats) -> tuple[Complexes, Complexes]:
         """Complex amplitude and its derivative by τ."""
         parts = [self._chunk(tau[k : k + _CHUNK]) for k in range(0, len(tau), _CHUNK)]
-        value, slope = (np.concatenate(each) for each in zip(*parts, strict=True))
+        value, slope = (np.concatenate(part) for part in zip(*parts, strict=True))
         return value, slope
 
     def _chunk(self, tau: Floats) -> tuple[Complexes, Complexes]:
@@ -243,10 +243,10 @@ class _Kernel:
         first, second = rotation @ velocity, rotation @ acceleration
         first_d1, second_d1 = mu * (rotation @ (back * velocity)), mu * (rotation @ (back * acceleration))
         factor = 4 * np.pi * self.viscous
-        found = self.unit.share * second + factor * tau * first
+        amplitude = self.unit.share * second + factor * tau * first
         found_d1 = self.unit.share * second_d1 + factor * (first + tau * first_d1)
         scale = mu.imag * tau
-        return found / scale, found_d1 / scale - found / (scale * tau)
+        return amplitude / scale, found_d1 / scale - amplitude / (scale * tau)
 
     def _nodes(self, tau: float) -> tuple[Floats, Floats, Floats]:
         """Places, and s″ and s′ there times the weights; jumps of s′ are places too."""
@@ -278,10 +278,10 @@ def _quiet(kernel: _Kernel, low: float, high: float, height: float) -> tuple[Qui
     before = np.flatnonzero((slopes[:-1] < 0) & (slopes[1:] >= 0))
     if not len(before):
         return ()
-    found, _ = roots.zeros(slope, tau[before], tau[before + 1])
+    quiet, _ = roots.zeros(slope, tau[before], tau[before + 1])
     # Where a double zero lies on the grid, the sign of the slope there is rounding: the end is the answer.
-    candidates = np.stack([found, tau[before], tau[before + 1]])
+    candidates = np.stack([quiet, tau[before], tau[before + 1]])
     left = np.abs(kernel.amplitude(candidates.ravel())).reshape(candidates.shape) / height
     best = np.argmin(left, axis=0)
-    found, left = candidates[best, np.arange(len(best))], left.min(axis=0)
-    return tuple(Quiet(float(t), float(a)) for t, a in zip(found, left, strict=True))
+    quiet, left = candidates[best, np.arange(len(best))], left.min(axis=0)
+    return tuple(Quiet(float(t), float(a)) for t, a in zip(quiet, left, strict=True))

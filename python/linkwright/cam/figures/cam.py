@@ -62,15 +62,15 @@ def lift_figure(profile: CamProfile) -> Figure:
     swings = profile.cam.is_oscillating
     scale, unit, letter = (180 / math.pi, "°", "ψ") if swings else (1e3, "mm", "s")
     curves = (profile.lift, profile.lift_d1, profile.lift_d2, profile.lift_d3)
-    for order, (each, curve) in enumerate(zip(axes, curves, strict=True)):
+    for order, (axis, curve) in enumerate(zip(axes, curves, strict=True)):
         x, y = _with_gaps(profile.angle, scale * curve)
-        each.plot(x, y, color=(BLUE, GREEN, RED, LINES[4])[order])
+        axis.plot(x, y, color=(BLUE, GREEN, RED, LINES[4])[order])
         per = ("", "/rad", "/rad²", "/rad³")[order]
-        each.set_ylabel(f"{letter}{'′' * order} [{unit}{per}]")
-        roomy(each, scale * curve)
-        zero_line(each)
-        _joints(each, profile)
-        turn_axis(each, label=False)
+        axis.set_ylabel(f"{letter}{'′' * order} [{unit}{per}]")
+        roomy(axis, scale * curve)
+        zero_line(axis)
+        _joints(axis, profile)
+        turn_axis(axis, label=False)
     axes[-1].set_xlabel(_ANGLE)
     figure.align_ylabels()
     return figure
@@ -81,15 +81,15 @@ def cam_figure(profile: CamProfile) -> Figure:
     """Draw the cam with its followers, as it stands where the programme begins."""
     parts = _parts(profile)
     figure, axes = panels(1, height=5.6 if len(parts) == 1 else 3.9, columns=len(parts), shared=False)
-    for each, flank in zip(axes, parts, strict=True):
-        _draw_cam(each, profile, flank)
+    for axis, flank in zip(axes, parts, strict=True):
+        _draw_cam(axis, profile, flank)
         followers = (flank,) if profile.cam.closure == "conjugate" else profile.flanks
         for k, follower in enumerate(followers):
-            _draw_follower(each, follower, turned=follower.contact.turned if k else 0.0, first=k == 0)
-        each.set_aspect("equal", adjustable="datalim")
-        each.set_xlabel("x [mm]")
+            _draw_follower(axis, follower, turned=follower.contact.turned if k else 0.0, first=k == 0)
+        axis.set_aspect("equal", adjustable="datalim")
+        axis.set_xlabel("x [mm]")
         if len(parts) > 1:
-            each.set_title(flank.contact.name, loc="left", pad=22)
+            axis.set_title(flank.contact.name, loc="left", pad=22)
     axes[0].set_ylabel("y [mm]")
     handles, labels = axes[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper left", ncols=4, handlelength=1.8)
@@ -218,12 +218,12 @@ def _parts(profile: CamProfile) -> Sequence[Flank]:
 
 def _course(curve: CamCurve) -> Floats:
     """Places along a curve, from joint to joint, (n, 2) [mm]."""
-    found = []
+    course = []
     for low, high in zip(curve.breaks, curve.breaks[1:], strict=False):
         n = max(9, int(_POINTS * (high - low) / (2 * math.pi)))
         phi = np.linspace(low, high, n)
-        found += [curve.points(phi[:-1]), curve.points(phi[-1:], "before")]
-    return 1e3 * np.concatenate(found)
+        course += [curve.points(phi[:-1]), curve.points(phi[-1:], "before")]
+    return 1e3 * np.concatenate(course)
 
 
 def _draw_cam(axes: Axes, profile: CamProfile, flank: Flank) -> None:
@@ -282,12 +282,12 @@ def motion_laws_figure(laws: Mapping[str, MotionLaw]) -> Figure:
     figure, axes = panels(4, height=8.2)
     for n, (name, law) in enumerate(laws.items()):
         colour, dash = LINES[n % len(LINES)], _DASHES[n // len(LINES) % len(_DASHES)]
-        for order, each in enumerate(axes):
+        for order, axis in enumerate(axes):
             x, y = _law_course(law, order)
-            each.plot(x, y, dash, color=colour, label=name)
-    for each, label in zip(axes, _LABELS, strict=True):
-        each.set_ylabel(label)
-        zero_line(each)
+            axis.plot(x, y, dash, color=colour, label=name)
+    for axis, label in zip(axes, _LABELS, strict=True):
+        axis.set_ylabel(label)
+        zero_line(axis)
     axes[-1].set_xlabel("share z of the section [–]")
     # More names than fit into one line take a second.
     legend_above(axes[0])

@@ -20,7 +20,7 @@ from linkwright.kernel.page.numbers import degrees, quantity
 
 def cam_figures(cams: Sequence[CamProfile], loaded: Sequence[LoadedCam] = ()) -> Iterator[Captioned]:
     """The figures of all cams."""
-    borne = {each.name: each for each in loaded}
+    borne = {cam.name: cam for cam in loaded}
     for profile in cams:
         name = profile.name
         yield Captioned(f"cam_{name}", f"Cam {name}", _cam_words(profile), cam_figure(profile))
@@ -67,14 +67,16 @@ def _lift_words(profile: CamProfile) -> str:
         ]
         for order, name in enumerate(names)
     }
-    told = [
+    sentences = [
         f"the {name} jumps at {', '.join(degrees(angle) for angle in angles)}"
         for name, angles in jumps.items()
         if angles
     ]
     verb = "swings" if swings else "rises"
     return f"The follower {verb} by {reach}; derivatives are by the cam angle. " + (
-        f"At segment boundaries (dotted), {'; '.join(told)}." if told else "It is continuous up to the jerk."
+        f"At segment boundaries (dotted), {'; '.join(sentences)}."
+        if sentences
+        else "It is continuous up to the jerk."
     )
 
 

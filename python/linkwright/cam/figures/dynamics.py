@@ -39,21 +39,21 @@ Floats = NDArray[np.float64]
 
 
 @styled
-def contact_force_figure(found: ContactForce) -> Figure:
+def contact_force_figure(contact: ContactForce) -> Figure:
     """Draw the normal force, by the flank that carries, and the torque of the cam shaft."""
     figure, (force, torque) = panels(2, height=4.2)
-    degrees = np.degrees(found.cam_angle)
-    flanks = ((found.side > 0, BLUE, "flank that lifts"), (found.side < 0, RED, "other flank"))
+    degrees = np.degrees(contact.cam_angle)
+    flanks = ((contact.side > 0, BLUE, "flank that lifts"), (contact.side < 0, RED, "other flank"))
     for carries, colour, label in flanks:
         if carries.any():
-            force.plot(degrees, np.where(carries, found.normal, np.nan), color=colour, label=label)
-    if found.lost.any():
-        force.plot(degrees[found.lost], found.normal[found.lost], ".", color=SOFT, label="contact lost")
+            force.plot(degrees, np.where(carries, contact.normal, np.nan), color=colour, label=label)
+    if contact.lost.any():
+        force.plot(degrees[contact.lost], contact.normal[contact.lost], ".", color=SOFT, label="contact lost")
     force.set_ylabel("normal force N\n[N]")
     legend_above(force)
-    torque.plot(degrees, found.torque, color=DRIVE)
+    torque.plot(degrees, contact.torque, color=DRIVE)
     torque.set_ylabel("torque of the\ncam shaft [N m]")
-    for axes, values in ((force, found.normal), (torque, found.torque)):
+    for axes, values in ((force, contact.normal), (torque, contact.torque)):
         there = values[np.isfinite(values)]
         if len(there):
             roomy(axes, there)
@@ -111,10 +111,10 @@ def vibration_figure(vibration: FollowerVibration) -> Figure:
 def residual_figure(spectra: Mapping[str, ResidualSpectrum]) -> Figure:
     """Draw the vibration that rises leave behind, over the ratio of rise time and natural period."""
     figure, (left, during) = panels(2, height=4.6)
-    for (name, found), colour in zip(spectra.items(), LINES * len(spectra), strict=False):
-        order = np.argsort(found.ratio)
-        left.plot(found.ratio[order], found.residual[order], color=colour, label=named(name))
-        during.plot(found.ratio[order], found.primary_acceleration[order], color=colour)
+    for (name, spectrum), colour in zip(spectra.items(), LINES * len(spectra), strict=False):
+        order = np.argsort(spectrum.ratio)
+        left.plot(spectrum.ratio[order], spectrum.residual[order], color=colour, label=named(name))
+        during.plot(spectrum.ratio[order], spectrum.primary_acceleration[order], color=colour)
     log_height(left)
     left.set_ylabel("amplitude left\nover the lift [–]")
     # What lies below a millionth of the lift is no motion that anybody measures.

@@ -179,12 +179,12 @@ class MotionLaw:
         """Where a derivative is zero inside the pieces, increasing; a piece that is zero has none."""
         law = self.derivative(order)
         scale = max((float(np.abs(p.at(np.linspace(0, 1, 9))).max()) for p in law.pieces), default=0.0)
-        found: list[float] = []
+        places: list[float] = []
         for low, length, piece in law._stretches():
             if not piece.vanishes(scale):
                 degree = max(len(piece.polynomial) - 1, 0)
-                found += [low + length * u for u in zeros(piece.at, degree, piece.waves)]
-        return found
+                places += [low + length * u for u in zeros(piece.at, degree, piece.waves)]
+        return places
 
     def extremes(self, order: int = 0) -> tuple[Extreme, Extreme]:
         """Minimum and maximum of the law, or of its derivative of an order; of equal ones the first."""
@@ -195,12 +195,12 @@ class MotionLaw:
             places += self.zeros(order + 1) if side == "after" else []
             values = self.at(np.array(places), order, side)
             listed += [Extreme(x, float(v), side) for x, v in zip(places, values, strict=True)]
-        listed.sort(key=lambda each: each.at)
-        return min(listed, key=lambda each: each.value), max(listed, key=lambda each: each.value)
+        listed.sort(key=lambda extreme: extreme.at)
+        return min(listed, key=lambda extreme: extreme.value), max(listed, key=lambda extreme: extreme.value)
 
     def peak(self, order: int = 0) -> Extreme:
         """The value of a derivative that is largest in size."""
-        return max(self.extremes(order)[::-1], key=lambda each: abs(each.value))
+        return max(self.extremes(order)[::-1], key=lambda extreme: abs(extreme.value))
 
     def integral_of_square(self, order: int = 0) -> float:
         """∫ (dⁿs/dxⁿ)² dx over the law, to rounding.

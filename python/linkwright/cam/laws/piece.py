@@ -132,7 +132,7 @@ class Piece(NamedTuple):
     def plus(self, other: Piece) -> Piece:
         """The sum of two pieces over the same stretch."""
         n = max(len(self.polynomial), len(other.polynomial))
-        first, second = (each.polynomial + (0.0,) * (n - len(each.polynomial)) for each in (self, other))
+        first, second = (piece.polynomial + (0.0,) * (n - len(piece.polynomial)) for piece in (self, other))
         polynomial = tuple(a + b for a, b in zip(first, second, strict=True))
         return Piece(polynomial, self.harmonics + other.harmonics)
 

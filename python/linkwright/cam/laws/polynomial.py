@@ -35,7 +35,7 @@ def solve(
         if pivot is None:
             return None
         table[i], table[pivot] = table[pivot], table[i]
-        table[i] = [each / table[i][i] for each in table[i]]
+        table[i] = [entry / table[i][i] for entry in table[i]]
         table = [row if j == i else _without(row, table[i], i) for j, row in enumerate(table)]
     return [row[-1] for row in table]
 
@@ -57,11 +57,11 @@ def polynomial(start: Conditions, end: Conditions, powers: Sequence[int] | None 
         expected = f"{n} powers, as many as there are conditions at the two ends"
         raise LawError(Problem("powers", _listed(used), expected))
     rows = [*(_at_start(order, used) for order in start), *(_at_end(order, used) for order in end)]
-    found = solve(rows, [*start.values(), *end.values()])
-    if found is None:
+    solved = solve(rows, [*start.values(), *end.values()])
+    if solved is None:
         expected = "powers that can meet every condition: each order that is given at the start is one"
         raise LawError(Problem("powers", _listed(used), expected))
-    by_power = dict(zip(used, found, strict=True))
+    by_power = dict(zip(used, solved, strict=True))
     return MotionLaw((0.0, 1.0), (Piece(coefficients(by_power)),))
 
 

@@ -131,10 +131,10 @@ def programme(sections: Sequence[Section]) -> Programme:
     """
     closed = _closed(sections)
     tasks = boundaries(closed)
-    ends = [math.fsum(each.angle for each in closed[:i]) for i in range(len(closed))] + [TURN]
+    ends = [math.fsum(section.angle for section in closed[:i]) for i in range(len(closed))] + [TURN]
     laws = []
     for i, (section, task) in enumerate(zip(closed, tasks, strict=True)):
-        start = math.fsum(each.lift for each in closed[:i])
+        start = math.fsum(section.lift for section in closed[:i])
         law = section_law(section, task).scaled(1.0, start)
         laws.append(law.placed(ends[i], ends[i + 1] - ends[i]))
     law = joined(laws)
@@ -150,21 +150,21 @@ def section_law(section: Section, task: Boundary) -> MotionLaw:
 
 def boundaries(sections: Sequence[Section]) -> list[Boundary]:
     """What each section has to do, by its own z."""
-    found = []
+    tasks = []
     for i, here in enumerate(sections):
         before, after = sections[i - 1], sections[(i + 1) % len(sections)]
         velocities = [
             _said(here.velocity(a), other.velocity(b)) or 0.0 for a, other, b in _ends(before, after)
         ]
         bends = [_said(here.acceleration(a), other.acceleration(b)) for a, other, b in _ends(before, after)]
-        found.append(
+        tasks.append(
             Boundary(
                 here.lift,
                 *(v * here.angle for v in velocities),
                 *(None if a is None else a * here.angle**2 for a in bends),
             )
         )
-    return found
+    return tasks
 
 
 def joints(law: MotionLaw, places: Sequence[float]) -> tuple[Joint, ...]:

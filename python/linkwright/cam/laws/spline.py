@@ -99,5 +99,5 @@ def _with_pieces(function: Callable[[Floats], Floats], n: int, text: str) -> tup
     size = max(
         float(np.abs(exact).max()), float(np.abs(ends[2]).max()), float(np.abs(ends[0] - ends[0, 0]).max())
     )
-    off = np.abs(np.array([float(law.at(each, 2)) for each in between]) - exact).max() if size else 0.0
+    off = np.abs(np.array([float(law.at(point, 2)) for point in between]) - exact).max() if size else 0.0
     return law, float(off / size) if size else 0.0

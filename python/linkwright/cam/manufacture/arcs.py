@@ -56,15 +56,15 @@ def equal_errors(
     cuts, enough = np.array([low, high]), False
     n = 1
     while not enough:
-        cuts, found, enough = _alike(errors, cuts, n, order, tolerance)
-        needed = math.ceil(min(((found / tolerance) ** (1 / order)).sum(), 2.0 * n + 8))
+        cuts, error, enough = _alike(errors, cuts, n, order, tolerance)
+        needed = math.ceil(min(((error / tolerance) ** (1 / order)).sum(), 2.0 * n + 8))
         n = max(needed, n + max(1, n // 50))
         if n > _MOST:
             raise ConvergenceError(
                 f"{n} pieces between {low:g} and {high:g} rad do not keep the tolerance; ask for a wider one",
                 method="cutting a curve into pieces",
                 iterations=n,
-                residual=float(found.max()),
+                residual=float(error.max()),
             )
     return _fewer(errors, cuts, order, tolerance)
 
@@ -86,13 +86,13 @@ def _alike(
     errors: Callable[[Floats], Floats], cuts: Floats, n: int, order: float, tolerance: float
 ) -> tuple[Floats, Floats, bool]:
     """Cuts of n pieces that err alike as far as a few rounds go; their errors; whether that is enough."""
-    found = errors(cuts)
+    error = errors(cuts)
     for _ in range(_ROUNDS):
-        if len(found) == n and found.max() <= tolerance:
+        if len(error) == n and error.max() <= tolerance:
             break
-        cuts = _cut_alike(cuts, (found / tolerance) ** (1 / order), n)
-        found = errors(cuts)
-    return cuts, found, len(found) == n and bool(found.max() <= tolerance)
+        cuts = _cut_alike(cuts, (error / tolerance) ** (1 / order), n)
+        error = errors(cuts)
+    return cuts, error, len(error) == n and bool(error.max() <= tolerance)
 
 
 def _cut_alike(cuts: Floats, share: Floats, n: int) -> Floats:
@@ -154,8 +154,8 @@ _SAMPLES = 257
 
 def arcs(track: Track, tolerance: float) -> Outline:
     """Approximate a curve by arcs and lines. ``tolerance``: largest distance from the curve [m]."""
-    found = [_sides(part, tolerance) for part in track.parts]
-    starts, bulges = (np.concatenate(each) for each in zip(*found, strict=True))
+    sides = [_sides(part, tolerance) for part in track.parts]
+    starts, bulges = (np.concatenate(part) for part in zip(*sides, strict=True))
     return Outline(starts, np.where(np.abs(bulges) < _STRAIGHT, 0.0, bulges))
 
 

@@ -124,7 +124,7 @@ def read_dxf(file: File, layers: tuple[str, ...]) -> dict[str, FileOutline]:
 
 def _outline_of(file: File, document: Document, layer: str) -> FileOutline:
     """The one closed entity of a layer."""
-    entities: list[Any] = [each for each in document.modelspace() if each.dxf.layer == layer]
+    entities: list[Any] = [entity for entity in document.modelspace() if entity.dxf.layer == layer]
     kinds = [entity.dxftype() for entity in entities]
     if kinds not in (["LWPOLYLINE"], ["SPLINE"]):
         there = ", ".join(kinds) or "nothing"
@@ -143,8 +143,12 @@ def _spline_of(file: File, tool: BSpline, layer: str) -> EvaluatedSpline:
 
     def values(x: Floats) -> tuple[Floats, Floats]:
         """Places and first derivatives [m]."""
-        found = np.array([[(p.x, p.y) for p in pair] for pair in tool.derivatives(x.ravel().tolist(), 1)])
-        return 1e-3 * found[:, 0].reshape(*x.shape, 2), 1e-3 * found[:, 1].reshape(*x.shape, 2)
+        places_slopes = np.array(
+            [[(p.x, p.y) for p in pair] for pair in tool.derivatives(x.ravel().tolist(), 1)]
+        )
+        return 1e-3 * places_slopes[:, 0].reshape(*x.shape, 2), 1e-3 * places_slopes[:, 1].reshape(
+            *x.shape, 2
+        )
 
     cuts = np.unique(tool.knots())
     ends, _ = values(cuts[[0, -1]])

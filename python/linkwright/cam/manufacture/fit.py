@@ -124,8 +124,8 @@ def _between(low: Floats, high: Floats, u: Floats) -> tuple[Floats, Floats, Floa
 
 def _largest(distances: Distances, n: int) -> tuple[float, float]:
     """The largest distance of all sides, and its τ."""
-    found = [_sampled(distances, block) for block in np.array_split(np.arange(n), max(1, n // _BLOCK))]
-    most, share, tau = (np.concatenate(each) for each in zip(*found, strict=True))
+    blocks = [_sampled(distances, block) for block in np.array_split(np.arange(n), max(1, n // _BLOCK))]
+    most, share, tau = (np.concatenate(block) for block in zip(*blocks, strict=True))
     top = int(most.argmax())
     best, at = float(most[top]), float(tau[top])
     which = np.flatnonzero(most >= _WORTH * best)[:_BLOCK]
@@ -148,7 +148,7 @@ def _sampled(distances: Distances, which: Whole) -> tuple[Floats, Floats, Floats
 def _most(distance: Floats, tau: Floats, u: Floats) -> tuple[Floats, Floats, Floats]:
     """The largest of each row, with its share and τ."""
     column = distance.argmax(axis=1)[:, None]
-    most, share, at = (np.take_along_axis(each, column, axis=1)[:, 0] for each in (distance, u, tau))
+    most, share, at = (np.take_along_axis(values, column, axis=1)[:, 0] for values in (distance, u, tau))
     return most, share, at
 
 
@@ -188,16 +188,16 @@ def fit(
     aim = kept = tolerance - _ROUNDING * extent
     for _ in range(_TRIES):
         path = _path(track, form, aim)
-        found = deviation(path, track)
-        if found.largest <= kept:
-            return path, found
-        aim *= _LESS * kept / found.largest
+        distance = deviation(path, track)
+        if distance.largest <= kept:
+            return path, distance
+        aim *= _LESS * kept / distance.largest
     raise ConvergenceError(
-        f"the curve as {form} is {found.largest:.3g} m off where {tolerance:.3g} m were asked for; "
+        f"the curve as {form} is {distance.largest:.3g} m off where {tolerance:.3g} m were asked for; "
         "ask for a wider tolerance",
         method="approximating a curve",
         iterations=_TRIES,
-        residual=found.largest,
+        residual=distance.largest,
     )
 
 

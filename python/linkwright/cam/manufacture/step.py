@@ -103,8 +103,8 @@ def read_step(file: File, sense: int) -> FileOutline:
     def evaluate(parameter: Floats) -> tuple[Floats, Floats]:
         """Places and first derivatives along the pieces [m]."""
         index = np.minimum(parameter.astype(int), len(pieces) - 1).ravel()
-        found = [_at(pieces[i], u) for i, u in zip(index, parameter.ravel() - index, strict=True)]
-        place, slope = np.array(found).transpose(1, 0, 2)
+        values = [_at(pieces[i], u) for i, u in zip(index, parameter.ravel() - index, strict=True)]
+        place, slope = np.array(values).transpose(1, 0, 2)
         return place.reshape(*parameter.shape, 2), slope.reshape(*parameter.shape, 2)
 
     return FileOutline(EvaluatedSpline(np.arange(len(pieces) + 1.0), evaluate), "solid")
@@ -144,8 +144,8 @@ def _pieces(wire: Any) -> Iterator[tuple[Any, float, float]]:
         curve = _kernel("BRepAdaptor").BRepAdaptor_Curve(edge)
         ends = [curve.FirstParameter(), curve.LastParameter()]
         if curve.GetType() == spline:
-            found = curve.BSpline()
-            ends = [found.Knot(i) for i in range(1, found.NbKnots() + 1)]
+            shape = curve.BSpline()
+            ends = [shape.Knot(i) for i in range(1, shape.NbKnots() + 1)]
         if explorer.Orientation() == reversed_:
             ends.reverse()
         for low, high in pairwise(ends):

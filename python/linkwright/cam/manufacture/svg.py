@@ -83,13 +83,13 @@ def read_svg(file: File, layers: tuple[str, ...]) -> dict[str, FileOutline]:
     except (OSError, ElementTree.ParseError) as error:
         raise ExchangeError(f"{file}: is not an SVG file that can be read ({error})") from None
     _refuse_scale(file, root)
-    found = {}
+    outlines = {}
     for layer in layers:
-        data = [each.get("d", "") for each in root.iter(f"{_NAMESPACE}path") if each.get("id") == layer]
+        data = [path.get("d", "") for path in root.iter(f"{_NAMESPACE}path") if path.get("id") == layer]
         if len(data) != 1:
             raise ExchangeError(f'{file}: {len(data)} paths have the id "{layer}", expected one')
-        found[layer] = FileOutline(_outline(file, layer, data[0]), "path")
-    return found
+        outlines[layer] = FileOutline(_outline(file, layer, data[0]), "path")
+    return outlines
 
 
 def _refuse_scale(file: File, root: ElementTree.Element) -> None:

@@ -60,8 +60,8 @@ def table(track: Track, step: float, by: By = "cam") -> Table:
     n = _count(step)
     angles: Floats = np.arange(n + 1, dtype=float) * (2 * math.pi / n)
     tau = track.at_cam_angles(angles) if by == "cam" else _at_polar_angles(track, angles)
-    found = track.points(tau[:-1]), curvature(track, tau[:-1])
-    place, bend = (np.concatenate([each, each[:1]]) for each in found)
+    columns = track.points(tau[:-1]), curvature(track, tau[:-1])
+    place, bend = (np.concatenate([column, column[:1]]) for column in columns)
     phi: Floats = angles if by == "cam" else track.angles(tau)
     unwrapped = np.unwrap(np.arctan2(place[:, 1], place[:, 0]))
     polar: Floats = angles if by == "polar" else unwrapped
@@ -138,9 +138,9 @@ def read_csv(file: File) -> Table:
     if tuple(head) != COLUMNS or values.ndim != 2 or values.shape[0] < 4:
         raise ExchangeError(f"{file}: columns {', '.join(head)}; expected {', '.join(COLUMNS)}")
     phi, x, y, radius, polar, bend = values.T
-    found = Table(np.radians(phi), 1e-3 * np.column_stack([x, y]), np.radians(polar), 1e3 * bend)
-    _refuse(file, found, 1e-3 * radius)
-    return found
+    rows = Table(np.radians(phi), 1e-3 * np.column_stack([x, y]), np.radians(polar), 1e3 * bend)
+    _refuse(file, rows, 1e-3 * radius)
+    return rows
 
 
 def _refuse(file: File, rows: Table, radius: Floats) -> None:

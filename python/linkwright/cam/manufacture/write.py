@@ -78,8 +78,8 @@ def read_back(
         raise InputError(
             f'{file}: files named "{file.suffix}" cannot be read; expected .csv, .step, {", ".join(_READERS)}'
         )
-    found = _READERS[file.suffix](file, layers)
-    return tuple(_compare(file, layer, found[layer], drawing.tracks[layer], tolerance) for layer in layers)
+    outlines = _READERS[file.suffix](file, layers)
+    return tuple(_compare(file, layer, outlines[layer], drawing.tracks[layer], tolerance) for layer in layers)
 
 
 _READERS = {".dxf": read_dxf, ".svg": read_svg}
@@ -192,7 +192,7 @@ def write_drawing(
     """
     in_range(tolerance=(tolerance, positive(LENGTH)), step=(step, positive(ANGLE)))
     formats = tuple(formats)
-    if unknown := [each for each in formats if each not in ALL_FORMATS]:
+    if unknown := [ending for ending in formats if ending not in ALL_FORMATS]:
         raise InputError(f'format "{unknown[0]}": expected {", ".join(ALL_FORMATS)}')
     place = File(directory) / (stem or file_name(drawing.name) or "cam")
     written: list[WrittenFile] = []
@@ -234,8 +234,8 @@ def _dxf(place: File, drawing: Drawing, form: Form, tolerance: float) -> Written
         drawing.name,
         f"tolerance {1e3 * tolerance:g} mm",
         *(
-            f"{layer}: {found.sides} sides, within {1e3 * found.largest:.3g} mm"
-            for layer, (_, found) in fits.items()
+            f"{layer}: {side.sides} sides, within {1e3 * side.largest:.3g} mm"
+            for layer, (_, side) in fits.items()
         ),
     )
     return _checked(

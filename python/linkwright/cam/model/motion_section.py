@@ -185,14 +185,17 @@ def section_faults(
     if not sections:
         yield fault(key, found="an empty list", expected="at least one section")
         return
-    found = [
-        each
+    faults = [
+        wrong_entry
         for i, section in enumerate(sections)
-        for each in (*_family_faults(section, expected, (key, i)), *_own_faults(section, expected, (key, i)))
+        for wrong_entry in (
+            *_family_faults(section, expected, (key, i)),
+            *_own_faults(section, expected, (key, i)),
+        )
     ]
-    found += _turn_faults(sections, key)
-    found = found or list(_lift_faults(sections, expected, key))
-    yield from found or _law_faults(sections, expected, key)
+    faults += _turn_faults(sections, key)
+    faults = faults or list(_lift_faults(sections, expected, key))
+    yield from faults or _law_faults(sections, expected, key)
 
 
 def _family_faults(

@@ -76,7 +76,7 @@ class PointLaw(Law):
             found = f"points that go {goes:.10g} far"
             expected = f"points that go as far as the section, {task.lift:.10g}"
             raise LawError(Problem("swing" if swing else "lift", found, expected))
-        places = [0.0, *(each / span for each in self.angle[1:-1]), 1.0]
+        places = [0.0, *(angle / span for angle in self.angle[1:-1]), 1.0]
         ways = [value - values[0] for value in values[:-1]]
         return spline(places, [*ways, task.lift], task, self._degree)
 
@@ -122,10 +122,10 @@ class FormulaLaw(Law):
         at = Taylor.variable(z)
         names = {**NUMBERS, **self.constants, "z": at, "theta": at * angle}
         with np.errstate(all="ignore"):
-            found = value(parse(text), names)
-        if not isinstance(found, Taylor):
-            found = at * 0.0 + found
-        derivatives: NDArray[np.float64] = found.derivatives
+            series = value(parse(text), names)
+        if not isinstance(series, Taylor):
+            series = at * 0.0 + series
+        derivatives: NDArray[np.float64] = series.derivatives
         return derivatives
 
     def over(self, task: Boundary, angle: float, *, swing: bool) -> MotionLaw:

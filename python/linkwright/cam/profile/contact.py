@@ -83,8 +83,8 @@ class CamCurve:
         return self._of(2, phi, side)
 
     def _of(self, order: int, phi: Floats, side: Side) -> Floats:
-        found: Floats = self.contact.kernel.curve(phi, self.away, before=side == "before")[order].T
-        return found
+        curve: Floats = self.contact.kernel.curve(phi, self.away, before=side == "before")[order].T
+        return curve
 
 
 class Touch(NamedTuple):
@@ -134,7 +134,10 @@ def contacts(cam: Cam, points: dict[str, FixedPoint], name: str = "cam") -> tupl
     vary from machine to machine.
     """
     size = sizes(cam, points)
-    if any(np.ndim(each) for each in (*size, *(value for _, value in cam if not isinstance(value, tuple)))):
+    if any(
+        np.ndim(dimension)
+        for dimension in (*size, *(value for _, value in cam if not isinstance(value, tuple)))
+    ):
         raise ShapeError(
             f"the profile of cam {name} is that of one machine, and the entries describe several"
         )

@@ -59,11 +59,11 @@ def cam_faults(profile: CamProfile) -> tuple[str, ...]:
     tuple of str
         Empty for a sound cam.
     """
-    found: list[str] = [*_leaps(profile)]
+    faults: list[str] = [*_leaps(profile)]
     for flank in profile.flanks:
-        told = [*_locked(profile, flank), *_undercut(profile, flank)]
-        found += told or [*_crossed(profile, flank), *_hollow(profile, flank)]
-    return (*found, *_diameter(profile))
+        local = [*_locked(profile, flank), *_undercut(profile, flank)]
+        faults += local or [*_crossed(profile, flank), *_hollow(profile, flank)]
+    return (*faults, *_diameter(profile))
 
 
 @public
@@ -238,7 +238,7 @@ def _diameter(profile: CamProfile) -> Iterator[str]:
     both = profile.opposite
     if both is None or both.is_constant:
         return
-    worst = max((both.least, both.greatest), key=lambda each: abs(each.value - both.breadth))
+    worst = max((both.least, both.greatest), key=lambda extreme: abs(extreme.value - both.breadth))
     apart = worst.value - both.breadth
     what = "too thick" if apart > 0 else "too thin"
     yield (
@@ -254,7 +254,7 @@ def _steep(profile: CamProfile) -> Iterator[str]:
     limit = profile.cam.limit
     if profile.pressure_angle_max <= limit:
         return
-    flank = max(profile.flanks, key=lambda each: abs(each.steepest.value))
+    flank = max(profile.flanks, key=lambda extreme: abs(extreme.steepest.value))
     base = base_for_pressure_angle(profile.cam, flank.contact, limit)
     size = _size_for(profile, flank, base) or "no base radius"
     yield (
@@ -268,13 +268,13 @@ def _tight(profile: CamProfile) -> Iterator[str]:
     """A radius of curvature below what is allowed."""
     limit = profile.cam.curvature_limit
     for flank in profile.flanks:
-        found = flank.convex
-        if limit is None or found is None or not 0 <= found.value < limit:
+        convex = flank.convex
+        if limit is None or convex is None or not 0 <= convex.value < limit:
             continue
         base = base_for_curvature(profile.cam, flank.contact, limit)
         yield (
-            f"the profile of {_subject(profile, flank)} has a radius of curvature of {_mm(found.value)} at "
-            f"{_degrees(found.angle)}, below {_mm(limit)}: it takes "
+            f"the profile of {_subject(profile, flank)} has a radius of curvature of {_mm(convex.value)} at "
+            f"{_degrees(convex.angle)}, below {_mm(limit)}: it takes "
             f"{_size_for(profile, flank, base) or 'another law or a smaller lift'}"
         )
 

@@ -49,7 +49,7 @@ def base_for_pressure_angle(cam: Cam, contact: Contact, limit: float) -> float |
     def spare(contact: Contact) -> float:
         shape = contact.kernel.shape(_FINE)
         both = (shape.greatest["pressure_angle"], shape.least["pressure_angle"])
-        return limit - max(abs(each.value) for each in both)
+        return limit - max(abs(side.value) for side in both)
 
     return _first(cam, contact, lambda cams: tangent - cams.tan_pressure_angle, spare)
 
@@ -203,8 +203,8 @@ def least_sizes(profile: CamProfile) -> LeastSizes:
     gentle = base_for_pressure_angle(cam, contact, cam.limit)
     smooth = None if cam.curvature_limit is None else base_for_curvature(cam, contact, cam.curvature_limit)
     wanted = [sound, gentle, *(() if cam.curvature_limit is None else (smooth,))]
-    found = [each for each in wanted if each is not None]
-    least = max(found) if len(found) == len(wanted) else None
+    sizes = [size for size in wanted if size is not None]
+    least = max(sizes) if len(sizes) == len(wanted) else None
     return LeastSizes(
         profile.name,
         sound,

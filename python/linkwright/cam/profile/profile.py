@@ -60,7 +60,7 @@ class Flank:
     def steepest(self) -> Extreme:
         """The pressure angle that is largest in size."""
         both = (self.pressure_angle_max, self.pressure_angle_min)
-        return max(both, key=lambda each: abs(each.value))
+        return max(both, key=lambda extreme: abs(extreme.value))
 
     @property
     def curvature_radius(self) -> Floats:
@@ -223,8 +223,8 @@ class CamProfile(Result):
     @property
     def joints(self) -> tuple[dict[str, Any], ...]:
         """Segment boundaries: cam angle [rad], highest continuous derivative, jumps of the derivatives."""
-        found = self.cam.motion.joints
-        return tuple({"angle": j.angle, "order": j.order, "jumps": list(j.jumps)} for j in found)
+        joints = self.cam.motion.joints
+        return tuple({"angle": j.angle, "order": j.order, "jumps": list(j.jumps)} for j in joints)
 
     def unit_of(self, name: str) -> str:
         """SI unit of an attribute: a lift has metres, that of an oscillating follower radians."""
@@ -289,7 +289,7 @@ def profile_of(name: str, cam: Cam, touching: tuple[Contact, ...], speed: float 
     flanks = tuple(_flank(contact, n) for contact in touching)
     first = flanks[0]
     rows, size = first.shape.rows, first.contact.sizes
-    steepest = max((flank.steepest for flank in flanks), key=lambda each: abs(each.value))
+    steepest = max((flank.steepest for flank in flanks), key=lambda joint: abs(joint.value))
     convex = _least([flank.convex for flank in flanks])
     concave = _least([flank.concave for flank in flanks])
     tightest = _least([convex, concave])
@@ -328,9 +328,13 @@ def profile_of(name: str, cam: Cam, touching: tuple[Contact, ...], speed: float 
     )
 
 
-def _least(found: list[Extreme | None]) -> Extreme | None:
+def _least(extremes: list[Extreme | None]) -> Extreme | None:
     """The minimum of those that there are."""
-    return min((each for each in found if each is not None), key=lambda each: each.value, default=None)
+    return min(
+        (extreme for extreme in extremes if extreme is not None),
+        key=lambda extreme: extreme.value,
+        default=None,
+    )
 
 
 def _in_time(peak: float | None, order: int, speed: float | None) -> float | None:

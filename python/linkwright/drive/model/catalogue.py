@@ -103,11 +103,11 @@ def motor(type: str) -> CatalogueMotor:
     >>> round(motor("4A160S6U3").torque_rated, 1)
     107.7
     """
-    found = _by_type().get(type)
-    if found is None:
+    known = _by_type().get(type)
+    if known is None:
         expected, remedy = "a type of the catalogue of motors", suggestion(type, _by_type())
         raise MachineError([Problem(found=show(type), expected=expected, remedy=remedy)])
-    return found
+    return known
 
 
 def estimated_inertia(torque_rated: float) -> float:
@@ -152,10 +152,10 @@ def entries(type: str) -> dict[str, Any]:
         "torque_start",
         "inertia",
     )
-    found = {name: known[name] for name in names if name in known}
+    values = {name: known[name] for name in names if name in known}
     if breakdown_is_minimum(type):
-        found["torque_breakdown"] = OVERLOAD * motor(type).torque_rated
-    return found
+        values["torque_breakdown"] = OVERLOAD * motor(type).torque_rated
+    return values
 
 
 def breakdown_is_minimum(type: str) -> bool:

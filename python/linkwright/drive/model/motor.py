@@ -282,10 +282,10 @@ def _knee_faults(knee: float, rated: float | None, top: float) -> Iterator[InitE
         yield _less("speed_breakdown", knee, "the rated speed", rated)
 
 
-def _less(key: str, found: float, word: str, limit: float) -> InitErrorDetails:
+def _less(key: str, value: float, word: str, limit: float) -> InitErrorDetails:
     """The fault of a value that is not below its limit."""
     unit = "N m" if key.startswith("torque") else "rad/s"
-    return fault(key, found=f"{found:.6g} {unit}", expected=f"less than {word}, {limit:.6g} {unit}")
+    return fault(key, found=f"{value:.6g} {unit}", expected=f"less than {word}, {limit:.6g} {unit}")
 
 
 class DcMotor(Motor):

@@ -58,10 +58,10 @@ def with_motor_of_file(tables: dict[str, Any], folder: Path, *, allow_outside: b
     name, wanted = motor.pop("file"), motor.pop("catalogue", None)
     path = folder / name
     require_below(path, folder, name, _KEY, allow_outside=allow_outside)
-    found = _row(path, wanted)
-    for key, value in found.items():
+    row = _row(path, wanted)
+    for key, value in row.items():
         motor.setdefault(key, value)
-    motor.setdefault("kind", "dc" if "speed_no_load" in found else "induction")
+    motor.setdefault("kind", "dc" if "speed_no_load" in row else "induction")
 
 
 def _row(path: Path, wanted: object) -> dict[str, float]:
@@ -107,28 +107,28 @@ def _heads(path: Path, line: int, row: list[str]) -> list[tuple[str, str]]:
 def _entries(path: Path, line: int, heads: list[tuple[str, str]], cells: dict[str, str]) -> dict[str, float]:
     """The numbers of a row in SI; an empty cell is none."""
     kinds = {**_ENTRIES, **dict.fromkeys(_RATIOS, RATIO)}
-    found: dict[str, float] = {}
+    entries: dict[str, float] = {}
     for name, unit in heads:
         if name not in kinds or not cells[name]:
             continue
         try:
             number = f"{cells[name]} {unit}".strip() if unit else float(cells[name])
-            found[name] = parse(number, kinds[name])
+            entries[name] = parse(number, kinds[name])
         except ValueError:
             raise _wrong(path, line, show(cells[name]), f"a number in the column {name}") from None
         except UnitError as error:
             problem = replace(error.problem, key=f"{_KEY}, column {name}", path=str(path), line=line)
             raise MachineFileError([problem]) from None
-    rated = found.get("torque_rated")
-    if rated is None and "power_rated" in found and "speed_rated" in found:
-        rated = found["power_rated"] / found["speed_rated"]
+    rated = entries.get("torque_rated")
+    if rated is None and "power_rated" in entries and "speed_rated" in entries:
+        rated = entries["power_rated"] / entries["speed_rated"]
     for ratio, entry in _RATIOS.items():
-        if ratio in found:
+        if ratio in entries:
             if rated is None:
                 raise _wrong(path, line, ratio, "the rated torque, or power and speed, beside it")
-            found.setdefault(entry, found[ratio] * rated)
-            del found[ratio]
-    return found
+            entries.setdefault(entry, entries[ratio] * rated)
+            del entries[ratio]
+    return entries
 
 
 def _wrong(path: Path, line: int, found: str, expected: str, remedy: str = "") -> MachineFileError:

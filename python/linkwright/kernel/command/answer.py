@@ -118,14 +118,14 @@ def json_text(answer: Answer, *, curves: bool = False) -> str:
     """
     from linkwright.kernel.result import finite
 
-    told = {
+    fields = {
         "machine": answer.machine,
         "results": answer.results(curves),
         "findings": list(answer.findings),
         "warnings": [*answer.findings, *answer.warnings],
         **answer.extra,
     }
-    return dumps(finite(told), allow_nan=False, ensure_ascii=False) + "\n"
+    return dumps(finite(fields), allow_nan=False, ensure_ascii=False) + "\n"
 
 
 def as_wanted(table: BaseModel | None) -> AbstractContextManager[None]:

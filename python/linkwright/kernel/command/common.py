@@ -101,7 +101,7 @@ def named_entries(option: str, text: str, example: str) -> tuple[str, list[str]]
     name, colon, entries = text.partition(":")
     if not colon or not name.strip():
         raise InputError(f'{option}: found "{text}", expected a name, a colon and entries, as in "{example}"')
-    return name.strip(), [each.strip() for each in entries.split(";") if each.strip()]
+    return name.strip(), [entry.strip() for entry in entries.split(";") if entry.strip()]
 
 
 def option_value(option: str, text: str, kind: Kind) -> float:

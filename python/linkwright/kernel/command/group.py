@@ -92,8 +92,8 @@ class Commands(click.Group):
         """Command and its words; the name of the default is left out of what is shown as its usage."""
         if self.get_command(context, args[0]) is None and not context.resilient_parsing:
             raise click.exceptions.NoSuchCommand(args[0], possibilities=self.entries, ctx=context)
-        name, found, rest = super().resolve_command(context, args)
-        return None if name == _FILE else name, found, rest
+        name, command, rest = super().resolve_command(context, args)
+        return None if name == _FILE else name, command, rest
 
     def format_usage(self, context: click.Context, formatter: click.HelpFormatter) -> None:
         """How the group is called, with a file and with a command."""
@@ -124,14 +124,14 @@ class Commands(click.Group):
         """Commands that begin so, and what the default command may begin with."""
         from click.shell_completion import CompletionItem
 
-        found = [
+        items = [
             CompletionItem(name, help=entry.about)
             for name, entry in self.entries.items()
             if name.startswith(incomplete)
         ]
         first = self.for_a_file.params[0] if self.for_a_file else None
         files = first.shell_complete(context, incomplete) if isinstance(first, click.Argument) else []
-        return [*found, *files, *click.Command.shell_complete(self, context, incomplete)]
+        return [*items, *files, *click.Command.shell_complete(self, context, incomplete)]
 
 
 # Shell → file that it reads by itself, below the user's folder, and what is needed for that.

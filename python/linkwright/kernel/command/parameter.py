@@ -181,12 +181,12 @@ class _Whole(click.IntRange):
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         """The number of a word."""
-        found = super().convert(value, param, ctx)
-        if abs(found) > _WHOLE_MAX:
+        number = super().convert(value, param, ctx)
+        if abs(number) > _WHOLE_MAX:
             self.fail(
-                f"found a whole number of {len(str(abs(found)))} digits, expected a smaller one", param, ctx
+                f"found a whole number of {len(str(abs(number)))} digits, expected a smaller one", param, ctx
             )
-        return found
+        return number
 
 
 def _list(context: click.Context, parameter: click.Parameter, values: tuple[Any, ...]) -> list[Any] | None:

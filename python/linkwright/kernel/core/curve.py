@@ -49,7 +49,7 @@ def smooth(x: ArrayLike, y: ArrayLike, slope: ArrayLike, beyond: Beyond = "strai
 
     Outside the end values are held, which makes kinks, or straight lines go on with the end slopes.
     """
-    places, values, slopes = (np.asarray(each, dtype=float) for each in (x, y, slope))
+    places, values, slopes = (np.asarray(values, dtype=float) for values in (x, y, slope))
     before, after = slopes.copy(), slopes.copy()
     if beyond == "held":
         before[0] = after[-1] = 0.0
@@ -60,7 +60,7 @@ def odd(x: ArrayLike, y: ArrayLike, slope: ArrayLike) -> Curve:
     """A curve from x = 0, y = 0 upwards, turned about zero: the torque of a coupling over its twist; straight
     beyond.
     """
-    places, values, slopes = (np.asarray(each, dtype=float) for each in (x, y, slope))
+    places, values, slopes = (np.asarray(values, dtype=float) for values in (x, y, slope))
     return smooth(
         np.concatenate([-places[:0:-1], places]),
         np.concatenate([-values[:0:-1], values]),
@@ -110,5 +110,5 @@ def _at(curve: Curve, places: Floats, side: Literal["left", "right"]) -> Floats:
     a, b = np.clip(place - 1, 0, None), np.clip(place, None, len(curve.x) - 1)
     width = curve.x[b] - curve.x[a]
     share = np.divide(places - curve.x[a], width, out=np.zeros_like(places), where=width > 0)
-    found: Floats = curve.y[a] + np.clip(share, 0.0, 1.0) * (curve.y[b] - curve.y[a])
-    return found
+    value: Floats = curve.y[a] + np.clip(share, 0.0, 1.0) * (curve.y[b] - curve.y[a])
+    return value

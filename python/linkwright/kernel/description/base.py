@@ -73,11 +73,11 @@ def faults_of(error: ValidationError) -> list[InitErrorDetails]:
     """The faults that an error holds, to be raised again together with others."""
     return [
         InitErrorDetails(
-            type=PydanticCustomError(each["type"], each["msg"], each.get("ctx")),
-            loc=each["loc"],
-            input=each["input"],
+            type=PydanticCustomError(detail["type"], detail["msg"], detail.get("ctx")),
+            loc=detail["loc"],
+            input=detail["input"],
         )
-        for each in error.errors()
+        for detail in error.errors()
     ]
 
 
@@ -103,7 +103,7 @@ def close_match(name: str, known: Iterable[str]) -> str:
     words = sorted(name.split("_"))
     reordered = [name for name in names if sorted(name.split("_")) == words]
     close = reordered or get_close_matches(name, names, n=3, cutoff=0.6)
-    return "did you mean " + " or ".join(f'"{each}"' for each in close) + "?" if close else ""
+    return "did you mean " + " or ".join(f'"{word}"' for word in close) + "?" if close else ""
 
 
 def suggestion(name: str, known: Iterable[str]) -> str:
@@ -114,7 +114,7 @@ def suggestion(name: str, known: Iterable[str]) -> str:
         return close
     # A dozen names still fit on a line or two.
     if 0 < len(listed) <= 12:
-        return "there is " + ", ".join(f'"{each}"' for each in listed)
+        return "there is " + ", ".join(f'"{name}"' for name in listed)
     return ""
 
 

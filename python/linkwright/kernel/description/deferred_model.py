@@ -27,8 +27,8 @@ class DeferredModel:
 
     def model(self) -> type[BaseModel]:
         """The model, imported now."""
-        found: type[BaseModel] = getattr(import_module(f"linkwright.{self.module}"), self.name)
-        return found
+        model: type[BaseModel] = getattr(import_module(f"linkwright.{self.module}"), self.name)
+        return model
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         """A schema that asks the model when there is something to check."""
@@ -40,10 +40,10 @@ class DeferredModel:
         """That of the model, once for all places that it has."""
         model = self.model()
         model.model_rebuild()
-        found: Any = dict(model.__pydantic_core_schema__)
-        inner = found["schema"] if found["type"] == "definitions" else found
+        core: Any = dict(model.__pydantic_core_schema__)
+        inner = core["schema"] if core["type"] == "definitions" else core
         named = {**inner, "ref": f"{self.module}.{self.name}"}
-        return handler({**found, "schema": named} if inner is not found else named)
+        return handler({**core, "schema": named} if inner is not core else named)
 
     def _checked(self, value: Any, info: core_schema.ValidationInfo) -> BaseModel:
         """The description of a table; faults have their place in it."""

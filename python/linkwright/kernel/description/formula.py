@@ -97,10 +97,10 @@ def parse(text: str) -> Node:
 
 def names(node: Node) -> dict[str, int]:
     """Names in a formula and the character at which each stands first, without its functions."""
-    found = {str(node.value): node.position} if node.op == "name" else {}
+    places = {str(node.value): node.position} if node.op == "name" else {}
     for arg in node.args:
-        found = {**names(arg), **found}
-    return found
+        places = {**names(arg), **places}
+    return places
 
 
 def terms(node: Node) -> tuple[Node, ...]:
@@ -128,10 +128,10 @@ def program(node: Node) -> Program:
     return tuple(_instructions(node))
 
 
-def depth(found: Program) -> int:
+def depth(program: Program) -> int:
     """How many numbers a program keeps at once."""
     height = most = 0
-    for op, _ in found:
+    for op, _ in program:
         height += 1 - _TAKES.get(op, 1)
         most = max(most, height)
     return most
@@ -149,8 +149,8 @@ def _summands(node: Node) -> Iterator[Node]:
         for summand in _summands(node.args[1]):
             yield summand if node.op == "+" else Node("negative", (summand,), position=summand.position)
     elif node.op == "negative":
-        for each in _summands(node.args[0]):
-            yield Node("negative", (each,), position=each.position)
+        for left in _summands(node.args[0]):
+            yield Node("negative", (left,), position=left.position)
     else:
         yield node
 
@@ -164,8 +164,8 @@ def _instructions(node: Node) -> Iterator[Instruction]:
         yield from _choice(node)
         return
     exponent = _whole(node.args[1]) if node.op in ("^", "pow") else None
-    for nth, each in enumerate(node.args[:1] if exponent is not None else node.args):
-        yield from _instructions(each)
+    for nth, operand in enumerate(node.args[:1] if exponent is not None else node.args):
+        yield from _instructions(operand)
         # The smallest of many is the smaller of the first and the next, and so on.
         if node.op in ("min", "max") and nth > 0:
             yield node.op, None
@@ -183,8 +183,8 @@ def _choice(node: Node) -> Iterator[Instruction]:
         low, high = high, low
     if comparison.op in ("<=", ">="):
         yes, no = no, yes
-    for each in (low, high, yes, no):
-        yield from _instructions(each)
+    for operand in (low, high, yes, no):
+        yield from _instructions(operand)
     yield "where", None
 
 
@@ -214,10 +214,10 @@ class _Reader:
 
     def formula(self) -> Node:
         """The whole text."""
-        found = self._sum()
+        node = self._sum()
         kind, word, at = self._here()
         if kind == "end":
-            return found
+            return node
         remedy = ""
         if word in ("<", "<=", ">", ">=", "="):
             remedy = "a comparison stands in where(a < b, x, y) only"

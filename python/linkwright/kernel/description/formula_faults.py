@@ -61,7 +61,7 @@ def text_faults(
         yield fault(key, found=text, expected=found.expected, remedy=found.remedy)
         return
     known = [*variables, *NUMBERS, *constants]
-    for name, at in sorted(names(tree).items(), key=lambda each: each[1]):
+    for name, at in sorted(names(tree).items(), key=lambda name: name[1]):
         if name not in known:
             expected = f'a variable or constant at character {at}, where "{name}" stands'
             yield fault(key, found=text, expected=expected, remedy=_meant(name, known))

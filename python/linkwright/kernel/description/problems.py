@@ -63,7 +63,7 @@ def _place(location: Iterable[str | int], model: type[BaseModel], data: object) 
     """
     place: list[str] = []
     node, tagged = data, False
-    for part in (str(each) for each in location if each != "[key]"):
+    for part in (str(part) for part in location if part != "[key]"):
         kinds = kinds_at(annotation_at(model, place, data)) if place and not tagged else []
         tagged = len(kinds) > 1 and (part in kinds or part == look(node, "kind"))
         if not tagged:
@@ -101,7 +101,7 @@ def _wrong_kind(place: tuple[str, ...], model: type[BaseModel], data: object) ->
             place = place[:n]
             break
         found = look(found, key)
-    expected = "one of " + ", ".join(f'"{each}"' for each in known)
+    expected = "one of " + ", ".join(f'"{kind}"' for kind in known)
     if found is None:
         return Problem(join(place), "nothing", expected)
     return Problem(join(place), show(found), expected, close_match(str(found), known))

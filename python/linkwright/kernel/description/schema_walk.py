@@ -29,14 +29,14 @@ def annotation_at(model: type[BaseModel], place: Sequence[str], data: object = N
 
 def mark_of(annotation: Any) -> Mark | None:
     """The quantity that an entry holds; None if it holds something else."""
-    marked = [each for each in (annotation, *_branches(annotation)) if get_origin(each) is Annotated]
-    marks = (mark for each in marked for mark in each.__metadata__)
+    marked = [branch for branch in (annotation, *_branches(annotation)) if get_origin(branch) is Annotated]
+    marks = (mark for branch in marked for mark in branch.__metadata__)
     return next((mark for mark in marks if isinstance(mark, Mark)), None)
 
 
 def model_of(annotation: Any, data: object = None) -> type[BaseModel] | None:
     """The model of a table; of several, the one whose ``kind`` the table has."""
-    models = [each for each in map(_bare, _branches(annotation)) if _is_model(each)]
+    models = [branch for branch in map(_bare, _branches(annotation)) if _is_model(branch)]
     if len(models) == 1:
         only: type[BaseModel] = models[0]
         return only
@@ -46,11 +46,11 @@ def model_of(annotation: Any, data: object = None) -> type[BaseModel] | None:
 def models_in(annotation: Any) -> list[type[BaseModel]]:
     """All models that an entry may hold, in tables and lists too."""
     models: list[type[BaseModel]] = []
-    for each in map(_bare, _branches(annotation)):
-        if _is_model(each):
-            models.append(each)
-        elif get_origin(each) in (dict, tuple):
-            models += [model for inner in get_args(each) if inner is not ... for model in models_in(inner)]
+    for branch in map(_bare, _branches(annotation)):
+        if _is_model(branch):
+            models.append(branch)
+        elif get_origin(branch) in (dict, tuple):
+            models += [model for inner in get_args(branch) if inner is not ... for model in models_in(inner)]
     return models
 
 
@@ -66,13 +66,13 @@ def words_of(annotation: Any) -> str:
     if mark is not None:
         return mark.expected
     bare = [_bare(branch) for branch in _branches(annotation)]
-    if any(get_origin(each) is Literal for each in bare):
-        choices = [choice for each in bare if get_origin(each) is Literal for choice in get_args(each)]
+    if any(get_origin(branch) is Literal for branch in bare):
+        choices = [choice for branch in bare if get_origin(branch) is Literal for choice in get_args(branch)]
         quoted = [f'"{choice}"' if isinstance(choice, str) else str(choice) for choice in choices]
         return quoted[0] if len(quoted) == 1 else "one of " + ", ".join(quoted)
-    if any(_is_model(each) or get_origin(each) is dict for each in bare):
+    if any(_is_model(branch) or get_origin(branch) is dict for branch in bare):
         return "a table"
-    lists = [each for each in bare if get_origin(each) is tuple]
+    lists = [branch for branch in bare if get_origin(branch) is tuple]
     if lists:
         inner = get_args(lists[0])[0]
         if any(_is_model(_bare(branch)) for branch in _branches(inner)):
@@ -93,9 +93,9 @@ def _below(annotation: Any, key: str, data: object) -> Any:
     mark = mark_of(annotation)
     if isinstance(mark, QuantityList):
         return Annotated[float, Quantity(mark.kind)]
-    for each in map(_bare, _branches(annotation)):
-        if get_origin(each) in (dict, tuple):
-            return get_args(each)[0 if get_origin(each) is tuple else 1]
+    for branch in map(_bare, _branches(annotation)):
+        if get_origin(branch) in (dict, tuple):
+            return get_args(branch)[0 if get_origin(branch) is tuple else 1]
     model = model_of(annotation, data)
     name = field_names(model).get(key) if model else None
     if model is None or name is None:
@@ -127,5 +127,5 @@ def _is_model(annotation: Any) -> bool:
 
 def kinds_at(annotation: Any) -> list[str]:
     """All words for ``kind`` that a table may have."""
-    models = [each for each in map(_bare, _branches(annotation)) if _is_model(each)]
+    models = [branch for branch in map(_bare, _branches(annotation)) if _is_model(branch)]
     return [word for model in models for word in kinds_of(model)]

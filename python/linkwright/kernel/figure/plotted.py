@@ -25,8 +25,12 @@ def plotted(result: Any, names: tuple[str, ...]) -> Figure:
     Raises `InputError` if it has no such curve, none at all, or if they run over different quantities.
     """
     owner: type = type(result)
-    known = {each.name: each for each in quantities_of(owner) if each.kind == "curve"}
-    drawn = {name: each for name, each in known.items() if each.over in known and _is_drawn(result, each)}
+    known = {quantity.name: quantity for quantity in quantities_of(owner) if quantity.kind == "curve"}
+    drawn = {
+        name: quantity
+        for name, quantity in known.items()
+        if quantity.over in known and _is_drawn(result, quantity)
+    }
     for name in names:
         if name not in drawn:
             raise InputError(f"no curve {name!r} of this result: {suggestion(name, drawn)}")
@@ -34,27 +38,27 @@ def plotted(result: Any, names: tuple[str, ...]) -> Figure:
     if not chosen:
         raise InputError(f"{owner.__name__} has no curves to plot")
     over = chosen[0].over
-    if strange := [each.name for each in chosen if names and each.over != over]:
+    if strange := [quantity.name for quantity in chosen if names and quantity.over != over]:
         raise InputError(f"{strange[0]} runs over {drawn[strange[0]].over}, not over {over}: plot it alone")
-    return _figure(result, known[over], [each for each in chosen if each.over == over])
+    return _figure(result, known[over], [quantity for quantity in chosen if quantity.over == over])
 
 
-def _is_drawn(result: Any, each: DeclaredQuantity) -> bool:
+def _is_drawn(result: Any, quantity: DeclaredQuantity) -> bool:
     """Whether there are as many values as places."""
-    values, places = getattr(result, each.name, None), getattr(result, each.over, None)
+    values, places = getattr(result, quantity.name, None), getattr(result, quantity.over, None)
     return isinstance(values, np.ndarray) and isinstance(places, np.ndarray) and values.shape == places.shape
 
 
 def _figure(result: Any, over: DeclaredQuantity, chosen: list[DeclaredQuantity]) -> Figure:
-    units = list(dict.fromkeys(result.unit_of(each.name) for each in chosen))
+    units = list(dict.fromkeys(result.unit_of(quantity.name) for quantity in chosen))
     figure, axes = panels(len(units), height=_HEIGHT * len(units) + 0.5)
     x, unit = getattr(result, over.name), result.unit_of(over.name)
     if unit == "rad":
         x, unit = np.degrees(x), "°"
     for axis, own in zip(axes, units, strict=True):
-        curves = [each for each in chosen if result.unit_of(each.name) == own]
-        for each, colour in zip(curves, LINES * len(curves), strict=False):
-            axis.plot(x, getattr(result, each.name), color=colour, label=each.word)
+        curves = [quantity for quantity in chosen if result.unit_of(quantity.name) == own]
+        for curve, colour in zip(curves, LINES * len(curves), strict=False):
+            axis.plot(x, getattr(result, curve.name), color=colour, label=curve.word)
         word = curves[0].word if len(curves) == 1 else ""
         axis.set_ylabel(f"{word} [{own}]".strip() if own else word)
         if len(curves) > 1:

@@ -112,7 +112,7 @@ def readout(figure: Figure) -> list[dict[str, Any]]:
 def _read(axes: Axes, width: float, height: float) -> dict[str, Any]:
     box = axes.get_position()
     below = axes.get_shared_x_axes().get_siblings(axes)
-    over = next((label for each in (axes, *below) if (label := each.get_xlabel())), "")
+    over = next((label for one in (axes, *below) if (label := one.get_xlabel())), "")
     return {
         "box": [round(v, 5) for v in (box.x0, 1 - box.y1, box.x1, 1 - box.y0)],
         "x": [*map(float, axes.get_xlim()), axes.get_xscale() == "log"],

@@ -53,12 +53,12 @@ def line_of(lines: dict[Place, int], place: Sequence[str]) -> int:
 def located(problems: Sequence[Problem], text: str, path: str, at: Place = ()) -> list[Problem]:
     """Problems of a file, or of its table `at`, with their lines, in the order of the file."""
     lines = key_lines(text)
-    found = []
+    placed = []
     for problem in problems:
         place = (*at, *(split(problem.key) if problem.key else ()))
         key = ".".join((*at, problem.key)) if problem.key else ".".join(at)
-        found.append(replace(problem, key=key, path=path, line=line_of(lines, place)))
-    return sorted(found, key=lambda each: each.line or 0)
+        placed.append(replace(problem, key=key, path=path, line=line_of(lines, place)))
+    return sorted(placed, key=lambda problem: problem.line or 0)
 
 
 @dataclass

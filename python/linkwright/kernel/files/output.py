@@ -102,7 +102,7 @@ class OutputFolder:
         (`InputError`).
         """
         try:
-            names = sorted(each.name for each in self.path.iterdir() if not each.name.startswith(_PART))
+            names = sorted(path.name for path in self.path.iterdir() if not path.name.startswith(_PART))
         except FileNotFoundError:
             self._require_no_file_above()
             return
@@ -184,7 +184,7 @@ def file_names(words: Mapping[str, str]) -> dict[str, str]:
     for text, ending in words.items():
         stem = file_name(text) or "file"
         tries = (f"{stem}{f'_{n}' if n > 1 else ''}{ending}" for n in range(1, len(words) + 2))
-        names[text] = next(each for each in tries if each.casefold() not in taken)
+        names[text] = next(name for name in tries if name.casefold() not in taken)
         taken.add(names[text].casefold())
     return names
 

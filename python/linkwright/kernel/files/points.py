@@ -215,11 +215,11 @@ def _values(
     entries: Sequence[Any], kind: Kind, name: str, path: Path, lines: Sequence[int]
 ) -> NDArray[np.float64]:
     """The entries of a column in SI."""
-    found = []
+    values = []
     for entry, line in zip(entries, lines, strict=True):
         try:
-            found.append(parse(entry, kind))
+            values.append(parse(entry, kind))
         except UnitError as error:
             problem = replace(error.problem, key=f"column {name}", path=str(path), line=line)
             raise MachineFileError([problem]) from None
-    return np.array(found)
+    return np.array(values)

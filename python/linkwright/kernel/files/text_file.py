@@ -79,14 +79,14 @@ _DIGITS = re.compile(r"[0-9_]{1001}")
 
 def deep_line(text: str) -> int | None:
     """Line of the first key or list that is nested too deep to be read, counted from 1; None if none is."""
-    found = _DEEP_KEY.search(text) or _BRACKETS.search(text)
-    return None if found is None else text.count("\n", 0, found.end()) + 1
+    match = _DEEP_KEY.search(text) or _BRACKETS.search(text)
+    return None if match is None else text.count("\n", 0, match.end()) + 1
 
 
 def long_number_line(text: str) -> int | None:
     """Line of the first number that has more digits than can be read, counted from 1; None if none has."""
-    found = _DIGITS.search(text)
-    return None if found is None else text.count("\n", 0, found.start()) + 1
+    match = _DIGITS.search(text)
+    return None if match is None else text.count("\n", 0, match.start()) + 1
 
 
 def size_problems(tables: dict[str, Any]) -> list[Problem]:
@@ -100,7 +100,7 @@ def size_problems(tables: dict[str, Any]) -> list[Problem]:
         problems += _problems(place, node)
         if len(place) < DEPTH.most and isinstance(node, dict | list) and len(node) <= _most(node):
             below = node.items() if isinstance(node, dict) else enumerate(node)
-            places += [((*place, str(key)), each) for key, each in below]
+            places += [((*place, str(key)), entry) for key, entry in below]
     return problems
 
 
@@ -110,7 +110,7 @@ def _most(node: dict[str, Any] | list[Any]) -> int:
 
 def _problems(place: tuple[str, ...], node: Any) -> Iterator[Problem]:
     """What is too large at one place."""
-    key = join(each[: NAME.most] for each in place[:_SHOWN_DEPTH])
+    key = join(part[: NAME.most] for part in place[:_SHOWN_DEPTH])
     if place and len(place[-1]) > NAME.most:
         yield Problem(key, f"a name of {grouped(len(place[-1]))} characters", NAME.words, "shorten it")
     if isinstance(node, dict | list):

@@ -105,9 +105,9 @@ class Tangent:
         rule = _RULES.get(ufunc.__name__)
         if rule is None or method != "__call__" or options:
             raise TypeError(f"no derivative of numpy.{ufunc.__name__}")
-        if not any(np.ndim(each) for each in inputs if not isinstance(each, Tangent)):
+        if not any(np.ndim(value) for value in inputs if not isinstance(value, Tangent)):
             return rule(*inputs)
-        arrays = [_held(each) if isinstance(each, Tangent) else np.asarray(each) for each in inputs]
+        arrays = [_held(value) if isinstance(value, Tangent) else np.asarray(value) for value in inputs]
         return np.vectorize(rule, otypes=[object])(*arrays)
 
     def _by(self, value: float, slope: float) -> Tangent:
@@ -166,7 +166,7 @@ def plain(x: Any) -> Any:
 def total(terms: Iterable[Any]) -> Any:
     """The sum, rounded once; with derivatives if a term has them."""
     listed = list(terms)
-    return sum(listed) if any(isinstance(each, Tangent) for each in listed) else math.fsum(listed)
+    return sum(listed) if any(isinstance(value, Tangent) for value in listed) else math.fsum(listed)
 
 
 def _held(x: Tangent) -> NDArray[Any]:

@@ -41,8 +41,8 @@ class Taylor:
     @property
     def derivatives(self) -> Floats:
         """Value and three derivatives, (4, n)."""
-        found: Floats = self.c * _FACTORIALS
-        return found
+        derivatives: Floats = self.c * _FACTORIALS
+        return derivatives
 
     # -- numpy -------------------------------------------------------------------------------------------
 

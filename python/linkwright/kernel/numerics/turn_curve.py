@@ -46,26 +46,28 @@ class TurnCurve:
 
     def integral(self) -> Floats:
         """Integral of each quantity over all pieces, (k,)."""
-        found: Floats = np.einsum("pkn,n,p->k", self.series, _integrals(self.series.shape[-1]), self._half())
-        return found
+        integral: Floats = np.einsum(
+            "pkn,n,p->k", self.series, _integrals(self.series.shape[-1]), self._half()
+        )
+        return integral
 
     def mean(self) -> Floats:
         """Mean of each quantity, (k,)."""
-        found: Floats = self.integral() / (self.ends[-1] - self.ends[0])
-        return found
+        mean: Floats = self.integral() / (self.ends[-1] - self.ends[0])
+        return mean
 
     def rms(self) -> Floats:
         """Root of the mean square of each quantity, (k,)."""
         values, weights = self._gauss(0.0)[:2]
-        found: Floats = np.sqrt(np.einsum("pkn,pn->k", values**2, weights) / (self.ends[-1] - self.ends[0]))
-        return found
+        rms: Floats = np.sqrt(np.einsum("pkn,pn->k", values**2, weights) / (self.ends[-1] - self.ends[0]))
+        return rms
 
     def harmonics(self, orders: Floats) -> NDArray[np.complex128]:
         r"""Means :math:`\overline{f_k e^{-i\nu\varphi}}` over the revolution for orders ν, (k, orders)."""
         values, weights, phi = self._gauss(float(np.abs(orders).max(initial=0.0)))
         waves = np.exp(-1j * np.multiply.outer(orders, phi)) * weights / (self.ends[-1] - self.ends[0])
-        found: NDArray[np.complex128] = np.einsum("pkn,opn->ko", values, waves, optimize=True)
-        return found
+        harmonics: NDArray[np.complex128] = np.einsum("pkn,opn->ko", values, waves, optimize=True)
+        return harmonics
 
     def at(self, phi: Floats) -> Floats:
         """Values at crank angles within the pieces, (k, n); at a jump those after it."""
@@ -74,8 +76,8 @@ class TurnCurve:
         half = self._half()[piece]
         x = (phi - self.ends[piece]) / half - 1.0
         waves = chebyshev.chebvander(x, self.series.shape[-1] - 1)
-        found: Floats = np.einsum("nj,nkj->kn", waves, self.series[piece])
-        return found
+        curves: Floats = np.einsum("nj,nkj->kn", waves, self.series[piece])
+        return curves
 
     def crossings(self, k: int = 0) -> Floats:
         """Angles at which a quantity changes its sign, increasing [rad]; a touch is none."""
@@ -88,8 +90,8 @@ class TurnCurve:
         # What is rounding has no sign.
         kept = np.flatnonzero(np.abs(value) > _SAME * self.peak[k])
         changed = np.flatnonzero(np.diff(np.sign(value[kept])))
-        found: Floats = marks[kept[changed + 1]]
-        return found
+        crossings: Floats = marks[kept[changed + 1]]
+        return crossings
 
     def extreme(self, sign: int, k: int = 0) -> tuple[float, float]:
         """Maximum (+1) or minimum (−1) value of a quantity, and the first crank angle that has it [rad].

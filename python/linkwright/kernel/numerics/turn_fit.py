@@ -130,12 +130,12 @@ class _Fit:
 
     def _rounding(self, low: Floats, width: Floats) -> Floats:
         """How far rounding moves the values of pieces, (p, k)."""
-        found = []
+        errors = []
         for share in _PROBED:
             start = low + share * width
             tail = self._values(start, start + _PROBE) @ _analysis()[_NODES // 2 :].T
-            found.append(np.sqrt((tail**2).mean(axis=2)))
-        rounding: Floats = _ROUNDING * np.minimum(*found)
+            errors.append(np.sqrt((tail**2).mean(axis=2)))
+        rounding: Floats = _ROUNDING * np.minimum(*errors)
         return rounding
 
     def result(self) -> TurnCurve:
@@ -144,7 +144,7 @@ class _Fit:
             nothing = np.zeros_like(self.left)
             self.done.append(_Pieces(self.low, self.high, self.series, self.left, nothing))
         low, high, series, errors, roundings = (
-            np.concatenate([getattr(each, name) for each in self.done]) for name in _Pieces._fields
+            np.concatenate([getattr(piece, name) for piece in self.done]) for name in _Pieces._fields
         )
         order = np.argsort(low)
         error, size = errors.sum(axis=0), _size(series @ _synthesis(), low, high)
@@ -160,7 +160,7 @@ class _Fit:
             f"{self.what} over the crank angle: {fault}; look for a mechanism that nearly locks, or a "
             "formula that varies without end",
             method="piecewise Chebyshev series",
-            iterations=sum(len(each.low) for each in self.done),
+            iterations=sum(len(piece.low) for piece in self.done),
         )
 
     def _values(self, low: Floats, high: Floats) -> Floats:
@@ -171,8 +171,8 @@ class _Fit:
         if not np.isfinite(values).all():
             at = np.degrees(phi[np.argmin(np.isfinite(values).all(axis=0))])
             raise FindingError(f"the {self.what} has no finite value at crank angle {at:.4g}°")
-        found: Floats = values.reshape(len(values), len(low), _NODES).swapaxes(0, 1)
-        return found
+        samples: Floats = values.reshape(len(values), len(low), _NODES).swapaxes(0, 1)
+        return samples
 
 
 class _Pieces(NamedTuple):

@@ -136,4 +136,4 @@ class Content:
             "repeat": {"file": "", "command": ""},
         }
         left_out = [empty[name] for name in SECTIONS if name not in sections]
-        return replace(self, **{key: value for each in left_out for key, value in each.items()})
+        return replace(self, **{key: value for section in left_out for key, value in section.items()})

@@ -154,8 +154,8 @@ def formulas(*, induction: bool, motor: bool, steps: bool) -> list[Formula]:
 
     With those of an induction motor, of any motor, of the step method if these are in it.
     """
-    found = [MOTION, INERTIA, LOAD]
-    found += [KLOSS] if induction else []
-    found += [GEARBOX] if motor else []
-    found += [UNEVENNESS, DYNAMISM, COEFFICIENT, MEANS] if motor else []
-    return [*found, LIMIT, *([STEPS] if steps else [])]
+    needed = [MOTION, INERTIA, LOAD]
+    needed += [KLOSS] if induction else []
+    needed += [GEARBOX] if motor else []
+    needed += [UNEVENNESS, DYNAMISM, COEFFICIENT, MEANS] if motor else []
+    return [*needed, LIMIT, *([STEPS] if steps else [])]

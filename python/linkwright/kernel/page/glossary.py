@@ -85,7 +85,7 @@ def matching(word: str, language: str = "en") -> tuple[Term, ...]:
         return (
             any(wanted in word for word in words)
             or word == term.symbol
-            or any(re.fullmatch(each, word, re.IGNORECASE) for each in term.retired)
+            or any(re.fullmatch(retired, word, re.IGNORECASE) for retired in term.retired)
         )
 
     return tuple(term for term in glossary(language) if meant(term))

@@ -31,12 +31,16 @@ def result_html(result: Any, title: str = "") -> str:
     owner: type = type(result)
     declared = list(quantities_of(owner))
     rows = []
-    for each in declared:
-        value = getattr(result, each.name, None) if each.kind == "scalar" else None
+    for quantity in declared:
+        value = getattr(result, quantity.name, None) if quantity.kind == "scalar" else None
         if isinstance(value, int | float) and not isinstance(value, bool):
-            rows.append((each.word, each.symbol, *parted(value, result.unit_of(each.name))))
+            rows.append((quantity.word, quantity.symbol, *parted(value, result.unit_of(quantity.name))))
     drawn = result.curves()
-    curves = [each.name for each in declared if each.kind == "curve" and each.over and each.name in drawn]
+    curves = [
+        quantity.name
+        for quantity in declared
+        if quantity.kind == "curve" and quantity.over and quantity.name in drawn
+    ]
     if curves:
         rows.append(("curves, for .plot()", "", ", ".join(curves), ""))
     return table_html(title or owner.__name__, rows)

@@ -78,16 +78,16 @@ class OutUnits:
 
         `where`: who asks for them, in messages.
         """
-        found: list[_Unit] = []
+        units: list[_Unit] = []
         for name in (part.strip() for part in text.split(",") if part.strip()):
             unit = _unit(name)
             if unit is None:
                 raise InputError(f"{where}: {unknown(name)}")
-            same = next((other for other in found if other.measures(unit)), None)
+            same = next((other for other in units if other.measures(unit)), None)
             if same is not None:
                 raise InputError(f"{where}: found {same.name} and {unit.name}, expected one unit of a kind")
-            found.append(unit)
-        return cls(tuple(found))
+            units.append(unit)
+        return cls(tuple(units))
 
     @classmethod
     def of_table(cls, table: BaseModel | None) -> OutUnits:
@@ -143,11 +143,11 @@ class OutUnits:
 
     def label(self, text: str) -> tuple[str, float]:
         """A label with a unit in brackets at its end as it is shown, and by what values are divided."""
-        found = _BRACKETS.search(text)
-        if found is None:
+        match = _BRACKETS.search(text)
+        if match is None:
             return text, 1.0
-        unit, factor = self.shown(found[1])
-        return f"{text[: found.start()]}[{unit}]", factor
+        unit, factor = self.shown(match[1])
+        return f"{text[: match.start()]}[{unit}]", factor
 
 
 # Dimension → what is written behind a unit of length.

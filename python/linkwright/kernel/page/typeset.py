@@ -31,7 +31,7 @@ def pdf(content: Content) -> bytes:
     if content.sketch is not None:
         files["sketch.svg"] = svg(content.sketch()).encode()
     for part in content.parts:
-        files |= {_place(each): svg(each.figure).encode() for each in part.figures}
+        files |= {_place(figure): svg(figure.figure).encode() for figure in part.figures}
     # Letters are those that Typst brings, so that the file is the same on every machine.
     # Its types do not tell of files in memory.
     compiled: Any = compiler.compile
@@ -64,15 +64,17 @@ def _lines(content: Content) -> Iterator[str]:
     for part in content.parts:
         if part.tables:
             yield f"== {_text(part.title)}"
-        yield from (_table(each) for each in part.tables)
-        yield from (_figure(each) for each in part.figures)
+        yield from (_table(table) for table in part.tables)
+        yield from (_figure(figure) for figure in part.figures)
     if content.formulas:
         yield f"== Formulas\n{_formulas(content.formulas)}"
         yield f"#note[{_text(content.papers)}.]" if content.papers else ""
     if content.groups:
         yield from _groups(content)
     if content.assumptions:
-        yield "== Assumptions\n" + "\n".join(f"- {_text(each, indices=True)}" for each in content.assumptions)
+        yield "== Assumptions\n" + "\n".join(
+            f"- {_text(sentence, indices=True)}" for sentence in content.assumptions
+        )
     if content.command:
         yield from _repeat(content)
 
@@ -108,12 +110,12 @@ def _foot(content: Content) -> str:
         heading.revision and f"rev. {heading.revision}",
         content.title,
     )
-    return _text(" · ".join(each for each in known if each))
+    return _text(" · ".join(part for part in known if part))
 
 
 def _box(title: str, texts: Sequence[str], colour: str) -> str:
     """What must be read first."""
-    listed = "\n".join(f"- {_text(each)}" for each in texts) if len(texts) > 1 else _text(texts[0])
+    listed = "\n".join(f"- {_text(text)}" for text in texts) if len(texts) > 1 else _text(texts[0])
     return f"#notice({colour})[*{_text(title)}*\n\n{listed}]"
 
 
@@ -121,7 +123,7 @@ def _table(table: Table) -> str:
     """A table whose head is repeated on each page; many columns are set smaller, or across."""
     wide, n = len(table.heads) > _WIDE, len(table.heads)
     columns = "(" + ", ".join(["auto" if wide else "1.6fr", *(["auto"] * (n - 1))]) + ",)"
-    heads = ", ".join(f"note[{_text(each, indices=True)}]" for each in table.heads)
+    heads = ", ".join(f"note[{_text(head, indices=True)}]" for head in table.heads)
     cells = ", ".join(
         f"[{_text(cell, indices=place == 1)}]" for row in table.rows for place, cell in enumerate(row)
     )
@@ -132,19 +134,22 @@ def _table(table: Table) -> str:
     return f"#page(flipped: true)[{set_}]" if n > _BROAD else set_
 
 
-def _figure(each: Captioned) -> str:
-    picture = f'#image("{_place(each)}", width: 100%)'
-    return f"#block(breakable: false)[== {_text(each.title)}\n{picture}\n#note[{_text(each.caption)}]]"
+def _figure(captioned: Captioned) -> str:
+    picture = f'#image("{_place(captioned)}", width: 100%)'
+    return (
+        f"#block(breakable: false)[== {_text(captioned.title)}\n{picture}\n#note[{_text(captioned.caption)}]]"
+    )
 
 
-def _place(each: Captioned) -> str:
+def _place(captioned: Captioned) -> str:
     """Name of the file of a figure: names of a machine may hold any letter."""
-    return "figure-" + each.name.encode().hex() + ".svg"
+    return "figure-" + captioned.name.encode().hex() + ".svg"
 
 
 def _formulas(formulas: Sequence[Formula]) -> str:
     cells = ", ".join(
-        f"[{_text(each.words)}], [$ {typst(each.text)} $], note[{_text(each.source)}]" for each in formulas
+        f"[{_text(formula.words)}], [$ {typst(formula.text)} $], note[{_text(formula.source)}]"
+        for formula in formulas
     )
     return f"#grid(columns: (1.2fr, 2fr, 1fr), gutter: 8pt, align: horizon, {cells})"
 
@@ -156,8 +161,9 @@ def _groups(content: Content) -> Iterator[str]:
     for group, parts in content.groups:
         for n, part in enumerate(parts):
             entries = " #h(8pt) ".join(
-                f"#box(emph-if({str(not each.given).lower()})[#note[{_text(each.word)}] {_text(each.value)}])"
-                for each in part.entries
+                f"#box(emph-if({str(not entry.given).lower()})"
+                f"[#note[{_text(entry.word)}] {_text(entry.value)}])"
+                for entry in part.entries
             )
             cells += [
                 f"[{'*' + _text(group) + '*' if n == 0 else ''}]",
@@ -194,10 +200,10 @@ def _text(text: str, *, indices: bool = False) -> str:
         return f"#{_string(text)};"
     pieces = INDEX.split(text)
     # Three by three: what stands before, a letter, its index.
-    found = [f"#{_string(pieces[0])};" if pieces[0] else ""]
+    parts = [f"#{_string(pieces[0])};" if pieces[0] else ""]
     for letter, index, rest in zip(pieces[1::3], pieces[2::3], pieces[3::3], strict=True):
-        found.append(f"#{_string(letter)};#sub[#{_string(index)};]" + (f"#{_string(rest)};" if rest else ""))
-    return "".join(found)
+        parts.append(f"#{_string(letter)};#sub[#{_string(index)};]" + (f"#{_string(rest)};" if rest else ""))
+    return "".join(parts)
 
 
 _STYLE = """#set document(title: {title}, date: none)

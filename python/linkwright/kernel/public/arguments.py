@@ -69,26 +69,26 @@ def number(name: str, value: Any, *, finite: bool = True, infinite: bool = False
     if isinstance(value, bool | np.bool_) or not isinstance(value, numbers.Real):
         raise _wrong(name, value, "a number")
     try:
-        found = float(value)
+        real = float(value)
     except OverflowError:
         raise _wrong(name, value, "a number below 1e308 in size") from None
-    if finite and (math.isnan(found) or (math.isinf(found) and not infinite)):
+    if finite and (math.isnan(real) or (math.isinf(real) and not infinite)):
         raise _wrong(name, value, "a finite number")
-    _require_in_range(name, found, f"{found:g}")
-    return found
+    _require_in_range(name, real, f"{real:g}")
+    return real
 
 
 def integer(name: str, value: Any) -> int:
     """A whole number; an `InputError` if it is none, or out of its range."""
     try:
-        found = operator.index(value)
+        whole = operator.index(value)
     except TypeError:
         raise _wrong(name, value, "a whole number") from None
     # Beyond 2⁵³ whole numbers are no floats.
-    if isinstance(value, bool | np.bool_) or abs(found) > 2**53:
+    if isinstance(value, bool | np.bool_) or abs(whole) > 2**53:
         raise _wrong(name, value, "a whole number of usual size")
-    _require_in_range(name, found, shown(found))
-    return found
+    _require_in_range(name, whole, shown(whole))
+    return whole
 
 
 def array(name: str, value: Any, *, finite: bool = True, complex_too: bool = False) -> NDArray[Any]:
@@ -100,26 +100,26 @@ def array(name: str, value: Any, *, finite: bool = True, complex_too: bool = Fal
         given = np.asarray(value)
     except (TypeError, ValueError, OverflowError):
         raise ShapeError(f"{name}: found {shown(value)}, expected numbers in rows of one length") from None
-    if given.dtype == object and all(isinstance(each, numbers.Real) for each in given.flat):
+    if given.dtype == object and all(isinstance(entry, numbers.Real) for entry in given.flat):
         # Fractions, and whole numbers beyond those of machines.
-        given = np.array([number(name, each) for each in given.flat]).reshape(given.shape)
+        given = np.array([number(name, entry) for entry in given.flat]).reshape(given.shape)
     kinds = "iufc" if complex_too else "iuf"
     if given.dtype.kind not in kinds:
         raise ShapeError(f"{name}: found {shown(value)}, expected {'' if complex_too else 'real '}numbers")
-    found = np.array(given, dtype=complex if complex_too else np.float64, order="C")
-    if finite and not np.isfinite(found).all():
-        first = int(np.argmin(np.isfinite(found)))
-        raise ShapeError(f"{name}: found {found.flat[first]:g} at index {first}, expected finite numbers")
-    found.flags.writeable = False
-    return found
+    result = np.array(given, dtype=complex if complex_too else np.float64, order="C")
+    if finite and not np.isfinite(result).all():
+        first = int(np.argmin(np.isfinite(result)))
+        raise ShapeError(f"{name}: found {result.flat[first]:g} at index {first}, expected finite numbers")
+    result.flags.writeable = False
+    return result
 
 
 def rows(name: str, value: Any) -> Floats:
     """A list of finite numbers, (n,), contiguous and read-only; a `ShapeError` if it is none, or empty."""
-    found = array(name, value)
-    if found.ndim != 1 or not len(found):
-        raise ShapeError(f"{name}: found an array of shape {found.shape}, expected a list of numbers")
-    return found
+    numbers = array(name, value)
+    if numbers.ndim != 1 or not len(numbers):
+        raise ShapeError(f"{name}: found an array of shape {numbers.shape}, expected a list of numbers")
+    return numbers
 
 
 def shown(value: Any) -> str:
@@ -138,8 +138,10 @@ def checks_of(function: Callable[..., Any]) -> dict[str, Check]:
     Its annotations are texts, as with ``from __future__ import annotations``.
     """
     parameters = inspect.signature(function).parameters.values()
-    found = {parameter.name: _check(str(parameter.annotation), parameter.default) for parameter in parameters}
-    return {name: check for name, check in found.items() if check is not None}
+    checks = {
+        parameter.name: _check(str(parameter.annotation), parameter.default) for parameter in parameters
+    }
+    return {name: check for name, check in checks.items() if check is not None}
 
 
 def _check(annotation: str, default: Any) -> Check | None:
@@ -186,17 +188,17 @@ def _column(name: str, value: Any) -> Any:
 
 
 def _two(name: str, value: Any) -> tuple[float, float]:
-    found = rows(name, value)
-    if len(found) != 2:
-        raise ShapeError(f"{name}: found {len(found)} numbers, expected two")
-    return float(found[0]), float(found[1])
+    pair = rows(name, value)
+    if len(pair) != 2:
+        raise ShapeError(f"{name}: found {len(pair)} numbers, expected two")
+    return float(pair[0]), float(pair[1])
 
 
 def _three(name: str, value: Any) -> Any:
     """Three numbers or arrays."""
     if not isinstance(value, tuple | list) or len(value) != 3:
         raise _wrong(name, value, "three numbers or arrays")
-    return tuple(_one_or_more(name, each) for each in value)
+    return tuple(_one_or_more(name, entry) for entry in value)
 
 
 def _complexes(name: str, value: Any) -> Any:
@@ -310,7 +312,7 @@ def _of_kinds(kinds: set[str]) -> Check:
 
     def check(name: str, value: Any) -> Any:
         is_none = value is None and "None" in kinds
-        if not is_none and kinds.isdisjoint(each.__name__ for each in type(value).__mro__):
+        if not is_none and kinds.isdisjoint(base.__name__ for base in type(value).__mro__):
             raise _wrong(name, value, expected)
         return value
 

@@ -78,11 +78,11 @@ def held(value: Any) -> Any:
 def freeze(result: Any) -> None:
     """Make the arrays and tables that a dataclass, a tuple or a dictionary of such holds read-only."""
     if isinstance(result, tuple):
-        for each in result:
-            _inside(each)
+        for member in result:
+            _inside(member)
     elif isinstance(result, dict):
-        for each in result.values():
-            _inside(each)
+        for member in result.values():
+            _inside(member)
     elif is_dataclass(result) and not isinstance(result, type):
         _fields(result)
 
@@ -95,7 +95,7 @@ def _inside(value: Any) -> Any:
     if isinstance(value, np.ndarray):
         value.flags.writeable = False
     elif kind is dict:
-        return Table({key: _inside(each) for key, each in value.items()})
+        return Table({key: _inside(entry) for key, entry in value.items()})
     else:
         freeze(value)
     return value

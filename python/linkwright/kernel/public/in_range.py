@@ -38,7 +38,7 @@ def _require(name: str, value: Any, mark: Quantity) -> None:
         number = float(numbers.flat[place])
         if not mark.holds(number):
             where = f" at index {place}" if numbers.ndim else ""
-            remedy = f"; {found}" if (found := mark.remedy(number)) else ""
+            remedy = f"; {hint}" if (hint := mark.remedy(number)) else ""
             raise InputError(f"{name}: found {number:g}{where}, expected {_wanted(mark)}{remedy}")
 
 

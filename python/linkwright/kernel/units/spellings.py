@@ -190,10 +190,10 @@ def _from_pint(text: str) -> tuple[float, Dimension] | None:
         unit = registry.parse_units(text.replace("%", "percent"))
         if registry.Quantity(0.0, unit).to_base_units().magnitude != 0.0:
             return None
-        found: tuple[Any, Any] = registry.get_base_units(unit)
+        reduced: tuple[Any, Any] = registry.get_base_units(unit)
     except Exception:  # whatever pint's tokenizer and its arithmetic meet in a text that is no unit
         return None
-    factor, base = found
+    factor, base = reduced
     powers: dict[str, Any] = dict(base._units)
     names = ("meter", "kilogram", "second", "radian", "kelvin")
     dimension = [powers.pop(name, 0) for name in names]

@@ -158,7 +158,7 @@ class _Builder:
         if part.role == "element":
             return None
         below = [self._joints_of(need, depth + 1) for need in part.needs]
-        return None if None in below else set().union(*(each for each in below if each is not None))
+        return None if None in below else set().union(*(name for name in below if name is not None))
 
     def _group(self, joints: list[str], conditions: list[str]) -> None:
         self.used.update(conditions)
@@ -204,7 +204,7 @@ def _matching(system: Mapping[str, set[str]]) -> dict[str, tuple[str, int]]:
 def _smallest(depends: Mapping[str, set[str]], full: set[str]) -> Iterator[set[str]]:
     """Sets of joints that depend on nothing but themselves, all of them fully held; the smallest first."""
     reach = {joint: _reach(joint, depends) for joint in depends}
-    for joint in sorted(reach, key=lambda each: (len(reach[each]), each)):
+    for joint in sorted(reach, key=lambda group: (len(reach[group]), group)):
         if reach[joint] <= full:
             yield reach[joint]
 

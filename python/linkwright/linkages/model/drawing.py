@@ -87,7 +87,7 @@ def _places(
     drawing: Mapping[str, Any], mechanism: Mapping[str, Any]
 ) -> tuple[dict[str, Point], list[InitErrorDetails]]:
     """Coordinates by name, from the origin of the mechanism, with those of fixed points that have them."""
-    found: dict[str, Point] = {}
+    places: dict[str, Point] = {}
     faults = [
         fault("drawing", key, found=drawing[key], expected="points, file or unit")
         for key in drawing
@@ -101,15 +101,15 @@ def _places(
             expected = 'two lengths, x and y, such as "80, 25 mm"'
             faults.append(fault("drawing", "points", name, found=value, expected=expected))
         else:
-            found[name] = x, y
+            places[name] = x, y
     # Wherever the sheet has its own origin, that of the mechanism is the point O.
-    zero = found.get(ORIGIN, (0.0, 0.0)) if ORIGIN not in keys(mechanism.get("points")) else (0.0, 0.0)
-    found = {name: (x - zero[0], y - zero[1]) for name, (x, y) in found.items()}
+    zero = places.get(ORIGIN, (0.0, 0.0)) if ORIGIN not in keys(mechanism.get("points")) else (0.0, 0.0)
+    places = {name: (x - zero[0], y - zero[1]) for name, (x, y) in places.items()}
     for name in keys(mechanism.get("points")):
         given = [_number(look(mechanism["points"], name), key, LENGTH) for key in ("x", "y")]
-        if name not in found and given != [None, None]:
-            found[name] = given[0] or 0.0, given[1] or 0.0
-    return found, faults
+        if name not in places and given != [None, None]:
+            places[name] = given[0] or 0.0, given[1] or 0.0
+    return places, faults
 
 
 def _number(entry: object, key: str, kind: Kind) -> float | None:

@@ -36,9 +36,9 @@ def with_dxf_points(tables: dict[str, Any], folder: Path, *, allow_outside: bool
     name = drawing.pop("file")
     path = folder / name
     require_below(path, folder, name, "drawing.file", allow_outside=allow_outside)
-    found = _points(path, drawing.pop("unit", None))
+    points = _points(path, drawing.pop("unit", None))
     given = drawing.get("points")
-    drawing["points"] = {**found, **(given if isinstance(given, dict) else {})}
+    drawing["points"] = {**points, **(given if isinstance(given, dict) else {})}
 
 
 def _points(path: Path, unit: Any) -> dict[str, list[float]]:
@@ -52,12 +52,12 @@ def _points(path: Path, unit: Any) -> dict[str, list[float]]:
         raise _wrong(
             path, "no point, circle or arc", "a layer for each point, with a point or a circle in it"
         )
-    reach = max(math.hypot(*place) for each in places.values() for place in each) or 1.0
+    reach = max(math.hypot(*place) for group in places.values() for place in group) or 1.0
     # A layer with several places is no point: construction lines, holes.
     single = {
-        layer: each[0]
-        for layer, each in places.items()
-        if all(math.dist(place, each[0]) <= _SAME * reach for place in each)
+        layer: circles[0]
+        for layer, circles in places.items()
+        if all(math.dist(place, circles[0]) <= _SAME * reach for place in circles)
     }
     if not single:
         listed = ", ".join(places)

@@ -54,12 +54,12 @@ def guide_faults(topology: Topology) -> Iterator[InitErrorDetails]:
             yield fault("gears", element.name, "meshes", expected=expected, remedy=remedy)
 
 
-def _through(each: Element, before: str, topology: Topology) -> Iterator[InitErrorDetails]:
+def _through(element: Element, before: str, topology: Topology) -> Iterator[InitErrorDetails]:
     """A guide on the frame or on what slides goes through its point, one on a link through a point of it."""
-    name, on = each.references.get(f"{before}through"), each.references.get(f"{before}on")
+    name, on = element.references.get(f"{before}through"), element.references.get(f"{before}on")
     if name is None:
         return
-    place = (each.kind.table, each.name, *f"{before}through".split("."))
+    place = (element.kind.table, element.name, *f"{before}through".split("."))
     if on is None and name not in (*topology.fixed_points, *_sliding(topology)):
         remedy = f'{topology.instead(name)}; a guide that turns is carried by a link: say which with "on"'
         expected = "the name of a fixed point, or of something that slides"

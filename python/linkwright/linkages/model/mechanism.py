@@ -126,26 +126,26 @@ class Mechanism(Description):
         """The links by name: a crank has that of its element; ``"cart1.rod"`` is the rod of the slider
         ``cart1``.
         """
-        found: dict[str, Link] = {}
+        links: dict[str, Link] = {}
         for name, crank in self.cranks.items():
-            found[name] = Link("crank", name, crank.pivot or ORIGIN, name, crank.radius)
+            links[name] = Link("crank", name, crank.pivot or ORIGIN, name, crank.radius)
         for name, cam in self.cams.items():
             if cam.is_oscillating:
-                found[name] = Link("crank", name, cam.arm_pivot or ORIGIN, name, cam.arm_length or 0.0)
+                links[name] = Link("crank", name, cam.arm_pivot or ORIGIN, name, cam.arm_length or 0.0)
         for name, slider in self.sliders.items():
-            found[f"{name}.rod"] = Link("rod", name, slider.crank, name, slider.rod)
+            links[f"{name}.rod"] = Link("rod", name, slider.crank, name, slider.rod)
         for name, rocker in self.rockers.items():
-            found[f"{name}.coupler"] = Link("coupler", name, rocker.crank, name, rocker.coupler)
-            found[f"{name}.rocker"] = Link("rocker", name, rocker.pivot, name, rocker.rocker)
+            links[f"{name}.coupler"] = Link("coupler", name, rocker.crank, name, rocker.coupler)
+            links[f"{name}.rocker"] = Link("rocker", name, rocker.pivot, name, rocker.rocker)
         for name, lever in self.slotted_levers.items():
-            found[name] = Link("lever", name, lever.pivot, lever.pin, lever.length or 0.0)
+            links[name] = Link("lever", name, lever.pivot, lever.pin, lever.length or 0.0)
         for name in self.yokes:
-            found[name] = Link("yoke", name, name, name, 0.0)
+            links[name] = Link("yoke", name, name, name, 0.0)
         for name, gear in self.gears.items():
-            found[name] = Link("gear", name, gear.pivot, gear.pivot, 0.0)
+            links[name] = Link("gear", name, gear.pivot, gear.pivot, 0.0)
         for name, bar in self.bars.items():
-            found[name] = Link("bar", name, bar.start, bar.end, bar.length)
-        return found
+            links[name] = Link("bar", name, bar.start, bar.end, bar.length)
+        return links
 
     def steps(self) -> list[Step]:
         """The steps in which the mechanism is built."""

@@ -70,19 +70,19 @@ def mobility(mechanism: Mechanism) -> Mobility:
     A pin that two guides cross at counts as two blocks with a pin. A driver on another pivot than the first
     is held to it by the drive, which counts as a pair of two freedoms.
     """
-    found = structure(mechanism)
-    pairs = [pair.kind for pair in found.pairs.values()]
-    bars = len(found.redundant)
-    pins = sum(not member.turns for member in found.members.values())
-    apart, together = _drivers(found)
+    members = structure(mechanism)
+    pairs = [pair.kind for pair in members.pairs.values()]
+    bars = len(members.redundant)
+    pins = sum(not member.turns for member in members.members.values())
+    apart, together = _drivers(members)
     lower = sum(kind in ("pin", "guide") for kind in pairs) + pins + bars - together
     higher = sum(kind not in ("pin", "guide") for kind in pairs) - bars + apart
-    return Mobility(len(found.members) + pins - together, lower, higher, found.redundant)
+    return Mobility(len(members.members) + pins - together, lower, higher, members.redundant)
 
 
-def _drivers(found: Structure) -> tuple[int, int]:
+def _drivers(members: Structure) -> tuple[int, int]:
     """Drivers beside the first that need a coupling, and cranks that are one link with another."""
-    turned = [found.members[drive.member].point for drive in found.drives if drive.guide is None]
-    moved = len(found.drives) - len(turned)
+    turned = [members.members[drive.member].point for drive in members.drives if drive.guide is None]
+    moved = len(members.drives) - len(turned)
     together = len(turned) - len(set(turned))
     return max(0, len(set(turned)) + moved - 1), together

@@ -183,7 +183,7 @@ class _Builder:
         yield from ((name, f"{name}.rocker") for name in m.rockers)
         yield from ((name, point.link) for name, point in m.rigid_points.items())
         for name, joint in m.joints.items():
-            holding = (bar for bar, each in m.bars.items() if name in (each.start, each.end))
+            holding = (bar for bar, held in m.bars.items() if name in (held.start, held.end))
             yield (
                 name,
                 name if joint.guide is not None else next(b for b in holding if not m.bars[b].redundant),

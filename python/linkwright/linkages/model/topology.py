@@ -167,13 +167,15 @@ class Topology:
         known = _known.get(id(mechanism))
         if known is not None and known[0] is mechanism:
             return known[1]
-        found = cls([element for kind in KINDS for element in _elements(kind, look(mechanism, kind.table))])
+        topology = cls(
+            [element for kind in KINDS for element in _elements(kind, look(mechanism, kind.table))]
+        )
         if isinstance(mechanism, BaseModel):
             # A checked mechanism is frozen: the same object has the same topology.
             if len(_known) >= _KNOWN_MAX:
                 _known.pop(next(iter(_known)), None)
-            _known[id(mechanism)] = (mechanism, found)
-        return found
+            _known[id(mechanism)] = (mechanism, topology)
+        return topology
 
     def names(self, *tables: str) -> list[str]:
         """Names of the elements in some tables."""
@@ -189,7 +191,7 @@ class Topology:
     def moving_points(self) -> list[str]:
         """Names of the points that move."""
         moving = (element for element in self.elements if element.kind.table != "points")
-        return [name for each in moving for name in each.made(each.kind.points)]
+        return [name for point in moving for name in point.made(point.kind.points)]
 
     @property
     def slides(self) -> list[str]:
@@ -200,7 +202,7 @@ class Topology:
             if element.kind.table == "joints" and not element.references
         }
         listed = (element for element in self.elements if element.name not in free)
-        return [name for each in listed for name in each.made(each.kind.slides)]
+        return [name for slide in listed for name in slide.made(slide.kind.slides)]
 
     @property
     def links(self) -> dict[str, str]:
@@ -244,16 +246,16 @@ class Topology:
             remedy = "a linear driver is also possible"
             expected = "at least one crank, which moves the others"
             return [*self._twice(), fault("cranks", expected=expected, remedy=remedy)]
-        found = [*self._twice(), *self._unknown()]
-        found = [*found, *self._circles()] if found else [*self._circles(), *guide_faults(self)]
-        return found or ([*self._mobility()] if values_fit else [])
+        faults = [*self._twice(), *self._unknown()]
+        faults = [*faults, *self._circles()] if faults else [*self._circles(), *guide_faults(self)]
+        return faults or ([*self._mobility()] if values_fit else [])
 
     def _mobility(self) -> Iterator[InitErrorDetails]:
         """Joints that can still move, and bars that are too many."""
-        found = self.build()
+        build = self.build()
         kinds = {element.name: element.kind for element in self.elements}
-        for joint in found.loose:
-            if found.stuck and (circle := self._mixed_circle(joint, found.stuck)):
+        for joint in build.loose:
+            if build.stuck and (circle := self._mixed_circle(joint, build.stuck)):
                 yield fault(
                     "joints",
                     joint,
@@ -274,7 +276,7 @@ class Topology:
                 expected="as many bars and guides as fix every joint: two for each",
                 remedy="it can still move with the crank held; add a bar or a guide",
             )
-        for name in dict.fromkeys(found.surplus):
+        for name in dict.fromkeys(build.surplus):
             yield fault(
                 kinds[name].table,
                 name,
@@ -309,12 +311,12 @@ class Topology:
 
     def _drivers(self, name: str) -> list[str]:
         """Drivers that an element hangs on."""
-        needs, found, open_ = self._needs(), {name}, [name]
+        needs, drivers, open_ = self._needs(), {name}, [name]
         while open_:
-            fresh = set(needs.get(open_.pop(), ())) - found
-            found |= fresh
+            fresh = set(needs.get(open_.pop(), ())) - drivers
+            drivers |= fresh
             open_ += fresh
-        return [name for name in self.names(*DRIVERS) if name in found]
+        return [name for name in self.names(*DRIVERS) if name in drivers]
 
     def _mixed_circle(self, joint: str, stuck: list[str]) -> str:
         """A circle from a joint through an element that waits for it; empty if there is none."""
@@ -405,13 +407,13 @@ def _elements(kind: ElementKind, table: object) -> Iterator[Element]:
         element = look(table, name)
         if kind.variant is not None and (look(element, kind.variant[0]) == "oscillating") != bool(kind.links):
             continue
-        found: dict[str, object] = {}
+        elements: dict[str, object] = {}
         for key in kind.references:
             part: object = element
             for step in key.split("."):
                 part = look(part, step)
-            found[key] = part
-        names = {key: value for key, value in found.items() if isinstance(value, str)}
+            elements[key] = part
+        names = {key: value for key, value in elements.items() if isinstance(value, str)}
         if kind.table == "joints" and look(element, "guide") is not None and not names:
             # A guide on the frame through the origin refers to nothing, and holds the joint all the same.
             names["guide"] = ORIGIN

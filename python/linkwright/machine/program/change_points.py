@@ -73,20 +73,20 @@ def undecided(points: list[_core.InLine], sign: float) -> _core.InLine | None:
     return None
 
 
-def stored(found: list[list[_core.InLine]], first: int) -> tuple[list[_core.ChangePoint], Floats]:
+def stored(lines: list[list[_core.InLine]], first: int) -> tuple[list[_core.ChangePoint], Floats]:
     """The change points of all machines, and the numbers that they refer to.
 
-    `found`: a list a machine; machines with fewer have the rest out of reach; `first`: slot of the first of
+    `lines`: a list a machine; machines with fewer have the rest out of reach; `first`: slot of the first of
     the numbers. Returns: change_points: as many as the machine with most has; numbers: (k, n) A column a
     machine.
     """
     # At least one, so that there are numbers: that of a machine without an answer is out of reach.
-    most = max(1, *(len(points) for points in found))
-    has_arms = any(point.arms for points in found for point in points)
-    columns = np.stack([_numbers(points, most, has_arms) for points in found], axis=-1)
+    most = max(1, *(len(points) for points in lines))
+    has_arms = any(point.arms for points in lines for point in points)
+    columns = np.stack([_numbers(points, most, has_arms) for points in lines], axis=-1)
     width = columns.shape[1]
     points = [_core.ChangePoint(first=first + k * width, has_arms=has_arms) for k in range(most)]
-    return points, columns.reshape(-1, len(found))
+    return points, columns.reshape(-1, len(lines))
 
 
 def _numbers(points: list[_core.InLine], most: int, has_arms: bool) -> Floats:

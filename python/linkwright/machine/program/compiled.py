@@ -67,15 +67,15 @@ class Translation:
 
 def _row_count(machine: Machine) -> int:
     """How many machines the entries describe, also those without an effect."""
-    found = {join(place): array for place, array in arrays(machine)}
-    if "mechanism.assembled_at" in found:
+    columns = {join(place): array for place, array in arrays(machine)}
+    if "mechanism.assembled_at" in columns:
         raise ShapeError(
             "mechanism.assembled_at cannot vary from machine to machine in a batch: the places of the joints "
             "are those of one crank angle; compute machines with others one by one"
         )
-    shapes = {array.shape for array in found.values()}
+    shapes = {array.shape for array in columns.values()}
     if len(shapes) > 1 or any(len(shape) != 1 or not shape[0] for shape in shapes):
-        given = ", ".join(f"{address} {array.shape}" for address, array in found.items())
+        given = ", ".join(f"{address} {array.shape}" for address, array in columns.items())
         raise ShapeError(f"arrays of one length are needed, found shapes {given}")
     return shapes.pop()[0] if shapes else 1
 
@@ -357,4 +357,4 @@ def _constants(machine: Machine) -> list[Mapping[str, float]]:
     mechanism = machine.linkage
     written: list[Any] = [*mechanism.cranks.values(), *mechanism.linear_drivers.values()]
     written += [load for load in machine.loads.values() if isinstance(load, FormulaLoad)]
-    return [each.constants for each in written]
+    return [constant.constants for constant in written]

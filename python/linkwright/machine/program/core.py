@@ -13,9 +13,9 @@ def check_format(core: object) -> None:
     """Refuse a core that was built from other sources: a `CoreError` if its number is another one, or
     missing.
     """
-    found = getattr(core, "FORMAT", None)
-    if found != FORMAT:
-        raise CoreError(found, FORMAT, str(getattr(core, "__file__", "linkwright._core")))
+    number = getattr(core, "FORMAT", None)
+    if number != FORMAT:
+        raise CoreError(number, FORMAT, str(getattr(core, "__file__", "linkwright._core")))
 
 
 check_format(_core)

@@ -49,9 +49,9 @@ class Elements(Places):
             "bars": self._bar,
         }
         for table, make in makers.items():
-            found = getattr(mechanism, table).get(name)
-            if found is not None:
-                make(name, found)  # type: ignore[operator]
+            element = getattr(mechanism, table).get(name)
+            if element is not None:
+                make(name, element)  # type: ignore[operator]
                 return
 
     # -- drivers -----------------------------------------------------------------------------------------

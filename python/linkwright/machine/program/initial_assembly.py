@@ -127,20 +127,20 @@ class InitialAssembly:
         link turns irregularly, or a redundant bar does not fit.
         """
         self._check_laws()
-        for each in self.program.pending:
-            self._settle(each)
+        for pending in self.program.pending:
+            self._settle(pending)
         self._check_redundant()
 
-    def _settle(self, each: Pending) -> None:
-        match each:
+    def _settle(self, pending: Pending) -> None:
+        match pending:
             case Side():
-                self._side(each)
+                self._side(pending)
             case Continuous():
-                self._continuous(each)
+                self._continuous(pending)
             case Foldable():
-                self._fold(each)
+                self._fold(pending)
             case Solved():
-                self._follow(each)
+                self._follow(pending)
 
     def _check_laws(self) -> None:
         """A driver's law must have a value everywhere, and no jump."""
@@ -176,18 +176,18 @@ class InitialAssembly:
 
     # -- sides -------------------------------------------------------------------------------------------
 
-    def _side(self, each: Side) -> None:
+    def _side(self, pending: Side) -> None:
         """Left of the line from pin to pivot, or ahead along the guide."""
         at = np.array([self.assembled_at])
-        joint = self.program.mechanism.joints[each.joint]
-        x, y = self._point(each.pin, at)[:2, 0]
+        joint = self.program.mechanism.joints[pending.joint]
+        x, y = self._point(pending.pin, at)[:2, 0]
         to = np.array([_first(joint.x) - x, _first(joint.y) - y])
-        if each.pivot is not None:
-            u, v = self._point(each.pivot, at)[:2, 0] - (x, y)
+        if pending.pivot is not None:
+            u, v = self._point(pending.pivot, at)[:2, 0] - (x, y)
             side = (u * to[1] - v * to[0]) / max(np.hypot(u, v), 1e-300)
         else:
-            assert each.guide is not None
-            link, angle = each.guide
+            assert pending.guide is not None
+            link, angle = pending.guide
             cos, sin = (1.0, 0.0) if link is None else self._link(link, at)[:2, 0]
             direction = np.array(
                 [cos * np.cos(angle) - sin * np.sin(angle), sin * np.cos(angle) + cos * np.sin(angle)]
@@ -195,20 +195,20 @@ class InitialAssembly:
             side = float(direction @ to)
         if abs(side) <= _IN_LINE * float(np.hypot(*to)):
             raise AssemblyError(
-                f"the joint {each.joint} is given in line with what holds it, so its side is not known; give "
-                "its place at another crank angle (assembled_at), or a little aside",
-                element=each.joint,
+                f"the joint {pending.joint} is given in line with what holds it, so its side is not known; "
+                "give its place at another crank angle (assembled_at), or a little aside",
+                element=pending.joint,
                 crank_angle=self.assembled_at,
             )
-        self.parameters[each.slot] = 1.0 if side > 0 else -1.0
-        self.given_at[each.slot] = self.assembled_at
+        self.parameters[pending.slot] = 1.0 if side > 0 else -1.0
+        self.given_at[pending.slot] = self.assembled_at
 
     # -- continuous angles -------------------------------------------------------------------------------
 
-    def _continuous(self, each: Continuous) -> None:
+    def _continuous(self, angle: Continuous) -> None:
         """Turns a revolution of the crank, and the middle of the swing about them."""
         angles = np.linspace(0.0, 2 * np.pi, _LOOK + 1)
-        cos, sin, *_ = self._link(each.link, angles)
+        cos, sin, *_ = self._link(angle.link, angles)
         closes = np.isfinite(cos)
         if not closes.any():
             return
@@ -221,31 +221,31 @@ class InitialAssembly:
         rest = psi - winding * at
         if np.ptp(rest) > _SWING_MAX:
             raise AssemblyError(
-                f"the link {each.name} swings by {np.degrees(np.ptp(rest)):.0f}° about its mean rotation; "
+                f"the link {angle.name} swings by {np.degrees(np.ptp(rest)):.0f}° about its mean rotation; "
                 "beyond 356° the position of a gear, a rack or a cable on it is ambiguous",
-                element=each.name,
+                element=angle.name,
             )
-        near = _first(each.near)
+        near = _first(angle.near)
         turns = np.round((near - psi[0]) / (2 * np.pi))
-        self.parameters[each.winding] = winding
-        self.parameters[each.centre] = 0.5 * (rest.min() + rest.max()) + 2 * np.pi * turns
+        self.parameters[angle.winding] = winding
+        self.parameters[angle.centre] = 0.5 * (rest.min() + rest.max()) + 2 * np.pi * turns
 
     # -- change points -----------------------------------------------------------------------------------
 
-    def _fold(self, each: Foldable) -> None:
+    def _fold(self, dyad: Foldable) -> None:
         """Finds the change points of a dyad in every machine, and gives it their series."""
-        line = in_line(self.plan, self.parameters, *self._mechanisms(), each.element)
+        line = in_line(self.plan, self.parameters, *self._mechanisms(), dyad.element)
         if not any(line):
             return
-        signs = np.array([self._sign(each, points) for points in line])
+        signs = np.array([self._sign(dyad, points) for points in line])
         for row, points in enumerate(line):
             at = undecided(points, signs[row])
             if at is not None and len(line) == 1:
-                raise undecided_error(each.name, at)
+                raise undecided_error(dyad.name, at)
             if at is not None:
                 # A machine of a batch that has no answer, and shows it.
                 line[row], signs[row] = [], np.nan
-        self._give_change_points(each, line, signs)
+        self._give_change_points(dyad, line, signs)
 
     def _mechanisms(self) -> tuple[NDArray[np.int32], Floats]:
         """What varies from one mechanism to the next: where masses and the like vary, nothing."""
@@ -253,22 +253,22 @@ class InitialAssembly:
             return self.slots, self.values
         return np.empty(0, dtype=np.int32), np.empty((0, 1))
 
-    def _sign(self, each: Foldable, points: list[_core.InLine]) -> float:
+    def _sign(self, dyad: Foldable, points: list[_core.InLine]) -> float:
         """The side of a dyad where the product of half-angle sines is positive."""
         # A side that varies from row to row does not exist.
-        wanted = self.parameters[each.sign]
-        given_at = self.given_at.get(each.sign, _JUST_AFTER)
+        wanted = self.parameters[dyad.sign]
+        given_at = self.given_at.get(dyad.sign, _JUST_AFTER)
         return float(
             wanted * np.sign(np.prod([np.sin((given_at - point.crank_angle) / 2) for point in points]))
         )
 
-    def _give_change_points(self, each: Foldable, found: list[list[_core.InLine]], signs: Floats) -> None:
+    def _give_change_points(self, dyad: Foldable, lines: list[list[_core.InLine]], signs: Floats) -> None:
         """Turns a dyad into one with change points."""
-        change_points, numbers = stored(found, len(self.parameters))
-        self.program.elements[each.element] = folding(self.program.elements[each.element], change_points)
+        change_points, numbers = stored(lines, len(self.parameters))
+        self.program.elements[dyad.element] = folding(self.program.elements[dyad.element], change_points)
         self._add(numbers)
-        self._change(each.sign, signs)
-        self.odd = self.odd | np.array([len(points) % 2 == 1 for points in found])
+        self._change(dyad.sign, signs)
+        self.odd = self.odd | np.array([len(points) % 2 == 1 for points in lines])
         self._changed(self.make_plan())
 
     def _add(self, columns: Floats) -> None:
@@ -289,18 +289,18 @@ class InitialAssembly:
 
     # -- groups ------------------------------------------------------------------------------------------
 
-    def _follow(self, each: Solved) -> None:
+    def _follow(self, pending: Solved) -> None:
         """Follows a group over the revolution from where it is assembled."""
-        joints = [self.program.mechanism.joints[name] for name in each.names]
+        joints = [self.program.mechanism.joints[name] for name in pending.names]
         near = np.array([_first(value) for joint in joints for value in (joint.x, joint.y)])
-        path = _core.follow_group(self.plan, self.parameters, each.element, self.assembled_at, near)
+        path = _core.follow_group(self.plan, self.parameters, pending.element, self.assembled_at, near)
         if path is None:
-            names = " and ".join(each.names)
+            names = " and ".join(pending.names)
             raise AssemblyError(
                 f"the joints {names} do not close near their given places at crank angle "
                 f"{np.degrees(self.assembled_at):.6g}°; give places from a drawing of that position, or "
                 "change the lengths",
-                element=each.names[0],
+                element=pending.names[0],
                 crank_angle=self.assembled_at,
             )
         phi, turns = path.crank_angle, path.turns
@@ -308,10 +308,10 @@ class InitialAssembly:
         cycle = float(turns or max(1, int(np.ceil(span / (2 * np.pi) + _WHOLE))))
         # The last angle of a motion that repeats is the first again.
         knots = (phi / cycle).tolist()
-        self.parameters[each.inverse_turns] = 1.0 / cycle
-        group = self.program.elements[each.element]
+        self.parameters[pending.inverse_turns] = 1.0 / cycle
+        group = self.program.elements[pending.element]
         assert isinstance(group, _core.Element.Group)
-        self.program.elements[each.element] = _core.Element.Group(
+        self.program.elements[pending.element] = _core.Element.Group(
             dyad=group.dyad,
             unknowns=group.unknowns,
             carried=group.carried,

@@ -90,7 +90,7 @@ class Loads:
             if isinstance(load, FormulaLoad):
                 loads += self._formula_load(load)
             elif isinstance(load, TorqueSwing):
-                loads += [each for piece in swing_formulas(load) for each in self._formula_load(piece)]
+                loads += [term for piece in swing_formulas(load) for term in self._formula_load(piece)]
             else:
                 loads.append(self._load(load))
         drive = self.machine.drive

@@ -46,10 +46,10 @@ class MechanismProgram(Elements):
 
     def _held(self, bar: str, joint: str) -> tuple[str, str, Any]:
         """Link, far end and length of a bar that holds a joint; one that starts there has a hidden link."""
-        found = self.mechanism.bars[bar]
-        if found.start == joint:
-            return f"{bar} reversed", found.end, found.length
-        return bar, found.start, found.length
+        held = self.mechanism.bars[bar]
+        if held.start == joint:
+            return f"{bar} reversed", held.end, held.length
+        return bar, held.start, held.length
 
     def _dyad_of_bars(self, step: Step) -> None:
         """A joint held by two bars, or by a bar and a guide, on the side where it is given."""

@@ -92,7 +92,7 @@ def recompute(row: Mapping[str, float]) -> list[Recomputed]:
         "dynamism": (steepest / mean**2, "|ε|_max/ω_mean²"),
         "motion_coefficient": (row["unevenness"] ** 2 + row["dynamism"], "δ² + H"),
     }
-    return [Recomputed(name, row[name], *found) for name, found in follows.items()]
+    return [Recomputed(name, row[name], *value) for name, value in follows.items()]
 
 
 @dataclass(frozen=True)
@@ -191,25 +191,27 @@ class Drive:
         """The table of this drive: a line for each quantity."""
         return [
             {
-                "label": f"{each['symbol']} [{each['unit']}]" if each["unit"] else each["symbol"],
+                "label": f"{quantity['symbol']} [{quantity['unit']}]"
+                if quantity["unit"]
+                else quantity["symbol"],
                 "published": self.published.values[name],
                 **{way: cells[name] for way, cells in self.cells.items()},
             }
-            for name, each in printed_values(1)["quantities"].items()
+            for name, quantity in printed_values(1)["quantities"].items()
         ]
 
     @property
     def reasons(self) -> list[str]:
         """Why values are not reproduced, each reason once."""
         data = printed_values(1)
-        found: dict[tuple[str, str], list[str]] = {}
+        reasons: dict[tuple[str, str], list[str]] = {}
         for way, cells in self.cells.items():
             for name, cell in cells.items():
                 if cell.kind == "far":
-                    found.setdefault((way, cell.because), []).append(data["quantities"][name]["symbol"])
+                    reasons.setdefault((way, cell.because), []).append(data["quantities"][name]["symbol"])
         return [
             f"{data['ways'][way]}: {', '.join(symbols)} not reproduced because {because}."
-            for (way, because), symbols in found.items()
+            for (way, because), symbols in reasons.items()
         ]
 
     def to_dict(self) -> dict[str, Any]:
@@ -230,8 +232,8 @@ class Drive:
                 "fits": self.fit.fits,
             },
             "printed_row": [
-                {name: getattr(each, name) for name in ("quantity", "printed", "follows", "agrees")}
-                for each in self.recomputed
+                {name: getattr(row, name) for name in ("quantity", "printed", "follows", "agrees")}
+                for row in self.recomputed
             ],
             "sized_motor": self.sized_motor,
             "sized_motion_coefficient": self.sized.motion_coefficient if self.sized else None,

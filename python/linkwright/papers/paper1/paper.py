@@ -58,13 +58,13 @@ class Paper1(Paper):
     def rankings(self) -> dict[str, list[int]]:
         """Numbers of carts in order of increasing k_p, for each way of finding it."""
         ways: dict[str, Callable[[Drive], float]] = {
-            "published": lambda each: each.published.values["motion_coefficient"],
-            "solution of (1), motors by rated power": lambda each: each.steady.motion_coefficient,
+            "published": lambda drive: drive.published.values["motion_coefficient"],
+            "solution of (1), motors by rated power": lambda drive: drive.steady.motion_coefficient,
             "solution of (1), motors by all checks": _sized_coefficient,
-            "constant energy": lambda each: each.values["limit"]["motion_coefficient"],
+            "constant energy": lambda drive: drive.values["limit"]["motion_coefficient"],
         }
         return {
-            way: [each.published.carts for each in sorted(self.drives, key=value)]
+            way: [drive.published.carts for drive in sorted(self.drives, key=value)]
             for way, value in ways.items()
         }
 
@@ -75,7 +75,9 @@ class Paper1(Paper):
             "two": two,
             "four": four,
             "phases": {"four": four.published.phase, "opposed": _OPPOSED},
-            "fitted": [each for each in self.drives if not each.published.motor_printed and each.fit.fits],
+            "fitted": [
+                drive for drive in self.drives if not drive.published.motor_printed and drive.fit.fits
+            ],
             "four_fits_not": not four.fit.fits and self.opposed.misfit < four.fit.misfit,
             **self._of_two(two),
             **self._of_rows(),
@@ -88,20 +90,20 @@ class Paper1(Paper):
         assert machine.drive is not None
         assert isinstance(machine.drive.motor, InductionMotor)
         step = float(np.degrees(two.scheme.step))
-        best = sorted(sorted(self.steps, key=lambda each: self.steps[each])[:2])
+        best = sorted(sorted(self.steps, key=lambda drive: self.steps[drive])[:2])
         alone = [
-            each
-            for each in best
-            if round(self.trials[each].speed_max, 3) == row["speed_max"]
-            and round(load_by_steps(two.reduced, each), 2) == mean
+            drive
+            for drive in best
+            if round(self.trials[drive].speed_max, 3) == row["speed_max"]
+            and round(load_by_steps(two.reduced, drive), 2) == mean
         ]
         at_degrees = load_by_steps(two.reduced, step)
         halves = two.steady.unevenness / two.values["limit"]["unevenness"]
         far = two.cells["solution"]["unevenness"].kind == "far"
-        cells = [cell_of(each, {"power": self.power}).kind for each in self.published["claim"]]
+        cells = [cell_of(claim, {"power": self.power}).kind for claim in self.published["claim"]]
         return {
             "step": np.radians(step),
-            "best_steps": [np.radians(each) for each in best],
+            "best_steps": [np.radians(drive) for drive in best],
             "step_deviations": list(self.steps.items()),
             "load_closed": _load_in_closed_form(two),
             "load_at_degrees": at_degrees,
@@ -117,46 +119,46 @@ class Paper1(Paper):
         """The printed table against itself."""
         symbols = self.published["quantities"]
         rows = [
-            vars(each)
+            vars(row)
             | {
                 "drive": one.published.name.split(",")[0],
                 "carts": one.published.carts,
-                "symbol": symbols[each.quantity]["symbol"],
-                "agrees": each.agrees,
-                "kind": "reproduced" if each.agrees else "far",
+                "symbol": symbols[row.quantity]["symbol"],
+                "agrees": row.agrees,
+                "kind": "reproduced" if row.agrees else "far",
             }
             for one in self.drives
-            for each in one.recomputed
+            for row in one.recomputed
         ]
         wrong = [row for row in rows if not row["agrees"]]
         four = self.drives[3].published.values
-        follows = {each.quantity: each.follows for each in self.drives[3].recomputed}
+        follows = {row.quantity: row.follows for row in self.drives[3].recomputed}
         k_p = follows["unevenness"] ** 2 + four["dynamism"]
-        means = [each["carts"] for each in wrong if each["quantity"] == "speed_mean"]
-        others = [each["carts"] for each in wrong if each["quantity"] != "speed_mean"]
+        means = [row["carts"] for row in wrong if row["quantity"] == "speed_mean"]
+        others = [row["carts"] for row in wrong if row["quantity"] != "speed_mean"]
         return {
             "recomputed": rows,
             "disagreeing": wrong,
             "unrounded": follows,
             "rows_disagree": (means, others) == ([3, 4], [4]) and round(k_p, 4) == four["motion_coefficient"],
-            "rows_fit": [each.published.carts for each in self.drives if each.fit.fits] == [1, 2, 3],
+            "rows_fit": [drive.published.carts for drive in self.drives if drive.fit.fits] == [1, 2, 3],
         }
 
     def _of_rankings(self, four: Drive) -> dict[str, Any]:
         """Which drive is the most even one, and what motors do to that."""
         published, *computed = self.rankings.values()
         carts = four.published.carts
-        by_power = {each.published.carts: each.steady.motion_coefficient for each in self.drives}
+        by_power = {drive.published.carts: drive.steady.motion_coefficient for drive in self.drives}
         small = [
-            each.published.carts
-            for each in self.drives
-            if any(check.passed is False for check in each.choice.present if check.name.startswith("torque"))
+            drive.published.carts
+            for drive in self.drives
+            if any(check.passed is False for check in drive.choice.present if check.name.startswith("torque"))
         ]
         return {
             "ranked": list(self.rankings.items()),
             "published_place": published.index(carts) + 1,
             "four_is_most_even": published[0] != carts and all(order[0] == carts for order in computed),
-            "sized": [each for each in self.drives if each.sized],
+            "sized": [drive for drive in self.drives if drive.sized],
             # Estimated inertias are off by more than a percent.
             "motors_are_small": small == [1, 2, 3] and abs(by_power[2] / by_power[3] - 1) < 0.01,
         }
@@ -165,7 +167,7 @@ class Paper1(Paper):
         """Computed values, ready for JSON."""
         claims = self.published["claim"]
         return {
-            "drives": [each.to_dict() for each in self.drives],
+            "drives": [drive.to_dict() for drive in self.drives],
             "intermediates": {claim["name"]: cell_of(claim, self.values).to_dict() for claim in claims},
             "scheme_step_deviation": {f"{step:g} deg": off for step, off in self.steps.items()},
             "rankings": self.rankings,
@@ -197,7 +199,7 @@ def paper1() -> Paper1:
 
     Source: Paper 1, whole.
     """
-    drives = tuple(drive(each) for each in published_drives())
+    drives = tuple(drive(given) for given in published_drives())
     two, four = drives[1], drives[3]
     return Paper1(
         printed_values(1),

@@ -88,7 +88,7 @@ def fitted_inertia(reduced: Reduction, now: float, unevenness: float, dynamism: 
 
 
 def _nearest(tried: list[Fit]) -> Fit:
-    return min(tried, key=lambda each: each.misfit)
+    return min(tried, key=lambda place: place.misfit)
 
 
 def scaled_to(energy: ConstantEnergy, reduced: Reduction, speed_mean: float) -> dict[str, float]:

@@ -94,17 +94,17 @@ class Alternative:
     def to_dict(self) -> dict[str, Any]:
         """Its numbers, ready for JSON."""
         own = ("velocity_max", "acceleration_max", "jerk_max", "jerk_step", "force_max", "torque_max")
-        found = {name: getattr(self, name) for name in ("name", *own)}
-        found |= {name: getattr(self.steady, name) for name in ("unevenness", "dynamism", "period")}
+        results = {name: getattr(self, name) for name in ("name", *own)}
+        results |= {name: getattr(self.steady, name) for name in ("unevenness", "dynamism", "period")}
         cam = ("pressure_angle_max", "concave_radius", "steady_share")
-        return found | {name: getattr(self, name) for name in cam}
+        return results | {name: getattr(self, name) for name in cam}
 
 
 def alternatives(formulas: Formulas) -> tuple[Alternative, ...]:
     """The drive of paper 2, then those of its file of data, the crank drive first."""
     given = formulas.printed
     machine = given["given"]["machine"]
-    found = [
+    machines = [
         _with(
             machine,
             filled("combined, {start.0}/{start.1} each, as printed", given["given"]),
@@ -112,13 +112,15 @@ def alternatives(formulas: Formulas) -> tuple[Alternative, ...]:
             {},
         )
     ]
-    for each in given["alternative"]:
-        if "mechanism" in each:
-            entries = {"mechanism": each["mechanism"]}
+    for alternative in given["alternative"]:
+        if "mechanism" in alternative:
+            entries = {"mechanism": alternative["mechanism"]}
         else:
-            entries = {"mechanism.cams.cart.sections": _sections(each, formulas)}
-        found.append(_with(machine, filled(each["name"], each), each["short"], entries))
-    return tuple(found)
+            entries = {"mechanism.cams.cart.sections": _sections(alternative, formulas)}
+        machines.append(
+            _with(machine, filled(alternative["name"], alternative), alternative["short"], entries)
+        )
+    return tuple(machines)
 
 
 def _sections(law: dict[str, Any], formulas: Formulas) -> list[dict[str, Any]]:
@@ -131,9 +133,9 @@ def _sections(law: dict[str, Any], formulas: Formulas) -> list[dict[str, Any]]:
     laws = (law["start"], "constant_velocity", law["stop"])
     travels = [share * part for share, part in zip(shares, (ramp, 1.0, ramp), strict=True)]
     return [
-        {"angle": share * np.pi, "lift": lift * travel / sum(travels), "law": each}
+        {"angle": share * np.pi, "lift": lift * travel / sum(travels), "law": law}
         for lift in strokes
-        for share, travel, each in zip(shares, travels, laws, strict=True)
+        for share, travel, law in zip(shares, travels, laws, strict=True)
     ]
 
 
@@ -143,7 +145,7 @@ def _with(machine: str, name: str, short: str, entries: dict[str, Any]) -> Alter
     omega = design_speed(changed)
     steady = steady_state(changed, n=_ANGLES)
     middle = slice(1, None, 2)
-    phi, speed, bend = (each[middle] for each in (steady.crank_angle, steady.speed, steady.acceleration))
+    phi, speed, bend = (curve[middle] for curve in (steady.crank_angle, steady.speed, steady.acceleration))
     slide = kinematics(changed, phi, third=True).slides[CART]
     force = resistance(changed) * np.sign(slide.d1)
     force += (changed.bodies[CART].mass or 0.0) * (slide.d2 * speed**2 + slide.d1 * bend)

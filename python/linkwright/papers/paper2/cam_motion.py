@@ -252,8 +252,8 @@ def two_cams(machine: str, cam: str) -> dict[str, float]:
     """
     sides, angles = [], (np.arange(_ANGLES) + 0.5) * (2 * np.pi / _ANGLES)
     for rotation in ("same", "opposite"):
-        found = read(library_path(machine), {f"mechanism.cams.{cam}.rotation": rotation})
-        acting = forces(found, speed=design_speed(found), angles=angles)
+        driven = read(library_path(machine), {f"mechanism.cams.{cam}.rotation": rotation})
+        acting = forces(driven, speed=design_speed(driven), angles=angles)
         sides.append(acting.pairs[f"{cam}.guide"].normal)
     return {
         "side_force": float(np.abs(sides[0]).max()),

@@ -243,28 +243,30 @@ def _outwards(drive: Alternative) -> tuple[Floats, tuple[Floats, ...]]:
     order = np.roll(np.arange(len(ahead)), -begin)
     order = order[ahead[order]]
     phi = np.degrees((drive.crank_angle[order] - drive.crank_angle[begin]) % (2 * np.pi))
-    return phi, tuple(each[order] for each in (drive.velocity, drive.acceleration, drive.torque))
+    return phi, tuple(curve[order] for curve in (drive.velocity, drive.acceleration, drive.torque))
 
 
 @styled
 def _course(paper: Paper2) -> Figure:
     """Speed of the shaft, velocity of the cart, and its deviation, over one revolution."""
-    found = paper.course
+    course = paper.course
     figure, (shaft, cart, off) = panels(3, height=6.0)
-    shaft.plot(found.time, found.speed, color=BLUE, label="in steady motion")
-    level(shaft, found.speed_mean, "mean over time")
-    shaft.axhline(found.speed_design, color=RED, linestyle=":", linewidth=1.2, label="as designed")
+    shaft.plot(course.time, course.speed, color=BLUE, label="in steady motion")
+    level(shaft, course.speed_mean, "mean over time")
+    shaft.axhline(course.speed_design, color=RED, linestyle=":", linewidth=1.2, label="as designed")
     shaft.set_ylabel("shaft ω [rad/s]")
-    cart.plot(found.time, found.intended, color=SOFT, linestyle=(0, (5, 3)), linewidth=1.3, label="intended")
-    cart.plot(found.time, found.velocity, color=BLUE, label="in steady motion")
+    cart.plot(
+        course.time, course.intended, color=SOFT, linestyle=(0, (5, 3)), linewidth=1.3, label="intended"
+    )
+    cart.plot(course.time, course.velocity, color=BLUE, label="in steady motion")
     cart.set_ylabel("cart ẋ [m/s]")
-    off.plot(found.time, 100 * found.deviation, color=RED)
+    off.plot(course.time, 100 * course.deviation, color=RED)
     off.set_ylabel("deviation [% of v]")
     off.set_xlabel("time [s]")
-    half = found.time[-1] / 2
+    half = course.time[-1] / 2
     begin, end = (fraction(paper.published["given"][name]) for name in ("start", "stop"))
     for axes in (shaft, cart, off):
-        axes.set_xlim(0, found.time[-1])
+        axes.set_xlim(0, course.time[-1])
         for stroke in (0.0, half):
             axes.axvspan(
                 stroke + begin * half, stroke + (1 - end) * half, color=GRID, alpha=0.45, linewidth=0

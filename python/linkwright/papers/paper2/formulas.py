@@ -77,8 +77,8 @@ class Formulas:
     def over(self, section: str, order: int, u: Floats) -> Floats:
         """Position in the section, or a derivative of it [m, m/s, …], at shares u of its time."""
         scale = self.speed * self.times[section] ** (1 - order)
-        found: Floats = scale * self.polynomial(section, order)(u)
-        return found
+        values: Floats = scale * self.polynomial(section, order)(u)
+        return values
 
     def stroke_motion(self, time: Floats, order: int) -> Floats:
         """Position, or a derivative of it [m, m/s, …], over a stroke that begins at 0 s and 0 m."""
@@ -92,13 +92,13 @@ class Formulas:
 
     def peak(self, order: int) -> float:
         """Largest value of a derivative over a stroke by (1) to (3), from the zeros of the next one."""
-        found = 0.0
+        peak = 0.0
         for section in SECTIONS:
             roots = self.polynomial(section, order).deriv().roots()
             inside = roots[np.isreal(roots)].real
             u = np.concatenate(([0.0, 1.0], inside[(inside > 0) & (inside < 1)]))
-            found = max(found, float(np.abs(self.over(section, order, u)).max()))
-        return found
+            peak = max(peak, float(np.abs(self.over(section, order, u)).max()))
+        return peak
 
     def radius(self, angle: Floats, breadth: float) -> Floats:
         """ρ by (17) to (22) [m], at φ from 0 to 2π, b the breadth [m]."""
@@ -119,8 +119,8 @@ class Formulas:
         """ρ − b/2 by one of (17) to (19), counted from 0 [m]."""
         row = self.printed["profile"][number]
         bracket = np.polynomial.Polynomial(row["terms"])((angle - self.branch_begins[number]) / np.pi)
-        found: Floats = self.stroke * (row["from"] + fraction(row["factor"]) * bracket)
-        return found
+        branch: Floats = self.stroke * (row["from"] + fraction(row["factor"]) * bracket)
+        return branch
 
 
 # Points of a stroke: middles of equal parts, none of them on a joint.
@@ -176,7 +176,7 @@ def _chain(formulas: Formulas, section: str) -> float:
     lines = [formulas.polynomial(section, order) for order in range(4)]
     off = [(line.deriv() - after).coef for line, after in pairwise(lines)]
     largest = max(float(np.abs(line.coef).max()) for line in lines)
-    return max(float(np.abs(each).max()) for each in off) / largest
+    return max(float(np.abs(value).max()) for value in off) / largest
 
 
 def _mirror(formulas: Formulas) -> float:

@@ -58,14 +58,14 @@ class Paper2(Paper):
 
     def quantities(self) -> dict[str, Any]:
         """Checks of the formulas, drives by name, and one beside another [–]."""
-        found = checks(self.formulas, self.profile)
-        return {"checks": found, **self._of_formulas(found), **self._of_starts(), **self._of_drives()}
+        checked = checks(self.formulas, self.profile)
+        return {"checks": checked, **self._of_formulas(checked), **self._of_starts(), **self._of_drives()}
 
-    def _of_formulas(self, found: dict[str, Any]) -> dict[str, Any]:
+    def _of_formulas(self, checked: dict[str, Any]) -> dict[str, Any]:
         """Numbers of the formulas and of the profile, and whether all formulas agree."""
         formulas, profile, printed = self.formulas, self.profile, self.starts["printed"]
-        differences = [*found["motion"], *found["chain"].values()]
-        differences += [found[name] for name in ("mirror", "joint", "radius", "radius_joint", "diameter")]
+        differences = [*checked["motion"], *checked["chain"].values()]
+        differences += [checked[name] for name in ("mirror", "joint", "radius", "radius_joint", "diameter")]
         sides = np.flatnonzero(np.diff(np.sign(profile.curvature_radius)))
         return {
             "breadth": breadth_of(profile),
@@ -87,7 +87,7 @@ class Paper2(Paper):
         printed, fixed, free, turn = self.starts.values()
         share = self.formulas.times["start"] / self.formulas.time
         same = tolerance("rounding").reproduced
-        exceeds = {name: printed.cost / each.cost - 1 for name, each in (("fixed", fixed), ("free", free))}
+        exceeds = {name: printed.cost / start.cost - 1 for name, start in (("fixed", fixed), ("free", free))}
         return {
             "saved": 1 - free.over_stroke(share) / printed.over_stroke(share),
             "cost_share": turn.cost / printed.cost,
@@ -118,7 +118,7 @@ class Paper2(Paper):
             "smooth_jerk": smooth.jerk_max / cam.jerk_max,
             "turn_is_better": lower and free.steady.unevenness < cam.steady.unevenness,
             "cam_beside_crank": cam.torque_max < crank.torque_max and cam.jerk_max > crank.jerk_max,
-            "other_laws_cost": all(each.torque_max > cam.torque_max for each in (smooth, *whole)),
+            "other_laws_cost": all(drive.torque_max > cam.torque_max for drive in (smooth, *whole)),
             "faster": self.course.speed_mean / self.course.speed_design - 1,
             "kept": 0.5 * (low + high),
             "kept_within": high - low,

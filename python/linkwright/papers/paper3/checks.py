@@ -57,14 +57,14 @@ def weak_checks(trial: TrialEngine, cylinder: int, factor: float, discs: tuple[s
     weak = weakened(trial.machine, trial.service, cylinder, factor)
     sound = responded(at)
 
-    def told(vibration: ForcedVibration, *, rigid: bool) -> Floats:
+    def factors(vibration: ForcedVibration, *, rigid: bool) -> Floats:
         measured = (_measured(vibration, disc, trial.order) for disc in discs)
-        return np.array([diagnosis(at, sources, each, rigid=rigid).factor for each in measured])
+        return np.array([diagnosis(at, sources, speed, rigid=rigid).factor for speed in measured])
 
-    rigid = told(weak, rigid=True)
+    rigid = factors(weak, rigid=True)
     # Shares follow from harmonics linearly: what has changed is the difference of both.
-    change = rigid - told(sound, rigid=True)
-    return WeakChecks(cylinder, discs, told(weak, rigid=False), rigid, 1 + change)
+    change = rigid - factors(sound, rigid=True)
+    return WeakChecks(cylinder, discs, factors(weak, rigid=False), rigid, 1 + change)
 
 
 def _measured(vibration: ForcedVibration, disc: str, below: float) -> MeasuredSpeed:
@@ -156,12 +156,12 @@ def unevenness_checks(trial: TrialEngine, factor: float) -> UnevennessChecks:
     """
     machine, engine, speed = trial.machine, trial.engine, trial.service
     at = excited_train(machine, np.array([speed]))
-    found = responded(at)
-    discs = _along(found, throw_names(len(engine.throws)))
-    places = [found.discs.index(name) for name in discs]
-    theta = found.amplitudes[:, places, 0]
+    response = responded(at)
+    discs = _along(response, throw_names(len(engine.throws)))
+    places = [response.discs.index(name) for name in discs]
+    theta = response.amplitudes[:, places, 0]
     most = np.argsort(np.abs(theta).max(axis=1))[::-1][:_TOLD]
-    greatest, least = span(found.together, theta)
+    greatest, least = span(response.together, theta)
     angles, _ = firing_angles(engine.places, engine.firing_order, engine.cycle)
     firing = {str(n + 1): float(angle) for n, angle in enumerate(angles)}
     weak = [weakened(machine, speed, n + 1, factor) for n in range(engine.n_cylinders)]
@@ -169,14 +169,14 @@ def unevenness_checks(trial: TrialEngine, factor: float) -> UnevennessChecks:
         speed=speed,
         discs=discs,
         places=places,
-        sound=unevenness_along(at, found, firing, engine.strokes // 2, speed),
-        delta=found.unevenness[places, 0],
-        delta_rigid=float(found.unevenness_rigid[0, 0]),
+        sound=unevenness_along(at, response, firing, engine.strokes // 2, speed),
+        delta=response.unevenness[places, 0],
+        delta_rigid=float(response.unevenness_rigid[0, 0]),
         swing=0.5 * (greatest - least),
-        orders=tuple(found.orders[most].tolist()),
+        orders=tuple(response.orders[most].tolist()),
         by_order=np.abs(theta[most]),
-        weak=np.array([each.unevenness[places, 0] for each in weak]),
-        weak_rigid=np.array([each.unevenness_rigid[0, 0] for each in weak]),
+        weak=np.array([cylinder.unevenness[places, 0] for cylinder in weak]),
+        weak_rigid=np.array([cylinder.unevenness_rigid[0, 0] for cylinder in weak]),
     )
 
 

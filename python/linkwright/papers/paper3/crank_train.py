@@ -150,9 +150,9 @@ class TrialEngine:
         return self._shift(name, "k", stiffness, stiffness / self.stiffness - 1, machine)
 
     def _shift(self, name: str, what: str, value: float, deviation: float, machine: Machine) -> Shift:
-        found = free_vibration(machine).natural_frequencies[list(MODES)]
-        changes = found / self.frequencies - 1
-        return Shift(name, what, value, deviation, found, changes, self.critical(float(found[1])))
+        frequencies = free_vibration(machine).natural_frequencies[list(MODES)]
+        changes = frequencies / self.frequencies - 1
+        return Shift(name, what, value, deviation, frequencies, changes, self.critical(float(frequencies[1])))
 
 
 _NAMES = {
@@ -168,7 +168,7 @@ def throw_checks(trial: TrialEngine) -> dict[str, Any]:
     """(16), rebuilt, over the exact inertia, less one [–]; k of (17) [m]; stiffness by formula [N m/rad]."""
     throw = trial.engine.throw
     assert throw is not None
-    stiffness = {_NAMES[name]: 1 / each for name, each in compliances(throw).items()}
+    stiffness = {_NAMES[name]: 1 / compliance for name, compliance in compliances(throw).items()}
     return {
         "inertia": published_inertia(throw) / trial.own - 1,
         "restraint": throw.restraint_length or restraint_length(throw),

@@ -99,7 +99,7 @@ def _formulas(paper: Paper3) -> Figure:
     trial, shifts = paper.trial, paper.shifts
     names = ["exact, (17) with k by Castigliano", *(shift.name for shift in shifts)]
     exact = trial.critical(float(trial.frequencies[1]))
-    speeds = [each * 30 / math.pi for each in (exact, *(shift.critical for shift in shifts))]
+    speeds = [speed * 30 / math.pi for speed in (exact, *(shift.critical for shift in shifts))]
     colours = [INK, *(BLUE if shift.what == "J" else ORANGE for shift in shifts)]
     figure, (axes,) = panels(1, height=3.6)
     rows = range(len(names))
@@ -117,14 +117,14 @@ def _formulas(paper: Paper3) -> Figure:
 @styled
 def _amplitude(paper: Paper3) -> Figure:
     """Vibration along the shaft at the speed of service."""
-    found = paper.uneven
+    uneven = paper.uneven
     figure, (axes,) = panels(1, height=2.9)
-    axes.plot(np.degrees(found.swing), "o-", color=INK, markersize=4, label="all orders in phase")
-    for order, swing, colour in zip(found.orders, found.by_order, LINES, strict=False):
+    axes.plot(np.degrees(uneven.swing), "o-", color=INK, markersize=4, label="all orders in phase")
+    for order, swing, colour in zip(uneven.orders, uneven.by_order, LINES, strict=False):
         axes.plot(np.degrees(swing), "o-", color=colour, markersize=4, label=f"order {order:g}")
     axes.set_ylim(0, None)
     axes.set_ylabel("amplitude [°]")
-    _shaft_axis(axes, found.discs)
+    _shaft_axis(axes, uneven.discs)
     legend_above(axes)
     return figure
 
@@ -132,19 +132,19 @@ def _amplitude(paper: Paper3) -> Figure:
 @styled
 def _unevenness(paper: Paper3) -> Figure:
     """N and δ along the shaft, rigid and with torsion, and δ with any one cylinder weak."""
-    found, x = paper.uneven, np.arange(len(paper.uneven.discs))
+    uneven, x = paper.uneven, np.arange(len(paper.uneven.discs))
     figure, (axes,) = panels(1, height=3.1)
-    least, most = found.weak.min(axis=0), found.weak.max(axis=0)
+    least, most = uneven.weak.min(axis=0), uneven.weak.max(axis=0)
     axes.fill_between(x, least, most, color=SKY, alpha=0.4, label=f"δ, {_weakness(paper)}")
     for torsional, rigid, colour, name in (
-        (found.delta, found.delta_rigid, BLUE, "δ"),
-        (found.N, found.N_rigid, RED, "N"),
+        (uneven.delta, uneven.delta_rigid, BLUE, "δ"),
+        (uneven.N, uneven.N_rigid, RED, "N"),
     ):
         axes.plot(x, torsional, "o-", color=colour, markersize=4, label=name)
         axes.plot(x, np.full(len(x), rigid), "--", color=colour, label=f"{name}, rigid")
     log_height(axes)
     axes.set_ylabel("unevenness")
-    _shaft_axis(axes, found.discs)
+    _shaft_axis(axes, uneven.discs)
     axes.legend(loc="lower left", ncols=2)
     return figure
 
@@ -163,13 +163,13 @@ def _cylinder_axis(axes: Axes, numbers: Sequence[str]) -> None:
 @styled
 def _cylinders(paper: Paper3) -> Figure:
     """N of each cylinder over the mean of all, sound engine."""
-    found = paper.uneven
-    along = found.sound
+    uneven = paper.uneven
+    along = uneven.sound
     figure, (axes,) = panels(1, height=2.9)
     for values, colour, mark, label in (
         (along.share_rigid[0], RED, "s--", "rigid, everywhere"),
-        (along.share[found.places[0]], BLUE, "o-", "free end, with torsion"),
-        (along.share[found.places[found.flywheel]], GREEN, "^-", "flywheel, with torsion"),
+        (along.share[uneven.places[0]], BLUE, "o-", "free end, with torsion"),
+        (along.share[uneven.places[uneven.flywheel]], GREEN, "^-", "flywheel, with torsion"),
     ):
         axes.plot(values / values.mean(), mark, color=colour, markersize=5, linewidth=1.0, label=label)
     axes.set_ylim(0, None)
@@ -183,16 +183,16 @@ def _cylinders(paper: Paper3) -> Figure:
 @styled
 def _delta(paper: Paper3) -> Figure:
     """What each weak cylinder does to δ, rigid and as it is seen at both ends of the crankshaft."""
-    found = paper.uneven
+    uneven = paper.uneven
     figure, (axes,) = panels(1, height=2.9)
     for values, colour, mark, label in (
-        (found.rise_rigid, RED, "s", "rigid, everywhere"),
-        (found.rise[:, 0], BLUE, "o", "free end, with torsion"),
-        (found.rise[:, found.flywheel], GREEN, "^", "flywheel, with torsion"),
+        (uneven.rise_rigid, RED, "s", "rigid, everywhere"),
+        (uneven.rise[:, 0], BLUE, "o", "free end, with torsion"),
+        (uneven.rise[:, uneven.flywheel], GREEN, "^", "flywheel, with torsion"),
     ):
         axes.plot(100 * (values - 1), mark, color=colour, markersize=5, label=label)
     axes.axhline(0, color=SOFT, linewidth=0.8)
-    _cylinder_axis(axes, [str(n + 1) for n in range(len(found.weak))])
+    _cylinder_axis(axes, [str(n + 1) for n in range(len(uneven.weak))])
     axes.set_xlabel(f"the weak cylinder, {_weakness(paper).removeprefix('one cylinder ')}")
     axes.set_ylabel("change of δ [%]")
     legend_above(axes)
@@ -202,17 +202,17 @@ def _delta(paper: Paper3) -> Figure:
 @styled
 def _weak(paper: Paper3) -> Figure:
     """Shares of the combustion that come out where one is weak; rigid ones against the sound engine."""
-    found = paper.weak
+    weak = paper.weak
     figure, (axes,) = panels(1, height=2.9)
     for values, colour, mark, label in (
-        (found.elastic[0], INK, "o", "elastic"),
-        (found.against_sound[0], BLUE, "x", "rigid, free end"),
-        (found.against_sound[1], GREEN, "+", "rigid, flywheel"),
-        (found.against_sound[2], RED, "1", "rigid, behind the coupling"),
+        (weak.elastic[0], INK, "o", "elastic"),
+        (weak.against_sound[0], BLUE, "x", "rigid, free end"),
+        (weak.against_sound[1], GREEN, "+", "rigid, flywheel"),
+        (weak.against_sound[2], RED, "1", "rigid, behind the coupling"),
     ):
         axes.plot(values, mark, color=colour, markersize=6, label=label)
     axes.axhline(1, color=SOFT, linewidth=0.8)
-    _cylinder_axis(axes, [str(n + 1) for n in range(len(found.elastic[0]))])
+    _cylinder_axis(axes, [str(n + 1) for n in range(len(weak.elastic[0]))])
     axes.set_ylabel("share of the combustion")
     legend_above(axes)
     return figure

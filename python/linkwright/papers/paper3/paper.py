@@ -61,22 +61,22 @@ class Paper3(Paper):
 
     def _of_rods(self) -> dict[str, Any]:
         """(1) to (15)."""
-        found, swing, (low, high) = self.inertia, self.swing, self.published["printed"]["k"]
-        literal, reduced, low_k = found["shifts"][0], found["shifts"][1], found["shifts"][3]
-        disc_off = max(abs(found["one_rod"]), abs(found["series"]))
+        inertia, swing, (low, high) = self.inertia, self.swing, self.published["printed"]["k"]
+        literal, reduced, low_k = inertia["shifts"][0], inertia["shifts"][1], inertia["shifts"][3]
+        disc_off = max(abs(inertia["one_rod"]), abs(inertia["series"]))
         allowed = tolerance("digits")
         return {
             "usual": (low, high),
             "usual_centres": (1 - math.sqrt(low), 1 - math.sqrt(high)),
-            "usual_fits": low <= found["share"] <= high,
-            "usual_is_small_end": not low <= found["share"] <= high and low <= 1 - found["share"] <= high,
-            "small_share": 1 - found["share"],
+            "usual_fits": low <= inertia["share"] <= high,
+            "usual_is_small_end": not low <= inertia["share"] <= high and low <= 1 - inertia["share"] <= high,
+            "small_share": 1 - inertia["share"],
             "low_k_takes": -low_k.deviation,
-            "simple_printed": (1 + found["simple"]) * (1 + found["printed"]) - 1,
-            "articulated_deviation": found["articulated_printed"] / found["articulated"] - 1,
-            "articulated_times": found["articulated_printed"] / found["articulated_share"],
+            "simple_printed": (1 + inertia["simple"]) * (1 + inertia["printed"]) - 1,
+            "articulated_deviation": inertia["articulated_printed"] / inertia["articulated"] - 1,
+            "articulated_times": inertia["articulated_printed"] / inertia["articulated_share"],
             "disc_off": disc_off,
-            "discs_agree": disc_off < allowed.near and disc_off < abs(found["simple"]),
+            "discs_agree": disc_off < allowed.near and disc_off < abs(inertia["simple"]),
             "literal_times": 1 + literal.deviation,
             "reduced_off": abs(reduced.deviation),
             "articulated_misread": abs(literal.deviation) > allowed.near > abs(reduced.deviation),
@@ -88,18 +88,20 @@ class Paper3(Paper):
 
     def _of_throws(self) -> dict[str, Any]:
         """(16) and (17), and the frequencies by each formula."""
-        trial, found = self.trial, self.throw
-        first, *others = found["stiffness"].values()
+        trial, throw = self.trial, self.throw
+        first, *others = throw["stiffness"].values()
         off = (min(others) / first - 1, max(others) / first - 1)
-        stiff = sorted((shift for shift in self.shifts if shift.what == "k"), key=lambda each: each.critical)
+        stiff = sorted(
+            (shift for shift in self.shifts if shift.what == "k"), key=lambda shift: shift.critical
+        )
         discs = max(abs(shift.changes[1]) for shift in self.shifts[1:] if shift.what == "J")
-        words, kind = holding(found["inertia"], tolerance("digits"))
+        words, kind = holding(throw["inertia"], tolerance("digits"))
         return {
             "trains": [self._exact_train(), *(_train(shift) for shift in self.shifts)],
             "critical": trial.critical(float(trial.frequencies[1])),
             "rebuilt_inertia": words,
             "rebuilt_inertia_holds": kind != "far",
-            "stiffness": [f"{name} {1e-6 * each:.3g}" for name, each in found["stiffness"].items()],
+            "stiffness": [f"{name} {1e-6 * stiffness:.3g}" for name, stiffness in throw["stiffness"].items()],
             "others": off,
             "rebuilt_stiffness_is_usual": off[0] < 0 < off[1],
             "softest": stiff[0],
@@ -119,32 +121,32 @@ class Paper3(Paper):
 
     def _of_unevenness(self) -> dict[str, Any]:
         """N along the shaft, and what weak cylinders do to δ."""
-        found = self.uneven
-        N = [float(found.N[at]) for at in (0, found.flywheel, -1)]
-        free, wheel = found.rise[:, 0] - 1, found.rise[:, found.flywheel] - 1
-        rise = {"rigid": found.rise_rigid - 1, "free": free, "wheel": wheel}
+        uneven = self.uneven
+        N = [float(uneven.N[at]) for at in (0, uneven.flywheel, -1)]
+        free, wheel = uneven.rise[:, 0] - 1, uneven.rise[:, uneven.flywheel] - 1
+        rise = {"rigid": uneven.rise_rigid - 1, "free": free, "wheel": wheel}
         return {
             "N": N,
-            "N_times": [each / found.N_rigid for each in N],
-            "rise": {name: (each.min(), each.max()) for name, each in rise.items()},
+            "N_times": [number / uneven.N_rigid for number in N],
+            "rise": {name: (gain.min(), gain.max()) for name, gain in rise.items()},
             "smoothed": int((free < 0).sum()),
             "cylinders": len(free),
-            "torsion_counts": N[0] > N[1] > found.N_rigid > N[2],
+            "torsion_counts": N[0] > N[1] > uneven.N_rigid > N[2],
             "weak_may_smooth": bool((free < 0).any() and (rise["rigid"] > 0).all()),
         }
 
     def _of_weakness(self) -> dict[str, Any]:
         """How well the weak cylinder is found."""
-        found, factor = self.weak, self.published["chosen"]["weak"]
-        at = found.cylinder - 1
-        within = float(abs(found.elastic[:2, at] - factor).max())
-        against = found.against_sound[:, at].tolist()
-        points = (found.against_sound[:2].argmin(axis=1) == at).all()
-        wrong = max(abs(each - factor) for each in against)
+        weak, factor = self.weak, self.published["chosen"]["weak"]
+        at = weak.cylinder - 1
+        within = float(abs(weak.elastic[:2, at] - factor).max())
+        against = weak.against_sound[:, at].tolist()
+        points = (weak.against_sound[:2].argmin(axis=1) == at).all()
+        wrong = max(abs(value - factor) for value in against)
         sees_smoother = bool((self.uneven.rise[:, 0] < 1).any())
         return {
             "found_within": within,
-            "rigid_range": (float(found.rigid[0].min()), float(found.rigid[0].max())),
+            "rigid_range": (float(weak.rigid[0].min()), float(weak.rigid[0].max())),
             "against_sound": against,
             # A thousandth tells 0.8 from 0.801, far less than cylinders of one engine differ.
             "elastic_finds_it": within < 1e-3 < wrong and bool(points),

@@ -125,10 +125,10 @@ class LeverFormula:
     def change_point_rates(self) -> tuple[float, float]:
         """Limits of |dφ_5/dφ_1| at the top and at the bottom."""
         m, M = self.unit.extremes()
-        found = []
+        rates = []
         for (angle, _), l_d in zip(self.unit.ends(), (m, M), strict=True):
-            found.append(float(np.sqrt(abs(self._curvature(angle)) * self.l_4 / (l_d * self.l_5))))
-        return found[0], found[1]
+            rates.append(float(np.sqrt(abs(self._curvature(angle)) * self.l_4 / (l_d * self.l_5))))
+        return rates[0], rates[1]
 
     def _curvature(self, angle: float) -> float:
         """l_d'' where l_d' is zero: l_d'' = (dl_d/dφ_3) φ_3'', and φ_3'' from the pitman's end in line."""

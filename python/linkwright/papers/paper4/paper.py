@@ -68,11 +68,11 @@ def recomputed_places(data: dict[str, Any]) -> tuple[Place, ...]:
 
     k_1, top = _newton(gaps, np.array([given["S"], 0.5]))
     high, low = (-given["k"] * np.array([np.cos(at), np.sin(at)]) for at in (top, top - given["S"] / k_1))
-    found = [
+    places = [
         _place(Unit(x=float(x), y=float(y), k_1=float(k_1), **{name: given[name] for name in _PRINTED}))
         for x, y in _meets(high, low, given["L"] - given["r"], given["L"] + given["r"])
     ]
-    return tuple(sorted(found, key=lambda each: -each.least_angle))
+    return tuple(sorted(places, key=lambda place: -place.least_angle))
 
 
 def _extremes(given: dict[str, float], k_1: float, top: float) -> tuple[float, float]:

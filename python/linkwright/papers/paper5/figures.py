@@ -66,11 +66,11 @@ def _figure3(paper: Paper5) -> Figure:
         _contours(below, surface, surface.exact, BLUE, paper)
         above.set_title(f"v = {surface.forward_speed:g} m/s")
         below.set_xlabel("root diameter D [mm]")
-        for each in (above, below):
-            each.tick_params(labelleft=column == 0)
-            each.set_xticks(_MILLI * surface.root_diameters[:: len(surface.root_diameters) // 3])
-    for each in (axes[0], axes[count]):
-        each.set_ylabel("knife speed $v_h$ [m/s]", **MATH)
+        for axis in (above, below):
+            axis.tick_params(labelleft=column == 0)
+            axis.set_xticks(_MILLI * surface.root_diameters[:: len(surface.root_diameters) // 3])
+    for axis in (axes[0], axes[count]):
+        axis.set_ylabel("knife speed $v_h$ [m/s]", **MATH)
     low, high = (_MILLI * length for length in paper.verdict.claim.lengths)
     lines = [_line(ORANGE, "L by (10) [mm]"), _line(BLUE, "L exact, constant speed [mm]")]
     handles = [*lines, _patch(GREEN, f"{low:.0f}…{high:.0f} mm")]
@@ -124,16 +124,18 @@ def _step(paper: Paper5) -> Figure:
 def _bands(paper: Paper5) -> Figure:
     """Bands of heads over the angle for which each way gives a length within the result."""
     figure, (axes,) = panels(1, height=3.9)
-    found, degrees = paper.verdict, np.linspace(0.0, 62.0, 621)
+    verdict, degrees = paper.verdict, np.linspace(0.0, 62.0, 621)
     for way, words in WAYS.items():
-        low, high = _MILLI * bands_of(found.claim, way, np.radians(degrees), found.shares[0], found.stroke)
+        low, high = _MILLI * bands_of(
+            verdict.claim, way, np.radians(degrees), verdict.shares[0], verdict.stroke
+        )
         there = high > 0
         axes.fill_between(
             degrees[there], low[there], high[there], color=COLOURS[way], alpha=0.3, linewidth=0, label=words
         )
         for edge in (low, high):
             axes.plot(degrees[there], edge[there], color=COLOURS[way], linewidth=1.1)
-    level(axes, _MILLI * found.chosen.band, "roots chosen here, the largest", INK)
+    level(axes, _MILLI * verdict.chosen.band, "roots chosen here, the largest", INK)
     axes.set_xlim(0, 62)
     axes.set_ylim(0, 620)
     axes.set_xlabel("angle of the edge α [°]")
@@ -145,25 +147,27 @@ def _bands(paper: Paper5) -> Figure:
 @styled
 def _heads(paper: Paper5) -> Figure:
     """Cut heights and offsets of the largest root for which each way gives a length within the result."""
-    data, found = paper.published, paper.verdict
+    data, verdict = paper.published, paper.verdict
     angles = data["verdict"]["map_angles"]
     figure, axes = panels(1, height=3.4, columns=len(angles))
     ends = (data["verdict"][f"map_{name}"] for name in ("cut_heights", "offsets"))
     h_p, delta = (np.linspace(low, high, 121) for low, high in ends)
     d = head_diameter(data["chosen"]["root_diameters"][1], h_p)
-    for each, angle in zip(axes, angles, strict=True):
+    for axis, angle in zip(axes, angles, strict=True):
         for way, colour in COLOURS.items():
-            L = lengths_over(found.claim, way, np.radians(angle), d, delta[:, None], found.stroke)[1]
-            each.contourf(
-                _MILLI * h_p, _MILLI * delta, L, levels=found.claim.lengths, colors=[colour], alpha=0.3
+            L = lengths_over(verdict.claim, way, np.radians(angle), d, delta[:, None], verdict.stroke)[1]
+            axis.contourf(
+                _MILLI * h_p, _MILLI * delta, L, levels=verdict.claim.lengths, colors=[colour], alpha=0.3
             )
-            each.contour(
-                _MILLI * h_p, _MILLI * delta, L, levels=found.claim.lengths, colors=[colour], linewidths=1.1
+            axis.contour(
+                _MILLI * h_p, _MILLI * delta, L, levels=verdict.claim.lengths, colors=[colour], linewidths=1.1
             )
-        each.plot(_MILLI * data["chosen"]["cut_height"], _MILLI * found.offset, "o", color=INK, markersize=4)
-        each.set_title(f"α = {angle:g}°")
-        each.set_xlabel("cut height $h_p$ [mm]", **MATH)
-        each.tick_params(labelleft=each is axes[0])
+        axis.plot(
+            _MILLI * data["chosen"]["cut_height"], _MILLI * verdict.offset, "o", color=INK, markersize=4
+        )
+        axis.set_title(f"α = {angle:g}°")
+        axis.set_xlabel("cut height $h_p$ [mm]", **MATH)
+        axis.tick_params(labelleft=axis is axes[0])
     axes[0].set_ylabel("offset Δ [mm]")
     handles = [_patch(COLOURS[way], words) for way, words in WAYS.items()]
     dot = _line(INK, "chosen here", marker="o", markersize=4, linestyle="none")

@@ -99,10 +99,10 @@ class ClaimVerdict:
             "head_diameters": list(self.diameters),
             "offset": self.offset,
             "angles": [angle.to_dict() for angle in self.angles],
-            "offsets": finite({way: each.tolist() for way, each in self.offsets.items()}),
+            "offsets": finite({way: ranges.tolist() for way, ranges in self.offsets.items()}),
             "chosen": self.chosen.to_dict(),
             "least_band_published": self.least_band,
-            "throughout": {way: list(each) for way, each in self.throughout.items()},
+            "throughout": {way: list(ranges) for way, ranges in self.throughout.items()},
         }
 
 
@@ -137,7 +137,7 @@ def printed_claim(data: dict[str, Any]) -> Claim:
 
 def _offsets(claim: Claim, way: str, angles: Floats, diameter: float, stroke: Stroke) -> Floats:
     """Offsets of a head whose lengths are those of the claim: all lengths are straight lines over Δ."""
-    none, one = (lengths_over(claim, way, angles, diameter, each, stroke)[1] for each in (0.0, 1.0))
+    none, one = (lengths_over(claim, way, angles, diameter, share, stroke)[1] for share in (0.0, 1.0))
     does = np.isfinite(none)
     per_offset = np.where(does, one, np.nan) - np.where(does, none, 0.0)
     return np.stack([(length - none) / per_offset for length in claim.lengths], axis=-1)
@@ -149,9 +149,9 @@ def _throughout(claim: Claim, diameter: float, offset: float) -> Iterator[tuple[
     angles = _ANGLES[claim.ratios[1] * np.tan(_ANGLES) < 1]
     for way in ("published", "consistent", "constant_speed"):
         least, greatest = lengths_over(claim, way, angles, diameter, offset)
-        found = angles[least >= greatest * low / high]
-        if found.size:
-            yield way, (float(found[0]), float(found[-1]))
+        kept = angles[least >= greatest * low / high]
+        if kept.size:
+            yield way, (float(kept[0]), float(kept[-1]))
 
 
 # Ways → names in sentences.
@@ -223,7 +223,7 @@ class Paper5(Paper):
         rho, a = self.verdict.claim.ratios[1], np.radians(alpha)
         ten = 2 * (np.sqrt(D * h_p - h_p**2) + delta) * (rho * np.cos(a) + np.sin(a))
         nine = length_published(self.verdict.diameters[1] + 2 * delta, a, rho)
-        lengths = [each for surface in self.surfaces for each in (surface.published, surface.exact)]
+        lengths = [length for surface in self.surfaces for length in (surface.published, surface.exact)]
         grows = all((np.diff(length, axis=axis) > 0).all() for length in lengths for axis in (0, 1))
         falls = all(
             (slow.published > fast.published).all() and (slow.exact > fast.exact).all()
@@ -240,12 +240,12 @@ class Paper5(Paper):
 
     def _of_result(self) -> dict[str, Any]:
         """Bands and offsets for which the result holds, in every way."""
-        found = self.verdict
-        angles = [angle.edge_angle for angle in found.angles]
-        bands = [{demand.way: _band(demand) for demand in verdict.demands} for verdict in found.angles]
-        offsets = {way: [_heads(*pair) for pair in each.tolist()] for way, each in found.offsets.items()}
-        nearest = int(np.abs(np.array(angles) - found.chosen.edge_angle).argmin())
-        demands = {demand.way: _demand(demand) for demand in found.chosen.demands}
+        judged = self.verdict
+        angles = [angle.edge_angle for angle in judged.angles]
+        bands = [{demand.way: _band(demand) for demand in verdict.demands} for verdict in judged.angles]
+        offsets = {way: [_heads(*pair) for pair in ranges.tolist()] for way, ranges in judged.offsets.items()}
+        nearest = int(np.abs(np.array(angles) - judged.chosen.edge_angle).argmin())
+        demands = {demand.way: _demand(demand) for demand in judged.chosen.demands}
         return {
             "bands": {
                 # Every other angle of the table is enough in a sentence.
@@ -256,16 +256,16 @@ class Paper5(Paper):
             "offset_rows": [
                 {"angle": a} | {way: offsets[way][n] for way in WAYS} for n, a in enumerate(angles)
             ],
-            "offsets": {way: each[nearest] for way, each in offsets.items()},
+            "offsets": {way: ranges[nearest] for way, ranges in offsets.items()},
             "offsets_angle": angles[nearest],
             "demands": demands,
-            "half_width": 0.5 * found.diameters[1],
+            "half_width": 0.5 * judged.diameters[1],
             "result_fails_by_ten": not demands["published"]["holds"],
             "throughout": [
-                {"name": name, "angles": _angles(found.throughout.get(way))} for way, name in _NAMES.items()
+                {"name": name, "angles": _angles(judged.throughout.get(way))} for way, name in _NAMES.items()
             ],
-            "holds_somewhere": bool(found.throughout),
-            "retreats": float(np.arctan(1 / found.claim.ratios[1])),
+            "holds_somewhere": bool(judged.throughout),
+            "retreats": float(np.arctan(1 / judged.claim.ratios[1])),
         }
 
     def entries(self) -> dict[str, Any]:
@@ -273,8 +273,8 @@ class Paper5(Paper):
         return {
             "chosen": self.published["chosen"],
             "step": {
-                key: each.tolist() if isinstance(each, np.ndarray) else each
-                for key, each in self.step.items()
+                key: entry.tolist() if isinstance(entry, np.ndarray) else entry
+                for key, entry in self.step.items()
             },
             "exact_over_published": self.short,
             "figure3": [surface.to_dict() for surface in self.surfaces],

@@ -63,14 +63,14 @@ def short_checks(claim: Claim, edge_angle: float, offset_share: tuple[float, flo
     chosen = exact_over(
         *np.meshgrid(ratios, [edge_angle], np.linspace(*offset_share, _SHARES), indexing="ij")
     )
-    (by_10, by_4) = ((float(each.min()), float(each.max())) for each in chosen)
+    (by_10, by_4) = ((float(check.min()), float(check.max())) for check in chosen)
     return {
         # 2 cos²θ at the maximum v_h/v: nothing is below it.
         "bound": 2 / (1 + claim.ratios[1] ** 2),
         # Minimum exact length over (10), and v_h/v, α and share of the offsets there; the minimum without
         # offset.
         "least": float(over_10.min()),
-        "least_at": [float(each[at]) for each in shape],
+        "least_at": [float(check[at]) for check in shape],
         "least_axis": float(over_10[..., 0].min()),
         # Minimum over the length by (4); extremes over both for the angle and heads chosen.
         "least_consistent": float(over_4.min()),
@@ -182,7 +182,8 @@ def step_checks(angles: Floats, ratio: float) -> dict[str, Any]:
 def factors(angles: Floats) -> Floats:
     """What (4) has before v_h/v over what (5) has there [–]: rise of both lengths with v_h/v."""
     by_4, by_5 = (
-        each(1.0, angles, 1.0) - each(1.0, angles, 0.0) for each in (length_consistent, length_published)
+        length(1.0, angles, 1.0) - length(1.0, angles, 0.0)
+        for length in (length_consistent, length_published)
     )
     return np.asarray(by_4 / by_5)
 
@@ -203,7 +204,7 @@ def _at_printed_length(angle: float, ratio: float) -> float:
 
 def _flips(angle: float, ratio: float) -> bool:
     length = float(length_consistent(1.0, angle, ratio))
-    short, long = (_edge(angle, length * (1 + each), ratio).holds for each in (-_HAIR, _HAIR))
+    short, long = (_edge(angle, length * (1 + hair), ratio).holds for hair in (-_HAIR, _HAIR))
     return long and not short
 
 

@@ -99,8 +99,8 @@ def expansion_faults(machine: object) -> Iterator[InitErrorDetails]:
     taken = {
         name
         for part in (UNIT, *((ROTATOR_PARTS,) if rotator else ()))
-        for each in part.values()
-        for name in each
+        for element in part.values()
+        for name in element
     }
     for table in TABLES:
         for name in keys(look(own, table)):

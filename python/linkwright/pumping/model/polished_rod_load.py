@@ -85,7 +85,7 @@ class PolishedRodLoad(Description):
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         by_angle = self.angle is not None or self.force is not None
-        by_position = any(each is not None for each in (self.position, self.up, self.down))
+        by_position = any(values is not None for values in (self.position, self.up, self.down))
         if by_angle == by_position:
             found = "both" if by_angle else None
             yield fault(found=found, expected="either angle and force, or position, up and down")

@@ -177,7 +177,7 @@ def lengths(unit: PumpingUnit, rotator: RodRotator) -> Lengths:
         link = np.sqrt(M * m + lever**2)
     if varies:
         has_none = ~(unit.reaches_ends & (lever > 0))
-        return Lengths(*(np.where(has_none, np.nan, each) for each in (link, lever)))
+        return Lengths(*(np.where(has_none, np.nan, length) for length in (link, lever)))
     if not lever > 0:
         raise _no_room(m, M)
     return Lengths(float(link), float(lever))
@@ -232,7 +232,7 @@ def _unattainable(rotator: RodRotator, wanted: float, stroke: _Stroke, spread: A
 
 def _range(spread: Any) -> tuple[float, float]:
     """Minimum and maximum swing of the lever [deg], rounded inward so that what is reported can be had."""
-    low, high = (100 * np.degrees(float(each(spread))) for each in (np.nanmin, np.nanmax))
+    low, high = (100 * np.degrees(float(extreme(spread))) for extreme in (np.nanmin, np.nanmax))
     return float(np.ceil(low) / 100), min(float(np.floor(high) / 100), _MOST)
 
 

@@ -130,17 +130,17 @@ _WORDS = {
 
 def unit_template(designation: str | None = None, hole: int | None = None) -> str:
     """A machine file of a pumping unit."""
-    found = catalogue_unit(designation) if designation is not None else pumping_units()[0]
+    known = catalogue_unit(designation) if designation is not None else pumping_units()[0]
     number = 1 if hole is None else hole
-    stroke = float(found.unit(number).stroke)
+    stroke = float(known.unit(number).stroke)
     return f"""\
-# Beam pumping unit {found.designation}, crank pin in hole {number}.
+# Beam pumping unit {known.designation}, crank pin in hole {number}.
 # Dimensions by the letters of API Spec 11E.
 #
 # The stroke of the mechanism is {stroke:.4f} m;
-# the longest by the designation is {found.rating.stroke:.4f} m.
+# the longest by the designation is {known.rating.stroke:.4f} m.
 format = 1
-name = "Pumping unit {found.designation}, hole {number}"
+name = "Pumping unit {known.designation}, hole {number}"
 source = "Guo, Lyons, Ghalambor, Petroleum Production Engineering, 2007, table 12.1"
 
 [drive]
@@ -148,15 +148,15 @@ speed = "8 rpm"                          # strokes per minute
 
 [pumping_unit]
 geometry = "conventional"
-designation = "{found.designation}"
-{_dimensions(found, number)}
-structural_unbalance = "{found.structural_unbalance / POUND_FORCE:.6g} lbf"
+designation = "{known.designation}"
+{_dimensions(known, number)}
+structural_unbalance = "{known.structural_unbalance / POUND_FORCE:.6g} lbf"
 
 # Load of the polished rod; replace it by that of your well, or remove it.
 [pumping_unit.load]
 position = [0, 0.1, 1]                   # 0 at the bottom of the stroke, 1 at the top
-up = {_loads(found, 0.45, 0.7, 0.65)}
-down = {_loads(found, 0.45, 0.35, 0.3)}
+up = {_loads(known, 0.45, 0.7, 0.65)}
+down = {_loads(known, 0.45, 0.35, 0.3)}
 counterbalance = "optimal"               # or the maximum moment of cranks and counterweights: "20 kN m"
 """
 

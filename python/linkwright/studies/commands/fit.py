@@ -65,18 +65,20 @@ def fit(
 
     folder = output_folder(out, force=force)
     plan = _plan(file, vary or [], motion, set or [], allow_outside=allow_outside)
-    found = compute(plan, read_record(_record(file, record, plan), plan.machine), level=level)
+    fitted = compute(plan, read_record(_record(file, record, plan), plan.machine), level=level)
     hand_over(
         Answer(
             machine=plan.machine.name,
             units=plan.machine.units,
-            results=lambda curves: {"fit": found.to_dict(curves=curves)},
-            findings=[f"{each.words}." for each in found.directions if not each.is_determined],
-            warnings=[f"{warning}." for warning in found.warnings],
-            head=lambda: _head(plan.machine.name, found),
-            tables=lambda: fit_tables(found),
-            files=lambda: {"fitted.toml": dumps(found.machine)},
-            figures=lambda: _figures(found),
+            results=lambda curves: {"fit": fitted.to_dict(curves=curves)},
+            findings=[
+                f"{direction.words}." for direction in fitted.directions if not direction.is_determined
+            ],
+            warnings=[f"{warning}." for warning in fitted.warnings],
+            head=lambda: _head(plan.machine.name, fitted),
+            tables=lambda: fit_tables(fitted),
+            files=lambda: {"fitted.toml": dumps(fitted.machine)},
+            figures=lambda: _figures(fitted),
         ),
         json=json,
         folder=folder,
@@ -135,20 +137,20 @@ def _record(file: Path, record: Path | None, plan: StudyPlan) -> Path:
     return record if record is not None else file.parent / str(own)
 
 
-def _head(name: str, found: Fit) -> str:
+def _head(name: str, fitted: Fit) -> str:
     """What was done, and what is known."""
-    samples, channels = len(found.record.at), ", ".join(found.record.channels)
-    how = "exact" if not found.jacobian_error else f"by differences, to {found.jacobian_error:.1g}"
+    samples, channels = len(fitted.record.at), ", ".join(fitted.record.channels)
+    how = "exact" if not fitted.jacobian_error else f"by differences, to {fitted.jacobian_error:.1g}"
     noise = ", ".join(
-        f"{size:.3g} {found.record.unit(channel)}".rstrip() + f" in {channel}"
-        for channel, size in found.noise.items()
+        f"{size:.3g} {fitted.record.unit(channel)}".rstrip() + f" in {channel}"
+        for channel, size in fitted.noise.items()
     )
     lines = [name, f"{samples} samples of {channels}; derivatives {how}; noise {noise}"]
-    weakest = next((each for each in found.directions if each.is_determined), None)
+    weakest = next((direction for direction in fitted.directions if direction.is_determined), None)
     return "\n".join([*lines, *([] if weakest is None else [f"Known worst: {weakest.words}."])])
 
 
-def _figures(found: Fit) -> dict[str, Any]:
+def _figures(fitted: Fit) -> dict[str, Any]:
     from linkwright.studies.figures import fit_figure
 
-    return {"fit": fit_figure(found)}
+    return {"fit": fit_figure(fitted)}

@@ -62,17 +62,17 @@ def optimise(
         _hand_over_front(plan, points, evaluations, options, json=json, out=out, force=force)
         return
     try:
-        found = compute(plan, evaluations, seed=seed, method=method, starts=starts)
+        optimum = compute(plan, evaluations, seed=seed, method=method, starts=starts)
     except FindingError as error:
         hand_over(Answer(machine=plan.machine.name, findings=[str(error)]), json=json)
         return
     answer = Answer(
         machine=plan.machine.name,
         units=plan.machine.units,
-        results=lambda _: {"optimum": found.to_dict()},
-        head=lambda: _head(plan.machine.name, found),
-        tables=lambda: optimum_tables(found, plan.units),
-        machine_file=lambda: dumps(found.machine),
+        results=lambda _: {"optimum": optimum.to_dict()},
+        head=lambda: _head(plan.machine.name, optimum),
+        tables=lambda: optimum_tables(optimum, plan.units),
+        machine_file=lambda: dumps(optimum.machine),
     )
     hand_over(answer, json=json, out=Path(out) if out else None, force=force)
 
@@ -93,18 +93,18 @@ def _hand_over_front(
     from linkwright.studies.tables import front_tables
 
     try:
-        found = front(plan, points, evaluations, **options)
+        best = front(plan, points, evaluations, **options)
     except FindingError as error:
         hand_over(Answer(machine=plan.machine.name, findings=[str(error)]), json=json)
         return
-    middle = found.machines[len(found.machines) // 2]
+    middle = best.machines[len(best.machines) // 2]
     answer = Answer(
         machine=plan.machine.name,
         units=plan.machine.units,
-        results=lambda _: {"front": found.to_dict()},
-        warnings=[f"no machine has {limit}: {reason}" for limit, reason in found.failed.items()],
-        head=lambda: f"{plan.machine.name}\n{found.n_evaluations} machines computed",
-        tables=lambda: front_tables(found, plan.units),
+        results=lambda _: {"front": best.to_dict()},
+        warnings=[f"no machine has {limit}: {reason}" for limit, reason in best.failed.items()],
+        head=lambda: f"{plan.machine.name}\n{best.n_evaluations} machines computed",
+        tables=lambda: front_tables(best, plan.units),
         machine_file=lambda: dumps(middle.machine),
     )
     hand_over(answer, json=json, out=Path(out) if out else None, force=force)

@@ -75,8 +75,8 @@ def sweep(
     plan = read_study(file, set or [], allow_outside=allow_outside)
     with rows_bar() as watch:
         share = _share(chunks)
-        found = compute(plan, out, chunks=share, workers=workers, cluster=cluster, watch=watch)
-    hand_over(_answer(plan.machine, found, plan.units), json=json)
+        swept = compute(plan, out, chunks=share, workers=workers, cluster=cluster, watch=watch)
+    hand_over(_answer(plan.machine, swept, plan.units), json=json)
 
 
 def show(folder: Folder, out: Drawn = None, force: Force = False, json: Json = False) -> None:
@@ -118,25 +118,25 @@ def _share(text: str) -> tuple[int, int] | None:
     return int(first), int(last)
 
 
-def _answer(machine: Machine, found: Sweep, units: dict[str, str]) -> Answer:
+def _answer(machine: Machine, swept: Sweep, units: dict[str, str]) -> Answer:
     """Counts, extremes, and what failed."""
     from linkwright.studies.tables import sweep_tables
 
-    solved = found.n_done - found.n_failed
-    missing = found.n_rows - found.n_done
-    warnings = [f"{name} was truncated and is computed again." for name in found.repaired]
+    solved = swept.n_done - swept.n_failed
+    missing = swept.n_rows - swept.n_done
+    warnings = [f"{name} was truncated and is computed again." for name in swept.repaired]
     if missing:
-        warnings.append(f"{missing} rows of {found.n_rows} are not computed yet.")
+        warnings.append(f"{missing} rows of {swept.n_rows} are not computed yet.")
     return Answer(
         machine=machine.name,
         units=machine.units,
-        results=lambda _: {"sweep": found.to_dict()},
+        results=lambda _: {"sweep": swept.to_dict()},
         findings=[] if solved else ["No row has a result."],
         warnings=warnings,
         head=lambda: (
-            f"{machine.name}\n{found.n_done} of {found.n_rows} rows in {found.path}, {solved} solved"
+            f"{machine.name}\n{swept.n_done} of {swept.n_rows} rows in {swept.path}, {solved} solved"
         ),
-        tables=partial(sweep_tables, found, units),
+        tables=partial(sweep_tables, swept, units),
     )
 
 
@@ -178,14 +178,14 @@ def rows_bar() -> Iterator[Callable[[int, int, float], None]]:
     """Show how many rows are done; yields a call that takes rows done, rows in all and rows a second."""
     start = monotonic()
     shown = None
-    told = start
+    last = start
 
     def watch(done: int, total: int, rate: float) -> None:
-        nonlocal shown, told
+        nonlocal shown, last
         now = monotonic()
         if not sys.stderr.isatty():
-            if now - told > _LINES:
-                told = now
+            if now - last > _LINES:
+                last = now
                 left = (total - done) / rate
                 click.echo(f"{done} of {total} rows, {rate:.4g} rows/s, {left:.0f} s left", err=True)
             return

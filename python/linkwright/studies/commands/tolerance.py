@@ -56,19 +56,21 @@ def tolerance(
     if allocate is not None:
         _hand_over_allocation(plan, allocate, cost_power, rows, seed, json=json)
         return
-    found = compute(plan, rows, seed=seed, indices=indices)
-    failed = f"{found.n_failed} of {found.n_rows} machines have no result; they count as outside the limits."
+    scatter = compute(plan, rows, seed=seed, indices=indices)
+    failed = (
+        f"{scatter.n_failed} of {scatter.n_rows} machines have no result; they count as outside the limits."
+    )
     answer = Answer(
         machine=plan.machine.name,
         units=plan.machine.units,
-        results=lambda _: {"tolerance": found.to_dict()},
-        findings=["No machine within the tolerances keeps all limits."] if found.share_within == 0 else [],
+        results=lambda _: {"tolerance": scatter.to_dict()},
+        findings=["No machine within the tolerances keeps all limits."] if scatter.share_within == 0 else [],
         warnings=[
-            *([failed] if found.n_failed else []),
-            *(f"{name} has a derivative on either side only: {why}" for name, why in found.ties.items()),
+            *([failed] if scatter.n_failed else []),
+            *(f"{name} has a derivative on either side only: {why}" for name, why in scatter.ties.items()),
         ],
-        head=lambda: _head(plan, found),
-        tables=lambda: tolerance_tables(found, plan.units),
+        head=lambda: _head(plan, scatter),
+        tables=lambda: tolerance_tables(scatter, plan.units),
     )
     hand_over(answer, json=json)
 
@@ -82,35 +84,35 @@ def _hand_over_allocation(
     from linkwright.studies.tables import allocation_tables
 
     try:
-        found = allocate(plan, wanted, power=power, rows=rows, seed=seed)
+        allocation = allocate(plan, wanted, power=power, rows=rows, seed=seed)
     except FindingError as error:
         hand_over(Answer(machine=plan.machine.name, findings=[str(error)]), json=json)
         return
-    low, high = 100 * found.share_low, 100 * found.share_high
+    low, high = 100 * allocation.share_low, 100 * allocation.share_high
     head = (
-        f"{plan.machine.name}\ncost {found.cost:.4g} instead of {found.cost_before:.4g}; yield "
-        f"{100 * found.share_within:.4g} % ({low:.4g} to {high:.4g} %) instead of "
-        f"{100 * found.share_before:.4g} %\nheld down by {', '.join(found.active)}"
+        f"{plan.machine.name}\ncost {allocation.cost:.4g} instead of {allocation.cost_before:.4g}; yield "
+        f"{100 * allocation.share_within:.4g} % ({low:.4g} to {high:.4g} %) instead of "
+        f"{100 * allocation.share_before:.4g} %\nheld down by {', '.join(allocation.active)}"
     )
     answer = Answer(
         machine=plan.machine.name,
         units=plan.machine.units,
-        results=lambda _: {"allocation": found.to_dict()},
+        results=lambda _: {"allocation": allocation.to_dict()},
         head=lambda: head,
-        tables=lambda: allocation_tables(found, plan.units),
+        tables=lambda: allocation_tables(allocation, plan.units),
     )
     hand_over(answer, json=json)
 
 
-def _head(plan: StudyPlan, found: Tolerance) -> str:
+def _head(plan: StudyPlan, scatter: Tolerance) -> str:
     """Name of the machine and its yield."""
-    rest = [name for name in plan.responses if name not in found.exact]
+    rest = [name for name in plan.responses if name not in scatter.exact]
     how = f"by differences of {', '.join(rest)}, exact otherwise" if rest else "exact"
-    lines = [plan.machine.name, f"{found.n_rows} machines; derivatives {how}"]
-    if found.share_within is not None:
-        low, high = 100 * (found.share_low or 0.0), 100 * (found.share_high or 0.0)
+    lines = [plan.machine.name, f"{scatter.n_rows} machines; derivatives {how}"]
+    if scatter.share_within is not None:
+        low, high = 100 * (scatter.share_low or 0.0), 100 * (scatter.share_high or 0.0)
         lines.append(
-            f"yield {100 * found.share_within:.4g} % within the limits, {low:.4g} to {high:.4g} % at a level "
-            f"of {100 * found.level:g} %"
+            f"yield {100 * scatter.share_within:.4g} % within the limits, {low:.4g} to {high:.4g} % at a "
+            f"level of {100 * scatter.level:g} %"
         )
     return "\n".join(lines)

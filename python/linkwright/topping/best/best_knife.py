@@ -203,7 +203,7 @@ def best_knife(
     keeps = search.keeps(chosen)
     return KnifeSearch(
         map_angle=np.array([row[0].edge_angle for row in table]),
-        map_speed=np.array([each.knife_speed for each in table[0]]),
+        map_speed=np.array([row.knife_speed for row in table[0]]),
         map_length=np.array([[value.length for value in row] for row in table]),
         map_slicing=np.array([[value.slicing for value in row] for row in table]),
         objective=objective,
@@ -267,9 +267,9 @@ def _at_bounds(chosen: Trial, search: KnifeGrid) -> tuple[str, ...]:
     }
     if search.is_fastest:
         ranges["forward_speed"] = (chosen.forward_speed, *search.speeds)
-    found = []
+    bounds = []
     for key, (value, low, high) in ranges.items():
         near = _ON * (high - low)
         if high > low and min(value - low, high - value) <= near:
-            found.append(f"{key}_min" if value - low <= near else f"{key}_max")
-    return tuple(found)
+            bounds.append(f"{key}_min" if value - low <= near else f"{key}_max")
+    return tuple(bounds)

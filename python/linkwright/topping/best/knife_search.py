@@ -82,8 +82,8 @@ class KnifeGrid:
         slow = max(self.speeds[0], chosen.forward_speed - (self.speeds[1] - self.speeds[0]) / (_SPEEDS - 1))
         if not self.is_fastest or self.keeps(best) or slow >= chosen.forward_speed:
             return best
-        found = self._settled(chosen, slow)
-        return self._between(found, chosen.forward_speed, lambda v: self._settled(chosen, v))
+        settled = self._settled(chosen, slow)
+        return self._between(settled, chosen.forward_speed, lambda v: self._settled(chosen, v))
 
     def _settled(self, chosen: Trial, forward_speed: float) -> Trial:
         own = self._at(chosen.edge_angle, chosen.knife_speed, forward_speed)
@@ -104,11 +104,11 @@ class KnifeGrid:
     def fastest(self) -> Trial:
         """The knife of the maximum forward speed; the one that comes closest if none keeps the limits."""
         speeds = np.linspace(*self.speeds, _SPEEDS if self.speeds[1] > self.speeds[0] else 1).tolist()
-        found = [self.shortest(speed) for speed in speeds]
-        kept = [i for i, each in enumerate(found) if self.keeps(each)]
+        knives = [self.shortest(speed) for speed in speeds]
+        kept = [i for i, knife in enumerate(knives) if self.keeps(knife)]
         if not kept:
-            return min(found, key=self._order)
-        best = found[kept[-1]]
+            return min(knives, key=self._order)
+        best = knives[kept[-1]]
         if kept[-1] + 1 == len(speeds):
             return best
         return self._between(best, speeds[kept[-1] + 1], self.shortest)
@@ -136,10 +136,10 @@ class KnifeGrid:
         return lack, math.inf if math.isnan(trial.length) else trial.length
 
     def _at(self, angle: float, speed: float, forward_speed: float) -> Trial:
-        found = self.trials.at(angle, speed, forward_speed)
+        trial = self.trials.at(angle, speed, forward_speed)
         if self._watch is not None:
             self._watch(min(1.0, self.trials.count / self._all))
-        return found
+        return trial
 
 
 def _listed(table: list[list[Trial]]) -> list[Trial]:

@@ -72,17 +72,17 @@ def topper_figures(machine: Machine, described: Topper, study: TopperStudy) -> I
 
 def _view(cut: _Cut) -> Captioned:
     offset, phase = cut.head
-    found, length = cut.found, cut.described.edge_length
-    head = (found.head_diameter, offset, phase, length)
+    study, length = cut.found, cut.described.edge_length
+    head = (study.head_diameter, offset, phase, length)
     seen = head_pass(worse_edge(cut.edges, *head), *head)
-    figure = top_view_figure(seen, cut.described.offset, None if cut.leaves else (found.last_x, found.last_y))
+    figure = top_view_figure(seen, cut.described.offset, None if cut.leaves else (study.last_x, study.last_y))
     moves = f" in the phase {degrees(phase)}" if cut.edges[0].knife.rate else ""
     where = f"{_place(offset)}{moves}"
     if cut.leaves:
-        words = f"The head with the maximum uncut share, {where}: {percent(found.uncut_share)}, hatched."
+        words = f"The head with the maximum uncut share, {where}: {percent(study.uncut_share)}, hatched."
     else:
         words = (
-            f"The head that requires the longest edge, {where}: {mm(found.length_exact)}. The edge of "
+            f"The head that requires the longest edge, {where}: {mm(study.length_exact)}. The edge of "
             f"{mm(length)} cuts it completely."
         )
     words += " Five positions of the edge, later ones darker; the machine travels to the right."
@@ -97,17 +97,17 @@ def _place(offset: float) -> str:
 
 
 def _phases(cut: _Cut) -> Captioned:
-    found, length = cut.found, cut.described.edge_length
+    study, length = cut.found, cut.described.edge_length
     if cut.described.motion.phase is None:
         words = (
-            f"At the worst offset heads require {mm(found.length_best_phase)} to {mm(found.length_exact)}, "
+            f"At the worst offset heads require {mm(study.length_best_phase)} to {mm(study.length_exact)}, "
             "depending on the phase."
         )
     else:
         words = f"Heads meet the knife only in the phase {degrees(cut.described.motion.phase)}, dotted."
     if cut.leaves:
-        words += f" An edge of {mm(length)} leaves up to {percent(found.uncut_share)} of a head."
-    figure = phase_figure(found, length, cut.described.motion.phase)
+        words += f" An edge of {mm(length)} leaves up to {percent(study.uncut_share)} of a head."
+    figure = phase_figure(study, length, cut.described.motion.phase)
     return Captioned("topper_phase", "Required length over the phase of the knife", words, figure)
 
 
@@ -147,8 +147,8 @@ def _verdict(cut: _Cut) -> Captioned:
 
 
 def _use(cut: _Cut) -> Captioned:
-    found, length = cut.found, cut.described.edge_length
-    place, use = found.edge_place, found.edge_use
+    study, length = cut.found, cut.described.edge_length
+    place, use = study.edge_place, study.edge_use
     total = float(np.trapezoid(use, place))
     inside = np.abs(place) <= 0.5 * length
     share = float(np.trapezoid(np.where(inside, use, 0.0), place)) / total if total else 0.0
@@ -160,18 +160,18 @@ def _use(cut: _Cut) -> Captioned:
     )
     if share < 1 - 1e-4:
         words += f" About {percent(1 - share)} of the cut lies beyond the ends of this edge."
-    figure = edge_use_figure(place, use, length, found.head_diameter)
+    figure = edge_use_figure(place, use, length, study.head_diameter)
     return Captioned("topper_use", "Use of the edge along its length", words, figure)
 
 
 def _slicing(cut: _Cut) -> Captioned:
     phases = np.linspace(0.0, 2 * math.pi, _PHASES)
     ratio, speed = slicing_over_phase(cut.edges[0], phases)
-    found = cut.found
+    study = cut.found
     words = (
         "Draw-cut ratio: speed along the edge over speed normal to it; mean over the cut area "
-        f"{number(found.slicing_ratio_mean, 3)}."
+        f"{number(study.slicing_ratio_mean, 3)}."
     )
-    if found.edge_retreats:
+    if study.edge_retreats:
         words += " Where it retreats, its back meets the head."
     return Captioned("topper_slicing", "Slicing over the phase", words, slicing_figure(phases, ratio, speed))

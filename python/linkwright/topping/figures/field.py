@@ -154,8 +154,8 @@ def sweep_figure(swept: FieldSweep) -> Figure:
         _other(axes[3], x, swept, is_cut=name == "cut_height")
     for axis in axes[-2:]:
         axis.set_xlabel(label, **MATH)
-    for each in axes[1:]:
-        each.set_ylim(bottom=0)
+    for panel in axes[1:]:
+        panel.set_ylim(bottom=0)
     return figure
 
 
@@ -187,12 +187,12 @@ def sweep_map(swept: FieldSweep) -> Figure:
         (100 * swept.share_complete, "heads cut through [%]"),
         (1e3 * swept.length_for_95, "length for 95 % of heads [mm]"),
     )
-    for each, (values, title) in zip(axes, maps, strict=True):
+    for axis, (values, title) in zip(axes, maps, strict=True):
         first, second = (factor * np.unique(swept.entries[name]) for name, factor in _scales(swept))
-        _map(each, (first, second), _drawable(values).reshape(swept.shape), title)
+        _map(axis, (first, second), _drawable(values).reshape(swept.shape), title)
         across, up = swept.entries
-        each.set_xlabel(AXES[across][0], **MATH)
-        each.set_ylabel(AXES[up][0], **MATH)
+        axis.set_xlabel(AXES[across][0], **MATH)
+        axis.set_ylabel(AXES[up][0], **MATH)
     return figure
 
 

@@ -66,16 +66,16 @@ def length_chart_figure(chart: LengthChart) -> Figure:
         (axes[3:], chart.over_speeds, 1.0, "knife speed $v_h$ [m/s]", chart.knife_speed),
     )
     for row, lines, scale, words, own in rows:
-        for each, way in zip(row, _TITLES, strict=True):
-            _way(each, chart, lines, way, scale)
-            each.plot(scale * own, _MILLI * chart.edge_length, "o", color=INK, markersize=4.5)
-            each.set_xlabel(words, **MATH)
-            each.set_xlim(scale * lines.along[0], scale * lines.along[-1])
-            each.set_ylim(0, _MILLI * top)
-            each.tick_params(labelleft=each is row[0])
+        for axis, way in zip(row, _TITLES, strict=True):
+            _way(axis, chart, lines, way, scale)
+            axis.plot(scale * own, _MILLI * chart.edge_length, "o", color=INK, markersize=4.5)
+            axis.set_xlabel(words, **MATH)
+            axis.set_xlim(scale * lines.along[0], scale * lines.along[-1])
+            axis.set_ylim(0, _MILLI * top)
+            axis.tick_params(labelleft=axis is row[0])
         row[0].set_ylabel("L [mm]")
-    for each, words in zip(axes[:3], _TITLES.values(), strict=True):
-        each.set_title(words)
+    for axis, words in zip(axes[:3], _TITLES.values(), strict=True):
+        axis.set_title(words)
     handles, labels = axes[2].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper left", ncols=5, handlelength=1.6, columnspacing=1.4)
     return figure
@@ -214,13 +214,13 @@ def slicing_figure(phases: Floats, ratio: Floats, speed: Floats) -> Figure:
     """
     figure, axes = panels(2, height=4.0)
     degrees, drawn = np.degrees(phases), np.where(ratio < _RATIO, ratio, np.nan)
-    for each, values, colour, label in (
+    for axis, values, colour, label in (
         (axes[0], drawn, BLUE, "draw-cut ratio [–]"),
         (axes[1], speed, GREEN, "cutting speed [m/s]"),
     ):
-        each.plot(degrees, values, color=colour)
-        each.set_ylabel(label)
-        turn_axis(each, label=False)
+        axis.plot(degrees, values, color=colour)
+        axis.set_ylabel(label)
+        turn_axis(axis, label=False)
     retreats = np.isnan(ratio)
     if retreats.any():
         top = axes[0].get_xaxis_transform()

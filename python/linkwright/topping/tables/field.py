@@ -47,9 +47,9 @@ _UNITS = {
 
 def field_tables(field: TopperField) -> Iterator[Table]:
     """Shares, haulm, loss, and lengths."""
-    each = "rows" if field.clusters == "rows" else "measured roots, each in many phases"
+    pieces = "rows" if field.clusters == "rows" else "measured roots, each in many phases"
     title = (
-        f"Field: {field.n_roots} heads of {field.n_clusters} {each}; "
+        f"Field: {field.n_roots} heads of {field.n_clusters} {pieces}; "
         f"edge of {quantity(field.edge_length, 'm')}"
     )
     yield Table("topper_field", title, ("", "", "value", _interval(field.level)), list(_rows(field)))
@@ -77,9 +77,9 @@ def _rows(field: TopperField) -> Iterator[Row]:
         ("loss: share of the roots above the cut", "", "loss_share"),
     )
     for word, symbol, key in shares:
-        value, low, high = (100 * each for each in _three(field, key))
+        value, low, high = (100 * text for text in _three(field, key))
         yield word, symbol, f"{number(value)} %", _between(number(low), f"{number(high)} %")
-    value, low, high = (1e6 * each for each in _three(field, "loss_mean"))
+    value, low, high = (1e6 * text for text in _three(field, "loss_mean"))
     yield "loss of a root, mean", "V", f"{number(value)} cm³", _between(number(low), f"{number(high)} cm³")
     if field.loss_mass_mean is not None:
         yield "mass of it", "m", quantity(field.loss_mass_mean, "kg", usual="g"), ""
@@ -128,9 +128,9 @@ def sweep_table(swept: FieldSweep) -> Table:
                 number(float(swept.slicing_ratio_mean[i]), 4),
             )
         )
-    found = ("cut through", _interval(swept.level), "left", "L for 95 %", "loss", "draw-cut ratio")
+    columns = ("cut through", _interval(swept.level), "left", "L for 95 %", "loss", "draw-cut ratio")
     some = "" if len(kept) == n else f", {len(kept)} of {n}"
-    return Table("topper_field_sweep", f"The same roots, knife varied{some}", (*heads, *found), rows)
+    return Table("topper_field_sweep", f"The same roots, knife varied{some}", (*heads, *columns), rows)
 
 
 def _shown(name: str, value: float) -> str:

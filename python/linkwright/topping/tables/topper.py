@@ -174,8 +174,8 @@ def _motion(study: TopperStudy) -> Table:
     if study.stroke:
         rows += rows_of(study, "knife_speed_max")
         jumps = not math.isfinite(study.knife_acceleration_max)
-        told = _told("knife_acceleration_max", "no bound", "it turns back at once")
-        rows.append(told if jumps else row(study, "knife_acceleration_max"))
+        reach = _told("knife_acceleration_max", "no bound", "it turns back at once")
+        rows.append(reach if jumps else row(study, "knife_acceleration_max"))
     holds = "not less than along it: (1) holds" if study.condition_holds else "less than along it: (1) fails"
     rows += [row(study, name, "paper 5 (2), (8)") for name in ("travel_along", "travel_across")]
     rows.append(row(study, "time_along"))
@@ -237,14 +237,14 @@ def _verdict(study: TopperStudy, described: Topper) -> Table:
     return Table("topper_verdict", title, heads, rows)
 
 
-def _judged(each: Demand) -> Row:
-    word = WAYS[each.way]
-    greatest = mm(each.length_greatest) if math.isfinite(each.length_greatest) else "no bound"
-    spread = f"{mm(each.length_least)} to {greatest}"
-    if not math.isfinite(each.length_least):
+def _judged(demand: Demand) -> Row:
+    word = WAYS[demand.way]
+    greatest = mm(demand.length_greatest) if math.isfinite(demand.length_greatest) else "no bound"
+    spread = f"{mm(demand.length_least)} to {greatest}"
+    if not math.isfinite(demand.length_least):
         spread = "none does"
-    elif math.isclose(each.length_least, each.length_greatest, rel_tol=_SAME):
-        spread = mm(each.length_greatest)
-    bands = f"{mm(each.band_low)} to {mm(each.band_high)}" if each.band_high > 0 else "none"
-    holds = "yes" if each.holds_throughout else "longest only" if each.holds else "no"
+    elif math.isclose(demand.length_least, demand.length_greatest, rel_tol=_SAME):
+        spread = mm(demand.length_greatest)
+    bands = f"{mm(demand.band_low)} to {mm(demand.band_high)}" if demand.band_high > 0 else "none"
+    holds = "yes" if demand.holds_throughout else "longest only" if demand.holds else "no"
     return word, "", spread, holds, bands

@@ -58,14 +58,14 @@ def dynamic(referred: ReferredTrain, stiffness: Floats, omega: Floats | Complexe
     k = np.asarray(stiffness * lossy + 1j * omega * referred.damping[:, None], complex)
     J = np.repeat(referred.inertia[:, None].astype(complex), len(omega), axis=1)
     shafts = [rod.shaft for rod in referred.rods]
-    found = ends(referred.rods, omega, k[shafts] / stiffness[shafts])
-    for rod, one in zip(referred.rods, found, strict=True):
+    stiffnesses = ends(referred.rods, omega, k[shafts] / stiffness[shafts])
+    for rod, one in zip(referred.rods, stiffnesses, strict=True):
         n = rod.shaft
         k[n] = one.spring
         for mass, J_end, lumped in zip(referred.ends[n], (one.first, one.second), rod.ends, strict=True):
             if mass != HELD:
                 J[mass] += J_end - lumped
-    return Dynamic(k, J, tuple(found))
+    return Dynamic(k, J, tuple(stiffnesses))
 
 
 def lossless(referred: ReferredTrain, omega: Floats) -> Dynamic:
@@ -90,7 +90,7 @@ def below(referred: ReferredTrain, omega: Floats) -> NDArray[np.int64]:
     # Rows are brought to one size: rounding of a stiff shaft hides no soft one.
     size = 1 / np.sqrt(np.maximum(np.abs(D).max(axis=2), np.finfo(float).tiny))
     count = (np.linalg.eigvalsh(size[:, :, None] * D * size[:, None, :]) < 0).sum(axis=1)
-    return np.asarray(count + sum(each.held for each in at.rods), np.int64)
+    return np.asarray(count + sum(rod.held for rod in at.rods), np.int64)
 
 
 @dataclass(frozen=True)

@@ -225,8 +225,8 @@ class Diagnosis(Result):
 
     def _below(self, value: Floats, deviation: Floats, level: float) -> tuple[str, ...]:
         """Cylinders whose one-sided intervals lie below 0, at a level for all of them together."""
-        each = 1 - 2 * (1 - level) / len(self.cylinders)
-        below = value + self.coverage(each) * deviation < 0
+        single = 1 - 2 * (1 - level) / len(self.cylinders)
+        below = value + self.coverage(single) * deviation < 0
         return tuple(self.cylinders[n] for n in np.argsort(value) if below[n])
 
     @property

@@ -63,7 +63,7 @@ def _mode(axes: Axes, free: FreeVibration, k: int, colour: str) -> None:
     row = in_a_row(free.discs, free.joined)
     place = {free.discs[d]: n for n, d in enumerate(row)}
     shape = free.mode_shapes[k][row]
-    curved = {frozenset(each.between): each for each in free.along if place.keys() & {*each.between}}
+    curved = {frozenset(shape.between): shape for shape in free.along if place.keys() & {*shape.between}}
     # Fluids of dampers hold no shape.
     slack = {n for n in range(len(free.shafts)) if not free.potential_shares[:, n].any()}
     for n, (first, second) in enumerate(free.joined):
@@ -98,10 +98,10 @@ def in_a_row(discs: Sequence[str], joined: Sequence[tuple[str, str]]) -> list[in
             about[a].append(b)
             about[b].append(a)
     ends = [name for name in discs if len(about[name]) < 2]
-    if len(ends) != 2 or any(len(each) > 2 for each in about.values()):
+    if len(ends) != 2 or any(len(name) > 2 for name in about.values()):
         return list(range(len(discs)))
     # From the end that is nearer to the first disc of the file.
-    row = min((_from(end, about) for end in ends), key=lambda each: each.index(discs[0]))
+    row = min((_from(end, about) for end in ends), key=lambda name: name.index(discs[0]))
     place = {name: n for n, name in enumerate(discs)}
     return [place[name] for name in row] if len(row) == len(discs) else list(range(len(discs)))
 

@@ -41,7 +41,7 @@ def scheme_figure(scheme: Scheme) -> Figure:
 
     laid = page(scheme, turned=False)
     if laid.width > _WIDE:
-        laid = min(laid, page(scheme, turned=True), key=lambda each: each.oversize)
+        laid = min(laid, page(scheme, turned=True), key=lambda part: part.oversize)
     levels, note = laid.levels(), laid.note()
     bottom = levels[-1][2] - 1.3 * LINE * len(note)
     figure = Figure(figsize=(laid.width, 2 * MARGIN - bottom))

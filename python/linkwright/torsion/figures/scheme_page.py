@@ -50,19 +50,21 @@ def disc_words(scheme: Scheme, n: int) -> Words:
     return Words((scheme.discs[n],), (own, *referred))
 
 
-def connection_words(each: Connection) -> Words:
+def connection_words(connection: Connection) -> Words:
     """Name and stiffness; the referred stiffness in brackets, and the equivalent length."""
-    if each.kind == "gears":
-        return Words((), (f"{each.name} i = {each.ratio:.4g}",))
-    if each.stiffness is None or each.stiffness_referred is None:
-        return Words((each.name,), ())
-    own = stiffness(each.stiffness)
+    if connection.kind == "gears":
+        return Words((), (f"{connection.name} i = {connection.ratio:.4g}",))
+    if connection.stiffness is None or connection.stiffness_referred is None:
+        return Words((connection.name,), ())
+    own = stiffness(connection.stiffness)
     below = (
-        [] if _same(each.stiffness_referred / each.stiffness) else [f"({stiffness(each.stiffness_referred)})"]
+        []
+        if _same(connection.stiffness_referred / connection.stiffness)
+        else [f"({stiffness(connection.stiffness_referred)})"]
     )
-    if each.kind == "mesh":
-        return Words((), (f"{each.name} i = {each.ratio:.4g}", own, *below))
-    return Words((each.name, own), (*below, metres(each.equivalent_length or 0.0)))
+    if connection.kind == "mesh":
+        return Words((), (f"{connection.name} i = {connection.ratio:.4g}", own, *below))
+    return Words((connection.name, own), (*below, metres(connection.equivalent_length or 0.0)))
 
 
 def stiffness(value: float) -> str:
@@ -194,7 +196,7 @@ class Page:
     def _entering(self, row: int, side: int) -> float:
         """What the words of gears take that enter a row from above (+1) or from below (−1)."""
         entering = [riser for riser in self.places.risers if riser.to_row == row and riser.side == side]
-        return max((self._beside(each.part) for each in entering), default=0.0)
+        return max((self._beside(connection.part) for connection in entering), default=0.0)
 
     def _beside(self, part: Connection) -> float:
         """What the words beside gears between two rows take; shafts have theirs in a row."""

@@ -90,15 +90,15 @@ def forced_tangents(machine: Machine, variables: Sequence[str]) -> ForcedTangent
     forced = _Adjoint(
         at, q, d.only(known), {place: torques[n].only(d.variables, known) for n, place in enumerate(places)}
     )
-    found: dict[str, dict[str, Tangent]] = {"vibratory": {}, "greatest": {}}
+    tangents: dict[str, dict[str, Tangent]] = {"vibratory": {}, "greatest": {}}
     ties: dict[str, str] = {}
     for kind, shaft, place, tie in peaks:
         value, slope, twice = forced.response(kind, shaft, place)
         name = referred.shafts[shaft]
-        found[kind][name] = Tangent(value, slope)
+        tangents[kind][name] = Tangent(value, slope)
         if tie or twice:
             ties[f"{kind}.{name}"] = tie or twice
-    return ForcedTangents(tuple(known), found["vibratory"], found["greatest"], ties, refused)
+    return ForcedTangents(tuple(known), tangents["vibratory"], tangents["greatest"], ties, refused)
 
 
 def _refused(machine: Machine, variables: Sequence[str]) -> dict[str, str]:
@@ -207,9 +207,9 @@ def _torque_tangents(
     shape = (len(speeds), 2 * len(orders) + 2, len(discs))
     numbers = partial(_torques, discs=discs, turning=referred.speed, orders=orders, speeds=speeds)
     acting = [name for name in variables if name.startswith(("train.excitations.", "train.loads."))]
-    found = columns(machine, acting, numbers, refused)
+    derivatives = columns(machine, acting, numbers, refused)
     table = np.zeros((*shape, len(variables)))
-    for name, column in found.items():
+    for name, column in derivatives.items():
         table[..., list(variables).index(name)] = column.reshape(shape)
     onto = np.zeros((len(referred.inertia), len(discs)))
     onto[referred.mass, np.arange(len(discs))] = referred.speed
@@ -217,10 +217,10 @@ def _torque_tangents(
     waves = np.einsum("md,sodv->somv", onto, table[:, :n] + 1j * table[:, n : 2 * n])
     damping = np.einsum("md,sdv->smv", onto * referred.speed, table[:, -1])
     means = [
-        np.stack([mean_shaft_torques(referred, m[:, None])[:, 0] for m in each.T], axis=1)
-        for each in table[:, -2]
+        np.stack([mean_shaft_torques(referred, m[:, None])[:, 0] for m in value.T], axis=1)
+        for value in table[:, -2]
     ]
-    return [_TorqueTangents(*each) for each in zip(waves, means, damping, strict=True)]
+    return [_TorqueTangents(*values) for values in zip(waves, means, damping, strict=True)]
 
 
 def _torques(
@@ -293,7 +293,7 @@ class _Adjoint:
             value, given = 0.5 * (top - bottom), np.zeros_like(first)
         else:
             (top, high), (bottom, low) = self._ends(t, mean)
-            sign, ways = (1.0, high) if top >= -bottom else (-1.0, [-each for each in low])
+            sign, ways = (1.0, high) if top >= -bottom else (-1.0, [-row for row in low])
             first = self._slope(shaft, place, ways[0])
             rivals, value, given = ways[1:], max(top, -bottom), sign * self.torques[place].mean[shaft]
         size = np.abs(first).max(initial=0.0)

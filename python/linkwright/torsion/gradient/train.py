@@ -67,9 +67,9 @@ def train_tangents(
         moving = ("mechanism.", "bodies.", "pumping_unit.", "rod_rotator.")
         refused.update({name: _MECHANISM for name in variables if name.startswith(moving)})
     free = [name for name in variables if name not in refused]
-    found = columns(machine, free, partial(_numbers, inertia=J), refused)
-    known = tuple(name for name in free if name in found)
-    table = np.array([found[name] for name in known]).T.reshape(-1, len(known))
+    derivatives = columns(machine, free, partial(_numbers, inertia=J), refused)
+    known = tuple(name for name in free if name in derivatives)
+    table = np.array([derivatives[name] for name in known]).T.reshape(-1, len(known))
     ends = np.cumsum([len(getattr(referred, name)) for name in _NUMBERS])
     return whole, referred, TrainTangents(known, *np.split(table, ends[:-1]))
 

@@ -116,8 +116,8 @@ def _require_fit(train: Train, manoeuvre: TrainTransient, discs: tuple[str, ...]
     """Refuse a manoeuvre that speaks of parts that are not there."""
     faults = list(transient_faults(train.model_copy(update={"transient": manoeuvre}), discs))
     if faults:
-        told = ((wrong["loc"], getattr(wrong["type"], "context", None) or {}) for wrong in faults)
-        raise MachineError([Problem(".".join(map(str, place)), **words) for place, words in told])
+        contexts = ((wrong["loc"], getattr(wrong["type"], "context", None) or {}) for wrong in faults)
+        raise MachineError([Problem(".".join(map(str, place)), **words) for place, words in contexts])
 
 
 def _shaft_damping(referred: ReferredTrain, manoeuvre: TrainTransient) -> tuple[Floats, list[str]]:
@@ -128,7 +128,7 @@ def _shaft_damping(referred: ReferredTrain, manoeuvre: TrainTransient) -> tuple[
         return own, []
     omega, where = _loss_frequencies(referred, manoeuvre.loss_mode)
     lossy = referred.loss_factor > 0
-    low, high = (float(each) / (2 * np.pi) for each in (omega[lossy].min(), omega[lossy].max()))
+    low, high = (float(frequency) / (2 * np.pi) for frequency in (omega[lossy].min(), omega[lossy].max()))
     span = f"{low:.4g} Hz" if low == high else f"{low:.4g} to {high:.4g} Hz"
     note = (
         f"hysteresis of shafts counts as the viscous damping that loses as much at {span}, {where}: "

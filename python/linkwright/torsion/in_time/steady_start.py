@@ -84,8 +84,8 @@ def balanced_start(
     if not drives:
         return moving, speed, f"drivers and loads do not balance at the start: {left:+.5g} N m are left over"
     given = " and ".join(f"{moving.discs[drive.on]} by a constant {drive.scale:.5g} N m" for drive in drives)
-    told = f"{given.replace(' by', ' is driven by', 1)}, what the loads need at the start"
-    return replace(moving, torques=(*moving.torques, *drives)), speed, told
+    words = f"{given.replace(' by', ' is driven by', 1)}, what the loads need at the start"
+    return replace(moving, torques=(*moving.torques, *drives)), speed, words
 
 
 def _left(moving: MovingTrain, speed: float, angle: float) -> float:
@@ -107,15 +107,17 @@ def _at_steady_speed(moving: MovingTrain, manoeuvre: TrainTransient) -> tuple[Mo
     stable = np.flatnonzero((left[:-1] > 0) & (left[1:] <= 0))
     if not len(stable):
         here = _left(moving, given, angle)
-        told = f"no speed near {_rpm(given)} balances the mean torques: {here:+.5g} N m are left at the start"
-        return moving, given, told
+        words = (
+            f"no speed near {_rpm(given)} balances the mean torques: {here:+.5g} N m are left at the start"
+        )
+        return moving, given, words
     at = stable[np.abs(speeds[stable] - given).argmin()]
     low, high = float(speeds[at]), float(speeds[at + 1])
     for _ in range(_HALVINGS):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if _left(moving, middle, angle) > 0 else (low, middle)
-    told = f"the start is at {_rpm(low)}, where motor and loads balance, not at {_rpm(given)}"
-    return moving, low, told if abs(low / given - 1) > 5e-5 else ""
+    words = f"the start is at {_rpm(low)}, where motor and loads balance, not at {_rpm(given)}"
+    return moving, low, words if abs(low / given - 1) > 5e-5 else ""
 
 
 def _with_combustion(
@@ -126,10 +128,10 @@ def _with_combustion(
     given = left - _left(motored, manoeuvre.speed, manoeuvre.angle)
     factor = 1 - left / given if given > 0 else 0.0
     if factor <= 0:
-        told = f"no combustion balances the mean torques: {left:+.5g} N m are left over at the start"
-        return moving, manoeuvre.speed, told
-    told = f"combustion was scaled by {factor:.5g} at the start so that the mean torques balance"
-    return _scaled(moving, [_burns(torque) for torque in moving.torques], factor), manoeuvre.speed, told
+        words = f"no combustion balances the mean torques: {left:+.5g} N m are left over at the start"
+        return moving, manoeuvre.speed, words
+    words = f"combustion was scaled by {factor:.5g} at the start so that the mean torques balance"
+    return _scaled(moving, [_burns(torque) for torque in moving.torques], factor), manoeuvre.speed, words
 
 
 def _with_loads(
@@ -143,8 +145,8 @@ def _with_loads(
     factor = 1.0 + left / needed if needed else 0.0
     if factor <= 0:
         return moving, speed, f"no loads balance the mean torques: {left:+.5g} N m are left over at the start"
-    told = f"loads were scaled by {factor:.5g} so that the mean torques balance (`loads_follow = true`)"
-    return _scaled(moving, [torque.name in train.loads for torque in moving.torques], factor), speed, told
+    words = f"loads were scaled by {factor:.5g} so that the mean torques balance (`loads_follow = true`)"
+    return _scaled(moving, [torque.name in train.loads for torque in moving.torques], factor), speed, words
 
 
 def _burns(torque: TrainTorque) -> bool:

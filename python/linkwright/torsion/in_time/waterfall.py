@@ -100,7 +100,7 @@ def waterfall(
         The disc does not turn forward all the time or not far enough, or samples are too few for the highest
         order.
     """
-    t, phi, x = (np.asarray(each, dtype=float) for each in (time, angle, signal))
+    t, phi, x = (np.asarray(values, dtype=float) for values in (time, angle, signal))
     _require(t, phi, x, highest, step, turns)
     window = 2 * np.pi * turns
     n = int(np.ceil(_A_WAVE * max(highest, 1.0) * turns))

@@ -247,7 +247,7 @@ def _peaks(seen: Survey, above: list[Exceedance]) -> list[list[float]]:
     """Speeds at which the stress peaks in each range; not its ratio to a limit that falls with the speed."""
 
     def sizes(at: Floats) -> Floats:
-        return np.array([_size(each) for each in seen.criteria_at(at)])
+        return np.array([_size(criterion) for criterion in seen.criteria_at(at)])
 
     grids = [_grid(seen, exceedance) for exceedance in above]
     every = np.split(sizes(np.concatenate(grids)), np.cumsum([len(grid) for grid in grids])[:-1], axis=1)
@@ -267,10 +267,10 @@ def _peaks(seen: Survey, above: list[Exceedance]) -> list[list[float]]:
     return listed
 
 
-def _grid(seen: Survey, each: Exceedance) -> Floats:
+def _grid(seen: Survey, exceedance: Exceedance) -> Floats:
     """Speeds of a range close enough to show its peaks, those of resonances among them."""
-    inside = seen.speeds[(seen.speeds > each.low) & (seen.speeds < each.high)]
-    return np.unique(np.concatenate([np.linspace(each.low, each.high, _POINTS), inside]))
+    inside = seen.speeds[(seen.speeds > exceedance.low) & (seen.speeds < exceedance.high)]
+    return np.unique(np.concatenate([np.linspace(exceedance.low, exceedance.high, _POINTS), inside]))
 
 
 def _maxima(values: Floats) -> list[int]:
@@ -280,9 +280,9 @@ def _maxima(values: Floats) -> list[int]:
     return maxima
 
 
-def _size(each: Criterion) -> Floats:
+def _size(criterion: Criterion) -> Floats:
     """What was found, infinite at a resonance that nothing damps."""
-    return np.where(np.isfinite(each.found), each.found, np.inf)
+    return np.where(np.isfinite(criterion.found), criterion.found, np.inf)
 
 
 def _critical(seen: Survey, row: int, peaks: list[float]) -> tuple[float | None, float | None]:

@@ -181,7 +181,7 @@ def _bounds(curves: Curves, edges: list[tuple[int, float, float]]) -> list[float
         return []
     rows = np.array([row for row, _, _ in edges])
     a, b = np.array([pair for _, *pair in edges], float).T
-    f_a, f_b = (_at(curves, rows, each[None])[0] - 1 for each in (a, b))
+    f_a, f_b = (_at(curves, rows, end[None])[0] - 1 for end in (a, b))
     c, before = a, np.zeros(len(rows))
     for n in range(_BOUND_ROUNDS):
         with np.errstate(invalid="ignore"):

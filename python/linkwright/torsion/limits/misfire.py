@@ -81,14 +81,14 @@ def misfire_verdict(machine: Machine, seen: Survey) -> MisfireVerdict | None:
 
     None without an engine whose cylinders all fire, or without limits.
     """
-    normal = [each for each in seen.criteria if _counts(each)]
+    normal = [criterion for criterion in seen.criteria if _counts(criterion)]
     cases = list(misfires(machine, seen.at)) if normal else []
     if not cases:
         return None
     worst: list[MisfireJudgement | None] = [None] * len(normal)
     for case in cases:
-        for n, found in enumerate(_criteria(seen, case.at)):
-            judged = _judged(found, seen.speeds, case.cylinder)
+        for n, criteria in enumerate(_criteria(seen, case.at)):
+            judged = _judged(criteria, seen.speeds, case.cylinder)
             before = worst[n]
             if before is None or _ratio(judged) > _ratio(before):
                 worst[n] = judged
@@ -139,12 +139,12 @@ def _judged(criterion: Criterion, speeds: Floats, cylinder: str) -> MisfireJudge
     ratio = criterion.ratio
     n = int(ratio.argmax())
     over = speeds[ratio > 1]
-    found = float(criterion.found[n]) if np.isfinite(criterion.found[n]) else np.inf
+    value = float(criterion.found[n]) if np.isfinite(criterion.found[n]) else np.inf
     return MisfireJudgement(
         criterion.part,
         criterion.what,
         criterion.kind,
-        found,
+        value,
         float(criterion.permitted[n]),
         float(speeds[n]),
         cylinder,

@@ -136,9 +136,9 @@ def overlay(seen: Survey, name: str, curve: MeasuredResponse) -> Overlay:
     known = np.sort(seen.at.torques.speeds)
     outside = speeds[(speeds < known[0]) | (speeds > known[-1])]
     if len(outside):
-        low, high, found = (each * 30 / np.pi for each in (known[0], known[-1], outside[0]))
+        low, high, beyond = (speed * 30 / np.pi for speed in (known[0], known[-1], outside[0]))
         raise InputError(
-            f"measurement {name}: found a speed of {found:.6g} rpm, expected speeds from {low:.6g} to "
+            f"measurement {name}: found a speed of {beyond:.6g} rpm, expected speeds from {low:.6g} to "
             f"{high:.6g} rpm, those of [train.run]; widen them, or leave the point out"
         )
     computed = _computed(seen, name, curve)
@@ -176,27 +176,30 @@ def _computed(seen: Survey, name: str, curve: MeasuredResponse) -> Callable[[Flo
         )
 
     def at(speeds: Floats) -> Floats:
-        found = torsion_response(between(seen.machine, seen.at, speeds))
-        amplitudes = _amplitudes(found, curve, order)
+        response = torsion_response(between(seen.machine, seen.at, speeds))
+        amplitudes = _amplitudes(response, curve, order)
         if curve.what != "stress":
             return amplitudes
-        stress = shaft_stress(seen.machine, found, seen.service)
-        row, size = stress.shafts.index(curve.on), found.shaft_torque_vibratory[found.shafts.index(curve.on)]
+        stress = shaft_stress(seen.machine, response, seen.service)
+        row, size = (
+            stress.shafts.index(curve.on),
+            response.shaft_torque_vibratory[response.shafts.index(curve.on)],
+        )
         factor = np.divide(stress.vibratory[row], size, out=np.zeros_like(size), where=size > 0)
         return np.asarray(factor * amplitudes, float)
 
     return at
 
 
-def _amplitudes(found: TorsionResponse, curve: MeasuredResponse, order: int | None) -> Floats:
+def _amplitudes(response: TorsionResponse, curve: MeasuredResponse, order: int | None) -> Floats:
     """Torque or angle, of one order or of all together, (speeds,)."""
     if curve.what == "angle":
-        waves = found.amplitudes[:, found.discs.index(curve.on)]
+        waves = response.amplitudes[:, response.discs.index(curve.on)]
     else:
-        waves = found.shaft_torques[:, found.shafts.index(curve.on)]
+        waves = response.shaft_torques[:, response.shafts.index(curve.on)]
     if order is not None:
         return np.asarray(np.abs(waves[order]), float)
-    greatest, least = span(found.together, waves)
+    greatest, least = span(response.together, waves)
     return np.asarray(0.5 * (greatest - least), float)
 
 
@@ -205,7 +208,7 @@ def _order(at: ExcitedTrain, name: str, order: float) -> int:
     orders = at.torques.orders
     place = int(np.abs(orders - order).argmin())
     if abs(orders[place] - order) > _EQUAL * order:
-        listed = ", ".join(f"{each:.5g}" for each in orders.tolist())
+        listed = ", ".join(f"{number:.5g}" for number in orders.tolist())
         raise InputError(f"measurement {name}: found order {order:g}, expected one of {listed}")
     return place
 
@@ -281,15 +284,15 @@ def read_measured(path: str | os.PathLike[str]) -> dict[str, MeasuredResponse]:
     if not curves:
         expected = "a column for each shaft or disc beside the speed"
         raise MachineFileError([Problem("", "speed alone", expected, path=str(place), line=lines[0])])
-    found = {}
+    responses = {}
     for name, kind in kinds.items():
         on, order = _part(name)
         entries = {"on": on, "order": order, "speed": tuple(speed.tolist())}
         try:
-            found[name] = MeasuredResponse.model_validate(entries | {kind: tuple(values[name].tolist())})
+            responses[name] = MeasuredResponse.model_validate(entries | {kind: tuple(values[name].tolist())})
         except ValidationError as error:
             raise MachineFileError([_problem(error, name, place, lines)]) from None
-    return found
+    return responses
 
 
 def _kind(entry: object, name: str, path: Path, line: int) -> str:

@@ -143,44 +143,46 @@ def verdict(machine: Machine, seen: Survey | None = None) -> Verdict:
     return Verdict(tuple(rows), barred, tuple(_notes(seen)))
 
 
-def _worst(each: Criterion, speeds: Floats, places: list[int] | None = None) -> tuple[float, float, float]:
+def _worst(
+    criterion: Criterion, speeds: Floats, places: list[int] | None = None
+) -> tuple[float, float, float]:
     """Found, permitted and speed where found over permitted is largest, of some places."""
     at = np.arange(len(speeds)) if places is None else np.array(places)
-    n = int(at[np.argmax(each.ratio[at])])
+    n = int(at[np.argmax(criterion.ratio[at])])
     # Orders without any bound have no sum either: NaN.
-    found = float(each.found[n]) if math.isfinite(each.found[n]) else math.inf
-    return found, float(each.permitted[n]), float(speeds[n])
+    value = float(criterion.found[n]) if math.isfinite(criterion.found[n]) else math.inf
+    return value, float(criterion.permitted[n]), float(speeds[n])
 
 
 def _judged(
-    each: Criterion,
+    criterion: Criterion,
     worst: tuple[float, float, float],
     over: list[Exceedance],
     barred: tuple[BarredRange, ...],
 ) -> Judgement:
     """One criterion with what follows."""
     state: State = "exceeds" if over else "ok"
-    reason = "teeth lose contact" if over and each.what == CONTACT else ""
+    reason = "teeth lose contact" if over and criterion.what == CONTACT else ""
     ranges = tuple((one.low, one.high) for one in over)
-    if over and each.what == VIBRATORY_STRESS:
-        mine = [one for one in barred if one.shaft == each.part]
+    if over and criterion.what == VIBRATORY_STRESS:
+        mine = [one for one in barred if one.shaft == criterion.part]
         reason = next(filter(None, map(_against_barring, mine)), "")
         if not reason:
             state, ranges = "bar", tuple(one.barred for one in mine)
-    return Judgement(each.part, each.what, each.kind, *worst, state, ranges, reason)
+    return Judgement(criterion.part, criterion.what, criterion.kind, *worst, state, ranges, reason)
 
 
-def _against_barring(each: BarredRange) -> str:
+def _against_barring(barred: BarredRange) -> str:
     """Why a range may not be barred and passed; empty if it may."""
-    if each.not_passable:
-        low, high = each.not_passable[0]
+    if barred.not_passable:
+        low, high = barred.not_passable[0]
         return f"passage not permitted from {_rpm(low)} to {_rpm(high)}"
-    if each.is_passable is None:
+    if barred.is_passable is None:
         return "no stress permitted in transient passage is given"
-    if not each.may_be_barred:
-        highest = each.ratio_permitted
+    if not barred.may_be_barred:
+        highest = barred.ratio_permitted
         return f"speeds above {highest:.0%} of the service speed may not be barred in normal operation"
-    if each.barred[0] <= each.service_speed <= each.barred[1]:
+    if barred.barred[0] <= barred.service_speed <= barred.barred[1]:
         return "the range contains the service speed"
     return ""
 

@@ -199,7 +199,7 @@ class ShaftLimit(CheckedDescription):
             # Where speeds may not be barred, passing permits no more.
             return continuous, np.where(np.isnan(passing), continuous, np.maximum(passing, continuous))
         low, high = (
-            np.nan if each is None else each for each in (self.stress_permitted, self.stress_transient)
+            np.nan if stress is None else stress for stress in (self.stress_permitted, self.stress_transient)
         )
         return np.full_like(speed_ratio, low), np.full_like(speed_ratio, high)
 

@@ -115,8 +115,10 @@ def _engine_faults(train: object) -> Iterator[InitErrorDetails]:
                 yield fault("train", "engines", name, "factors", number, found=number, expected=expected)
     if train.engines and train.engine is not None and train.engine.factors:
         remedy = "give them to the engine whose cylinders they are, as train.engines.NAME.factors"
-        found = dict(train.engine.factors)
-        yield fault("train", "engine", "factors", found=found, expected="none beside engines", remedy=remedy)
+        factors = dict(train.engine.factors)
+        yield fault(
+            "train", "engine", "factors", found=factors, expected="none beside engines", remedy=remedy
+        )
 
 
 def _pairs(train: object, table: str) -> Iterator[tuple[str, Sequence[str]]]:

@@ -88,8 +88,8 @@ class TrainLoad(CheckedDescription):
 
     def resistance(self, speed: float) -> float:
         """Mean torque at a speed of its disc above zero [N m]."""
-        found: float = self.torque * (speed / self.speed) ** self.exponent
-        return found
+        resistance: float = self.torque * (speed / self.speed) ** self.exponent
+        return resistance
 
     def damping(self, speed: float) -> float:
         """Damping of its vibration at a speed [N m s/rad]; none where the torque falls with the speed."""
@@ -123,8 +123,8 @@ class Excitation(CheckedDescription):
         """Amplitudes at a speed over those given."""
         if self.speed is None:
             return 1.0
-        found: float = (speed / self.speed) ** self.exponent
-        return found
+        factor: float = (speed / self.speed) ** self.exponent
+        return factor
 
 
 def _listed_twice(orders: Sequence[float]) -> Iterator[InitErrorDetails]:

@@ -171,7 +171,8 @@ def parts_of(names: Iterable[Node], pairs: Iterable[tuple[Node, Node]]) -> list[
             part |= dict.fromkeys(other, one)
     order = {name: n for n, name in enumerate(part)}
     return [
-        sorted(each, key=order.__getitem__) for each in {id(each): each for each in part.values()}.values()
+        sorted(member, key=order.__getitem__)
+        for member in {id(member): member for member in part.values()}.values()
     ]
 
 
@@ -192,32 +193,32 @@ def speeds(train: Train) -> tuple[dict[str, float], list[Contradiction]]:
     """
     listed = list(joints(train))
     about: dict[str, list[tuple[str, float]]] = {name: [] for name in train.discs}
-    for each in listed:
-        about[each.first].append((each.second, 1.0 / each.ratio))
-        about[each.second].append((each.first, each.ratio))
+    for speed in listed:
+        about[speed.first].append((speed.second, 1.0 / speed.ratio))
+        about[speed.second].append((speed.first, speed.ratio))
     turning: dict[str, float] = {}
     for root in train.discs:
         if root not in turning:
             _spread(root, about, turning)
-    wrong = (_checked(each, turning) for each in listed)
-    return {name: turning[name] for name in train.discs}, [each for each in wrong if each is not None]
+    wrong = (_checked(speed, turning) for speed in listed)
+    return {name: turning[name] for name in train.discs}, [speed for speed in wrong if speed is not None]
 
 
-def _spread(root: str, about: Mapping[str, list[tuple[str, float]]], found: dict[str, float]) -> None:
+def _spread(root: str, about: Mapping[str, list[tuple[str, float]]], ratios: dict[str, float]) -> None:
     """Give speeds to all that is connected with a disc."""
-    found[root] = 1.0
+    ratios[root] = 1.0
     waiting = [root]
     while waiting:
         at = waiting.pop(0)
         for name, factor in about[at]:
-            if name not in found:
-                found[name] = found[at] * factor
+            if name not in ratios:
+                ratios[name] = ratios[at] * factor
                 waiting.append(name)
 
 
-def _checked(joint: Joint, found: Mapping[str, float]) -> Contradiction | None:
+def _checked(joint: Joint, ratios: Mapping[str, float]) -> Contradiction | None:
     """Whether a connection fits the speeds of its discs."""
-    ratio = found[joint.first] / found[joint.second]
+    ratio = ratios[joint.first] / ratios[joint.second]
     if abs(ratio - joint.ratio) <= _EQUAL * abs(joint.ratio):
         return None
     return Contradiction(joint.table, joint.name, joint.ratio, ratio)

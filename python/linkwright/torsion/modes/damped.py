@@ -151,7 +151,9 @@ class DampedVibration(Result):
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Scalars and tables by name, with ``curves`` also arrays as lists; complex ones as their parts."""
         results = super().to_dict(curves=curves)
-        return {name: each for name, each in results.items() if name not in ("eigenvalues", "mode_shapes")}
+        return {
+            name: result for name, result in results.items() if name not in ("eigenvalues", "mode_shapes")
+        }
 
 
 @public

@@ -214,7 +214,7 @@ def free_vibration(machine: Machine) -> FreeVibration:
     potential = own_stiffness(referred) * twists**2
     of_shafts = np.zeros_like(potential)
     for n, rod in enumerate(referred.rods):
-        energy = [_energies(each, n, factor) for each, factor in zip(modes.exact, size, strict=True)]
+        energy = [_energies(mode, n, factor) for mode, factor in zip(modes.exact, size, strict=True)]
         of_shafts[:, rod.shaft], potential[:, rod.shaft] = np.array(energy).T
     moving = modes.omega[:, None] > 0
     total = np.where(moving, potential.sum(axis=1, keepdims=True), 1.0)
@@ -230,7 +230,7 @@ def free_vibration(machine: Machine) -> FreeVibration:
         shaft_kinetic_shares=of_shafts / inertia[:, None],
         potential_shares=np.where(moving, potential, 0.0) / total,
         modal_inertia=inertia,
-        joined=tuple(each.between for table in (train.shafts, train.gears) for each in table.values()),
+        joined=tuple(row.between for table in (train.shafts, train.gears) for row in table.values()),
         along=tuple(_along(train, referred, modes, n, size) for n in range(len(referred.rods))),
     )
 
@@ -274,7 +274,7 @@ def train_modes(referred: ReferredTrain, count: int) -> TrainModes:
         return TrainModes(*referred.modes(), ())
     modes = exact_modes(referred, count)
     return TrainModes(
-        np.array([each.omega for each in modes]), np.array([each.masses for each in modes]), modes
+        np.array([mode.omega for mode in modes]), np.array([mode.masses for mode in modes]), modes
     )
 
 
@@ -284,7 +284,7 @@ def _sized(referred: ReferredTrain, modes: TrainModes) -> tuple[Floats, Floats]:
     if not modes.exact:
         return _scaled(angles), np.ones(len(angles))
     lead = lead_speeds(referred)
-    inside = [[lead[one.rod.shaft] * np.abs(one.angles).max() for one in each.rods] for each in modes.exact]
+    inside = [[lead[one.rod.shaft] * np.abs(one.angles).max() for one in mode.rods] for mode in modes.exact]
     largest = np.maximum(np.abs(angles).max(axis=1), np.max(inside, axis=1))
     angles[np.abs(angles) < _AT_REST * largest[:, None]] = 0.0
     first = np.take_along_axis(angles, np.abs(angles).argmax(axis=1)[:, None], 1)[:, 0]
@@ -316,7 +316,9 @@ def _along(train: Train, referred: ReferredTrain, modes: TrainModes, n: int, siz
         angles.append(lead * factor * swing.angles[0, :, 0].real)
     share = stations(rod)
     shaft = train.shafts[name]
-    distance = None if shaft.sections is None else np.array([shaft.distance(each) for each in share.tolist()])
+    distance = (
+        None if shaft.sections is None else np.array([shaft.distance(value) for value in share.tolist()])
+    )
     return ShaftShapes(name, shaft.between, share, distance, np.array(angles))
 
 

@@ -139,8 +139,8 @@ class _OfMachine(ModesAt):
 
     def shapes(self, speeds: Floats, modes: Indices) -> Shapes:
         at = self._at(speeds)
-        each = [self._shape(at, n, mode) for n, mode in enumerate(modes.tolist())]
-        omega, shapes, stiffness, ratios = (np.array(column) for column in zip(*each, strict=True))
+        rows = [self._shape(at, n, mode) for n, mode in enumerate(modes.tolist())]
+        omega, shapes, stiffness, ratios = (np.array(column) for column in zip(*rows, strict=True))
         return Shapes(omega, shapes, stiffness, ratios)
 
     def _shape(self, at: ExcitedTrain, n: int, mode: int) -> tuple[float, Floats, float, float]:
@@ -150,7 +150,7 @@ class _OfMachine(ModesAt):
         q, ω = modes.masses[mode], float(modes.omega[mode])
         # Σ J q² = 1, with the inertia of shafts.
         ratio = (ω * (q @ train.damping_matrix @ q) + q @ train.loss_matrix @ q) / (2 * ω**2)
-        ratio += sum(_of_rod(train, each, ω) for each in (modes.exact[mode].rods if modes.exact else ()))
+        ratio += sum(_of_rod(train, rod, ω) for rod in (modes.exact[mode].rods if modes.exact else ()))
         θ = train.speed * q[train.mass]
         size = np.abs(θ).max()
         return ω, θ / size, float(ω**2 / size**2), float(ratio)

@@ -249,6 +249,6 @@ def engine_data(engine: ReciprocatingEngine, speed: float) -> EngineData:
         stiffness_formulas={name: 1.0 / formula for name, formula in formulas.items()},
         firing={str(number): angles[number - 1] for number in engine.firing_order},
         speed=speed,
-        mean_effective_pressure=tuple(float(each.mean_effective_pressure[0]) for each in gas),
-        peak_pressure=tuple(float(each.peak_pressure[0]) for each in gas),
+        mean_effective_pressure=tuple(float(load.mean_effective_pressure[0]) for load in gas),
+        peak_pressure=tuple(float(load.peak_pressure[0]) for load in gas),
     )

@@ -127,8 +127,8 @@ def under(
 
 def _require_room(train: Train, sources: Sequence[Source], speeds: int) -> None:
     """Refuse more orders, discs and speeds than there is memory for."""
-    own = [each for part in (train.excitations, train.loads) for each in part.values()]
-    orders = sum(len(each.harmonics) for each in own) + sum(len(source.orders) for source in sources)
+    own = [torque for part in (train.excitations, train.loads) for torque in part.values()]
+    orders = sum(len(order.harmonics) for order in own) + sum(len(source.orders) for source in sources)
     remedy = "take fewer train.run.points, or fewer orders"
     require_within(RESPONSE, orders * len(train.discs) * speeds, "train", remedy)
 

@@ -79,9 +79,9 @@ def torques_of(
     place = {name: k for k, name in enumerate(train.discs)}
     every = [*sources, *_excitations(train, place, turning, speeds)]
     mean = np.zeros((len(place), len(speeds)))
-    for each in every:
-        if each.mean is not None:
-            mean[each.disc] += each.mean
+    for torque in every:
+        if torque.mean is not None:
+            mean[torque.disc] += torque.mean
     for driver in train.drivers.values():
         if driver.torque is not None:
             n = turning[place[driver.on]]
@@ -98,11 +98,11 @@ def torques_of(
             for on, share in train.shares.items():
                 mean[place[on]] += share * (needed - drive) / turning[place[on]]
     every += _load_harmonics(train, place, turning, resistance)
-    orders = _orders(each.orders for each in every)
+    orders = _orders(torque.orders for torque in every)
     harmonics = np.zeros((len(orders), len(place), len(speeds)), complex)
-    for each in every:
-        at = np.abs(orders[:, None] - each.orders).argmin(axis=0)
-        np.add.at(harmonics, (at, each.disc), each.harmonics)
+    for torque in every:
+        at = np.abs(orders[:, None] - torque.orders).argmin(axis=0)
+        np.add.at(harmonics, (at, torque.disc), torque.harmonics)
     own = of_loads if damping is None else of_loads + damping
     surplus = turning @ (mean - resistance) if is_free else np.zeros(len(speeds))
     return Torques(speeds, orders, harmonics, mean - resistance, own, factor, surplus)
@@ -184,7 +184,7 @@ def _together(listed: tuple[float, ...]) -> Orders:
     values = np.array(listed)
     # Orders behind a gear stage go by its ratio, which need be no fraction: they are counted by the lowest.
     units = [1.0, values.min()] if len(values) else [1.0]
-    return max((_counted(values, unit) for unit in units), key=lambda each: each.together.sum())
+    return max((_counted(values, unit) for unit in units), key=lambda torque: torque.together.sum())
 
 
 def _counted(values: Floats, unit: float) -> Orders:
@@ -193,7 +193,7 @@ def _counted(values: Floats, unit: float) -> Orders:
     fractions = [Fraction(value).limit_denominator(_TURNS) for value in share]
     close = [abs(f - v) <= _EQUAL * v for f, v in zip(fractions, share, strict=True)]
     turns, highest = 1, max(share, default=0.0)
-    for f, fits in sorted(zip(fractions, close, strict=True), key=lambda each: each[0].denominator):
+    for f, fits in sorted(zip(fractions, close, strict=True), key=lambda torque: torque[0].denominator):
         more = lcm(turns, f.denominator)
         if fits and more <= _TURNS and more * highest <= _HARMONICS:
             turns = more

@@ -158,7 +158,7 @@ class Survey:
 
     def _ratios(self, speeds: Floats) -> Floats:
         """Found over permitted at any speeds, (limits, speeds)."""
-        return np.array([each.ratio for each in self.criteria_at(speeds)])
+        return np.array([criterion.ratio for criterion in self.criteria_at(speeds)])
 
     @cached_property
     def exceeded(self) -> list[Exceedance]:
@@ -174,8 +174,8 @@ class Survey:
         parts = [criteria(self.machine, at, torsion_response(at), self.service) for at in self._parts(speeds)]
         return [
             first._replace(
-                found=np.concatenate([each.found for each in (first, *rest)]),
-                permitted=np.concatenate([each.permitted for each in (first, *rest)]),
+                found=np.concatenate([criterion.found for criterion in (first, *rest)]),
+                permitted=np.concatenate([criterion.permitted for criterion in (first, *rest)]),
             )
             for first, *rest in zip(*parts, strict=True)
         ]

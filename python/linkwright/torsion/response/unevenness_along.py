@@ -124,7 +124,7 @@ def unevenness_along(
     # Speed over mean speed: iν θ/n, n being that of the disc.
     relative = 1j * orders[:, None] * forced.amplitudes[fits, :, column] / at.referred.speed
     whole = _as_a_whole(at, relative)
-    parts = [_shares(orders, each, angles, turns) for each in (relative, whole, relative - whole)]
+    parts = [_shares(orders, angle, angles, turns) for angle in (relative, whole, relative - whole)]
     return UnevennessAlong(float(forced.speeds[column]), forced.discs, names, angles, *parts)
 
 

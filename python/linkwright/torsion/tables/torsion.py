@@ -67,7 +67,7 @@ def _manoeuvre(moved: TorsionTransient) -> Table:
     columns = (moved.torque_max, moved.torque_max_time, moved.torque_min, moved.torque_min_time)
     units = ("N m", "s") * 2
     rows: list[Row] = [
-        (name, "", *(quantity(*each, digits=4) for each in zip(values, units, strict=True)))
+        (name, "", *(quantity(*column, digits=4) for column in zip(values, units, strict=True)))
         for name, values in zip(
             moved.shafts, zip(*(column.tolist() for column in columns), strict=True), strict=True
         )
@@ -104,7 +104,7 @@ def _kind(natural: float, damped: float) -> str:
 
 def _critical(diagram: CampbellDiagram) -> Table:
     """The most severe critical speeds, by speed."""
-    by_severity = sorted(diagram.critical, key=lambda each: each.resonance_amplitude or 0.0, reverse=True)
+    by_severity = sorted(diagram.critical, key=lambda point: point.resonance_amplitude or 0.0, reverse=True)
     kept = set(by_severity[:_CRITICAL])
     rows: list[Row] = [
         (
@@ -163,7 +163,7 @@ def _discs(study: TorsionStudy, forced: ForcedVibration) -> Table:
     if study.along is not None:
         heads += ["N", "spread of N"]
         columns += [
-            [_finite(v, 3) for v in each.tolist()] for each in (study.along.unevenness, study.along.spread)
+            [_finite(v, 3) for v in curve.tolist()] for curve in (study.along.unevenness, study.along.spread)
         ]
     rows: list[Row] = [(name, "", *cells) for name, *cells in zip(forced.discs, *columns, strict=True)]
     title = f"Speed fluctuation at {rpm(forced.speeds[at])} {per_minute()}"
@@ -215,8 +215,8 @@ def _frequencies(free: FreeVibration) -> Table:
 
 def _nodes(nodes: Sequence[Node]) -> str:
     """The first nodes of a mode; results.json has them all."""
-    told = ", ".join(map(_node, nodes[:_NODES])) or "–"
-    return f"{told}, {len(nodes)} in all" if len(nodes) > _NODES else told
+    text = ", ".join(map(_node, nodes[:_NODES])) or "–"
+    return f"{text}, {len(nodes)} in all" if len(nodes) > _NODES else text
 
 
 def _node(node: Node) -> str:

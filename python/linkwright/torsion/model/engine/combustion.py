@@ -259,17 +259,19 @@ def speed_points(speeds: Array, kinks: tuple[float, ...]) -> tuple[Array, Array]
     (n,) what is asked for [rad/s]; `kinks`: where the load map has corners [rad/s].
     """
     ends = np.unique([speeds.min(), *(x for x in kinks if speeds.min() < x < speeds.max()), speeds.max()])
-    each = _ALONE if len(ends) == 2 else _AMONG
+    pattern = _ALONE if len(ends) == 2 else _AMONG
     asked, place = np.unique(speeds, return_inverse=True)
-    if len(asked) <= (len(ends) - 1) * (each - 1) + 1:
+    if len(asked) <= (len(ends) - 1) * (pattern - 1) + 1:
         return asked, np.eye(len(asked))[place]
-    unit = -np.cos(np.pi * np.arange(each) / (each - 1))
+    unit = -np.cos(np.pi * np.arange(pattern) / (pattern - 1))
     points = np.unique(np.concatenate([_between(a, b, unit) for a, b in pairwise(ends)]))
     share = np.zeros((len(speeds), len(points)))
     piece = np.clip(np.searchsorted(ends, speeds, side="right") - 1, 0, len(ends) - 2)
     for i in range(len(ends) - 1):
-        first = i * (each - 1)
-        share[piece == i, first : first + each] = _shares(speeds[piece == i], points[first : first + each])
+        first = i * (pattern - 1)
+        share[piece == i, first : first + pattern] = _shares(
+            speeds[piece == i], points[first : first + pattern]
+        )
     return points, share
 
 

@@ -84,7 +84,7 @@ def closed_edges(start: float, end: float, releases: list[tuple[float, float]]) 
         n = 2 * math.ceil(duration / _CLOSED)
         marks.append(begin + duration * (np.arange(n + 1) / n) ** 2)
     edges = np.unique(np.concatenate(marks))
-    return _apart(edges, {start, end, *(each for b, d in releases for each in (b, b + d))})
+    return _apart(edges, {start, end, *(edge for b, d in releases for edge in (b, b + d))})
 
 
 def open_edges(start: float, end: float, corners: tuple[float, ...]) -> Array:

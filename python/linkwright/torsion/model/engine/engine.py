@@ -151,8 +151,10 @@ class ReciprocatingEngine(CheckedDescription):
         yield from self._limit_fault()
         if self.n_cylinders:
             yield from self._number_faults()
-        for each in self.gas.cycle_faults(self.strokes):
-            yield InitErrorDetails(type=each["type"], loc=("gas", *each.get("loc", ())), input=each["input"])
+        for wrong in self.gas.cycle_faults(self.strokes):
+            yield InitErrorDetails(
+                type=wrong["type"], loc=("gas", *wrong.get("loc", ())), input=wrong["input"]
+            )
 
     def _number_faults(self) -> Iterator[InitErrorDetails]:
         """Numbers of cylinders that it has not, and an order that does not fit its cycle."""

@@ -107,9 +107,9 @@ class TableGasLoad(GasLoad):
             yield unread_file(self.file)
             return
         yield from curve_faults(self, "speed", ("mean_effective_pressure", "charge_pressure"))
-        for place, each in enumerate(self.charge_pressure or ()):
-            if each <= 0:
-                yield fault("charge_pressure", place, found=each, expected="an absolute pressure above 0")
+        for place, pressure in enumerate(self.charge_pressure or ()):
+            if pressure <= 0:
+                yield fault("charge_pressure", place, found=pressure, expected="an absolute pressure above 0")
 
     @property
     def rated(self) -> float:

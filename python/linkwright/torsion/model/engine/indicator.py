@@ -138,7 +138,7 @@ def whole_cycle_faults(
 
 def _wrong_span(angle: tuple[float, ...], cycle: float, how: str) -> InitErrorDetails:
     """The fault of a diagram over another angle than that of the cycle."""
-    a, b, whole = (math.degrees(each) for each in (angle[0], angle[-1], cycle))
+    a, b, whole = (math.degrees(end) for end in (angle[0], angle[-1], cycle))
     return fault(
         "angle",
         found=f"angles from {a:.6g} to {b:.6g} deg, {how} the cycle",
@@ -204,9 +204,9 @@ def _fitted(volume: Array, pressure: Array) -> float:
 
 def _check_combustion(fired: Array, motored: Array, peak: float) -> None:
     """Refuse diagrams of motored cylinders where a load is asked for."""
-    for each, without in zip(fired, motored, strict=True):
-        if each - without < _NO_COMBUSTION * peak:
-            found = f"a mean effective pressure of {each:.6g} Pa, {without:.6g} Pa of it without combustion"
+    for mean, without in zip(fired, motored, strict=True):
+        if mean - without < _NO_COMBUSTION * peak:
+            found = f"a mean effective pressure of {mean:.6g} Pa, {without:.6g} Pa of it without combustion"
             expected = "a diagram with combustion, which a load map can scale"
             raise MachineError([Problem("train.engine.gas.pressure", found, expected)])
 
@@ -294,7 +294,7 @@ class Indicator(Diagram, Gas):
         angle = self._angles(cylinder.cycle)
         weight = np.full(len(angle), cylinder.cycle / len(angle))
         fired = np.array([other_load.over(angle, cylinder.cycle) for other_load in (self, *self.other_loads)])
-        motored = np.array([self._motored(each, angle, cylinder) for each in fired])
+        motored = np.array([self._motored(curve, angle, cylinder) for curve in fired])
         _, V_d1 = cylinder.volume(angle, self.compression_ratio)
         of_work = V_d1 * weight / cylinder.swept_volume
         shares = self._shares(fired @ of_work, motored @ of_work, np.asarray(speeds))

@@ -77,7 +77,7 @@ def throw_motion(
     pin = crank_pin(crank_radius, crank_angle)
     motions: dict[int, RodMotion] = {}
     # Master rods come first, wherever they stand.
-    for at, gear in sorted(enumerate(gears), key=lambda each: each[1].is_articulated):
+    for at, gear in sorted(enumerate(gears), key=lambda gear: gear[1].is_articulated):
         big_end = pin
         if isinstance(gear.rod, ArticulatedRod):
             master = motions[_master(gears, at)]
@@ -211,8 +211,8 @@ def _refined(crank_radius: float, gears: Sequence[RunningGear], start: Array) ->
 def _own_rows(crank_radius: float, gears: Sequence[RunningGear], angle: Array) -> tuple[Array, ...]:
     """x, x′, x″ of each gear at its own angles, (gears, 2) each."""
     motion = throw_motion(crank_radius, gears, angle)
-    rows = [(each.piston[at], each.piston_d1[at], each.piston_d2[at]) for at, each in enumerate(motion)]
-    return tuple(np.array(each) for each in zip(*rows, strict=True))
+    rows = [(row.piston[at], row.piston_d1[at], row.piston_d2[at]) for at, row in enumerate(motion)]
+    return tuple(np.array(row) for row in zip(*rows, strict=True))
 
 
 def _counted(angle: Array, piston: Array, bank_angle: float) -> DeadCentres:

@@ -111,7 +111,7 @@ def free(throw: CrankThrow) -> float:
 
 def _fourths(throw: CrankThrow) -> tuple[float, float, float]:
     """D₁⁴ − d₁⁴, D₂⁴ − d₂⁴ and hB³ [m⁴]."""
-    rings = (polar_moment(each.diameter, each.inner_diameter) for each in (throw.journal, throw.pin))
+    rings = (polar_moment(part.diameter, part.inner_diameter) for part in (throw.journal, throw.pin))
     journal, pin = (32 / math.pi * ring for ring in rings)
     return journal, pin, throw.web.thickness * throw.web.breadth**3
 
@@ -187,8 +187,8 @@ def _nothing(throw: CrankThrow) -> str:
 
 COMPLIANCE_FORMULAS: Mapping[str, ComplianceFormula] = MappingProxyType(
     {
-        each.name: each
-        for each in (
+        formula.name: formula
+        for formula in (
             ComplianceFormula(
                 "constrained",
                 constrained,
