@@ -99,10 +99,9 @@ def _frames(scene: Scene, seconds: float) -> Iterator[Bytes]:
 
 def dxf(scene: Scene, place: float) -> str:
     """One pose as DXF in millimetres: links, joints, guides, paths, gears and cams, each on its layer."""
-    from ezdxf.filemanagement import new
+    from linkwright.cam.manufacture.dxf import new_document
 
-    document = new("R2010", units=4)
-    document.header["$MEASUREMENT"] = 1
+    document = new_document()
     for layer, colour in _LAYERS.items():
         document.layers.add(layer, color=colour)
     _Drawing(document.modelspace(), Pose(scene, place)).draw()

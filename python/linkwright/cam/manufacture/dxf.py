@@ -45,14 +45,20 @@ _LETTERS = 0.05
 _CLOSED = 1e-14
 
 
-def write_dxf(
-    file: File, drawing: Drawing, paths: Mapping[str, Outline | Spline], notes: tuple[str, ...] = ()
-) -> None:
-    """Write a drawing as DXF."""
+def new_document() -> Document:
+    """An empty drawing in millimetres."""
     from ezdxf.filemanagement import new
 
     document = new(_VERSION, units=_MILLIMETRE)
     document.header["$MEASUREMENT"] = 1
+    return document
+
+
+def write_dxf(
+    file: File, drawing: Drawing, paths: Mapping[str, Outline | Spline], notes: tuple[str, ...] = ()
+) -> None:
+    """Write a drawing as DXF."""
+    document = new_document()
     space = document.modelspace()
     for layer, path in paths.items():
         _add_layer(document, layer)
