@@ -144,20 +144,19 @@ impl<'a, R: Real> Moved<'a, R> {
     #[inline(always)]
     fn numbers(&self, m: &mut Motion<Dual<R>>) -> [Dual<R>; NUMBERS] {
         let extremes = &self.steady.extremes;
-        let speeds = [extremes.speed_min, extremes.speed_max].map(
-            #[inline(always)]
-            |extreme| self.state(extreme.phi, m).1.omega,
-        );
-        let accelerations = [extremes.acceleration_min, extremes.acceleration_max].map(
-            #[inline(always)]
-            |extreme| self.state(extreme.phi, m).1.epsilon,
-        );
+        let places =
+            [extremes.speed_min, extremes.speed_max, extremes.acceleration_min, extremes.acceleration_max];
+        let mut found = [Dual::splat(0.0); 4];
+        for (k, extreme) in places.iter().enumerate() {
+            let there = self.state(extreme.phi, m).1;
+            found[k] = if k < 2 { there.omega } else { there.epsilon };
+        }
         let totals = self.turn.totals(&self.machine);
         [
-            speeds[0],
-            speeds[1],
-            accelerations[0],
-            accelerations[1],
+            found[0],
+            found[1],
+            found[2],
+            found[3],
             totals.period,
             self.turn.multiplier,
             totals.motor_work,

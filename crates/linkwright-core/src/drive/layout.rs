@@ -51,6 +51,12 @@ impl Layout {
         }
     }
 
+    /// A minimum over bundles made one over the turn.
+    #[inline(always)]
+    pub fn lowest<R: Real>(self, value: R) -> R {
+        -self.highest(-value)
+    }
+
     /// Solves `δ_{k+1} = growth_k δ_k + defect_k` with `δ_n = δ_0`. Returns all δ, and the product of the
     /// growths: the derivative of the turn-to-turn map.
     #[inline(always)]

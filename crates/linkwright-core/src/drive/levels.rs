@@ -34,8 +34,11 @@ impl Plan {
         let motor = match &self.drive.motor {
             Motor::Off | Motor::Constant { .. } | Motor::Line { .. } => R::splat(0.0),
             Motor::Induction { inverse_synchronous, slip, spans, .. } => {
-                let breakdown = (R::splat(1.0) - q[*slip]) / q[*inverse_synchronous];
-                spans.iter().fold(breakdown, |last, span| last.max(q[span.x1]))
+                let mut last = (R::splat(1.0) - q[*slip]) / q[*inverse_synchronous];
+                for span in spans {
+                    last = last.max(q[span.x1]);
+                }
+                last
             }
             Motor::Table { table } => R::splat(self.tables[*table].last_change(1.0)),
         };
@@ -97,12 +100,11 @@ impl<R: Real> Turn<R> {
                 bottom.viscous = bottom.viscous.min(row.viscous);
             }
         }
-        let over_lanes = |x: R| -self.layout.highest(-x);
         Bottom {
-            u: over_lanes(bottom.u),
-            energy: over_lanes(bottom.energy),
-            inverse: over_lanes(bottom.inverse),
-            viscous: over_lanes(bottom.viscous),
+            u: self.layout.lowest(bottom.u),
+            energy: self.layout.lowest(bottom.energy),
+            inverse: self.layout.lowest(bottom.inverse),
+            viscous: self.layout.lowest(bottom.viscous),
         }
     }
 

@@ -74,12 +74,12 @@ pub type Arms = [Arm; 2];
 
 /// Σ c_k T_k(t) with two derivatives by t.
 #[inline(always)]
-fn clenshaw<R: Real>(t: R, coefficients: impl DoubleEndedIterator<Item = R>) -> [R; 3] {
+fn clenshaw<R: Real>(t: R, coefficients: &[R]) -> [R; 3] {
     let zero = R::splat(0.0);
     let twice = t + t;
     // The recurrence, and what it gives when it is differentiated once and twice.
     let (mut b, mut b1) = ([zero; 3], [zero; 3]);
-    for c in coefficients.rev() {
+    for &c in coefficients.iter().rev() {
         let b2 = b1;
         b1 = b;
         b = [
@@ -96,17 +96,20 @@ fn clenshaw<R: Real>(t: R, coefficients: impl DoubleEndedIterator<Item = R>) -> 
 /// point, `sine` and `cosine` are those of the distance from it.
 #[inline(always)]
 pub(super) fn at<R: Real>(arms: &Arms, q: &[R], after: R, sine: R, cosine: R) -> ([Vec2<R>; 3], R) {
-    let [plus, minus] = arms;
-    let pick = |plus: Slot, minus: Slot| after.select_lt(R::splat(0.0), q[minus], q[plus]);
-    let scale = pick(plus.inverse_width, minus.inverse_width);
+    let ([plus, minus], zero) = (arms, R::splat(0.0));
+    let scale = after.select_lt(zero, q[minus.inverse_width], q[plus.inverse_width]);
+    let reach = after.select_lt(zero, q[minus.reach], q[plus.reach]);
     let (t, rate) = (sine * scale, cosine * scale);
-    let along = |plus: &[Slot], minus: &[Slot]| {
-        let [f, f1, f2] = clenshaw(t, plus.iter().zip(minus).map(|(&plus, &minus)| pick(plus, minus)));
-        // t′ = cos/w, t″ = −t.
-        [f, f1 * rate, f2 * rate.squared() - f1 * t]
-    };
-    let (x, y) = (along(&plus.x, &minus.x), along(&plus.y, &minus.y));
-    ([0, 1, 2].map(|k| Vec2::new(x[k], y[k])), pick(plus.reach, minus.reach))
+    let (mut x, mut y) = ([zero; TERMS], [zero; TERMS]);
+    for k in 0..TERMS {
+        x[k] = after.select_lt(zero, q[minus.x[k]], q[plus.x[k]]);
+        y[k] = after.select_lt(zero, q[minus.y[k]], q[plus.y[k]]);
+    }
+    let ([x, x1, x2], [y, y1, y2]) = (clenshaw(t, &x), clenshaw(t, &y));
+    // t′ = cos/w, t″ = −t.
+    let square = rate.squared();
+    let second = Vec2::new(x2 * square - x1 * t, y2 * square - y1 * t);
+    ([Vec2::new(x, y), Vec2::new(x1, y1) * rate, second], reach)
 }
 
 /// A dyad where it folds: coupler, rocker less coupler is −`excess`, its place there, and the rounding of u.
@@ -178,8 +181,8 @@ impl Fold {
             // Folded in every direction while the pin lies over the pivot.
             return true;
         }
-        let x = clenshaw(0.0, numbers[2..2 + TERMS].iter().copied())[0];
-        let y = clenshaw(0.0, numbers[2 + TERMS..].iter().copied())[0];
+        let x = clenshaw(0.0, &numbers[2..2 + TERMS])[0];
+        let y = clenshaw(0.0, &numbers[2 + TERMS..])[0];
         let folded = self.u * (self.coupler * self.excess.signum() / self.u.dot(self.u).sqrt());
         let off = Vec2::new(x, y) - folded;
         off.dot(off).sqrt() <= ON_THE_WAY * self.coupler

@@ -145,6 +145,9 @@ pub(super) struct Rocking<R> {
     pub gap: R,
 }
 
+/// S over u² below which it is zero: rounding of its radicand leaves 1e-8 a/u or nothing.
+const IN_LINE: f64 = 1e-30;
+
 /// Dyad RRR between pin A and pivot D, u = D − A, coupler a, rocker b, joint C:
 ///
 /// ```text
@@ -163,12 +166,17 @@ pub(super) fn rocking<R: Real, const ORDER: u8>(pin: &Place<R>, pivot: &Place<R>
     let gap = (a.squared() * 4.0).mul_add(u_squared, -(projected.squared()));
     let S = gap.sqrt();
 
-    let half_inverse = (u_squared + u_squared).recip();
+    // One division for 1/u² and 1/S, also where links come into line and S is zero.
+    let least = u_squared * IN_LINE;
+    let some = S.max(least);
+    let inverse = (u_squared * some).recip();
+    let half_inverse = inverse * some * 0.5;
     let arm = (u * (projected * half_inverse)).plus(u.left(), sign * S * half_inverse);
     let joint = pin.p + arm;
     let e = arm * q.inverse_coupler;
     let f = (arm - u) * q.inverse_rocker;
-    let inverse_S = sign * (S.recip() * 2.0);
+    let over_S = S.select_lt(least, R::splat(f64::INFINITY), inverse * u_squared);
+    let inverse_S = sign * over_S * 2.0;
     // 1/(aκ) and 1/(bκ)
     let (to_a, to_b) = (b * inverse_S, a * inverse_S);
     let (psi_a1, psi_b1) = (u1.dot(f) * to_a, u1.dot(e) * to_b);

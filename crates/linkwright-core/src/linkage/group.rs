@@ -257,14 +257,14 @@ impl Group {
     fn carry<R: Real, const ORDER: u8>(&self, q: &[R], m: &mut Motion<R>) {
         for each in &self.carried {
             let (from, to) = (&m.points[each.from], &m.points[each.to]);
-            let along = |a: Vec2<R>, b: Vec2<R>| combine(a, b, q[each.along], q[each.across]);
-            let p = along(from.p, to.p);
+            let (along, across) = (q[each.along], q[each.across]);
+            let p = combine(from.p, to.p, along, across);
             let (mut d1, mut d2) = (Vec2::zero(), Vec2::zero());
             if ORDER > 0 {
-                d1 = along(from.d1, to.d1);
+                d1 = combine(from.d1, to.d1, along, across);
             }
             if ORDER > 1 {
-                d2 = along(from.d2, to.d2);
+                d2 = combine(from.d2, to.d2, along, across);
             }
             m.points[each.point].set(p, d1, d2);
         }

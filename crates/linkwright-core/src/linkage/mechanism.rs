@@ -72,6 +72,7 @@ pub struct Mechanism {
 
 impl<R: Real> Motion<R> {
     /// Room for the motion of a mechanism with parameters `q`; the points of the ground are in place.
+    #[inline(always)]
     pub fn new(mechanism: &Mechanism, q: &[R]) -> Self {
         let zero = R::splat(0.0);
         let mut motion = Motion {

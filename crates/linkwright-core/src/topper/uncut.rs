@@ -189,6 +189,12 @@ impl Swing<'_> {
         at
     }
 
+    /// Length of a chord beyond an end of the edge.
+    #[inline(always)]
+    fn left<R: Real>(&self, q: R, chord: R) -> R {
+        (q + chord - R::splat(self.half)).max(R::splat(0.0)).min(chord + chord)
+    }
+
     /// Area left on both sides.
     #[inline(always)]
     fn area<R: Real>(&self, scratch: &mut Scratch) -> [f64; 2] {
@@ -197,10 +203,9 @@ impl Swing<'_> {
         let (mut behind, mut ahead) = (zero, zero);
         for (u, weight) in scratch.nodes.chunks_exact(R::LANES).zip(scratch.weights.chunks_exact(R::LANES)) {
             let [chord, q, pace] = self.at(R::load(u));
-            let left = |far: R| (far + chord - R::splat(self.half)).max(zero).min(chord + chord);
             let share = pace * R::load(weight);
-            behind = behind + left(q) * share;
-            ahead = ahead + left(-q) * share;
+            behind = behind + self.left(q, chord) * share;
+            ahead = ahead + self.left(-q, chord) * share;
         }
         [sum(behind), sum(ahead)]
     }

@@ -4,11 +4,9 @@
 //! f(τ) = Σ Re c_h e^{ihτ},    h = 0, 1, … H
 //! ```
 //!
-//! Sampled at 8H places, f is nearly a parabola through three of them. Tops of these that may be the highest, as Bernstein's
-//! bounds of the derivatives have it, are taken to the last digit by Newton. Samples are taken in lanes, a wave each,
-//! many waves in threads.
-//!
-//! Source: Zygmund, *Trigonometric Series*, chapter X, for the bounds.
+//! Sampled at 8H places, f is nearly a parabola through three of them. Tops of these that may be the highest, as the bounds
+//! |f″| ≤ Σ h² |c_h| and |f‴| ≤ Σ h³ |c_h| of the derivatives have it, are taken to the last digit by Newton. Samples are
+//! taken in lanes, a wave each, many waves in threads.
 
 use super::forced::Complex;
 use crate::kernel::call::{in_threads, poll};
@@ -21,9 +19,8 @@ use std::ops::Range;
 /// Samples in a period of the highest harmonic.
 const FINE: usize = 8;
 
-/// Share of ‖f‖, as samples know it, by which the top of a parabola through three of them may miss that of f: h³ max |f‴|/(9√3)
-/// with h = π/4H and |f‴| ≤ H³ ‖f‖ (Bernstein), over cos(π/8).
-const MISSED: f64 = 0.034;
+/// Share of h³ max |f‴| by which the top of a parabola through three samples h apart may miss that of f: 1/(9√3).
+const MISSED: f64 = 0.0642;
 
 /// Newton's steps: it starts within a hundredth of the shortest period.
 const STEPS: usize = 8;
@@ -167,33 +164,49 @@ fn wave_extremes(wave: &[Complex], samples: &[f64]) -> Extremes {
     if samples.iter().any(|x| !x.is_finite()) {
         return Extremes { max: f64::NAN, at_max: f64::NAN, min: f64::NAN, at_min: f64::NAN };
     }
-    let (at_max, max) = highest(wave, samples, 1.0);
-    let (at_min, min) = highest(wave, samples, -1.0);
+    let bounds = bounds(wave);
+    let (at_max, max) = highest(wave, samples, 1.0, bounds);
+    let (at_min, min) = highest(wave, samples, -1.0, bounds);
     Extremes { max, at_max, min: -min, at_min }
 }
 
-/// Where ±f is largest, and how much it is there.
-fn highest(wave: &[Complex], samples: &[f64], sign: f64) -> (f64, f64) {
+/// What second and third derivative of a wave do not exceed.
+fn bounds(wave: &[Complex]) -> [f64; 2] {
+    let (mut second, mut third) = (0.0, 0.0);
+    for (h, [re, im]) in wave.iter().enumerate() {
+        let (h, size) = (h as f64, (re * re + im * im).sqrt());
+        second += h * h * size;
+        third += h * h * h * size;
+    }
+    [second, third]
+}
+
+/// Where ±f is largest, and how much it is there; `second` and `third` are bounds of these derivatives.
+fn highest(wave: &[Complex], samples: &[f64], sign: f64, [second, third]: [f64; 2]) -> (f64, f64) {
     let n = samples.len();
     let step = TAU / n as f64;
-    let swing = samples.iter().fold(0.0_f64, |a, x| a.max((x - wave[0][0]).abs()));
+    let most = samples.iter().fold(f64::NEG_INFINITY, |most, x| most.max(sign * x));
+    // A sample beside the top is no lower than that by more than half a step's parabola.
+    let least = most - 0.125 * second * step * step;
     // Tops of parabolas through three samples: where, and how high.
     let mut tops = Vec::with_capacity(8);
-    let (mut before, mut here) = (sign * samples[n - 1], sign * samples[0]);
-    let following = samples[1..].iter().chain(&samples[..1]);
-    for (j, after) in following.enumerate() {
-        let after = sign * after;
+    for (j, here) in samples.iter().enumerate() {
+        let here = sign * here;
+        if here < least {
+            continue;
+        }
+        let (before, after) = (sign * samples[(j + n - 1) % n], sign * samples[(j + 1) % n]);
         if here >= before && here >= after {
             let bend = before - 2.0 * here + after;
             let shift = if bend < 0.0 { 0.5 * (before - after) / bend } else { 0.0 };
             tops.push(((j as f64 + shift) * step, here - 0.25 * (before - after) * shift, here));
         }
-        (before, here) = (here, after);
     }
+    let missed = MISSED * third * step.powi(3);
     tops.sort_by(|a, b| b.1.total_cmp(&a.1));
     let mut found = (0.0, f64::NEG_INFINITY);
     for (start, top, sample) in tops {
-        if top + MISSED * swing < found.1 {
+        if top + missed < found.1 {
             break;
         }
         let (at, value) = climb(wave, start, step, sign, sample);
@@ -230,9 +243,13 @@ const ABREAST: usize = 4;
 
 /// f, f′ and f″ of a wave whose harmonics are filled up to a multiple of [`ABREAST`].
 fn evaluate(wave: &[Complex], at: f64) -> [f64; 3] {
-    let turn = |h: usize| (h as f64 * at).sin_cos();
-    let (s4, c4) = turn(ABREAST);
-    let mut turns: [(f64, f64); ABREAST] = std::array::from_fn(turn);
+    let (s1, c1) = at.sin_cos();
+    let further = |(s, c): (f64, f64)| (s * c1 + c * s1, c * c1 - s * s1);
+    let mut turns = [(0.0, 1.0); ABREAST];
+    for k in 1..ABREAST {
+        turns[k] = further(turns[k - 1]);
+    }
+    let (s4, c4) = further(turns[ABREAST - 1]);
     let mut sums = [[0.0; 3]; ABREAST];
     for (first, four) in wave.chunks_exact(ABREAST).enumerate() {
         for (k, (sum, ((s, c), &[re, im]))) in sums.iter_mut().zip(turns.iter_mut().zip(four)).enumerate() {
