@@ -124,7 +124,7 @@ fn free_motion_keeps_its_energy() {
     let built = b.finish(Motor::Off, [1.0, 1.0, 1.0, 0.3, 20.0]);
     let start = Start { phi: 0.3, omega: 20.0, duration: FOREVER, turns: 50.0, accuracy: 1e-12 };
     let path = follow(&built.plan, &built.q, &start);
-    let machine = Machine { plan: &built.plan, q: &built.q };
+    let machine = Machine::new(&built.plan, &built.q);
     let mut m = Motion::new(&built.plan.mechanism, &built.q);
     let mut energy = |i: usize| 0.5 * machine.state(path.phi[i], 1.0, &mut m).J * path.omega[i].powi(2);
     let (first, last) = (energy(0), energy(path.t.len() - 1));
@@ -433,7 +433,7 @@ fn inertia_scales_with_the_square_of_length() {
         b.finish(Motor::Off, [1.0, 1.0, 1.0, 0.0, 1.0])
     };
     let J = |built: &Built| {
-        let machine = Machine { plan: &built.plan, q: &built.q };
+        let machine = Machine::new(&built.plan, &built.q);
         machine.state(0.7, 1.0, &mut Motion::new(&built.plan.mechanism, &built.q)).J
     };
     let (one, three) = (J(&size(1.0)), J(&size(3.0)));

@@ -204,7 +204,7 @@ impl<'a, R: Real> Lanes<'a, R> {
         let numbers: Vec<usize> = rows.iter().map(|row| chunk.first + row).collect();
         self.rows.lanes(&numbers, &mut self.q);
         self.m.ground(&self.plan.mechanism, &self.q);
-        let (machine, m) = (Machine { plan: self.plan, q: &self.q }, &mut self.m);
+        let (machine, m) = (Machine::new(self.plan, &self.q).keeping_branch(!meshes.is_empty()), &mut self.m);
         let mesh_of = |lane: usize| &meshes[lane.min(meshes.len() - 1)];
         let meshes: Vec<&Passing> =
             if meshes.is_empty() { Vec::new() } else { (0..R::LANES).map(mesh_of).collect() };
@@ -427,7 +427,7 @@ pub fn law_torques(plan: &Plan, q: &[f64], phi: &[f64], omega: &[f64], out: &mut
         given.clear();
         plan.give(q, phi_i, &m, &mut given);
         for (k, &omega_k) in omega.iter().enumerate() {
-            out[k * phi.len() + i] = plan.law_torque(q, &given, omega_k, f64::NAN);
+            out[k * phi.len() + i] = plan.law_torque::<f64, f64, f64>(q, &given, omega_k, f64::NAN);
         }
     }
 }

@@ -177,6 +177,12 @@ impl<R: Real> Turn<R> {
             let (second, given_second) = machine.advance_near(step.phi + x, first.end(), x, X, m);
             if level == 0 {
                 d.defect = second.end() - whole.end();
+                if machine.keeps_branch {
+                    let of_speed = (step.u * (2.0 * limits.accuracy)).max(step.u * (4.0 * ROUNDING));
+                    let off = machine.off_branch(&first, &given) + machine.off_branch(&second, &given_second);
+                    d.error = d.error.max(off / of_speed);
+                    d.relative = d.relative.max(off / step.u * 0.5);
+                }
                 let halves = [machine.integrals(&first, &given), machine.integrals(&second, &given_second)];
                 for i in 0..INTEGRALS {
                     d.integrals[i] = (halves[0][i] + halves[1][i] - d.integrals[i]).abs();

@@ -14,6 +14,7 @@
 use crate::drive::law::Given;
 use crate::drive::layout::{Layout, bundle};
 use crate::drive::structure::Plan;
+use crate::kernel::branch::OnBranch;
 use crate::kernel::call::poll;
 use crate::kernel::dual::Dual;
 use crate::kernel::plane::Angle;
@@ -82,7 +83,13 @@ pub struct Machine<'a, R> {
     pub plan: &'a Plan,
     /// Its numbers.
     pub q: &'a [R],
+    /// Whether all stages of a step keep to one branch of what has kinks or jumps at some speed: that of [`REFERENCE`].
+    /// Kinks are ends of steps then, and rounding does not decide on which side of them a stage lies.
+    pub keeps_branch: bool,
 }
+
+/// The stage whose state chooses the branch: well inside the step.
+pub const REFERENCE: usize = 2;
 
 /// Newton sweeps before giving up. From a good start 5 suffice; 40 leave room for damped ones.
 const SWEEPS_MAX: u32 = 40;
@@ -99,25 +106,53 @@ pub const CONVERGED: f64 = 1e-8;
 /// Largest correction of the last sweep that counts as converged at all.
 const SOLVED: f64 = 1e-6;
 
-impl<R: Real> Machine<'_, R> {
-    /// ε without laws, and its derivative by u.
+impl<'a, R: Real> Machine<'a, R> {
+    /// A machine that is evaluated as it is at every stage.
+    pub fn new(plan: &'a Plan, q: &'a [R]) -> Self {
+        Machine { plan, q, keeps_branch: false }
+    }
+
+    /// A machine whose steps each keep to one branch, or not.
+    #[must_use]
+    pub fn keeping_branch(self, keeps_branch: bool) -> Self {
+        Machine { keeps_branch, ..self }
+    }
+
+    /// ε without laws.
     #[inline(always)]
-    fn drive_acceleration(&self, row: &Row<R>, u: R) -> Dual<R> {
-        let u = Dual::variable(u);
+    fn drive_acceleration<N: Lift<R>>(&self, row: &Row<R>, u: N) -> N {
         let omega = (u * 2.0).sqrt();
         let torque = self.plan.drive.torque(&self.plan.tables, self.q, omega);
-        let net = torque - Dual::constant(row.load) - Dual::constant(row.viscous) * omega;
-        net * Dual::constant(row.inverse) - Dual::constant(row.drift) * u
+        let net = torque - N::lift(row.load) - N::lift(row.viscous) * omega;
+        net * N::lift(row.inverse) - N::lift(row.drift) * u
     }
 
     /// ε, and its derivative by u.
     #[inline(always)]
     pub fn acceleration(&self, row: &Row<R>, given: &[Given<R>], u: R) -> Dual<R> {
-        let free = self.drive_acceleration(row, u);
+        let free = self.drive_acceleration(row, Dual::variable(u));
         if given.is_empty() {
             return free;
         }
         let taken = self.laws(given, (Dual::variable(u) * 2.0).sqrt());
+        free - taken * Dual::constant(row.inverse)
+    }
+
+    /// The same on the branch of a reference, which has its own `known` and u.
+    #[inline(always)]
+    pub fn acceleration_on_branch(
+        &self,
+        row: &Row<R>,
+        given: &[Given<R>],
+        u: R,
+        (known, at): (&[Given<R>], R),
+    ) -> Dual<R> {
+        let u = OnBranch { value: Dual::variable(u), at };
+        let free = self.drive_acceleration(row, u).value;
+        if given.is_empty() {
+            return free;
+        }
+        let taken = self.laws_on_branch(given, known, (u * 2.0).sqrt()).value;
         free - taken * Dual::constant(row.inverse)
     }
 
@@ -126,13 +161,27 @@ impl<R: Real> Machine<'_, R> {
     pub fn laws<N: Lift<R>>(&self, given: &[Given<R>], omega: N) -> N {
         N::outline(
             #[inline(always)]
-            || self.plan.law_torque(self.q, given, omega, N::splat(f64::NAN)),
+            || self.plan.law_torque::<R, R, N>(self.q, given, omega, N::splat(f64::NAN)),
+        )
+    }
+
+    /// The same on the branch of a reference, where the laws know what is `known`.
+    #[inline(always)]
+    pub fn laws_on_branch<N>(&self, given: &[Given<R>], known: &[Given<R>], omega: N) -> N
+    where
+        N: Lift<R> + Lift<OnBranch<R, R>>,
+    {
+        let both: Vec<Given<OnBranch<R, R>>> =
+            given.iter().zip(known).map(|(given, known)| given.on_branch_of(known)).collect();
+        N::outline(
+            #[inline(always)]
+            || self.plan.law_torque::<R, OnBranch<R, R>, N>(self.q, &both, omega, N::splat(f64::NAN)),
         )
     }
 
     /// What the laws need to know at one stage of several.
     #[inline(always)]
-    pub fn given_at<'a>(&self, given: &'a [Given<R>], stage: usize) -> &'a [Given<R>] {
+    pub fn given_at<'g>(&self, given: &'g [Given<R>], stage: usize) -> &'g [Given<R>] {
         let n = self.plan.laws.len();
         &given[stage * n..(stage + 1) * n]
     }
@@ -141,8 +190,16 @@ impl<R: Real> Machine<'_, R> {
     #[inline(always)]
     fn accelerations(&self, rows: &[Row<R>; S], given: &[Given<R>], X: &[R; S]) -> ([R; S], [R; S]) {
         let (mut f, mut d) = (*X, *X);
+        if self.keeps_branch {
+            let reference = (self.given_at(given, REFERENCE), X[REFERENCE]);
+            for i in 0..S {
+                let epsilon = self.acceleration_on_branch(&rows[i], self.given_at(given, i), X[i], reference);
+                (f[i], d[i]) = (epsilon.value, epsilon.d);
+            }
+            return (f, d);
+        }
         for i in 0..S {
-            let free = self.drive_acceleration(&rows[i], X[i]);
+            let free = self.drive_acceleration(&rows[i], Dual::variable(X[i]));
             (f[i], d[i]) = (free.value, free.d);
         }
         if !given.is_empty() {
@@ -152,6 +209,18 @@ impl<R: Real> Machine<'_, R> {
             }
         }
         (f, d)
+    }
+
+    /// Where the stages of a step lie on another branch than the one that the step keeps to: the most that this makes of
+    /// u at its end. The last stage lies on the kink itself.
+    #[inline(always)]
+    pub fn off_branch(&self, step: &Step<R>, given: &[Given<R>]) -> R {
+        let mut sum = R::splat(0.0);
+        for i in 0..S - 1 {
+            let own = self.acceleration(&step.rows[i], self.given_at(given, i), step.X[i]).value;
+            sum = (own - step.K[i]).abs().mul_add(step.h * B[i], sum);
+        }
+        sum
     }
 
     /// The reduced machine at a crank angle; what its laws need to know there is added to `given`.

@@ -5,7 +5,7 @@
 //! ([`Machine::advance`]). So an extreme is a value of the curve; the square of the error in its place is
 //! what it may fall short by.
 
-use crate::drive::cycle::{Machine, Turn, stages_of_part};
+use crate::drive::cycle::{Machine, REFERENCE, Turn, stages_of_part};
 use crate::drive::layout::{Layout, unbundle};
 use crate::kernel::radau::{AT, N, S, slope_and_bend, through};
 use crate::kernel::real::Real;
@@ -152,11 +152,16 @@ impl<R: Real> Turn<R> {
     fn samples(&self, machine: &Machine<'_, R>, m: &mut Motion<R>) -> Vec<Samples<R>> {
         let mut samples = Vec::with_capacity(self.steps.len());
         let mut given = Vec::with_capacity(machine.plan.laws.len());
-        for step in &self.steps {
+        for (k, step) in self.steps.iter().enumerate() {
             given.clear();
             let row = machine.row(step.phi, m, &mut given);
             let (mut u, mut epsilon) = ([step.u; N], [step.u; N]);
-            epsilon[0] = machine.acceleration(&row, &given, step.u).value;
+            epsilon[0] = if machine.keeps_branch {
+                let known = machine.given_at(self.given_of(machine, k), REFERENCE);
+                machine.acceleration_on_branch(&row, &given, step.u, (known, step.X[REFERENCE])).value
+            } else {
+                machine.acceleration(&row, &given, step.u).value
+            };
             u[1..].copy_from_slice(&step.X);
             epsilon[1..].copy_from_slice(&step.K);
             samples.push([u, epsilon]);

@@ -9,7 +9,8 @@
 //! that a torque may jump there. An extreme stays an extreme: its derivative is that of the curve at its
 //! angle (envelope theorem), or along the kink that it sits on.
 
-use crate::drive::cycle::{Machine, Turn, stages_of_part};
+use crate::drive::cycle::{Machine, REFERENCE, Turn, stages_of_part};
+use crate::drive::events::Events;
 use crate::drive::layout::Layout;
 use crate::drive::reading::State;
 use crate::drive::steady::Steady;
@@ -17,6 +18,7 @@ use crate::drive::structure::Plan;
 use crate::kernel::call::poll;
 use crate::kernel::dual::Dual;
 use crate::kernel::lanes::{Job, in_single_lanes};
+use crate::kernel::radau::S;
 use crate::kernel::real::Real;
 use crate::linkage::motion::Motion;
 use std::f64::consts::TAU;
@@ -27,6 +29,10 @@ pub const NUMBERS: usize = 11;
 
 /// Curves that are differentiated: time, speed, acceleration, torques of motor, drive and loads, inertia.
 pub const CURVES: usize = 7;
+
+/// Rounds in which the ends of steps at jumps are moved, and the share of its move by which the last may move one.
+const PASSAGES_MAX: usize = 60;
+const MOVED: f64 = 1e-11;
 
 /// An angle this near to the end of a step \[rad\] is that end.
 const AT_END: f64 = 1e-12;
@@ -86,7 +92,11 @@ impl Job for Gradient<'_> {
                 q.push(Dual { value: R::splat(value), d: R::load(&lanes) });
             }
             let mut m = Motion::new(&self.plan.mechanism, &q);
-            let moved = Moved::new(Machine { plan: self.plan, q: &q }, self.steady, &mut m);
+            let moved = Moved::new(
+                Machine::new(self.plan, &q).keeping_branch(self.steady.keeps_branch()),
+                self.steady,
+                &mut m,
+            );
             let mut put = |list: &mut [f64], row: usize, x: Dual<R>| {
                 x.d.store(&mut lanes);
                 list[row * n + first..][..width].copy_from_slice(&lanes[..width]);
@@ -122,22 +132,77 @@ impl<'a, R: Real> Moved<'a, R> {
             #[inline(always)]
             || machine.moving(&ends, m),
         );
-        let steps = edges.windows(2).map(|ends| (ends[0], ends[1] - ends[0])).collect();
-        let mut turn = Turn::tabulate(&machine, steps, Layout::Machines, m);
-        for (step, mark) in turn.steps.iter_mut().zip(marks) {
+        let mut moved = Moved { machine, steady, turn: Turn::empty(Layout::Machines), edges };
+        moved.differentiate(m);
+        if !steady.passages.is_empty() {
+            moved.move_passages(m);
+        }
+        moved
+    }
+
+    /// The solution on the steps between the edges, with its derivatives.
+    #[inline(always)]
+    fn differentiate(&mut self, m: &mut Motion<Dual<R>>) {
+        let marks = &self.steady.marks;
+        let steps: Vec<_> = self.edges.windows(2).map(|ends| (ends[0], ends[1] - ends[0])).collect();
+        self.turn.tabulate_again(&self.machine, &steps, m);
+        for (step, mark) in self.turn.steps.iter_mut().zip(marks) {
             step.u = Dual::splat(mark.u);
             step.X = mark.X.map(Dual::splat);
         }
         let mut work = Vec::with_capacity(marks.len());
         // The first sweep gives the derivative of the solution, the second that of its growth.
         for _ in 0..2 {
-            turn.correction = Dual::splat(f64::INFINITY);
+            self.turn.correction = Dual::splat(f64::INFINITY);
             R::outline(
                 #[inline(always)]
-                || turn.sweep(&machine, &mut work),
+                || self.turn.sweep(&self.machine, &mut work),
             );
         }
-        Moved { machine, steady, turn, edges }
+    }
+
+    /// Moves the ends of steps at which the motion passes a kink along with it: the quantity g whose zero the kink is
+    /// stays zero, φ′ = −(g_p + g_u u_p)/g′, with g′ along the motion before the kink. Where the torque jumps, the motion
+    /// in turn depends on that; the factors of the jumps count in the multiplier.
+    #[inline(always)]
+    fn move_passages(&mut self, m: &mut Motion<Dual<R>>) {
+        let events = Events::new(self.machine);
+        for _ in 0..PASSAGES_MAX {
+            let (mut jumps, mut most, mut factors) = (false, 0.0_f64, Dual::splat(1.0));
+            for passage in &self.steady.passages {
+                let marks = &self.steady.marks;
+                let k = marks.partition_point(|mark| mark.phi < passage.phi - AT_END).max(1);
+                let (step, phi) = (&self.turn.steps[k], self.edges[k]);
+                let slopes = events.slopes(passage.event, phi, step.u, m);
+                let (before, behind) = (self.turn.steps[k - 1].K[S - 1], self.start_of(k, m));
+                let along = slopes[0] + slopes[1] * before;
+                let left = events.value(passage.event, phi, step.u, m).d / along.value;
+                let factor = events.saltation(slopes, before, behind);
+                jumps |= (factor.value.max_lane() - 1.0).abs() > 0.0;
+                most = most.max((left.abs() - phi.d.abs() * MOVED).max_lane());
+                self.edges[k].d = phi.d - left;
+                factors = factors * factor;
+            }
+            self.differentiate(m);
+            self.turn.multiplier = self.turn.multiplier * factors;
+            if !jumps || most <= 0.0 {
+                return;
+            }
+        }
+        // Nothing is known of derivatives that do not settle.
+        self.turn.multiplier.d = R::splat(f64::NAN);
+        for step in &mut self.turn.steps {
+            step.u.d = R::splat(f64::NAN);
+        }
+    }
+
+    /// Acceleration at the start of a step, on its branch.
+    #[inline(always)]
+    fn start_of(&self, k: usize, m: &mut Motion<Dual<R>>) -> Dual<R> {
+        let (mut given, step) = (Vec::new(), &self.turn.steps[k]);
+        let row = self.machine.row(step.phi, m, &mut given);
+        let known = self.machine.given_at(self.turn.given_of(&self.machine, k), REFERENCE);
+        self.machine.acceleration_on_branch(&row, &given, step.u, (known, step.X[REFERENCE])).value
     }
 
     /// The numbers of the turn.

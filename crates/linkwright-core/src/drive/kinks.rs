@@ -488,7 +488,7 @@ impl<R: Real> Machine<'_, Dual<R>> {
 
 /// Ends of the smooth pieces of one machine's turn \[rad\].
 pub fn kinks(plan: &Plan, q: &[f64]) -> Vec<f64> {
-    Machine { plan, q }.breaks(&mut Motion::new(&plan.mechanism, q)).swap_remove(0)
+    Machine::new(plan, q).breaks(&mut Motion::new(&plan.mechanism, q)).swap_remove(0)
 }
 
 fn scan_angle(i: usize) -> f64 {

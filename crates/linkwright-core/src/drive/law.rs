@@ -9,6 +9,7 @@
 
 use crate::drive::loads::{Carrier, FormulaLoad, Law};
 use crate::drive::structure::Plan;
+use crate::kernel::branch::OnBranch;
 use crate::kernel::dual::Dual;
 use crate::kernel::formula::{Degree, Formula, Inputs, Variable};
 use crate::kernel::plane::Vec2;
@@ -33,13 +34,13 @@ pub struct Given<R> {
 }
 
 /// A place where a law has a kink or a jump that depends on the speed.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moving {
     law: usize,
     at: Place,
 }
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 enum Place {
     /// In front of this instruction of the formula.
     Switch(usize),
@@ -48,6 +49,23 @@ enum Place {
 }
 
 impl<R: Real> Given<R> {
+    /// With what it is at a reference: the law then keeps to the branch that it has there.
+    #[inline(always)]
+    pub fn on_branch_of(&self, reference: &Self) -> Given<OnBranch<R, R>> {
+        let on = |value: R, at: R| OnBranch { value, at };
+        let both = |v: Vec2<R>, at: Vec2<R>| Vec2 { x: on(v.x, at.x), y: on(v.y, at.y) };
+        Given {
+            phi: on(self.phi, reference.phi),
+            p: both(self.p, reference.p),
+            d1: both(self.d1, reference.d1),
+            s: on(self.s, reference.s),
+            path: on(self.path, reference.path),
+            psi: on(self.psi, reference.psi),
+            psi_d1: on(self.psi_d1, reference.psi_d1),
+            g: on(self.g, reference.g),
+        }
+    }
+
     #[inline(always)]
     fn nothing() -> Self {
         let zero = R::splat(0.0);
@@ -220,14 +238,19 @@ impl Plan {
 
     /// Torque of all laws that resists \[N m\] at crank speed ω and time t.
     #[inline(always)]
-    pub fn law_torque<R: Real, N: Lift<R>>(&self, q: &[R], given: &[Given<R>], omega: N, time: N) -> N {
+    pub fn law_torque<R, G, N>(&self, q: &[R], given: &[Given<G>], omega: N, time: N) -> N
+    where
+        R: Real,
+        G: Real,
+        N: Lift<R> + Lift<G>,
+    {
         let mut sum = N::splat(0.0);
         for (law, given) in self.laws.iter().zip(given) {
-            let g = N::lift(given.g);
+            let g: N = Lift::<G>::lift(given.g);
             sum = match *law {
                 Law::Formula(load) => {
                     let inputs = given.inputs(omega, time);
-                    sum - self.formulas[load.formula].value(q, &inputs) * g
+                    sum - self.formulas[load.formula].value::<R, N>(q, &inputs) * g
                 }
                 Law::Damper { table, .. } => {
                     let force = (g * omega).map(
@@ -266,14 +289,15 @@ impl Plan {
     }
 
     /// The quantity whose zero is a moving kink.
-    pub fn moving_value(&self, q: &[f64], kink: Moving, given: &[Given<f64>], omega: f64) -> f64 {
+    #[inline(always)]
+    pub fn moving_value<R: Real>(&self, q: &[R], kink: Moving, given: &[Given<R>], omega: R) -> R {
         let given = &given[kink.law];
         match (kink.at, self.laws[kink.law]) {
             (Place::Switch(at), Law::Formula(load)) => {
-                self.formulas[load.formula].switch(at, q, &given.inputs(omega, f64::NAN))
+                self.formulas[load.formula].switch(at, q, &given.inputs(omega, R::splat(f64::NAN)))
             }
             (Place::Knot(knot), _) => given.g * omega - knot,
-            (Place::Switch(_), Law::Damper { .. }) => f64::NAN,
+            (Place::Switch(_), Law::Damper { .. }) => R::splat(f64::NAN),
         }
     }
 

@@ -14,6 +14,7 @@
 //! clear of zero, or the interval is halved.
 
 use crate::drive::cycle::{Machine, divide};
+use crate::drive::events::Events;
 use crate::drive::mesh::Piece;
 use crate::kernel::call::poll;
 use crate::kernel::radau::{S, tail};
@@ -116,6 +117,8 @@ struct March<'a> {
     breaks: &'a [f64],
     rest: f64,
     m: Motion<f64>,
+    /// Those of laws are ends of steps.
+    events: Events<'a, f64>,
     turns: usize,
     /// Motions that repeat, from the fastest down.
     found: Vec<Repeated>,
@@ -132,7 +135,15 @@ pub fn repeating(
 ) -> Result<Vec<Repeated>, NoMotion> {
     let m = Motion::new(&machine.plan.mechanism, machine.q);
     let working = 0.5 * machine.q[machine.plan.drive.speed_start].powi(2);
-    let mut march = March { machine, breaks, rest: REST * working, m, turns: 0, found: Vec::new() };
+    let mut march = March {
+        machine,
+        breaks,
+        rest: REST * working,
+        m,
+        events: Events::new(*machine),
+        turns: 0,
+        found: Vec::new(),
+    };
     match march.walk(working, which) {
         _ if !march.found.is_empty() => Ok(march.found),
         Ok(()) => Err(NoMotion::Unknown),
@@ -297,8 +308,14 @@ impl March<'_> {
                 return Err(NoMotion::Unknown);
             }
             let left = self.breaks[next_break] - phi;
-            let step = h.min(left);
-            let (found, _) = self.machine.advance(phi, turn.end, step, &mut self.m);
+            let mut step = h.min(left);
+            let (mut found, _) = self.machine.advance(phi, turn.end, step, &mut self.m);
+            let piece = Piece { phi, h: step, u: turn.end, X: found.X };
+            let jump = self.events.first_of_laws(&piece, &mut self.m);
+            if let Some(to) = jump.filter(|&to| to < step) {
+                step = to;
+                found = self.machine.advance(phi, turn.end, step, &mut self.m).0;
+            }
             if found.rows.iter().any(|row| !row.inverse.is_finite()) {
                 return Err(NoMotion::DoesNotClose { phi });
             }
@@ -313,6 +330,10 @@ impl March<'_> {
                 turn.end = found.X[S - 1];
                 turn.growth *= found.growth;
                 phi += step;
+                if jump.is_some() {
+                    let passed = self.events.passed_at(phi, turn.end, &mut self.m);
+                    turn.growth *= passed.map_or(1.0, |passage| passage.factor);
+                }
                 if step >= left {
                     (phi, next_break) = (self.breaks[next_break], next_break + 1);
                 } else {

@@ -2,11 +2,12 @@
 //!
 //! Source of δ, H, k_p: paper 1, equations (13)–(15).
 
-use crate::drive::cycle::{Machine, Step, Turn};
+use crate::drive::cycle::{Machine, REFERENCE, Row, Step, Turn};
 use crate::drive::law::Given;
 use crate::drive::layout::Layout;
+use crate::kernel::branch::OnBranch;
 use crate::kernel::radau::{B, S};
-use crate::kernel::real::Real;
+use crate::kernel::real::{Lift, Real};
 
 /// Integrals over a turn, by the quadrature of the steps (order 9).
 #[derive(Clone, Copy, Debug)]
@@ -30,24 +31,53 @@ pub struct Totals<R> {
 pub const INTEGRALS: usize = 6;
 
 impl<R: Real> Machine<'_, R> {
+    /// Torque of the motor at its shaft, the same at the crank, and resisting torque, at a stage \[N m\].
+    #[inline(always)]
+    pub fn torques(&self, step: &Step<R>, given: &[Given<R>], stage: usize) -> [R; 3] {
+        let own = self.given_at(given, stage);
+        if !self.keeps_branch {
+            let omega = (step.X[stage] * 2.0).sqrt();
+            let laws = |omega: R| self.laws(own, omega);
+            return self.torques_at(&step.rows[stage], omega, (!own.is_empty()).then_some(laws));
+        }
+        let u = OnBranch { value: step.X[stage], at: step.X[REFERENCE] };
+        let known = self.given_at(given, REFERENCE);
+        let laws = |omega: OnBranch<R, R>| self.laws_on_branch(own, known, omega);
+        let torques = self.torques_at(&step.rows[stage], (u * 2.0).sqrt(), (!own.is_empty()).then_some(laws));
+        torques.map(
+            #[inline(always)]
+            |torque| torque.value,
+        )
+    }
+
+    /// The same for any number of its own at crank speed ω.
+    #[inline(always)]
+    fn torques_at<N: Lift<R>>(&self, row: &Row<R>, omega: N, laws: Option<impl Fn(N) -> N>) -> [N; 3] {
+        let (drive, tables) = (&self.plan.drive, &self.plan.tables);
+        let torque = drive.motor_torque(tables, self.q, omega);
+        let mut drag = N::lift(row.viscous).mul_add(omega, N::lift(row.load));
+        if !drive.speed_loads.is_empty() {
+            drag = drag + drive.speed_load(tables, omega);
+        }
+        if let Some(laws) = laws {
+            drag = drag + laws(omega);
+        }
+        [torque, drive.geared_torque(self.q, torque), drag]
+    }
+
     /// The integrals over one step.
     #[inline(always)]
     pub fn integrals(&self, step: &Step<R>, given: &[Given<R>]) -> [R; INTEGRALS] {
-        let (plan, q) = (self.plan, self.q);
+        let q = self.q;
         let mut sums = [R::splat(0.0); INTEGRALS];
         for i in 0..S {
-            let row = &step.rows[i];
             let dphi = step.h * B[i];
             let omega = (step.X[i] * 2.0).sqrt();
             let dt = dphi / omega;
-            let torque: R = plan.drive.motor_torque(&plan.tables, q, omega);
-            let mut drag = row.viscous.mul_add(omega, row.load) + plan.drive.speed_load(&plan.tables, omega);
-            if !given.is_empty() {
-                drag = drag + self.laws(self.given_at(given, i), omega);
-            }
+            let [torque, geared, drag] = self.torques(step, given, i);
             sums[0] = sums[0] + dt;
-            sums[1] = (torque * q[plan.drive.ratio]).mul_add(dphi, sums[1]);
-            sums[2] = plan.drive.geared_torque(q, torque).mul_add(dphi, sums[2]);
+            sums[1] = (torque * q[self.plan.drive.ratio]).mul_add(dphi, sums[1]);
+            sums[2] = geared.mul_add(dphi, sums[2]);
             sums[3] = drag.mul_add(dphi, sums[3]);
             sums[4] = torque.mul_add(dt, sums[4]);
             sums[5] = torque.squared().mul_add(dt, sums[5]);

@@ -1,23 +1,13 @@
-//! The steps of one machine's turn: where they end, how they are made shorter, what a solution on other
-//! steps gives to start from, and where the solution passes a kink that depends on the speed.
+//! The steps of one machine's turn: where they end, how they are made shorter, and what a solution on other
+//! steps gives to start from.
 
 use crate::drive::check::Excess;
-use crate::drive::cycle::{Machine, Turn};
-use crate::drive::law::Moving;
+use crate::drive::cycle::Turn;
 use crate::drive::layout::{bundle, unbundle};
 use crate::kernel::radau::{B, C, N, S, through, value};
 use crate::kernel::real::Real;
-use crate::linkage::motion::Motion;
-use std::f64::consts::TAU;
 
-/// Relative distance of a speed from a kink's below which it counts as the kink's. A break that is off by
-/// 1e-9 rad changes the solution by the square of that.
-const ON_KINK: f64 = 1e-10;
-
-/// A kink this close to the end of a step, as a share of the step, lies at the end: what is left of it
-/// changes the solution by the square of that. A step shorter than the second number \[rad\] counts as that
-/// long.
-const SETTLED: f64 = 1e-6;
+/// A step shorter than this \[rad\] counts as that long where kinks are placed.
 const SHORTEST: f64 = 1e-4;
 
 /// A kink found anew this close to where it was, as a share of the steps there, takes its place.
@@ -117,17 +107,17 @@ impl Mesh {
     }
 
     /// The mesh with the given kinks as ends of steps, each in place of the end at which it was found
-    /// before; none where all lie at ends already.
-    pub fn with_crossings(&self, found: &[f64], breaks: &[f64]) -> Option<Mesh> {
+    /// before; none where all lie at ends already, to the share `settled` of a step.
+    pub fn with_crossings(&self, found: &[f64], breaks: &[f64], settled: f64) -> Option<Mesh> {
         let (mut added, mut moved) = (Vec::new(), Vec::new());
         for &phi in found {
             let after = self.edges.partition_point(|&edge| edge <= phi);
             let (low, high) = (self.edges[after - 1], self.edges[after]);
             let (h, away) = (high - low, (phi - low).min(high - phi));
-            if away > SETTLED * h.max(SHORTEST) {
+            if away > settled * h.max(SHORTEST) {
                 added.push(phi);
                 let is_old = |edge: &f64| self.crossings.contains(edge) && !breaks.contains(edge);
-                let is_near = |edge: &f64| (edge - phi).abs() < SAME_KINK * h;
+                let is_near = |edge: &f64| (edge - phi).abs() < SAME_KINK * h.max(SHORTEST);
                 moved.extend([low, high].into_iter().filter(|edge| is_old(edge) && is_near(edge)));
             }
         }
@@ -139,6 +129,16 @@ impl Mesh {
         };
         let next = || Mesh { edges: renew(&self.edges), crossings: renew(&self.crossings) };
         (!added.is_empty()).then(next)
+    }
+
+    /// Whether the motion was found to pass kinks.
+    pub fn has_crossings(&self) -> bool {
+        !self.crossings.is_empty()
+    }
+
+    /// Whether it was found to pass one at this end of a step.
+    pub fn is_crossing(&self, edge: f64) -> bool {
+        self.crossings.contains(&edge)
     }
 
     /// The mesh with the steps that are not good made shorter.
@@ -167,74 +167,6 @@ impl Mesh {
         }
         self.edges.push(high);
     }
-}
-
-/// What the motion may pass where its equation has a kink.
-#[derive(Clone, Copy)]
-enum Event {
-    /// A speed of the crank.
-    Speed(f64),
-    /// A kink of a law.
-    Law(Moving),
-}
-
-impl Event {
-    /// The quantity whose zero it is.
-    fn value(self, machine: &Machine<'_, f64>, phi: f64, u: f64, m: &mut Motion<f64>) -> f64 {
-        let omega = (2.0 * u).sqrt();
-        match self {
-            Event::Speed(speed) => omega - speed,
-            Event::Law(kink) => {
-                let mut given = Vec::new();
-                machine.row(phi, m, &mut given);
-                machine.plan.moving_value(machine.q, kink, &given, omega)
-            }
-        }
-    }
-
-    /// The size of the quantity, against which a value counts as zero.
-    fn size(self, values: &[f64]) -> f64 {
-        match self {
-            Event::Speed(speed) => speed,
-            Event::Law(_) => values.iter().fold(0.0, |size, value| value.abs().max(size)),
-        }
-    }
-}
-
-/// Angles inside steps at which the solution passes a kink of the drive or of a law, in order.
-pub fn crossings_of(pieces: &[Piece], machine: &Machine<'_, f64>, m: &mut Motion<f64>) -> Vec<f64> {
-    let mut crossings = Vec::new();
-    let stages = || pieces.iter().flat_map(|piece| piece.X);
-    let (low, high) = stages().fold((f64::INFINITY, 0.0_f64), |(low, high), u| (low.min(u), high.max(u)));
-    // With room for what lies between the stages.
-    let is_passed = |speed: &f64| (0.8 * low..1.2 * high).contains(&(0.5 * speed * speed));
-    let speeds = machine
-        .plan
-        .drive
-        .speed_kinks(&machine.plan.tables, machine.q)
-        .into_iter()
-        .filter(is_passed)
-        .map(Event::Speed);
-    let laws = machine.plan.moving_kinks().into_iter().map(Event::Law);
-    for event in speeds.chain(laws) {
-        let values: Vec<f64> =
-            pieces.iter().map(|piece| event.value(machine, piece.phi, piece.u, m)).collect();
-        let near = ON_KINK * event.size(&values);
-        for (k, piece) in pieces.iter().enumerate() {
-            let (left, right) = (values[k], values[(k + 1) % values.len()]);
-            if left * right < 0.0 && left.abs() > near && right.abs() > near {
-                let excess = |h: f64| {
-                    let end = machine.advance(piece.phi, piece.u, h, m).0.end();
-                    event.value(machine, piece.phi + h, end, m)
-                };
-                crossings.push(piece.phi + crossing(excess, piece.h, left, right));
-            }
-        }
-    }
-    crossings.retain(|phi| *phi > 0.0 && *phi < TAU);
-    crossings.sort_by(f64::total_cmp);
-    crossings.dedup();
-    crossings
 }
 
 /// Zero of `f` in [0, h] with given values of opposite sign at the ends: Illinois variant of regula falsi

@@ -12,6 +12,7 @@
 //! | [`layout`] | what the lanes of a turn hold: machines or steps |
 //! | [`cycle`] | steady motion on one mesh, in any lanes |
 //! | [`mesh`], [`check`] | steps of one machine's turn; the error in each, measured |
+//! | [`events`] | kinks and jumps at angles that depend on the motion |
 //! | [`reading`], [`measures`], [`extremes`] | curves; work and torque of a turn; its extremes |
 //! | [`levels`] | whether a machine may have other periodic motions than one that is known |
 //! | [`march`] | all motions over one turn, from the fastest down: which repeat, and whether any does |
@@ -25,6 +26,7 @@
 pub mod batch;
 pub mod check;
 pub mod cycle;
+pub mod events;
 pub mod extremes;
 pub mod force_elements;
 pub mod gradient;

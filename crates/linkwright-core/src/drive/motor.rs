@@ -110,32 +110,33 @@ impl Drive {
 
     /// Crank speeds at which the drive's torque has a kink: points of tables, breakdown where the catalogue
     /// curve begins, and where the motor's torque changes sign when the gearbox tells the directions apart.
-    pub fn speed_kinks(&self, tables: &[Table], q: &[f64]) -> Vec<f64> {
+    #[inline(always)]
+    pub fn speed_kinks<R: Real>(&self, tables: &[Table], q: &[R]) -> Vec<R> {
         let ratio = q[self.ratio];
-        let tells_apart = q[self.forward] != q[self.reverse];
+        let tells_apart = (q[self.forward] - q[self.reverse]).abs().max_lane() > 0.0;
         let mut at_motor = Vec::new();
         match &self.motor {
             Motor::Off | Motor::Constant { .. } => {}
             Motor::Line { inverse_speed, .. } => {
-                at_motor.extend(tells_apart.then(|| 1.0 / q[*inverse_speed]))
+                at_motor.extend(tells_apart.then(|| q[*inverse_speed].recip()))
             }
             Motor::Induction { inverse_synchronous, spans, .. } => {
-                at_motor.extend(tells_apart.then(|| 1.0 / q[*inverse_synchronous]));
+                at_motor.extend(tells_apart.then(|| q[*inverse_synchronous].recip()));
                 at_motor.extend(spans.iter().map(|span| q[span.x1]));
             }
             Motor::Table { table } => {
                 let table = &tables[*table];
-                at_motor.extend(table.knots());
+                at_motor.extend(table.knots().iter().map(|&knot| R::splat(knot)));
                 if tells_apart {
-                    at_motor.extend(zeros(table));
+                    at_motor.extend(zeros(table).into_iter().map(R::splat));
                 }
             }
         }
-        let mut kinks: Vec<f64> = at_motor.iter().map(|speed| speed / ratio).collect();
-        kinks.extend(self.speed_loads.iter().flat_map(|&t| tables[t].knots()));
-        kinks.retain(|&speed| speed > 0.0);
-        kinks.sort_by(f64::total_cmp);
-        kinks.dedup();
+        let mut kinks: Vec<R> = at_motor.iter().map(|&speed| speed / ratio).collect();
+        kinks.extend(self.speed_loads.iter().flat_map(|&t| tables[t].knots()).map(|&knot| R::splat(knot)));
+        kinks.retain(|speed| speed.max_lane() > 0.0);
+        kinks.sort_by(|a, b| a.max_lane().total_cmp(&b.max_lane()));
+        kinks.dedup_by(|a, b| a.max_lane() == b.max_lane());
         kinks
     }
 }

@@ -6,6 +6,7 @@
 
 use crate::drive::cycle::{Machine, Step, stages_of_part};
 use crate::drive::law::Given;
+use crate::drive::steady::Steady;
 use crate::drive::structure::Plan;
 use crate::kernel::call::poll;
 use crate::kernel::lanes::{Job, in_lanes};
@@ -57,15 +58,7 @@ impl<R: Real> Machine<'_, R> {
     pub fn state_at_end(&self, (step, given): &(Step<R>, Vec<Given<R>>)) -> State<R> {
         let row = &step.rows[S - 1];
         let omega = (step.end() * 2.0).sqrt();
-        let motor_torque = self.plan.drive.motor_torque(&self.plan.tables, self.q, omega);
-        let drive_torque = self.plan.drive.geared_torque(self.q, motor_torque);
-        let mut load_torque = row.viscous.mul_add(omega, row.load);
-        if !self.plan.drive.speed_loads.is_empty() {
-            load_torque = load_torque + self.plan.drive.speed_load(&self.plan.tables, omega);
-        }
-        if !given.is_empty() {
-            load_torque = load_torque + self.laws(self.given_at(given, S - 1), omega);
-        }
+        let [motor_torque, drive_torque, load_torque] = self.torques(step, given, S - 1);
         State {
             omega,
             epsilon: step.K[S - 1],
@@ -96,7 +89,7 @@ pub struct ReadCurves<'a> {
     /// Its numbers.
     pub q: &'a [f64],
     /// The solution.
-    pub marks: &'a [Mark],
+    pub steady: &'a Steady,
     /// The angles \[rad\], in [0, 2π].
     pub phi: &'a [f64],
 }
@@ -107,7 +100,7 @@ impl Job for ReadCurves<'_> {
     #[inline(always)]
     fn run<R: Real>(self) -> Curves {
         let q: Vec<R> = self.q.iter().map(|&x| R::splat(x)).collect();
-        let machine = Machine { plan: self.plan, q: &q };
+        let machine = Machine::new(self.plan, &q).keeping_branch(self.steady.keeps_branch());
         let mut m = Motion::new(&self.plan.mechanism, &q);
         let mut curves = Curves::default();
         let n = R::LANES;
@@ -119,7 +112,7 @@ impl Job for ReadCurves<'_> {
             for lane in 0..n {
                 let phi = phis[lane.min(phis.len() - 1)];
                 k = self.mark_before(phi, k);
-                let mark = &self.marks[k];
+                let mark = &self.steady.marks[k];
                 let values = [mark.phi, mark.u, phi - mark.phi, mark.t, mark.h];
                 for (list, value) in from.iter_mut().zip(values.into_iter().chain(mark.X)) {
                     list[lane] = value;
@@ -164,7 +157,7 @@ impl ReadCurves<'_> {
 
     /// Index of the last mark not after φ, looked for from a likely one on.
     fn mark_before(&self, phi: f64, from: usize) -> usize {
-        let is_before = |k: usize| self.marks.get(k).is_some_and(|mark| mark.phi <= phi);
+        let is_before = |k: usize| self.steady.marks.get(k).is_some_and(|mark| mark.phi <= phi);
         let mut k = if is_before(from) { from } else { 0 };
         while is_before(k + 1) {
             k += 1;

@@ -12,11 +12,12 @@
 //! told.
 
 use crate::drive::cycle::{Machine, Turn, divide};
+use crate::drive::events::{Events, Passage};
 use crate::drive::extremes::{Extreme, Extremes};
 use crate::drive::layout::unbundle;
 use crate::drive::march::{NoMotion, Repeated, Which, repeating};
 use crate::drive::measures::Totals;
-use crate::drive::mesh::{Mesh, Piece, crossings_of};
+use crate::drive::mesh::{Mesh, Piece};
 use crate::drive::reading::Mark;
 use crate::drive::structure::Plan;
 use crate::kernel::call::poll;
@@ -33,11 +34,15 @@ const STEPS_MAX: usize = 12_288;
 
 /// Most meshes. Some make steps at least half as long, and steps behind a kink shorter at once; some place a
 /// kink.
-const MESHES_MAX: usize = 120;
+const MESHES_MAX: usize = 400;
 
 /// Most meshes on which a kink of the drive is placed anew before errors are looked at: each squares the
 /// distance.
 const PLACEMENTS_MAX: u32 = 8;
+
+/// The same where a law may jump: the angle at which it does so and the speeds there are only found in turn, so that each
+/// mesh is nearer by a share.
+const JUMP_PLACEMENTS_MAX: u32 = 60;
 
 /// An accuracy that is asked for and cannot be had is reported, as long as it is better than this.
 const USABLE: f64 = 1e-5;
@@ -47,6 +52,8 @@ const USABLE: f64 = 1e-5;
 pub struct Steady {
     /// The solution at the starts of the steps.
     pub marks: Vec<Mark>,
+    /// Where the motion passes kinks that depend on it: ends of steps, each of which keeps to one branch.
+    pub passages: Vec<Passage>,
     /// Derivative of the turn-to-turn map.
     pub multiplier: f64,
     /// Extremes.
@@ -98,6 +105,13 @@ pub struct Failure {
     pub reached: f64,
 }
 
+impl Steady {
+    /// Whether its steps keep to one branch each.
+    pub fn keeps_branch(&self) -> bool {
+        !self.passages.is_empty()
+    }
+}
+
 impl Failure {
     fn new(status: Status) -> Self {
         Failure { status, phi: f64::NAN, omega: f64::NAN, reached: f64::NAN }
@@ -139,7 +153,7 @@ pub fn steady_with_others(plan: &Plan, q: &[f64], accuracy: f64) -> Result<Stead
 }
 
 fn fastest_and(which: Which, plan: &Plan, q: &[f64], accuracy: f64) -> Result<Steady, Failure> {
-    let machine = Machine { plan, q };
+    let machine = Machine::new(plan, q).keeping_branch(!plan.moving_kinks().is_empty());
     let breaks = machine.breaks(&mut Motion::new(&plan.mechanism, q)).swap_remove(0);
     // With order 9 a mesh this much finer is good for the accuracy where 24 steps are for 1e-8.
     let steps = FIRST * (1e-8 / accuracy).powf(0.125).clamp(1.0, 4.0);
@@ -254,14 +268,17 @@ impl Job for Search<'_> {
     #[inline(always)]
     fn run<R: Real>(self) -> Self::Output {
         let q: Vec<R> = self.q.iter().map(|&x| R::splat(x)).collect();
-        let machine = Machine { plan: self.plan, q: &q };
-        let plain = Machine { plan: self.plan, q: self.q };
+        // A law that jumps within a step would leave its stages no solution.
+        let (settled, may_jump) = (self.plan.settled(), !self.plan.moving_kinks().is_empty());
         let mut plain_motion = Motion::new(&self.plan.mechanism, self.q);
         let mut m = Motion::new(&self.plan.mechanism, &q);
         let (mut mesh, mut start, mut sweeps, mut reached) = (self.mesh, self.start, 0, f64::NAN);
         let mut placements = 0;
         for _ in 0..MESHES_MAX {
             poll();
+            let keeps_branch = may_jump || mesh.has_crossings();
+            let machine = Machine::new(self.plan, &q).keeping_branch(keeps_branch);
+            let events = Events::new(Machine::new(self.plan, self.q).keeping_branch(keeps_branch));
             let mut turn = Turn::of_steps(&machine, &mesh.edges, &mut m);
             if !turn.closes() {
                 return Err(Failure::new(Status::DoesNotClose));
@@ -272,14 +289,17 @@ impl Job for Search<'_> {
             }
             turn.solve(&machine);
             sweeps += turn.sweeps;
-            let multiplier = unbundle(&[turn.multiplier])[0];
+            let mut multiplier = unbundle(&[turn.multiplier])[0];
             if !turn.is_solved() || (multiplier >= 1.0 && !self.any) {
                 return Err(Failure { reached, ..Failure::new(Status::NoSteadyMotion) });
             }
             let pieces = turn.pieces();
-            if placements < PLACEMENTS_MAX {
-                let crossings = crossings_of(&pieces, &plain, &mut plain_motion);
-                if let Some(next) = mesh.with_crossings(&crossings, self.breaks) {
+            if placements < PLACEMENTS_MAX || may_jump {
+                let crossings = events.crossings(&pieces, &mut plain_motion);
+                if let Some(next) = mesh.with_crossings(&crossings, self.breaks, settled) {
+                    if placements > JUMP_PLACEMENTS_MAX {
+                        break;
+                    }
                     (mesh, start, placements) = (next, Some(pieces), placements + 1);
                     continue;
                 }
@@ -293,8 +313,16 @@ impl Job for Search<'_> {
                 if !is_good && reached > USABLE.max(self.accuracy) {
                     break;
                 }
+                // A march ends its steps at jumps too.
+                let starts = pieces.iter().filter(|piece| may_jump || mesh.is_crossing(piece.phi));
+                let passages = events.passages(starts, &mut plain_motion);
+                multiplier *= passages.iter().map(|passage| passage.factor).product::<f64>();
+                if multiplier.is_nan() || (multiplier >= 1.0 && !self.any) {
+                    return Err(Failure { reached, ..Failure::new(Status::NoSteadyMotion) });
+                }
                 return Ok(Steady {
                     marks: turn.marks(),
+                    passages,
                     multiplier,
                     extremes: turn.extremes(&machine, &mut m).first_lane(),
                     totals: turn.totals(&machine).first_lane(),

@@ -3,6 +3,7 @@
 //! | module | answers |
 //! | --- | --- |
 //! | [`real`], [`lanes`], [`dual`], [`jet`] | what a number is: scalar, SIMD lanes, with a derivative, with many |
+//! | [`branch`] | numbers that stay on one branch of a function in pieces |
 //! | [`slot`] | where a number of a machine is found |
 //! | [`plane`] | vectors and motions in the plane |
 //! | [`table`], [`motion_law`] | straight lines between points; laws in pieces |
@@ -12,6 +13,7 @@
 //! | [`call`] | threads of a call, and how it is stopped |
 //! | [`error`], [`status`] | what is wrong with what crosses the border; why a machine has no answer |
 
+pub mod branch;
 pub mod call;
 pub mod dual;
 pub mod error;

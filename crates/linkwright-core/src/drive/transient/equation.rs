@@ -25,7 +25,7 @@ pub struct Equation<'a> {
 impl Equation<'_> {
     /// (ω, ε)
     pub fn derivative(&mut self, t: f64, y: &Y) -> Y {
-        let Machine { plan, q } = self.machine;
+        let Machine { plan, q, .. } = self.machine;
         self.evaluations += 1;
         let [phi, omega] = *y;
         let r = plan.reduce::<f64, 2>(q, Angle::new(phi), 1.0, &mut self.motion);
@@ -39,7 +39,7 @@ impl Equation<'_> {
 
     /// ε, and ∂ε/∂ω.
     pub fn acceleration(&mut self, t: f64, y: &Y) -> (f64, f64) {
-        let Machine { plan, q } = self.machine;
+        let Machine { plan, q, .. } = self.machine;
         self.evaluations += 1;
         let (phi, omega) = (y[0], Dual::variable(y[1]));
         let r = plan.reduce::<f64, 2>(q, Angle::new(phi), 1.0, &mut self.motion);
@@ -56,16 +56,16 @@ impl Equation<'_> {
     /// Torque of the laws at an angle for which the mechanism has been placed.
     #[inline(never)]
     fn laws<N: Lift<f64>>(&mut self, t: N, phi: f64, omega: N) -> N {
-        let Machine { plan, q } = self.machine;
+        let Machine { plan, q, .. } = self.machine;
         self.given.clear();
         plan.give(q, phi, &self.motion, &mut self.given);
-        plan.law_torque(q, &self.given, omega, t)
+        plan.law_torque::<f64, f64, N>(q, &self.given, omega, t)
     }
 
     /// Drive's and needed torque at standstill, and which way the machine goes from there: +1, 0 or −1. Laws
     /// count as at a vanishing speed in that direction, so that one with a jump at rest holds there.
     pub fn balance_at_rest(&mut self, t: f64, phi: f64) -> (f64, f64, i8) {
-        let Machine { plan, q } = self.machine;
+        let Machine { plan, q, .. } = self.machine;
         let slow = AT_REST * self.speed_scale;
         let mut ahead = plan.reduce::<f64, 1>(q, Angle::new(phi), 1.0, &mut self.motion);
         ahead.load += self.laws(t, phi, slow);

@@ -108,7 +108,7 @@ const NEAR: f64 = 1e-3;
 
 /// Follows the motion until time, turns or an event end it.
 pub fn follow(plan: &Plan, q: &[f64], start: &Start) -> Trajectory {
-    let machine = Machine { plan, q };
+    let machine = Machine::new(plan, q);
     let mut motion = Motion::new(&plan.mechanism, q);
     let kinks = machine.breaks(&mut motion).swap_remove(0);
     let speed_scale = q[plan.drive.speed_start].max(start.omega);
