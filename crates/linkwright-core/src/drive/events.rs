@@ -105,7 +105,7 @@ impl<'a, R: Real> Events<'a, R> {
 
     /// How the passing of a jump changes a small disturbance: the later the motion passes it, the longer the acceleration
     /// `before` lasts. With g the quantity whose zero the jump is, and g′ its derivative along the motion, the factor is
-    /// g′ behind over g′ before (the saltation of Aizerman and Gantmacher, *Quart. J. Mech. Appl. Math.* 11, 1958); 1
+    /// g′ behind over g′ before (the saltation of Aizerman and Gantmacher, *PMM* 22, 1958); 1
     /// where the acceleration is continuous.
     #[inline(always)]
     pub fn saltation(&self, slopes: [R; 2], before: R, behind: R) -> R {
