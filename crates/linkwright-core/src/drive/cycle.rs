@@ -83,8 +83,9 @@ pub struct Machine<'a, R> {
     pub plan: &'a Plan,
     /// Its numbers.
     pub q: &'a [R],
-    /// Whether all stages of a step keep to one branch of what has kinks or jumps at some speed: that of [`REFERENCE`].
-    /// Kinks are ends of steps then, and rounding does not decide on which side of them a stage lies.
+    /// Whether the stages of a step keep to one branch of what has kinks or jumps at some speed, that of [`REFERENCE`]:
+    /// the laws at all stages, the slope of the drive's torque at the last. Kinks are ends of steps then, and rounding
+    /// does not decide on which side of them a stage lies.
     pub keeps_branch: bool,
 }
 
@@ -138,7 +139,8 @@ impl<'a, R: Real> Machine<'a, R> {
         free - taken * Dual::constant(row.inverse)
     }
 
-    /// The same on the branch of a reference, which has its own `known` and u.
+    /// The same with laws on the branch of a reference, which has its own `known` and u. The drive's torque is continuous:
+    /// only its slope has sides.
     #[inline(always)]
     pub fn acceleration_on_branch(
         &self,
@@ -147,11 +149,11 @@ impl<'a, R: Real> Machine<'a, R> {
         u: R,
         (known, at): (&[Given<R>], R),
     ) -> Dual<R> {
-        let u = OnBranch { value: Dual::variable(u), at };
-        let free = self.drive_acceleration(row, u).value;
+        let free = self.drive_acceleration(row, Dual::variable(u));
         if given.is_empty() {
             return free;
         }
+        let u = OnBranch { value: Dual::variable(u), at };
         let taken = self.laws_on_branch(given, known, (u * 2.0).sqrt()).value;
         free - taken * Dual::constant(row.inverse)
     }
@@ -193,8 +195,17 @@ impl<'a, R: Real> Machine<'a, R> {
         if self.keeps_branch {
             let reference = (self.given_at(given, REFERENCE), X[REFERENCE]);
             for i in 0..S {
-                let epsilon = self.acceleration_on_branch(&rows[i], self.given_at(given, i), X[i], reference);
+                let own = self.given_at(given, i);
+                let epsilon = self.acceleration_on_branch(&rows[i], own, X[i], reference);
                 (f[i], d[i]) = (epsilon.value, epsilon.d);
+            }
+            // The last stage lies on the kink. Its torque is the same on either side, its derivatives are not.
+            let u = OnBranch { value: Dual::variable(X[S - 1]), at: X[REFERENCE] };
+            let side = self.drive_acceleration(&rows[S - 1], u).value;
+            let own = self.drive_acceleration(&rows[S - 1], u.value);
+            d[S - 1] = d[S - 1] + (side.d - own.d);
+            if !R::IS_PLAIN {
+                f[S - 1] = f[S - 1] + (side.value - own.value);
             }
             return (f, d);
         }

@@ -2,12 +2,12 @@
 //!
 //! Source of δ, H, k_p: paper 1, equations (13)–(15).
 
-use crate::drive::cycle::{Machine, REFERENCE, Row, Step, Turn};
+use crate::drive::cycle::{Machine, REFERENCE, Step, Turn};
 use crate::drive::law::Given;
 use crate::drive::layout::Layout;
 use crate::kernel::branch::OnBranch;
 use crate::kernel::radau::{B, S};
-use crate::kernel::real::{Lift, Real};
+use crate::kernel::real::Real;
 
 /// Integrals over a turn, by the quadrature of the steps (order 9).
 #[derive(Clone, Copy, Debug)]
@@ -34,33 +34,20 @@ impl<R: Real> Machine<'_, R> {
     /// Torque of the motor at its shaft, the same at the crank, and resisting torque, at a stage \[N m\].
     #[inline(always)]
     pub fn torques(&self, step: &Step<R>, given: &[Given<R>], stage: usize) -> [R; 3] {
-        let own = self.given_at(given, stage);
-        if !self.keeps_branch {
-            let omega = (step.X[stage] * 2.0).sqrt();
-            let laws = |omega: R| self.laws(own, omega);
-            return self.torques_at(&step.rows[stage], omega, (!own.is_empty()).then_some(laws));
-        }
-        let u = OnBranch { value: step.X[stage], at: step.X[REFERENCE] };
-        let known = self.given_at(given, REFERENCE);
-        let laws = |omega: OnBranch<R, R>| self.laws_on_branch(own, known, omega);
-        let torques = self.torques_at(&step.rows[stage], (u * 2.0).sqrt(), (!own.is_empty()).then_some(laws));
-        torques.map(
-            #[inline(always)]
-            |torque| torque.value,
-        )
-    }
-
-    /// The same for any number of its own at crank speed ω.
-    #[inline(always)]
-    fn torques_at<N: Lift<R>>(&self, row: &Row<R>, omega: N, laws: Option<impl Fn(N) -> N>) -> [N; 3] {
+        let (row, own) = (&step.rows[stage], self.given_at(given, stage));
         let (drive, tables) = (&self.plan.drive, &self.plan.tables);
+        let omega = (step.X[stage] * 2.0).sqrt();
         let torque = drive.motor_torque(tables, self.q, omega);
-        let mut drag = N::lift(row.viscous).mul_add(omega, N::lift(row.load));
+        let mut drag = row.viscous.mul_add(omega, row.load);
         if !drive.speed_loads.is_empty() {
             drag = drag + drive.speed_load(tables, omega);
         }
-        if let Some(laws) = laws {
-            drag = drag + laws(omega);
+        if !own.is_empty() && self.keeps_branch {
+            let u = OnBranch { value: step.X[stage], at: step.X[REFERENCE] };
+            let known = self.given_at(given, REFERENCE);
+            drag = drag + self.laws_on_branch(own, known, (u * 2.0).sqrt()).value;
+        } else if !own.is_empty() {
+            drag = drag + self.laws(own, omega);
         }
         [torque, drive.geared_torque(self.q, torque), drag]
     }
