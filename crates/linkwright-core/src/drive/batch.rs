@@ -204,7 +204,7 @@ impl<'a, R: Real> Lanes<'a, R> {
         let numbers: Vec<usize> = rows.iter().map(|row| chunk.first + row).collect();
         self.rows.lanes(&numbers, &mut self.q);
         self.m.ground(&self.plan.mechanism, &self.q);
-        let (machine, m) = (Machine::new(self.plan, &self.q).keeping_branch(!meshes.is_empty()), &mut self.m);
+        let (machine, m) = (Machine::new(self.plan, &self.q), &mut self.m);
         let mesh_of = |lane: usize| &meshes[lane.min(meshes.len() - 1)];
         let meshes: Vec<&Passing> =
             if meshes.is_empty() { Vec::new() } else { (0..R::LANES).map(mesh_of).collect() };
@@ -269,6 +269,13 @@ impl<'a, R: Real> Lanes<'a, R> {
             #[inline(always)]
             || turn.solve(&machine),
         );
+        for k in (1..coarse.steps.len()).filter(|&k| meshes.iter().any(|mesh| mesh.is_kink(k))) {
+            // The end of a step is that of the second of its halves.
+            let side = machine.growth_on_side(&turn.steps[2 * k - 1], turn.given_of(&machine, 2 * k - 1));
+            let is_kink: Vec<f64> = meshes.iter().map(|mesh| f64::from(u8::from(mesh.is_kink(k)))).collect();
+            let factor = R::load(&is_kink).select_lt(R::splat(0.5), R::splat(1.0), side);
+            turn.multiplier = turn.multiplier * factor;
+        }
         let extremes = R::outline(
             #[inline(always)]
             || turn.extremes(&machine, m),
@@ -370,7 +377,7 @@ fn retry(
 ) -> u64 {
     let mut sweeps = 0;
     // Where a law has its kinks is only known with the motion.
-    let moves_kinks = !plan.moving_kinks().is_empty();
+    let moves_kinks = plan.may_jump();
     for (i, (status, row)) in status.iter_mut().zip(out.chunks_exact_mut(QUANTITIES)).enumerate() {
         if *status == Status::Ok && !moves_kinks {
             continue;

@@ -83,9 +83,8 @@ pub struct Machine<'a, R> {
     pub plan: &'a Plan,
     /// Its numbers.
     pub q: &'a [R],
-    /// Whether the stages of a step keep to one branch of what has kinks or jumps at some speed, that of [`REFERENCE`]:
-    /// the laws at all stages, the slope of the drive's torque at the last. Kinks are ends of steps then, and rounding
-    /// does not decide on which side of them a stage lies.
+    /// Whether the laws at all stages of a step keep to one branch, that of [`REFERENCE`]: where a law jumps at some speed
+    /// the jump is the end of a step then, and rounding does not decide on which side of it a stage lies.
     pub keeps_branch: bool,
 }
 
@@ -139,8 +138,7 @@ impl<'a, R: Real> Machine<'a, R> {
         free - taken * Dual::constant(row.inverse)
     }
 
-    /// The same with laws on the branch of a reference, which has its own `known` and u. The drive's torque is continuous:
-    /// only its slope has sides.
+    /// The same with laws on the branch of a reference, which has its own `known` and u. The drive's torque is continuous.
     #[inline(always)]
     pub fn acceleration_on_branch(
         &self,
@@ -199,14 +197,6 @@ impl<'a, R: Real> Machine<'a, R> {
                 let epsilon = self.acceleration_on_branch(&rows[i], own, X[i], reference);
                 (f[i], d[i]) = (epsilon.value, epsilon.d);
             }
-            // The last stage lies on the kink. Its torque is the same on either side, its derivatives are not.
-            let u = OnBranch { value: Dual::variable(X[S - 1]), at: X[REFERENCE] };
-            let side = self.drive_acceleration(&rows[S - 1], u).value;
-            let own = self.drive_acceleration(&rows[S - 1], u.value);
-            d[S - 1] = d[S - 1] + (side.d - own.d);
-            if !R::IS_PLAIN {
-                f[S - 1] = f[S - 1] + (side.value - own.value);
-            }
             return (f, d);
         }
         for i in 0..S {
@@ -220,6 +210,27 @@ impl<'a, R: Real> Machine<'a, R> {
             }
         }
         (f, d)
+    }
+
+    /// A step with a given solution, and what its laws need to know.
+    #[inline(always)]
+    pub fn step_of(&self, phi: R, h: R, u: R, X: [R; S], m: &mut Motion<R>) -> (Step<R>, Vec<Given<R>>) {
+        let mut given = Vec::new();
+        let rows = self.rows(phi, h, m, &mut given);
+        (Step { X, ..Step::at_rest(phi, h, rows, u) }, given)
+    }
+
+    /// For a step that ends on a kink of the drive: its growth with the slope that the drive's torque has on its side of
+    /// the kink, over that with the slope that rounding chose. The torque itself is the same on either side.
+    #[inline(always)]
+    pub fn growth_on_side(&self, step: &Step<R>, given: &[Given<R>]) -> R {
+        let (f, mut d) = self.accelerations(&step.rows, given, &step.X);
+        let chosen = stage_newton(step.u, step.h, &f, &d, &step.X).u[S - 1];
+        let u = OnBranch { value: Dual::variable(step.X[S - 1]), at: step.X[REFERENCE] };
+        let row = &step.rows[S - 1];
+        d[S - 1] =
+            d[S - 1] + (self.drive_acceleration(row, u).value.d - self.drive_acceleration(row, u.value).d);
+        stage_newton(step.u, step.h, &f, &d, &step.X).u[S - 1] / chosen
     }
 
     /// Where the stages of a step lie on another branch than the one that the step keeps to: the most that this makes of

@@ -54,7 +54,7 @@ pub struct Passage {
 impl Plan {
     /// How close to its kinks the ends of steps have to be, as a share of the step.
     pub fn settled(&self) -> f64 {
-        if self.moving_kinks().is_empty() { SETTLED } else { SETTLED_JUMP }
+        if self.may_jump() { SETTLED_JUMP } else { SETTLED }
     }
 }
 
@@ -192,6 +192,12 @@ impl Events<'_, f64> {
             }
         }
         passages
+    }
+
+    /// By what the growth of a step that ends on a kink of the drive is to be corrected.
+    pub fn growth_on_side(&self, piece: &Piece, m: &mut Motion<f64>) -> f64 {
+        let (step, given) = self.machine.step_of(piece.phi, piece.h, piece.u, piece.X, m);
+        self.machine.growth_on_side(&step, &given)
     }
 
     /// ε before and behind an angle, from both sides.

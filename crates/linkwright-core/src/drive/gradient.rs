@@ -30,7 +30,7 @@ pub const NUMBERS: usize = 11;
 /// Curves that are differentiated: time, speed, acceleration, torques of motor, drive and loads, inertia.
 pub const CURVES: usize = 7;
 
-/// Rounds in which the ends of steps at jumps are moved, and the share of its move by which the last may move one.
+/// Rounds in which the ends of steps at kinks are moved, and the share of its move by which the last may move one.
 const PASSAGES_MAX: usize = 60;
 const MOVED: f64 = 1e-11;
 
@@ -93,7 +93,7 @@ impl Job for Gradient<'_> {
             }
             let mut m = Motion::new(&self.plan.mechanism, &q);
             let moved = Moved::new(
-                Machine::new(self.plan, &q).keeping_branch(self.steady.keeps_branch()),
+                Machine::new(self.plan, &q).keeping_branch(self.plan.may_jump()),
                 self.steady,
                 &mut m,
             );
@@ -162,13 +162,14 @@ impl<'a, R: Real> Moved<'a, R> {
     }
 
     /// Moves the ends of steps at which the motion passes a kink along with it: the quantity g whose zero the kink is
-    /// stays zero, φ′ = −(g_p + g_u u_p)/g′, with g′ along the motion before the kink. Where the torque jumps, the motion
-    /// in turn depends on that; the factors of the jumps count in the multiplier.
+    /// stays zero, φ′ = −(g_p + g_u u_p)/g′, with g′ along the motion before the kink. The motion in turn depends on that
+    /// where the torque jumps, or where the slope at the end of the step is that of the other side, as long as u changes
+    /// there. Sides and jumps count in the multiplier.
     #[inline(always)]
     fn move_passages(&mut self, m: &mut Motion<Dual<R>>) {
         let events = Events::new(self.machine);
         for _ in 0..PASSAGES_MAX {
-            let (mut jumps, mut most, mut factors) = (false, 0.0_f64, Dual::splat(1.0));
+            let (mut most, mut factors) = (0.0_f64, Dual::splat(1.0));
             for passage in &self.steady.passages {
                 let marks = &self.steady.marks;
                 let k = marks.partition_point(|mark| mark.phi < passage.phi - AT_END).max(1);
@@ -177,15 +178,15 @@ impl<'a, R: Real> Moved<'a, R> {
                 let (before, behind) = (self.turn.steps[k - 1].K[S - 1], self.start_of(k, m));
                 let along = slopes[0] + slopes[1] * before;
                 let left = events.value(passage.event, phi, step.u, m).d / along.value;
-                let factor = events.saltation(slopes, before, behind);
-                jumps |= (factor.value.max_lane() - 1.0).abs() > 0.0;
+                let given = self.turn.given_of(&self.machine, k - 1);
+                let side = self.machine.growth_on_side(&self.turn.steps[k - 1], given);
                 most = most.max((left.abs() - phi.d.abs() * MOVED).max_lane());
                 self.edges[k].d = phi.d - left;
-                factors = factors * factor;
+                factors = factors * side * events.saltation(slopes, before, behind);
             }
             self.differentiate(m);
             self.turn.multiplier = self.turn.multiplier * factors;
-            if !jumps || most <= 0.0 {
+            if most <= 0.0 {
                 return;
             }
         }

@@ -269,6 +269,11 @@ impl Plan {
         self.formulas.iter().any(|formula| formula.reads(Variable::Time))
     }
 
+    /// Whether some law has kinks, or jumps, whose angle depends on the speed.
+    pub fn may_jump(&self) -> bool {
+        !self.moving_kinks().is_empty()
+    }
+
     /// Kinks of laws whose angle depends on the speed.
     pub fn moving_kinks(&self) -> Vec<Moving> {
         let mut found = Vec::new();

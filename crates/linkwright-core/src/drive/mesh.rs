@@ -131,12 +131,7 @@ impl Mesh {
         (!added.is_empty()).then(next)
     }
 
-    /// Whether the motion was found to pass kinks.
-    pub fn has_crossings(&self) -> bool {
-        !self.crossings.is_empty()
-    }
-
-    /// Whether it was found to pass one at this end of a step.
+    /// Whether the motion was found to pass a kink at this end of a step.
     pub fn is_crossing(&self, edge: f64) -> bool {
         self.crossings.contains(&edge)
     }

@@ -53,6 +53,11 @@ impl Passing {
         Passing { row, edges, kinks, pieces }
     }
 
+    /// Whether this end of a step lies on a kink.
+    pub(super) fn is_kink(&self, edge: usize) -> bool {
+        self.kinks.get(edge).is_some_and(|&u| u > 0.0)
+    }
+
     /// Whether the speed is passed at an end of a step.
     pub(super) fn has(&self, speed: f64) -> bool {
         self.kinks.contains(&(0.5 * speed * speed))

@@ -100,7 +100,7 @@ impl Job for ReadCurves<'_> {
     #[inline(always)]
     fn run<R: Real>(self) -> Curves {
         let q: Vec<R> = self.q.iter().map(|&x| R::splat(x)).collect();
-        let machine = Machine::new(self.plan, &q).keeping_branch(self.steady.keeps_branch());
+        let machine = Machine::new(self.plan, &q).keeping_branch(self.plan.may_jump());
         let mut m = Motion::new(&self.plan.mechanism, &q);
         let mut curves = Curves::default();
         let n = R::LANES;

@@ -52,7 +52,7 @@ const USABLE: f64 = 1e-5;
 pub struct Steady {
     /// The solution at the starts of the steps.
     pub marks: Vec<Mark>,
-    /// Where the motion passes kinks that depend on it: ends of steps, each of which keeps to one branch.
+    /// Where the motion passes kinks that depend on it: ends of steps.
     pub passages: Vec<Passage>,
     /// Derivative of the turn-to-turn map.
     pub multiplier: f64,
@@ -105,13 +105,6 @@ pub struct Failure {
     pub reached: f64,
 }
 
-impl Steady {
-    /// Whether its steps keep to one branch each.
-    pub fn keeps_branch(&self) -> bool {
-        !self.passages.is_empty()
-    }
-}
-
 impl Failure {
     fn new(status: Status) -> Self {
         Failure { status, phi: f64::NAN, omega: f64::NAN, reached: f64::NAN }
@@ -153,7 +146,7 @@ pub fn steady_with_others(plan: &Plan, q: &[f64], accuracy: f64) -> Result<Stead
 }
 
 fn fastest_and(which: Which, plan: &Plan, q: &[f64], accuracy: f64) -> Result<Steady, Failure> {
-    let machine = Machine::new(plan, q).keeping_branch(!plan.moving_kinks().is_empty());
+    let machine = Machine::new(plan, q).keeping_branch(plan.may_jump());
     let breaks = machine.breaks(&mut Motion::new(&plan.mechanism, q)).swap_remove(0);
     // With order 9 a mesh this much finer is good for the accuracy where 24 steps are for 1e-8.
     let steps = FIRST * (1e-8 / accuracy).powf(0.125).clamp(1.0, 4.0);
@@ -269,16 +262,15 @@ impl Job for Search<'_> {
     fn run<R: Real>(self) -> Self::Output {
         let q: Vec<R> = self.q.iter().map(|&x| R::splat(x)).collect();
         // A law that jumps within a step would leave its stages no solution.
-        let (settled, may_jump) = (self.plan.settled(), !self.plan.moving_kinks().is_empty());
+        let (settled, may_jump) = (self.plan.settled(), self.plan.may_jump());
         let mut plain_motion = Motion::new(&self.plan.mechanism, self.q);
         let mut m = Motion::new(&self.plan.mechanism, &q);
         let (mut mesh, mut start, mut sweeps, mut reached) = (self.mesh, self.start, 0, f64::NAN);
         let mut placements = 0;
         for _ in 0..MESHES_MAX {
             poll();
-            let keeps_branch = may_jump || mesh.has_crossings();
-            let machine = Machine::new(self.plan, &q).keeping_branch(keeps_branch);
-            let events = Events::new(Machine::new(self.plan, self.q).keeping_branch(keeps_branch));
+            let machine = Machine::new(self.plan, &q).keeping_branch(may_jump);
+            let events = Events::new(Machine::new(self.plan, self.q).keeping_branch(may_jump));
             let mut turn = Turn::of_steps(&machine, &mesh.edges, &mut m);
             if !turn.closes() {
                 return Err(Failure::new(Status::DoesNotClose));
@@ -316,7 +308,10 @@ impl Job for Search<'_> {
                 // A march ends its steps at jumps too.
                 let starts = pieces.iter().filter(|piece| may_jump || mesh.is_crossing(piece.phi));
                 let passages = events.passages(starts, &mut plain_motion);
-                multiplier *= passages.iter().map(|passage| passage.factor).product::<f64>();
+                for passage in &passages {
+                    let k = pieces.partition_point(|piece| piece.phi < passage.phi).max(1);
+                    multiplier *= passage.factor * events.growth_on_side(&pieces[k - 1], &mut plain_motion);
+                }
                 if multiplier.is_nan() || (multiplier >= 1.0 && !self.any) {
                     return Err(Failure { reached, ..Failure::new(Status::NoSteadyMotion) });
                 }
