@@ -95,7 +95,14 @@ def revolution(case: str, u: float) -> tuple[float, list[np.ndarray]]:
         stops.append(stop)
     while phi < 2.0 * np.pi - 1e-12:
         piece = solve_ivp(
-            slope, (phi, 2.0 * np.pi), [u], method="DOP853", rtol=1e-12, atol=1e-12, events=stops, max_step=0.1
+            slope,
+            (phi, 2.0 * np.pi),
+            [u],
+            method="DOP853",
+            rtol=1e-12,
+            atol=1e-12,
+            events=stops,
+            max_step=0.1,
         )
         samples.append(np.array([piece.t, piece.y[0]]))
         phi, u = float(piece.t[-1]), float(piece.y[0, -1])
@@ -114,7 +121,9 @@ def test_motion_repeats_and_its_curve_is_that_of_scipy(case: str, tmp_path: Path
     u = 0.5 * float(motion.speed[0]) ** 2
     end, samples = revolution(case, u)
     assert end == pytest.approx(u, rel=3e-9)
-    speed = np.sqrt(2.0 * np.interp(np.concatenate([s[0] for s in samples]), motion.crank_angle, 0.5 * motion.speed**2))
+    speed = np.sqrt(
+        2.0 * np.interp(np.concatenate([s[0] for s in samples]), motion.crank_angle, 0.5 * motion.speed**2)
+    )
     assert np.isfinite(motion.acceleration).all()
     # Straight lines over half degrees: ½ ε′ (π/720)².
     assert np.max(np.abs(speed / np.sqrt(2.0 * np.concatenate([s[1] for s in samples])) - 1.0)) < 3e-5
@@ -134,7 +143,12 @@ def test_multiplier_is_the_slope_of_the_map_of_revolutions(case: str, tmp_path: 
 def test_derivatives_agree_with_differences(case: str, tmp_path: Path) -> None:
     """Along the inertia, by differences of the same analysis a thousandth of it apart, extrapolated."""
     machine, _ = solved(case, tmp_path)
-    names = ["steady_state.multiplier", "steady_state.speed_max", "steady_state.speed_min", "steady_state.period"]
+    names = [
+        "steady_state.multiplier",
+        "steady_state.speed_max",
+        "steady_state.speed_min",
+        "steady_state.period",
+    ]
     gradient = lw.gradient(machine, names, ["bodies.A.inertia"])
 
     def difference(name: str, apart: float) -> float:
