@@ -1,4 +1,4 @@
-"""Kinks and jumps of torques at some speed: the motion, its curves, its Floquet multiplier and their derivatives."""
+"""Kinks and jumps of torques at some speed: motion, curves, Floquet multiplier, derivatives."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -33,7 +33,7 @@ on = "A"
 torque = "-({base} + 40*cos(phi) + where({switch} > {level}, {jump}, 0))"
 """
 
-# Name, mean load, what is compared with what, the jump: a speed that grows or falls with the angle, and one alone.
+# Mean load [N m], what is compared with what, the jump [N m].
 CASES = {
     "corner of the motor": (80, "phi", "10", 0),
     "less load above 11.5 rad/s": (60, "omega", "11.5", -4),
@@ -62,7 +62,7 @@ def solved(case: str, folder: Path, inertia: float = J) -> tuple:
 
 
 def events_of(case: str) -> list[Callable[[float, float], float]]:
-    """Quantities of angle and speed whose zeros the motion may pass: the motor's corner, the load's switch."""
+    """What is zero where the motion passes the motor's corner and the load's switch, of angle and speed."""
     _, switch, level, _ = CASES[case]
     corner = [lambda phi, omega: omega - 10.0]
     if switch == "phi":
@@ -73,7 +73,7 @@ def events_of(case: str) -> list[Callable[[float, float], float]]:
 
 
 def revolution(case: str, u: float) -> tuple[float, list[np.ndarray]]:
-    """u at the end of the revolution from u at its start by SciPy, stopped at every zero; samples of (φ, u)."""
+    """u at the end of the revolution by SciPy, stopped at every zero, and samples of (φ, u)."""
     base, _, _, jump = CASES[case]
     events = events_of(case)
     above = [event(0.0, np.sqrt(2.0 * u)) > 0.0 for event in events]
