@@ -79,7 +79,7 @@ fn angles(found: &Steady) -> (Vec<f64>, Vec<f64>) {
 fn violation(built: &Built, found: &Steady) -> f64 {
     let Built { plan, q } = built;
     let (ends, nodes) = angles(found);
-    let read = |phi: &[f64]| in_lanes(ReadCurves { plan, q, steady: &found, phi });
+    let read = |phi: &[f64]| in_lanes(ReadCurves { plan, q, marks: &found.marks, phi });
     let (at_ends, at_nodes) = (read(&ends), read(&nodes));
     let peak = at_nodes.epsilon.iter().fold(0.0_f64, |peak, e| peak.max(e.abs()));
     let top = at_nodes.omega.iter().fold(0.0_f64, |top, &w| top.max(w));

@@ -148,8 +148,8 @@ impl SteadySolution {
         let (plan, q, phi) = (&self.plan.get().0, &self.q, phi.as_slice()?);
         let analysis = "curves of steady motion";
         require_room(analysis, [CURVES, phi.len()])?;
-        let steady = &self.steady;
-        let read = guarded(py, analysis, || ReadCurves { plan, q, steady, phi }.curves())?;
+        let marks = &self.steady.marks;
+        let read = guarded(py, analysis, || ReadCurves { plan, q, marks, phi }.curves())?;
         let Curves { time, omega, epsilon, motor_torque, drive_torque, load_torque, J } = &read;
         let lists = [time, omega, epsilon, motor_torque, drive_torque, load_torque, J];
         SteadyCurves::of(py, lists.map(Vec::as_slice), &[phi.len()])
@@ -170,7 +170,7 @@ impl SteadySolution {
         let directions = directions.as_slice()?;
         let analysis = "derivatives of steady motion";
         require_room(analysis, [n, NUMBERS + CURVES * phi.len()])?;
-        let steady = &self.steady;
+        let marks = &self.steady.marks;
         let found = guarded(py, analysis, || Gradient { plan, q, directions, steady, phi }.derivatives())?;
         // In the order of `drive::gradient`.
         let number = |k: usize| kept(py, found.numbers[k * n..(k + 1) * n].to_vec());
@@ -224,7 +224,7 @@ pub(crate) fn steady_state(
     require_room(analysis, [7, phi.len()])?;
     let solved = guarded(py, analysis, || {
         let found = steady_with_others(plan, q, accuracy)?;
-        let curves = ReadCurves { plan, q, steady: &found, phi }.curves();
+        let curves = ReadCurves { plan, q, marks: &found.marks, phi }.curves();
         Ok::<_, Failure>((found, curves))
     })?;
     Ok(match solved {

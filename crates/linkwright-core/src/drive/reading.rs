@@ -6,7 +6,6 @@
 
 use crate::drive::cycle::{Machine, Step, stages_of_part};
 use crate::drive::law::Given;
-use crate::drive::steady::Steady;
 use crate::drive::structure::Plan;
 use crate::kernel::call::poll;
 use crate::kernel::lanes::{Job, in_lanes};
@@ -89,7 +88,7 @@ pub struct ReadCurves<'a> {
     /// Its numbers.
     pub q: &'a [f64],
     /// The solution.
-    pub steady: &'a Steady,
+    pub marks: &'a [Mark],
     /// The angles \[rad\], in [0, 2π].
     pub phi: &'a [f64],
 }
@@ -112,7 +111,7 @@ impl Job for ReadCurves<'_> {
             for lane in 0..n {
                 let phi = phis[lane.min(phis.len() - 1)];
                 k = self.mark_before(phi, k);
-                let mark = &self.steady.marks[k];
+                let mark = &self.marks[k];
                 let values = [mark.phi, mark.u, phi - mark.phi, mark.t, mark.h];
                 for (list, value) in from.iter_mut().zip(values.into_iter().chain(mark.X)) {
                     list[lane] = value;
@@ -157,7 +156,7 @@ impl ReadCurves<'_> {
 
     /// Index of the last mark not after φ, looked for from a likely one on.
     fn mark_before(&self, phi: f64, from: usize) -> usize {
-        let is_before = |k: usize| self.steady.marks.get(k).is_some_and(|mark| mark.phi <= phi);
+        let is_before = |k: usize| self.marks.get(k).is_some_and(|mark| mark.phi <= phi);
         let mut k = if is_before(from) { from } else { 0 };
         while is_before(k + 1) {
             k += 1;
