@@ -170,7 +170,7 @@ impl SteadySolution {
         let directions = directions.as_slice()?;
         let analysis = "derivatives of steady motion";
         require_room(analysis, [n, NUMBERS + CURVES * phi.len()])?;
-        let marks = &self.steady.marks;
+        let steady = &self.steady;
         let found = guarded(py, analysis, || Gradient { plan, q, directions, steady, phi }.derivatives())?;
         // In the order of `drive::gradient`.
         let number = |k: usize| kept(py, found.numbers[k * n..(k + 1) * n].to_vec());
