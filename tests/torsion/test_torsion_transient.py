@@ -281,7 +281,7 @@ def test_stiff_shafts_take_implicit_steps() -> None:
     assert rigid.method == "explicit"
     assert found.torque[0] == pytest.approx(rigid.torque[0], abs=1e-4 * rigid.torque_max[0])
     with pytest.raises(
-        ConvergenceError, match=r"stopped at .* after 2000 steps: .* d1 swings .* \"implicit\""
+        ConvergenceError, match=r"stopped at .* after 2000 steps: .* d1 vibrates .* \"implicit\""
     ):
         follow_train(chain(J, k, torques=[torque]), duration=0.5, method="explicit", steps_max=2000)
 
