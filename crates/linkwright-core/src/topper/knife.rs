@@ -166,7 +166,11 @@ impl Knife {
                 for corner in &self.corners {
                     let at = (-head.phase + (corner + TAU * f64::from(turn))) * inverse;
                     let end = at.max(start).min(to);
-                    visit([start, end]);
+                    // Most corners lie outside the pass. A NaN is visited all the same.
+                    let is_empty = (end - start).max_lane() <= 0.0;
+                    if !is_empty {
+                        visit([start, end]);
+                    }
                     start = end;
                 }
             }
