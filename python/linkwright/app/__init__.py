@@ -49,6 +49,9 @@ def main() -> None:
         # Looking for plugins of pydantic among all installed packages costs more than reading a machine file.
         # The module that would look for them imports what reads metadata of packages, and mails.
         os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
+        # Threads of linear algebra start with NumPy and wait busily. The matrices of a machine are small,
+        # and what is large has threads of its own in the core.
+        os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
         sys.modules.setdefault("pydantic.plugin._loader", _without_plugins())
         # Names may hold letters that the terminal has not; they are no reason to fail.
         if isinstance(sys.stdout, TextIOWrapper):

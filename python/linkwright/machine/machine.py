@@ -1,7 +1,5 @@
 """The machine: drive, mechanism, bodies, loads, and how it is run up."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
@@ -13,17 +11,17 @@ from linkwright.kernel.description.base import Description, Name, Title, fault, 
 from linkwright.kernel.description.deferred_model import deferred_model
 from linkwright.kernel.description.place import look
 from linkwright.kernel.description.problems import problems
-from linkwright.kernel.description.shown_units import ShownUnits
 from linkwright.kernel.errors import MachineError
 from linkwright.kernel.units import INSIDE_ONE, RATIO, SPEED, Angle, Quantity, not_negative, positive
 from linkwright.kinetostatics.model.body import Body, body_faults
 from linkwright.kinetostatics.model.loads import AnyLoad
 from linkwright.kinetostatics.model.loads.references import load_faults
-from linkwright.linkages.model.drawing import DrawingPoints, with_drawing
 from linkwright.linkages.model.mechanism import Mechanism
 from linkwright.machine.whole_mechanism import merged, topology_of, with_followers
 
 if TYPE_CHECKING:
+    from linkwright.kernel.description.shown_units import ShownUnits
+    from linkwright.linkages.model.drawing import DrawingPoints
     from linkwright.pumping.model.rod_rotator import RodRotator
     from linkwright.pumping.model.unit import PumpingUnit
     from linkwright.studies.model import StudyFile
@@ -31,6 +29,8 @@ if TYPE_CHECKING:
     from linkwright.torsion.model.train import Train
     from linkwright.turning.model import TurningMoment
 else:
+    ShownUnits = deferred_model("kernel.description.shown_units", "ShownUnits")
+    DrawingPoints = deferred_model("linkages.model.drawing", "DrawingPoints")
     PumpingUnit = deferred_model("pumping.model.unit", "PumpingUnit")
     RodRotator = deferred_model("pumping.model.rod_rotator", "RodRotator")
     Topper = deferred_model("topping.model.topper", "Topper")
@@ -148,6 +148,8 @@ class Machine(Description):
     def _checked(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
         """The machine, or all faults in one error."""
         if isinstance(data, Mapping) and data.get("drawing") is not None:
+            from linkwright.linkages.model.drawing import with_drawing
+
             drawn = with_drawing(data)
             raise_faults(cls.__name__, drawn.faults)
             data = drawn.tables

@@ -7,8 +7,6 @@ Shafts and gears are rigid unless their stiffness is given. What steady motion a
 for, torsional vibration does: `drive_train` makes a train of a torsionally flexible driveline.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from numbers import Real
 from typing import TYPE_CHECKING, Annotated, Any, Literal

@@ -20,8 +20,6 @@ goes through :math:`(s_n, M_n)`, with :math:`\lambda = M_k/M_n`, for the larger 
 Entries that follow from others are completed when a motor is made; what was given is never changed.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, Literal, Self
 
@@ -29,7 +27,6 @@ import numpy as np
 from pydantic import AfterValidator, Field, model_validator
 from pydantic_core import InitErrorDetails
 
-from linkwright.drive.model import catalogue
 from linkwright.kernel.description.base import Description, fault, raise_faults
 from linkwright.kernel.description.curve import curve_faults, unread_file
 from linkwright.kernel.units import (
@@ -137,7 +134,14 @@ def _coincide(first: Any, second: Any) -> bool:
     return not np.ndim(first) and not np.ndim(second) and bool(first == second)
 
 
-CatalogueName = Annotated[str, AfterValidator(catalogue.checked_name)]
+def _known_type(type: str) -> str:
+    """The name of a type in the catalogue, or the fault."""
+    from linkwright.drive.model import catalogue
+
+    return catalogue.checked_name(type)
+
+
+CatalogueName = Annotated[str, AfterValidator(_known_type)]
 
 
 class InductionMotor(Motor):
@@ -177,6 +181,8 @@ class InductionMotor(Motor):
     def _completed(cls, given: Values) -> Values:
         values = with_rated_point(given)
         if "catalogue" in given:
+            from linkwright.drive.model import catalogue
+
             values = with_rated_point(catalogue.entries(given["catalogue"]) | values)
         return with_breakdown_speed(values)
 

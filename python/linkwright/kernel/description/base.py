@@ -1,7 +1,5 @@
 """What all descriptions share: they are frozen, know their keys, and report all their faults at once."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Annotated, Any, ClassVar, Self
 

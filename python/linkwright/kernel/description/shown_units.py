@@ -1,7 +1,5 @@
 """Units in which tables, figures and CSV of a machine show its numbers: the table ``[units]`` of its file."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Annotated, Any
 

@@ -12,8 +12,6 @@
 The name of a crank means its link; a mass at its pin has `along` equal to the radius and `inertia` zero.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from typing import Annotated
 

@@ -16,8 +16,6 @@
 | `joints`, `bars` | joints held by bars and guides, in any group | dyads, or solved together |
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import Annotated, Any, ClassVar, Literal

@@ -4,8 +4,6 @@ Angles count counter-clockwise from the x axis. Elements refer to each other by 
 says which points and links each of them makes.
 """
 
-from __future__ import annotations
-
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Self
 
 from pydantic import Field, ModelWrapValidatorHandler, ValidationError, model_validator

@@ -1,7 +1,5 @@
 """Springs and dampers: between two points, and between two links or a link and the frame."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Annotated, Literal
 

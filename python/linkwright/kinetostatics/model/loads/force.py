@@ -3,8 +3,6 @@
 A formula is a text: ``force = "-200*v - 50*sign(v)"``.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import Annotated, Literal

@@ -1,7 +1,5 @@
 """Loads by tables: over the position of a slide, the angle of a link, the angle or the speed of the crank."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from itertools import pairwise
