@@ -66,7 +66,7 @@ lint: $(TOOLS)
 
 # With both packages named, the kernels are those that the module was built from: nothing long is compiled twice.
 rust-test: $(BUILT)
-	cargo test --release -p linkwright-core -p linkwright-py --features pyo3/extension-module --locked
+	cargo test --release --workspace --features pyo3/extension-module --locked
 
 python-test: $(TOOLS)
 	$(BIN)/python -m pytest -n $(shell nproc) --dist worksteal --ignore=$(PRINTED)
@@ -107,7 +107,7 @@ bench: $(TOOLS)
 docs: $(TOOLS)
 	$(BIN)/python -m pip install -q --disable-pip-version-check -c constraints.txt -e '.[docs]' --no-build-isolation
 	$(BIN)/mkdocs build --strict
-	cargo doc --no-deps -p linkwright-core --locked
+	cargo doc --no-deps --workspace --exclude linkwright-py --locked
 
 clean:
 	rm -rf $(VENV) target out site python/linkwright/*.so

@@ -20,7 +20,7 @@ CORE = ROOT / "target" / "release" / "lib_core.so"
 # Functions of one instruction each.
 _CALL = re.compile(r"^\s*([0-9a-f]+):.*\bcall.*core_arch.*x86")
 
-_PLACE = re.compile(r"linkwright-core/src/(\S+:\d+)")
+_PLACE = re.compile(r"linkwright-\w+/src/(\S+:\d+)")
 
 
 def calls(core: Path) -> list[str]:

@@ -1284,7 +1284,7 @@ class CamSearch:
 
 @final
 class Cam:
-    """A motion law over a turn and the cam that follows it: `crates/linkwright-core/src/cam`.
+    """A motion law over a turn and the cam that follows it: `crates/linkwright-cam/src`.
 
     `sense` is +1 for a cam that turns counter-clockwise, else −1; `side` +1 for an arm to the left of the
     line from cam to pivot, else −1.

@@ -1,4 +1,7 @@
-"""Rooms of the core use what stands below them, and no modules of it stand on each other."""
+"""Rooms of the core use what stands below them, and no modules of it stand on each other.
+
+Rooms that know no mechanism are crates, so that Cargo keeps them apart; the others lie in `linkwright-core`.
+"""
 
 from __future__ import annotations
 
@@ -11,8 +14,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-CRATE = ROOT / "crates" / "linkwright-core"
-SOURCE = CRATE / "src"
+CRATES = ROOT / "crates"
 
 Module = tuple[str, ...]
 
@@ -29,13 +31,25 @@ STANDS_ON: dict[str, set[str]] = {
 }
 
 
-def modules(root: Path) -> dict[Module, Path]:
-    """Every module below the crate, and its file."""
+def source(room: str) -> Path:
+    """Where the modules of a room lie."""
+    crate = CRATES / f"linkwright-{room}" / "src"
+    return crate if crate.exists() else CRATES / "linkwright-core" / "src" / room
+
+
+def sources(crates: Path) -> dict[Path, Module]:
+    """Folders of sources, and the name under which the core offers each: that of a room, or none."""
+    rooms = {path: path.parent.name.removeprefix("linkwright-") for path in crates.glob("linkwright-*/src")}
+    return {path: () if room == "core" else (room,) for path, room in rooms.items() if room != "py"}
+
+
+def modules(crates: Path) -> dict[Module, Path]:
+    """Every module of the crates by its name in the core, and its file."""
     found = {}
-    for path in sorted(root.rglob("*.rs")):
-        name = path.relative_to(root).with_suffix("").parts
-        name = name[:-1] if name[-1] in ("mod", "lib") else name
-        found[name] = path
+    for root, room in sources(crates).items():
+        for path in sorted(root.rglob("*.rs")):
+            name = path.relative_to(root).with_suffix("").parts
+            found[(*room, *(name[:-1] if name[-1] in ("mod", "lib") else name))] = path
     return found
 
 
@@ -79,15 +93,24 @@ def _own_modules(text: str) -> set[str]:
     return set(re.findall(r"\bmod (\w+);", text))
 
 
-def named(own: Module, path: Path) -> Iterator[Module]:
-    """Paths from the root of the crate that a file names, in ``use`` or in its code."""
+def _offered(crate: str) -> Module:
+    """Under which name the core offers a crate."""
+    room = crate.removeprefix("linkwright_")
+    return () if room == "core" else (room,)
+
+
+def named(own: Module, path: Path, room: Module) -> Iterator[Module]:
+    """Paths from the root of the core that a file of a room's crate names, in ``use`` or in its code."""
     text, is_folder = code(path), path.stem in ("mod", "lib")
-    firsts = {"crate", "self", "super", *_own_modules(text)}
+    firsts = {"crate", "self", "super", r"linkwright_\w+", *_own_modules(text)}
     for match in re.finditer(rf"(?<![\w:])({'|'.join(sorted(firsts))})::", text):
         for parts in _paths(text[match.start() :]):
             base = own
+            if parts[0].startswith("linkwright_"):
+                yield (*_offered(parts[0]), *parts[1:])
+                continue
             if parts[0] == "crate":
-                base, parts = (), parts[1:]
+                base, parts = room, parts[1:]
             elif parts[0] == "self":
                 parts = parts[1:]
             while parts[:1] == ("super",):
@@ -123,14 +146,15 @@ def methods_elsewhere(texts: dict[Module, str]) -> dict[str, Module]:
     return {name: own for name, own in elsewhere.items() if len(givers[name]) == 1}
 
 
-def uses(root: Path) -> dict[Module, set[Module]]:
+def uses(crates: Path) -> dict[Module, set[Module]]:
     """Of every module the modules that it uses."""
-    files = modules(root)
+    files, roots = modules(crates), sources(crates)
     texts = {own: code(path) for own, path in files.items()}
     given = methods_elsewhere(texts)
     found: dict[Module, set[Module]] = {}
     for own, path in files.items():
-        targets = {_module_of(name, files) for name in named(own, path)}
+        room = next(room for root, room in roots.items() if path.is_relative_to(root))
+        targets = {_module_of(name, files) for name in named(own, path, room)}
         calls = set(re.findall(r"(?:\.|\w::)(\w+)(?:::<[^()]*>)?\(", texts[own]))
         targets |= {given[name] for name in calls & given.keys()}
         found[own] = targets - {own, ()}
@@ -162,36 +186,36 @@ def circle(used: dict[Module, set[Module]]) -> list[str]:
 
 
 def test_rooms_use_what_stands_below() -> None:
-    wrong = wrong_doors(uses(SOURCE))
+    wrong = wrong_doors(uses(CRATES))
     assert not wrong, "\n".join(wrong)
 
 
 def test_no_modules_stand_on_each_other() -> None:
-    assert not circle(uses(SOURCE))
+    assert not circle(uses(CRATES))
 
 
 def test_every_room_is_listed_and_stands() -> None:
-    assert {name[0] for name in modules(SOURCE) if name} == STANDS_ON.keys()
+    assert {name[0] for name in modules(CRATES) if name} == STANDS_ON.keys()
     assert not circle({(room,): {(below,) for below in belows} for room, belows in STANDS_ON.items()})
 
 
 def test_every_door_is_used() -> None:
-    doors = {(own[0], target[0]) for own, targets in uses(SOURCE).items() if own for target in targets}
+    doors = {(own[0], target[0]) for own, targets in uses(CRATES).items() if own for target in targets}
     assert doors >= {(room, below) for room, belows in STANDS_ON.items() for below in belows}
 
 
 def test_every_room_has_its_map() -> None:
     missing = []
-    for path in modules(SOURCE).values():
+    for path in modules(CRATES).values():
         text = path.read_text(encoding="utf-8")
         told = "\n".join(line for line in text.splitlines() if line.startswith("//!"))
         public = re.findall(r"^pub mod (\w+);", text, re.MULTILINE)
-        missing += [f"{path.relative_to(SOURCE)}: {name}" for name in public if f"[`{name}`]" not in told]
+        missing += [f"{path.relative_to(CRATES)}: {name}" for name in public if f"[`{name}`]" not in told]
     assert not missing, "\n".join(missing)
 
 
 def test_modules_that_the_texts_name_exist() -> None:
-    known = {"::".join(name) for name in modules(SOURCE)}
+    known = {"::".join(name) for name in modules(CRATES)}
     pages = {page: page.read_text(encoding="utf-8") for page in (ROOT / "docs").rglob("*.md")}
     heads = {
         page: re.search(r"^\*Core modules? ([^;]*?)[.;:][ *\n]", text, re.M) for page, text in pages.items()
@@ -205,18 +229,28 @@ def test_files_that_the_architecture_names_exist() -> None:
     text = (ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8").split("### A crank radius")[1]
     named = re.findall(r"`([\w/]+\.rs)`", text)
     assert len(named) > 20
-    assert [name for name in named if not ((SOURCE / name).exists() or (CRATE / name).exists())] == []
+    assert [name for name in named if not _exists(name)] == []
+
+
+def _exists(name: str) -> bool:
+    """A file by its room, or by its crate."""
+    room, _, rest = name.partition("/")
+    crate = CRATES / "linkwright-core"
+    return any(
+        path.exists() for path in (source(room) / rest, crate / name, CRATES / f"linkwright-{room}" / rest)
+    )
 
 
 HOUSE = {
-    "lib.rs": "pub mod cam;\npub mod drive;\npub mod kernel;",
-    "kernel/mod.rs": "pub mod real;",
-    "kernel/real.rs": "pub trait Real {}\n#[cfg(test)]\nmod tests { use crate::cam::Cam; }",
-    "cam/mod.rs": "pub mod shape;\npub struct Cam;",
-    "cam/shape.rs": "use super::Cam;\nuse crate::kernel::{real::{Real, self}, real};",
-    "drive/mod.rs": "pub mod plan;\npub mod reduce;",
-    "drive/plan.rs": "pub struct Plan;",
-    "drive/reduce.rs": "use super::plan::Plan;\nimpl Plan {\n    pub fn reduce<R>(&self) {}\n}",
+    "core/src/lib.rs": "pub use linkwright_kernel as kernel;\npub mod cam;\npub mod drive;",
+    "kernel/src/lib.rs": "pub mod real;\npub mod table;",
+    "kernel/src/real.rs": "pub trait Real {}\n#[cfg(test)]\nmod tests { use linkwright_cam::Cam; }",
+    "kernel/src/table.rs": "use crate::real::Real;",
+    "core/src/cam/mod.rs": "pub mod shape;\npub struct Cam;",
+    "core/src/cam/shape.rs": "use super::Cam;\nuse crate::kernel::{real::{Real, self}, real};",
+    "core/src/drive/mod.rs": "pub mod plan;\npub mod reduce;",
+    "core/src/drive/plan.rs": "pub struct Plan;",
+    "core/src/drive/reduce.rs": "use super::plan::Plan;\nimpl Plan {\n    pub fn reduce<R>(&self) {}\n}",
 }
 
 
@@ -227,25 +261,37 @@ REDUCES = {"drive::plan", "drive::reduce"}
 @pytest.mark.parametrize(
     ("path", "text", "doors", "standing"),
     [
-        ("kernel/real.rs", "// crate::cam::Cam", [], set()),
-        ("kernel/real.rs", "use crate::cam::{shape, Cam};", ["cam", "cam::shape"], set()),
-        ("cam/shape.rs", "fn f() { crate::drive::plan::Plan }", ["drive::plan"], set()),
-        ("cam/shape.rs", "fn f() { super::super::drive::reduce::f::<f64>() }", ["drive::reduce"], set()),
-        ("cam/mod.rs", "mod shape;\nuse shape::Shape;\npub struct Cam;", [], {"cam", "cam::shape"}),
-        ("cam/mod.rs", "mod shape;\nuse self::shape::*;\npub struct Cam;", [], {"cam", "cam::shape"}),
-        ("drive/plan.rs", f"use super::reduce::{{Row}};\n{PLAN}", [], REDUCES),
-        ("drive/plan.rs", f"{PLAN}fn f(p: Plan) {{ p.reduce::<f64>() }}", [], REDUCES),
+        ("kernel/src/real.rs", "// crate::cam::Cam", [], set()),
+        ("kernel/src/real.rs", "use linkwright_core::cam::{shape, Cam};", ["cam", "cam::shape"], set()),
+        ("kernel/src/real.rs", "use crate::table::Table;", [], {"kernel::real", "kernel::table"}),
+        ("core/src/cam/shape.rs", "fn f() { crate::drive::plan::Plan }", ["drive::plan"], set()),
+        (
+            "core/src/cam/shape.rs",
+            "fn f() { super::super::drive::reduce::f::<f64>() }",
+            ["drive::reduce"],
+            set(),
+        ),
+        ("core/src/cam/mod.rs", "mod shape;\nuse shape::Shape;\npub struct Cam;", [], {"cam", "cam::shape"}),
+        (
+            "core/src/cam/mod.rs",
+            "mod shape;\nuse self::shape::*;\npub struct Cam;",
+            [],
+            {"cam", "cam::shape"},
+        ),
+        ("core/src/drive/plan.rs", f"use super::reduce::{{Row}};\n{PLAN}", [], REDUCES),
+        ("core/src/drive/plan.rs", f"{PLAN}fn f(p: Plan) {{ p.reduce::<f64>() }}", [], REDUCES),
     ],
 )
 def test_wrong_uses_are_found(
     tmp_path: Path, path: str, text: str, doors: list[str], standing: set[str]
 ) -> None:
     for name, content in (HOUSE | {path: text}).items():
-        file = tmp_path / name
+        file = tmp_path / f"linkwright-{name}"
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(content)
     used = uses(tmp_path)
-    own = path.removesuffix(".rs").replace("/", "::")
+    own = path.removesuffix(".rs").split("src/")[1].replace("/", "::")
+    own = own if path.startswith("core") else f"kernel::{own}"
     assert wrong_doors(used) == [f"{own} uses {door}" for door in doors]
     if not doors:
         assert set(circle(used)) == standing

@@ -11,7 +11,7 @@ from pathlib import Path
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs" / "notation.md"
 PYTHON = ROOT / "python" / "linkwright"
-CORE = ROOT / "crates" / "linkwright-core" / "src"
+CORE = ROOT / "crates"
 
 _NAME = re.compile(r"`(\w+)`")
 

@@ -1,7 +1,8 @@
 //! Kernels of Linkwright: a planar mechanism driven by a crank, reduced to the crank, and its motion; cams, trains,
 //! knives.
 //!
-//! A subject is a room, as in the Python package; rooms use what stands below them, and modules of a room likewise:
+//! A subject is a room, as in the Python package; rooms use what stands below them, and modules of a room likewise.
+//! Rooms that know of no mechanism are crates:
 //!
 //! | room | answers | stands on |
 //! | --- | --- | --- |
@@ -18,10 +19,11 @@
 // Fields of enum variants and of plain records are named as in the equations beside them.
 #![allow(missing_docs)]
 
-pub mod cam;
+pub use linkwright_cam as cam;
+pub use linkwright_kernel as kernel;
+pub use linkwright_topper as topper;
+pub use linkwright_torsion as torsion;
+
 pub mod drive;
-pub mod kernel;
 pub mod linkage;
 pub mod plan;
-pub mod topper;
-pub mod torsion;

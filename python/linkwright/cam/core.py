@@ -1,7 +1,7 @@
 """The core's cam: one contact of a follower with a cam, its law and its dimensions.
 
 Everything is in the contact's own frame: the follower stands on the x axis, and the cam is seen as it stands
-where its programme begins. `crates/linkwright-core/src/cam/mod.rs` has the formulas.
+where its programme begins. `crates/linkwright-cam/src/lib.rs` has the formulas.
 """
 
 from __future__ import annotations

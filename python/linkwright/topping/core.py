@@ -1,4 +1,4 @@
-"""The core's knife of a topper over many heads; `crates/linkwright-core/src/topper` has the formulas."""
+"""The core's knife of a topper over many heads; `crates/linkwright-topper/src` has the formulas."""
 
 from __future__ import annotations
 

@@ -149,11 +149,11 @@ impl FormulaLoad {
             Carrier::Slide { slide, point } => {
                 let slide = &m.slides[slide];
                 let (s, v) = (Dual { value: slide.s, d: slide.d1 }, Dual { value: slide.d1, d: slide.d2 });
-                Inputs { s, v, ..dual.at_point(point, m) }
+                Inputs { s, v, ..with_point(dual, point, m) }
             }
-            Carrier::Point { point, .. } => dual.at_point(point, m),
-            Carrier::Along { point, link, .. } => dual.at_point(point, m).of_link(link, formula, m),
-            Carrier::Link { link } => dual.of_link(link, formula, m),
+            Carrier::Point { point, .. } => with_point(dual, point, m),
+            Carrier::Along { point, link, .. } => with_link(with_point(dual, point, m), link, formula, m),
+            Carrier::Link { link } => with_link(dual, link, formula, m),
         }
     }
 }
@@ -177,30 +177,35 @@ impl<R: Real> Given<R> {
     }
 }
 
-impl<R: Real> Inputs<Dual<R>> {
-    #[inline(always)]
-    fn at_point(self, point: usize, m: &Motion<R>) -> Self {
-        let place = &m.points[point];
-        let size = place.d1.dot(place.d1).sqrt();
-        Inputs {
-            x: Dual { value: place.p.x, d: place.d1.x },
-            y: Dual { value: place.p.y, d: place.d1.y },
-            vx: Dual { value: place.d1.x, d: place.d2.x },
-            vy: Dual { value: place.d1.y, d: place.d2.y },
-            v: Dual { value: size, d: place.d1.dot(place.d2) / size },
-            ..self
-        }
+/// The inputs with those of a point, and their derivatives by φ.
+#[inline(always)]
+fn with_point<R: Real>(inputs: Inputs<Dual<R>>, point: usize, m: &Motion<R>) -> Inputs<Dual<R>> {
+    let place = &m.points[point];
+    let size = place.d1.dot(place.d1).sqrt();
+    Inputs {
+        x: Dual { value: place.p.x, d: place.d1.x },
+        y: Dual { value: place.p.y, d: place.d1.y },
+        vx: Dual { value: place.d1.x, d: place.d2.x },
+        vy: Dual { value: place.d1.y, d: place.d2.y },
+        v: Dual { value: size, d: place.d1.dot(place.d2) / size },
+        ..inputs
     }
+}
 
-    #[inline(always)]
-    fn of_link(self, link: usize, formula: &Formula, m: &Motion<R>) -> Self {
-        let heading = &m.links[link];
-        let psi = if formula.reads(Variable::Psi) { heading.e.y.atan2(heading.e.x) } else { self.psi.value };
-        Inputs {
-            psi: Dual { value: psi, d: heading.d1 },
-            psi_dot: Dual { value: heading.d1, d: heading.d2 },
-            ..self
-        }
+/// The inputs with those of a link, and their derivatives by φ.
+#[inline(always)]
+fn with_link<R: Real>(
+    inputs: Inputs<Dual<R>>,
+    link: usize,
+    formula: &Formula,
+    m: &Motion<R>,
+) -> Inputs<Dual<R>> {
+    let heading = &m.links[link];
+    let psi = if formula.reads(Variable::Psi) { heading.e.y.atan2(heading.e.x) } else { inputs.psi.value };
+    Inputs {
+        psi: Dual { value: psi, d: heading.d1 },
+        psi_dot: Dual { value: heading.d1, d: heading.d2 },
+        ..inputs
     }
 }
 

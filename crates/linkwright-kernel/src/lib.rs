@@ -1,0 +1,36 @@
+//! What all subjects stand on: numbers, functions of one variable, methods, and the call from outside.
+//!
+//! | module | answers |
+//! | --- | --- |
+//! | [`real`], [`lanes`], [`dual`], [`jet`] | what a number is: scalar, SIMD lanes, with a derivative, with many |
+//! | [`branch`] | numbers that stay on one branch of a function in pieces |
+//! | [`slot`] | where a number of a machine is found |
+//! | [`plane`] | vectors and motions in the plane |
+//! | [`table`], [`motion_law`] | straight lines between points; laws in pieces |
+//! | [`formula`], [`formula_words`] | what a user writes as text, as a program; its words |
+//! | [`gauss`], [`radau`], [`rk`] | quadrature of order 8; collocation of order 9; Runge–Kutta of order 8 |
+//! | [`turns`] | where the polynomial of a step turns, past a limit or not |
+//! | [`call`] | threads of a call, and how it is stopped |
+//! | [`error`], [`status`] | what is wrong with what crosses the border; why a machine has no answer |
+
+// Fields of enum variants and of plain records are named as in the equations beside them.
+#![allow(missing_docs)]
+
+pub mod branch;
+pub mod call;
+pub mod dual;
+pub mod error;
+pub mod formula;
+pub mod formula_words;
+pub mod gauss;
+pub mod jet;
+pub mod lanes;
+pub mod motion_law;
+pub mod plane;
+pub mod radau;
+pub mod real;
+pub mod rk;
+pub mod slot;
+pub mod status;
+pub mod table;
+pub mod turns;

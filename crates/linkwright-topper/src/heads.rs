@@ -1,0 +1,167 @@
+//! Many heads under one knife: what each needs, and what the edge leaves of it.
+
+use super::knife::{Head, Knife};
+use super::needed::{Stations, half_chord, needed};
+use super::retreat;
+use super::uncut::{Scratch, uncut};
+use linkwright_kernel::call::{in_threads, poll};
+use linkwright_kernel::lanes::{Job, in_lanes};
+use linkwright_kernel::real::Real;
+use rayon::prelude::*;
+use std::f64::consts::TAU;
+
+/// Results a head: length that it needs; the point that is reached last, along x and y from its centre; area that is left
+/// on the right of the edge, on its left, and between two passes of it.
+pub const RESULTS: usize = 6;
+
+/// Heads: columns of one entry or one a head.
+#[derive(Clone, Copy, Debug)]
+pub struct Heads<'a> {
+    pub radius: &'a [f64],
+    pub offset: &'a [f64],
+    pub phase: &'a [f64],
+    /// How many.
+    pub n: usize,
+}
+
+/// Looks at all heads; `fine` stations per revolution of the law; areas are zero without an edge. `out` holds [`RESULTS`]
+/// numbers a head.
+pub fn cover(knife: &Knife, heads: &Heads<'_>, length: Option<f64>, fine: usize, out: &mut [f64]) {
+    let longest = longest(knife, heads);
+    let turns = knife.rate.abs() * 2.0 * longest / TAU;
+    let stations = Stations::new(fine.saturating_add((fine as f64 * turns).min(MOST) as usize));
+    let work = Work { knife, heads, half: length.map(|l| 0.5 * l), stations: &stations, longest };
+    let task = |(k, out): (usize, &mut [f64])| {
+        if knife.retreats() {
+            work.one_by_one(k * CHUNK, out);
+        } else {
+            in_lanes(Chunk { work: &work, first: k * CHUNK, out });
+        }
+    };
+    in_threads(|crew| {
+        let tasks = out.par_chunks_mut(CHUNK * RESULTS).enumerate();
+        tasks.for_each(|heads| crew.task(|| task(heads)));
+    });
+}
+
+/// Heads a task: some hundred microseconds of work.
+const CHUNK: usize = 256;
+
+/// Stations of a pass at most, for a knife that hardly goes on.
+const MOST: f64 = 4096.0;
+
+/// Longest time from abreast to either end of a pass.
+fn longest(knife: &Knife, heads: &Heads<'_>) -> f64 {
+    let most = |column: &[f64]| column.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
+    let [sin, _] = knife.direction;
+    let way = most(heads.radius) + (knife.reach + most(heads.offset)) * sin.abs();
+    way / knife.advance().abs()
+}
+
+/// What all chunks share.
+struct Work<'a> {
+    knife: &'a Knife,
+    heads: &'a Heads<'a>,
+    half: Option<f64>,
+    stations: &'a Stations,
+    longest: f64,
+}
+
+fn entry(column: &[f64], k: usize) -> f64 {
+    column[k.min(column.len() - 1)]
+}
+
+impl Work<'_> {
+    fn head(&self, k: usize) -> Head<f64> {
+        let Heads { radius, offset, phase, .. } = self.heads;
+        Head { radius: entry(radius, k), offset: entry(offset, k), phase: entry(phase, k) }
+    }
+
+    /// Place along x and y of a point given along n and e.
+    fn point(&self, p: f64, s: f64) -> [f64; 2] {
+        let [sin, cos] = self.knife.direction;
+        [p * cos + s * sin, s * cos - p * sin]
+    }
+
+    /// The scalar way, for an edge that retreats.
+    fn one_by_one(&self, first: usize, out: &mut [f64]) {
+        for (k, row) in out.chunks_exact_mut(RESULTS).enumerate() {
+            poll();
+            let left = retreat::cover(self.knife, &self.head(first + k), self.half, self.stations);
+            let [x, y] = self.point(left.p, left.s);
+            row.copy_from_slice(&[2.0 * left.half, x, y, left.area[0], left.area[1], left.area[2]]);
+        }
+    }
+
+    /// Row of a head of which it is known what it needs.
+    #[inline(always)]
+    fn row<R: Real>(&self, k: usize, found: [f64; 6], scratch: &mut Scratch, row: &mut [f64]) {
+        let [half, at, p, s, from, to] = found;
+        let [x, y] = self.point(p, s);
+        row.copy_from_slice(&[2.0 * half, x, y, 0.0, 0.0, 0.0]);
+        if let Some(short) = self.half.filter(|&short| short < half) {
+            let (head, turns) = (self.head(k), self.knife.turns(self.longest));
+            let area = uncut::<R>(self.knife, &head, short, [from, to], turns, self.stations, at, scratch);
+            row[3..5].copy_from_slice(&area);
+        }
+    }
+}
+
+struct Chunk<'a> {
+    work: &'a Work<'a>,
+    first: usize,
+    out: &'a mut [f64],
+}
+
+impl Job for Chunk<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        let n = self.out.len() / RESULTS;
+        let mut lanes = vec![0.0; 6 * R::LANES];
+        let mut scratch = Scratch::default();
+        for at in (0..n).step_by(R::LANES) {
+            poll();
+            let found = R::outline(
+                #[inline(always)]
+                || self.lanes::<R>(self.first + at),
+            );
+            for (x, to) in found.into_iter().zip(lanes.chunks_exact_mut(R::LANES)) {
+                x.store(to);
+            }
+            let rows = self.out[at * RESULTS..].chunks_exact_mut(RESULTS).take(R::LANES);
+            for (lane, row) in rows.enumerate() {
+                let found = std::array::from_fn(|k| lanes[k * R::LANES + lane]);
+                R::outline(
+                    #[inline(always)]
+                    || self.work.row::<R>(self.first + at + lane, found, &mut scratch, row),
+                );
+            }
+        }
+    }
+}
+
+impl Chunk<'_> {
+    /// What the heads from one on need, as many as there are lanes, and between which times they are passed; beyond the
+    /// last they are repeated.
+    #[inline(always)]
+    fn lanes<R: Real>(&self, first: usize) -> [R; 6] {
+        let Work { knife, heads, stations, longest, .. } = self.work;
+        let load = |column: &[f64]| {
+            let mut lanes = [0.0; 2 * LANES_MAX];
+            for (lane, to) in lanes[..R::LANES].iter_mut().enumerate() {
+                *to = entry(column, first + lane);
+            }
+            R::load(&lanes)
+        };
+        let head = Head { radius: load(heads.radius), offset: load(heads.offset), phase: load(heads.phase) };
+        let window = [knife.time(&head, -head.radius), knife.time(&head, head.radius)];
+        let found = needed(knife, &head, window, knife.turns(*longest), stations);
+        let p = knife.place(&head, found.at).p[0];
+        [found.half, found.at, p, found.side * half_chord(head.radius, p), window[0], window[1]]
+    }
+}
+
+/// Lanes of the widest register.
+const LANES_MAX: usize = 8;

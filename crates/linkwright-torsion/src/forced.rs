@@ -1,0 +1,238 @@
+//! Forced vibration of a train: amplitudes at every order and speed.
+//!
+//! At the speed Ω the order ν excites with ω = νΩ. With the complex stiffness of every shaft
+//!
+//! ```text
+//! s = k (1 + iη) + iωc          D = −ω² J + iωc₀  of every disc
+//! ```
+//!
+//! D θ + Σ s (θ − θ′) = M is solved from the leaves to the root and back: the discs beyond a shaft respond
+//!
+//! ```text
+//! D_p ← D_p + s D_c/(D_c + s)      M_p ← M_p + s M_c/(D_c + s)      θ_c = (M_c + s θ_p)/(D_c + s)
+//! ```
+//!
+//! which is Gauss's elimination in the order of the tree, without fill. A lane is a speed.
+//!
+//! Source: Holzer, *Die Berechnung der Drehschwingungen* (1921); with complex numbers Ker Wilson, *Practical Solution of
+//! Torsional Vibration Problems*, vol. 4.
+
+use super::Train;
+use linkwright_kernel::call::{in_threads, poll};
+use linkwright_kernel::lanes::{Job, in_lanes, scalar};
+use linkwright_kernel::real::Real;
+use rayon::prelude::*;
+use std::ops::{Add, Mul};
+
+/// Real and imaginary part.
+pub type Complex = [f64; 2];
+
+/// What damps a train, and how that changes with the speed.
+#[derive(Clone, Copy, Debug)]
+pub struct Damping<'a> {
+    /// Speeds Ω \[rad/s\].
+    pub speeds: &'a [f64],
+    /// k of the shaft above each disc, a row a disc, a column a speed \[N m/rad\]; in place of the train's own.
+    pub stiffness: &'a [f64],
+    /// Viscous, of the shaft above each disc, likewise \[N m s/rad\].
+    pub shaft: &'a [f64],
+    /// ηk, likewise \[N m/rad\].
+    pub loss: &'a [f64],
+    /// Viscous against the ground, likewise \[N m s/rad\].
+    pub ground: &'a [f64],
+}
+
+impl Damping<'_> {
+    /// Whether every table has a row a disc.
+    fn fits(&self, discs: usize) -> bool {
+        let size = discs * self.speeds.len();
+        [self.stiffness, self.shaft, self.loss, self.ground].iter().all(|each| each.len() == size)
+    }
+}
+
+/// Amplitudes θ of every order, disc and speed, in place of the torques that cause them; `false`, and nothing done, if the
+/// tables do not fit.
+pub fn forced(train: &Train, damping: &Damping<'_>, orders: &[f64], torques: &mut [Complex]) -> bool {
+    let fits =
+        damping.fits(train.len()) && torques.len() == orders.len() * train.len() * damping.speeds.len();
+    let block = train.len() * damping.speeds.len();
+    if !fits || block == 0 {
+        return fits;
+    }
+    if torques.len() <= TASK {
+        // Waking threads would take longer than doing it.
+        in_lanes(Forced { train, damping, orders, torques });
+        return true;
+    }
+    let at_once = (TASK / block).max(1);
+    in_threads(|crew| {
+        let tasks = torques.par_chunks_mut(at_once * block).zip(orders.par_chunks(at_once));
+        tasks
+            .for_each(|(torques, orders)| crew.task(|| in_lanes(Forced { train, damping, orders, torques })));
+    });
+    true
+}
+
+/// Amplitudes that a task finds: some hundred microseconds of work.
+const TASK: usize = 65_536;
+
+/// The same in plain numbers, which lanes are measured against.
+pub fn forced_scalar(train: &Train, damping: &Damping<'_>, orders: &[f64], torques: &mut [Complex]) {
+    scalar(Forced { train, damping, orders, torques });
+}
+
+struct Forced<'a> {
+    train: &'a Train,
+    damping: &'a Damping<'a>,
+    orders: &'a [f64],
+    torques: &'a mut [Complex],
+}
+
+/// A complex number in lanes.
+#[derive(Clone, Copy)]
+struct Z<R>(R, R);
+
+impl<R: Real> Add for Z<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Z(self.0 + other.0, self.1 + other.1)
+    }
+}
+
+impl<R: Real> Mul for Z<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        let re = self.0.mul_add(other.0, -(self.1 * other.1));
+        Z(re, self.0.mul_add(other.1, self.1 * other.0))
+    }
+}
+
+impl<R: Real> Z<R> {
+    #[inline(always)]
+    fn recip(self) -> Self {
+        let size = self.0.mul_add(self.0, self.1 * self.1).recip();
+        Z(self.0 * size, -(self.1 * size))
+    }
+}
+
+/// What a shaft and its disc are at some speeds: k, ηk, c, c₀.
+#[derive(Clone, Copy)]
+struct Part<R> {
+    k: R,
+    loss: R,
+    c: R,
+    ground: R,
+}
+
+/// A disc on the way through the tree.
+#[derive(Clone, Copy)]
+struct Step<R> {
+    /// D, then 1/(D + s).
+    D: Z<R>,
+    s: Z<R>,
+    /// M, then θ.
+    M: Z<R>,
+}
+
+impl Job for Forced<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        let Forced { train, damping, orders, torques } = self;
+        let (n, speeds) = (train.len(), damping.speeds.len());
+        let zero = R::splat(0.0);
+        let mut parts = vec![Part { k: zero, loss: zero, c: zero, ground: zero }; n];
+        let mut steps = vec![Step { D: Z(zero, zero), s: Z(zero, zero), M: Z(zero, zero) }; n];
+        let mut buffer = vec![0.0; 2 * R::LANES];
+        for first in (0..speeds).step_by(R::LANES) {
+            for (i, part) in parts.iter_mut().enumerate() {
+                let mut at = |from: &[f64]| lanes(&from[i * speeds..(i + 1) * speeds], first, &mut buffer);
+                *part = Part {
+                    k: at(damping.stiffness),
+                    loss: at(damping.loss),
+                    c: at(damping.shaft),
+                    ground: at(damping.ground),
+                };
+            }
+            let speed: R = lanes(damping.speeds, first, &mut buffer);
+            for (block, &order) in torques.chunks_exact_mut(n * speeds).zip(orders) {
+                poll();
+                R::outline(
+                    #[inline(always)]
+                    || {
+                        for (step, row) in steps.iter_mut().zip(block.chunks_exact(speeds)) {
+                            step.M = read(row, first, &mut buffer);
+                        }
+                        train.respond(speed * order, &parts, &mut steps);
+                        for (step, row) in steps.iter().zip(block.chunks_exact_mut(speeds)) {
+                            write(step.M, row, first, &mut buffer);
+                        }
+                    },
+                );
+            }
+        }
+    }
+}
+
+impl Train {
+    /// Amplitudes in place of torques, at one ω a lane.
+    #[inline(always)]
+    fn respond<R: Real>(&self, omega: R, parts: &[Part<R>], steps: &mut [Step<R>]) {
+        let square = omega.squared();
+        for ((step, part), &J) in steps.iter_mut().zip(parts).zip(&self.inertia) {
+            step.D = Z(-(square * J), omega * part.ground);
+            step.s = Z(part.k, omega.mul_add(part.c, part.loss));
+        }
+        for c in (1..self.len()).rev() {
+            let Step { D, s, M } = steps[c];
+            let pivot = (D + s).recip();
+            let share = s * pivot;
+            steps[c].D = pivot;
+            let up = &mut steps[self.parent[c]];
+            up.D = up.D + share * D;
+            up.M = up.M + share * M;
+        }
+        let root = steps[0];
+        steps[0].M = root.M * (root.D + root.s).recip();
+        for c in 1..self.len() {
+            let up = steps[self.parent[c]].M;
+            let step = &mut steps[c];
+            step.M = (step.M + step.s * up) * step.D;
+        }
+    }
+}
+
+/// Lanes of a row from a place on; past its end the last entry again.
+#[inline(always)]
+fn lanes<R: Real>(row: &[f64], first: usize, buffer: &mut [f64]) -> R {
+    if first + R::LANES <= row.len() {
+        return R::load(&row[first..]);
+    }
+    for (lane, to) in buffer[..R::LANES].iter_mut().enumerate() {
+        *to = row[(first + lane).min(row.len() - 1)];
+    }
+    R::load(buffer)
+}
+
+/// Real parts and imaginary parts of a row, likewise.
+#[inline(always)]
+fn read<R: Real>(row: &[Complex], first: usize, buffer: &mut [f64]) -> Z<R> {
+    let (re, im) = buffer.split_at_mut(R::LANES);
+    for (lane, (re, im)) in re.iter_mut().zip(im.iter_mut()).enumerate() {
+        [*re, *im] = row[(first + lane).min(row.len() - 1)];
+    }
+    Z(R::load(re), R::load(im))
+}
+
+#[inline(always)]
+fn write<R: Real>(z: Z<R>, row: &mut [Complex], first: usize, buffer: &mut [f64]) {
+    let (re, im) = buffer.split_at_mut(R::LANES);
+    z.0.store(re);
+    z.1.store(im);
+    for ((to, &re), &im) in row[first..].iter_mut().zip(re.iter()).zip(im.iter()) {
+        *to = [re, im];
+    }
+}

@@ -1,0 +1,145 @@
+//! Steps of order 8 by [`linkwright_kernel::rk`]: exact and cheap as long as no swing is much faster than those that matter.
+
+use super::rates::Rates;
+use super::stepper::{Scale, Stepper};
+use linkwright_kernel::rk::{Stages, WEIGHTS, next_factor};
+
+/// Phase of the fastest undamped swing up to which its amplitude does not grow in a step.
+pub const STABLE_PHASE: f64 = 5.9;
+
+/// Error between the ends of a step, over what it may be, below which it does not limit the next: that may be twice as long.
+pub const SAYS_NOTHING: f64 = 1.0 / 512.0;
+
+/// Explicit steps with their stages.
+#[derive(Clone, Debug)]
+pub struct Explicit {
+    stages: Stages<Vec<f64>>,
+    /// Powers at each stage.
+    powers: Vec<Vec<f64>>,
+    end_powers: Vec<f64>,
+    h: f64,
+    rejected: usize,
+}
+
+impl Explicit {
+    /// For a system.
+    pub fn new(rates: &Rates<'_>) -> Self {
+        Explicit {
+            stages: Stages::new(&vec![0.0; 2 * rates.system.len()]),
+            powers: vec![rates.powers.clone(); WEIGHTS.len()],
+            end_powers: rates.powers.clone(),
+            h: 0.0,
+            rejected: 0,
+        }
+    }
+}
+
+impl Stepper for Explicit {
+    fn begin(&mut self, rates: &mut Rates<'_>, t: f64, state: &[f64], first: f64) {
+        rates.derivative(t, state, self.stages.start());
+        self.powers[0].copy_from_slice(&rates.powers);
+        self.h = first;
+    }
+
+    fn step(
+        &mut self,
+        rates: &mut Rates<'_>,
+        at: (f64, &Vec<f64>),
+        longest: f64,
+        scale: &Scale,
+        end: &mut Vec<f64>,
+    ) -> Option<f64> {
+        let size = |i: usize, size: f64| scale.of(i, size);
+        let mut growth_max = f64::INFINITY;
+        // Forty reductions by a tenth to nine tenths reach any length that still changes t.
+        for _ in 0..40 {
+            let h = fitting(self.h, longest);
+            let mut stage = 0;
+            let powers = &mut self.powers;
+            let mut f = |t: f64, y: &Vec<f64>, to: &mut Vec<f64>| {
+                rates.derivative(t, y, to);
+                stage += 1;
+                powers[stage].copy_from_slice(&rates.powers);
+            };
+            let error = self.stages.try_step(&mut f, at, h, &size, end);
+            if error <= 1.0 {
+                let grown = h * next_factor(error).min(growth_max);
+                // A step cut short by an event says nothing about the length that the next may have.
+                self.h = if h < self.h { grown.max(self.h) } else { grown };
+                return Some(h);
+            }
+            self.h = h * next_factor(error).min(0.9);
+            growth_max = 1.0;
+            self.rejected += 1;
+        }
+        None
+    }
+
+    fn accept(&mut self, rates: &mut Rates<'_>, t_end: f64, end: &[f64]) {
+        rates.derivative(t_end, end, self.stages.end());
+        self.end_powers.copy_from_slice(&rates.powers);
+    }
+
+    fn fill(
+        &mut self,
+        rates: &mut Rates<'_>,
+        at: (f64, &Vec<f64>),
+        h: f64,
+        scale: &Scale,
+        end: &[f64],
+    ) -> f64 {
+        let system = rates.system;
+        let mut f = |t: f64, y: &Vec<f64>, to: &mut Vec<f64>| rates.derivative(t, y, to);
+        self.stages.fill(&mut f, at, h, end);
+        let error =
+            self.stages.error_between(&mut f, at, h, &|y, error| scale.worst(system, error, [y, end]));
+        // A step cut short says nothing about the next.
+        if error > SAYS_NOTHING {
+            self.h = self.h.min(h * next_factor(error));
+        }
+        error
+    }
+
+    fn shorten(&mut self, h: f64, error: f64) {
+        self.h = h * next_factor(error).min(0.9);
+        self.rejected += 1;
+    }
+
+    fn component(&self, share: f64, state: &[f64], i: usize) -> f64 {
+        self.stages.component(share, state[i], i)
+    }
+
+    fn slope(&self, share: f64, h: f64, i: usize) -> f64 {
+        self.stages.slope(share, i) / h
+    }
+
+    fn work(&mut self, _: &mut Rates<'_>, _: (f64, &Vec<f64>), h: f64, to: &mut [f64]) {
+        for (&weight, powers) in WEIGHTS.iter().zip(&self.powers) {
+            if weight != 0.0 {
+                for (to, power) in to.iter_mut().zip(powers) {
+                    *to += h * weight * power;
+                }
+            }
+        }
+    }
+
+    fn advance(&mut self) {
+        self.stages.advance();
+        self.powers[0].copy_from_slice(&self.end_powers);
+    }
+
+    fn rejected(&self) -> usize {
+        self.rejected
+    }
+}
+
+/// The length to try: what is left to the next event is taken whole or in halves, never leaving a splinter.
+pub fn fitting(h: f64, longest: f64) -> f64 {
+    if h >= 0.99 * longest {
+        longest
+    } else if h > 0.5 * longest {
+        0.5 * longest
+    } else {
+        h
+    }
+}

@@ -1,0 +1,178 @@
+//! What a method of integration can do, and how exact it has to be.
+
+use super::rates::Rates;
+use super::system::{Link, System};
+use linkwright_kernel::rk::{over, worse};
+
+/// Steps through a motion. In order for each step: [`Stepper::step`], [`Stepper::accept`], [`Stepper::fill`], and then
+/// [`Stepper::component`], [`Stepper::slope`], [`Stepper::work`], [`Stepper::advance`]. Where the polynomial errs too much,
+/// [`Stepper::shorten`], and the step is taken again.
+pub trait Stepper {
+    /// Restarts at an event, with a length to try first.
+    fn begin(&mut self, rates: &mut Rates<'_>, t: f64, state: &[f64], first: f64);
+
+    /// Takes a step of at most `longest` and writes where it leads; its length, or `None` if no step keeps the accuracy.
+    fn step(
+        &mut self,
+        rates: &mut Rates<'_>,
+        at: (f64, &Vec<f64>),
+        longest: f64,
+        scale: &Scale,
+        end: &mut Vec<f64>,
+    ) -> Option<f64>;
+
+    /// Evaluates the equations at the end of the step.
+    fn accept(&mut self, rates: &mut Rates<'_>, t_end: f64, end: &[f64]);
+
+    /// Makes the polynomial between the ends of the step; its largest error over what it may be.
+    fn fill(
+        &mut self,
+        rates: &mut Rates<'_>,
+        at: (f64, &Vec<f64>),
+        h: f64,
+        scale: &Scale,
+        end: &[f64],
+    ) -> f64;
+
+    /// Gives up a step of a length whose polynomial had an error.
+    fn shorten(&mut self, h: f64, error: f64);
+
+    /// One number of the state at a share 0…1 of the step.
+    fn component(&self, share: f64, state: &[f64], i: usize) -> f64;
+
+    /// Rate of one number of the state at a share of the step \[1/s\].
+    fn slope(&self, share: f64, h: f64, i: usize) -> f64;
+
+    /// Adds the work of each power over the step.
+    fn work(&mut self, rates: &mut Rates<'_>, at: (f64, &Vec<f64>), h: f64, to: &mut [f64]);
+
+    /// Lets the end of the step be the start of the next.
+    fn advance(&mut self);
+
+    /// Steps that were tried in vain.
+    fn rejected(&self) -> usize;
+}
+
+/// Twist below which nothing is asked for \[rad\]: the torque in a shaft of 1 MN m/rad is then known to 1 N m times the
+/// accuracy.
+const TWIST_FLOOR: f64 = 1e-6;
+
+/// Torque below which nothing is asked for \[N m\]: what that twist makes in a shaft of 1 MN m/rad. It counts in shafts
+/// stiffer than that, where steps follow their swings.
+const TORQUE_FLOOR: f64 = 1.0;
+
+/// A train without shafts has no swing that says how exact speeds shall be: then as if it had one this slow \[rad/s\].
+const SLOWEST: f64 = 1.0;
+
+/// Share of the largest twist, torque or speed so far below which the accuracy is no longer relative to the number itself.
+const SMALL: f64 = 0.01;
+
+/// Torque of a shaft to which its accuracy is relative, from its own size and the greatest of any \[N m\].
+pub fn torque_counted(size: f64, greatest: f64) -> f64 {
+    size.max(SMALL * greatest).max(TORQUE_FLOOR)
+}
+
+/// How large an error of each number of the state may be.
+#[derive(Clone, Copy, Debug)]
+pub struct Scale {
+    /// Relative accuracy of a step as its method estimates it.
+    pub accuracy: f64,
+    /// Relative accuracy between the ends of a step.
+    between: f64,
+    n: usize,
+    relative: bool,
+    speed_floor: f64,
+    /// Whether steps follow the swings of every shaft, so that its twist has to tell its torque.
+    follows: bool,
+    /// Largest twist, torque of a shaft, speed beside the first mass, and speed of the first mass so far.
+    twist: f64,
+    torque: f64,
+    aside: f64,
+    speed: f64,
+}
+
+impl Scale {
+    /// For masses whose fastest swing is about `omega`, with the accuracies of a step's estimate and between its ends.
+    pub fn new([accuracy, between]: [f64; 2], rates: &Rates<'_>, omega: f64) -> Self {
+        let (n, relative) = (rates.system.len(), rates.is_relative());
+        Scale {
+            accuracy,
+            between,
+            n,
+            relative,
+            speed_floor: TWIST_FLOOR * omega.max(SLOWEST),
+            follows: false,
+            twist: 0.0,
+            torque: 0.0,
+            aside: 0.0,
+            speed: 0.0,
+        }
+    }
+
+    /// The same for steps that follow the swings of every shaft, however stiff.
+    pub fn following(self) -> Self {
+        Scale { follows: true, ..self }
+    }
+
+    /// Error that one number of the state, of a size, may have.
+    #[inline(always)]
+    pub fn of(&self, index: usize, size: f64) -> f64 {
+        self.accuracy * self.counted(index, size)
+    }
+
+    /// Largest error between the ends of a step over what it may be, of the numbers of the state and of the twist of each link,
+    /// which may be small beside the angles; their sizes are the larger of two states.
+    pub fn worst(&self, system: &System, error: &[f64], states: [&[f64]; 2]) -> f64 {
+        let size = |value: &dyn Fn(&[f64]) -> f64| value(states[0]).abs().max(value(states[1]).abs());
+        let numbers = error.iter().enumerate().map(|(i, &error)| {
+            let size = size(&|state| state[i]);
+            over(error, self.between * self.counted(i, size), size)
+        });
+        let links = system.links.iter().map(|link| {
+            let twist = |list: &[f64]| link.twist(self.n, self.relative, |i| list[i]);
+            let size = size(&twist);
+            let angle =
+                link.ratio * states[1][..self.n].iter().skip(1).fold(0.0, |most: f64, x| most.max(x.abs()));
+            let tolerance = self.between * size.max(self.twist_floor(link));
+            over(twist(error), tolerance, size.max(angle))
+        });
+        numbers.chain(links).fold(0.0, worse)
+    }
+
+    /// Twist of a link below which the accuracy is no longer relative to it.
+    fn twist_floor(&self, link: &Link) -> f64 {
+        let by_angle = (SMALL * self.twist).max(TWIST_FLOOR);
+        let by_torque = torque_counted(0.0, self.torque) / link.stiffness;
+        if self.follows { by_angle.min(by_torque) } else { by_angle }
+    }
+
+    /// Size to which the accuracy of one number is relative.
+    #[inline(always)]
+    fn counted(&self, index: usize, size: f64) -> f64 {
+        let leads = self.relative && (index == 0 || index == self.n);
+        match (leads, index < self.n) {
+            (true, true) => 1.0,
+            (false, true) => size.max(SMALL * self.twist).max(TWIST_FLOOR),
+            (true, false) => size.max(SMALL * self.speed).max(self.speed_floor),
+            (false, false) => size.max(SMALL * self.aside).max(self.speed_floor),
+        }
+    }
+
+    /// Takes note of a state that was reached.
+    pub fn widen(&mut self, system: &System, state: &[f64]) {
+        let torque = |link: &Link| link.stiffness * link.twist(self.n, self.relative, |i| state[i]).abs();
+        self.torque = system.links.iter().map(torque).fold(self.torque, f64::max);
+        let first = usize::from(self.relative);
+        let largest = |list: &[f64], so_far: f64| list.iter().fold(so_far, |most, x| most.max(x.abs()));
+        self.twist = largest(&state[first..self.n], self.twist);
+        self.aside = largest(&state[self.n + first..], self.aside);
+        self.speed = self.speed.max(state[self.n].abs());
+    }
+
+    /// Size of an error against what it may be, over all numbers of the state.
+    pub fn norm(&self, error: &[f64], state: &[f64]) -> f64 {
+        let square = |(i, (e, y)): (usize, (&f64, &f64))| (e / self.of(i, y.abs())).powi(2);
+        let sum: f64 = error.iter().zip(state).enumerate().map(square).sum();
+        (sum / error.len() as f64).sqrt()
+    }
+}
