@@ -19,7 +19,7 @@ from linkwright.drive.batch import SteadyStates
 from linkwright.drive.steady_state import SteadyState
 from linkwright.drive.transient import End
 from linkwright.kernel.errors import FindingError, InputError, SteadyStateError
-from linkwright.machine.program.compiled import Compiled, compile_machine
+from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 
 Floats = NDArray[np.float64]
 Inputs = Mapping[str, str]
@@ -55,7 +55,7 @@ def drive(random: Generator) -> None:
         forces_agree(machine, found, inputs)
 
 
-def steady_laws(machine: lw.Machine, found: SteadyState, compiled: Compiled, inputs: Inputs) -> None:
+def steady_laws(machine: lw.Machine, found: SteadyState, compiled: CompiledMachine, inputs: Inputs) -> None:
     """All laws of one steady motion."""
     for law, error in violations(machine, found, max(WITHIN, 3 * found.accuracy)).items():
         raise PromiseError(f"the law of {law} is broken by {error:.2g} of the peak", inputs)
@@ -64,7 +64,7 @@ def steady_laws(machine: lw.Machine, found: SteadyState, compiled: Compiled, inp
     _reached(found, inputs)
 
 
-def _powers(found: SteadyState, compiled: Compiled, inputs: Inputs) -> None:
+def _powers(found: SteadyState, compiled: CompiledMachine, inputs: Inputs) -> None:
     """M_d − M_r = J ε + ½ J′ ω² at every angle."""
     at = compiled.reductions(found.crank_angle)
     inertia = at.inertia * found.acceleration + 0.5 * at.inertia_slope * found.speed**2
@@ -76,7 +76,7 @@ def _powers(found: SteadyState, compiled: Compiled, inputs: Inputs) -> None:
         raise PromiseError(f"torques are out of balance by {worst / terms.max():.2g} of the largest", inputs)
 
 
-def _slope(compiled: Compiled, phi: float, state: Floats) -> list[float]:
+def _slope(compiled: CompiledMachine, phi: float, state: Floats) -> list[float]:
     """dE/dφ, and 1/ω for the time."""
     at = compiled.reductions(np.array([phi]))
     omega = float(np.sqrt(2.0 * max(state[0], 1e-300) / at.inertia[0]))
@@ -89,14 +89,14 @@ def _slope(compiled: Compiled, phi: float, state: Floats) -> list[float]:
     return [float(torque[0]) - resisting, 1.0 / omega]
 
 
-def _jacobian(compiled: Compiled, phi: float, state: Floats) -> list[list[float]]:
+def _jacobian(compiled: CompiledMachine, phi: float, state: Floats) -> list[list[float]]:
     """Its derivative by E; nothing depends on the time."""
     step = 1e-6 * state[0]
     ahead, behind = (_slope(compiled, phi, np.array([state[0] + side, 0.0])) for side in (step, -step))
     return [[(a - b) / (2 * step), 0.0] for a, b in zip(ahead, behind, strict=True)]
 
 
-def _integral(found: SteadyState, compiled: Compiled, inputs: Inputs) -> None:
+def _integral(found: SteadyState, compiled: CompiledMachine, inputs: Inputs) -> None:
     """The curve of speed is what the energy equation gives from its first value on, and so is the time."""
     # A motion that grows apart by its multiplier multiplies the errors of marching.
     room = WITHIN * max(1.0, abs(found.multiplier))
@@ -108,7 +108,7 @@ def _integral(found: SteadyState, compiled: Compiled, inputs: Inputs) -> None:
     raise PromiseError(broken, inputs)
 
 
-def _marched_apart(found: SteadyState, compiled: Compiled, accuracy: float, room: float) -> str:
+def _marched_apart(found: SteadyState, compiled: CompiledMachine, accuracy: float, room: float) -> str:
     """By how much speed or time are off a march of some accuracy; nothing if they are not, or it gives up."""
     J = compiled.reductions(found.crank_angle).inertia
     start = [0.5 * J[0] * found.speed[0] ** 2, 0.0]
@@ -152,7 +152,7 @@ def forces_agree(machine: lw.Machine, found: SteadyState, inputs: Inputs) -> Non
         )
 
 
-def refused_in_time(machine: lw.Machine, compiled: Compiled, inputs: Inputs) -> None:
+def refused_in_time(machine: lw.Machine, compiled: CompiledMachine, inputs: Inputs) -> None:
     """A machine that is refused does not settle into a motion from any of some speeds."""
     for factor in (1.0, 0.3):
         try:

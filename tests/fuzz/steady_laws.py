@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from linkwright.drive.steady_state import SteadyState
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import Compiled, compile_machine
+from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import SteadyMotion
 
 Floats = NDArray[np.float64]
@@ -50,7 +50,7 @@ def violations(machine: Machine, steady: SteadyState, accuracy: float) -> dict[s
     return {law: error for law, error in found.items() if not error <= accuracy}
 
 
-def rounding(steady: SteadyState, compiled: Compiled) -> float:
+def rounding(steady: SteadyState, compiled: CompiledMachine) -> float:
     """Torque that rounding makes: of the speed on the characteristic, and of what goes to and fro [N m].
 
     Where a drive idles this is all the torque that there is.
@@ -59,7 +59,7 @@ def rounding(steady: SteadyState, compiled: Compiled) -> float:
     ----------
     steady : SteadyState
         A steady motion.
-    compiled : Compiled
+    compiled : CompiledMachine
         Its machine.
     """
     share = 1e-6
@@ -105,7 +105,7 @@ def _balance(machine: Machine, steady: SteadyState) -> float:
     return float(off.max()) / _peak(steady)
 
 
-def _diagonal(compiled: Compiled, angles: Floats, omega: Floats) -> Floats:
+def _diagonal(compiled: CompiledMachine, angles: Floats, omega: Floats) -> Floats:
     """Torque of the laws at each angle with its own speed."""
     return np.array(
         [compiled.law_torques(phi, w)[0, 0] for phi, w in zip(angles, omega, strict=True)], dtype=np.float64

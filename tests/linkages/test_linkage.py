@@ -10,7 +10,7 @@ import pytest
 
 import linkwright as lw
 from linkwright.kernel.errors import AssemblyError, InputError, MachineError, ShapeError
-from linkwright.kernel.numerics.roots import minima, zeros
+from linkwright.kernel.numerics.zeros import minima, zeros
 from linkwright.linkages.closure import closure
 from linkwright.linkages.cycle import LIMIT, PASSED, REVERSAL
 from linkwright.linkages.grashof import FourBar, four_bars

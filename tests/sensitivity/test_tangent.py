@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from linkwright.kernel.numerics.tangent import Tangent, plain
+from linkwright.kernel.numerics.tangent import Tangent, primal
 
 
 def _at(x: float, y: float) -> tuple[Tangent, Tangent]:
@@ -42,8 +42,8 @@ def test_comparisons_look_at_the_value():
     assert y < 1
     assert x >= 1.3
     assert max([x, y]) is x
-    assert plain(x) == 1.3
-    assert plain(2.0) == 2.0
+    assert primal(x) == 1.3
+    assert primal(2.0) == 2.0
 
 
 @pytest.mark.parametrize("lose", [float, math.sin, np.cbrt, lambda x: np.array([x, 1.0], dtype=float)])

@@ -9,7 +9,7 @@ from pathlib import Path
 from rich.table import Table
 
 from linkwright.kernel.command.console import console, styled
-from linkwright.kernel.errors import plain
+from linkwright.kernel.errors import printable
 
 PACKAGE = Path(__file__).parents[2] / "python" / "linkwright"
 
@@ -48,4 +48,4 @@ def test_markup_of_data_is_shown(capsys) -> None:  # type: ignore[no-untyped-def
 
 
 def test_letters_that_steer_the_terminal_are_shown() -> None:
-    assert plain("a\x1b[2J\u202eb\r\nж😀") == "a\\x1b[2J\\u202eb\\r\nж😀"
+    assert printable("a\x1b[2J\u202eb\r\nж😀") == "a\\x1b[2J\\u202eb\\r\nж😀"

@@ -18,7 +18,7 @@ from linkwright.drive.steady_state import SteadyState
 from linkwright.drive.tables import drive_tables
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.page.table import curves_csv
-from linkwright.kernel.quantities import About, Shown, declared, in_table
+from linkwright.kernel.quantities import About, Label, declared, in_table
 from linkwright.kernel.result import Result
 from linkwright.torsion.study import TorsionStudy
 
@@ -66,7 +66,7 @@ def test_declarations_say_something_of_each(result: type) -> None:
         assert not mark.over or mark.over in declared(result), name
         for unit in mark.unit.split(" or "):
             assert unit in ("", "–") or is_coherent(unit), (name, unit)
-    for table in {mark.table for _, mark in declared(result).values() if isinstance(mark, Shown)} - {""}:
+    for table in {mark.table for _, mark in declared(result).values() if isinstance(mark, Label)} - {""}:
         assert in_table(result, table)
 
 
@@ -85,9 +85,9 @@ class Sample(Result):
     None.
     """
 
-    crank_angle: Annotated[np.ndarray[Any, np.dtype[np.float64]], Shown("crank angle", "φ", "rad")]
+    crank_angle: Annotated[np.ndarray[Any, np.dtype[np.float64]], Label("crank angle", "φ", "rad")]
     pull: Annotated[
-        np.ndarray[Any, np.dtype[np.float64]], Shown("pull of the rope", "Z", "N", "On the drum.")
+        np.ndarray[Any, np.dtype[np.float64]], Label("pull of the rope", "Z", "N", "On the drum.")
     ]
 
 
@@ -107,7 +107,7 @@ class Heated(SteadyState):
     """Steady motion with one more scalar: it is declared, and that is all."""
 
     @property
-    def loss(self) -> Annotated[float, Shown("what is lost", "V", "J", table="drive", before="efficiency")]:
+    def loss(self) -> Annotated[float, Label("what is lost", "V", "J", table="drive", before="efficiency")]:
         """Work of the motor less that of the loads."""
         return self.energy_motor - self.energy_load
 

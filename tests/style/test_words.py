@@ -19,7 +19,7 @@ import pytest
 
 import linkwright as lw
 from linkwright.kernel.page.glossary import allowed, glossary, matching
-from linkwright.kernel.quantities import Shown, declared
+from linkwright.kernel.quantities import Label, declared
 from linkwright.kernel.result import Result
 
 ROOT = Path(__file__).parents[2]
@@ -140,7 +140,7 @@ def test_texts_use_the_words_of_the_field(kind: str) -> None:
     assert not found, "\n".join(found)
 
 
-def quantities() -> Iterator[tuple[str, Shown]]:
+def quantities() -> Iterator[tuple[str, Label]]:
     """Name and mark of every quantity that a result declares."""
     for room in pkgutil.walk_packages(lw.__path__, "linkwright."):
         if not room.name.endswith("__main__"):
@@ -149,7 +149,7 @@ def quantities() -> Iterator[tuple[str, Shown]]:
     while kinds:
         kind = kinds.pop()
         kinds += kind.__subclasses__()
-        yield from ((name, mark) for name, (_, mark) in declared(kind).items() if isinstance(mark, Shown))
+        yield from ((name, mark) for name, (_, mark) in declared(kind).items() if isinstance(mark, Label))
 
 
 def test_tables_use_the_terms_of_the_glossary() -> None:
@@ -186,14 +186,49 @@ def test_terms_are_defined_once() -> None:
     assert matching("xyzzy") == ()
 
 
+# Names that would fit anything: a variable is called what it is (a mode, a peak, a row).
+ANYTHING = {"each", "told", "whole", "further", "plain"}
+# A message says what was found, what is expected and a remedy; its parts have these names.
+PROBLEM = ("expected", "remedy", "Problem(", "Error(", "fault(")
+
+
+def bound(tree: ast.AST) -> Iterator[tuple[str, int]]:
+    """Names that a tree binds, and their lines."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            yield node.id, node.lineno
+        elif isinstance(node, ast.arg):
+            yield node.arg, node.lineno
+
+
+def functions(tree: ast.AST) -> Iterator[ast.AST]:
+    """The functions of a module."""
+    return (node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef))
+
+
 def test_local_names_say_what_they_are() -> None:
-    # Names that would fit anything: a variable is called what it is (a mode, a peak, a row).
-    anything = {"each", "told"}
     wrong = []
     for path in sorted((ROOT / "python").glob("linkwright/**/*.py")):
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            stored = isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)
-            name = node.arg if isinstance(node, ast.arg) else node.id if stored else ""
-            if name in anything:
-                wrong.append(f"{path.relative_to(ROOT)}:{node.lineno}: {name}")
+        source = path.read_text(encoding="utf-8")
+        names = set()
+        for function in functions(ast.parse(source)):
+            names |= {(name, line) for name, line in bound(function) if name in ANYTHING}
+            if "found" in source and not any(
+                word in (ast.get_source_segment(source, function) or "") for word in PROBLEM
+            ):
+                names |= {(name, line) for name, line in bound(function) if name == "found"}
+        wrong += [f"{path.relative_to(ROOT)}:{line}: {name}" for name, line in sorted(names)]
+    assert not wrong, "\n".join(wrong)
+
+
+def test_types_are_nouns() -> None:
+    # No participles; these nouns end like one.
+    nouns = ("Speed", "Result", "RunDown")
+    wrong = [
+        f"{path.relative_to(ROOT)}:{node.lineno}: {node.name}"
+        for path in sorted((ROOT / "python").glob("linkwright/**/*.py"))
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.ClassDef) and re.search(r"[a-z](?:ed|wn|ven|lt)$", node.name)
+        if not node.name.endswith(nouns)
+    ]
     assert not wrong, "\n".join(wrong)

@@ -31,7 +31,7 @@ from linkwright.kernel.errors import StartError
 from linkwright.kernel.findings import Findings
 from linkwright.linkages.closure import require_one_turn
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import Compiled
+from linkwright.machine.program.compiled import CompiledMachine
 
 if TYPE_CHECKING:
     from linkwright.torsion.modes.free import FreeVibration
@@ -119,7 +119,7 @@ def _mechanism(machine: Machine, findings: Findings) -> Iterator[str]:
         yield "drive: characteristic of the motor, start"
 
 
-def _require_drive(machine: Machine, compiled: Compiled) -> None:
+def _require_drive(machine: Machine, compiled: CompiledMachine) -> None:
     """Raise unless the motor drives, the revolution repeats, and the machine moves from its start."""
     drive = machine.drive
     require_one_turn(compiled)

@@ -202,18 +202,18 @@ def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = Non
         return _topped(Study(machine, turning_moment=diagram, findings=findings.findings), cut)
     unit, rotator = _pumped(machine, findings)
     moved = findings.of(linkage, machine)
-    whole = _turned(machine, findings, accuracy, step)
-    whole = replace(
-        whole,
+    result = _turned(machine, findings, accuracy, step)
+    result = replace(
+        result,
         pumping_unit=unit,
         rotator=rotator,
         turning_moment=diagram,
         linkage=moved if moved is not None and moved.elements else None,
         accuracy=accuracy,
     )
-    whole = _with_cams(whole, findings)
-    warnings = (*_of_units(whole), *whole.warnings, *findings.warnings)
-    return _topped(replace(whole, findings=findings.findings, warnings=warnings), cut)
+    result = _with_cams(result, findings)
+    warnings = (*_of_units(result), *result.warnings, *findings.warnings)
+    return _topped(replace(result, findings=findings.findings, warnings=warnings), cut)
 
 
 def _diagram(machine: Machine, findings: Findings) -> TurningMomentDiagram | None:

@@ -26,7 +26,7 @@ from linkwright.cam.laws.catalogue import LAWS
 from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.cam.laws.piece import Piece, zeros
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 
 # A jump below this share of the derivative's maximum value is rounding.
@@ -39,32 +39,32 @@ _NAMES = ("velocity", "acceleration")
 class LawFactors(Result):
     """Factors of a motion law; all are numbers."""
 
-    C_v: Annotated[float, Shown("maximum velocity", "C_v", "")]
+    C_v: Annotated[float, Label("maximum velocity", "C_v", "")]
     C_a: Annotated[
-        float | None, Shown("peak absolute value of acceleration", "C_a", "", "None where it is infinite.")
+        float | None, Label("peak absolute value of acceleration", "C_a", "", "None where it is infinite.")
     ]
     C_j: Annotated[
-        float | None, Shown("peak absolute value of jerk", "C_j", "", "None where it is infinite.")
+        float | None, Label("peak absolute value of jerk", "C_j", "", "None where it is infinite.")
     ]
     C_M: Annotated[
         float | None,
-        Shown("peak absolute value of velocity times acceleration", "C_M", "", "None where it is infinite."),
+        Label("peak absolute value of velocity times acceleration", "C_M", "", "None where it is infinite."),
     ]
     acceleration_squared: Annotated[
-        float | None, Shown("integral of the square of acceleration", "∫a²", "", "None where it is infinite.")
+        float | None, Label("integral of the square of acceleration", "∫a²", "", "None where it is infinite.")
     ]
     jerk_squared: Annotated[
-        float | None, Shown("integral of the square of jerk", "∫j²", "", "None where it is infinite.")
+        float | None, Label("integral of the square of jerk", "∫j²", "", "None where it is infinite.")
     ]
-    C_a_inside: Annotated[float, Shown("peak absolute value of acceleration between the jumps", "", "")]
-    C_j_inside: Annotated[float, Shown("peak absolute value of jerk between the jumps", "", "")]
+    C_a_inside: Annotated[float, Label("peak absolute value of acceleration between the jumps", "", "")]
+    C_j_inside: Annotated[float, Label("peak absolute value of jerk between the jumps", "", "")]
     C_M_inside: Annotated[
-        float, Shown("peak absolute value of velocity times acceleration between the jumps", "", "")
+        float, Label("peak absolute value of velocity times acceleration between the jumps", "", "")
     ]
-    acceleration_max: Annotated[float, Shown("maximum acceleration between the jumps", "", "")]
-    acceleration_min: Annotated[float, Shown("minimum acceleration between the jumps", "", "")]
-    jerk_max: Annotated[float, Shown("maximum jerk between the jumps", "", "")]
-    jerk_min: Annotated[float, Shown("minimum jerk between the jumps", "", "")]
+    acceleration_max: Annotated[float, Label("maximum acceleration between the jumps", "", "")]
+    acceleration_min: Annotated[float, Label("minimum acceleration between the jumps", "", "")]
+    jerk_max: Annotated[float, Label("maximum jerk between the jumps", "", "")]
+    jerk_min: Annotated[float, Label("minimum jerk between the jumps", "", "")]
     remarks: Annotated[tuple[str, ...], About("What jumps, and where.")]
 
 

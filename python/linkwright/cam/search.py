@@ -23,7 +23,7 @@ from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError, ShapeError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import array
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 
@@ -52,11 +52,11 @@ class Cams(Result):
     laws: Annotated[tuple[str, ...], About("Names of the laws.")]
     law: Annotated[NDArray[np.intp], About("Number of the law of each cam.", "(n,)")]
     pressure_angle_max: Annotated[
-        Floats, Shown("maximum pressure angle in size", "", "rad", over="pressure_angle_max")
+        Floats, Label("maximum pressure angle in size", "", "rad", over="pressure_angle_max")
     ]
     curvature_radius_min: Annotated[
         Floats,
-        Shown(
+        Label(
             "minimum radius of curvature of the convex parts of the profile",
             "",
             "m",
@@ -66,7 +66,7 @@ class Cams(Result):
     ]
     concave_radius_min: Annotated[
         Floats,
-        Shown(
+        Label(
             "minimum radius of the concave parts",
             "",
             "m",

@@ -15,7 +15,7 @@ from linkwright.drive.sound_loads import require_same_turns
 from linkwright.kernel.errors import InputError, MachineError, Problem, ShapeError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import array
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record
 from linkwright.linkages.closure import require_one_turn
 from linkwright.machine.address import get, replace
@@ -56,43 +56,43 @@ class SteadyStates(Record):
 
     entries: Annotated[dict[str, Floats], About("What was varied, by address.")]
     status: Annotated[NDArray[np.uint8], About(_STATUS_WORDS, "(rows,)")]
-    speed_min: Annotated[Floats, Shown("minimum speed", "ω_min", "rad/s")]
-    speed_max: Annotated[Floats, Shown("maximum speed", "ω_max", "rad/s")]
-    acceleration_min: Annotated[Floats, Shown("minimum acceleration", "ε_min", "rad/s²")]
-    acceleration_max: Annotated[Floats, Shown("maximum acceleration", "ε_max", "rad/s²")]
-    period: Annotated[Floats, Shown("period", "T", "s")]
-    multiplier: Annotated[Floats, Shown("Floquet multiplier", "G", "")]
-    energy_motor: Annotated[Floats, Shown("work of the motor per revolution", "A_m", "J")]
-    energy_drive: Annotated[Floats, Shown("work at the crank per revolution", "A_d", "J")]
-    energy_load: Annotated[Floats, Shown("work of the loads per revolution", "A_r", "J")]
-    torque_motor_mean: Annotated[Floats, Shown("mean torque of the motor", "M_mean", "N m", "Over time.")]
+    speed_min: Annotated[Floats, Label("minimum speed", "ω_min", "rad/s")]
+    speed_max: Annotated[Floats, Label("maximum speed", "ω_max", "rad/s")]
+    acceleration_min: Annotated[Floats, Label("minimum acceleration", "ε_min", "rad/s²")]
+    acceleration_max: Annotated[Floats, Label("maximum acceleration", "ε_max", "rad/s²")]
+    period: Annotated[Floats, Label("period", "T", "s")]
+    multiplier: Annotated[Floats, Label("Floquet multiplier", "G", "")]
+    energy_motor: Annotated[Floats, Label("work of the motor per revolution", "A_m", "J")]
+    energy_drive: Annotated[Floats, Label("work at the crank per revolution", "A_d", "J")]
+    energy_load: Annotated[Floats, Label("work of the loads per revolution", "A_r", "J")]
+    torque_motor_mean: Annotated[Floats, Label("mean torque of the motor", "M_mean", "N m", "Over time.")]
     torque_motor_rms: Annotated[
-        Floats, Shown("root mean square torque of the motor", "M_rms", "N m", "Over time.")
+        Floats, Label("root mean square torque of the motor", "M_rms", "N m", "Over time.")
     ]
     turns_swept: Annotated[int, About("Revolutions that the solver went through in all.")]
 
     @property
-    def speed_mean_extremes(self) -> Annotated[Floats, Shown("mean of the extreme speeds", "ω_m", "rad/s")]:
+    def speed_mean_extremes(self) -> Annotated[Floats, Label("mean of the extreme speeds", "ω_m", "rad/s")]:
         """(ω_max + ω_min)/2."""
         return evenness.mean_of_extremes(self.speed_min, self.speed_max)
 
     @property
-    def speed_mean_time(self) -> Annotated[Floats, Shown("mean speed over time", "ω_m", "rad/s")]:
+    def speed_mean_time(self) -> Annotated[Floats, Label("mean speed over time", "ω_m", "rad/s")]:
         """2π/period."""
         return 2 * np.pi / self.period
 
     @property
-    def unevenness(self) -> Annotated[Floats, Shown("coefficient of speed fluctuation", "δ", "")]:
+    def unevenness(self) -> Annotated[Floats, Label("coefficient of speed fluctuation", "δ", "")]:
         """With the mean of the extremes."""
         return evenness.unevenness(self.speed_min, self.speed_max, self.speed_mean_extremes)
 
     @property
-    def dynamism(self) -> Annotated[Floats, Shown("dynamic factor", "H", "")]:
+    def dynamism(self) -> Annotated[Floats, Label("dynamic factor", "H", "")]:
         """With the mean of the extremes."""
         return evenness.dynamism(self.acceleration_min, self.acceleration_max, self.speed_mean_extremes)
 
     @property
-    def motion_coefficient(self) -> Annotated[Floats, Shown("combined non-uniformity index", "k_p", "")]:
+    def motion_coefficient(self) -> Annotated[Floats, Label("combined non-uniformity index", "k_p", "")]:
         """δ² + H."""
         return evenness.motion_coefficient(self.unevenness, self.dynamism)
 
@@ -198,9 +198,9 @@ def _check(machine: Machine, columns: Mapping[str, Floats]) -> None:
     rows = {int(pick(column)) for column in columns.values() for pick in (np.argmin, np.argmax)}
     for row in sorted(rows):
         entries = {address: float(column[row]) for address, column in columns.items()}
-        Machine.model_validate(_plain(replace(machine, entries)))
+        Machine.model_validate(_tables(replace(machine, entries)))
 
 
-def _plain(machine: Machine) -> dict[str, object]:
+def _tables(machine: Machine) -> dict[str, object]:
     """The machine as the tables of a file."""
     return machine.model_dump(by_alias=True, exclude_unset=True)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from linkwright.drive.model.motor import ConstantSpeedMotor, DcMotor, InductionMotor, Motor
 from linkwright.drive.reduction import Reduction, mean_laws, reduction
 from linkwright.kernel.errors import InputError
-from linkwright.kernel.quantities import Shown
+from linkwright.kernel.quantities import Label
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
@@ -30,18 +30,18 @@ _BEYOND = 0.04
 class Characteristic(Result):
     """Torque of a motor over its speed."""
 
-    speed: Annotated[Floats, Shown("speed of the motor's shaft", "ω", "rad/s", "From standstill.")]
-    torque: Annotated[Floats, Shown("torque of the motor", "M", "N m")]
+    speed: Annotated[Floats, Label("speed of the motor's shaft", "ω", "rad/s", "From standstill.")]
+    torque: Annotated[Floats, Label("torque of the motor", "M", "N m")]
     torque_load: Annotated[
         Floats,
-        Shown("mean load torque", "M_r,mean", "N m", "Over one revolution, referred to the motor's shaft."),
+        Label("mean load torque", "M_r,mean", "N m", "Over one revolution, referred to the motor's shaft."),
     ]
-    ratio: Annotated[float, Shown("motor speed over crank speed", "i", "")]
-    speed_no_load: Annotated[float | None, Shown("synchronous speed, or speed without load", "ω₀", "rad/s")]
-    speed_rated: Annotated[float | None, Shown("rated speed", "ω_N", "rad/s")]
-    torque_rated: Annotated[float | None, Shown("rated torque", "M_N", "N m")]
-    speed_breakdown: Annotated[float | None, Shown("speed of maximum torque", "ω_k", "rad/s")]
-    torque_breakdown: Annotated[float | None, Shown("breakdown torque", "M_k", "N m")]
+    ratio: Annotated[float, Label("motor speed over crank speed", "i", "")]
+    speed_no_load: Annotated[float | None, Label("synchronous speed, or speed without load", "ω₀", "rad/s")]
+    speed_rated: Annotated[float | None, Label("rated speed", "ω_N", "rad/s")]
+    torque_rated: Annotated[float | None, Label("rated torque", "M_N", "N m")]
+    speed_breakdown: Annotated[float | None, Label("speed of maximum torque", "ω_k", "rad/s")]
+    torque_breakdown: Annotated[float | None, Label("breakdown torque", "M_k", "N m")]
 
 
 def characteristic(

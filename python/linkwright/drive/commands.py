@@ -62,7 +62,7 @@ _ROWS = 12
 
 
 @dataclass(frozen=True)
-class _Followed:
+class _MotionReport:
     """A motion with what is reported of it."""
 
     machine: Machine
@@ -132,11 +132,11 @@ def transient(
         brake=brake,
         **until,
     )
-    followed = _Followed(machine, motion, counted, steps, not no_motor)
+    followed = _MotionReport(machine, motion, counted, steps, not no_motor)
     hand_over(_answer(followed), json=json, curves=curves, folder=folder)
 
 
-def _answer(of: _Followed) -> Answer:
+def _answer(of: _MotionReport) -> Answer:
     from linkwright.drive.tables_in_time import end_sentence
 
     ended = [end_sentence(of.motion, of.zero)] if of.motion.came_to_rest else []
@@ -154,7 +154,7 @@ def _answer(of: _Followed) -> Answer:
     )
 
 
-def _head(of: _Followed) -> str:
+def _head(of: _MotionReport) -> str:
     """How far the angles are from those of the file; the methods of a motion that took implicit steps."""
     from linkwright.drive.tables_in_time import methods_sentence
     from linkwright.kernel.page.numbers import degrees
@@ -167,7 +167,7 @@ def _head(of: _Followed) -> str:
     return "\n".join(lines)
 
 
-def _results(of: _Followed, curves: bool) -> dict[str, Any]:
+def _results(of: _MotionReport, curves: bool) -> dict[str, Any]:
     """Extremes, events, and the curves at even times."""
     results: dict[str, Any] = {
         "end": of.motion.end.name.lower(),
@@ -188,7 +188,7 @@ def _results(of: _Followed, curves: bool) -> dict[str, Any]:
     return {"transient": results}
 
 
-def _course(of: _Followed, intervals: int | None = None) -> Motion:
+def _course(of: _MotionReport, intervals: int | None = None) -> Motion:
     """The motion of everything at even times."""
     from linkwright.drive.motion_events import course
     from linkwright.linkages.motion import motion_along
@@ -196,13 +196,13 @@ def _course(of: _Followed, intervals: int | None = None) -> Motion:
     return motion_along(of.machine, *course(of.motion, intervals or of.steps))
 
 
-def _tables(of: _Followed) -> list[Table]:
+def _tables(of: _MotionReport) -> list[Table]:
     from linkwright.drive.tables_in_time import in_time_tables
 
     return in_time_tables(of.motion, of.extremes, of.events, _course(of, _ROWS), of.zero)
 
 
-def _files(of: _Followed) -> dict[str, str]:
+def _files(of: _MotionReport) -> dict[str, str]:
     from linkwright.kernel.page.table import columns_csv, head
 
     course = _course(of)
@@ -210,7 +210,7 @@ def _files(of: _Followed) -> dict[str, str]:
     return {"transient.csv": columns_csv({head(course, name): curve for name, curve in curves.items()})}
 
 
-def _figures(of: _Followed) -> dict[str, Figure]:
+def _figures(of: _MotionReport) -> dict[str, Figure]:
     from linkwright.drive.figures import in_time_figure
 
     return {"transient": in_time_figure(of.motion, of.extremes)}

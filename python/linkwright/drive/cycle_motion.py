@@ -24,7 +24,7 @@ from linkwright.kernel.result import Record
 from linkwright.linkages.cycle import Linkage, linkage
 from linkwright.linkages.motion import Motion, motion_along
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import Compiled, compile_machine
+from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import SteadyMotion
 
 Floats = NDArray[np.float64]
@@ -192,7 +192,7 @@ def _at_constant_speed(speed: float, start: float) -> CrankMotion:
     return lambda phi: ((phi - start) / speed, np.full_like(phi, speed), np.zeros_like(phi))
 
 
-def _in_steady_motion(compiled: Compiled, steady: SteadyState, accuracy: float) -> CrankMotion:
+def _in_steady_motion(compiled: CompiledMachine, steady: SteadyState, accuracy: float) -> CrankMotion:
     """The same solution read at any angles; a motor of constant speed has none to solve."""
     if steady.method != "collocation":
         return _at_constant_speed(steady.speed_max, 0.0)
@@ -219,7 +219,7 @@ def _along(machine: Machine, crank: CrankMotion, phi: Floats) -> Motion:
     return motion_along(machine, time, phi, speed, acceleration)
 
 
-def _looked_at(compiled: Compiled, low: float, high: float, turns: int) -> Floats:
+def _looked_at(compiled: CompiledMachine, low: float, high: float, turns: int) -> Floats:
     """Angles at which extremes are looked for first: evenly, and on both sides of every kink."""
     even = np.linspace(low, high, _SEARCHED * turns + 1)
     first, last = np.floor(np.array([low, high]) / (2 * np.pi)).astype(int)

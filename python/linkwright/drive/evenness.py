@@ -26,10 +26,10 @@ from linkwright.drive.reduction import NO_INERTIA, Reduction, reduction
 from linkwright.kernel.errors import SteadyStateError
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import Shown
+from linkwright.kernel.quantities import Label
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import Compiled, compile_machine
+from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 
 V = TypeVar("V", float, NDArray[np.float64])
 
@@ -63,11 +63,11 @@ Floats = NDArray[np.float64]
 class ConstantEnergy(Result):
     """Speed fluctuation at constant kinetic energy."""
 
-    unevenness: Annotated[float, Shown("coefficient of speed fluctuation", "δ", "")]
-    dynamism: Annotated[float, Shown("dynamic factor", "H", "")]
+    unevenness: Annotated[float, Label("coefficient of speed fluctuation", "δ", "")]
+    dynamism: Annotated[float, Label("dynamic factor", "H", "")]
 
     @property
-    def motion_coefficient(self) -> Annotated[float, Shown("combined non-uniformity index", "k_p", "")]:
+    def motion_coefficient(self) -> Annotated[float, Label("combined non-uniformity index", "k_p", "")]:
         """k_p = δ² + H, paper 1 (15)."""
         return motion_coefficient(self.unevenness, self.dynamism)
 
@@ -94,7 +94,7 @@ def constant_energy(machine: Machine) -> ConstantEnergy:
     return constant_energy_of(reduction(machine, n=1), compile_machine(machine).first())
 
 
-def constant_energy_of(reduced: Reduction, compiled: Compiled | None = None) -> ConstantEnergy:
+def constant_energy_of(reduced: Reduction, compiled: CompiledMachine | None = None) -> ConstantEnergy:
     r"""`constant_energy` of a reduced machine.
 
     With E = 1: :math:`\omega = \sqrt{2/J}`, :math:`\varepsilon = -\tfrac12 J'\omega^2/J = -J'/J^2`.
@@ -110,7 +110,7 @@ def constant_energy_of(reduced: Reduction, compiled: Compiled | None = None) -> 
     return ConstantEnergy(unevenness=delta, dynamism=dynamism(-peak, peak, mean))
 
 
-def _exactly(compiled: Compiled) -> float:
+def _exactly(compiled: CompiledMachine) -> float:
     """Peak of |J'|/J² from the series of the revolution."""
 
     def acceleration(phi: Floats) -> Floats:

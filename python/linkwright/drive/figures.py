@@ -25,7 +25,7 @@ from linkwright.kernel.figure.style import (
     SKY,
     SOFT,
     SPEED,
-    Captioned,
+    CaptionedFigure,
     legend_above,
     level,
     named,
@@ -264,17 +264,17 @@ def motor_figure(characteristic: Characteristic, steady: SteadyState | None = No
     side.
     """
     figure, axes = panels(1, height=3.3, columns=2 if steady else 1, shared=False)
-    whole = axes[0]
-    _curves(whole, characteristic)
-    _points(whole, characteristic)
-    whole.set_xlim(0, float(characteristic.speed[-1]))
-    roomy(whole, characteristic.torque, characteristic.torque_load)
-    _motor_words(whole)
+    full = axes[0]
+    _curves(full, characteristic)
+    _points(full, characteristic)
+    full.set_xlim(0, float(characteristic.speed[-1]))
+    roomy(full, characteristic.torque, characteristic.torque_load)
+    _motor_words(full)
     if steady is not None:
         span = _span(steady, characteristic)
-        whole.axvspan(*span, color=SKY, alpha=0.25, linewidth=0)
+        full.axvspan(*span, color=SKY, alpha=0.25, linewidth=0)
         _detail(axes[1], characteristic, steady, span)
-    _motor_legend(figure, whole, axes[-1])
+    _motor_legend(figure, full, axes[-1])
     return figure
 
 
@@ -331,10 +331,10 @@ def _motor_words(axes: Axes) -> None:
     zero_line(axes)
 
 
-def _motor_legend(figure: Figure, whole: Axes, last: Axes) -> None:
+def _motor_legend(figure: Figure, full: Axes, last: Axes) -> None:
     """One legend for both panels, above them."""
-    if whole is last:
-        legend_above(whole)
+    if full is last:
+        legend_above(full)
         return
     handles, labels = last.get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper center", ncols=3, handlelength=1.8)
@@ -345,7 +345,7 @@ def _motor_legend(figure: Figure, whole: Axes, last: Axes) -> None:
 _BEYOND = 0.012
 
 
-def drive_figures(study: DriveStudy) -> Iterator[Captioned]:
+def drive_figures(study: DriveStudy) -> Iterator[CaptionedFigure]:
     """The figures that a drive has results for: steady motion, motor, run-up, reduction."""
     yield from _steady(study)
     yield from _motor(study)
@@ -353,7 +353,7 @@ def drive_figures(study: DriveStudy) -> Iterator[Captioned]:
     yield from _reduction(study)
 
 
-def _steady(study: DriveStudy) -> Iterator[Captioned]:
+def _steady(study: DriveStudy) -> Iterator[CaptionedFigure]:
     steady = study.steady_state
     if steady is None:
         return
@@ -362,17 +362,19 @@ def _steady(study: DriveStudy) -> Iterator[Captioned]:
         f"The crank speed varies from {low} to {high}, δ = {number(steady.unevenness)}; a revolution takes "
         f"{quantity(steady.period, 's')}."
     )
-    yield Captioned("speed", "Speed and acceleration over one revolution", caption, speed_figure(steady))
+    yield CaptionedFigure(
+        "speed", "Speed and acceleration over one revolution", caption, speed_figure(steady)
+    )
     caption = (
         "The speed follows the difference of driving and load torque and the change of the reduced inertia. "
         f"The work of the motor is {quantity(steady.energy_motor, 'J')} per revolution."
     )
-    yield Captioned("torque", "Torque and power over one revolution", caption, torque_figure(steady))
+    yield CaptionedFigure("torque", "Torque and power over one revolution", caption, torque_figure(steady))
     caption = "The same motion over time, as a tachometer records it."
-    yield Captioned("time", "Speed and motor torque over time", caption, time_figure(steady))
+    yield CaptionedFigure("time", "Speed and motor torque over time", caption, time_figure(steady))
 
 
-def _motor(study: DriveStudy) -> Iterator[Captioned]:
+def _motor(study: DriveStudy) -> Iterator[CaptionedFigure]:
     drive, steady, reduced = study.machine.drive, study.steady_state, study.reduction
     if drive is None or drive.motor is None or reduced is None or isinstance(drive.motor, ConstantSpeedMotor):
         return
@@ -383,10 +385,10 @@ def _motor(study: DriveStudy) -> Iterator[Captioned]:
         ends = (steady.speed_min, steady.speed_max)
         slow, fast = (quantity(speed * drive.gearbox.ratio, "rad/s") for speed in ends)
         caption += f" Shaded: the speeds of steady motion, {slow} to {fast}."
-    yield Captioned("motor", "Motor and working range", caption, motor_figure(curve, steady))
+    yield CaptionedFigure("motor", "Motor and working range", caption, motor_figure(curve, steady))
 
 
-def _run_up(study: DriveStudy) -> Iterator[Captioned]:
+def _run_up(study: DriveStudy) -> Iterator[CaptionedFigure]:
     if study.run_up is not None:
         run_up = study.run_up
         caption = (
@@ -394,13 +396,13 @@ def _run_up(study: DriveStudy) -> Iterator[Captioned]:
             f"{quantity(run_up.time, 's')} "
             f"and {number(run_up.turns)} revolutions."
         )
-        yield Captioned("run_up", "Run-up", caption, run_up_figure(run_up, study.steady_state))
+        yield CaptionedFigure("run_up", "Run-up", caption, run_up_figure(run_up, study.steady_state))
     elif study.attempt is not None and len(study.attempt.time) > 1:
         caption = f"The motion ends after {number(study.attempt.turns)} revolutions."
-        yield Captioned("run_up", "Failed run-up", caption, attempt_figure(study.attempt))
+        yield CaptionedFigure("run_up", "Failed run-up", caption, attempt_figure(study.attempt))
 
 
-def _reduction(study: DriveStudy) -> Iterator[Captioned]:
+def _reduction(study: DriveStudy) -> Iterator[CaptionedFigure]:
     reduced = study.reduction
     if reduced is None:
         return
@@ -409,7 +411,7 @@ def _reduction(study: DriveStudy) -> Iterator[Captioned]:
         f"Inertia reduced to the crank, from {quantity(low, 'kg m²')} to {quantity(high, 'kg m²')}, and load "
         f"torque referred to the crank, {quantity(mean, 'N m')} on average."
     )
-    yield Captioned("reduction", "Reduced inertia and torque", caption, reduction_figure(reduced))
+    yield CaptionedFigure("reduction", "Reduced inertia and torque", caption, reduction_figure(reduced))
 
 
 # Points that show polynomials as smooth lines.

@@ -11,7 +11,7 @@ from linkwright.drive.cycle_motion import CycleMotion, Extremes
 from linkwright.drive.tables_of_cycle import outputs, speed_words, within_turn
 from linkwright.kernel.figure.style import (
     LINES,
-    Captioned,
+    CaptionedFigure,
     legend_above,
     named,
     panels,
@@ -32,7 +32,7 @@ _FIGURES_MAX, _LINES_MAX = 6, 4
 _HEIGHT, _PANEL = 0.8, 1.75
 
 
-def cycle_figures(motion: CycleMotion, linkage: Linkage) -> Iterator[Captioned]:
+def cycle_figures(motion: CycleMotion, linkage: Linkage) -> Iterator[CaptionedFigure]:
     """A figure of the sliders, one of the rockers and one of the coupler points, each with its extremes."""
     groups: dict[tuple[tuple[str, str, str], ...], list[str]] = {}
     for name, quantities in outputs(motion, linkage):
@@ -45,7 +45,7 @@ def cycle_figures(motion: CycleMotion, linkage: Linkage) -> Iterator[Captioned]:
                 return
             some = names[first : first + _LINES_MAX]
             caption = f"{_words(motion, some, quantities)}, {speed_words(motion)}."
-            yield Captioned(
+            yield CaptionedFigure(
                 f"motion_{count}",
                 f"Motion of {_listed(some)}",
                 caption[0].upper() + caption[1:],

@@ -21,7 +21,7 @@ from linkwright.kernel.errors import InputError
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.linkages.closure import turn_angles
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import Compiled, compile_machine
+from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import SteadyCurves, SteadySolution
 
 Floats = NDArray[np.float64]
@@ -100,7 +100,7 @@ def steady_tangents(machine: Machine, values: Floats, accuracy: float = 1e-11) -
 
 
 def _of_motor(
-    compiled: Compiled, state: SteadyState, curves: SteadyCurves, ratio: Tangent
+    compiled: CompiledMachine, state: SteadyState, curves: SteadyCurves, ratio: Tangent
 ) -> dict[str, Tangent]:
     """Extremes of the motor's torque and power, as far as they lie at an extreme speed.
 
@@ -125,7 +125,7 @@ def _of_motor(
     return tangents
 
 
-def _ties(compiled: Compiled, state: SteadyState, solution: SteadySolution) -> dict[str, str]:
+def _ties(compiled: CompiledMachine, state: SteadyState, solution: SteadySolution) -> dict[str, str]:
     """Extremes that the motion has twice."""
     ties: dict[str, str] = {}
     peaks = _Peaks(compiled, solution)
@@ -147,7 +147,7 @@ def _ties(compiled: Compiled, state: SteadyState, solution: SteadySolution) -> d
 class _Peaks:
     """Peaks of speed and acceleration over a revolution, on the solution itself."""
 
-    def __init__(self, compiled: Compiled, solution: SteadySolution) -> None:
+    def __init__(self, compiled: CompiledMachine, solution: SteadySolution) -> None:
         self.solution = solution
         beside = np.concatenate([-_BESIDE, _BESIDE])
         angles = np.concatenate([_EVEN, (compiled.kinks()[:, None] + beside).ravel()])

@@ -18,12 +18,12 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright.drive.sound_loads import require_turn
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import Shown
+from linkwright.kernel.quantities import Label
 from linkwright.kernel.result import Result
 from linkwright.linkages.closure import turn_angles
 from linkwright.linkages.period import turns_to_repeat
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import Compiled
+from linkwright.machine.program.compiled import CompiledMachine
 
 Floats = NDArray[np.float64]
 
@@ -43,28 +43,28 @@ _LOADS = "Of all loads that do not depend on the size of the speed, crank turnin
 class Reduction(Result):
     """Reduced inertia and torque over one revolution."""
 
-    crank_angle: Annotated[Floats, Shown("crank angle", "φ", "rad", "0 to 2π.", shape="(n + 1,)")]
-    inertia_reduced: Annotated[Floats, Shown("reduced inertia", "J", "kg m²", "Motor and gearbox included.")]
-    inertia_reduced_d1: Annotated[Floats, Shown("derivative of the reduced inertia", "J′", "kg m²/rad")]
-    torque_load: Annotated[Floats, Shown("load torque referred to the crank", "M_r", "N m", _LOADS)]
+    crank_angle: Annotated[Floats, Label("crank angle", "φ", "rad", "0 to 2π.", shape="(n + 1,)")]
+    inertia_reduced: Annotated[Floats, Label("reduced inertia", "J", "kg m²", "Motor and gearbox included.")]
+    inertia_reduced_d1: Annotated[Floats, Label("derivative of the reduced inertia", "J′", "kg m²/rad")]
+    torque_load: Annotated[Floats, Label("load torque referred to the crank", "M_r", "N m", _LOADS)]
     torque_dry: Annotated[
         Floats,
-        Shown("share of dry friction", "M_dry", "N m", "Part that always opposes the motion."),
+        Label("share of dry friction", "M_dry", "N m", "Part that always opposes the motion."),
     ]
     viscous: Annotated[
-        Floats, Shown("viscous coefficient at the crank", "c", "N m s/rad", "Load torque per speed.")
+        Floats, Label("viscous coefficient at the crank", "c", "N m s/rad", "Load torque per speed.")
     ]
-    inertia_min: Annotated[float, Shown("minimum reduced inertia", "J_min", "kg m²", table="reduction")]
-    inertia_max: Annotated[float, Shown("maximum reduced inertia", "J_max", "kg m²", table="reduction")]
-    inertia_min_angle: Annotated[float, Shown("crank angle of the minimum inertia", "φ(J_min)", "rad")]
-    inertia_max_angle: Annotated[float, Shown("crank angle of the maximum inertia", "φ(J_max)", "rad")]
+    inertia_min: Annotated[float, Label("minimum reduced inertia", "J_min", "kg m²", table="reduction")]
+    inertia_max: Annotated[float, Label("maximum reduced inertia", "J_max", "kg m²", table="reduction")]
+    inertia_min_angle: Annotated[float, Label("crank angle of the minimum inertia", "φ(J_min)", "rad")]
+    inertia_max_angle: Annotated[float, Label("crank angle of the maximum inertia", "φ(J_max)", "rad")]
     torque_load_mean: Annotated[
-        float, Shown("mean load torque", "M_r,mean", "N m", "Over the angle.", table="reduction")
+        float, Label("mean load torque", "M_r,mean", "N m", "Over the angle.", table="reduction")
     ]
-    torque_load_max: Annotated[float, Shown("maximum load torque", "M_r,max", "N m", table="reduction")]
+    torque_load_max: Annotated[float, Label("maximum load torque", "M_r,max", "N m", table="reduction")]
     viscous_mean: Annotated[
         float,
-        Shown(
+        Label(
             "mean viscous coefficient at the crank",
             "c_mean",
             "N m s/rad",
@@ -108,7 +108,7 @@ def reduction(machine: Machine, *, n: int = 360) -> Reduction:
     return reduction_of(require_turn(machine), n)
 
 
-def reduction_of(compiled: Compiled, n: int = 360) -> Reduction:
+def reduction_of(compiled: CompiledMachine, n: int = 360) -> Reduction:
     """`reduction` of a compiled machine that closes."""
     phi = turn_angles(n)
     at = compiled.reductions(phi)
@@ -133,7 +133,7 @@ def reduction_of(compiled: Compiled, n: int = 360) -> Reduction:
     )
 
 
-def mean_over_turn(compiled: Compiled) -> tuple[float, float]:
+def mean_over_turn(compiled: CompiledMachine) -> tuple[float, float]:
     """Means of the load torque and of the viscous coefficient over the crank angle.
 
     Loads that have a potential do no work over a closed cycle, whatever their size: they are left out of the
@@ -146,13 +146,13 @@ def mean_over_turn(compiled: Compiled) -> tuple[float, float]:
     return float(load), float(viscous)
 
 
-def mean_laws(compiled: Compiled, speeds: ArrayLike) -> Floats:
+def mean_laws(compiled: CompiledMachine, speeds: ArrayLike) -> Floats:
     """Mean over the crank angle of the torque of laws at constant speeds of the crank, shape (n,) [N m]."""
     mean: Floats = law_harmonics(compiled, speeds, np.zeros(1)).real[:, 0]
     return mean
 
 
-def law_harmonics(compiled: Compiled, speeds: ArrayLike, orders: Floats) -> NDArray[np.complex128]:
+def law_harmonics(compiled: CompiledMachine, speeds: ArrayLike, orders: Floats) -> NDArray[np.complex128]:
     """Means of the torque of laws times e^{−iνφ} at constant speeds of the crank, (speeds, orders) [N m]."""
     omega = np.atleast_1d(np.asarray(speeds, dtype=np.float64))
     if not compiled.has_laws:
@@ -163,18 +163,18 @@ def law_harmonics(compiled: Compiled, speeds: ArrayLike, orders: Floats) -> NDAr
     return np.concatenate([turn.harmonics(orders) for turn in turns])
 
 
-def _inertia_and_load(compiled: Compiled, phi: Floats) -> Floats:
+def _inertia_and_load(compiled: CompiledMachine, phi: Floats) -> Floats:
     """Reduced inertia and load torque, (2, n)."""
     at = compiled.reductions(phi)
     return np.stack([at.inertia, at.load + at.dry])
 
 
-def _resistance(compiled: Compiled, phi: Floats) -> Floats:
+def _resistance(compiled: CompiledMachine, phi: Floats) -> Floats:
     """Load torque and viscous coefficient, (2, n)."""
     at = compiled.reductions(phi)
     return np.stack([at.load + at.dry, at.viscous])
 
 
-def _laws(compiled: Compiled, omega: Floats, phi: Floats) -> Floats:
+def _laws(compiled: CompiledMachine, omega: Floats, phi: Floats) -> Floats:
     """Torque of the laws at constant speeds, (speeds, n)."""
     return compiled.law_torques(phi, omega)

@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 from linkwright.drive.steady_state import SteadyState, steady_state
 from linkwright.drive.transient import End, MethodPart, Transient, transient
 from linkwright.kernel.errors import InputError, StartError, SteadyStateError
-from linkwright.kernel.numerics.roots import minima, zeros
+from linkwright.kernel.numerics.zeros import minima, zeros
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 
@@ -39,15 +39,15 @@ _UNTIL = (
 class RunUp(Result):
     """The run-up, at the ends of the solver's steps."""
 
-    crank_time: Annotated[Floats, Shown("time", "t", "s")]
-    crank_angle: Annotated[Floats, Shown("crank angle", "φ", "rad")]
-    speed: Annotated[Floats, Shown("speed of the crank", "ω", "rad/s")]
-    acceleration: Annotated[Floats, Shown("acceleration of the crank", "ε", "rad/s²")]
-    turns: Annotated[float, Shown("revolutions of the crank", "n", "", _UNTIL, table="run_up")]
-    time: Annotated[float, Shown("time", "t", "s", _UNTIL, table="run_up")]
-    settled: Annotated[float, Shown("share of the mean speed that counts as settled", "", "")]
+    crank_time: Annotated[Floats, Label("time", "t", "s")]
+    crank_angle: Annotated[Floats, Label("crank angle", "φ", "rad")]
+    speed: Annotated[Floats, Label("speed of the crank", "ω", "rad/s")]
+    acceleration: Annotated[Floats, Label("acceleration of the crank", "ε", "rad/s²")]
+    turns: Annotated[float, Label("revolutions of the crank", "n", "", _UNTIL, table="run_up")]
+    time: Annotated[float, Label("time", "t", "s", _UNTIL, table="run_up")]
+    settled: Annotated[float, Label("share of the mean speed that counts as settled", "", "")]
     speed_peak: Annotated[
-        float, Shown("maximum speed during the run-up", "ω_peak", "rad/s", "Until then.", table="run_up")
+        float, Label("maximum speed during the run-up", "ω_peak", "rad/s", "Until then.", table="run_up")
     ]
     motion: Annotated[Transient, About("The whole motion.")]
 
@@ -252,9 +252,9 @@ _TURNS_MAX = 1000.0
 class RunDown(Result):
     """The run-down from the steady speed at φ = 0."""
 
-    turns: Annotated[float, Shown("revolutions of the crank", "n", "", "Until rest.", table="run_down")]
-    time: Annotated[float, Shown("time", "t", "s", "Until rest.", table="run_down")]
-    angle_end: Annotated[float, Shown("crank angle at rest", "φ_end", "rad", table="run_down")]
+    turns: Annotated[float, Label("revolutions of the crank", "n", "", "Until rest.", table="run_down")]
+    time: Annotated[float, Label("time", "t", "s", "Until rest.", table="run_down")]
+    angle_end: Annotated[float, Label("crank angle at rest", "φ_end", "rad", table="run_down")]
     motion: Annotated[Transient, About("The whole motion.")]
 
 

@@ -10,7 +10,7 @@ from linkwright.kinetostatics.model.loads.between import GasSpring, TorsionalSpr
 from linkwright.kinetostatics.model.loads.force import FormulaLoad, Load
 from linkwright.linkages.closure import require_full_turn, turn_angles
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import Compiled, compile_machine
+from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import Channel
 
 Floats = NDArray[np.float64]
@@ -22,7 +22,7 @@ _ANGLES = 720
 _DOUBTFUL = (FormulaLoad, GasSpring, TorsionalSpring)
 
 
-def require_turn(machine: Machine) -> Compiled:
+def require_turn(machine: Machine) -> CompiledMachine:
     """The machine compiled, if its crank rotates fully, with loads that have a value everywhere.
 
     Raises `FindingError`: what does not close, or the load, and where.
@@ -43,7 +43,7 @@ def require_same_turns(machine: Machine) -> None:
             )
 
 
-def require_sound_loads(compiled: Compiled, machine: Machine) -> None:
+def require_sound_loads(compiled: CompiledMachine, machine: Machine) -> None:
     """Raise if a load has no value at some angle, or a torsional spring is turned beyond half a revolution.
 
     The `FindingError` names the load, the angle and the remedy.
@@ -62,14 +62,14 @@ def require_sound_loads(compiled: Compiled, machine: Machine) -> None:
             raise FindingError(_no_value(name, load, float(phi[np.argmin(np.isfinite(torques))])))
 
 
-def require_half_turns(compiled: Compiled, machine: Machine) -> None:
+def require_half_turns(compiled: CompiledMachine, machine: Machine) -> None:
     """Raise if a torsional spring is turned beyond half a revolution from its free angle."""
     for name, load in machine.loads.items():
         if isinstance(load, TorsionalSpring):
             _require_half_turns(name, load, compiled, turn_angles(_ANGLES))
 
 
-def _torques(compiled: Compiled, phi: Floats) -> Floats:
+def _torques(compiled: CompiledMachine, phi: Floats) -> Floats:
     """Torque of all loads at the angles, at the speed from which steady motion is sought [N m]."""
     at = compiled.reductions(phi)
     torques: Floats = at.load + at.dry + at.viscous + compiled.law_torques(phi, compiled.speed_guess)[0]
@@ -91,7 +91,7 @@ def _no_value(name: str, load: Load, phi: float) -> str:
     )
 
 
-def _require_half_turns(name: str, load: TorsionalSpring, compiled: Compiled, phi: Floats) -> None:
+def _require_half_turns(name: str, load: TorsionalSpring, compiled: CompiledMachine, phi: Floats) -> None:
     """Raise if the links of a torsional spring turn by more than half a revolution from its free angle."""
     turned = _angle(compiled, load.on, phi) - load.free_angle
     if load.against is not None:
@@ -105,7 +105,7 @@ def _require_half_turns(name: str, load: TorsionalSpring, compiled: Compiled, ph
         )
 
 
-def _angle(compiled: Compiled, link: str, phi: Floats) -> Floats:
+def _angle(compiled: CompiledMachine, link: str, phi: Floats) -> Floats:
     """Angle of a link without jumps [rad]."""
     out = np.empty((1, 4, len(phi)))
     compiled.motions(np.ascontiguousarray(phi), [Channel.Link(compiled.links[link])], out.reshape(-1))

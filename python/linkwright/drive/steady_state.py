@@ -23,11 +23,11 @@ from linkwright.drive.sound_loads import require_same_turns, require_sound_loads
 from linkwright.kernel.errors import ConvergenceError, InputError, SteadyStateError
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.linkages.closure import require_full_turn, require_one_turn, turn_angles
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import Compiled, compile_machine
+from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import NoSteadyMotion, Status, SteadyMotion, SteadySolution
 
 Floats = NDArray[np.float64]
@@ -89,53 +89,53 @@ _OTHERS = "Other periodic motions of the machine, from the fastest down to a hun
 class SteadyState(Result):
     """One revolution of steady motion; extremes are exact, not those of the curves."""
 
-    crank_angle: Annotated[Floats, Shown("crank angle", "φ", "rad", "0 to 2π.", shape="(n + 1,)")]
-    time: Annotated[Floats, Shown("time", "t", "s", "From the start of the revolution.")]
-    speed: Annotated[Floats, Shown("speed of the crank", "ω", "rad/s")]
-    acceleration: Annotated[Floats, Shown("acceleration of the crank", "ε", "rad/s²")]
-    torque_motor: Annotated[Floats, Shown("torque of the motor", "M", "N m", "At its shaft.")]
-    torque_drive: Annotated[Floats, Shown("driving torque at the crank", "M_d", "N m")]
-    torque_load: Annotated[Floats, Shown("load torque referred to the crank", "M_r", "N m")]
-    power_motor: Annotated[Floats, Shown("power of the motor", "P", "W", "At its shaft.")]
-    inertia_reduced: Annotated[Floats, Shown("reduced inertia", "J", "kg m²")]
-    speed_min: Annotated[float, Shown("minimum speed", "ω_min", "rad/s", table="steady_state")]
-    speed_max: Annotated[float, Shown("maximum speed", "ω_max", "rad/s", table="steady_state")]
-    acceleration_min: Annotated[float, Shown("minimum acceleration", "ε_min", "rad/s²", table="steady_state")]
-    acceleration_max: Annotated[float, Shown("maximum acceleration", "ε_max", "rad/s²", table="steady_state")]
-    speed_min_angle: Annotated[float, Shown("crank angle of the minimum speed", "φ(ω_min)", "rad")]
-    speed_max_angle: Annotated[float, Shown("crank angle of the maximum speed", "φ(ω_max)", "rad")]
+    crank_angle: Annotated[Floats, Label("crank angle", "φ", "rad", "0 to 2π.", shape="(n + 1,)")]
+    time: Annotated[Floats, Label("time", "t", "s", "From the start of the revolution.")]
+    speed: Annotated[Floats, Label("speed of the crank", "ω", "rad/s")]
+    acceleration: Annotated[Floats, Label("acceleration of the crank", "ε", "rad/s²")]
+    torque_motor: Annotated[Floats, Label("torque of the motor", "M", "N m", "At its shaft.")]
+    torque_drive: Annotated[Floats, Label("driving torque at the crank", "M_d", "N m")]
+    torque_load: Annotated[Floats, Label("load torque referred to the crank", "M_r", "N m")]
+    power_motor: Annotated[Floats, Label("power of the motor", "P", "W", "At its shaft.")]
+    inertia_reduced: Annotated[Floats, Label("reduced inertia", "J", "kg m²")]
+    speed_min: Annotated[float, Label("minimum speed", "ω_min", "rad/s", table="steady_state")]
+    speed_max: Annotated[float, Label("maximum speed", "ω_max", "rad/s", table="steady_state")]
+    acceleration_min: Annotated[float, Label("minimum acceleration", "ε_min", "rad/s²", table="steady_state")]
+    acceleration_max: Annotated[float, Label("maximum acceleration", "ε_max", "rad/s²", table="steady_state")]
+    speed_min_angle: Annotated[float, Label("crank angle of the minimum speed", "φ(ω_min)", "rad")]
+    speed_max_angle: Annotated[float, Label("crank angle of the maximum speed", "φ(ω_max)", "rad")]
     acceleration_min_angle: Annotated[
-        float, Shown("crank angle of the minimum acceleration", "φ(ε_min)", "rad")
+        float, Label("crank angle of the minimum acceleration", "φ(ε_min)", "rad")
     ]
     acceleration_max_angle: Annotated[
-        float, Shown("crank angle of the maximum acceleration", "φ(ε_max)", "rad")
+        float, Label("crank angle of the maximum acceleration", "φ(ε_max)", "rad")
     ]
-    period: Annotated[float, Shown("period", "T", "s", table="steady_state")]
+    period: Annotated[float, Label("period", "T", "s", table="steady_state")]
     multiplier: Annotated[
         float,
-        Shown("Floquet multiplier", "G", "", _MULTIPLIER, table="steady_state"),
+        Label("Floquet multiplier", "G", "", _MULTIPLIER, table="steady_state"),
     ]
-    energy_motor: Annotated[float, Shown("work of the motor per revolution", "A_m", "J", table="drive")]
-    energy_drive: Annotated[float, Shown("work at the crank per revolution", "A_d", "J", table="drive")]
-    energy_load: Annotated[float, Shown("work of the loads per revolution", "A_r", "J", table="drive")]
+    energy_motor: Annotated[float, Label("work of the motor per revolution", "A_m", "J", table="drive")]
+    energy_drive: Annotated[float, Label("work at the crank per revolution", "A_d", "J", table="drive")]
+    energy_load: Annotated[float, Label("work of the loads per revolution", "A_r", "J", table="drive")]
     torque_motor_mean: Annotated[
-        float, Shown("mean torque of the motor", "M_mean", "N m", "Over time.", table="drive")
+        float, Label("mean torque of the motor", "M_mean", "N m", "Over time.", table="drive")
     ]
     torque_motor_rms: Annotated[
-        float, Shown("root mean square torque of the motor", "M_rms", "N m", "Over time.", table="drive")
+        float, Label("root mean square torque of the motor", "M_rms", "N m", "Over time.", table="drive")
     ]
     torque_motor_min: Annotated[
         float,
-        Shown("minimum torque of the motor", "M_min", "N m", "Negative: the load drives it.", table="drive"),
+        Label("minimum torque of the motor", "M_min", "N m", "Negative: the load drives it.", table="drive"),
     ]
-    torque_motor_max: Annotated[float, Shown("maximum torque of the motor", "M_max", "N m", table="drive")]
+    torque_motor_max: Annotated[float, Label("maximum torque of the motor", "M_max", "N m", table="drive")]
     power_motor_max: Annotated[
         float,
-        Shown("maximum power of the motor", "P_max", "W", table="drive", before="torque_motor_mean"),
+        Label("maximum power of the motor", "P_max", "W", table="drive", before="torque_motor_mean"),
     ]
-    accuracy: Annotated[float, Shown("accuracy reached", "", "", _ACCURACY, table="steady_state")]
-    sweeps: Annotated[int, Shown("Newton sweeps", "", "", "Over the revolution, in all.")]
-    steps: Annotated[int, Shown("steps of the finest mesh", "", "", table="steady_state")]
+    accuracy: Annotated[float, Label("accuracy reached", "", "", _ACCURACY, table="steady_state")]
+    sweeps: Annotated[int, Label("Newton sweeps", "", "", "Over the revolution, in all.")]
+    steps: Annotated[int, Label("steps of the finest mesh", "", "", table="steady_state")]
     method: Annotated[str, About('``"collocation"`` or ``"constant speed"``.')] = "collocation"
     others: Annotated[tuple[OtherMotion, ...], About(_OTHERS)] = ()
 
@@ -146,44 +146,44 @@ class SteadyState(Result):
         return super().to_dict(curves=curves) | {"others": [other._asdict() for other in self.others]}
 
     @property
-    def speed_mean_extremes(self) -> Annotated[float, Shown("mean of the extreme speeds", "ω_m", "rad/s")]:
+    def speed_mean_extremes(self) -> Annotated[float, Label("mean of the extreme speeds", "ω_m", "rad/s")]:
         """(ω_max + ω_min)/2."""
         return evenness.mean_of_extremes(self.speed_min, self.speed_max)
 
     @property
-    def speed_mean_time(self) -> Annotated[float, Shown("mean speed over time", "ω_m", "rad/s")]:
+    def speed_mean_time(self) -> Annotated[float, Label("mean speed over time", "ω_m", "rad/s")]:
         """2π/period."""
         return 2 * np.pi / self.period
 
     @property
-    def unevenness(self) -> Annotated[float, Shown("coefficient of speed fluctuation", "δ", "")]:
+    def unevenness(self) -> Annotated[float, Label("coefficient of speed fluctuation", "δ", "")]:
         """δ = (ω_max − ω_min)/ω_m with the mean of the extremes, paper 1 (13)."""
         return evenness.unevenness(self.speed_min, self.speed_max, self.speed_mean_extremes)
 
     @property
-    def dynamism(self) -> Annotated[float, Shown("dynamic factor", "H", "")]:
+    def dynamism(self) -> Annotated[float, Label("dynamic factor", "H", "")]:
         """H = |ε|_max/ω_m² with the mean of the extremes, paper 1 (14)."""
         return evenness.dynamism(self.acceleration_min, self.acceleration_max, self.speed_mean_extremes)
 
     @property
-    def motion_coefficient(self) -> Annotated[float, Shown("combined non-uniformity index", "k_p", "")]:
+    def motion_coefficient(self) -> Annotated[float, Label("combined non-uniformity index", "k_p", "")]:
         """k_p = δ² + H with the mean of the extremes, paper 1 (15)."""
         return evenness.motion_coefficient(self.unevenness, self.dynamism)
 
     @property
-    def unevenness_time(self) -> Annotated[float, Shown("coefficient of speed fluctuation", "δ", "")]:
+    def unevenness_time(self) -> Annotated[float, Label("coefficient of speed fluctuation", "δ", "")]:
         """δ with the mean over time."""
         return evenness.unevenness(self.speed_min, self.speed_max, self.speed_mean_time)
 
     @property
-    def dynamism_time(self) -> Annotated[float, Shown("dynamic factor", "H", "")]:
+    def dynamism_time(self) -> Annotated[float, Label("dynamic factor", "H", "")]:
         """H with the mean over time."""
         return evenness.dynamism(self.acceleration_min, self.acceleration_max, self.speed_mean_time)
 
     @property
     def motion_coefficient_time(
         self,
-    ) -> Annotated[float, Shown("combined non-uniformity index", "k_p", "")]:
+    ) -> Annotated[float, Label("combined non-uniformity index", "k_p", "")]:
         """k_p with the mean over time."""
         return evenness.motion_coefficient(self.unevenness_time, self.dynamism_time)
 
@@ -196,7 +196,7 @@ class SteadyState(Result):
     def power_motor_mean(
         self,
     ) -> Annotated[
-        float, Shown("mean power of the motor", "P_mean", "W", table="drive", before="power_motor_max")
+        float, Label("mean power of the motor", "P_mean", "W", table="drive", before="power_motor_max")
     ]:
         """Work of the motor per revolution over its period."""
         return self.energy_motor / self.period
@@ -206,7 +206,7 @@ class SteadyState(Result):
         self,
     ) -> Annotated[
         float | None,
-        Shown("cyclic load factor of the motor", "CLF", "", table="drive", before="torque_motor_min"),
+        Label("cyclic load factor of the motor", "CLF", "", table="drive", before="torque_motor_min"),
     ]:
         """Root mean square over mean torque: what heats the motor against what works; None where the mean is
         not positive.
@@ -218,7 +218,7 @@ class SteadyState(Result):
         self,
     ) -> Annotated[
         float | None,
-        Shown("efficiency of the drive per revolution", "η", "", table="drive", before="power_motor_mean"),
+        Label("efficiency of the drive per revolution", "η", "", table="drive", before="power_motor_mean"),
     ]:
         """Work taken by the loads over work of the motor; None without any work of the motor."""
         return self.energy_load / self.energy_motor if self.energy_motor > 0 else None
@@ -295,7 +295,7 @@ def solved_state(machine: Machine, accuracy: float, phi: Floats) -> tuple[Steady
 
 
 def _motor_extremes(
-    machine: Machine, compiled: Compiled, low: float, high: float
+    machine: Machine, compiled: CompiledMachine, low: float, high: float
 ) -> tuple[float, float, float]:
     """Minimum and maximum torque and maximum power of the motor for speeds of the crank between two.
 
@@ -358,7 +358,7 @@ def _peak(of: Callable[[Floats], Floats], low: float, high: float) -> float:
     return best
 
 
-def _from_core(machine: Machine, motion: SteadyMotion, phi: Floats, compiled: Compiled) -> SteadyState:
+def _from_core(machine: Machine, motion: SteadyMotion, phi: Floats, compiled: CompiledMachine) -> SteadyState:
     """What the core found, with the extremes of the motor and its power."""
     weakest, strongest, most = _motor_extremes(machine, compiled, motion.speed_min, motion.speed_max)
     ratio = compiled.gear_factors[0]
@@ -398,7 +398,7 @@ def _from_core(machine: Machine, motion: SteadyMotion, phi: Floats, compiled: Co
     )
 
 
-def _at_constant_speed(machine: Machine, compiled: Compiled, phi: Floats) -> SteadyState:
+def _at_constant_speed(machine: Machine, compiled: CompiledMachine, phi: Floats) -> SteadyState:
     """The revolution of a machine whose motor keeps its speed: its torque is what the motion needs."""
     drive = machine.drive
     assert drive is not None
@@ -454,7 +454,7 @@ def _at_constant_speed(machine: Machine, compiled: Compiled, phi: Floats) -> Ste
     )
 
 
-def _failure(motion: NoSteadyMotion, compiled: Compiled, accuracy: float) -> Exception:
+def _failure(motion: NoSteadyMotion, compiled: CompiledMachine, accuracy: float) -> Exception:
     """The error for a machine without steady motion, with the numbers of the core."""
     angle, speed, reached = motion.crank_angle, motion.speed, motion.accuracy
     if motion.status == Status.DOES_NOT_CLOSE:
@@ -475,7 +475,7 @@ def _failure(motion: NoSteadyMotion, compiled: Compiled, accuracy: float) -> Exc
     )
 
 
-def _runs_away(compiled: Compiled, speed: float) -> str:
+def _runs_away(compiled: CompiledMachine, speed: float) -> str:
     """That the machine gains speed without end."""
     load, viscous = mean_over_turn(compiled)
     omega = np.array([speed])
@@ -488,7 +488,7 @@ def _runs_away(compiled: Compiled, speed: float) -> str:
     )
 
 
-def _what_lacks(compiled: Compiled) -> str:
+def _what_lacks(compiled: CompiledMachine) -> str:
     """Why the machine comes to rest: the drive against the mean load."""
     load, viscous = mean_over_turn(compiled)
     omega = np.linspace(0.0, 1.5 * compiled.speed_guess, _SPEEDS + 1)[1:]

@@ -28,7 +28,7 @@ from linkwright.kernel.errors import InputError, StartError, SteadyStateError, r
 from linkwright.kernel.limits import STEPS
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.quantities import Shown
+from linkwright.kernel.quantities import Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import ANGLE, positive
 from linkwright.linkages.closure import require_full_turn, require_one_turn, turn_angles
@@ -48,41 +48,41 @@ _TURNS_MAX = 2000
 class StepMotion(Result):
     """Motion by the step method: all revolutions from rest, and the measures of the last."""
 
-    crank_angle: Annotated[Floats, Shown("crank angle", "φ", "rad", "Counted on over the revolutions.")]
-    time: Annotated[Floats, Shown("time", "t", "s")]
-    speed: Annotated[Floats, Shown("speed of the crank", "ω", "rad/s")]
+    crank_angle: Annotated[Floats, Label("crank angle", "φ", "rad", "Counted on over the revolutions.")]
+    time: Annotated[Floats, Label("time", "t", "s")]
+    speed: Annotated[Floats, Label("speed of the crank", "ω", "rad/s")]
     acceleration: Annotated[
         Floats,
-        Shown("acceleration of the crank", "ε", "rad/s²", "Of the interval that begins at the angle."),
+        Label("acceleration of the crank", "ε", "rad/s²", "Of the interval that begins at the angle."),
     ]
-    turns: Annotated[int, Shown("whole revolutions until the speed repeats to 0.1 % at every step", "n", "")]
-    step: Annotated[float, Shown("step of the crank angle", "Δφ", "rad")]
-    speed_min: Annotated[float, Shown("minimum speed", "ω_min", "rad/s", "Over the last revolution.")]
-    speed_max: Annotated[float, Shown("maximum speed", "ω_max", "rad/s", "Over the last revolution.")]
+    turns: Annotated[int, Label("whole revolutions until the speed repeats to 0.1 % at every step", "n", "")]
+    step: Annotated[float, Label("step of the crank angle", "Δφ", "rad")]
+    speed_min: Annotated[float, Label("minimum speed", "ω_min", "rad/s", "Over the last revolution.")]
+    speed_max: Annotated[float, Label("maximum speed", "ω_max", "rad/s", "Over the last revolution.")]
     acceleration_min: Annotated[
-        float, Shown("minimum acceleration", "ε_min", "rad/s²", "Over the last revolution.")
+        float, Label("minimum acceleration", "ε_min", "rad/s²", "Over the last revolution.")
     ]
     acceleration_max: Annotated[
-        float, Shown("maximum acceleration", "ε_max", "rad/s²", "Over the last revolution.")
+        float, Label("maximum acceleration", "ε_max", "rad/s²", "Over the last revolution.")
     ]
 
     @property
-    def speed_mean_extremes(self) -> Annotated[float, Shown("mean of the extreme speeds", "ω_m", "rad/s")]:
+    def speed_mean_extremes(self) -> Annotated[float, Label("mean of the extreme speeds", "ω_m", "rad/s")]:
         """(ω_max + ω_min)/2."""
         return evenness.mean_of_extremes(self.speed_min, self.speed_max)
 
     @property
-    def unevenness(self) -> Annotated[float, Shown("coefficient of speed fluctuation", "δ", "")]:
+    def unevenness(self) -> Annotated[float, Label("coefficient of speed fluctuation", "δ", "")]:
         """δ = (ω_max − ω_min)/ω_m, paper 1 (13)."""
         return evenness.unevenness(self.speed_min, self.speed_max, self.speed_mean_extremes)
 
     @property
-    def dynamism(self) -> Annotated[float, Shown("dynamic factor", "H", "")]:
+    def dynamism(self) -> Annotated[float, Label("dynamic factor", "H", "")]:
         """H = |ε|_max/ω_m², paper 1 (14)."""
         return evenness.dynamism(self.acceleration_min, self.acceleration_max, self.speed_mean_extremes)
 
     @property
-    def motion_coefficient(self) -> Annotated[float, Shown("combined non-uniformity index", "k_p", "")]:
+    def motion_coefficient(self) -> Annotated[float, Label("combined non-uniformity index", "k_p", "")]:
         """k_p = δ² + H, paper 1 (15)."""
         return evenness.motion_coefficient(self.unevenness, self.dynamism)
 
@@ -177,8 +177,8 @@ def _repeats(omega: list[float], n: int) -> int:
     last, before = np.array(omega[-n:]), np.array(omega[-2 * n : -n])
     if np.abs(last / before - 1).max() > _STEADY:
         return 0
-    whole = np.array(omega[1 : 1 + turns * n]).reshape(turns, n)
-    off = np.abs(whole / whole[-1] - 1).max(axis=1)
+    speeds = np.array(omega[1 : 1 + turns * n]).reshape(turns, n)
+    off = np.abs(speeds / speeds[-1] - 1).max(axis=1)
     # 0.1 % is the last digit that the published tables print.
     return int(np.flatnonzero(off > 1e-3)[-1]) + 2
 

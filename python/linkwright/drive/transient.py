@@ -17,7 +17,7 @@ from linkwright.drive.sound_loads import require_half_turns, require_sound_loads
 from linkwright.kernel.errors import ConvergenceError, InputError, SteadyStateError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import ANGLE, COUNT, SPEED, TIME, Quantity, not_negative, positive
 from linkwright.linkages.closure import require_full_turn
@@ -106,22 +106,22 @@ _POWERS = _powers()
 class Transient(Result):
     """A motion in time, at the ends of the solver's steps."""
 
-    time: Annotated[Floats, Shown("time", "t", "s")]
-    crank_angle: Annotated[Floats, Shown("crank angle", "φ", "rad", "Counted on over the revolutions.")]
-    speed: Annotated[Floats, Shown("speed of the crank", "ω", "rad/s")]
-    acceleration: Annotated[Floats, Shown("acceleration of the crank", "ε", "rad/s²")]
+    time: Annotated[Floats, Label("time", "t", "s")]
+    crank_angle: Annotated[Floats, Label("crank angle", "φ", "rad", "Counted on over the revolutions.")]
+    speed: Annotated[Floats, Label("speed of the crank", "ω", "rad/s")]
+    acceleration: Annotated[Floats, Label("acceleration of the crank", "ε", "rad/s²")]
     end: Annotated[End, About("How it ended.")]
     torque_drive_end: Annotated[
         float,
-        Shown("driving torque at the crank at the last angle", "", "N m", "What the drive gives at rest."),
+        Label("driving torque at the crank at the last angle", "", "N m", "What the drive gives at rest."),
     ]
     torque_load_end: Annotated[
         float,
-        Shown(
+        Label(
             "load torque referred to the crank at the last angle", "", "N m", "What the loads need at rest."
         ),
     ]
-    evaluations: Annotated[int, Shown("evaluations of the machine", "", "")]
+    evaluations: Annotated[int, Label("evaluations of the machine", "", "")]
     between: Annotated[StepPolynomials, About("What `at` reads between the ends of the steps.")]
     implicit: Annotated[
         NDArray[np.bool_],
@@ -133,12 +133,12 @@ class Transient(Result):
         return super().to_dict(curves=curves) | {"methods": [method._asdict() for method in self.methods]}
 
     @property
-    def turns(self) -> Annotated[float, Shown("revolutions of the crank", "n", "")]:
+    def turns(self) -> Annotated[float, Label("revolutions of the crank", "n", "")]:
         """Revolutions of the crank from start to end."""
         return float(self.crank_angle[-1] - self.crank_angle[0]) / (2 * np.pi)
 
     @property
-    def steps(self) -> Annotated[int, Shown("steps", "", "")]:
+    def steps(self) -> Annotated[int, Label("steps", "", "")]:
         """Steps of the solver."""
         return len(self.time) - 1
 

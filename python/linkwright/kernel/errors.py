@@ -71,7 +71,7 @@ class Problem:
         return "\n".join([cut(self.place), *body] if self.place else body)
 
 
-def plain(text: str) -> str:
+def printable(text: str) -> str:
     """A text in which control characters, and those that turn the direction of writing, are written as
     escapes.
     """
@@ -84,7 +84,7 @@ def plain(text: str) -> str:
 
 def cut(text: str) -> str:
     """A text that fits into some lines of a terminal, and does not steer it."""
-    text = plain(text)
+    text = printable(text)
     most = MESSAGE_LINE.most
     return text if len(text) <= most else f"{text[: most - 1]}…"
 
@@ -282,5 +282,5 @@ def show(value: object) -> str:
     # What lies beyond the part that is shown costs nothing.
     text = f'"{value[: 4 * _SHOWN]}"' if isinstance(value, str) else str(value)
     text = " ".join(text.lower().split() if isinstance(value, bool) else text.split())
-    text = plain(text)
+    text = printable(text)
     return text if len(text) <= _SHOWN else text[: _SHOWN - 3] + "..."

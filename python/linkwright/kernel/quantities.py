@@ -1,6 +1,6 @@
 """A quantity of a result is declared once, at its attribute: its words, its symbol, its unit.
 
-    speed_min: Annotated[float, Shown("minimum speed", "ω_min", "rad/s", "Exact, not that of the curve.")]
+    speed_min: Annotated[float, Label("minimum speed", "ω_min", "rad/s", "Exact, not that of the curve.")]
 
 From this follow the docs of the class, the rows of tables, the heads of columns, the table in
 `docs/notation.md`, and what `linkwright.quantities` lists. Whether it is a scalar or a curve is said by its
@@ -17,7 +17,7 @@ from typing import Annotated, Any, NamedTuple, Union, get_args, get_origin, get_
 import numpy as np
 
 
-class Shown(NamedTuple):
+class Label(NamedTuple):
     """Mark of an attribute that is a quantity.
 
     Attributes
@@ -87,17 +87,17 @@ class DeclaredQuantity(NamedTuple):
 def quantities_of(owner: type) -> Iterator[DeclaredQuantity]:
     """The quantities that a class declares, fields before properties."""
     for name, (_, mark) in declared(owner).items():
-        if isinstance(mark, Shown):
+        if isinstance(mark, Label):
             kind = "curve" if is_array(owner, name) else "scalar"
             yield DeclaredQuantity(
                 name, kind, mark.word, mark.symbol, mark.unit, _about(owner, name), over(owner, name)
             )
 
 
-def shown(owner: type, name: str) -> Shown:
+def shown(owner: type, name: str) -> Label:
     """How an attribute of a result is shown; a `KeyError` if it is not declared as a quantity."""
     mark = declared(owner)[name][1]
-    if not isinstance(mark, Shown):
+    if not isinstance(mark, Label):
         raise KeyError(name)
     return mark
 
@@ -106,7 +106,7 @@ def in_table(owner: type, table: str) -> list[str]:
     """Names of the attributes that have a row in a table, in the order of its rows."""
     names: list[str] = []
     for name, (_, mark) in declared(owner).items():
-        if isinstance(mark, Shown) and mark.table == table:
+        if isinstance(mark, Label) and mark.table == table:
             names.insert(names.index(mark.before) if mark.before else len(names), name)
     return names
 
@@ -126,13 +126,13 @@ def is_array(owner: type, name: str) -> bool:
     return any(get_origin(kind) is np.ndarray for kind in _alternatives(declared(owner)[name][0]))
 
 
-def declared(owner: type) -> dict[str, tuple[Any, Shown | About]]:
+def declared(owner: type) -> dict[str, tuple[Any, Label | About]]:
     """Type and mark of the declared attributes of a class by name, fields before properties."""
     return _declared(owner)
 
 
 @cache
-def _declared(owner: type) -> dict[str, tuple[Any, Shown | About]]:
+def _declared(owner: type) -> dict[str, tuple[Any, Label | About]]:
     hints = get_type_hints(owner, include_extras=True)
     for kind in reversed(owner.__mro__):
         for name, member in vars(kind).items():
@@ -141,7 +141,7 @@ def _declared(owner: type) -> dict[str, tuple[Any, Shown | About]]:
     marks = {}
     for name, hint in hints.items():
         if get_origin(hint) is Annotated:
-            mark = next((mark for mark in hint.__metadata__ if isinstance(mark, Shown | About)), None)
+            mark = next((mark for mark in hint.__metadata__ if isinstance(mark, Label | About)), None)
             if mark is not None:
                 marks[name] = (hint.__origin__, mark)
     return marks
@@ -164,7 +164,7 @@ def _entry(owner: type, name: str) -> str:
     """Name, type and text of one attribute."""
     hint, mark = declared(owner)[name]
     text = _about(owner, name)
-    if isinstance(mark, Shown):
+    if isinstance(mark, Label):
         words = ", ".join(part for part in (mark.word[0].upper() + mark.word[1:], mark.symbol) if part)
         text = f"{words} [{mark.unit or '–'}]. {text}".rstrip()
     return f"{name} : {_type_words(hint)}{_shape(owner, name)}\n    {text}"

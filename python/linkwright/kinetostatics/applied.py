@@ -84,7 +84,7 @@ _STANDS = 1e-12
 
 
 @dataclass
-class Applied:
+class AppliedLoad:
     """A load at all crank angles.
 
     Attributes
@@ -99,7 +99,7 @@ class Applied:
     resisting: Floats
 
 
-def applied(scene: Scene, load: Any) -> Applied:
+def applied(scene: Scene, load: Any) -> AppliedLoad:
     """What a load does. Returns: forces and moments on the members, and torque on the crankshaft."""
     on_crankshaft: dict[type, Callable[[Scene, Any], Floats]] = {
         TorqueAngle: _over_angle,
@@ -122,13 +122,13 @@ def applied(scene: Scene, load: Any) -> Applied:
     }
     kind = type(load)
     if kind in on_crankshaft:
-        return Applied(Wrenches(scene), on_crankshaft[kind](scene, load))
-    return Applied(on_members[kind](scene, load), np.zeros(scene.n))
+        return AppliedLoad(Wrenches(scene), on_crankshaft[kind](scene, load))
+    return AppliedLoad(on_members[kind](scene, load), np.zeros(scene.n))
 
 
-def together(scene: Scene, sources: Iterable[Applied]) -> Applied:
+def together(scene: Scene, sources: Iterable[AppliedLoad]) -> AppliedLoad:
     """The sum of several loads."""
-    applied = Applied(Wrenches(scene), np.zeros(scene.n))
+    applied = AppliedLoad(Wrenches(scene), np.zeros(scene.n))
     for source in sources:
         applied.wrenches.values += source.wrenches.values
         applied.resisting += source.resisting

@@ -22,7 +22,7 @@ from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import MachineError, Problem
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record
 from linkwright.kernel.units import LENGTH, RATIO, SPEED, not_negative, positive
 from linkwright.kinetostatics.forces import forces
@@ -45,10 +45,10 @@ class Counterweight(Record):
     """A mass on a link that turns about a fixed point."""
 
     link: Annotated[str, About("The link.")]
-    moment: Annotated[float, Shown("mass times distance from the pivot", "", "kg m")]
-    angle: Annotated[float, Shown("direction from that of the link", "", "rad")]
-    mass: Annotated[float, Shown("mass", "", "kg")]
-    radius: Annotated[float, Shown("distance from the pivot", "", "m")]
+    moment: Annotated[float, Label("mass times distance from the pivot", "", "kg m")]
+    angle: Annotated[float, Label("direction from that of the link", "", "rad")]
+    mass: Annotated[float, Label("mass", "", "kg")]
+    radius: Annotated[float, Label("distance from the pivot", "", "m")]
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.errors import FindingError
-from linkwright.kinetostatics.applied import Applied, together
+from linkwright.kinetostatics.applied import AppliedLoad, together
 from linkwright.kinetostatics.equilibrium import Solution
 from linkwright.kinetostatics.pairs import PairModel
 from linkwright.kinetostatics.places import Scene, cross
@@ -33,9 +33,9 @@ class Collector:
         The machine and its motion.
     models : list of PairModel
         Its pairs and drives.
-    sources : dict of str to Applied
+    sources : dict of str to AppliedLoad
         What acts, by name.
-    columns : dict of str to Applied
+    columns : dict of str to AppliedLoad
         The same, or its sum: a column each of the solution.
     solution : Solution
         The unknowns.
@@ -50,8 +50,8 @@ class Collector:
         self,
         scene: Scene,
         models: list[PairModel],
-        sources: dict[str, Applied],
-        columns: dict[str, Applied],
+        sources: dict[str, AppliedLoad],
+        columns: dict[str, AppliedLoad],
         solution: Solution,
     ) -> None:
         self.scene, self.models, self.solution = scene, models, solution
@@ -123,7 +123,7 @@ class Collector:
         normal = np.hypot(at[:, 0], at[:, 1]) if model.kind == "pin" else total[:, span.start]
         return PairForce(pair.name, pair.kind, pair.first, pair.second, at[:, :2], moment, friction, normal)
 
-    def _contribution(self, k: int, name: str, source: Applied) -> Contribution:
+    def _contribution(self, k: int, name: str, source: AppliedLoad) -> Contribution:
         """The share of one source."""
         x = self.solution.x[..., k]
         torque = source.resisting + 0.0
@@ -158,7 +158,7 @@ class Collector:
             "power_kinetic": -self._power(inertia) * speed,
         }
 
-    def _power(self, source: Applied) -> Floats:
+    def _power(self, source: AppliedLoad) -> Floats:
         """Work of a source in a radian of the crank."""
         power: Floats = source.wrenches.power() - source.resisting
         return power

@@ -298,12 +298,12 @@ def balance(
     from linkwright.machine.read import read
 
     machine = read(file, set or (), allow_outside=allow_outside)
-    balanced = _found(machine, links, slider, share, radius, speed)
+    balanced = _counterweights(machine, links, slider, share, radius, speed)
     speeds = speeds_of(balanced.before.speed, machine, speed)
     hand_over(_balance_answer(machine, balanced, speeds), json=json, out=out, force=force)
 
 
-def _found(
+def _counterweights(
     machine: Machine,
     links: str | None,
     slider: str | None,

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from linkwright.kernel.errors import InputError, ShapeError
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record
 from linkwright.kinetostatics.forces import forces
 from linkwright.kinetostatics.result import Forces, PairForce
@@ -39,7 +39,7 @@ class Extent(Record):
     name: Annotated[str, About(_EXTENT_NAME)]
     unit: Annotated[str, About('``"N"`` or ``"N m"``.')]
     peak: Annotated[float, About("Peak absolute value among the angles, with its sign where it has one.")]
-    peak_angle: Annotated[float, Shown("crank angle of the peak", "", "rad")]
+    peak_angle: Annotated[float, Label("crank angle of the peak", "", "rad")]
     rms: Annotated[float, About("Root mean square over time.")]
     mean: Annotated[float, About("Mean over time.")]
 

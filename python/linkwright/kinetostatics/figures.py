@@ -13,7 +13,7 @@ from linkwright.kernel.figure.style import (
     LOAD,
     MATH,
     SOFT,
-    Captioned,
+    CaptionedFigure,
     legend_above,
     named,
     panels,
@@ -131,7 +131,7 @@ def _largest(forces: Forces) -> list[str]:
     return sorted(sizes, key=lambda name: -sizes[name])[:_MOST]
 
 
-def captioned_forces(forces: Forces) -> Iterator[Captioned]:
+def captioned_forces(forces: Forces) -> Iterator[CaptionedFigure]:
     """The figures of forces with their captions."""
     pins = forces.reaction_max
     largest = max(pins, key=lambda name: pins[name])
@@ -139,11 +139,11 @@ def captioned_forces(forces: Forces) -> Iterator[Captioned]:
         f"Joint reactions along the steady motion: {largest} at most {quantity(pins[largest], 'N')}. "
         f"The drive gives up to {quantity(forces.torque_drive_max, 'N m')} at the crank."
     )
-    yield Captioned("forces", "Joint reactions", caption, forces_figure(forces))
+    yield CaptionedFigure("forces", "Joint reactions", caption, forces_figure(forces))
     caption = (
         f"Ends of the force vectors over one revolution, a mark at φ = 0; the shaking force is up to "
         f"{quantity(forces.shaking_force_max, 'N')}."
     )
-    yield Captioned("hodographs", "Hodographs of forces", caption, hodograph_figure(forces))
+    yield CaptionedFigure("hodographs", "Hodographs of forces", caption, hodograph_figure(forces))
     caption = "Magnitude of the largest reactions over the crank angle, in polar coordinates."
-    yield Captioned("reactions", "Reactions, polar", caption, polar_figure(forces))
+    yield CaptionedFigure("reactions", "Reactions, polar", caption, polar_figure(forces))

@@ -23,7 +23,7 @@ from linkwright.drive.transient import Transient
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.units import ANGLE, Bound, Quantity
-from linkwright.kinetostatics.applied import Applied, applied, together
+from linkwright.kinetostatics.applied import AppliedLoad, applied, together
 from linkwright.kinetostatics.collect import Collector
 from linkwright.kinetostatics.equilibrium import Equilibrium
 from linkwright.kinetostatics.friction import Friction, checked
@@ -119,15 +119,15 @@ def forces(
     return result if contributions else replace(result, contributions={})
 
 
-def _sources(scene: Scene, models: list[PairModel]) -> dict[str, Applied]:
+def _sources(scene: Scene, models: list[PairModel]) -> dict[str, AppliedLoad]:
     """Inertia, viscous friction, and the loads."""
     motion, drive = scene.motion, scene.machine.drive or Drive()
     at_shaft = float(drive_inertia(drive)) * motion.acceleration
-    sources = {"inertia": Applied(inertia_forces(scene), at_shaft)}
+    sources = {"inertia": AppliedLoad(inertia_forces(scene), at_shaft)}
     if any(model.friction.viscous for model in models):
         slow = Wrenches(scene)
         for model in models:
             if model.extra is not None:
                 slow.values += model.viscous[:, None, None] * model.extra.values
-        sources["friction"] = Applied(slow, np.zeros(scene.n))
+        sources["friction"] = AppliedLoad(slow, np.zeros(scene.n))
     return sources | {f"loads.{name}": applied(scene, load) for name, load in scene.machine.loads.items()}

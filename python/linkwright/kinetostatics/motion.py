@@ -12,7 +12,7 @@ from linkwright.drive.steady_state import SteadyState, steady_state
 from linkwright.drive.transient import Transient
 from linkwright.kernel.errors import AssemblyError, InputError, ShapeError
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.quantities import Shown
+from linkwright.kernel.quantities import Label
 from linkwright.kernel.result import Record
 from linkwright.kernel.units import ANGULAR_ACCELERATION, SPEED, Quantity
 from linkwright.linkages.closure import closure, closure_error, turn_angles
@@ -25,11 +25,11 @@ Floats = NDArray[np.float64]
 class Motion(Record):
     """Crank angle with speed and acceleration; arrays (n,)."""
 
-    crank_angle: Annotated[Floats, Shown("crank angle", "φ", "rad")]
-    speed: Annotated[Floats, Shown("speed of the crank", "ω", "rad/s")]
-    acceleration: Annotated[Floats, Shown("angular acceleration of the crank", "ε", "rad/s²")]
+    crank_angle: Annotated[Floats, Label("crank angle", "φ", "rad")]
+    speed: Annotated[Floats, Label("speed of the crank", "ω", "rad/s")]
+    acceleration: Annotated[Floats, Label("angular acceleration of the crank", "ε", "rad/s²")]
     time: Annotated[
-        Floats, Shown("time", "t", "s", "The crank angle itself where the machine stands at every angle.")
+        Floats, Label("time", "t", "s", "The crank angle itself where the machine stands at every angle.")
     ]
 
     def mean(self, values: Floats) -> float:

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record, Result
 from linkwright.kinetostatics.motion import Motion
 
@@ -33,11 +33,11 @@ class PairForce(Record):
     first: Annotated[str, About("Its first member.")]
     second: Annotated[str, About("Its second member.")]
     force: Annotated[
-        Floats, Shown("force on the second member", "", "N", "Friction included.", shape="(n, 2)")
+        Floats, Label("force on the second member", "", "N", "Friction included.", shape="(n, 2)")
     ]
     moment: Annotated[
         Floats,
-        Shown(
+        Label(
             "moment on the second member",
             "",
             "N m",
@@ -49,7 +49,7 @@ class PairForce(Record):
     normal: Annotated[Floats, About(_PAIR_FORCE_NORMAL, "(n,)")]
 
     @property
-    def size(self) -> Annotated[Floats, Shown("size of the force", "", "N", shape="(n,)")]:
+    def size(self) -> Annotated[Floats, Label("size of the force", "", "N", shape="(n,)")]:
         """On the second member."""
         size: Floats = np.hypot(self.force[:, 0], self.force[:, 1])
         return size
@@ -62,10 +62,10 @@ class Contribution(Record):
     reactions: Annotated[
         dict[str, Floats], About("Share in the force of each pair on its second member [N].", "(n, 2)")
     ]
-    torque_drive: Annotated[Floats, Shown("share in the driving torque", "", "N m", shape="(n,)")]
-    shaking_force: Annotated[Floats, Shown("share in the shaking force", "", "N", shape="(n, 2)")]
+    torque_drive: Annotated[Floats, Label("share in the driving torque", "", "N m", shape="(n,)")]
+    shaking_force: Annotated[Floats, Label("share in the shaking force", "", "N", shape="(n, 2)")]
     shaking_moment: Annotated[
-        Floats, Shown("share in the shaking moment", "", "N m", "About the origin.", shape="(n,)")
+        Floats, Label("share in the shaking moment", "", "N m", "About the origin.", shape="(n,)")
     ]
 
 
@@ -79,27 +79,27 @@ _CONTRIBUTIONS = (
 class Forces(Result):
     """Forces over the crank angle."""
 
-    crank_angle: Annotated[Floats, Shown("crank angle", "φ", "rad")]
-    time: Annotated[Floats, Shown("time", "t", "s")]
-    speed: Annotated[Floats, Shown("speed of the crank", "ω", "rad/s")]
-    acceleration: Annotated[Floats, Shown("acceleration of the crank", "ε", "rad/s²")]
+    crank_angle: Annotated[Floats, Label("crank angle", "φ", "rad")]
+    time: Annotated[Floats, Label("time", "t", "s")]
+    speed: Annotated[Floats, Label("speed of the crank", "ω", "rad/s")]
+    acceleration: Annotated[Floats, Label("acceleration of the crank", "ε", "rad/s²")]
     torque_drive: Annotated[
-        Floats, Shown("driving torque at the crank", "M_d", "N m", "That the motion needs.")
+        Floats, Label("driving torque at the crank", "M_d", "N m", "That the motion needs.")
     ]
-    power_drive: Annotated[Floats, Shown("driving power at the crank", "P_d", "W")]
-    power_load: Annotated[Floats, Shown("power of the loads", "P_r", "W", "Of all loads on the machine.")]
-    power_friction: Annotated[Floats, Shown("power of friction in the pairs", "P_f", "W")]
-    power_kinetic: Annotated[Floats, Shown("change of the kinetic energy in time", "dE/dt", "W")]
+    power_drive: Annotated[Floats, Label("driving power at the crank", "P_d", "W")]
+    power_load: Annotated[Floats, Label("power of the loads", "P_r", "W", "Of all loads on the machine.")]
+    power_friction: Annotated[Floats, Label("power of friction in the pairs", "P_f", "W")]
+    power_kinetic: Annotated[Floats, Label("change of the kinetic energy in time", "dE/dt", "W")]
     shaking_moment: Annotated[
         Floats,
-        Shown(
+        Label(
             "shaking moment about the origin",
             "M_g",
             "N m",
             "By pairs, springs and the torque of the drive.",
         ),
     ]
-    shaking_force: Annotated[Floats, Shown("shaking force", "F_g", "N", shape="(n, 2)")]
+    shaking_force: Annotated[Floats, Label("shaking force", "F_g", "N", shape="(n, 2)")]
     pairs: Annotated[dict[str, PairForce], About("Forces of pins, guides, slots, teeth and cables by name.")]
     drives: Annotated[
         dict[str, Floats],
@@ -112,7 +112,7 @@ class Forces(Result):
     ] = field(default=())
 
     @property
-    def power_residual(self) -> Annotated[Floats, Shown("power-balance residual", "", "W")]:
+    def power_residual(self) -> Annotated[Floats, Label("power-balance residual", "", "W")]:
         """Driving, load and friction power less the change of kinetic energy: rounding."""
         residual: Floats = self.power_drive + self.power_load + self.power_friction - self.power_kinetic
         return residual
@@ -130,12 +130,12 @@ class Forces(Result):
     @property
     def torque_drive_max(
         self,
-    ) -> Annotated[float, Shown("peak driving torque", "M_d,max", "N m")]:
+    ) -> Annotated[float, Label("peak driving torque", "M_d,max", "N m")]:
         """With its sign."""
         return float(self.torque_drive[np.nanargmax(np.abs(self.torque_drive))])
 
     @property
-    def shaking_force_max(self) -> Annotated[float, Shown("maximum shaking force", "F_g,max", "N")]:
+    def shaking_force_max(self) -> Annotated[float, Label("maximum shaking force", "F_g,max", "N")]:
         """Peak absolute value among the angles."""
         return float(np.nanmax(np.hypot(self.shaking_force[:, 0], self.shaking_force[:, 1])))
 

@@ -17,12 +17,12 @@ import numpy as np
 
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record
 from linkwright.linkages.closure import closure_of, limiter_at
 from linkwright.linkages.dyads import dyads_of
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import Compiled, compile_machine
+from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import Element
 
 # Dyads with two assemblies of which all combinations are looked at.
@@ -43,8 +43,8 @@ class Branch(Record):
     """One assembly in one range of the crank."""
 
     assembly: Annotated[dict[str, str], About(_BRANCH_ASSEMBLY)]
-    low: Annotated[float, Shown("minimum crank angle", "", "rad", "0 of a full revolution.")]
-    high: Annotated[float, Shown("maximum crank angle", "", "rad", "2π of a full revolution.")]
+    low: Annotated[float, Label("minimum crank angle", "", "rad", "0 of a full revolution.")]
+    high: Annotated[float, Label("maximum crank angle", "", "rad", "2π of a full revolution.")]
     turns_fully: Annotated[bool, About("Whether the crank rotates fully.")]
 
 
@@ -92,7 +92,7 @@ def circuits(machine: Machine) -> tuple[Circuit, ...]:
     return tuple(Circuit(tuple(sign for sign, _ in group)) for group in _joined(branches))
 
 
-def _slots(compiled: Compiled, machine: Machine) -> dict[str, int]:
+def _slots(compiled: CompiledMachine, machine: Machine) -> dict[str, int]:
     """Slot of the sign of each dyad that has two assemblies. Raises InputError: they cannot be exchanged, or
     are too many.
     """
@@ -118,7 +118,7 @@ def _is_tied(element: Element) -> bool:
     return isinstance(element, Element.AngleOf | Element.Group)
 
 
-def _tied(compiled: Compiled) -> str:
+def _tied(compiled: CompiledMachine) -> str:
     """What keeps assemblies from being exchanged, change points with their crank angles."""
     points = [
         f"a change point of {dyad.name} at {', '.join(f'{np.degrees(x):.4g}°' for x in dyad.change_points)}"
@@ -132,18 +132,18 @@ def _tied(compiled: Compiled) -> str:
 Ended = tuple[Branch, list[tuple[float, str]]]
 
 
-def _branches(compiled: Compiled, slots: dict[str, int], signs: tuple[float, ...]) -> list[Ended]:
+def _branches(compiled: CompiledMachine, slots: dict[str, int], signs: tuple[float, ...]) -> list[Ended]:
     """The branches of one choice of assemblies."""
     q = compiled.parameters.copy()
     q[list(slots.values())] *= signs
     other = replace(compiled, parameters=q)
     where = closure_of(other)
     words = dict(zip(slots, ("given" if sign > 0 else "other" for sign in signs), strict=True))
-    whole = where.turns_fully
+    is_full = where.turns_fully
     return [
         (
-            Branch(words, low, high, whole),
-            [] if whole else [(end, limiter_at(other, end)) for end in (low, high)],
+            Branch(words, low, high, is_full),
+            [] if is_full else [(end, limiter_at(other, end)) for end in (low, high)],
         )
         for low, high in where.ranges
     ]

@@ -19,16 +19,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.errors import AssemblyError, InputError
-from linkwright.kernel.numerics.roots import minima, zeros
+from linkwright.kernel.numerics.zeros import minima, zeros
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record
 from linkwright.kernel.units import ANGLE
 from linkwright.linkages.dyads import dyads_of
 from linkwright.linkages.obstacle import change_point, describe
 from linkwright.linkages.period import turns_to_repeat
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import Compiled, compile_machine
+from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import Channel, Element
 
 Floats = NDArray[np.float64]
@@ -82,7 +82,7 @@ class Closure(Record):
     element: Annotated[str, About("Name of the first element that does not close; empty if all do.")]
     change_point: Annotated[
         float | None,
-        Shown(
+        Label(
             "crank angle of the change point",
             "",
             "rad",
@@ -91,7 +91,7 @@ class Closure(Record):
     ] = None
     turns: Annotated[
         int | None,
-        Shown(
+        Label(
             "revolutions of the crank until the motion repeats",
             "",
             "",
@@ -127,7 +127,7 @@ def closure(machine: Machine) -> Closure:
     return closure_of(compile_machine(machine))
 
 
-def closure_of(compiled: Compiled) -> Closure:
+def closure_of(compiled: CompiledMachine) -> Closure:
     """`closure` of a compiled machine: every analysis asks for it, and it is found once."""
     kept: Closure | None = compiled.kept.get("closure")
     if kept is None:
@@ -135,7 +135,7 @@ def closure_of(compiled: Compiled) -> Closure:
     return kept
 
 
-def _found_closure(compiled: Compiled) -> Closure:
+def _found_closure(compiled: CompiledMachine) -> Closure:
     turns = turns_to_repeat(compiled)
     if turns is None:
         return _endless(compiled)
@@ -159,7 +159,7 @@ def _over(turns: int, per_turn: int) -> Floats:
     return np.linspace(0.0, 2 * np.pi * turns, per_turn * turns + 1)
 
 
-def limiter_at(compiled: Compiled, angle: float) -> str:
+def limiter_at(compiled: CompiledMachine, angle: float) -> str:
     """Name of the dyad that limits the motion at an end of a range."""
     return _Search(compiled, 1).limiter(angle)
 
@@ -167,7 +167,7 @@ def limiter_at(compiled: Compiled, angle: float) -> str:
 class _Search:
     """The angles of a fine look over the period, with those added where something happens between them."""
 
-    def __init__(self, compiled: Compiled, turns: int) -> None:
+    def __init__(self, compiled: CompiledMachine, turns: int) -> None:
         self.compiled, self.turns = compiled, turns
         self.period = 2 * np.pi * turns
         self.angles: Floats = _over(turns, _ANGLES)[:-1].copy()
@@ -300,7 +300,7 @@ def _without(
     return ranges
 
 
-def _endless(compiled: Compiled) -> Closure:
+def _endless(compiled: CompiledMachine) -> Closure:
     """A motion that never repeats: from where it is at angle zero as far as it goes, both ways."""
     reach, endless = 2 * np.pi, Closure(((0.0, 2 * np.pi),), "", turns=None)
     for _ in range(_DOUBLINGS if compiled.dyads else 0):
@@ -323,7 +323,7 @@ def _endless(compiled: Compiled) -> Closure:
     return endless
 
 
-def _first_end(compiled: Compiled, angles: Floats, closes: Flags) -> float | None:
+def _first_end(compiled: CompiledMachine, angles: Floats, closes: Flags) -> float | None:
     """Where a motion that starts at the first angle ends; None if it goes on to the last."""
     if closes.all():
         return None
@@ -343,7 +343,7 @@ def _closing(gaps: Floats) -> Flags:
     return closes
 
 
-def _passes(compiled: Compiled, at: float) -> bool:
+def _passes(compiled: CompiledMachine, at: float) -> bool:
     """Whether the links go on where one touches zero: directions and rates agree before, at and after it.
 
     A group is not carried on through a change point, and its rates jump; a lever whose pin passes over its
@@ -359,7 +359,7 @@ def _passes(compiled: Compiled, at: float) -> bool:
     return bool((jumps <= _JUMP * (1 + np.abs(numbers).max(axis=1))).all())
 
 
-def require_full_turn(compiled: Compiled, machine: Machine) -> None:
+def require_full_turn(compiled: CompiledMachine, machine: Machine) -> None:
     """Raise if the crank cannot rotate fully.
 
     The `AssemblyError` says which element does not close, where the mechanism closes, and what to change.
@@ -369,7 +369,7 @@ def require_full_turn(compiled: Compiled, machine: Machine) -> None:
         raise closure_error(closed, machine)
 
 
-def require_one_turn(compiled: Compiled) -> None:
+def require_one_turn(compiled: CompiledMachine) -> None:
     """Raise if the crank does not feel the same masses and loads again after one revolution.
 
     The `AssemblyError` says after how many revolutions it does, and what to change.
@@ -386,7 +386,7 @@ def require_one_turn(compiled: Compiled) -> None:
         )
 
 
-def _feels_one_turn(compiled: Compiled) -> bool:
+def _feels_one_turn(compiled: CompiledMachine) -> bool:
     """Whether the crank feels the same inertia and load in the next revolution."""
     first, next_ = (compiled.first().reductions(turn_angles(16) + turn) for turn in (0.0, 2 * np.pi))
     return all(
@@ -401,7 +401,7 @@ def _feels_one_turn(compiled: Compiled) -> bool:
     )
 
 
-def require_closed(compiled: Compiled, machine: Machine, angles: Floats) -> None:
+def require_closed(compiled: CompiledMachine, machine: Machine, angles: Floats) -> None:
     """Raise if the mechanism does not close at some crank angles, or is not determined between them."""
     if not compiled.dyads:
         return
@@ -422,7 +422,7 @@ def require_closed(compiled: Compiled, machine: Machine, angles: Floats) -> None
     raise AssemblyError(text, element=closed.element, crank_angle=at)
 
 
-def has_levers(compiled: Compiled) -> bool:
+def has_levers(compiled: CompiledMachine) -> bool:
     """Whether there is a dyad that is not carried on through a change point: levers turn about there."""
     return any(isinstance(element, Element.SlottedLever) for element in compiled.elements)
 

@@ -115,7 +115,7 @@ def _pose(machine: Machine, at: str, speed: CrankSpeed, zero: Zero, *, json: boo
 
     placed = pose(machine, option_value("--at", at, ANGLE) + zero.angle, speed=speed.value)
     if json:
-        results = placed.to_dict() | {"speed_source": speed.source} | _zero_told(zero)
+        results = placed.to_dict() | {"speed_source": speed.source} | _zero_data(zero)
         return json_text(Answer(machine=machine.name, results=lambda _: {"pose": results}))
     phi = placed.crank_angle - zero.angle
     rows = [("crank angle", "φ [rad]", (phi, placed.speed, placed.acceleration)), *_pose_rows(placed)]
@@ -173,7 +173,7 @@ def _from(zero: Zero) -> str:
     return f" from the {zero.words}" if zero.words else ""
 
 
-def _zero_told(zero: Zero) -> dict[str, Any]:
+def _zero_data(zero: Zero) -> dict[str, Any]:
     """The same for JSON, whose angles are those of the file."""
     return {"angle_zero": zero.angle, "zero": zero.words} if zero.words else {}
 
@@ -187,7 +187,7 @@ def _turn(machine: Machine, speed: CrankSpeed, zero: Zero, steps: int, *, json: 
         expected = f"a speed above zero for a revolution, {SPEED.least:g} rad/s or more"
         raise InputError(f"--speed: found {speed.value:g} rad/s, expected {expected}")
     times = (0.0, 2 * pi / speed.value)
-    results = {"crank_speed": speed.value, "speed_source": speed.source} | _zero_told(zero)
+    results = {"crank_speed": speed.value, "speed_source": speed.source} | _zero_data(zero)
     head = f"one revolution of the crank{_from(zero)} in {times[1]:.6g} s, {speed}"
     law = constant_speed(speed.value, zero.angle)
     return _followed(machine, law, times, steps, head, results, zero, json=json, csv=csv)

@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.errors import MachineError, Problem, ShapeError
-from linkwright.kernel.numerics.roots import brackets, minima, zeros
+from linkwright.kernel.numerics.zeros import brackets, minima, zeros
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.linkages.closure import closure_error, closure_of
 from linkwright.linkages.dyads import evaluate
@@ -24,7 +24,7 @@ from linkwright.linkages.period import turns_to_repeat
 from linkwright.linkages.straight_portion import straightest
 from linkwright.linkages.sweep import Cycle
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import Compiled, compile_machine
+from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import Channel
 
 Floats = NDArray[np.float64]
@@ -63,12 +63,12 @@ class Cusp(NamedTuple):
 class CouplerCurve(Result):
     """The path of a point over the cycle."""
 
-    crank_angle: Annotated[Floats, Shown("crank angle", "φ", "rad")]
-    x: Annotated[Floats, Shown("place of the point, x", "x", "m")]
-    y: Annotated[Floats, Shown("place of the point, y", "y", "m")]
+    crank_angle: Annotated[Floats, Label("crank angle", "φ", "rad")]
+    x: Annotated[Floats, Label("place of the point, x", "x", "m")]
+    y: Annotated[Floats, Label("place of the point, y", "y", "m")]
     curvature: Annotated[
         Floats,
-        Shown(
+        Label(
             "curvature of the path",
             "κ",
             "1/m",
@@ -77,27 +77,27 @@ class CouplerCurve(Result):
     ]
     point: Annotated[str, About("Name of the point.")]
     is_closed: Annotated[bool, About("Whether the path comes back to its start.")]
-    length: Annotated[float, Shown("length of the path", "", "m")]
-    x_min: Annotated[float, Shown("minimum x of the path", "x_min", "m", "Located exactly.")]
-    x_max: Annotated[float, Shown("maximum x of the path", "x_max", "m", "Located exactly.")]
-    y_min: Annotated[float, Shown("minimum y of the path", "y_min", "m", "Located exactly.")]
-    y_max: Annotated[float, Shown("maximum y of the path", "y_max", "m", "Located exactly.")]
+    length: Annotated[float, Label("length of the path", "", "m")]
+    x_min: Annotated[float, Label("minimum x of the path", "x_min", "m", "Located exactly.")]
+    x_max: Annotated[float, Label("maximum x of the path", "x_max", "m", "Located exactly.")]
+    y_min: Annotated[float, Label("minimum y of the path", "y_min", "m", "Located exactly.")]
+    y_max: Annotated[float, Label("maximum y of the path", "y_max", "m", "Located exactly.")]
     straight_length: Annotated[
         float,
-        Shown(
+        Label(
             "chord of the longest straight portion",
             "",
             "m",
             "Straight: nowhere farther from its chord than a thousandth of it.",
         ),
     ]
-    straight_from: Annotated[float, Shown("crank angle at the start of the straight portion", "", "rad")]
+    straight_from: Annotated[float, Label("crank angle at the start of the straight portion", "", "rad")]
     straight_to: Annotated[
         float,
-        Shown("crank angle at the end of the straight portion", "", "rad", "Greater than that at its start."),
+        Label("crank angle at the end of the straight portion", "", "rad", "Greater than that at its start."),
     ]
     straight_error: Annotated[
-        float, Shown("maximum distance from the chord of the straight portion", "", "m")
+        float, Label("maximum distance from the chord of the straight portion", "", "m")
     ]
     double_points: Annotated[tuple[DoublePoint, ...], About("Where the path crosses itself.")]
     cusps: Annotated[tuple[Cusp, ...], About("Where the point stands still.")]
@@ -147,7 +147,7 @@ def coupler_curve(machine: Machine, point: str, *, straight: float = _STRAIGHT) 
 class _Path:
     """A path with what is looked for on it."""
 
-    def __init__(self, compiled: Compiled, index: int, cycle: Cycle) -> None:
+    def __init__(self, compiled: CompiledMachine, index: int, cycle: Cycle) -> None:
         self.compiled, self.index, self.cycle = compiled, index, cycle
         self.table = self.at(cycle.angles)
         self.place = self.table[:2].T

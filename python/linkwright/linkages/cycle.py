@@ -24,14 +24,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record, Result
 from linkwright.linkages.closure import Closure, closure_error, closure_of, limiter_at
 from linkwright.linkages.grashof import FourBar, four_bars
 from linkwright.linkages.period import turns_to_repeat
 from linkwright.linkages.sweep import Cycle, LinkageSweep, Output, sweep
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import Compiled, compile_machine
+from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 
 if TYPE_CHECKING:
     from linkwright.linkages.sweep import LinkageSweep
@@ -65,13 +65,13 @@ class DeadPoint(NamedTuple):
     multiplicity: int
 
 
-def dead_points(compiled: Compiled, swept: LinkageSweep, where: Closure) -> list[DeadPoint]:
+def dead_points(compiled: CompiledMachine, swept: LinkageSweep, where: Closure) -> list[DeadPoint]:
     """The dead points of a linkage."""
     points = [*_of_closure(compiled, where), *_passed(swept), *_reversals(swept)]
     return sorted(points)
 
 
-def _of_closure(compiled: Compiled, where: Closure) -> Iterator[DeadPoint]:
+def _of_closure(compiled: CompiledMachine, where: Closure) -> Iterator[DeadPoint]:
     """Limits, or a change point that is not passed."""
     if where.change_point is not None:
         yield DeadPoint(where.change_point, where.element, NOT_PASSED, 2)
@@ -112,22 +112,22 @@ class ElementMotion(Record):
     output: Annotated[str, About("Name of the link or slide that is looked at.")]
     swing: Annotated[
         float | None,
-        Shown(
+        Label(
             "swing of the link", "", "rad", "Between its extreme positions; None if it turns on, or is none."
         ),
     ]
     stroke: Annotated[
         float | None,
-        Shown("stroke of the slide", "", "m", "Between its extreme positions; None if there is none."),
+        Label("stroke of the slide", "", "m", "Between its extreme positions; None if there is none."),
     ]
-    turns: Annotated[float | None, Shown("revolutions of the link in a period", "", "", "Where it turns on.")]
+    turns: Annotated[float | None, Label("revolutions of the link in a period", "", "", "Where it turns on.")]
     low: Annotated[float, About("Minimum position [rad or m].")]
     high: Annotated[float, About("Maximum position [rad or m].")]
-    low_angle: Annotated[float, Shown("crank angle of the minimum position", "", "rad")]
-    high_angle: Annotated[float, Shown("crank angle of the maximum position", "", "rad")]
+    low_angle: Annotated[float, Label("crank angle of the minimum position", "", "rad")]
+    high_angle: Annotated[float, Label("crank angle of the maximum position", "", "rad")]
     time_ratio: Annotated[
         float | None,
-        Shown(
+        Label(
             "time ratio", "", "", "Crank angle of the slower stroke over that of the quicker one, at least 1."
         ),
     ]
@@ -137,23 +137,23 @@ class ElementMotion(Record):
         float | None, About("Minimum torque or force out for the torque in, without losses [– or 1/m].")
     ]
     transmission_angle_min: Annotated[
-        float | None, Shown("minimum transmission angle", "", "rad", "None for what is no dyad.")
+        float | None, Label("minimum transmission angle", "", "rad", "None for what is no dyad.")
     ] = None
     transmission_angle_max: Annotated[
-        float | None, Shown("maximum transmission angle", "", "rad", "None for what is no dyad.")
+        float | None, Label("maximum transmission angle", "", "rad", "None for what is no dyad.")
     ] = None
     transmission_angle_min_angle: Annotated[
-        float | None, Shown("crank angle of the minimum transmission angle", "", "rad")
+        float | None, Label("crank angle of the minimum transmission angle", "", "rad")
     ] = None
     transmission_angle_max_angle: Annotated[
-        float | None, Shown("crank angle of the maximum transmission angle", "", "rad")
+        float | None, Label("crank angle of the maximum transmission angle", "", "rad")
     ] = None
     four_bar: Annotated[FourBar | None, About("The four-bar loop that the element closes.")] = None
 
     @property
     def transmission_angle_worst(
         self,
-    ) -> Annotated[float | None, Shown("worst transmission angle", "", "rad")]:
+    ) -> Annotated[float | None, Label("worst transmission angle", "", "rad")]:
         """Acute angle between the two links where it is smallest: μ or π − μ."""
         low, high = self.transmission_angle_min, self.transmission_angle_max
         return None if low is None or high is None else min(low, math.pi - high)
@@ -182,7 +182,7 @@ class Linkage(Result):
     """A linkage over its cycle."""
 
     crank_angle: Annotated[
-        Floats, Shown("crank angle", "φ", "rad", "Over the period, or over the range in which it closes.")
+        Floats, Label("crank angle", "φ", "rad", "Over the period, or over the range in which it closes.")
     ]
     transmission_angles: Annotated[dict[str, Floats], About("μ by element [rad].")] = field(repr=False)
     velocity_ratios: Annotated[dict[str, Floats], About(_VELOCITY_RATIOS)] = field(repr=False)
@@ -190,7 +190,7 @@ class Linkage(Result):
     closure: Annotated[Closure, About("Where it closes.")]
     period_turns: Annotated[
         int | None,
-        Shown("revolutions of the crank in a period", "", "", "None if it has none or does not turn fully."),
+        Label("revolutions of the crank in a period", "", "", "None if it has none or does not turn fully."),
     ]
     dead_points: Annotated[
         tuple[DeadPoint, ...], About("Limits, change points and reversals, by crank angle.")

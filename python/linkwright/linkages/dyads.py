@@ -23,7 +23,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.machine.program.compiled import Compiled
+from linkwright.machine.program.compiled import CompiledMachine
 from linkwright.machine.program.core import Channel, Element, Line
 
 Floats = NDArray[np.float64]
@@ -71,17 +71,17 @@ class Dyad:
     change_points: tuple[float, ...] = ()
 
 
-def dyads_of(compiled: Compiled) -> list[Dyad]:
+def dyads_of(compiled: CompiledMachine) -> list[Dyad]:
     """The dyads and groups of a machine in build order."""
     return [_dyad(compiled, element) for element in compiled.elements if isinstance(element, Closing)]
 
 
-def _dyad(compiled: Compiled, element: Closing) -> Dyad:
+def _dyad(compiled: CompiledMachine, element: Closing) -> Dyad:
     name, kind = compiled.dyads[element.dyad], _KINDS[type(element)]
     return Dyad(name, kind, element, _change_points(compiled, element))
 
 
-def _change_points(compiled: Compiled, element: Closing) -> tuple[float, ...]:
+def _change_points(compiled: CompiledMachine, element: Closing) -> tuple[float, ...]:
     """Crank angles of the change points that a dyad passes."""
     if not isinstance(element, Element.Rocker | Element.GuidedRod):
         return ()
@@ -92,7 +92,7 @@ def _change_points(compiled: Compiled, element: Closing) -> tuple[float, ...]:
     return tuple(sorted(float(angle) % (2 * np.pi) for angle in angles))
 
 
-def evaluate(compiled: Compiled, channels: Sequence[Channel], angles: Floats) -> list[Floats]:
+def evaluate(compiled: CompiledMachine, channels: Sequence[Channel], angles: Floats) -> list[Floats]:
     """Numbers of points, links and slides of the first machine, (6, 4 or 3, n) each."""
     widths = [_WIDTHS[type(channel)] for channel in channels]
     out = np.empty((sum(widths), len(angles)))
@@ -100,7 +100,7 @@ def evaluate(compiled: Compiled, channels: Sequence[Channel], angles: Floats) ->
     return np.split(out, np.cumsum(widths)[:-1]) if channels else []
 
 
-def transmission_channels(compiled: Compiled, dyad: Dyad) -> list[Channel]:
+def transmission_channels(compiled: CompiledMachine, dyad: Dyad) -> list[Channel]:
     """What `transmission` asks of the core."""
     match dyad.element:
         case Element.Rocker() as rocker:
@@ -116,7 +116,7 @@ def transmission_channels(compiled: Compiled, dyad: Dyad) -> list[Channel]:
     return []
 
 
-def transmission(compiled: Compiled, dyad: Dyad, values: list[Floats]) -> tuple[Floats, Floats]:
+def transmission(compiled: CompiledMachine, dyad: Dyad, values: list[Floats]) -> tuple[Floats, Floats]:
     """Transmission angle, and a smooth function with the sign changes of its derivative, up to the sign.
 
     `values` (4, n) and (3, n): what the core gave for `transmission_channels`. Returns: mu: (n,) 0 to π
@@ -133,7 +133,7 @@ def transmission(compiled: Compiled, dyad: Dyad, values: list[Floats]) -> tuple[
     return np.arctan2(np.abs(cross), dot), slope
 
 
-def _directions(compiled: Compiled, dyad: Dyad, values: list[Floats]) -> list[tuple[Floats, Floats]]:
+def _directions(compiled: CompiledMachine, dyad: Dyad, values: list[Floats]) -> list[tuple[Floats, Floats]]:
     """The two directions between which μ lies, with the rates of their angles."""
     q = compiled.parameters
     match dyad.element:
@@ -153,7 +153,7 @@ def _carrier(line: Line) -> list[Channel]:
     return [] if line.link is None else [Channel.Link(line.link)]
 
 
-def _guide(compiled: Compiled, line: Line, values: list[Floats]) -> tuple[Floats, Floats]:
+def _guide(compiled: CompiledMachine, line: Line, values: list[Floats]) -> tuple[Floats, Floats]:
     """Direction of a guide and the rate of its angle; takes its link from what was found."""
     cos, sin = (compiled.parameters[slot] for slot in (line.cos, line.sin))
     if line.link is None:

@@ -11,7 +11,7 @@ from linkwright.kernel.figure.style import (
     INK,
     LINES,
     SOFT,
-    Captioned,
+    CaptionedFigure,
     legend_above,
     level,
     named,
@@ -89,7 +89,7 @@ def coupler_figure(curves: list[CouplerCurve], links: list[tuple[np.ndarray, boo
 _PATHS_MAX = 6
 
 
-def linkage_figures(machine: Machine, linkage: Linkage) -> Iterator[Captioned]:
+def linkage_figures(machine: Machine, linkage: Linkage) -> Iterator[CaptionedFigure]:
     """The figures of a machine's linkage over its cycle."""
     worst = [element for element in linkage.elements if element.transmission_angle_worst is not None]
     if worst:
@@ -98,13 +98,15 @@ def linkage_figures(machine: Machine, linkage: Linkage) -> Iterator[Captioned]:
             "90° is ideal. The worst transmission angle is "
             f"{degrees(least.transmission_angle_worst or 0.0)}, at {least.element}."
         )
-        yield Captioned("transmission", "Transmission angles", caption, transmission_figure(linkage))
+        yield CaptionedFigure("transmission", "Transmission angles", caption, transmission_figure(linkage))
     mechanism = machine.linkage
     points = [name for name in mechanism.rigid_points if name not in _on_ground(machine)]
     if points and linkage.closure.change_point is None:
         curves = [coupler_curve(machine, name) for name in points[:_PATHS_MAX]]
         links = _links(machine, float(linkage.crank_angle[len(linkage.crank_angle) // 8]))
-        yield Captioned("coupler_curves", "Paths of points", _words(curves), coupler_figure(curves, links))
+        yield CaptionedFigure(
+            "coupler_curves", "Paths of points", _words(curves), coupler_figure(curves, links)
+        )
 
 
 def _on_ground(machine: Machine) -> set[str]:

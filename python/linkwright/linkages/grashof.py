@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.linkages.dyads import dyads_of, evaluate
-from linkwright.machine.program.compiled import Compiled
+from linkwright.machine.program.compiled import CompiledMachine
 from linkwright.machine.program.core import Channel, Element
 
 Floats = NDArray[np.float64]
@@ -94,7 +94,7 @@ def _same(a: float, b: float) -> bool:
     return abs(a - b) <= _SAME * max(a, b)
 
 
-def four_bars(compiled: Compiled) -> list[FourBar]:
+def four_bars(compiled: CompiledMachine) -> list[FourBar]:
     """The four-bar loops of a machine: an arm on a fixed point, a coupler, and a link on another fixed point.
     Returns: in build order, from cranks and rockers as well as from joints and bars.
     """
@@ -108,7 +108,7 @@ def four_bars(compiled: Compiled) -> list[FourBar]:
 
 
 def _loops(
-    compiled: Compiled,
+    compiled: CompiledMachine,
     name: str,
     dyad: Element.Rocker,
     grounds: dict[int, Floats],
@@ -128,7 +128,7 @@ def _loops(
     return loops
 
 
-def _arms(compiled: Compiled, grounds: dict[int, Floats]) -> dict[int, tuple[int, float]]:
+def _arms(compiled: CompiledMachine, grounds: dict[int, Floats]) -> dict[int, tuple[int, float]]:
     """Point that turns about a fixed point → that point and its distance."""
     centres = dict(_centred(compiled.elements, grounds))
     arms: dict[int, tuple[int, float]] = {}
@@ -169,7 +169,7 @@ def _carried(element: Element, centres: dict[int, int], grounds: dict[int, Float
     return []
 
 
-def _distance(compiled: Compiled, point: int, centre: Floats) -> float:
+def _distance(compiled: CompiledMachine, point: int, centre: Floats) -> float:
     """Distance of a point from a fixed one that it turns about, at an angle where the mechanism closes."""
     places = evaluate(compiled, [Channel.Point(point)], np.linspace(0.1, 6.2, 24))[0][:2]
     distances = np.hypot(*(places - centre[:, None]))

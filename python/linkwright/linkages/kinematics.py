@@ -13,12 +13,12 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright.kernel.errors import MachineError, Problem, ShapeError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import array, shown
-from linkwright.kernel.public.immutable import Looked
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.public.immutable import LazyTable
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record
 from linkwright.linkages.closure import has_levers, require_closed
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import Compiled, compile_machine
+from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import Channel
 
 Floats = NDArray[np.float64]
@@ -65,7 +65,7 @@ class SlideMotion(Record):
 class Kinematics(Record):
     """Motion of a mechanism over given crank angles."""
 
-    angles: Annotated[Floats, Shown("crank angles", "φ", "rad")]
+    angles: Annotated[Floats, Label("crank angles", "φ", "rad")]
     points: Annotated[Mapping[str, PointMotion], About("Motion of each point.")]
     links: Annotated[Mapping[str, LinkMotion], About("Motion of each link.")]
     slides: Annotated[Mapping[str, SlideMotion], About("Motion of each slide.")]
@@ -114,21 +114,21 @@ def kinematics(machine: Machine, angles: ArrayLike | None = None, *, third: bool
 
 
 def kinematics_of(
-    compiled: Compiled, angles: Floats, what: list[tuple[str, str]], *, third: bool = False
+    compiled: CompiledMachine, angles: Floats, what: list[tuple[str, str]], *, third: bool = False
 ) -> Kinematics:
     """`kinematics` of one compiled machine where it closes; ``what`` holds pairs of part and name."""
     collect = _collect(angles, motion_arrays(compiled, angles, what)[0], what)
     return with_third(compiled, collect, what) if third else collect
 
 
-def everything(compiled: Compiled) -> list[tuple[str, str]]:
+def everything(compiled: CompiledMachine) -> list[tuple[str, str]]:
     """Pairs of part and name of all that has a name in the machine: not what the core keeps for itself."""
     names = {"points": compiled.points, "links": compiled.links, "slides": compiled.slides}
     hidden = (".angle", ".law", " reversed")
     return [(part, name) for part, known in names.items() for name in known if not name.endswith(hidden)]
 
 
-def with_third(compiled: Compiled, kinematics: Kinematics, what: list[tuple[str, str]]) -> Kinematics:
+def with_third(compiled: CompiledMachine, kinematics: Kinematics, what: list[tuple[str, str]]) -> Kinematics:
     """The same motion with third derivatives. Raises ShapeError: entries vary from machine to machine."""
     if len(compiled.slots):
         raise ShapeError("third derivatives are for one machine, and entries vary from machine to machine")
@@ -164,7 +164,7 @@ def _collect(phi: Floats, table: Floats, what: list[tuple[str, str]]) -> Kinemat
     for part, name in what:
         makers[part][name] = partial(_MOTIONS[part], table, at)
         at += _WIDTHS[part]
-    return Kinematics(phi, **{part: Looked(maker) for part, maker in makers.items()})
+    return Kinematics(phi, **{part: LazyTable(maker) for part, maker in makers.items()})
 
 
 def _point(table: Floats, at: int) -> PointMotion:
@@ -233,7 +233,7 @@ def motions(
 
 
 def motion_arrays(
-    compiled: Compiled, angles: Floats, what: list[tuple[str, str]], out: Floats | None = None
+    compiled: CompiledMachine, angles: Floats, what: list[tuple[str, str]], out: Floats | None = None
 ) -> Floats:
     """`motions` of a compiled machine; ``what`` holds pairs of part and name."""
     known = {"points": compiled.points, "links": compiled.links, "slides": compiled.slides}

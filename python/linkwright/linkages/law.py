@@ -112,8 +112,8 @@ class RampLaw:
             angle[1:] *= inside
         else:
             # φ = ω T ∫ rise du, and ω (t − T) beyond.
-            whole = [0.0, *(c / (k + 1) for k, c in enumerate(_RISES[self.shape]))]
-            angle = np.stack([_polynomial(whole, u)[0], rise[0], rise[1], rise[2]]) * self.speed * T * scale
+            course = [0.0, *(c / (k + 1) for k, c in enumerate(_RISES[self.shape]))]
+            angle = np.stack([_polynomial(course, u)[0], rise[0], rise[1], rise[2]]) * self.speed * T * scale
             angle[0] += self.speed * np.maximum(times - T, 0.0)
             angle[2:] *= inside
         angle[0] += self.start

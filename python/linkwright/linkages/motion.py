@@ -16,17 +16,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright.kernel.errors import AssemblyError, ShapeError
-from linkwright.kernel.numerics.roots import brackets, zeros
+from linkwright.kernel.numerics.zeros import brackets, zeros
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record, Result
 from linkwright.kernel.units import ANGLE, ANGULAR_ACCELERATION, SPEED, Quantity
 from linkwright.linkages.closure import closure_of, require_closed
 from linkwright.linkages.kinematics import checked_angles, everything, kinematics_of
 from linkwright.linkages.law import Law, as_law
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import Compiled, compile_machine
+from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 
 Floats = NDArray[np.float64]
 
@@ -51,12 +51,12 @@ class Path(Record):
 class Motion(Result):
     """A mechanism over time."""
 
-    time: Annotated[Floats, Shown("time", "t", "s")]
-    crank_angle: Annotated[Floats, Shown("crank angle", "φ", "rad")]
-    speed: Annotated[Floats, Shown("speed of the crank", "ω", "rad/s")]
-    acceleration: Annotated[Floats, Shown("acceleration of the crank", "ε", "rad/s²")]
+    time: Annotated[Floats, Label("time", "t", "s")]
+    crank_angle: Annotated[Floats, Label("crank angle", "φ", "rad")]
+    speed: Annotated[Floats, Label("speed of the crank", "ω", "rad/s")]
+    acceleration: Annotated[Floats, Label("acceleration of the crank", "ε", "rad/s²")]
     crank_jerk: Annotated[
-        Floats | None, Shown("jerk of the crank", "dε/dt", "rad/s³", "None where it is not known.")
+        Floats | None, Label("jerk of the crank", "dε/dt", "rad/s³", "None where it is not known.")
     ]
     points: Annotated[dict[str, Path], About("By name.")]
     links: Annotated[dict[str, Path], About("By name.")]
@@ -202,7 +202,7 @@ def rates_of(part: Any, speed: Floats, acceleration: Floats) -> tuple[Floats, Fl
     return part.d1 * speed, part.d2 * speed**2 + part.d1 * acceleration
 
 
-def _require_within(compiled: Compiled, machine: Machine, law: Law, times: Floats) -> None:
+def _require_within(compiled: CompiledMachine, machine: Machine, law: Law, times: Floats) -> None:
     """Raise if the law leaves the range of the mechanism, also between the times."""
     where = closure_of(compiled)
     if where.turns_fully:

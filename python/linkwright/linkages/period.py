@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from linkwright.kernel.public import public
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import Compiled, compile_machine
+from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import Channel
 
 Floats = NDArray[np.float64]
@@ -45,7 +45,7 @@ def period_turns(machine: Machine) -> int | None:
     return turns_to_repeat(compile_machine(machine))
 
 
-def turns_to_repeat(compiled: Compiled) -> int | None:
+def turns_to_repeat(compiled: CompiledMachine) -> int | None:
     """Revolutions of the crank after which all points and links are where they were; None if not within
     240.
     """
@@ -59,7 +59,7 @@ def turns_to_repeat(compiled: Compiled) -> int | None:
     return int(same[0]) + 1 if len(same) else None
 
 
-def _places(compiled: Compiled, angles: Floats) -> Floats:
+def _places(compiled: CompiledMachine, angles: Floats) -> Floats:
     """Points over the mechanism's size, and directions of links, (numbers, n); zero where nothing closes."""
     what: list[Channel] = [Channel.Point(index) for index in compiled.points.values()]
     what += [Channel.Link(index) for index in compiled.links.values()]

@@ -12,7 +12,7 @@ import numpy as np
 
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record
 from linkwright.kernel.units import ANGLE, ANGULAR_ACCELERATION, SPEED, Quantity
 from linkwright.linkages.closure import require_closed
@@ -47,9 +47,9 @@ class PoseCoordinate:
 class Pose(Record):
     """A mechanism at one crank angle."""
 
-    crank_angle: Annotated[float, Shown("crank angle", "φ", "rad")]
-    speed: Annotated[float, Shown("speed of the crank", "ω", "rad/s")]
-    acceleration: Annotated[float, Shown("angular acceleration of the crank", "ε", "rad/s²")]
+    crank_angle: Annotated[float, Label("crank angle", "φ", "rad")]
+    speed: Annotated[float, Label("speed of the crank", "ω", "rad/s")]
+    acceleration: Annotated[float, Label("angular acceleration of the crank", "ε", "rad/s²")]
     points: Annotated[dict[str, PosePoint], About("Points by name.")]
     links: Annotated[dict[str, PoseCoordinate], About("Links by name, directions from −π to π [rad].")]
     slides: Annotated[dict[str, PoseCoordinate], About("Slides by name [m].")]
@@ -59,15 +59,15 @@ class Pose(Record):
     def to_dict(self) -> dict[str, Any]:
         """Everything by name, ready for JSON. Returns: SI numbers; x and y as lists."""
         parts = {
-            part: {name: _plain(motion) for name, motion in getattr(self, part).items()}
+            part: {name: _part_dict(motion) for name, motion in getattr(self, part).items()}
             for part in ("points", "links", "slides")
         }
-        whole = {"crank_angle": self.crank_angle, "speed": self.speed, "acceleration": self.acceleration}
+        state = {"crank_angle": self.crank_angle, "speed": self.speed, "acceleration": self.acceleration}
         results = {"transmission_angles": dict(self.transmission_angles), "near_limit": list(self.near_limit)}
-        return whole | parts | results
+        return state | parts | results
 
 
-def _plain(part: PosePoint | PoseCoordinate) -> dict[str, Any]:
+def _part_dict(part: PosePoint | PoseCoordinate) -> dict[str, Any]:
     return {name: list(x) if isinstance(x, tuple) else x for name, x in vars(part).items()}
 
 

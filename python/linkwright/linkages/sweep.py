@@ -9,7 +9,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.kernel.numerics.roots import brackets, zeros
+from linkwright.kernel.numerics.zeros import brackets, zeros
 from linkwright.linkages.closure import Closure
 from linkwright.linkages.dyads import (
     Dyad,
@@ -19,7 +19,7 @@ from linkwright.linkages.dyads import (
     transmission_channels,
 )
 from linkwright.linkages.model.mechanism import Mechanism
-from linkwright.machine.program.compiled import Compiled
+from linkwright.machine.program.compiled import CompiledMachine
 from linkwright.machine.program.core import Channel, Element
 
 Floats = NDArray[np.float64]
@@ -106,7 +106,7 @@ class LinkageSweep:
         Of the outputs; links with continuous angles.
     """
 
-    def __init__(self, compiled: Compiled, mechanism: Mechanism, cycle: Cycle) -> None:
+    def __init__(self, compiled: CompiledMachine, mechanism: Mechanism, cycle: Cycle) -> None:
         self.compiled, self.cycle = compiled, cycle
         self.dyads: list[Dyad] = [dyad for dyad in dyads_of(compiled) if dyad.kind != "group"]
         self.outputs: list[Output] = outputs_of(compiled, mechanism)
@@ -225,7 +225,7 @@ def _time_ratio(at: Floats, values: Floats, span: float) -> float | None:
     return max(up, down) / min(up, down) if 0 < up < span and down > 0 else None
 
 
-def sweep(compiled: Compiled, mechanism: Mechanism, cycle: Cycle) -> LinkageSweep:
+def sweep(compiled: CompiledMachine, mechanism: Mechanism, cycle: Cycle) -> LinkageSweep:
     """Sweep a mechanism over a cycle.
 
     `cycle`: where it is looked at.
@@ -254,7 +254,7 @@ class Output(NamedTuple):
     channel: Channel
 
 
-def outputs_of(compiled: Compiled, mechanism: Mechanism) -> list[Output]:
+def outputs_of(compiled: CompiledMachine, mechanism: Mechanism) -> list[Output]:
     """The outputs of a machine in build order; for a rocker its link on the pivot. Returns: none of the
     drivers.
     """
@@ -265,7 +265,7 @@ def outputs_of(compiled: Compiled, mechanism: Mechanism) -> list[Output]:
 class _Names:
     """Names of links and slides by the core's index."""
 
-    def __init__(self, compiled: Compiled, mechanism: Mechanism) -> None:
+    def __init__(self, compiled: CompiledMachine, mechanism: Mechanism) -> None:
         self.compiled, self.mechanism = compiled, mechanism
         self.links = {index: name for name, index in compiled.links.items()}
         self.slides = {index: name for name, index in compiled.slides.items()}

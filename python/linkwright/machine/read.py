@@ -235,8 +235,8 @@ def _located(
     lines = key_lines(text)
     in_columns, others = _of_columns(problems, columns)
     # A file of points that is no such file has its place already.
-    found = [other if other.path else _placed(other, lines, path, places) for other in others]
-    return [*sorted(found, key=lambda problem: (problem.line is None, problem.line or 0)), *in_columns]
+    placed = [other if other.path else _placed(other, lines, path, places) for other in others]
+    return [*sorted(placed, key=lambda problem: (problem.line is None, problem.line or 0)), *in_columns]
 
 
 def _of_columns(

@@ -86,7 +86,7 @@ def _add(document: TOMLDocument, key: str, value: Any) -> None:
 def _table(node: BaseModel, place: tuple[str, ...], machine: Machine) -> dict[str, Any]:
     """The given entries of a description, plain entries before tables."""
     entries = {
-        key: _plain(getattr(node, name), (*place, key), machine)
+        key: _toml_value(getattr(node, name), (*place, key), machine)
         for key, name in field_names(type(node)).items()
         if name in node.model_fields_set and getattr(node, name) is not None
     }
@@ -98,16 +98,17 @@ def _rank(entry: tuple[str, Any]) -> int:
     return 0 if entry[0] == "kind" else 2 if isinstance(entry[1], dict) else 1
 
 
-def _plain(value: Any, place: tuple[str, ...], machine: Machine) -> Any:
+def _toml_value(value: Any, place: tuple[str, ...], machine: Machine) -> Any:
     """A value as TOML can hold it."""
     if isinstance(value, BaseModel):
         return _table(value, place, machine)
     if isinstance(value, dict):
-        return {key: _plain(entry, (*place, key), machine) for key, entry in value.items()}
+        return {key: _toml_value(entry, (*place, key), machine) for key, entry in value.items()}
     if isinstance(value, tuple):
         is_tables = any(isinstance(entry, BaseModel) for entry in value)
         return [
-            _plain(entry, (*place, str(n)), machine) if is_tables else entry for n, entry in enumerate(value)
+            _toml_value(entry, (*place, str(n)), machine) if is_tables else entry
+            for n, entry in enumerate(value)
         ]
     if not isinstance(value, str | int | float):
         raise InputError(f"{'.'.join(place)}: {show(value)} is not one value; write one machine at a time")

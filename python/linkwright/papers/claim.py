@@ -167,22 +167,22 @@ def judged(claim: Mapping[str, Any], values: Mapping[str, Any]) -> Row:
     return Row(name, printed, computed or printed, verdict, kind, claim["where"], why)
 
 
-_Judged = tuple[str, str, str, str]
+_FitJudgement = tuple[str, str, str, str]
 
 
-def _taken(claim: Mapping[str, Any], values: Mapping[str, Any]) -> _Judged:
+def _taken(claim: Mapping[str, Any], values: Mapping[str, Any]) -> _FitJudgement:
     """A value that the computation takes as printed, or that is not judged."""
     return "", "", "taken from the paper", "none"
 
 
-def _number(claim: Mapping[str, Any], values: Mapping[str, Any]) -> _Judged:
+def _number(claim: Mapping[str, Any], values: Mapping[str, Any]) -> _FitJudgement:
     """A printed number."""
     cell, unit = cell_of(claim, values), claim["unit"]
     shown = "–" if cell.computed is None else f"{cell.computed:.{claim.get('digits', 6)}g} {unit}"
     return f"{cell.published:.10g} {unit}", shown, cell.verdict, cell.kind
 
 
-def _agreement(claim: Mapping[str, Any], values: Mapping[str, Any]) -> _Judged:
+def _agreement(claim: Mapping[str, Any], values: Mapping[str, Any]) -> _FitJudgement:
     """A printed formula against another way of computing the same."""
     difference = named(values, claim["difference"])
     kind = tolerance(claim["tolerance"]).kind(difference)
@@ -191,7 +191,7 @@ def _agreement(claim: Mapping[str, Any], values: Mapping[str, Any]) -> _Judged:
     return "", f"the same to {difference:.0e}" if difference else "the same", words, kind
 
 
-def _deviation(claim: Mapping[str, Any], values: Mapping[str, Any]) -> _Judged:
+def _deviation(claim: Mapping[str, Any], values: Mapping[str, Any]) -> _FitJudgement:
     """A printed formula over the exact value."""
     allowed = tolerance(claim["tolerance"])
     words, kind = holding(named(values, claim["deviation"]), allowed)
@@ -208,7 +208,7 @@ def holding(deviation: float, allowed: Tolerance) -> tuple[str, str]:
     return "does not hold" if kind == "far" else f"holds within {rounded_up(100 * abs(deviation), 2)} %", kind
 
 
-def _statement(claim: Mapping[str, Any], values: Mapping[str, Any]) -> _Judged:
+def _statement(claim: Mapping[str, Any], values: Mapping[str, Any]) -> _FitJudgement:
     """A printed statement; its verdict has its own words."""
     holds, in_part = (key in claim and named(values, claim[key]) for key in ("holds", "in_part"))
     kind = "reproduced" if holds else "near" if in_part else "far"

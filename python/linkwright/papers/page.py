@@ -37,13 +37,13 @@ UNITS = {
 
 def named(values: Any, name: str) -> Any:
     """What keys, attributes and places lead to, such as ``"drives.0.steady.speed_min"``."""
-    found = values
+    value = values
     for step in name.split("."):
-        if isinstance(found, Mapping):
-            found = found[step]
+        if isinstance(value, Mapping):
+            value = value[step]
         else:
-            found = found[int(step)] if step.isdigit() else getattr(found, step)
-    return found
+            value = value[int(step)] if step.isdigit() else getattr(value, step)
+    return value
 
 
 class _Words(Formatter):

@@ -18,7 +18,7 @@ from linkwright.kernel.figure.style import (
     MATH,
     PURPLE,
     RED,
-    Captioned,
+    CaptionedFigure,
     legend_above,
     panels,
     roomy,
@@ -102,7 +102,9 @@ def rotator_figure(rotator: RodRotatorMotion) -> Figure:
     return figure
 
 
-def unit_figures(unit: PumpingUnitMotion | None, rotator: RodRotatorMotion | None) -> Iterator[Captioned]:
+def unit_figures(
+    unit: PumpingUnitMotion | None, rotator: RodRotatorMotion | None
+) -> Iterator[CaptionedFigure]:
     """The figures of the polished rod, of the gearbox, and of the rotator."""
     if unit is not None:
         yield from _unit(unit)
@@ -110,22 +112,24 @@ def unit_figures(unit: PumpingUnitMotion | None, rotator: RodRotatorMotion | Non
         yield from _rotator(rotator)
 
 
-def _unit(unit: PumpingUnitMotion) -> Iterator[Captioned]:
+def _unit(unit: PumpingUnitMotion) -> Iterator[CaptionedFigure]:
     gear = unit.gear
     caption = (
         f"The polished rod rises {quantity(unit.stroke, 'm')} while the crank turns "
         f"{degrees(unit.upstroke_angle)}. The torque factor runs from {number(unit.torque_factor_min)} to "
         f"{quantity(unit.torque_factor_max, 'm')}."
     )
-    yield Captioned("polished_rod", "Polished rod over one revolution", caption, polished_rod_figure(unit))
+    yield CaptionedFigure(
+        "polished_rod", "Polished rod over one revolution", caption, polished_rod_figure(unit)
+    )
     if gear is not None:
         caption = (
             "Torque at the crank by the polished rod and by its counterbalance; their sum peaks at "
             f"{quantity(max(gear.torque_net_up, gear.torque_net_down), 'N m')}."
         )
-        yield Captioned("gear_torque", "Torque of the gearbox", caption, gear_torque_figure(gear))
+        yield CaptionedFigure("gear_torque", "Torque of the gearbox", caption, gear_torque_figure(gear))
 
 
-def _rotator(rotator: RodRotatorMotion) -> Iterator[Captioned]:
+def _rotator(rotator: RodRotatorMotion) -> Iterator[CaptionedFigure]:
     caption = f"The lever {rotator.verdict}."
-    yield Captioned("rotator", "Lever of the rotator", caption, rotator_figure(rotator))
+    yield CaptionedFigure("rotator", "Lever of the rotator", caption, rotator_figure(rotator))

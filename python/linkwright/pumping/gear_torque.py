@@ -26,10 +26,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.errors import FindingError
-from linkwright.kernel.numerics.roots import zero, zeros
 from linkwright.kernel.numerics.turn_curve import TurnCurve
 from linkwright.kernel.numerics.turn_fit import turn_curve
-from linkwright.kernel.quantities import Shown
+from linkwright.kernel.numerics.zeros import zero, zeros
+from linkwright.kernel.quantities import Label
 from linkwright.kernel.result import Result
 from linkwright.pumping.model.polished_rod_load import PolishedRodLoad
 from linkwright.pumping.model.unit import PumpingUnit
@@ -47,16 +47,16 @@ _LARGEST = 1e15
 class GearTorque(Result):
     """Torque of the gearbox over one revolution."""
 
-    crank_angle: Annotated[Floats, Shown("crank angle", "φ", "rad", "0 to 2π by API.")]
-    rod_load: Annotated[Floats, Shown("load of the polished rod", "W", "N")]
-    torque_rod: Annotated[Floats, Shown("torque by the polished rod", "M_W", "N m", "At the crank.")]
+    crank_angle: Annotated[Floats, Label("crank angle", "φ", "rad", "0 to 2π by API.")]
+    rod_load: Annotated[Floats, Label("load of the polished rod", "W", "N")]
+    torque_rod: Annotated[Floats, Label("torque by the polished rod", "M_W", "N m", "At the crank.")]
     torque_counterbalance: Annotated[
-        Floats, Shown("torque by the counterbalance", "M_C", "N m", "At the crank, as it resists.")
+        Floats, Label("torque by the counterbalance", "M_C", "N m", "At the crank, as it resists.")
     ]
-    torque_net: Annotated[Floats, Shown("torque of the gearbox", "M_G", "N m", "The sum of both.")]
+    torque_net: Annotated[Floats, Label("torque of the gearbox", "M_G", "N m", "The sum of both.")]
     counterbalance: Annotated[
         float | None,
-        Shown(
+        Label(
             "maximum moment of the counterweights",
             "M",
             "N m",
@@ -66,17 +66,17 @@ class GearTorque(Result):
     ]
     counterbalance_effect: Annotated[
         float | None,
-        Shown("counterbalance effect of the cylinder", "E", "N", "Of an air cylinder.", table="gear_torque"),
+        Label("counterbalance effect of the cylinder", "E", "N", "Of an air cylinder.", table="gear_torque"),
     ]
     torque_net_up: Annotated[
-        float, Shown("maximum torque of the gearbox, upstroke", "M_G,up", "N m", table="gear_torque")
+        float, Label("maximum torque of the gearbox, upstroke", "M_G,up", "N m", table="gear_torque")
     ]
     torque_net_down: Annotated[
-        float, Shown("maximum torque of the gearbox, downstroke", "M_G,down", "N m", table="gear_torque")
+        float, Label("maximum torque of the gearbox, downstroke", "M_G,down", "N m", table="gear_torque")
     ]
     torque_net_min: Annotated[
         float,
-        Shown(
+        Label(
             "minimum torque of the gearbox",
             "M_G,min",
             "N m",
@@ -86,11 +86,11 @@ class GearTorque(Result):
     ]
     torque_net_mean: Annotated[
         float,
-        Shown("mean torque of the gearbox", "M_G,mean", "N m", "Over the crank angle.", table="gear_torque"),
+        Label("mean torque of the gearbox", "M_G,mean", "N m", "Over the crank angle.", table="gear_torque"),
     ]
     torque_net_rms: Annotated[
         float,
-        Shown(
+        Label(
             "root mean square torque of the gearbox",
             "M_G,rms",
             "N m",
@@ -100,7 +100,7 @@ class GearTorque(Result):
     ]
     cyclic_load_factor: Annotated[
         float | None,
-        Shown(
+        Label(
             "cyclic load factor",
             "CLF",
             "",
@@ -108,13 +108,13 @@ class GearTorque(Result):
             table="gear_torque",
         ),
     ]
-    torque_rated: Annotated[float | None, Shown("rating of the gearbox by the designation", "", "N m")]
-    load_max: Annotated[float, Shown("maximum load of the polished rod", "W_max", "N", table="gear_torque")]
-    load_rated: Annotated[float | None, Shown("rating of the structure by the designation", "", "N")]
-    work: Annotated[float, Shown("work of the polished rod in a stroke", "A", "J", table="gear_torque")]
+    torque_rated: Annotated[float | None, Label("rating of the gearbox by the designation", "", "N m")]
+    load_max: Annotated[float, Label("maximum load of the polished rod", "W_max", "N", table="gear_torque")]
+    load_rated: Annotated[float | None, Label("rating of the structure by the designation", "", "N")]
+    work: Annotated[float, Label("work of the polished rod in a stroke", "A", "J", table="gear_torque")]
 
     @property
-    def gear_load(self) -> Annotated[float | None, Shown("maximum torque over the rating", "", "")]:
+    def gear_load(self) -> Annotated[float | None, Label("maximum torque over the rating", "", "")]:
         """Maximum net torque over the rating of the gearbox."""
         peak = max(self.torque_net_up, self.torque_net_down)
         return None if self.torque_rated is None else peak / self.torque_rated

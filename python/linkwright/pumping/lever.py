@@ -13,7 +13,7 @@ from linkwright.linkages.closure import require_full_turn
 from linkwright.linkages.kinematics import motion_arrays
 from linkwright.linkages.model.mechanism import Mechanism
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import Compiled, compile_machine
+from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.pumping.model.rod_rotator import LEVER, LINK, PIN, Lengths, RodRotator, lengths
 from linkwright.pumping.model.unit import ROD, PumpingUnit
 from linkwright.pumping.unit import PolishedRod, turn_extreme
@@ -48,7 +48,7 @@ class LeverMotion:
 class Lever:
     """Link and lever of a rotator as functions of the crank angle."""
 
-    compiled: Compiled  # unit and rotator alone
+    compiled: CompiledMachine  # unit and rotator alone
     lengths: Lengths  # l_4 and l_5 [m]
 
     @classmethod

@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.linkages.closure import turn_angles
 from linkwright.machine.machine import Machine
@@ -63,25 +63,25 @@ _FINDINGS = "Requirements of the regime that the lever does not meet: full rotat
 class RodRotatorMotion(Result):
     """Motion of a rotator over one revolution of the crank."""
 
-    crank_angle: Annotated[Floats, Shown("crank angle", "φ", "rad", "As in `PumpingUnitMotion`.")]
+    crank_angle: Annotated[Floats, Label("crank angle", "φ", "rad", "As in `PumpingUnitMotion`.")]
     link_angle: Annotated[
-        Floats, Shown("angle of the link", "φ_4", "rad", "From the beam's pin to the joint; continuous.")
+        Floats, Label("angle of the link", "φ_4", "rad", "From the beam's pin to the joint; continuous.")
     ]
     lever_angle: Annotated[
-        Floats, Shown("angle of the lever", "φ_5", "rad", "From the hanger to the joint; continuous.")
+        Floats, Label("angle of the lever", "φ_5", "rad", "From the hanger to the joint; continuous.")
     ]
-    link_transfer: Annotated[Floats, Shown("transfer function of the link", "φ_4′", "", "dφ_4/dφ_1.")]
-    lever_transfer: Annotated[Floats, Shown("transfer function of the lever", "φ_5′", "", "dφ_5/dφ_1.")]
-    link_transfer_d1: Annotated[Floats, Shown("second transfer function of the link", "φ_4″", "")]
-    lever_transfer_d1: Annotated[Floats, Shown("second transfer function of the lever", "φ_5″", "")]
-    diagonal: Annotated[Floats, Shown("distance from pin to hanger", "l_d", "m", "Of the beam's pin.")]
-    link_arm: Annotated[Floats, Shown("arm of the link about the hanger", "", "m", "Of the link's force.")]
+    link_transfer: Annotated[Floats, Label("transfer function of the link", "φ_4′", "", "dφ_4/dφ_1.")]
+    lever_transfer: Annotated[Floats, Label("transfer function of the lever", "φ_5′", "", "dφ_5/dφ_1.")]
+    link_transfer_d1: Annotated[Floats, Label("second transfer function of the link", "φ_4″", "")]
+    lever_transfer_d1: Annotated[Floats, Label("second transfer function of the lever", "φ_5″", "")]
+    diagonal: Annotated[Floats, Label("distance from pin to hanger", "l_d", "m", "Of the beam's pin.")]
+    link_arm: Annotated[Floats, Label("arm of the link about the hanger", "", "m", "Of the link's force.")]
     regime: Annotated[str, About('``"continuous"`` or ``"intermittent"``, as described.')]
-    link_length: Annotated[float, Shown("length of the link", "l_4", "m", table="rotator")]
-    lever_length: Annotated[float, Shown("length of the lever", "l_5", "m", table="rotator")]
+    link_length: Annotated[float, Label("length of the link", "l_4", "m", table="rotator")]
+    lever_length: Annotated[float, Label("length of the lever", "l_5", "m", table="rotator")]
     lever_turns_per_cycle: Annotated[
         float,
-        Shown(
+        Label(
             "revolutions of the lever per revolution of the crank",
             "",
             "",
@@ -91,7 +91,7 @@ class RodRotatorMotion(Result):
     ]
     lever_swing: Annotated[
         float,
-        Shown(
+        Label(
             "range of the lever's angle",
             "",
             "rad",
@@ -100,23 +100,23 @@ class RodRotatorMotion(Result):
         ),
     ]
     transfer_min: Annotated[
-        float, Shown("minimum transfer function of the lever", "min φ_5′", "", table="rotator")
+        float, Label("minimum transfer function of the lever", "min φ_5′", "", table="rotator")
     ]
     transfer_max: Annotated[
-        float, Shown("maximum transfer function of the lever", "max φ_5′", "", table="rotator")
+        float, Label("maximum transfer function of the lever", "max φ_5′", "", table="rotator")
     ]
-    diagonal_min: Annotated[float, Shown("minimum distance from pin to hanger", "min l_d", "m")]
-    diagonal_max: Annotated[float, Shown("maximum distance from pin to hanger", "max l_d", "m")]
+    diagonal_min: Annotated[float, Label("minimum distance from pin to hanger", "min l_d", "m")]
+    diagonal_max: Annotated[float, Label("maximum distance from pin to hanger", "max l_d", "m")]
     extremes_coincide: Annotated[bool, About(_EXTREMES_COINCIDE)]
     change_points: Annotated[tuple[float, ...], About("Crank angles where link and lever are in line [rad].")]
     loop_residual: Annotated[
-        float, Shown("maximum gap in the loop over the longest link", "", "", "Of equation (8).")
+        float, Label("maximum gap in the loop over the longest link", "", "", "Of equation (8).")
     ]
     verdict: Annotated[str, About("Why the lever turns, rocks, or does not close.")]
     findings: Annotated[tuple[str, ...], About(_FINDINGS)]
     worm_turns_per_cycle: Annotated[
         float,
-        Shown(
+        Label(
             "revolutions of the worm per revolution of the crank",
             "",
             "",
@@ -124,33 +124,33 @@ class RodRotatorMotion(Result):
             table="rotator",
         ),
     ]
-    speed: Annotated[float | None, Shown("design speed of the crank", "ω", "rad/s")]
-    lever_speed: Annotated[Floats | None, Shown("speed of the lever", "ω_5", "rad/s", "At that speed.")]
+    speed: Annotated[float | None, Label("design speed of the crank", "ω", "rad/s")]
+    lever_speed: Annotated[Floats | None, Label("speed of the lever", "ω_5", "rad/s", "At that speed.")]
     lever_acceleration: Annotated[
-        Floats | None, Shown("acceleration of the lever", "ε_5", "rad/s²", "At that speed.")
+        Floats | None, Label("acceleration of the lever", "ε_5", "rad/s²", "At that speed.")
     ]
     string_speed: Annotated[
-        Floats | None, Shown("speed of the rod string", "ω_s", "rad/s", "Zero while the clutch slips.")
+        Floats | None, Label("speed of the rod string", "ω_s", "rad/s", "Zero while the clutch slips.")
     ]
     string_acceleration: Annotated[
         Floats | None,
-        Shown("acceleration of the rod string", "ε_s", "rad/s²", "Zero while the clutch slips."),
+        Label("acceleration of the rod string", "ε_s", "rad/s²", "Zero while the clutch slips."),
     ]
     string_turn_days: Annotated[
-        float | None, Shown("days per revolution of the rod string", "", "", table="rotator")
+        float | None, Label("days per revolution of the rod string", "", "", table="rotator")
     ]
-    string_turns_per_day: Annotated[float | None, Shown("revolutions of the rod string in a day", "", "")]
+    string_turns_per_day: Annotated[float | None, Label("revolutions of the rod string in a day", "", "")]
     worm_torque: Annotated[
         float | None,
-        Shown("torque at the worm", "M_w", "N m", "That turns the string, quasi-static.", table="rotator"),
+        Label("torque at the worm", "M_w", "N m", "That turns the string, quasi-static.", table="rotator"),
     ]
     link_force: Annotated[
         Floats | None,
-        Shown("force in the link", "F_4", "N", "Positive in tension; infinite at change points."),
+        Label("force in the link", "F_4", "N", "Positive in tension; infinite at change points."),
     ]
     link_force_max: Annotated[
         float | None,
-        Shown(
+        Label(
             "maximum force in the link",
             "F_4,max",
             "N",

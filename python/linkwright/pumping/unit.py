@@ -18,13 +18,13 @@ from numpy.typing import NDArray
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.linkages.closure import require_full_turn, turn_angles
 from linkwright.linkages.kinematics import motion_arrays
 from linkwright.linkages.model.mechanism import Mechanism
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import Compiled, compile_machine
+from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.pumping.gear_torque import GearTorque, gear_torque
 from linkwright.pumping.model.unit import BEAM_LINK, PumpingUnit
 
@@ -41,30 +41,30 @@ _CRANK_ANGLE = "0 to 2π, by API: from 12 o'clock (class III: 6 o'clock) in the 
 class PumpingUnitMotion(Result):
     """Motion of the polished rod over one revolution of the crank."""
 
-    crank_angle: Annotated[Floats, Shown("crank angle", "φ", "rad", _CRANK_ANGLE)]
+    crank_angle: Annotated[Floats, Label("crank angle", "φ", "rad", _CRANK_ANGLE)]
     rod_position: Annotated[
-        Floats, Shown("position of rods", "PR", "", "Rise of the polished rod over the stroke.")
+        Floats, Label("position of rods", "PR", "", "Rise of the polished rod over the stroke.")
     ]
     rod_travel: Annotated[
-        Floats, Shown("rise of the polished rod", "s", "m", "Above the bottom of the stroke.")
+        Floats, Label("rise of the polished rod", "s", "m", "Above the bottom of the stroke.")
     ]
-    torque_factor: Annotated[Floats, Shown("torque factor", "TF", "m", "dS/dθ, positive on the upstroke.")]
-    torque_factor_d1: Annotated[Floats, Shown("derivative of the torque factor", "TF′", "m/rad²")]
-    stroke: Annotated[float, Shown("stroke of the polished rod", "S", "m", "Exact.", table="pumping_unit")]
+    torque_factor: Annotated[Floats, Label("torque factor", "TF", "m", "dS/dθ, positive on the upstroke.")]
+    torque_factor_d1: Annotated[Floats, Label("derivative of the torque factor", "TF′", "m/rad²")]
+    stroke: Annotated[float, Label("stroke of the polished rod", "S", "m", "Exact.", table="pumping_unit")]
     stroke_nominal: Annotated[
-        float | None, Shown("stroke by the designation", "S_n", "m", table="pumping_unit")
+        float | None, Label("stroke by the designation", "S_n", "m", table="pumping_unit")
     ]
     torque_factor_max: Annotated[
-        float, Shown("maximum torque factor, upstroke", "max TF", "m", table="pumping_unit")
+        float, Label("maximum torque factor, upstroke", "max TF", "m", table="pumping_unit")
     ]
     torque_factor_min: Annotated[
-        float, Shown("minimum torque factor, downstroke", "min TF", "m", table="pumping_unit")
+        float, Label("minimum torque factor, downstroke", "min TF", "m", table="pumping_unit")
     ]
-    torque_factor_max_angle: Annotated[float, Shown("crank angle of the maximum torque factor", "", "rad")]
-    torque_factor_min_angle: Annotated[float, Shown("crank angle of the minimum torque factor", "", "rad")]
+    torque_factor_max_angle: Annotated[float, Label("crank angle of the maximum torque factor", "", "rad")]
+    torque_factor_min_angle: Annotated[float, Label("crank angle of the minimum torque factor", "", "rad")]
     bottom_angle: Annotated[
         float,
-        Shown(
+        Label(
             "bottom of the stroke",
             "θ_b",
             "rad",
@@ -75,7 +75,7 @@ class PumpingUnitMotion(Result):
     ]
     top_angle: Annotated[
         float,
-        Shown(
+        Label(
             "top of the stroke",
             "θ_t",
             "rad",
@@ -84,10 +84,10 @@ class PumpingUnitMotion(Result):
             before="torque_factor_max",
         ),
     ]
-    upstroke_angle: Annotated[float, Shown("angle of the upstroke", "θ_u", "rad", "That the crank turns.")]
+    upstroke_angle: Annotated[float, Label("angle of the upstroke", "θ_u", "rad", "That the crank turns.")]
     stroke_ratio: Annotated[
         float,
-        Shown(
+        Label(
             "angle of the upstroke over the downstroke",
             "",
             "",
@@ -97,24 +97,24 @@ class PumpingUnitMotion(Result):
     ]
     torque_factors: Annotated[tuple[float, ...], About("`torque_factor` [m] at 0°, 15°, …, 345°.")]
     rod_positions: Annotated[tuple[float, ...], About("`rod_position` [–] at the same angles.")]
-    speed: Annotated[float | None, Shown("design speed of the crank", "ω", "rad/s")]
+    speed: Annotated[float | None, Label("design speed of the crank", "ω", "rad/s")]
     rod_velocity: Annotated[
-        Floats | None, Shown("velocity of the polished rod", "v", "m/s", "Upward, at that speed.")
+        Floats | None, Label("velocity of the polished rod", "v", "m/s", "Upward, at that speed.")
     ]
     rod_acceleration: Annotated[
-        Floats | None, Shown("acceleration of the polished rod", "a", "m/s²", "Upward, at that speed.")
+        Floats | None, Label("acceleration of the polished rod", "a", "m/s²", "Upward, at that speed.")
     ]
     rod_velocity_max: Annotated[
-        float | None, Shown("maximum velocity, upward", "v_max", "m/s", table="pumping_unit")
+        float | None, Label("maximum velocity, upward", "v_max", "m/s", table="pumping_unit")
     ]
     rod_velocity_min: Annotated[
-        float | None, Shown("maximum velocity, downward", "v_min", "m/s", table="pumping_unit")
+        float | None, Label("maximum velocity, downward", "v_min", "m/s", table="pumping_unit")
     ]
     rod_acceleration_max: Annotated[
-        float | None, Shown("maximum acceleration, upward", "a_max", "m/s²", table="pumping_unit")
+        float | None, Label("maximum acceleration, upward", "a_max", "m/s²", table="pumping_unit")
     ]
     rod_acceleration_min: Annotated[
-        float | None, Shown("maximum acceleration, downward", "a_min", "m/s²", table="pumping_unit")
+        float | None, Label("maximum acceleration, downward", "a_min", "m/s²", table="pumping_unit")
     ]
     gear: Annotated[GearTorque | None, About("Torque of the gearbox, where a load is given.")]
 
@@ -203,7 +203,7 @@ def _acceleration(rod: PolishedRod, speed: float | None, sign: int) -> float | N
 class PolishedRod:
     """The polished rod of a unit as a function of the crank angle."""
 
-    compiled: Compiled  # the unit alone
+    compiled: CompiledMachine  # the unit alone
     unit: PumpingUnit
     stroke: float  # [m]
     # bottom, top: crank angles at the ends of the stroke, 0 to 2π [rad].

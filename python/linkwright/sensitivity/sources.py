@@ -19,7 +19,7 @@ from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.steady_state import SteadyState
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.numerics.tangent import Tangent
-from linkwright.kernel.quantities import Shown, declared, shown
+from linkwright.kernel.quantities import Label, declared, shown
 from linkwright.machine.machine import Machine
 from linkwright.machine.tangents import directions
 
@@ -61,7 +61,7 @@ def _steady(machine: Machine, variables: Sequence[str]) -> Source:
     """Scalars of steady motion."""
     program = directions(machine, variables)
     steady = steady_tangents(machine, program.values)
-    listed = [name for name, (_, mark) in declared(SteadyState).items() if isinstance(mark, Shown)]
+    listed = [name for name, (_, mark) in declared(SteadyState).items() if isinstance(mark, Label)]
     values = {name: getattr(steady.state, name) for name in listed}
     tangents = {name: value for name, value in values.items() if isinstance(value, Tangent)}
     marks = {name: shown(SteadyState, name) for name in tangents}

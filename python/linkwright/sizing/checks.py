@@ -27,7 +27,7 @@ from linkwright.drive.reduction import reduction_of
 from linkwright.drive.run_up import RunUp, run_up
 from linkwright.drive.steady_state import SteadyState, steady_state
 from linkwright.kernel.errors import FindingError
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record
 from linkwright.linkages.closure import turn_angles
 from linkwright.machine.machine import Machine
@@ -74,7 +74,7 @@ class Check(Record):
     note: Annotated[str, About("Why it is not determined, what it rests on, or how it failed.")] = ""
 
     @property
-    def utilisation(self) -> Annotated[float | None, Shown("utilisation", "", "")]:
+    def utilisation(self) -> Annotated[float | None, Label("utilisation", "", "")]:
         """Share of what is allowed that is used; above 1 the check fails."""
         if self.value is None or self.limit is None or not self.value > 0 or not self.limit > 0:
             return None

@@ -213,10 +213,10 @@ def _checks_table(title: str, checks: Sequence[Check]) -> Grid:
     for check in checks:
         sign = "" if check.limit is None else "≤" if check.at_most else "≥"
         unit, factor = reader().shown(check.unit)
-        found, limit = (
+        reached, limit = (
             _number(None if value is None else value / factor) for value in (check.value, check.limit)
         )
-        row = (check.name.replace("_", " "), found, sign, limit, unit)
+        row = (check.name.replace("_", " "), reached, sign, limit, unit)
         table.add_row(*row, styled(marks[check.passed]), check.note)
     return table
 

@@ -30,12 +30,12 @@ from linkwright.kernel.errors import ConvergenceError, FindingError, InputError,
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import RATIO, Bound, Quantity
 from linkwright.linkages.closure import turn_angles
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import Compiled, compile_machine
+from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.drive_line import drive_inertia
 from linkwright.sizing.motor_change import with_flywheel
 
@@ -67,18 +67,18 @@ class FlywheelChoice(Result):
     """A flywheel on the crankshaft."""
 
     inertia: Annotated[
-        float, Shown("moment of inertia of the flywheel", "J_f", "kg m²", "Zero if none is needed.")
+        float, Label("moment of inertia of the flywheel", "J_f", "kg m²", "Zero if none is needed.")
     ]
-    unevenness_wanted: Annotated[float, Shown("required coefficient of speed fluctuation", "", "")]
+    unevenness_wanted: Annotated[float, Label("required coefficient of speed fluctuation", "", "")]
     unevenness: Annotated[
         float,
-        Shown(
+        Label(
             "coefficient of speed fluctuation", "δ", "", "Of the machine with the flywheel, analysed again."
         ),
     ]
     unevenness_without: Annotated[
         float | None,
-        Shown(
+        Label(
             "coefficient of speed fluctuation without any flywheel",
             "",
             "",
@@ -86,17 +86,17 @@ class FlywheelChoice(Result):
         ),
     ]
     inertia_estimate: Annotated[
-        float, Shown("moment of inertia by the classical estimate", "", "kg m²", "Not below zero.")
+        float, Label("moment of inertia by the classical estimate", "", "kg m²", "Not below zero.")
     ]
-    excess_work: Annotated[float, Shown("largest excess of work per revolution", "", "J", "Of the estimate.")]
+    excess_work: Annotated[float, Label("largest excess of work per revolution", "", "J", "Of the estimate.")]
     run_up_time: Annotated[
-        float | None, Shown("time of the run-up", "", "s", "None if the machine does not run up.")
+        float | None, Label("time of the run-up", "", "s", "None if the machine does not run up.")
     ]
     run_up_time_without: Annotated[
         float | None,
-        Shown("time of the run-up without the flywheel", "", "s", "None if the machine does not run up."),
+        Label("time of the run-up without the flywheel", "", "s", "None if the machine does not run up."),
     ]
-    iterations: Annotated[int, Shown("steady motions that were solved", "", "")]
+    iterations: Annotated[int, Label("steady motions that were solved", "", "")]
     warnings: Annotated[tuple[str, ...], About("Cautions.")]
     machine: Annotated[Machine, About("The machine with it.")]
     steady: Annotated[SteadyState, About("Its steady motion.")]
@@ -194,7 +194,7 @@ def constant_inertia(machine: Machine) -> float:
     return total
 
 
-def _load_and_inertia(compiled: Compiled, phi: Floats, omega: float) -> Floats:
+def _load_and_inertia(compiled: CompiledMachine, phi: Floats, omega: float) -> Floats:
     """Load torque at a speed, and reduced inertia, (2, n)."""
     at = compiled.reductions(phi)
     M_r = at.load + at.dry + at.viscous * omega + compiled.law_torques(phi, omega)[0]

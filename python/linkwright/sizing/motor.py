@@ -14,7 +14,7 @@ from linkwright.drive.steady_state import SteadyState
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record
 from linkwright.kernel.units import INERTIA, RATIO, not_negative, positive
 from linkwright.machine.machine import Machine
@@ -39,12 +39,12 @@ class Candidate(Record):
 
     type: Annotated[str, About("Name in the catalogue.")]
     known: Annotated[CatalogueMotor, About("What the catalogue gives.")]
-    ratio: Annotated[float, Shown("ratio of the gearbox", "", "", "Of the one it would have.")]
-    inertia: Annotated[float, Shown("inertia of the rotor", "", "kg m²")]
+    ratio: Annotated[float, Label("ratio of the gearbox", "", "", "Of the one it would have.")]
+    inertia: Annotated[float, Label("inertia of the rotor", "", "kg m²")]
     inertia_estimated: Annotated[bool, About("Whether that is an estimate.")]
     flywheel: Annotated[
         float | None,
-        Shown(
+        Label(
             "inertia of the flywheel", "", "kg m²", "That it was judged with; None if none was sized for it."
         ),
     ]
@@ -74,7 +74,7 @@ class Candidate(Record):
         return "; ".join(check.words for check in self.failed)
 
     @property
-    def worst(self) -> Annotated[float, Shown("maximum utilisation", "", "")]:
+    def worst(self) -> Annotated[float, Label("maximum utilisation", "", "")]:
         """Among the decisive checks; infinite where one has no number."""
         shares = [check.utilisation for check in self.failed]
         return max((float("inf") if share is None else share for share in shares), default=0.0)
@@ -105,7 +105,7 @@ class MotorChoice(Record):
     """The choice of a motor."""
 
     required: Annotated[RequiredPower, About("The power that the loads take.")]
-    reserve: Annotated[float, Shown("rated power over required power", "", "", "That was asked for.")]
+    reserve: Annotated[float, Label("rated power over required power", "", "", "That was asked for.")]
     by: Annotated[By, About('``"all"`` checks, ``"fixed-start"``, or ``"power"`` and start alone.')]
     candidates: Annotated[
         tuple[Candidate, ...],

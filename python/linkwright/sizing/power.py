@@ -15,7 +15,7 @@ import numpy as np
 from linkwright.drive.reduction import mean_laws, mean_over_turn
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.linkages.closure import require_full_turn, require_one_turn
 from linkwright.machine.machine import Machine
@@ -28,7 +28,7 @@ class RequiredPower(Result):
 
     power: Annotated[
         float,
-        Shown(
+        Label(
             "power that the loads take at the motor's shaft",
             "P",
             "W",
@@ -37,15 +37,15 @@ class RequiredPower(Result):
     ]
     torque_load_mean: Annotated[
         float,
-        Shown(
+        Label(
             "mean load torque",
             "M_r,mean",
             "N m",
             "Over the crank angle at that speed, viscous and speed loads included.",
         ),
     ]
-    speed: Annotated[float, Shown("design speed of the crank", "ω", "rad/s")]
-    efficiency: Annotated[float, Shown("efficiency of the gearbox", "η", "")]
+    speed: Annotated[float, Label("design speed of the crank", "ω", "rad/s")]
+    efficiency: Annotated[float, Label("efficiency of the gearbox", "η", "")]
     formula: Annotated[str, About("What was computed.")] = "P = M_load_mean · ω / η"
     source: Annotated[str, About("Where it is from.")] = (
         "paper 1, required power before the choice of the motor"

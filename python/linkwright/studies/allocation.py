@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 
 from linkwright.kernel.errors import ConvergenceError, FindingError, InputError
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.machine.address import get
 from linkwright.studies import sampling
@@ -58,14 +58,14 @@ class Allocation(Result):
         dict[str, tuple[float, float]], About("Variable → limits about the value of the machine [SI].")
     ]
     factors: Annotated[dict[str, float], About("Variable → how many times as wide as in the study.")]
-    cost: Annotated[float, Shown("cost of the tolerances", "", "")]
-    cost_before: Annotated[float, Shown("cost of the tolerances of the study", "", "")]
-    share_within: Annotated[float, Shown("yield", "", "")]
-    share_low: Annotated[float, Shown("lower end of the interval of the yield", "", "")]
-    share_high: Annotated[float, Shown("upper end of the interval of the yield", "", "")]
-    share_before: Annotated[float, Shown("yield of the tolerances of the study", "", "")]
+    cost: Annotated[float, Label("cost of the tolerances", "", "")]
+    cost_before: Annotated[float, Label("cost of the tolerances of the study", "", "")]
+    share_within: Annotated[float, Label("yield", "", "")]
+    share_low: Annotated[float, Label("lower end of the interval of the yield", "", "")]
+    share_high: Annotated[float, Label("upper end of the interval of the yield", "", "")]
+    share_before: Annotated[float, Label("yield of the tolerances of the study", "", "")]
     active: Annotated[tuple[str, ...], About("Limits that hold the tolerances down.")]
-    n_rows: Annotated[int, Shown("machines drawn for each yield", "", "")]
+    n_rows: Annotated[int, Label("machines drawn for each yield", "", "")]
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Numbers and tables by name, ready for JSON; `curves` is without effect."""
@@ -126,7 +126,7 @@ def allocate(
         is_enough = yield_at(problem.factors(middle))["share_within"] >= wanted
         low, high = (low, middle) if is_enough else (middle, high)
     factors = problem.factors(high)
-    found, before = yield_at(factors), yield_at(np.ones(len(factors)))
+    after, before = yield_at(factors), yield_at(np.ones(len(factors)))
     names = [axis.name for axis in plan.axes]
     widened = dict(zip(names, map(_widened, plan.axes, factors), strict=True))
     return Allocation(
@@ -134,9 +134,9 @@ def allocate(
         factors={name: float(factors[names.index(name)]) for name in problem.names},
         cost=problem.cost(factors),
         cost_before=problem.cost(np.ones(len(factors))),
-        share_within=found["share_within"],
-        share_low=found["share_low"],
-        share_high=found["share_high"],
+        share_within=after["share_within"],
+        share_low=after["share_low"],
+        share_high=after["share_high"],
         share_before=before["share_within"],
         active=problem.active(factors, high),
         n_rows=rows,

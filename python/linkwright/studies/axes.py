@@ -94,8 +94,8 @@ class Axis:
         if self.distribution is not None:
             return _scattered(*self.distribution, self.low, self.high, shares)
         if self.is_whole:
-            whole: Floats = np.minimum(self.low + np.floor(shares * (self.high - self.low + 1)), self.high)
-            return whole
+            numbers: Floats = np.minimum(self.low + np.floor(shares * (self.high - self.low + 1)), self.high)
+            return numbers
         if self.is_log:
             # Both ends are met exactly.
             powers = np.log(self.low) * (1 - shares) + np.log(self.high) * shares
@@ -111,28 +111,28 @@ def axis(machine: Machine, name: str, variable: Variable) -> Axis:
     possible there.
     """
     units = [_kind(machine, name, address) for address in variable.address]
-    found = units[0]
-    if any(unit is not None and found is not None and unit.unit != found.unit for unit in units):
+    kind = units[0]
+    if any(unit is not None and kind is not None and unit.unit != kind.unit for unit in units):
         words = " and ".join(unit.word for unit in units if unit is not None)
         raise _problem(name, "address", words, "entries of one quantity")
-    known: dict[str, Any] = {"name": name, "addresses": variable.address, "unit": found.unit if found else ""}
+    known: dict[str, Any] = {"name": name, "addresses": variable.address, "unit": kind.unit if kind else ""}
     if variable.values is not None:
-        return Axis(**known, choices=_choices(machine, name, variable, found))
-    if found is None:
+        return Axis(**known, choices=_choices(machine, name, variable, kind))
+    if kind is None:
         place = show(variable.address[0])
         raise _problem(
             name, "address", f"{place}, which is no number", "values, for an entry without numbers"
         )
     if variable.tolerance is not None:
-        low, high = _toleranced(name, get(machine, variable.address[0]), variable.tolerance, found)
+        low, high = _toleranced(name, get(machine, variable.address[0]), variable.tolerance, kind)
         scatter = ("normal", 0.5 * (low + high), (high - low) / _SPREAD)
         return Axis(**known, low=low, high=high, steps=variable.steps or 0, distribution=scatter)
     if variable.distribution is not None:
-        scatter, low, high = _scatter(name, variable.distribution, found)
+        scatter, low, high = _scatter(name, variable.distribution, kind)
         return Axis(**known, low=low, high=high, steps=variable.steps or 0, distribution=scatter)
     if variable.range is None:
         return Axis(**known, low=-math.inf, high=math.inf)
-    low, high = (_parsed(name, f"range.{i}", value, found) for i, value in enumerate(variable.range))
+    low, high = (_parsed(name, f"range.{i}", value, kind) for i, value in enumerate(variable.range))
     _check_range(name, variable, low, high)
     return Axis(
         **known,
@@ -192,12 +192,12 @@ def _toleranced(name: str, value: object, text: str, kind: Kind) -> tuple[float,
     """Limits of an entry by the text of its tolerance."""
     if not isinstance(value, int | float):
         raise _problem(name, "tolerance", "an entry without a value", "an entry that the machine has")
-    plain = text.replace("−", "-")
-    if code := iso286.CODE.fullmatch(plain):
+    stripped = text.replace("−", "-")
+    if code := iso286.CODE.fullmatch(stripped):
         return _coded(name, float(value), text, code, kind)
-    if match := _EVEN.fullmatch(plain):
+    if match := _EVEN.fullmatch(stripped):
         parts, unit = [f"-{match[1]}", match[1]], match[2]
-    elif match := _UNEVEN.fullmatch(plain):
+    elif match := _UNEVEN.fullmatch(stripped):
         parts, unit = [match[1].replace(" ", ""), match[2].replace(" ", "")], match[3]
     else:
         raise _problem(name, "tolerance", show(text), 'such as "± 0.2 mm", "+0.1 -0.3 mm" or "25 H7"')

@@ -24,7 +24,7 @@ from linkwright.machine.address import get, replace
 from linkwright.machine.machine import Machine
 from linkwright.machine.overrides import Override, apply
 from linkwright.studies.plan import Formula, StudyPlan
-from linkwright.studies.responses import MOTION, SAMPLES, Asked, analysis, taken
+from linkwright.studies.responses import MOTION, SAMPLES, StudyResponse, analysis, taken
 
 Floats = NDArray[np.float64]
 
@@ -181,7 +181,11 @@ def _with_first(machine: Machine, entries: Mapping[str, Floats]) -> dict[str, Fl
 
 
 def _steady(
-    machine: Machine, entries: dict[str, Floats], wanted: list[Asked], rows: Rows, members: NDArray[np.intp]
+    machine: Machine,
+    entries: dict[str, Floats],
+    wanted: list[StudyResponse],
+    rows: Rows,
+    members: NDArray[np.intp],
 ) -> None:
     """Steady motion of all rows at once."""
     states = steady_states(machine, _with_first(machine, entries))
@@ -193,7 +197,11 @@ def _steady(
 
 
 def _motion(
-    machine: Machine, entries: dict[str, Floats], wanted: list[Asked], rows: Rows, members: NDArray[np.intp]
+    machine: Machine,
+    entries: dict[str, Floats],
+    wanted: list[StudyResponse],
+    rows: Rows,
+    members: NDArray[np.intp],
 ) -> None:
     """Points of all rows at once."""
     machines = replace(machine, _with_first(machine, entries))
@@ -208,7 +216,11 @@ def _motion(
 
 
 def _one_by_one(
-    machine: Machine, entries: dict[str, Floats], wanted: list[Asked], rows: Rows, members: NDArray[np.intp]
+    machine: Machine,
+    entries: dict[str, Floats],
+    wanted: list[StudyResponse],
+    rows: Rows,
+    members: NDArray[np.intp],
 ) -> None:
     """Analyses of each row by itself."""
     for nth, row in enumerate(members):
@@ -230,7 +242,7 @@ def sound_variant(machine: Machine, entries: Mapping[str, float]) -> Machine:
     return Machine.model_validate(changed.model_dump(by_alias=True, exclude_unset=True))
 
 
-def numbers(machine: Machine, wanted: list[Asked]) -> list[float]:
+def numbers(machine: Machine, wanted: list[StudyResponse]) -> list[float]:
     """Responses of one machine; an analysis is made once for all that share it.
 
     Raises `FindingError` if the machine cannot do it, `InputError` if an analysis needs what it does not
@@ -248,7 +260,7 @@ def numbers(machine: Machine, wanted: list[Asked]) -> list[float]:
     return answers
 
 
-def _place(machine: Machine, asked: Asked) -> float:
+def _place(machine: Machine, asked: StudyResponse) -> float:
     """A number of the motion of a point of one machine."""
     turn = np.linspace(0.0, 2 * np.pi, SAMPLES, endpoint=False)
     angles = turn if asked.at is None else np.array([asked.at])

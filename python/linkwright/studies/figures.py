@@ -33,7 +33,7 @@ _PANELS = 7
 
 
 @dataclass(frozen=True)
-class Shown:
+class StudyRows:
     """Rows to be drawn.
 
     Attributes
@@ -56,7 +56,7 @@ class Shown:
 
 
 @styled
-def curve_figure(shown: Shown) -> Figure:
+def curve_figure(shown: StudyRows) -> Figure:
     """Draw every response over the one variable."""
     figure, axes = panels(len(shown.responses), height=1.0 + 1.9 * len(shown.responses))
     name = shown.variables[0]
@@ -72,7 +72,7 @@ def curve_figure(shown: Shown) -> Figure:
 
 
 @styled
-def map_figure(shown: Shown, response: str) -> Figure:
+def map_figure(shown: StudyRows, response: str) -> Figure:
     """Draw a response over two variables as colours and contours, with its minimum and maximum."""
     figure, (panel,) = panels(1, height=4.6)
     first, second = shown.variables
@@ -97,7 +97,7 @@ def map_figure(shown: Shown, response: str) -> Figure:
 
 
 @styled
-def scatter_figure(shown: Shown) -> Figure:
+def scatter_figure(shown: StudyRows) -> Figure:
     """Draw each column over each other one, and the distribution of each on the diagonal."""
     names = _chosen(shown)
     size = max(WIDTH, 1.25 * len(names))
@@ -122,7 +122,7 @@ def scatter_figure(shown: Shown) -> Figure:
 
 
 @styled
-def parallel_figure(shown: Shown) -> Figure:
+def parallel_figure(shown: StudyRows) -> Figure:
     """Draw each row as a line across all columns, coloured by its rank in the last response."""
     from matplotlib import colormaps
     from matplotlib.collections import LineCollection
@@ -149,7 +149,7 @@ def parallel_figure(shown: Shown) -> Figure:
     return figure
 
 
-def figures(shown: Shown) -> dict[str, Figure]:
+def figures(shown: StudyRows) -> dict[str, Figure]:
     """The pictures that suit the rows: a curve of one variable, maps of a grid of two, else two overviews."""
     if len(shown.variables) == 1:
         return {"curve": curve_figure(shown)}
@@ -160,7 +160,7 @@ def figures(shown: Shown) -> dict[str, Figure]:
     return {"scatter": scatter_figure(shown), "parallel": parallel_figure(shown)}
 
 
-def _chosen(shown: Shown) -> Sequence[str]:
+def _chosen(shown: StudyRows) -> Sequence[str]:
     """Columns for a matrix: responses in any case, and as many variables as fit."""
     responses = shown.responses[: _PANELS - 1]
     return (*shown.variables[: _PANELS - len(responses)], *responses)

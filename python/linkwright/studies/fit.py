@@ -25,13 +25,13 @@ from numpy.typing import NDArray
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.numerics.confidence import coverage_factor
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.studies.fit_search import STEP, begun, solved
 from linkwright.studies.identifiability import Direction, covariance, singular_directions
 from linkwright.studies.plan import StudyPlan
-from linkwright.studies.predicted import Predicted
+from linkwright.studies.predicted import RecordModel
 from linkwright.studies.record import MeasuredRecord
 from linkwright.studies.sought import Number
 
@@ -67,7 +67,7 @@ class Fit(Result):
     intervals: Annotated[
         dict[str, tuple[float, float]], About("Number → its confidence interval [SI], likewise.")
     ]
-    level: Annotated[float, Shown("confidence level", "", "")]
+    level: Annotated[float, Label("confidence level", "", "")]
     correlations: Annotated[dict[str, dict[str, float]], About("Number → its correlation with each number.")]
     noise: Annotated[dict[str, float], About("Channel → standard deviation of what is left over [SI].")]
     directions: Annotated[
@@ -76,10 +76,10 @@ class Fit(Result):
     at_limits: Annotated[tuple[str, ...], About("Numbers that are at the end of their range.")]
     warnings: Annotated[tuple[str, ...], About("Why intervals may be wrong, in sentences.")]
     jacobian_error: Annotated[
-        float, Shown("error of the derivatives", "", "", "Relative, as measured; 0 for exact ones.")
+        float, Label("error of the derivatives", "", "", "Relative, as measured; 0 for exact ones.")
     ]
-    freedom: Annotated[int, Shown("degrees of freedom", "ν", "")]
-    n_evaluations: Annotated[int, Shown("motions that were computed", "", "")]
+    freedom: Annotated[int, Label("degrees of freedom", "ν", "")]
+    n_evaluations: Annotated[int, Label("motions that were computed", "", "")]
     reasons: Annotated[dict[str, int], About("Why trials of the search had no answer → how many.")]
 
     @property
@@ -152,7 +152,7 @@ def fit(plan: StudyPlan, record: MeasuredRecord, *, level: float = 0.95) -> Fit:
             f"record: found {record.size} values, expected more than the {len(model.numbers)} numbers"
         )
     x, noise = solved(model, starts)
-    return _Judged(model, x, noise, level).fit()
+    return _FitJudgement(model, x, noise, level).fit()
 
 
 def _rescaled(number: Number, value: float) -> Number:
@@ -161,10 +161,10 @@ def _rescaled(number: Number, value: float) -> Number:
     return replace(number, start=value, scale=abs(value) if is_own else number.scale)
 
 
-class _Judged:
+class _FitJudgement:
     """What is known of numbers that were found."""
 
-    def __init__(self, model: Predicted, x: Floats, noise: Floats, level: float) -> None:
+    def __init__(self, model: RecordModel, x: Floats, noise: Floats, level: float) -> None:
         self.model, self.x, self.noise, self.level = model, x, noise, level
         self.numbers = tuple(map(_rescaled, model.numbers, x.tolist()))
         self.scale = np.array([number.scale for number in self.numbers])

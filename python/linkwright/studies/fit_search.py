@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from linkwright.kernel.errors import ConvergenceError
 from linkwright.studies.model import FitOptions
 from linkwright.studies.plan import StudyPlan
-from linkwright.studies.predicted import Predicted
+from linkwright.studies.predicted import RecordModel
 from linkwright.studies.record import MeasuredRecord
 from linkwright.studies.sought import numbers_of_record
 
@@ -27,13 +27,13 @@ _ANGLES, _VALLEYS, _SAME, _ROUNDED = 24, 3, 1e-9, 1e-16
 _ROUNDS, _SETTLED = 30, 1e-4
 
 
-def begun(plan: StudyPlan, record: MeasuredRecord) -> tuple[Predicted, list[Floats]]:
+def begun(plan: StudyPlan, record: MeasuredRecord) -> tuple[RecordModel, list[Floats]]:
     """The motion, and where the search begins: an unknown crank angle at the start has several valleys.
 
     It is left out where nothing depends on it.
     """
     options, own = numbers_of_record(plan, record, plan.study.fit or FitOptions())
-    model = Predicted(plan, record, options, own)
+    model = RecordModel(plan, record, options, own)
     x = np.array([number.start for number in model.numbers])
     model.require(x)
     place = next((i for i, number in enumerate(model.numbers) if number.name == "angle_start"), None)
@@ -45,12 +45,12 @@ def begun(plan: StudyPlan, record: MeasuredRecord) -> tuple[Predicted, list[Floa
     if np.ptp(misfits) <= max(_SAME * misfits.max(), _ROUNDED * (record.stacked**2).sum()):
         own = tuple(number for number in own if number.name != "angle_start")
         options = options.model_copy(update={"angle_start": 0.0})
-        return Predicted(plan, record, options, own, model.count), [np.delete(x, place)]
+        return RecordModel(plan, record, options, own, model.count), [np.delete(x, place)]
     valleys = np.flatnonzero((misfits <= np.roll(misfits, 1)) & (misfits < np.roll(misfits, -1)))
     return model, list(points[valleys[np.argsort(misfits[valleys])][:_VALLEYS]])
 
 
-def solved(model: Predicted, starts: list[Floats]) -> tuple[Floats, Floats]:
+def solved(model: RecordModel, starts: list[Floats]) -> tuple[Floats, Floats]:
     """Numbers, (numbers,), and noise of each channel, (channels,)."""
     measured = model.record.stacked.reshape(len(model.record.channels), -1)
     noise = np.maximum(measured.std(axis=1), 1e-12 * np.abs(measured).max(axis=1))
@@ -69,7 +69,7 @@ def solved(model: Predicted, starts: list[Floats]) -> tuple[Floats, Floats]:
     return x, np.sqrt((_left(model, x) ** 2).sum(axis=1) / (measured.shape[1] * freedom / measured.size))
 
 
-def _within_revolution(model: Predicted, x: Floats) -> Floats:
+def _within_revolution(model: RecordModel, x: Floats) -> Floats:
     """The same with the crank angle at the start between 0 and 2π, unless angles were recorded."""
     is_free = [
         number.name == "angle_start" and "angle" not in model.record.channels for number in model.numbers
@@ -77,12 +77,12 @@ def _within_revolution(model: Predicted, x: Floats) -> Floats:
     return np.where(is_free, x % (2 * np.pi), x)
 
 
-def _left(model: Predicted, x: Floats) -> Floats:
+def _left(model: RecordModel, x: Floats) -> Floats:
     """What is left over, (channels, n)."""
     return (model.at(x) - model.record.stacked).reshape(len(model.record.channels), -1)
 
 
-def _least_squares(model: Predicted, x: Floats, noise: Floats) -> Floats:
+def _least_squares(model: RecordModel, x: Floats, noise: Floats) -> Floats:
     """Numbers that explain the record best for the noise of its channels."""
     from scipy.optimize import least_squares
 

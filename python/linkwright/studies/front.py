@@ -19,7 +19,7 @@ import numpy as np
 
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.studies.optimise import Method, Optimum, optimise
 from linkwright.studies.plan import StudyPlan
@@ -37,7 +37,7 @@ class Front(Result):
         tuple[Optimum, ...], About("From the best by the first goal to the best by the second.")
     ]
     failed: Annotated[dict[str, str], About("Limits of the second goal that no machine was found for → why.")]
-    n_evaluations: Annotated[int, Shown("machines that were computed", "", "")]
+    n_evaluations: Annotated[int, Label("machines that were computed", "", "")]
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Numbers by name, each machine as that of `optimise`, ready for JSON; `curves` is without effect."""

@@ -103,9 +103,9 @@ class Descent:
         return self._known[key]
 
     def _computed(self, share: Floats) -> _Place:
-        whole = self.base.copy()
-        whole[self.free] = np.clip(share, 0.0, 1.0)
-        _, rates, slopes = _slopes(self.plan, whole)
+        shares = self.base.copy()
+        shares[self.free] = np.clip(share, 0.0, 1.0)
+        _, rates, slopes = _slopes(self.plan, shares)
         slope = {name: (slope * rates)[self.free] for name, slope in slopes.slopes.items()}
         over, over_slope = [], []
         for name, limit, way in limits(self.plan):
@@ -271,7 +271,7 @@ def prices(plan: StudyPlan, goal: str, sign: float, share: Floats, near: float) 
     ]
 
 
-class _Touched(NamedTuple):
+class _ActiveLimit(NamedTuple):
     """An active limit: words, response or variable, value [SI], outward slope by the shares, a unit of it
     there.
     """
@@ -291,12 +291,12 @@ def _active(
     rates: Floats,
     slope: dict[str, Floats],
     near: float,
-) -> Iterator[_Touched]:
+) -> Iterator[_ActiveLimit]:
     """Active limits of responses and of ranges."""
     for name, limit, way in limits(plan):
         if abs(row[name] - limit) <= near * max(abs(limit), abs(row[name])):
             word = "maximum" if way > 0 else "minimum"
-            yield _Touched(f"{word} of {name}", name, limit, way > 0, way * slope[name] * rates, 1.0)
+            yield _ActiveLimit(f"{word} of {name}", name, limit, way > 0, way * slope[name] * rates, 1.0)
     for i, axis in enumerate(plan.axes):
         if axis.choices or axis.is_whole:
             continue
@@ -304,6 +304,6 @@ def _active(
             if abs(values[i] - limit) <= near * (axis.high - axis.low):
                 # A unit of the variable is 1/rate of its share.
                 outward = way * np.eye(len(values))[i]
-                yield _Touched(
+                yield _ActiveLimit(
                     f"{word} end of {axis.name}", axis.name, limit, way > 0, outward, abs(rates[i])
                 )

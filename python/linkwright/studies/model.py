@@ -121,7 +121,7 @@ def _as_response(value: object) -> object:
     return {"quantity": value} if isinstance(value, str) else value
 
 
-class Derived(Description):
+class DerivedNumber(Description):
     """A number that follows from variables."""
 
     formula: str = Field(description="Formula of variables and of derived numbers before it, in SI.")
@@ -204,7 +204,7 @@ class StudyFile(Description):
     machine: str | None = Field(None, description="The machine file, from the folder of this one.")
     name: str = Field("", description="Description of the study.")
     variables: dict[Name, Variable] = Field(default_factory=dict, description="Variables, by name.")
-    derived: dict[Name, Annotated[Derived, BeforeValidator(_as_derived)]] = Field(
+    derived: dict[Name, Annotated[DerivedNumber, BeforeValidator(_as_derived)]] = Field(
         default_factory=dict, description="Derived numbers, by name."
     )
     responses: dict[Name, Annotated[Response, BeforeValidator(_as_response)]] = Field(

@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.studies import sampling
@@ -70,8 +70,8 @@ class Optimum(Result):
         tuple[dict[str, Any], ...],
         About("Best value of each combination of choices; None if no limit is kept."),
     ]
-    n_evaluations: Annotated[int, Shown("machines that were computed", "", "")]
-    n_failed: Annotated[int, Shown("machines without a result", "", "")]
+    n_evaluations: Annotated[int, Label("machines that were computed", "", "")]
+    n_failed: Annotated[int, Label("machines without a result", "", "")]
     reasons: Annotated[dict[str, int], About("Why machines had no answer → how many.")]
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
@@ -138,10 +138,10 @@ def _check(plan: StudyPlan, evaluations: int, method: str, starts: int) -> None:
     if method not in get_args(Method) or not 1 <= starts <= 1000:
         expected = "both, global or gradient, and 1 to 1000 starts"
         raise InputError(f"method {method}, starts {starts}: expected {expected}")
-    whole = [axis.name for axis in plan.axes if axis.is_whole]
-    if method == "gradient" and whole:
+    integers = [axis.name for axis in plan.axes if axis.is_whole]
+    if method == "gradient" and integers:
         raise InputError(
-            f"variables.{whole[0]}: found whole numbers, which have no derivatives; leave out --method"
+            f"variables.{integers[0]}: found whole numbers, which have no derivatives; leave out --method"
         )
     for axis in plan.axes:
         if axis.distribution is not None:
@@ -178,7 +178,7 @@ class _Search:
         shares = np.array([fixed.get(axis.name, 0.5) for axis in self.plan.axes])
         before, self.best = self.best, None
         if not free:
-            self._told(shares[None])
+            self._ranked(shares[None])
         elif method == "gradient":
             self._descend(self._started(shares, free, seed, starts))
         else:
@@ -206,7 +206,7 @@ class _Search:
             asked = [strategy.ask() for _ in range(strategy.population_size)]
             points = np.tile(shares, (len(asked), 1))
             points[:, free] = np.array([shares[0] for shares in asked])[:, : len(free)]
-            keys = self._told(np.clip(points, 0.0, 1.0))
+            keys = self._ranked(np.clip(points, 0.0, 1.0))
             order = {key: float(rank) for rank, key in enumerate(sorted(set(keys)))}
             strategy.tell([(shares[1], order[key]) for shares, key in zip(asked, keys, strict=True)])
             used += len(asked)
@@ -215,23 +215,23 @@ class _Search:
         """The best of many places that fill the ranges."""
         points = np.tile(shares, (starts * _LOOKED, 1))
         points[:, free] = sampling.sobol(len(free), seed, 0, len(points))
-        keys = self._told(points)
+        keys = self._ranked(points)
         order = sorted(range(len(keys)), key=keys.__getitem__)
         return [points[i] for i in order[:starts] if keys[i][0] < 2]
 
     def _descend(self, starts: list[Floats]) -> None:
         """Derivatives lead down from each start."""
         for start in starts:
-            plan, kept = settled(self.plan, start)
+            plan, kept = numbers_alone(self.plan, start)
             if all(axis.is_whole or axis.choices for axis in plan.axes):
                 return
             descent = Descent(plan, self.goal, self.sign)
             point = start.copy()
             point[kept] = descent.run(start[kept])
             self.count += descent.count
-            self._told(point[None])
+            self._ranked(point[None])
 
-    def _told(self, points: Floats) -> list[tuple[int, float]]:
+    def _ranked(self, points: Floats) -> list[tuple[int, float]]:
         """How good machines are, the smaller the better: by limits kept, then by goal or violation."""
         rows = evaluate(self.plan, self.plan.values(points))
         self.count += len(rows)
@@ -288,7 +288,7 @@ class _Search:
     def _prices(self) -> list[Price]:
         """What active limits cost."""
         assert self.best is not None
-        plan, kept = settled(self.plan, self.best[1])
+        plan, kept = numbers_alone(self.plan, self.best[1])
         return prices(plan, self.goal, self.sign, self.best[1][kept], _ACTIVE)
 
     def _refusal(self) -> str:
@@ -303,7 +303,7 @@ class _Search:
         return f"none of {self.count} machines has an answer; most often: {most}"
 
 
-def settled(plan: StudyPlan, shares: Floats) -> tuple[StudyPlan, list[int]]:
+def numbers_alone(plan: StudyPlan, shares: Floats) -> tuple[StudyPlan, list[int]]:
     """The study with what is no number chosen, and the places of the variables that are left."""
     kept = [i for i, axis in enumerate(plan.axes) if axis.is_number]
     pairs = zip(plan.axes, shares, strict=True)

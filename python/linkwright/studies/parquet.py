@@ -75,10 +75,10 @@ def columns_of(path: Path, names: Sequence[str] | None = None) -> dict[str, Any]
     import pyarrow.parquet as pq
 
     table = pq.read_table(path, columns=None if names is None else list(names))
-    return {name: _plain(table.column(name)) for name in table.column_names}
+    return {name: _as_array(table.column(name)) for name in table.column_names}
 
 
-def _plain(column: pa.ChunkedArray) -> Any:
+def _as_array(column: pa.ChunkedArray) -> Any:
     import pyarrow as pa
 
     if pa.types.is_dictionary(column.type):

@@ -20,7 +20,7 @@ from linkwright.machine.machine import Machine
 from linkwright.studies import sampling
 from linkwright.studies.axes import Axis, axis
 from linkwright.studies.model import StudyFile, Sweep
-from linkwright.studies.responses import Asked, asked
+from linkwright.studies.responses import StudyResponse, asked
 
 Floats = NDArray[np.float64]
 T = TypeVar("T")
@@ -59,7 +59,7 @@ class StudyPlan:
         The variables.
     derived : tuple of Formula
         What follows from them.
-    asked : tuple of Asked
+    asked : tuple of StudyResponse
         Responses that analyses give.
     formulas : tuple of Formula
         Responses that follow from others.
@@ -73,7 +73,7 @@ class StudyPlan:
     study: StudyFile
     axes: tuple[Axis, ...]
     derived: tuple[Formula, ...]
-    asked: tuple[Asked, ...]
+    asked: tuple[StudyResponse, ...]
     formulas: tuple[Formula, ...]
     limits: dict[str, tuple[float, float]] = field(default_factory=dict)
     listed: Floats | None = None
@@ -154,10 +154,10 @@ def plan(machine: Machine, study: StudyFile, listed: Floats | None = None) -> St
     axes = gather(study.variables.items(), lambda name, variable: axis(machine, name, variable))
     known = [*study.variables]
     derived = gather(study.derived.items(), lambda name, entry: _derived(machine, known, name, entry))
-    plain = [(name, response) for name, response in study.responses.items() if response.formula is None]
+    direct = [(name, response) for name, response in study.responses.items() if response.formula is None]
     made = [(name, response) for name, response in study.responses.items() if response.formula is not None]
-    responses = gather(plain, lambda name, response: asked(machine, name, response))
-    known += [*study.derived, *(name for name, _ in plain)]
+    responses = gather(direct, lambda name, response: asked(machine, name, response))
+    known += [*study.derived, *(name for name, _ in direct)]
     formulas = gather(
         made, lambda name, response: _formula(known, f"responses.{name}", name, response.formula or "")
     )
@@ -165,7 +165,7 @@ def plan(machine: Machine, study: StudyFile, listed: Floats | None = None) -> St
     limits = gather(
         study.constraints.items(), lambda name, constraint: (name, _limits(study, units, name, constraint))
     )
-    problems += _further_problems(study, listed)
+    problems += _other_problems(study, listed)
     if problems:
         raise MachineError(problems)
     ready = StudyPlan(machine, study, axes, derived, responses, formulas, dict(limits), listed)
@@ -173,7 +173,7 @@ def plan(machine: Machine, study: StudyFile, listed: Floats | None = None) -> St
     return ready
 
 
-def _further_problems(study: StudyFile, listed: Floats | None) -> Iterable[Problem]:
+def _other_problems(study: StudyFile, listed: Floats | None) -> Iterable[Problem]:
     """What is missing, what has the name of something else, goals without a response."""
     if not study.variables:
         yield Problem("variables", "nothing", "a table for each entry that varies")
@@ -276,8 +276,8 @@ def _limits(study: StudyFile, units: Mapping[str, str], name: str, constraint: A
 
 def _kind_of(unit: str) -> Kind | None:
     """The quantity that a unit as it is printed belongs to; None for none of those of a machine file."""
-    plain = unit.replace("²", "^2").replace("³", "^3").replace("·", " ")
-    return next((kind for kind in KINDS if kind.unit == plain), None)
+    ascii_unit = unit.replace("²", "^2").replace("³", "^3").replace("·", " ")
+    return next((kind for kind in KINDS if kind.unit == ascii_unit), None)
 
 
 def _quantity(key: str, value: object, kind: Kind | None) -> float:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from linkwright.drive.steady_state import solved_state, steady_state
 from linkwright.drive.transient import Transient, transient
 from linkwright.kernel.errors import FindingError, InputError
-from linkwright.kernel.numerics.roots import zeros
+from linkwright.kernel.numerics.zeros import zeros
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 from linkwright.machine.tangents import directions
@@ -35,7 +35,7 @@ _PLACE = 1e-6
 
 
 @dataclass
-class Predicted:
+class RecordModel:
     """What a machine would have recorded, by the numbers that are sought.
 
     Attributes

@@ -77,9 +77,9 @@ def read_study(
         study = StudyFile.model_validate(given)
         source = place if is_machine else _machine_of(place, study)
         options = {path.address: path.value for path in of_machine}
-        whole = read(source, options, allow_outside=allow_outside)
+        described = read(source, options, allow_outside=allow_outside)
         # Results are those of the machine and of this study, whatever other study stands in its file.
-        machine = whole if whole.study is None else whole.with_entries({"study": None})
+        machine = described if described.study is None else described.with_entries({"study": None})
         return plan(machine, study, _listed(place, machine, study))
     except MachineFileError:
         raise

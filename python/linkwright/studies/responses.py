@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from linkwright.drive.batch import SteadyStates
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import FindingError, MachineError, Problem, show
-from linkwright.kernel.quantities import Shown, declared, is_array
+from linkwright.kernel.quantities import Label, declared, is_array
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
@@ -59,7 +59,7 @@ SAMPLES = 360
 
 
 @dataclass(frozen=True)
-class Asked:
+class StudyResponse:
     """One response of a study.
 
     Attributes
@@ -144,7 +144,7 @@ def analysis(name: str) -> Callable[..., Result]:
     return analyse
 
 
-def asked(machine: Machine, name: str, response: Response) -> Asked:
+def asked(machine: Machine, name: str, response: Response) -> StudyResponse:
     """A response of a study, checked against what there is.
 
     Raises `MachineError`: no such analysis or quantity, a curve where a number belongs, or the reverse.
@@ -157,7 +157,7 @@ def asked(machine: Machine, name: str, response: Response) -> Asked:
     if first not in ANALYSES or not rest:
         raise _wrong(name, key, text, "analysis.quantity", suggestion(first, (*ANALYSES, MOTION)))
     owner = get_type_hints(analysis(first))["return"]
-    known = {attribute: mark for attribute, (_, mark) in declared(owner).items() if isinstance(mark, Shown)}
+    known = {attribute: mark for attribute, (_, mark) in declared(owner).items() if isinstance(mark, Label)}
     *of, quantity = rest
     if quantity not in known:
         raise _wrong(name, key, text, f"a quantity of {first}", suggestion(quantity, known))
@@ -168,10 +168,12 @@ def asked(machine: Machine, name: str, response: Response) -> Asked:
     if wants_curve and not is_array(owner, quantity):
         raise _wrong(name, key, f"{text}, which is a number", "a curve", f'write "{text}" alone')
     mark = known[quantity]
-    return Asked(name, first, tuple(of), quantity, mark.word, mark.unit, response.extreme, response.index)
+    return StudyResponse(
+        name, first, tuple(of), quantity, mark.word, mark.unit, response.extreme, response.index
+    )
 
 
-def _of_motion(machine: Machine, name: str, key: str, text: str, response: Response) -> Asked:
+def _of_motion(machine: Machine, name: str, key: str, text: str, response: Response) -> StudyResponse:
     """A coordinate of a point."""
     _, *place, coordinate = text.split(".")
     points = compile_machine(machine).points
@@ -184,7 +186,7 @@ def _of_motion(machine: Machine, name: str, key: str, text: str, response: Respo
     if response.index is not None:
         raise _wrong(name, "index", str(response.index), "extreme or at, of a motion")
     word = f"{coordinate} of {point}"
-    return Asked(name, MOTION, (point,), coordinate, word, "m", response.extreme, at=response.at)
+    return StudyResponse(name, MOTION, (point,), coordinate, word, "m", response.extreme, at=response.at)
 
 
 def _wrong(name: str, key: str, found: str, expected: str, remedy: str = "") -> MachineError:

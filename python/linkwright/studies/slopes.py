@@ -19,12 +19,12 @@ from linkwright.kernel.description.formula import NUMBERS
 from linkwright.kernel.description.formula import names as names_in
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.numerics.formula_value import value
-from linkwright.kernel.numerics.tangent import Tangent, plain
+from linkwright.kernel.numerics.tangent import Tangent, primal
 from linkwright.machine.machine import Machine
 from linkwright.sensitivity.sources import SOURCES, Source, source
 from linkwright.studies.engine import SOLVED, evaluate, sound_variant
 from linkwright.studies.plan import Formula, StudyPlan
-from linkwright.studies.responses import Asked
+from linkwright.studies.responses import StudyResponse
 
 Floats = NDArray[np.float64]
 
@@ -94,7 +94,7 @@ def entries_at(plan: StudyPlan, at: Floats) -> dict[str, Any]:
 
 def machine_at(plan: StudyPlan, entries: Mapping[str, Any]) -> Machine:
     """The machine with such entries, checked as a whole."""
-    return sound_variant(plan.machine, {place: float(plain(x)) for place, x in entries.items()})
+    return sound_variant(plan.machine, {place: float(primal(x)) for place, x in entries.items()})
 
 
 def _entries(plan: StudyPlan, known: Mapping[str, Any]) -> dict[str, Any]:
@@ -165,7 +165,7 @@ def _source(machine: Any, analysis: str, entries: tuple[str, ...]) -> Source | N
     return None if tangents.refused else tangents
 
 
-def _address(asked: Asked) -> str:
+def _address(asked: StudyResponse) -> str:
     """The name of a response among the results that have derivatives."""
     place = () if asked.index is None else (str(asked.index),)
     return ".".join((asked.analysis, *asked.of, asked.quantity, *place))

@@ -18,7 +18,7 @@ import numpy as np
 
 from linkwright.kernel.errors import FindingError, InputError, InternalError
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.studies.engine import SOLVED, evaluate, numbers
 from linkwright.studies.folder import SweepFolder, new_folder
@@ -31,9 +31,9 @@ class Sweep(Result):
     """What a sweep has found so far."""
 
     path: Annotated[str, About("The folder of the results.")]
-    n_rows: Annotated[int, Shown("rows of the sweep", "", "")]
-    n_done: Annotated[int, Shown("rows computed so far", "", "")]
-    n_failed: Annotated[int, Shown("rows without a result", "", "", "Each keeps its reason.")]
+    n_rows: Annotated[int, Label("rows of the sweep", "", "")]
+    n_done: Annotated[int, Label("rows computed so far", "", "")]
+    n_failed: Annotated[int, Label("rows without a result", "", "", "Each keeps its reason.")]
     reasons: Annotated[dict[str, int], About("Reason of failed rows → how many rows.")]
     extremes: Annotated[
         dict[str, dict[str, float]],

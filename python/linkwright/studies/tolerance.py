@@ -29,7 +29,7 @@ from numpy.typing import NDArray
 
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.studies import sampling
 from linkwright.studies.axes import Axis
@@ -52,8 +52,8 @@ _BAND = (0.00135, 0.99865)
 class Tolerance(Result):
     """How responses scatter; every table has an entry a response."""
 
-    n_rows: Annotated[int, Shown("machines drawn at random", "", "")]
-    n_failed: Annotated[int, Shown("machines without a result", "", "", "They count as outside the limits.")]
+    n_rows: Annotated[int, Label("machines drawn at random", "", "")]
+    n_failed: Annotated[int, Label("machines without a result", "", "", "They count as outside the limits.")]
     responses: Annotated[
         dict[str, dict[str, float]],
         About(
@@ -77,14 +77,14 @@ class Tolerance(Result):
         About("Response → variable → first and total Sobol index; empty if not asked for."),
     ]
     n_dropped: Annotated[
-        int, Shown("blocks dropped from the Sobol indices", "", "", "Some row of each failed.")
+        int, Label("blocks dropped from the Sobol indices", "", "", "Some row of each failed.")
     ]
     share_within: Annotated[
-        float | None, Shown("yield", "", "", "Share within all limits; None without any.")
+        float | None, Label("yield", "", "", "Share within all limits; None without any.")
     ]
-    share_low: Annotated[float | None, Shown("lower end of the yield", "", "", "Of its interval.")]
-    share_high: Annotated[float | None, Shown("upper end of the yield", "", "", "Of its interval.")]
-    level: Annotated[float, Shown("probability that the interval holds the truth", "", "")]
+    share_low: Annotated[float | None, Label("lower end of the yield", "", "", "Of its interval.")]
+    share_high: Annotated[float | None, Label("upper end of the yield", "", "", "Of its interval.")]
+    level: Annotated[float, Label("probability that the interval holds the truth", "", "")]
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Numbers and tables by name, ready for JSON; `curves` is without effect."""

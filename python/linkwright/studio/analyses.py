@@ -24,7 +24,7 @@ from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.steady_state import SteadyState, steady_state
 from linkwright.drive.study import has_motor
 from linkwright.kernel.errors import LinkwrightError
-from linkwright.kernel.figure.style import Captioned
+from linkwright.kernel.figure.style import CaptionedFigure
 from linkwright.kernel.findings import Findings
 from linkwright.kernel.result import Result
 from linkwright.kinetostatics.forces import forces
@@ -70,12 +70,12 @@ def chips(machine: Machine) -> list[dict[str, Any]]:
     ``obstacle`` with ``mend`` and ``entries``.
     """
     return [
-        {"name": name, "word": word, "lane": lane, **_told(obstacle)}
+        {"name": name, "word": word, "lane": lane, **_obstacle_dict(obstacle)}
         for name, word, lane, obstacle in _chips(machine)
     ]
 
 
-def _told(obstacle: Obstacle | None) -> dict[str, Any]:
+def _obstacle_dict(obstacle: Obstacle | None) -> dict[str, Any]:
     if obstacle is None:
         return {}
     return {"obstacle": obstacle.words, "mend": obstacle.mend, "entries": obstacle.entries or {}}
@@ -221,7 +221,7 @@ def _torsion(machine: Machine) -> Answers:
     return Answers(known, figures=tuple(map(_svg, torsion_figures(results))))
 
 
-def _svg(drawn: Captioned) -> dict[str, str]:
+def _svg(drawn: CaptionedFigure) -> dict[str, str]:
     from linkwright.kernel.figure.svg import svg
 
     text = svg(drawn.figure, transparent=True)

@@ -74,10 +74,10 @@ class Worker:
         job : dict
             ``number``, ``lane``, ``text`` and ``path``.
         """
-        found = None
+        last = None
         async for message in self.messages(job):
-            found = message
-        return None if self.is_ended else found
+            last = message
+        return None if self.is_ended else last
 
     async def messages(self, job: dict[str, Any]) -> AsyncIterator[bytes]:
         """The messages that answer a job, as they come.

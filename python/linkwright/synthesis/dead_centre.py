@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from linkwright.kernel.errors import SynthesisError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.units import ANGLE, LENGTH, RATIO, Bound, Quantity, positive
 from linkwright.machine.machine import Machine
 from linkwright.synthesis.four_bar import FourBar, cross, turn_spare, worst_transmission
@@ -58,27 +58,27 @@ class CrankRocker(TransmissionResult):
 
     remedy: ClassVar[str] = "reduce the swing, or choose a time ratio nearer to 1"
 
-    swing: Annotated[float, Shown("swing of the rocker", "ψ_0", "rad", "Between the dead centres.")]
+    swing: Annotated[float, Label("swing of the rocker", "ψ_0", "rad", "Between the dead centres.")]
     crank_angle_forward: Annotated[
         float,
-        Shown(
+        Label(
             "crank angle of the forward stroke", "φ_0", "rad", "From the outer dead centre to the inner one."
         ),
     ]
-    time_ratio: Annotated[float, Shown("time ratio", "", "", "φ₀ over the rest of the revolution.")]
-    frame: Annotated[float, Shown("length of the frame", "", "m")]
-    crank: Annotated[float, Shown("length of the crank", "", "m")]
-    coupler: Annotated[float, Shown("length of the coupler", "", "m")]
-    rocker: Annotated[float, Shown("length of the rocker", "", "m")]
+    time_ratio: Annotated[float, Label("time ratio", "", "", "φ₀ over the rest of the revolution.")]
+    frame: Annotated[float, Label("length of the frame", "", "m")]
+    crank: Annotated[float, Label("length of the crank", "", "m")]
+    coupler: Annotated[float, Label("length of the coupler", "", "m")]
+    rocker: Annotated[float, Label("length of the rocker", "", "m")]
     transmission_angle_min: Annotated[
-        float, Shown("minimum transmission angle", "μ_min", "rad", "Over the revolution.")
+        float, Label("minimum transmission angle", "μ_min", "rad", "Over the revolution.")
     ]
     turns_alike: Annotated[bool, About(_CRANK_ROCKER_TURNS_ALIKE)]
     crank_angle_outer: Annotated[
-        float, Shown("crank angle of the outer dead centre", "", "rad", "In the machine.")
+        float, Label("crank angle of the outer dead centre", "", "rad", "In the machine.")
     ]
     crank_angle_inner: Annotated[
-        float, Shown("crank angle of the inner dead centre", "", "rad", "In the machine.")
+        float, Label("crank angle of the inner dead centre", "", "rad", "In the machine.")
     ]
     machine: Annotated[Machine, About("The linkage, its frame along x.")]
 

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from linkwright.kernel.errors import SynthesisError
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.linkages.kinematics import motions
 from linkwright.machine.machine import Machine
 from linkwright.synthesis.expression import Scale
@@ -45,22 +45,22 @@ class FunctionGenerator(TransmissionResult):
     """A four-bar linkage that generates a function."""
 
     type: Annotated[str, About("Which links turn fully.")]
-    frame: Annotated[float, Shown("length of the frame", "", "m")]
+    frame: Annotated[float, Label("length of the frame", "", "m")]
     crank: Annotated[
-        float, Shown("length of the crank", "", "m", "Negative where it points against its angle.")
+        float, Label("length of the crank", "", "m", "Negative where it points against its angle.")
     ]
-    coupler: Annotated[float, Shown("length of the coupler", "", "m")]
-    rocker: Annotated[float, Shown("length of the rocker", "", "m")]
+    coupler: Annotated[float, Label("length of the coupler", "", "m")]
+    rocker: Annotated[float, Label("length of the rocker", "", "m")]
     crank_start: Annotated[
-        float, Shown("crank angle at the start of the range", "φ_0", "rad", "From the frame.")
+        float, Label("crank angle at the start of the range", "φ_0", "rad", "From the frame.")
     ]
     rocker_start: Annotated[
-        float, Shown("rocker angle at the start of the range", "ψ_0", "rad", "From the frame.")
+        float, Label("rocker angle at the start of the range", "ψ_0", "rad", "From the frame.")
     ]
     rocker_opposite: Annotated[bool, About("Whether the link ``B.rocker`` points against the rocker angle.")]
     residual: Annotated[
         float,
-        Shown(
+        Label(
             "residual of Freudenstein's equation",
             "",
             "",
@@ -68,23 +68,23 @@ class FunctionGenerator(TransmissionResult):
         ),
     ]
     angle_error_max: Annotated[
-        float, Shown("maximum structural error", "", "rad", "Of the rocker angle over the range.")
+        float, Label("maximum structural error", "", "rad", "Of the rocker angle over the range.")
     ]
     angle_error_rms: Annotated[
-        float, Shown("root-mean-square structural error", "", "rad", "Of the rocker angle over the range.")
+        float, Label("root-mean-square structural error", "", "rad", "Of the rocker angle over the range.")
     ]
     function_error_max: Annotated[float, About("The maximum in the unit of y.")]
     angle_error_points: Annotated[
-        float, Shown("maximum error at the points", "", "rad", "Of the rocker angle.")
+        float, Label("maximum error at the points", "", "rad", "Of the rocker angle.")
     ]
     transmission_angle_min: Annotated[
-        float, Shown("minimum transmission angle", "μ_min", "rad", "Over the range.")
+        float, Label("minimum transmission angle", "μ_min", "rad", "Over the range.")
     ]
     solutions: Annotated[
-        int, Shown("linkages found", "", "", "This is the one with the minimum structural error.")
+        int, Label("linkages found", "", "", "This is the one with the minimum structural error.")
     ]
-    starts: Annotated[int, Shown("starts of the search", "", "")]
-    found_by: Annotated[int, Shown("starts that ended at this linkage", "", "")]
+    starts: Annotated[int, Label("starts of the search", "", "")]
+    found_by: Annotated[int, Label("starts that ended at this linkage", "", "")]
     x: Annotated[Floats, About("Arguments over the range.", "(m,)")]
     wanted: Annotated[Floats, About("The function there.", "(m,)")]
     generated: Annotated[Floats, About("What the machine gives there.", "(m,)")]

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from linkwright.kernel.errors import SynthesisError
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.linkages.kinematics import motions
 from linkwright.machine.machine import Machine
 from linkwright.synthesis.four_bar import worst_transmission
@@ -69,16 +69,16 @@ class PathGenerator(TransmissionResult):
     """A four-bar linkage whose coupler point follows given points."""
 
     type: Annotated[str, About("Which links turn fully.")]
-    frame: Annotated[float, Shown("length of the frame", "", "m")]
-    crank: Annotated[float, Shown("length of the crank", "", "m")]
-    coupler: Annotated[float, Shown("length of the coupler", "", "m")]
-    rocker: Annotated[float, Shown("length of the rocker", "", "m")]
-    along: Annotated[float, Shown("place of the coupler point along the coupler", "", "m")]
-    across: Annotated[float, Shown("place of the coupler point across the coupler", "", "m")]
+    frame: Annotated[float, Label("length of the frame", "", "m")]
+    crank: Annotated[float, Label("length of the crank", "", "m")]
+    coupler: Annotated[float, Label("length of the coupler", "", "m")]
+    rocker: Annotated[float, Label("length of the rocker", "", "m")]
+    along: Annotated[float, Label("place of the coupler point along the coupler", "", "m")]
+    across: Annotated[float, Label("place of the coupler point across the coupler", "", "m")]
     assembly: Annotated[str, About("Side of the joint.")]
     error_rms: Annotated[
         float,
-        Shown(
+        Label(
             "root-mean-square distance of the points from the curve",
             "",
             "m",
@@ -87,21 +87,21 @@ class PathGenerator(TransmissionResult):
     ]
     error_max: Annotated[
         float,
-        Shown("maximum distance of the points from the curve", "", "m", "In the machine analysed again."),
+        Label("maximum distance of the points from the curve", "", "m", "In the machine analysed again."),
     ]
-    error_relative: Annotated[float, Shown("root-mean-square distance over the size of the path", "", "")]
+    error_relative: Annotated[float, Label("root-mean-square distance over the size of the path", "", "")]
     transmission_angle_min: Annotated[
-        float, Shown("minimum transmission angle", "μ_min", "rad", "Over the revolution.")
+        float, Label("minimum transmission angle", "μ_min", "rad", "Over the revolution.")
     ]
-    starts: Annotated[int, Shown("starts that were refined", "", "")]
-    found_by: Annotated[int, Shown("starts that ended at this error", "", "", "Within 1 %.")]
-    evaluated: Annotated[int, Shown("linkages computed", "", "")]
+    starts: Annotated[int, Label("starts that were refined", "", "")]
+    found_by: Annotated[int, Label("starts that ended at this error", "", "", "Within 1 %.")]
+    evaluated: Annotated[int, Label("linkages computed", "", "")]
     rate: Annotated[float, About("Linkages computed per second, by the clock [1/s].")]
     seed: Annotated[int, About("Start of the random numbers.")]
     limited_by: Annotated[tuple[str, ...], About(_PATH_GENERATOR_LIMITED_BY)]
-    crank_angles: Annotated[Floats, Shown("crank angles of the points", "", "rad", "In the machine.")]
-    x: Annotated[Floats, Shown("place of the coupler point along x", "", "m", "At these crank angles.")]
-    y: Annotated[Floats, Shown("place of the coupler point along y", "", "m", "At these crank angles.")]
+    crank_angles: Annotated[Floats, Label("crank angles of the points", "", "rad", "In the machine.")]
+    x: Annotated[Floats, Label("place of the coupler point along x", "", "m", "At these crank angles.")]
+    y: Annotated[Floats, Label("place of the coupler point along y", "", "m", "At these crank angles.")]
     history: Annotated[Floats, About(_PATH_GENERATOR_HISTORY)]
     machine: Annotated[Machine, About("The linkage; its point ``P`` draws the path.")]
 
@@ -158,7 +158,7 @@ def path_generator(task: PathTask, *, track: Track | None = None) -> PathGenerat
     found_by = int((kept & (errors <= max((1 + _SAME) * least, exact))).sum())
     alike = np.flatnonzero(kept & (errors <= max((1 + _ALIKE) * least, exact)))
     best = alike[np.argmax(_transmission(model, rows.take(alike)))]
-    effort = _Effort(found_by, evaluated, evaluated / (perf_counter() - began), search.told())
+    effort = _Effort(found_by, evaluated, evaluated / (perf_counter() - began), search.known_history())
     return _result(model, rows.take(np.array([best])), effort)
 
 
@@ -191,7 +191,7 @@ class _Search:
         """Root of the mean square of the distances of all rows, over the size of the path, (m,)."""
         return self.model.errors(self.rows)
 
-    def told(self) -> Floats:
+    def known_history(self) -> Floats:
         """The history, NaN where nothing was found yet."""
         history = np.array(self.history)
         return np.where(np.isfinite(history), history, np.nan)

@@ -259,8 +259,8 @@ class PathModel:
         beside = np.repeat(p[None], 10, axis=0)
         for i in range(9):
             beside[i + 1, :, i] += _STEP
-        found = self.excess(beside.reshape(-1, p.shape[1]), np.tile(is_double, 10)) + MARGIN
-        excess, *stepped = found.reshape(10, len(p), -1)
+        margins = self.excess(beside.reshape(-1, p.shape[1]), np.tile(is_double, 10)) + MARGIN
+        excess, *stepped = margins.reshape(10, len(p), -1)
         slopes = [(step - excess) / _STEP for step in stepped]
         broken = excess + shift > 0
         return np.where(broken, excess + shift, 0.0), np.stack(slopes, axis=-1) * broken[:, :, None]

@@ -133,9 +133,9 @@ def _timing(target: Complexes, shares: Floats) -> Floats:
     along = np.concatenate([[0.0], np.cumsum(chords)]) / chords.sum()
     closing = float(np.abs(target[-1] - target[0]))
     # Half the trials close the path over a whole revolution, as points all round a curve ask for.
-    whole = chords.sum() / (chords.sum() + closing)
+    cycle = chords.sum() / (chords.sum() + closing)
     part = np.exp(np.log(_SPAN) * (1 - 2 * shares[:, 0]))
-    span = np.where(shares[:, 0] < 0.5, part, whole)
+    span = np.where(shares[:, 0] < 0.5, part, cycle)
     wave = 2 * np.pi * (along + shares[:, 2:3])
     bend = _UNEVEN * (2 * shares[:, 1:2] - 1) / (2 * np.pi)
     bent: Floats = along + bend * (np.sin(wave) - np.sin(wave[:, :1]))

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from linkwright.kernel.errors import SynthesisError
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.linkages.kinematics import motions
 from linkwright.machine.machine import Machine
 from linkwright.synthesis.four_bar import Complexes, FourBar, cross, side_of
@@ -54,25 +54,25 @@ class PoseGuide(TransmissionResult):
 
     linkage: Annotated[str, About('``"four-bar"`` or ``"slider-crank"``.')]
     type: Annotated[str, About("Which links turn fully.")]
-    frame: Annotated[float | None, Shown("length of the frame", "", "m", "Of a four-bar.")]
-    crank: Annotated[float, Shown("length of the crank", "", "m")]
-    coupler: Annotated[float, Shown("length of the coupler", "", "m")]
-    rocker: Annotated[float | None, Shown("length of the rocker", "", "m", "Of a four-bar.")]
-    offset: Annotated[float | None, Shown("offset of the guide", "", "m", "Of a slider-crank.")]
+    frame: Annotated[float | None, Label("length of the frame", "", "m", "Of a four-bar.")]
+    crank: Annotated[float, Label("length of the crank", "", "m")]
+    coupler: Annotated[float, Label("length of the coupler", "", "m")]
+    rocker: Annotated[float | None, Label("length of the rocker", "", "m", "Of a four-bar.")]
+    offset: Annotated[float | None, Label("offset of the guide", "", "m", "Of a slider-crank.")]
     direction: Annotated[str, About("In which the crank turns through the poses.")]
     transmission_angle_min: Annotated[
-        float, Shown("minimum transmission angle", "μ_min", "rad", "From the first pose to the last.")
+        float, Label("minimum transmission angle", "μ_min", "rad", "From the first pose to the last.")
     ]
     pose_error: Annotated[
         float,
-        Shown(
+        Label(
             "maximum distance of the body's origin from its place", "", "m", "In the machine analysed again."
         ),
     ]
     angle_error: Annotated[
-        float, Shown("maximum deviation of the body's rotation", "", "rad", "From pose to pose.")
+        float, Label("maximum deviation of the body's rotation", "", "rad", "From pose to pose.")
     ]
-    crank_angles: Annotated[Floats, Shown("crank angles of the poses", "", "rad")]
+    crank_angles: Annotated[Floats, Label("crank angles of the poses", "", "rad")]
     machine: Annotated[Machine, About("The linkage; its point ``P`` is the body's origin.")]
 
 

@@ -19,7 +19,7 @@ from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError, SynthesisError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import LENGTH, positive
 from linkwright.linkages.kinematics import motions
@@ -45,31 +45,31 @@ class StraightLine(Result):
     kind: Annotated[str, About("Which linkage, as in commands.")]
     title: Annotated[str, About("Its name in words.")]
     exact: Annotated[bool, About("Whether the line is straight by a theorem.")]
-    links: Annotated[int, Shown("links", "", "", "The frame among them.")]
-    length: Annotated[float, Shown("length of the line", "", "m")]
-    deviation: Annotated[float, Shown("maximum distance from the best straight line", "", "m")]
+    links: Annotated[int, Label("links", "", "", "The frame among them.")]
+    length: Annotated[float, Label("length of the line", "", "m")]
+    deviation: Annotated[float, Label("maximum distance from the best straight line", "", "m")]
     straightness: Annotated[
         float,
-        Shown(
+        Label(
             "straightness error over the length",
             "",
             "",
             "Width of the narrowest strip that holds the line, twice the deviation, over its length.",
         ),
     ]
-    direction: Annotated[float, Shown("direction of the line", "", "rad")]
-    crank_angle_start: Annotated[float, Shown("first crank angle of the range", "", "rad")]
-    crank_angle_end: Annotated[float, Shown("last crank angle of the range", "", "rad")]
+    direction: Annotated[float, Label("direction of the line", "", "rad")]
+    crank_angle_start: Annotated[float, Label("first crank angle of the range", "", "rad")]
+    crank_angle_end: Annotated[float, Label("last crank angle of the range", "", "rad")]
     speed_ratio: Annotated[
-        float, Shown("maximum over minimum speed", "", "", "Of ``P`` in the range at constant crank speed.")
+        float, Label("maximum over minimum speed", "", "", "Of ``P`` in the range at constant crank speed.")
     ]
     size: Annotated[
-        float, Shown("size of the linkage", "", "m", "Longest distance between two points of it in one link.")
+        float, Label("size of the linkage", "", "m", "Longest distance between two points of it in one link.")
     ]
     turns_fully: Annotated[bool, About("Whether the crank can go on round.")]
-    crank_angles: Annotated[Floats, Shown("crank angles", "", "rad", "Over the range.")]
-    x: Annotated[Floats, Shown("place along x", "", "m", "Of ``P``.")]
-    y: Annotated[Floats, Shown("place along y", "", "m", "Of ``P``.")]
+    crank_angles: Annotated[Floats, Label("crank angles", "", "rad", "Over the range.")]
+    x: Annotated[Floats, Label("place along x", "", "m", "Of ``P``.")]
+    y: Annotated[Floats, Label("place along y", "", "m", "Of ``P``.")]
     machine: Annotated[Machine, About("The linkage.")]
 
 
@@ -248,7 +248,7 @@ def _measured(
 
     x, y, speed, angles = _line(machine, kind, chosen, span)
     length, width, direction = _extent(x, y)
-    whole = closure(machine)
+    closing = closure(machine)
     return StraightLine(
         kind=kind.kind,
         title=kind.title,
@@ -262,7 +262,7 @@ def _measured(
         crank_angle_end=float(span[1]),
         speed_ratio=float(speed.max() / speed.min()) if speed.min() > 0 else np.inf,
         size=factor * _longest(tables),
-        turns_fully=whole.turns_fully and whole.change_point is None,
+        turns_fully=closing.turns_fully and closing.change_point is None,
         crank_angles=angles,
         x=x,
         y=y,

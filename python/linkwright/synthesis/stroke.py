@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from linkwright.kernel.errors import InputError, SynthesisError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.units import LENGTH, RATIO, positive
 from linkwright.machine.machine import Machine
 from linkwright.synthesis.dead_centre import SOURCE, best, delta_of, joints, slow_over_quick
@@ -39,24 +39,24 @@ class StrokeCrank(TransmissionResult):
 
     remedy: ClassVar[str] = "give a longer rod, or a time ratio nearer to 1"
 
-    stroke: Annotated[float, Shown("stroke of the slider", "s", "m", "Between the dead centres.")]
+    stroke: Annotated[float, Label("stroke of the slider", "s", "m", "Between the dead centres.")]
     crank_angle_forward: Annotated[
         float,
-        Shown("crank angle of the forward stroke", "φ₀", "rad", "From the outer dead centre to the inner."),
+        Label("crank angle of the forward stroke", "φ₀", "rad", "From the outer dead centre to the inner."),
     ]
-    time_ratio: Annotated[float, Shown("time ratio", "", "", "φ₀ over the rest of the revolution.")]
-    crank: Annotated[float, Shown("radius of the crank", "r", "m")]
-    rod: Annotated[float, Shown("length of the rod", "l", "m")]
-    offset: Annotated[float, Shown("offset of the guide", "e", "m")]
+    time_ratio: Annotated[float, Label("time ratio", "", "", "φ₀ over the rest of the revolution.")]
+    crank: Annotated[float, Label("radius of the crank", "r", "m")]
+    rod: Annotated[float, Label("length of the rod", "l", "m")]
+    offset: Annotated[float, Label("offset of the guide", "e", "m")]
     transmission_angle_min: Annotated[
         float,
-        Shown("minimum transmission angle", "μ_min", "rad", "Between the rod and the normal of the guide."),
+        Label("minimum transmission angle", "μ_min", "rad", "Between the rod and the normal of the guide."),
     ]
     crank_angle_outer: Annotated[
-        float, Shown("crank angle of the outer dead centre", "", "rad", "In the machine.")
+        float, Label("crank angle of the outer dead centre", "", "rad", "In the machine.")
     ]
     crank_angle_inner: Annotated[
-        float, Shown("crank angle of the inner dead centre", "", "rad", "In the machine.")
+        float, Label("crank angle of the inner dead centre", "", "rad", "In the machine.")
     ]
     machine: Annotated[Machine, About("The linkage, its guide along x.")]
 

@@ -21,7 +21,7 @@ from typing import Annotated
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.topping.coverage import coverage
 from linkwright.topping.edge import Edge
@@ -52,11 +52,11 @@ class Lines(Result):
 
     along: Annotated[Floats, About("Root diameters [m], or mean knife speeds [m/s].", "(n,)")]
     published: Annotated[
-        Floats, Shown("minimum length by (10)", "", "m", "A row for each forward speed.", shape="(3, n)")
+        Floats, Label("minimum length by (10)", "", "m", "A row for each forward speed.", shape="(3, n)")
     ]
-    consistent: Annotated[Floats, Shown("minimum length by (4)", "", "m", "Likewise.", shape="(3, n)")]
+    consistent: Annotated[Floats, Label("minimum length by (4)", "", "m", "Likewise.", shape="(3, n)")]
     constant_speed: Annotated[
-        Floats, Shown("exact minimum length at constant speed", "", "m", "Likewise.", shape="(3, n)")
+        Floats, Label("exact minimum length at constant speed", "", "m", "Likewise.", shape="(3, n)")
     ]
     moved_along: Annotated[
         Floats,
@@ -66,7 +66,7 @@ class Lines(Result):
     ]
     moved: Annotated[
         Floats,
-        Shown(
+        Label(
             "exact minimum length for the motion of the knife",
             "",
             "m",
@@ -82,9 +82,9 @@ class LengthChart(Result):
     """The chart."""
 
     forward_speeds: Annotated[tuple[float, ...], About("Speeds along the row, v [m/s].")]
-    root_diameter: Annotated[float, Shown("diameter of a root", "D", "m")]
-    knife_speed: Annotated[float, Shown("mean speed across the row", "v_h", "m/s")]
-    edge_length: Annotated[float, Shown("length of the edge", "L", "m")]
+    root_diameter: Annotated[float, Label("diameter of a root", "D", "m")]
+    knife_speed: Annotated[float, Label("mean speed across the row", "v_h", "m/s")]
+    edge_length: Annotated[float, Label("length of the edge", "L", "m")]
     over_roots: Annotated[Lines, About("Over root diameters at the machine's mean knife speed.")]
     over_speeds: Annotated[Lines, About("Over mean knife speeds at the machine's root diameter.")]
 
@@ -161,14 +161,14 @@ _WIDEST, _BEYOND = 0.14, 1.3
 class VerdictChart(Result):
     """The chart."""
 
-    angles: Annotated[Floats, Shown("edge angle in size", "α", "rad")]
-    cut_heights: Annotated[Floats, Shown("height of the cut", "h_p", "m", shape="(k,)", over="cut_heights")]
-    offsets: Annotated[Floats, Shown("offset of the head", "Δ", "m", shape="(m,)", over="offsets")]
+    angles: Annotated[Floats, Label("edge angle in size", "α", "rad")]
+    cut_heights: Annotated[Floats, Label("height of the cut", "h_p", "m", shape="(k,)", over="cut_heights")]
+    offsets: Annotated[Floats, Label("offset of the head", "Δ", "m", shape="(m,)", over="offsets")]
     lengths: Annotated[tuple[float, float], About("Minimum and maximum length that is claimed [m].")]
-    edge_angle: Annotated[float, Shown("edge angle of the machine in size", "α", "rad")]
-    band: Annotated[float, Shown("band of the machine", "d + 2Δ", "m")]
-    cut_height: Annotated[float, Shown("height of the cut of the machine", "h_p", "m")]
-    offset: Annotated[float, Shown("offset of the machine", "Δ", "m")]
+    edge_angle: Annotated[float, Label("edge angle of the machine in size", "α", "rad")]
+    band: Annotated[float, Label("band of the machine", "d + 2Δ", "m")]
+    cut_height: Annotated[float, Label("height of the cut of the machine", "h_p", "m")]
+    offset: Annotated[float, Label("offset of the machine", "Δ", "m")]
     bands: Annotated[
         dict[str, Floats],
         About(

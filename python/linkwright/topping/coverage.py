@@ -27,7 +27,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright.kernel.errors import FindingError, InputError
-from linkwright.kernel.quantities import Shown
+from linkwright.kernel.quantities import Label
 from linkwright.kernel.result import Result
 from linkwright.topping.edge import Edge, hardly_goes_on
 from linkwright.topping.roots import Roots
@@ -52,7 +52,7 @@ class Coverage(Result):
 
     length_needed: Annotated[
         Floats,
-        Shown(
+        Label(
             "minimum length of the edge that cuts all of the head",
             "",
             "m",
@@ -62,7 +62,7 @@ class Coverage(Result):
     ]
     last_x: Annotated[
         Floats,
-        Shown(
+        Label(
             "place of the point that is reached last, along x",
             "",
             "m",
@@ -71,11 +71,11 @@ class Coverage(Result):
         ),
     ]
     last_y: Annotated[
-        Floats, Shown("place of the point that is reached last, along y", "", "m", "Likewise.", over="last_y")
+        Floats, Label("place of the point that is reached last, along y", "", "m", "Likewise.", over="last_y")
     ]
     uncut_right: Annotated[
         Floats,
-        Shown(
+        Label(
             "area that is left on the right of the edge",
             "",
             "m²",
@@ -84,17 +84,17 @@ class Coverage(Result):
         ),
     ]
     uncut_left: Annotated[
-        Floats, Shown("area that is left on the left of the edge", "", "m²", "Likewise.", over="uncut_left")
+        Floats, Label("area that is left on the left of the edge", "", "m²", "Likewise.", over="uncut_left")
     ]
     uncut_between: Annotated[
         Floats,
-        Shown(
+        Label(
             "area that is left between two passes of the edge", "", "m²", "Likewise.", over="uncut_between"
         ),
     ]
 
     @property
-    def uncut(self) -> Annotated[Floats, Shown("area that is left", "", "m²", over="uncut")]:
+    def uncut(self) -> Annotated[Floats, Label("area that is left", "", "m²", over="uncut")]:
         """In all three places."""
         return self.uncut_right + self.uncut_left + self.uncut_between
 

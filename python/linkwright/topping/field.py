@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import INSIDE_ONE, RATIO, Quantity
 from linkwright.machine.machine import Machine
@@ -50,7 +50,7 @@ class TopperField(Result):
 
     length: Annotated[
         Floats,
-        Shown(
+        Label(
             "length of the edge",
             "L",
             "m",
@@ -58,10 +58,10 @@ class TopperField(Result):
             shape="(k,)",
         ),
     ]
-    share: Annotated[Floats, Shown("share of heads that a length cuts through", "", "")]
+    share: Annotated[Floats, Label("share of heads that a length cuts through", "", "")]
     share_low: Annotated[
         Floats,
-        Shown(
+        Label(
             "minimum share of heads that a length cuts through",
             "",
             "",
@@ -70,7 +70,7 @@ class TopperField(Result):
     ]
     share_high: Annotated[
         Floats,
-        Shown(
+        Label(
             "maximum share of heads that a length cuts through",
             "",
             "",
@@ -79,7 +79,7 @@ class TopperField(Result):
     ]
     length_needed: Annotated[
         Floats,
-        Shown(
+        Label(
             "length that each head needs",
             "",
             "m",
@@ -89,47 +89,47 @@ class TopperField(Result):
         ),
     ]
     root_loss: Annotated[
-        Floats, Shown("volume of each root above the cut", "", "m³", shape="(n,)", over="root_loss")
+        Floats, Label("volume of each root above the cut", "", "m³", shape="(n,)", over="root_loss")
     ]
-    n_roots: Annotated[int, Shown("roots evaluated", "", "", "Of measured ones each in all its phases.")]
-    n_clusters: Annotated[int, Shown("rows, or measured roots", "", "")]
+    n_roots: Annotated[int, Label("roots evaluated", "", "", "Of measured ones each in all its phases.")]
+    n_clusters: Annotated[int, Label("rows, or measured roots", "", "")]
     clusters: Annotated[str, About('``"rows"`` or ``"roots"``.')]
-    n_missed: Annotated[int, Shown("roots that the knife passes above", "", "")]
-    n_lost: Annotated[int, Shown("roots that the knife passes below", "", "")]
-    level: Annotated[float, Shown("confidence level", "", "")]
-    edge_length: Annotated[float, Shown("length of the edge", "L", "m", "That it has.")]
-    share_complete: Annotated[float, Shown("share of heads cut through", "", "")]
+    n_missed: Annotated[int, Label("roots that the knife passes above", "", "")]
+    n_lost: Annotated[int, Label("roots that the knife passes below", "", "")]
+    level: Annotated[float, Label("confidence level", "", "")]
+    edge_length: Annotated[float, Label("length of the edge", "L", "m", "That it has.")]
+    share_complete: Annotated[float, Label("share of heads cut through", "", "")]
     share_complete_low: Annotated[
-        float, Shown("minimum share of heads cut through", "", "", "End of its interval.")
+        float, Label("minimum share of heads cut through", "", "", "End of its interval.")
     ]
     share_complete_high: Annotated[
-        float, Shown("maximum share of heads cut through", "", "", "End of its interval.")
+        float, Label("maximum share of heads cut through", "", "", "End of its interval.")
     ]
-    haulm_mean: Annotated[float, Shown("mean uncut share of the head", "", "")]
+    haulm_mean: Annotated[float, Label("mean uncut share of the head", "", "")]
     haulm_mean_low: Annotated[
-        float, Shown("minimum mean uncut share of the head", "", "", "End of its interval.")
+        float, Label("minimum mean uncut share of the head", "", "", "End of its interval.")
     ]
     haulm_mean_high: Annotated[
-        float, Shown("maximum mean uncut share of the head", "", "", "End of its interval.")
+        float, Label("maximum mean uncut share of the head", "", "", "End of its interval.")
     ]
-    loss_mean: Annotated[float, Shown("mean volume of a root above the cut", "", "m³")]
+    loss_mean: Annotated[float, Label("mean volume of a root above the cut", "", "m³")]
     loss_mean_low: Annotated[
-        float, Shown("minimum mean volume of a root above the cut", "", "m³", "End of its interval.")
+        float, Label("minimum mean volume of a root above the cut", "", "m³", "End of its interval.")
     ]
     loss_mean_high: Annotated[
-        float, Shown("maximum mean volume of a root above the cut", "", "m³", "End of its interval.")
+        float, Label("maximum mean volume of a root above the cut", "", "m³", "End of its interval.")
     ]
-    loss_share: Annotated[float, Shown("share of all roots that is above the cut", "", "")]
+    loss_share: Annotated[float, Label("share of all roots that is above the cut", "", "")]
     loss_share_low: Annotated[
-        float, Shown("minimum share of all roots that is above the cut", "", "", "End of its interval.")
+        float, Label("minimum share of all roots that is above the cut", "", "", "End of its interval.")
     ]
     loss_share_high: Annotated[
-        float, Shown("maximum share of all roots that is above the cut", "", "", "End of its interval.")
+        float, Label("maximum share of all roots that is above the cut", "", "", "End of its interval.")
     ]
     loss_mass_mean: Annotated[
-        float | None, Shown("mean mass of a root above the cut", "", "kg", "With a density.")
+        float | None, Label("mean mass of a root above the cut", "", "kg", "With a density.")
     ]
-    slicing_ratio_mean: Annotated[float, Shown("mean draw-cut ratio", "", "", "Of the edge, in all phases.")]
+    slicing_ratio_mean: Annotated[float, Label("mean draw-cut ratio", "", "", "Of the edge, in all phases.")]
     quantile: Annotated[tuple[float, ...], About("Shares of heads.")]
     quantile_length: Annotated[
         tuple[float, ...], About("Length for each of them [m]; infinite where so many cannot be cut.")
@@ -147,27 +147,27 @@ class TopperField(Result):
         return float(np.sort(self.length_needed)[max(place, 0)])
 
     @property
-    def length_for_50(self) -> Annotated[float, Shown("length for half of the heads", "", "m")]:
+    def length_for_50(self) -> Annotated[float, Label("length for half of the heads", "", "m")]:
         """Length for half of the heads."""
         return self.quantile_length[0]
 
     @property
-    def length_for_90(self) -> Annotated[float, Shown("length for 90 % of the heads", "", "m")]:
+    def length_for_90(self) -> Annotated[float, Label("length for 90 % of the heads", "", "m")]:
         """Length for 90 % of the heads."""
         return self.quantile_length[1]
 
     @property
-    def length_for_95(self) -> Annotated[float, Shown("length for 95 % of the heads", "", "m")]:
+    def length_for_95(self) -> Annotated[float, Label("length for 95 % of the heads", "", "m")]:
         """Length for 95 % of the heads."""
         return self.quantile_length[2]
 
     @property
-    def length_for_99(self) -> Annotated[float, Shown("length for 99 % of the heads", "", "m")]:
+    def length_for_99(self) -> Annotated[float, Label("length for 99 % of the heads", "", "m")]:
         """Length for 99 % of the heads."""
         return self.quantile_length[3]
 
     @property
-    def length_for_99_9(self) -> Annotated[float, Shown("length for 99.9 % of the heads", "", "m")]:
+    def length_for_99_9(self) -> Annotated[float, Label("length for 99.9 % of the heads", "", "m")]:
         """Length for 99.9 % of the heads."""
         return self.quantile_length[4]
 

@@ -20,7 +20,7 @@ from typing import Annotated
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.topping.coverage import coverage
 from linkwright.topping.edge import Edge
@@ -45,23 +45,23 @@ class HeadPass(Result):
     """A pass."""
 
     time: Annotated[
-        Floats, Shown("time", "t", "s", "Zero when the middle of the edge is abreast of the head's centre.")
+        Floats, Label("time", "t", "s", "Zero when the middle of the edge is abreast of the head's centre.")
     ]
     middle_x: Annotated[
-        Floats, Shown("middle of the edge along the row", "x", "m", "From the head's centre.")
+        Floats, Label("middle of the edge along the row", "x", "m", "From the head's centre.")
     ]
     middle_y: Annotated[
-        Floats, Shown("middle of the edge across the row", "y", "m", "To the left of the row's axis.")
+        Floats, Label("middle of the edge across the row", "y", "m", "To the left of the row's axis.")
     ]
-    along: Annotated[Floats, Shown("middle of the edge along the edge", "q", "m", "From the head's centre.")]
+    along: Annotated[Floats, Label("middle of the edge along the edge", "q", "m", "From the head's centre.")]
     normal: Annotated[
-        Floats, Shown("middle of the edge normal to the edge", "p", "m", "From the head's centre.")
+        Floats, Label("middle of the edge normal to the edge", "p", "m", "From the head's centre.")
     ]
-    edge_angle: Annotated[float, Shown("edge angle", "α", "rad")]
-    length: Annotated[float, Shown("length of the edge", "L", "m")]
-    diameter: Annotated[float, Shown("diameter of the head", "d", "m")]
-    offset: Annotated[float, Shown("offset of the head", "δ", "m")]
-    phase: Annotated[float, Shown("phase of the knife", "φ", "rad")]
+    edge_angle: Annotated[float, Label("edge angle", "α", "rad")]
+    length: Annotated[float, Label("length of the edge", "L", "m")]
+    diameter: Annotated[float, Label("diameter of the head", "d", "m")]
+    offset: Annotated[float, Label("offset of the head", "δ", "m")]
+    phase: Annotated[float, Label("phase of the knife", "φ", "rad")]
     outlines: Annotated[
         tuple[Floats, ...],
         About("Corners of the areas that are left, as x and y of the middle, each (k, 2) [m]."),
@@ -70,14 +70,14 @@ class HeadPass(Result):
     @property
     def ends(
         self,
-    ) -> Annotated[Floats, Shown("right and left end of the edge", "", "m", shape="(2, n, 2)")]:
+    ) -> Annotated[Floats, Label("right and left end of the edge", "", "m", shape="(2, n, 2)")]:
         """Right and left end of the edge over the time, (2, n, 2)."""
         half = 0.5 * self.length * np.array([np.sin(self.edge_angle), np.cos(self.edge_angle)])
         middle = np.stack([self.middle_x, self.middle_y], axis=-1)
         return np.stack([middle - half, middle + half])
 
     @property
-    def uncut_area(self) -> Annotated[float, Shown("area inside the outlines", "", "m²")]:
+    def uncut_area(self) -> Annotated[float, Label("area inside the outlines", "", "m²")]:
         """Area inside the outlines."""
         return float(sum(_area(outline) for outline in self.outlines))
 

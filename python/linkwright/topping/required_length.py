@@ -71,7 +71,7 @@ from typing import Annotated
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 
 Floats = NDArray[np.float64]
@@ -117,15 +117,15 @@ def every_phase_length(
 class PublishedLengths(Result):
     """Travels and lengths by the paper."""
 
-    travel_along: Annotated[float, Shown("travel along the row", "S_x", "m")]
-    travel_across: Annotated[float, Shown("travel across the row", "S_y", "m")]
-    time_along: Annotated[float, Shown("time of the travel along the row", "t_x", "s")]
+    travel_along: Annotated[float, Label("travel along the row", "S_x", "m")]
+    travel_across: Annotated[float, Label("travel across the row", "S_y", "m")]
+    time_along: Annotated[float, Label("time of the travel along the row", "t_x", "s")]
     time_across: Annotated[
-        float, Shown("time of the travel across the row", "t_y", "s", "Infinite for a knife at rest.")
+        float, Label("time of the travel across the row", "t_y", "s", "Infinite for a knife at rest.")
     ]
     holds: Annotated[bool, About("Whether t_y ≥ t_x, condition (1), for the length of the edge.")]
-    length_published: Annotated[float, Shown("minimum length by the paper's (10)", "", "m")]
-    length_consistent: Annotated[float, Shown("minimum length that follows from the paper's (4)", "", "m")]
+    length_published: Annotated[float, Label("minimum length by the paper's (10)", "", "m")]
+    length_consistent: Annotated[float, Label("minimum length that follows from the paper's (4)", "", "m")]
 
 
 def published_lengths(

@@ -38,7 +38,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright.kernel.errors import InputError
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.topping.model.field import MeasuredField, RandomField, even_offset
 from linkwright.topping.model.scatter import ConstantScatter
@@ -69,12 +69,12 @@ def cap_volume(root_diameter: ArrayLike, cut_height: ArrayLike) -> Floats:
 class Roots(Result):
     """Roots that the knife meets; arrays (n,), a meeting each."""
 
-    root_diameter: Annotated[Floats, Shown("diameter of the root", "D", "m", over="root_diameter")]
-    cut_height: Annotated[Floats, Shown("height of the cut", "h_p", "m", over="cut_height")]
-    offset: Annotated[Floats, Shown("axis of the root to the left of the row", "", "m", over="offset")]
+    root_diameter: Annotated[Floats, Label("diameter of the root", "D", "m", over="root_diameter")]
+    cut_height: Annotated[Floats, Label("height of the cut", "h_p", "m", over="cut_height")]
+    offset: Annotated[Floats, Label("axis of the root to the left of the row", "", "m", over="offset")]
     distance: Annotated[
         Floats,
-        Shown(
+        Label(
             "distance from the first root of the row",
             "",
             "m",
@@ -84,7 +84,7 @@ class Roots(Result):
     ]
     start: Annotated[
         Floats,
-        Shown(
+        Label(
             "share of a revolution of the knife's phase at the first root of the row", "", "–", over="start"
         ),
     ]
@@ -95,17 +95,17 @@ class Roots(Result):
     @property
     def diameter(
         self,
-    ) -> Annotated[Floats, Shown("diameter of the disc that is cut", "d", "m", over="diameter")]:
+    ) -> Annotated[Floats, Label("diameter of the disc that is cut", "d", "m", over="diameter")]:
         """Of the head at the height of the cut."""
         return head_diameter(self.root_diameter, self.cut_height)
 
     @property
-    def cap(self) -> Annotated[Floats, Shown("volume above the cut", "", "m³", over="cap")]:
+    def cap(self) -> Annotated[Floats, Label("volume above the cut", "", "m³", over="cap")]:
         """A cap of the sphere."""
         return cap_volume(self.root_diameter, self.cut_height)
 
     @property
-    def volume(self) -> Annotated[Floats, Shown("volume of the root", "", "m³", over="volume")]:
+    def volume(self) -> Annotated[Floats, Label("volume of the root", "", "m³", over="volume")]:
         """Of the whole sphere."""
         return np.asarray(np.pi / 6 * self.root_diameter**3)
 

@@ -19,7 +19,7 @@ from linkwright.kernel.limits import FIELD_VARIANTS
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import array
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import ANGLE, INSIDE_ONE, LENGTH, RATIO, VELOCITY, Kind, Quantity, worded
 from linkwright.machine.machine import Machine
@@ -56,7 +56,7 @@ class FieldSweep(Result):
     shape: Annotated[tuple[int, ...], About("How many values of each entry.")]
     share_complete: Annotated[
         Floats,
-        Shown(
+        Label(
             "share of heads cut through",
             "",
             "",
@@ -67,7 +67,7 @@ class FieldSweep(Result):
     ]
     share_complete_low: Annotated[
         Floats,
-        Shown(
+        Label(
             "minimum share of heads cut through",
             "",
             "",
@@ -77,7 +77,7 @@ class FieldSweep(Result):
     ]
     share_complete_high: Annotated[
         Floats,
-        Shown(
+        Label(
             "maximum share of heads cut through",
             "",
             "",
@@ -85,10 +85,10 @@ class FieldSweep(Result):
             over="share_complete_high",
         ),
     ]
-    haulm_mean: Annotated[Floats, Shown("mean uncut share of the head", "", "", over="haulm_mean")]
+    haulm_mean: Annotated[Floats, Label("mean uncut share of the head", "", "", over="haulm_mean")]
     haulm_mean_low: Annotated[
         Floats,
-        Shown(
+        Label(
             "minimum mean uncut share of the head",
             "",
             "",
@@ -98,7 +98,7 @@ class FieldSweep(Result):
     ]
     haulm_mean_high: Annotated[
         Floats,
-        Shown(
+        Label(
             "maximum mean uncut share of the head",
             "",
             "",
@@ -106,10 +106,10 @@ class FieldSweep(Result):
             over="haulm_mean_high",
         ),
     ]
-    loss_mean: Annotated[Floats, Shown("mean volume of a root above the cut", "", "m³", over="loss_mean")]
-    length_for_95: Annotated[Floats, Shown("length for 95 % of the heads", "", "m", over="length_for_95")]
-    slicing_ratio_mean: Annotated[Floats, Shown("mean draw-cut ratio", "", "", over="slicing_ratio_mean")]
-    level: Annotated[float, Shown("confidence level", "", "")]
+    loss_mean: Annotated[Floats, Label("mean volume of a root above the cut", "", "m³", over="loss_mean")]
+    length_for_95: Annotated[Floats, Label("length for 95 % of the heads", "", "m", over="length_for_95")]
+    slicing_ratio_mean: Annotated[Floats, Label("mean draw-cut ratio", "", "", over="slicing_ratio_mean")]
+    level: Annotated[float, Label("confidence level", "", "")]
 
     def columns(self) -> dict[str, Floats]:
         """All that varied and all that was found, by name."""

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.topping.edge import Edge, edges_of, hardly_goes_on, require_topper
@@ -38,52 +38,52 @@ class TopperStudy(Result):
     """What the knife cuts."""
 
     phase: Annotated[
-        Floats, Shown("phase of the knife", "φ", "rad", "When the middle of the edge is abreast of a head.")
+        Floats, Label("phase of the knife", "φ", "rad", "When the middle of the edge is abreast of a head.")
     ]
-    length_by_phase: Annotated[Floats, Shown("required length in a phase", "L", "m", "At the worst offset.")]
+    length_by_phase: Annotated[Floats, Label("required length in a phase", "L", "m", "At the worst offset.")]
     uncut_by_phase: Annotated[
-        Floats, Shown("uncut share of the head in a phase", "", "", "At the worst offset.")
+        Floats, Label("uncut share of the head in a phase", "", "", "At the worst offset.")
     ]
     edge_place: Annotated[
-        Floats, Shown("position along the edge from its middle", "", "m", shape="(k,)", over="edge_place")
+        Floats, Label("position along the edge from its middle", "", "m", shape="(k,)", over="edge_place")
     ]
     edge_use: Annotated[
-        Floats, Shown("mean path through a head", "", "m", "Of each place of the edge.", over="edge_place")
+        Floats, Label("mean path through a head", "", "m", "Of each place of the edge.", over="edge_place")
     ]
-    head_diameter: Annotated[float, Shown("diameter of the head", "d", "m", "Of the disc that is cut.")]
-    cap_volume: Annotated[float, Shown("volume of the slice", "V", "m³", "Of the root above the cut.")]
+    head_diameter: Annotated[float, Label("diameter of the head", "d", "m", "Of the disc that is cut.")]
+    cap_volume: Annotated[float, Label("volume of the slice", "V", "m³", "Of the root above the cut.")]
     stroke: Annotated[
-        float, Shown("stroke of the knife", "S", "m", "Zero if it does not turn back over a head.")
+        float, Label("stroke of the knife", "S", "m", "Zero if it does not turn back over a head.")
     ]
-    frequency: Annotated[float, Shown("knife frequency", "f", "1/s")]
-    knife_speed: Annotated[float, Shown("mean speed across the row", "v_h", "m/s", "Over the time.")]
-    knife_speed_max: Annotated[float, Shown("maximum speed across the row", "ẏ_max", "m/s")]
+    frequency: Annotated[float, Label("knife frequency", "f", "1/s")]
+    knife_speed: Annotated[float, Label("mean speed across the row", "v_h", "m/s", "Over the time.")]
+    knife_speed_max: Annotated[float, Label("maximum speed across the row", "ẏ_max", "m/s")]
     knife_acceleration_max: Annotated[
         float,
-        Shown(
+        Label(
             "maximum acceleration of the knife", "ÿ_max", "m/s²", "Infinite at constant speed back and forth."
         ),
     ]
     strokes_per_head: Annotated[
-        float, Shown("strokes over a head", "", "", "While the edge passes a head on the row.")
+        float, Label("strokes over a head", "", "", "While the edge passes a head on the row.")
     ]
-    travel_along: Annotated[float, Shown("travel along the row", "S_x", "m", "Of the paper, with Δ.")]
-    travel_across: Annotated[float, Shown("travel across the row", "S_y", "m", "Of the paper, with Δ.")]
+    travel_along: Annotated[float, Label("travel along the row", "S_x", "m", "Of the paper, with Δ.")]
+    travel_across: Annotated[float, Label("travel across the row", "S_y", "m", "Of the paper, with Δ.")]
     time_along: Annotated[
-        float, Shown("time of the travel along the row", "t_x", "s", "Of the paper, with Δ.")
+        float, Label("time of the travel along the row", "t_x", "s", "Of the paper, with Δ.")
     ]
     time_across: Annotated[
-        float, Shown("time of the travel across the row", "t_y", "s", "Of the paper, with Δ.")
+        float, Label("time of the travel across the row", "t_y", "s", "Of the paper, with Δ.")
     ]
     condition_holds: Annotated[bool, About("Whether t_y ≥ t_x, the paper's (1).")]
-    length_published: Annotated[float, Shown("minimum length by the paper's (10)", "", "m")]
-    length_consistent: Annotated[float, Shown("minimum length that follows from the paper's (4)", "", "m")]
+    length_published: Annotated[float, Label("minimum length by the paper's (10)", "", "m")]
+    length_consistent: Annotated[float, Label("minimum length that follows from the paper's (4)", "", "m")]
     length_at_rest: Annotated[
-        float, Shown("minimum length of an edge that does not move across the row", "", "m")
+        float, Label("minimum length of an edge that does not move across the row", "", "m")
     ]
     length_exact_constant_speed: Annotated[
         float,
-        Shown(
+        Label(
             "minimum length for a knife that keeps its mean speed over the head",
             "",
             "m",
@@ -92,45 +92,45 @@ class TopperStudy(Result):
     ]
     length_exact: Annotated[
         float,
-        Shown(
+        Label(
             "minimum length for the motion of the knife",
             "L",
             "m",
             "At the worst offset, in the worst phase or the given one.",
         ),
     ]
-    worst_phase: Annotated[float, Shown("phase of the head that needs the maximum length", "", "rad")]
-    worst_offset: Annotated[float, Shown("offset of the head that needs the maximum length", "", "m")]
-    last_x: Annotated[float, Shown("point of that head that is reached last, x", "", "m", "From its centre.")]
-    last_y: Annotated[float, Shown("point of that head that is reached last, y", "", "m", "From its centre.")]
-    length_best_phase: Annotated[float, Shown("length that heads in the best phase need", "", "m")]
-    best_phase: Annotated[float, Shown("phase in which heads need the minimum length", "", "rad")]
-    uncut_share: Annotated[float, Shown("maximum share of a head that the edge leaves", "", "")]
-    uncut_phase: Annotated[float, Shown("phase of the head of which most is left", "", "rad")]
-    uncut_offset: Annotated[float, Shown("offset of the head of which most is left", "", "m")]
-    uncut_right: Annotated[float, Shown("share that is left there on the right of the edge", "", "")]
-    uncut_left: Annotated[float, Shown("share that is left there on the left of the edge", "", "")]
-    uncut_between: Annotated[float, Shown("share that is left there between two passes", "", "")]
+    worst_phase: Annotated[float, Label("phase of the head that needs the maximum length", "", "rad")]
+    worst_offset: Annotated[float, Label("offset of the head that needs the maximum length", "", "m")]
+    last_x: Annotated[float, Label("point of that head that is reached last, x", "", "m", "From its centre.")]
+    last_y: Annotated[float, Label("point of that head that is reached last, y", "", "m", "From its centre.")]
+    length_best_phase: Annotated[float, Label("length that heads in the best phase need", "", "m")]
+    best_phase: Annotated[float, Label("phase in which heads need the minimum length", "", "rad")]
+    uncut_share: Annotated[float, Label("maximum share of a head that the edge leaves", "", "")]
+    uncut_phase: Annotated[float, Label("phase of the head of which most is left", "", "rad")]
+    uncut_offset: Annotated[float, Label("offset of the head of which most is left", "", "m")]
+    uncut_right: Annotated[float, Label("share that is left there on the right of the edge", "", "")]
+    uncut_left: Annotated[float, Label("share that is left there on the left of the edge", "", "")]
+    uncut_between: Annotated[float, Label("share that is left there between two passes", "", "")]
     uncut_share_mean: Annotated[
         float,
-        Shown("mean share of a head that the edge leaves", "", "", "Over phases and offsets, both even."),
+        Label("mean share of a head that the edge leaves", "", "", "Over phases and offsets, both even."),
     ]
     edge_retreats: Annotated[bool, About("Whether the edge runs backwards at times.")]
-    least_advance: Annotated[float, Shown("minimum advance normal to the edge", "u_n,min", "m/s")]
+    least_advance: Annotated[float, Label("minimum advance normal to the edge", "u_n,min", "m/s")]
     slicing_ratio_min: Annotated[
-        float, Shown("minimum draw-cut ratio", "", "", "Speed along the edge over speed normal to it.")
+        float, Label("minimum draw-cut ratio", "", "", "Speed along the edge over speed normal to it.")
     ]
-    slicing_ratio_mean: Annotated[float, Shown("mean draw-cut ratio", "", "", "Over what is cut.")]
-    slicing_ratio_max: Annotated[float, Shown("maximum draw-cut ratio", "", "")]
+    slicing_ratio_mean: Annotated[float, Label("mean draw-cut ratio", "", "", "Over what is cut.")]
+    slicing_ratio_max: Annotated[float, Label("maximum draw-cut ratio", "", "")]
     cutting_speed_min: Annotated[
-        float, Shown("minimum cutting speed", "", "m/s", "Speed of the edge against the head.")
+        float, Label("minimum cutting speed", "", "m/s", "Speed of the edge against the head.")
     ]
     cutting_speed_max: Annotated[
-        float, Shown("maximum cutting speed", "", "m/s", "Speed of the edge against the head.")
+        float, Label("maximum cutting speed", "", "m/s", "Speed of the edge against the head.")
     ]
     knife_mass: Annotated[
         float | None,
-        Shown(
+        Label(
             "mass of the knife",
             "m",
             "kg",
@@ -139,11 +139,11 @@ class TopperStudy(Result):
         ),
     ]
     inertia_force_max: Annotated[
-        float | None, Shown("maximum inertia force of the knife", "m ÿ_max", "N", table="topper_drive")
+        float | None, Label("maximum inertia force of the knife", "m ÿ_max", "N", table="topper_drive")
     ]
     drive_torque_max: Annotated[
         float | None,
-        Shown(
+        Label(
             "maximum driving torque",
             "M_max",
             "N m",
@@ -153,7 +153,7 @@ class TopperStudy(Result):
     ]
     drive_torque_min: Annotated[
         float | None,
-        Shown(
+        Label(
             "minimum driving torque",
             "M_min",
             "N m",
@@ -163,13 +163,13 @@ class TopperStudy(Result):
     ]
     drive_torque_mean: Annotated[
         float | None,
-        Shown(
+        Label(
             "mean driving torque", "M_mean", "N m", "At the crank, at the design speed.", table="topper_drive"
         ),
     ]
     drive_power_mean: Annotated[
         float | None,
-        Shown("mean power", "P_mean", "W", "At the crank, at the design speed.", table="topper_drive"),
+        Label("mean power", "P_mean", "W", "At the crank, at the design speed.", table="topper_drive"),
     ]
     obstacle: Annotated[str | None, About(_OBSTACLE)]
 

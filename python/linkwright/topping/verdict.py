@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result, finite
 from linkwright.kernel.units import ACUTE, ANGLE, LENGTH, Quantity, positive
 from linkwright.topping.required_length import (
@@ -92,12 +92,12 @@ class Demand(Result):
     way: Annotated[str, About("A key of `WAYS`.")]
     length_least: Annotated[
         float,
-        Shown("minimum length over the speeds", "", "m", "For the heads given; infinite where no edge does."),
+        Label("minimum length over the speeds", "", "m", "For the heads given; infinite where no edge does."),
     ]
-    length_greatest: Annotated[float, Shown("maximum length over the speeds", "", "m", "Likewise.")]
+    length_greatest: Annotated[float, Label("maximum length over the speeds", "", "m", "Likewise.")]
     band_low: Annotated[
         float,
-        Shown(
+        Label(
             "lower band whose maximum length lies at an end of the claim",
             "d + 2Δ",
             "m",
@@ -106,7 +106,7 @@ class Demand(Result):
     ]
     band_high: Annotated[
         float,
-        Shown("upper band whose maximum length lies at an end of the claim", "d + 2Δ", "m", "Likewise."),
+        Label("upper band whose maximum length lies at an end of the claim", "d + 2Δ", "m", "Likewise."),
     ]
     holds: Annotated[
         bool, About("Whether the maximum length lies within the claim: what an edge must be made for.")
@@ -118,8 +118,8 @@ class Demand(Result):
 class LengthVerdict(Result):
     """For which heads a claim holds, in several ways."""
 
-    edge_angle: Annotated[float, Shown("edge angle", "α", "rad")]
-    band: Annotated[float, Shown("band of the heads given", "d + 2Δ", "m")]
+    edge_angle: Annotated[float, Label("edge angle", "α", "rad")]
+    band: Annotated[float, Label("band of the heads given", "d + 2Δ", "m")]
     demands: Annotated[tuple[Demand, ...], About("One for each way.")]
 
     @property

@@ -30,7 +30,7 @@ from linkwright.kernel.limits import ROWS_OUT
 from linkwright.kernel.numerics.turn_curve import TurnCurve
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.turning.model import TurningMoment
@@ -60,20 +60,20 @@ _AREAS = (
 class TurningMomentDiagram(Result):
     """A shaft over a cycle of its turning moments. What cannot be determined is None."""
 
-    cycle: Annotated[float, Shown("angle of a cycle", "", "rad")]
+    cycle: Annotated[float, Label("angle of a cycle", "", "rad")]
     speed_mean: Annotated[
-        float, Shown("mean speed", "ω", "rad/s", "Of the extreme speeds.", table="flywheel")
+        float, Label("mean speed", "ω", "rad/s", "Of the extreme speeds.", table="flywheel")
     ]
     energy_fluctuation: Annotated[
-        float, Shown("maximum fluctuation of energy", "ΔE", "J", table="turning_moment")
+        float, Label("maximum fluctuation of energy", "ΔE", "J", table="turning_moment")
     ]
     accuracy: Annotated[
-        float, Shown("error of the fluctuation of energy over itself", "", "", "As measured.")
+        float, Label("error of the fluctuation of energy over itself", "", "", "As measured.")
     ]
     areas: Annotated[tuple[dict[str, float | None], ...], About(_AREAS)]
     torque_mean: Annotated[
         float | None,
-        Shown(
+        Label(
             "mean torque",
             "T_mean",
             "N m",
@@ -83,15 +83,15 @@ class TurningMomentDiagram(Result):
         ),
     ] = None
     power_mean: Annotated[
-        float | None, Shown("mean power", "P_mean", "W", table="turning_moment", before="energy_fluctuation")
+        float | None, Label("mean power", "P_mean", "W", table="turning_moment", before="energy_fluctuation")
     ] = None
     energy_cycle: Annotated[
         float | None,
-        Shown("work of the driver per cycle", "A", "J", table="turning_moment", before="energy_fluctuation"),
+        Label("work of the driver per cycle", "A", "J", table="turning_moment", before="energy_fluctuation"),
     ] = None
     energy_coefficient: Annotated[
         float | None,
-        Shown(
+        Label(
             "coefficient of fluctuation of energy",
             "C_E",
             "",
@@ -101,23 +101,23 @@ class TurningMomentDiagram(Result):
     ] = None
     torque_driver_max: Annotated[
         float | None,
-        Shown("maximum torque of the driver", "T_max", "N m", table="turning_moment", before="power_mean"),
+        Label("maximum torque of the driver", "T_max", "N m", table="turning_moment", before="power_mean"),
     ] = None
     torque_driver_max_angle: Annotated[
-        float | None, Shown("angle of the maximum torque of the driver", "φ(T_max)", "rad")
+        float | None, Label("angle of the maximum torque of the driver", "φ(T_max)", "rad")
     ] = None
     torque_driver_min: Annotated[
         float | None,
-        Shown("minimum torque of the driver", "T_min", "N m", table="turning_moment", before="power_mean"),
+        Label("minimum torque of the driver", "T_min", "N m", table="turning_moment", before="power_mean"),
     ] = None
     torque_driver_min_angle: Annotated[
-        float | None, Shown("angle of the minimum torque of the driver", "φ(T_min)", "rad")
+        float | None, Label("angle of the minimum torque of the driver", "φ(T_min)", "rad")
     ] = None
-    speed_max_angle: Annotated[float | None, Shown("angle of the maximum speed", "φ(ω_max)", "rad")] = None
-    speed_min_angle: Annotated[float | None, Shown("angle of the minimum speed", "φ(ω_min)", "rad")] = None
+    speed_max_angle: Annotated[float | None, Label("angle of the maximum speed", "φ(ω_max)", "rad")] = None
+    speed_min_angle: Annotated[float | None, Label("angle of the minimum speed", "φ(ω_min)", "rad")] = None
     inertia: Annotated[
         float | None,
-        Shown(
+        Label(
             "moment of inertia of the shaft",
             "J",
             "kg m²",
@@ -128,7 +128,7 @@ class TurningMomentDiagram(Result):
     ] = None
     flywheel_inertia: Annotated[
         float | None,
-        Shown(
+        Label(
             "moment of inertia of the flywheel",
             "J_f",
             "kg m²",
@@ -139,7 +139,7 @@ class TurningMomentDiagram(Result):
     ] = None
     flywheel_mass: Annotated[
         float | None,
-        Shown(
+        Label(
             "mass of the flywheel",
             "m",
             "kg",
@@ -150,7 +150,7 @@ class TurningMomentDiagram(Result):
     ] = None
     unevenness: Annotated[
         float | None,
-        Shown(
+        Label(
             "coefficient of speed fluctuation",
             "δ",
             "",
@@ -159,31 +159,31 @@ class TurningMomentDiagram(Result):
             before="speed_mean",
         ),
     ] = None
-    speed_max: Annotated[float | None, Shown("maximum speed", "ω_max", "rad/s", table="flywheel")] = None
-    speed_min: Annotated[float | None, Shown("minimum speed", "ω_min", "rad/s", table="flywheel")] = None
+    speed_max: Annotated[float | None, Label("maximum speed", "ω_max", "rad/s", table="flywheel")] = None
+    speed_min: Annotated[float | None, Label("minimum speed", "ω_min", "rad/s", table="flywheel")] = None
     acceleration_max: Annotated[
-        float | None, Shown("maximum acceleration", "ε_max", "rad/s²", "Of the shaft.", table="flywheel")
+        float | None, Label("maximum acceleration", "ε_max", "rad/s²", "Of the shaft.", table="flywheel")
     ] = None
     acceleration_min: Annotated[
-        float | None, Shown("minimum acceleration", "ε_min", "rad/s²", "Of the shaft.", table="flywheel")
+        float | None, Label("minimum acceleration", "ε_min", "rad/s²", "Of the shaft.", table="flywheel")
     ] = None
     crank_angle: Annotated[
         Floats,
-        Shown("crank angle", "φ", "rad", "Empty where areas are given, as all curves.", shape="(n + 1,)"),
+        Label("crank angle", "φ", "rad", "Empty where areas are given, as all curves.", shape="(n + 1,)"),
     ] = field(default_factory=_nothing)
-    torque_driver: Annotated[Floats, Shown("torque of the driver", "T", "N m")] = field(
+    torque_driver: Annotated[Floats, Label("torque of the driver", "T", "N m")] = field(
         default_factory=_nothing
     )
-    torque_load: Annotated[Floats, Shown("torque of the load", "M", "N m")] = field(default_factory=_nothing)
+    torque_load: Annotated[Floats, Label("torque of the load", "M", "N m")] = field(default_factory=_nothing)
     energy: Annotated[
-        Floats, Shown("energy that the shaft has taken up", "E", "J", "From the start of the cycle.")
+        Floats, Label("energy that the shaft has taken up", "E", "J", "From the start of the cycle.")
     ] = field(default_factory=_nothing)
     speed: Annotated[
-        Floats, Shown("speed of the shaft", "ω", "rad/s", "Empty without a moment of inertia.")
+        Floats, Label("speed of the shaft", "ω", "rad/s", "Empty without a moment of inertia.")
     ] = field(default_factory=_nothing)
 
 
-class _Evened(NamedTuple):
+class _FlywheelEffect(NamedTuple):
     """What a moment of inertia makes of a fluctuation of energy; fields of the result."""
 
     inertia: float | None = None
@@ -331,7 +331,7 @@ def _require_balance(driver: float, load: float, curves: TurnCurve, described: T
         )
 
 
-def _evened(described: TurningMoment, change: float) -> _Evened:
+def _evened(described: TurningMoment, change: float) -> _FlywheelEffect:
     """The flywheel that is asked for, or the speed fluctuation that the given inertia gives."""
     omega, wanted, own = described.speed, described.unevenness, described.inertia or 0.0
     flywheel = mass = None
@@ -342,7 +342,7 @@ def _evened(described: TurningMoment, change: float) -> _Evened:
         radius = described.radius_of_gyration
         mass = None if radius is None else flywheel / radius**2
     if total == 0.0:
-        return _Evened(None, flywheel, mass)
+        return _FlywheelEffect(None, flywheel, mass)
     delta = change / (total * omega**2)
     if delta >= 2.0:
         raise FindingError(
@@ -350,7 +350,7 @@ def _evened(described: TurningMoment, change: float) -> _Evened:
             f"rad/s the energy changes by {change:.6g} J in a cycle, which asks for more than "
             f"{change / (2 * omega**2):.6g} kg m²"
         )
-    return _Evened(total, flywheel, mass, delta, omega * (1 - delta / 2), omega * (1 + delta / 2))
+    return _FlywheelEffect(total, flywheel, mass, delta, omega * (1 - delta / 2), omega * (1 + delta / 2))
 
 
 def _areas(curves: TurnCurve, energy: TurnCurve, cycle: float) -> tuple[dict[str, float | None], ...]:
@@ -372,7 +372,7 @@ def _areas(curves: TurnCurve, energy: TurnCurve, cycle: float) -> tuple[dict[str
     )
 
 
-def _speed(above: Floats, evened: _Evened) -> Floats:
+def _speed(above: Floats, evened: _FlywheelEffect) -> Floats:
     """Speed by the energy above its minimum, (n,) [rad/s]; no curve without a moment of inertia."""
     if evened.inertia is None or evened.speed_min is None:
         return _nothing()

@@ -13,7 +13,7 @@ from linkwright.kernel.figure.style import (
     INERTIA,
     LOAD,
     SPEED,
-    Captioned,
+    CaptionedFigure,
     legend_above,
     level,
     panels,
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 _TICKS = 12
 
 
-def turning_figures(diagram: TurningMomentDiagram) -> Iterator[Captioned]:
+def turning_figures(diagram: TurningMomentDiagram) -> Iterator[CaptionedFigure]:
     """The diagram with its energy, and the speed; nothing where areas alone are given."""
     if not len(diagram.crank_angle):
         return
@@ -44,7 +44,7 @@ def turning_figures(diagram: TurningMomentDiagram) -> Iterator[Captioned]:
         f"Driver against load over a cycle. The energy of the shaft changes by "
         f"{quantity(diagram.energy_fluctuation, 'J')}{coefficient}."
     )
-    yield Captioned("turning_moment", "Turning-moment diagram", caption, diagram_figure(diagram))
+    yield CaptionedFigure("turning_moment", "Turning-moment diagram", caption, diagram_figure(diagram))
     if (
         diagram.inertia is not None
         and diagram.speed_max_angle is not None
@@ -57,7 +57,7 @@ def turning_figures(diagram: TurningMomentDiagram) -> Iterator[Captioned]:
             f"{degrees(diagram.speed_max_angle)}, slowest at "
             f"{degrees(diagram.speed_min_angle)}."
         )
-        yield Captioned("turning_speed", "Speed over the cycle", caption, speed_figure(diagram))
+        yield CaptionedFigure("turning_speed", "Speed over the cycle", caption, speed_figure(diagram))
 
 
 @styled

@@ -9,7 +9,7 @@ import click
 from linkwright.kernel.command.common import File, Outside, Sets, option_value
 from linkwright.kernel.command.out import Force, output_files, say_written
 from linkwright.kernel.command.parameter import Option
-from linkwright.kernel.errors import FindingError, InputError, plain
+from linkwright.kernel.errors import FindingError, InputError, printable
 
 if TYPE_CHECKING:
     from linkwright.machine.machine import Machine
@@ -106,7 +106,7 @@ def _scene(machine: Machine, at: str | None) -> tuple[Scene, float]:
     try:
         steady = steady_state(machine) if has_motor else None
     except FindingError as error:
-        click.echo(f"Drawn at constant speed: {plain(str(error))}", err=True)
+        click.echo(f"Drawn at constant speed: {printable(str(error))}", err=True)
         steady = None
     scene = moving_scene(machine, steady, None if angle is None else float(np.mod(angle, 2 * np.pi)))
     if scene is None:

@@ -32,13 +32,13 @@ def glossary(words: Words = None, json: Json = False) -> None:
         raise InputError(f'the glossary has no term "{word}"; linkwright glossary lists all terms')
     answer = Answer(
         machine=None,
-        results=lambda _: {term.key: _plain(term) for term in chosen},
+        results=lambda _: {term.key: _entry(term) for term in chosen},
         head=lambda: "\n\n".join(map(_words, chosen)),
     )
     hand_over(answer, json=json)
 
 
-def _plain(term: Term) -> dict[str, object]:
+def _entry(term: Term) -> dict[str, object]:
     """A term for programs."""
     return {name: value for name, value in term._asdict().items() if name not in ("key", "retired")}
 

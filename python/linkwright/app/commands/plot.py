@@ -89,7 +89,7 @@ def plot(
     answer = Answer(
         machine=machine.name,
         units=machine.units,
-        results=lambda _: {"plot": _told(results, curves, counted.angle)},
+        results=lambda _: {"plot": _curve_data(results, curves, counted.angle)},
         findings=results.findings,
         warnings=results.warnings,
         tables=lambda: [_extremes(results, curves, counted.angle), _values(curves)],
@@ -121,7 +121,7 @@ def _list_of(study: Study, curves: dict[str, Curve]) -> Answer:
     )
 
 
-def _told(study: Study, curves: Sequence[Curve], zero: float) -> dict[str, Any]:
+def _curve_data(study: Study, curves: Sequence[Curve], zero: float) -> dict[str, Any]:
     """The curves in SI."""
     from linkwright.app.curves import extremes
 

@@ -87,11 +87,11 @@ def report(
     variants = [of_text(text) for text in variant or ()]
     if len({one.name for one in variants}) < len(variants):
         raise InputError("--variant: found one name twice, expected a name for each")
-    whole = _content(words, command_line())
-    content = whole if wanted is None else whole.only(wanted)
+    everything = _content(words, command_line())
+    content = everything if wanted is None else everything.only(wanted)
     if variants:
         others = {one.name: _content(_varied(words, one), "") for one in variants}
-        content = compared(content, whole, others)
+        content = compared(content, everything, others)
     _write(replace(content, heading=head), places, force=force)
     finish(Answer(machine=None, findings=content.findings))
 

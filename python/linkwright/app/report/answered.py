@@ -11,7 +11,7 @@ from typing import NamedTuple
 from linkwright.kernel.command.answer import Answer
 from linkwright.kernel.command.common import named_entries
 from linkwright.kernel.errors import InputError
-from linkwright.kernel.figure.style import Captioned
+from linkwright.kernel.figure.style import CaptionedFigure
 from linkwright.kernel.page.content import Content, Part
 from linkwright.kernel.page.table import Row, Table
 
@@ -37,7 +37,7 @@ def answered(answer: Answer, command: str) -> Content:
     if answer.report is not None:
         return replace(answer.report(), command=command)
     tables = list(answer.tables())
-    figures = [Captioned(name, _title(name), "", figure) for name, figure in answer.figures().items()]
+    figures = [CaptionedFigure(name, _title(name), "", figure) for name, figure in answer.figures().items()]
     printed = _printed(answer.show) if answer.show is not None else ""
     if not (tables or figures or printed or answer.findings):
         raise InputError("there is nothing to report: this command gives neither tables nor figures")

@@ -7,12 +7,12 @@ from collections.abc import Iterator
 from linkwright.app.study import Study
 from linkwright.drive.figures import drive_figures
 from linkwright.drive.figures_of_cycle import cycle_figures
-from linkwright.kernel.figure.style import Captioned
+from linkwright.kernel.figure.style import CaptionedFigure
 from linkwright.kinetostatics.figures import captioned_forces
 from linkwright.linkages.figures import linkage_figures
 
 
-def figures(study: Study) -> Iterator[Captioned]:
+def figures(study: Study) -> Iterator[CaptionedFigure]:
     """The figures that a study has results for, in the order of the page."""
     yield from _slices(study)
     if study.linkage is not None and study.motion is not None:
@@ -23,7 +23,7 @@ def figures(study: Study) -> Iterator[Captioned]:
         yield from captioned_forces(study.forces)
 
 
-def _slices(study: Study) -> Iterator[Captioned]:
+def _slices(study: Study) -> Iterator[CaptionedFigure]:
     """Those of turning moments, topper, cams and pumping unit, where the machine has such."""
     if study.turning_moment is not None:
         from linkwright.turning.figures import turning_figures

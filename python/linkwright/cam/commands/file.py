@@ -71,7 +71,7 @@ def cam_file(
     options = _options(tolerance, step, by, form, formats)
     with progress("computing"):
         study = _studied(file, set or [], allow_outside=allow_outside)
-    drawn: dict[str, _Drawn] = {}
+    drawn: dict[str, _Drawing] = {}
     findings: list[str] = []
     if folder is not None:
         with progress("drawing"):
@@ -112,14 +112,14 @@ def _studied(file: Path, sets: list[str], *, allow_outside: bool) -> Study:
     return study(machine)
 
 
-class _Drawn(NamedTuple):
+class _Drawing(NamedTuple):
     """A drawing that was written and read back: its bytes, and what was measured in them."""
 
     data: bytes
     outlines: tuple[MeasuredOutline, ...]
 
 
-def _drawn(study: Study, options: dict[str, Any]) -> tuple[dict[str, _Drawn], list[str]]:
+def _drawn(study: Study, options: dict[str, Any]) -> tuple[dict[str, _Drawing], list[str]]:
     """Name of the file → drawing, of the cams that can be made; what cannot be drawn is a finding."""
     from tempfile import TemporaryDirectory
 
@@ -133,7 +133,7 @@ def _drawn(study: Study, options: dict[str, Any]) -> tuple[dict[str, _Drawn], li
     # Names may differ in letters alone that no file can have.
     stems = file_names({drawing.name: "" for _, drawing in drawings})
     findings: list[str] = []
-    drawn: dict[str, _Drawn] = {}
+    drawn: dict[str, _Drawing] = {}
     with TemporaryDirectory() as folder:
         for profile, drawing in drawings:
             try:
@@ -141,14 +141,14 @@ def _drawn(study: Study, options: dict[str, Any]) -> tuple[dict[str, _Drawn], li
             except ExchangeError as error:
                 findings.append(f"Cam {profile.name}: {error}.")
             else:
-                drawn |= {file.path.name: _Drawn(file.path.read_bytes(), file.outlines) for file in written}
+                drawn |= {file.path.name: _Drawing(file.path.read_bytes(), file.outlines) for file in written}
     return drawn, findings
 
 
 def _answer(
     study: Study,
     folder: OutputFolder | None,
-    drawn: dict[str, _Drawn],
+    drawn: dict[str, _Drawing],
     findings: list[str],
     *,
     curves: bool,
@@ -196,7 +196,7 @@ def _report(study: Study) -> Content:
     return content(study)
 
 
-def _files(study: Study, drawn: dict[str, _Drawn]) -> dict[str, str | bytes]:
+def _files(study: Study, drawn: dict[str, _Drawing]) -> dict[str, str | bytes]:
     """Report and drawings."""
     from linkwright.app.report.page import report_html
     from linkwright.kernel.command.out import command_line
@@ -207,7 +207,7 @@ def _files(study: Study, drawn: dict[str, _Drawn]) -> dict[str, str | bytes]:
     }
 
 
-def _measured(name: str, drawn: _Drawn) -> str:
+def _measured(name: str, drawn: _Drawing) -> str:
     """What was measured in a drawing."""
     most = max(outline.deviation.largest for outline in drawn.outlines)
     sides = "+".join(str(outline.deviation.sides) for outline in drawn.outlines)

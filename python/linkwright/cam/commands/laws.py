@@ -47,7 +47,7 @@ def laws(law: Names = None, json: Json = False, out: Folder = None, force: Force
     from linkwright.cam.laws.catalogue import LAWS
 
     folder = output_folder(out, force=force)
-    wanted = [_read(text) for text in law] if law else [_Chosen(name, name, {}) for name in LAWS]
+    wanted = [_read(text) for text in law] if law else [_LawChoice(name, name, {}) for name in LAWS]
     chosen = {word.words: word for word in wanted}
     shapes = {words: LAWS[law.name].normalised(**law.parameters) for words, law in chosen.items()}
     factors = {words: law_factors(shape) for words, shape in shapes.items()}
@@ -65,7 +65,7 @@ def laws(law: Names = None, json: Json = False, out: Folder = None, force: Force
 # In the order of the help.
 
 
-class _Chosen(NamedTuple):
+class _LawChoice(NamedTuple):
     """A law that is asked for: in what words, its name, and its parameters that are not the usual ones."""
 
     words: str
@@ -73,7 +73,7 @@ class _Chosen(NamedTuple):
     parameters: dict[str, Any]
 
 
-def _read(text: str) -> _Chosen:
+def _read(text: str) -> _LawChoice:
     """A law of ``NAME`` or ``NAME: KEY=VALUE, …``, checked as a section of a machine file is."""
     from pydantic import TypeAdapter, ValidationError
 
@@ -99,7 +99,7 @@ def _read(text: str) -> _Chosen:
         fault = error.errors()[0]
         parameters = ", ".join(f"{key}={value}" for key, value in given.items())
         raise InputError(f'--law: {name}: found "{parameters}": {fault["msg"]}') from None
-    return _Chosen(text if given else name, name, given)
+    return _LawChoice(text if given else name, name, given)
 
 
 def _value(text: str) -> Any:
@@ -112,7 +112,7 @@ def _value(text: str) -> Any:
     return text
 
 
-def _results(chosen: dict[str, _Chosen], factors: dict[str, LawFactors]) -> dict[str, Any]:
+def _results(chosen: dict[str, _LawChoice], factors: dict[str, LawFactors]) -> dict[str, Any]:
     """The factors of each law, and their theoretical lower bounds."""
     from linkwright.cam.laws.catalogue import BOUNDS, LAWS
 

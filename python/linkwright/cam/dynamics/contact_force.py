@@ -27,10 +27,10 @@ from linkwright.cam.dynamics.backlash import SideChange, side_changes
 from linkwright.cam.dynamics.bearing import ArmPivot, Bearing, BearingReaction, NoFriction, Push, pushes
 from linkwright.cam.dynamics.follower_load import CamCourse, FollowerLoad, force_along
 from linkwright.kernel.errors import InputError
-from linkwright.kernel.numerics.roots import zero
+from linkwright.kernel.numerics.zeros import zero
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import LENGTH, RATIO, not_negative
 
@@ -56,25 +56,25 @@ _NORMAL = (
 class ContactForce(Result):
     """Forces between cam and follower over the cam angle."""
 
-    cam_angle: Annotated[Floats, Shown("cam angle", "φ", "rad")]
+    cam_angle: Annotated[Floats, Label("cam angle", "φ", "rad")]
     force_along: Annotated[
         Floats,
-        Shown(
+        Label(
             "force that the follower needs along its way",
             "F",
             "N",
             "Friction left out; N m of an oscillating follower.",
         ),
     ]
-    normal: Annotated[Floats, Shown("normal force", "N", "N", _NORMAL)]
+    normal: Annotated[Floats, Label("normal force", "N", "N", _NORMAL)]
     side: Annotated[
         Floats,
-        Shown("flank that carries", "", "", "1 where it is the one that lifts, −1 where it is the other."),
+        Label("flank that carries", "", "", "1 where it is the one that lifts, −1 where it is the other."),
     ]
-    across: Annotated[Floats, Shown("force of the cam across the way", "", "N", "To where the surface runs.")]
+    across: Annotated[Floats, Label("force of the cam across the way", "", "N", "To where the surface runs.")]
     near: Annotated[
         Floats,
-        Shown(
+        Label(
             "reaction at the near end of the guide",
             "",
             "N",
@@ -83,30 +83,30 @@ class ContactForce(Result):
     ]
     far: Annotated[
         Floats,
-        Shown(
+        Label(
             "reaction at the far end of the guide",
             "",
             "N",
             "To where the surface runs; of a pivot its force.",
         ),
     ]
-    torque: Annotated[Floats, Shown("driving torque of the cam shaft for this follower", "", "N m")]
-    power: Annotated[Floats, Shown("power of the cam shaft", "", "W")]
-    power_friction: Annotated[Floats, Shown("power of friction", "", "W", "Never positive.")]
+    torque: Annotated[Floats, Label("driving torque of the cam shaft for this follower", "", "N m")]
+    power: Annotated[Floats, Label("power of the cam shaft", "", "W")]
+    power_friction: Annotated[Floats, Label("power of friction", "", "W", "Never positive.")]
     jammed: Annotated[Flags, About("Where no force of the cam moves the follower, shape (n,).")]
     lost: Annotated[Flags, About("Where a force-closed follower leaves the cam, shape (n,).")]
-    normal_max: Annotated[float, Shown("maximum normal force", "N_max", "N", "Largest size.")]
-    normal_max_angle: Annotated[float, Shown("cam angle of the maximum normal force", "φ(N_max)", "rad")]
-    normal_min: Annotated[float, Shown("minimum normal force", "N_min", "N")]
+    normal_max: Annotated[float, Label("maximum normal force", "N_max", "N", "Largest size.")]
+    normal_max_angle: Annotated[float, Label("cam angle of the maximum normal force", "φ(N_max)", "rad")]
+    normal_min: Annotated[float, Label("minimum normal force", "N_min", "N")]
     torque_max: Annotated[
-        float, Shown("maximum driving torque of the cam shaft", "", "N m", "Over the angles given.")
+        float, Label("maximum driving torque of the cam shaft", "", "N m", "Over the angles given.")
     ]
     torque_min: Annotated[
-        float, Shown("minimum driving torque of the cam shaft", "", "N m", "Over the angles given.")
+        float, Label("minimum driving torque of the cam shaft", "", "N m", "Over the angles given.")
     ]
     torque_mean: Annotated[
         float,
-        Shown(
+        Label(
             "mean driving torque of the cam shaft",
             "",
             "N m",
@@ -115,7 +115,7 @@ class ContactForce(Result):
     ]
     torque_mean_error: Annotated[
         float,
-        Shown(
+        Label(
             "error of the mean driving torque",
             "",
             "N m",

@@ -37,7 +37,7 @@ from linkwright.kernel.limits import VIBRATIONS
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import Column
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import COUNT, SPEED, positive
 
@@ -72,25 +72,25 @@ class FollowerVibration(Result):
     """Motion of the follower's mass over one revolution."""
 
     cam_angle: Annotated[
-        Floats, Shown("cam angle", "φ", "rad", "One revolution in even steps.", shape="(n + 1,)")
+        Floats, Label("cam angle", "φ", "rad", "One revolution in even steps.", shape="(n + 1,)")
     ]
-    lift: Annotated[Floats, Shown("lift", "s", "m")]
-    position: Annotated[Floats, Shown("position of the mass", "x", "m")]
-    velocity: Annotated[Floats, Shown("velocity of the mass", "ẋ", "m/s")]
-    acceleration: Annotated[Floats, Shown("acceleration of the mass", "ẍ", "m/s²")]
-    force: Annotated[Floats, Shown("force of the train on the cam", "", "N", "Positive where it presses.")]
-    speed: Annotated[float, Shown("speed of the cam", "ω", "rad/s")]
-    natural_frequency: Annotated[float, Shown("natural frequency of the follower", "Ω", "rad/s")]
-    vibrations_per_turn: Annotated[float, Shown("vibrations in one revolution", "Ω/ω", "")]
-    force_max: Annotated[float, Shown("maximum force of the train on the cam", "", "N", "Exact.")]
-    force_min: Annotated[float, Shown("minimum force of the train on the cam", "", "N", "Exact.")]
-    force_max_angle: Annotated[float, Shown("cam angle of the maximum force", "", "rad")]
-    force_min_angle: Annotated[float, Shown("cam angle of the minimum force", "", "rad")]
+    lift: Annotated[Floats, Label("lift", "s", "m")]
+    position: Annotated[Floats, Label("position of the mass", "x", "m")]
+    velocity: Annotated[Floats, Label("velocity of the mass", "ẋ", "m/s")]
+    acceleration: Annotated[Floats, Label("acceleration of the mass", "ẍ", "m/s²")]
+    force: Annotated[Floats, Label("force of the train on the cam", "", "N", "Positive where it presses.")]
+    speed: Annotated[float, Label("speed of the cam", "ω", "rad/s")]
+    natural_frequency: Annotated[float, Label("natural frequency of the follower", "Ω", "rad/s")]
+    vibrations_per_turn: Annotated[float, Label("vibrations in one revolution", "Ω/ω", "")]
+    force_max: Annotated[float, Label("maximum force of the train on the cam", "", "N", "Exact.")]
+    force_min: Annotated[float, Label("minimum force of the train on the cam", "", "N", "Exact.")]
+    force_max_angle: Annotated[float, Label("cam angle of the maximum force", "", "rad")]
+    force_min_angle: Annotated[float, Label("cam angle of the minimum force", "", "rad")]
     acceleration_max: Annotated[
-        float, Shown("maximum acceleration of the mass", "", "m/s²", "In size, exact.")
+        float, Label("maximum acceleration of the mass", "", "m/s²", "In size, exact.")
     ]
     departure_max: Annotated[
-        float, Shown("maximum departure from the lift", "", "m", "Largest size of e = x − κs, exact.")
+        float, Label("maximum departure from the lift", "", "m", "Largest size of e = x − κs, exact.")
     ]
     impulses: Annotated[tuple[Impulse, ...], About("Where the cam strikes.")]
     keeps_contact: Annotated[bool, About(_KEEPS_CONTACT)]
@@ -261,11 +261,11 @@ def _findings(impulses: tuple[Impulse, ...], low: Extreme) -> tuple[str, ...]:
 class VibrationSweep(Result):
     """Largest values of the periodic motion over the speed."""
 
-    speed: Annotated[Floats, Shown("speed of the cam", "ω", "rad/s")]
-    force_max: Annotated[Floats, Shown("maximum force of the train on the cam", "", "N")]
-    force_min: Annotated[Floats, Shown("minimum force of the train on the cam", "", "N")]
-    acceleration_max: Annotated[Floats, Shown("maximum acceleration of the mass", "", "m/s²")]
-    departure_max: Annotated[Floats, Shown("maximum departure from the lift", "", "m", "Of e = x − κs.")]
+    speed: Annotated[Floats, Label("speed of the cam", "ω", "rad/s")]
+    force_max: Annotated[Floats, Label("maximum force of the train on the cam", "", "N")]
+    force_min: Annotated[Floats, Label("minimum force of the train on the cam", "", "N")]
+    acceleration_max: Annotated[Floats, Label("maximum acceleration of the mass", "", "m/s²")]
+    departure_max: Annotated[Floats, Label("maximum departure from the lift", "", "m", "Of e = x − κs.")]
     keeps_contact: Annotated[NDArray[np.bool_], About("Whether the train presses all the time, shape (n,).")]
 
 

@@ -26,7 +26,7 @@ from linkwright.cam.dynamics.follower_load import alike
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public import public, public_type
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.quantities import Shown
+from linkwright.kernel.quantities import Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import FORCE, LENGTH, PRESSURE, Quantity, positive
 
@@ -82,30 +82,30 @@ class LineContact(Result):
 
     force: Annotated[
         Floats,
-        Shown(
+        Label(
             "normal force", "F", "N", "Where it is not positive there is no contact, and all else is zero."
         ),
     ]
-    radius: Annotated[Floats, Shown("radius of both bodies together", "R", "m")]
-    half_width: Annotated[Floats, Shown("half the width of the contact", "b", "m")]
-    pressure: Annotated[Floats, Shown("maximum pressure", "p₀", "Pa")]
-    shear: Annotated[Floats, Shown("maximum shear stress below the surface", "", "Pa")]
-    shear_depth: Annotated[Floats, Shown("depth of the maximum shear stress", "", "m")]
+    radius: Annotated[Floats, Label("radius of both bodies together", "R", "m")]
+    half_width: Annotated[Floats, Label("half the width of the contact", "b", "m")]
+    pressure: Annotated[Floats, Label("maximum pressure", "p₀", "Pa")]
+    shear: Annotated[Floats, Label("maximum shear stress below the surface", "", "Pa")]
+    shear_depth: Annotated[Floats, Label("depth of the maximum shear stress", "", "m")]
     von_mises: Annotated[
         Floats,
-        Shown("maximum equivalent stress by von Mises", "", "Pa", "In the material that has the larger one."),
+        Label("maximum equivalent stress by von Mises", "", "Pa", "In the material that has the larger one."),
     ]
-    von_mises_depth: Annotated[Floats, Shown("depth of the maximum equivalent stress", "", "m")]
+    von_mises_depth: Annotated[Floats, Label("depth of the maximum equivalent stress", "", "m")]
     slenderness: Annotated[
         Floats,
-        Shown(
+        Label(
             "half the width over the smaller radius of the two",
             "",
             "–",
             "Hertz's theory asks for much less than 1.",
         ),
     ]
-    pressure_max: Annotated[float, Shown("maximum pressure of all forces", "", "Pa")]
+    pressure_max: Annotated[float, Label("maximum pressure of all forces", "", "Pa")]
 
 
 @public

@@ -32,7 +32,7 @@ from linkwright.cam.laws.motion_law import Extreme, MotionLaw, combined
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.quantities import Shown
+from linkwright.kernel.quantities import Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import FORCE, MASS, SPEED, not_negative, positive
 
@@ -54,13 +54,13 @@ class LiftOff(Result):
 
     speed: Annotated[
         float,
-        Shown(
+        Label(
             "minimum speed at which the follower leaves the cam", "ω", "rad/s", "Infinite if it never does."
         ),
     ]
-    cam_angle: Annotated[float, Shown("cam angle where it leaves first", "φ", "rad")]
-    lift_d2: Annotated[float, Shown("second derivative of the lift there", "s″", "m/rad²")]
-    force_spring: Annotated[float, Shown("force of spring and load there", "", "N", "ks + F₀ + F_load.")]
+    cam_angle: Annotated[float, Label("cam angle where it leaves first", "φ", "rad")]
+    lift_d2: Annotated[float, Label("second derivative of the lift there", "s″", "m/rad²")]
+    force_spring: Annotated[float, Label("force of spring and load there", "", "N", "ks + F₀ + F_load.")]
 
 
 @public
@@ -185,8 +185,8 @@ def speed_of_loss(still: ArrayLike, linear: ArrayLike, square: ArrayLike) -> Flo
 class LeastPreload(Result):
     """The preload that holds a follower on its cam."""
 
-    preload: Annotated[float, Shown("minimum preload", "F₀", "N", "Negative if none is needed.")]
-    cam_angle: Annotated[float, Shown("cam angle that determines it", "", "rad")]
+    preload: Annotated[float, Label("minimum preload", "F₀", "N", "Negative if none is needed.")]
+    cam_angle: Annotated[float, Label("cam angle that determines it", "", "rad")]
 
 
 @public

@@ -36,7 +36,7 @@ from linkwright.drive.steady_state import steady_state
 from linkwright.kernel.errors import FindingError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import SPEED, positive
 from linkwright.kinetostatics.forces import forces
@@ -71,22 +71,22 @@ _FINDINGS = (
 class LoadedCam(Result):
     """A cam under load over the crank angle."""
 
-    crank_angle: Annotated[Floats, Shown("crank angle", "φ", "rad")]
+    crank_angle: Annotated[Floats, Label("crank angle", "φ", "rad")]
     force: Annotated[
         Floats,
-        Shown("normal force", "N", "N", "Negative where the second contact, or the outer flank, carries."),
+        Label("normal force", "N", "N", "Negative where the second contact, or the outer flank, carries."),
     ]
-    pressure_angle: Annotated[Floats, Shown("pressure angle", "γ", "rad", "Of the first contact.")]
+    pressure_angle: Annotated[Floats, Label("pressure angle", "γ", "rad", "Of the first contact.")]
     name: Annotated[str, About("The cam's.")]
-    force_max: Annotated[float, Shown("maximum normal force", "N_max", "N", "With its sign.")]
-    force_max_angle: Annotated[float, Shown("crank angle of the maximum normal force", "φ(N_max)", "rad")]
-    force_min: Annotated[float, Shown("minimum normal force", "N_min", "N", "With its sign.")]
-    force_min_angle: Annotated[float, Shown("crank angle of the minimum normal force", "φ(N_min)", "rad")]
-    speed: Annotated[float, Shown("mean speed of the motion", "ω_m", "rad/s")]
-    side_changes: Annotated[int, Shown("contact-side reversals", "", "", "In these angles, gone round.")]
+    force_max: Annotated[float, Label("maximum normal force", "N_max", "N", "With its sign.")]
+    force_max_angle: Annotated[float, Label("crank angle of the maximum normal force", "φ(N_max)", "rad")]
+    force_min: Annotated[float, Label("minimum normal force", "N_min", "N", "With its sign.")]
+    force_min_angle: Annotated[float, Label("crank angle of the minimum normal force", "φ(N_min)", "rad")]
+    speed: Annotated[float, Label("mean speed of the motion", "ω_m", "rad/s")]
+    side_changes: Annotated[int, Label("contact-side reversals", "", "", "In these angles, gone round.")]
     speed_lost: Annotated[
         float | None,
-        Shown(
+        Label(
             "crank speed at which the follower leaves the cam",
             "",
             "rad/s",
@@ -94,22 +94,22 @@ class LoadedCam(Result):
         ),
     ]
     speed_lost_angle: Annotated[
-        float | None, Shown("crank angle where the follower leaves the cam", "", "rad")
+        float | None, Label("crank angle where the follower leaves the cam", "", "rad")
     ]
     pressure_max: Annotated[
         float | None,
-        Shown("maximum contact pressure", "p₀", "Pa", "By Hertz; None without width, or for an edge."),
+        Label("maximum contact pressure", "p₀", "Pa", "By Hertz; None without width, or for an edge."),
     ]
     pressure_max_angle: Annotated[
-        float | None, Shown("crank angle of the maximum contact pressure", "φ(p₀)", "rad")
+        float | None, Label("crank angle of the maximum contact pressure", "φ(p₀)", "rad")
     ]
-    shear_max: Annotated[float | None, Shown("maximum shear stress below the surface", "", "Pa")]
-    shear_depth: Annotated[float | None, Shown("depth of the maximum shear stress", "", "m")]
-    pressure: Annotated[Floats | None, Shown("contact pressure", "p", "Pa")]
+    shear_max: Annotated[float | None, Label("maximum shear stress below the surface", "", "Pa")]
+    shear_depth: Annotated[float | None, Label("depth of the maximum shear stress", "", "m")]
+    pressure: Annotated[Floats | None, Label("contact pressure", "p", "Pa")]
     findings: Annotated[tuple[str, ...], About(_FINDINGS)] = ()
 
     @property
-    def force_size(self) -> Annotated[float, Shown("largest normal force in size", "", "N")]:
+    def force_size(self) -> Annotated[float, Label("largest normal force in size", "", "N")]:
         """Largest normal force in size."""
         return max(abs(self.force_max), abs(self.force_min))
 

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from linkwright.cam.laws.motion_law import Extreme, MotionLaw
 from linkwright.kernel.errors import FindingError, InputError
-from linkwright.kernel.numerics import roots
+from linkwright.kernel.numerics import zeros
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -123,10 +123,10 @@ class Oscillation:
         x = self.starts[:-1, None] + share * np.diff(self.starts)[:, None]
         step = np.broadcast_to(np.arange(len(x))[:, None], x.shape)
         slopes = slope(step.ravel(), x.ravel()).reshape(x.shape)
-        row, column = roots.brackets(slopes)
+        row, column = zeros.brackets(slopes)
         inner = np.zeros(0)
         if len(row):
-            inner, _ = roots.zeros(lambda places: slope(row, places), x[row, column], x[row, column + 1])
+            inner, _ = zeros.zeros(lambda places: slope(row, places), x[row, column], x[row, column + 1])
         places = np.concatenate([x[:, 0], x[:, -1], inner])
         steps = np.concatenate([step[:, 0], step[:, 0], row])
         values = value(steps, places)

@@ -20,7 +20,7 @@ from linkwright.cam.model.follower_motion import polydyne_correction, polydyne_l
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import SPEED, positive
 
@@ -36,18 +36,18 @@ class Polydyne(Result):
 
     lift: Annotated[MotionLaw, About("s of the cam [m].")]
     wanted: Annotated[MotionLaw, About("x of the follower's mass [m].")]
-    speed: Annotated[float, Shown("speed for which the cam is made", "ω", "rad/s")]
-    continuity: Annotated[int, Shown("highest order up to which the derivatives of x have no jump", "", "")]
-    lift_max: Annotated[float, Shown("maximum lift", "", "m")]
+    speed: Annotated[float, Label("speed for which the cam is made", "ω", "rad/s")]
+    continuity: Annotated[int, Label("highest order up to which the derivatives of x have no jump", "", "")]
+    lift_max: Annotated[float, Label("maximum lift", "", "m")]
     lift_min: Annotated[
         float,
-        Shown("minimum lift", "", "m", "A cam dips below its base circle where s is less than at rest."),
+        Label("minimum lift", "", "m", "A cam dips below its base circle where s is less than at rest."),
     ]
     correction_max: Annotated[
-        float, Shown("maximum correction of the lift", "", "m", "Largest size of κs − x.")
+        float, Label("maximum correction of the lift", "", "m", "Largest size of κs − x.")
     ]
     acceleration_max: Annotated[
-        float, Shown("maximum acceleration by the lift", "", "m/s²", "Largest size of s″ω².")
+        float, Label("maximum acceleration by the lift", "", "m/s²", "Largest size of s″ω².")
     ]
     findings: Annotated[tuple[str, ...], About("Strikes, jumps of acceleration, and dips, in sentences.")]
 

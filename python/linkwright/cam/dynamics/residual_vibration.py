@@ -26,11 +26,11 @@ from linkwright.cam.dynamics.one_mass import OneMass
 from linkwright.cam.dynamics.oscillator import in_pieces, nodes_for, pole, steps, without_steps
 from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.kernel.errors import InputError
-from linkwright.kernel.numerics import roots
+from linkwright.kernel.numerics import zeros
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import Column
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import FRACTION, RATIO, SPEED, Quantity, positive
 
@@ -63,24 +63,24 @@ class Quiet(NamedTuple):
 class ResidualSpectrum(Result):
     """Vibration during and after a rise between dwells."""
 
-    ratio: Annotated[Floats, Shown("rise time over natural period", "τ", "–")]
+    ratio: Annotated[Floats, Label("rise time over natural period", "τ", "–")]
     residual: Annotated[
         Floats,
-        Shown(
+        Label(
             "residual amplitude over the total lift", "", "–", "Of the free vibration as the dwell begins."
         ),
     ]
     residual_acceleration: Annotated[
-        Floats, Shown("residual acceleration over h/T²", "", "–", "To be compared with the law's own C_a.")
+        Floats, Label("residual acceleration over h/T²", "", "–", "To be compared with the law's own C_a.")
     ]
     primary: Annotated[
-        Floats, Shown("maximum departure from the lift during the rise, over the total lift", "", "–")
+        Floats, Label("maximum departure from the lift during the rise, over the total lift", "", "–")
     ]
     primary_acceleration: Annotated[
-        Floats, Shown("maximum acceleration of the mass during the rise, over h/T²", "", "–")
+        Floats, Label("maximum acceleration of the mass during the rise, over h/T²", "", "–")
     ]
-    lift_total: Annotated[float, Shown("total lift", "h", "m")]
-    rise_angle: Annotated[float, Shown("angle of the rise", "β", "rad")]
+    lift_total: Annotated[float, Label("total lift", "h", "m")]
+    rise_angle: Annotated[float, Label("angle of the rise", "β", "rad")]
     impulses: Annotated[int, About("How often the velocity of the lift jumps.")]
     quiet: Annotated[tuple[Quiet, ...], About("Where the residual has its minima, exactly.")]
 
@@ -278,7 +278,7 @@ def _quiet(kernel: _Kernel, low: float, high: float, height: float) -> tuple[Qui
     before = np.flatnonzero((slopes[:-1] < 0) & (slopes[1:] >= 0))
     if not len(before):
         return ()
-    quiet, _ = roots.zeros(slope, tau[before], tau[before + 1])
+    quiet, _ = zeros.zeros(slope, tau[before], tau[before + 1])
     # Where a double zero lies on the grid, the sign of the slope there is rounding: the end is the answer.
     candidates = np.stack([quiet, tau[before], tau[before + 1]])
     left = np.abs(kernel.amplitude(candidates.ravel())).reshape(candidates.shape) / height

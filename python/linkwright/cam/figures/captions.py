@@ -14,17 +14,17 @@ from linkwright.cam.figures.cam import (
     pressure_angle_figure,
 )
 from linkwright.cam.profile.profile import CamProfile
-from linkwright.kernel.figure.style import Captioned
+from linkwright.kernel.figure.style import CaptionedFigure
 from linkwright.kernel.page.numbers import degrees, quantity
 
 
-def cam_figures(cams: Sequence[CamProfile], loaded: Sequence[LoadedCam] = ()) -> Iterator[Captioned]:
+def cam_figures(cams: Sequence[CamProfile], loaded: Sequence[LoadedCam] = ()) -> Iterator[CaptionedFigure]:
     """The figures of all cams."""
     borne = {cam.name: cam for cam in loaded}
     for profile in cams:
         name = profile.name
-        yield Captioned(f"cam_{name}", f"Cam {name}", _cam_words(profile), cam_figure(profile))
-        yield Captioned(
+        yield CaptionedFigure(f"cam_{name}", f"Cam {name}", _cam_words(profile), cam_figure(profile))
+        yield CaptionedFigure(
             f"cam_{name}_lift", f"Motion by cam {name}", _lift_words(profile), lift_figure(profile)
         )
         words = (
@@ -32,15 +32,15 @@ def cam_figures(cams: Sequence[CamProfile], loaded: Sequence[LoadedCam] = ()) ->
             f"{degrees(profile.cam.limit)}. Dotted: segment boundaries."
         )
         figure = pressure_angle_figure(profile)
-        yield Captioned(f"cam_{name}_pressure_angle", f"Pressure angle of cam {name}", words, figure)
+        yield CaptionedFigure(f"cam_{name}_pressure_angle", f"Pressure angle of cam {name}", words, figure)
         figure, words = curvature_figure(profile), _curvature_words(profile)
-        yield Captioned(f"cam_{name}_curvature", f"Curvature of cam {name}", words, figure)
+        yield CaptionedFigure(f"cam_{name}_curvature", f"Curvature of cam {name}", words, figure)
         if name in borne:
             words = f"The peak contact force is {quantity(borne[name].force_size, 'N')}."
             if borne[name].side_changes:
                 words += " Where the force is negative, the other side is in contact."
             figure = cam_force_figure(borne[name])
-            yield Captioned(f"cam_{name}_force", f"Contact force of cam {name}", words, figure)
+            yield CaptionedFigure(f"cam_{name}_force", f"Contact force of cam {name}", words, figure)
 
 
 def _cam_words(profile: CamProfile) -> str:

@@ -164,8 +164,8 @@ class MotionLaw:
             i = int(np.clip(np.searchsorted(own, 0.5 * (low + high)) - 1, 0, len(self.pieces) - 1))
             start, length = self.breaks[i], self.breaks[i + 1] - self.breaks[i]
             ends = (low - start) / length, (high - start) / length
-            whole = abs(ends[0]) < _SAME and abs(ends[1] - 1) < _SAME
-            pieces.append(self.pieces[i] if whole else self.pieces[i].part(*ends))
+            is_complete = abs(ends[0]) < _SAME and abs(ends[1] - 1) < _SAME
+            pieces.append(self.pieces[i] if is_complete else self.pieces[i].part(*ends))
         return MotionLaw(tuple(breaks), tuple(pieces))
 
     # -- what is special about it ------------------------------------------------------------------------

@@ -138,8 +138,8 @@ def programme(sections: Sequence[Section]) -> Programme:
         law = section_law(section, task).scaled(1.0, start)
         laws.append(law.placed(ends[i], ends[i + 1] - ends[i]))
     law = joined(laws)
-    whole = MotionLaw((*law.breaks[:-1], TURN), law.pieces)
-    return Programme(whole, joints(whole, ends[:-1]), tuple(tasks))
+    full = MotionLaw((*law.breaks[:-1], TURN), law.pieces)
+    return Programme(full, joints(full, ends[:-1]), tuple(tasks))
 
 
 def section_law(section: Section, task: Boundary) -> MotionLaw:

@@ -118,12 +118,12 @@ def size(curve: ClosedCurve) -> float:
 
 def stretches(curve: ClosedCurve) -> tuple[Stretch, ...]:
     """The smooth parts of a curve that have a length, in order."""
-    whole = size(curve)
-    if not whole > 0:
-        raise ExchangeError(f"the curve has no size ({whole:g} m): it is a point, or has no finite places")
+    extent = size(curve)
+    if not extent > 0:
+        raise ExchangeError(f"the curve has no size ({extent:g} m): it is a point, or has no finite places")
     parts = [Stretch(curve, low, high) for low, high in _pairs(curve)]
-    _refuse_gaps(parts, whole)
-    kept = tuple(part for part in parts if _extent(part) > SAME * whole)
+    _refuse_gaps(parts, extent)
+    kept = tuple(part for part in parts if _extent(part) > SAME * extent)
     for part in kept:
         _refuse_cusps(part)
     return kept
@@ -144,12 +144,12 @@ def _extent(part: Stretch) -> float:
     return float(np.ptp(part.points(_samples(part.low, part.high)), axis=0).max())
 
 
-def _refuse_gaps(parts: list[Stretch], whole: float) -> None:
+def _refuse_gaps(parts: list[Stretch], extent: float) -> None:
     """Each stretch begins where the one before it ends, the first where the last ends."""
     for before, after in zip(parts[-1:] + parts[:-1], parts, strict=True):
         gap = after.points(np.array([after.low]))[0] - before.points(np.array([before.high]))[0]
         length = math.hypot(*gap)
-        if not length <= SAME * whole:
+        if not length <= SAME * extent:
             raise ExchangeError(
                 f"the curve has a gap of {1e3 * length:.6g} mm at cam angle {math.degrees(after.low):.6g}°: "
                 "only a closed outline can be manufactured; choose a motion law that closes there"

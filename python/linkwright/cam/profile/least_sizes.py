@@ -23,7 +23,7 @@ from linkwright.cam.model.cam import Cam
 from linkwright.cam.profile.contact import CamCurve, Contact
 from linkwright.cam.profile.profile import CamProfile
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 
 Floats = NDArray[np.float64]
@@ -150,14 +150,14 @@ class LeastSizes(Result):
     """Sizes of the first contact of a cam, all else being as it is; None where nothing will do."""
 
     name: Annotated[str, About("The cam's.")]
-    base_radius_sound: Annotated[float | None, Shown("smallest base radius without undercut", "", "m")]
+    base_radius_sound: Annotated[float | None, Label("smallest base radius without undercut", "", "m")]
     base_radius_pressure_angle: Annotated[
         float | None,
-        Shown("smallest base radius for the pressure angle", "", "m", "That keeps it within its limit."),
+        Label("smallest base radius for the pressure angle", "", "m", "That keeps it within its limit."),
     ]
     base_radius_curvature: Annotated[
         float | None,
-        Shown(
+        Label(
             "smallest base radius for the curvature",
             "",
             "m",
@@ -165,23 +165,23 @@ class LeastSizes(Result):
         ),
     ]
     base_radius_least: Annotated[
-        float | None, Shown("smallest base radius that keeps all limits", "r₀", "m", "The largest of these.")
+        float | None, Label("smallest base radius that keeps all limits", "r₀", "m", "The largest of these.")
     ]
     prime_radius_least: Annotated[
         float | None,
-        Shown("smallest prime radius that keeps all limits", "", "m", "With the roller's radius."),
+        Label("smallest prime radius that keeps all limits", "", "m", "With the roller's radius."),
     ]
     roller_radius_max: Annotated[
         float | None,
-        Shown(
+        Label(
             "radius of the largest roller without undercut",
             "",
             "m",
             "On the same pitch curve; None under a flat face.",
         ),
     ]
-    pressure_angle_limit: Annotated[float, Shown("limit of the pressure angle", "", "rad")]
-    curvature_limit: Annotated[float | None, Shown("minimum convex radius of curvature allowed", "", "m")]
+    pressure_angle_limit: Annotated[float, Label("limit of the pressure angle", "", "rad")]
+    curvature_limit: Annotated[float | None, Label("minimum convex radius of curvature allowed", "", "m")]
 
 
 @public

@@ -21,7 +21,7 @@ from linkwright.cam.profile.contact import CamCurve, Contact, Opposite, contacts
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import show
 from linkwright.machine.machine import Machine
@@ -94,30 +94,30 @@ class CamProfile(Result):
 
     angle: Annotated[
         Floats,
-        Shown(
+        Label(
             "cam angle",
             "φ",
             "rad",
             "From the start of the programme, increasing; joints of the law stand twice.",
         ),
     ]
-    lift: Annotated[Floats, Shown("lift from the base circle", "s", "m or rad")]
-    lift_d1: Annotated[Floats, Shown("first derivative of the lift by the cam angle", "s′", "m/rad or –")]
+    lift: Annotated[Floats, Label("lift from the base circle", "s", "m or rad")]
+    lift_d1: Annotated[Floats, Label("first derivative of the lift by the cam angle", "s′", "m/rad or –")]
     lift_d2: Annotated[
-        Floats, Shown("second derivative of the lift by the cam angle", "s″", "m/rad² or 1/rad")
+        Floats, Label("second derivative of the lift by the cam angle", "s″", "m/rad² or 1/rad")
     ]
     lift_d3: Annotated[
-        Floats, Shown("third derivative of the lift by the cam angle", "s‴", "m/rad³ or 1/rad²")
+        Floats, Label("third derivative of the lift by the cam angle", "s‴", "m/rad³ or 1/rad²")
     ]
-    pressure_angle: Annotated[Floats, Shown("pressure angle", "γ", "rad", "Of the first contact.")]
+    pressure_angle: Annotated[Floats, Label("pressure angle", "γ", "rad", "Of the first contact.")]
     curvature_radius: Annotated[
-        Floats, Shown("radius of curvature of the profile", "ρ", "m", "Of the first contact.")
+        Floats, Label("radius of curvature of the profile", "ρ", "m", "Of the first contact.")
     ]
     name: Annotated[str, About("The cam's.")]
-    stroke: Annotated[float, Shown("maximum lift", "h", "m or rad")]
+    stroke: Annotated[float, Label("maximum lift", "h", "m or rad")]
     velocity_max: Annotated[
         float | None,
-        Shown(
+        Label(
             "maximum velocity of the follower",
             "",
             "m/s or rad/s",
@@ -126,7 +126,7 @@ class CamProfile(Result):
     ]
     acceleration_max: Annotated[
         float | None,
-        Shown(
+        Label(
             "maximum acceleration of the follower",
             "",
             "m/s² or rad/s²",
@@ -135,7 +135,7 @@ class CamProfile(Result):
     ]
     jerk_max: Annotated[
         float | None,
-        Shown(
+        Label(
             "maximum jerk of the follower",
             "",
             "m/s³ or rad/s³",
@@ -144,24 +144,24 @@ class CamProfile(Result):
     ]
     speed_constant: Annotated[
         float | None,
-        Shown(
+        Label(
             "maximum velocity that is kept over a section",
             "",
             "m/s or rad/s",
             "None without such a section or speed.",
         ),
     ]
-    base_radius: Annotated[float, Shown("base radius", "r₀", "m", "Of the first cam.")]
-    prime_radius: Annotated[float, Shown("prime radius", "", "m", "Of the first cam.")]
+    base_radius: Annotated[float, Label("base radius", "r₀", "m", "Of the first cam.")]
+    prime_radius: Annotated[float, Label("prime radius", "", "m", "Of the first cam.")]
     pressure_angle_max: Annotated[
-        float, Shown("maximum pressure angle", "γ_max", "rad", "Largest in size over all contacts.")
+        float, Label("maximum pressure angle", "γ_max", "rad", "Largest in size over all contacts.")
     ]
     pressure_angle_max_angle: Annotated[
-        float, Shown("cam angle of the maximum pressure angle", "φ(γ_max)", "rad")
+        float, Label("cam angle of the maximum pressure angle", "φ(γ_max)", "rad")
     ]
     curvature_radius_min: Annotated[
         float | None,
-        Shown(
+        Label(
             "minimum radius of curvature",
             "ρ_min",
             "m",
@@ -169,19 +169,19 @@ class CamProfile(Result):
         ),
     ]
     curvature_radius_min_angle: Annotated[
-        float | None, Shown("cam angle of the minimum radius of curvature", "φ(ρ_min)", "rad")
+        float | None, Label("cam angle of the minimum radius of curvature", "φ(ρ_min)", "rad")
     ]
     curvature_radius_convex_min: Annotated[
         float | None,
-        Shown("minimum convex radius of curvature", "", "m", "None where there is no such part."),
+        Label("minimum convex radius of curvature", "", "m", "None where there is no such part."),
     ]
     curvature_radius_concave_min: Annotated[
         float | None,
-        Shown("minimum concave radius of curvature", "", "m", "None where there is no such part."),
+        Label("minimum concave radius of curvature", "", "m", "None where there is no such part."),
     ]
     diameter_min: Annotated[
         float | None,
-        Shown(
+        Label(
             "minimum distance of two followers on opposite sides",
             "",
             "m",
@@ -190,7 +190,7 @@ class CamProfile(Result):
     ]
     diameter_max: Annotated[
         float | None,
-        Shown(
+        Label(
             "maximum distance of two followers on opposite sides",
             "",
             "m",
@@ -199,7 +199,7 @@ class CamProfile(Result):
     ]
     face_min: Annotated[
         float | None,
-        Shown(
+        Label(
             "minimum place of the contact on a flat face",
             "",
             "m",
@@ -208,14 +208,14 @@ class CamProfile(Result):
     ]
     face_max: Annotated[
         float | None,
-        Shown(
+        Label(
             "maximum place of the contact on a flat face",
             "",
             "m",
             "To the left of its stem or along the arm; None for rollers.",
         ),
     ]
-    speed: Annotated[float | None, Shown("design speed of the cam", "ω", "rad/s")]
+    speed: Annotated[float | None, Label("design speed of the cam", "ω", "rad/s")]
     cam: Annotated[Cam, About("The description.")]
     flanks: Annotated[tuple[Flank, ...], About("The contacts.")]
     opposite: Annotated[Opposite | None, About("Whether two followers touch one cam at every angle.")]

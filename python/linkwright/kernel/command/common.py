@@ -21,7 +21,7 @@ import click
 from linkwright.kernel.command.answer import Answer, is_taken, json_text
 from linkwright.kernel.command.interrupt import EXIT_CODE
 from linkwright.kernel.command.parameter import Argument, Option
-from linkwright.kernel.errors import FindingError, InputError, LinkwrightError, UnitError, cut, plain
+from linkwright.kernel.errors import FindingError, InputError, LinkwrightError, UnitError, cut, printable
 
 if TYPE_CHECKING:
     from linkwright.kernel.units import Kind
@@ -75,18 +75,18 @@ def reports_errors(
             return command(*args, **kwargs)
         except LinkwrightError as error:
             if isinstance(error, FindingError):
-                stopped = Answer(machine=machine_name(**kwargs), findings=[plain(str(error))])
+                stopped = Answer(machine=machine_name(**kwargs), findings=[printable(str(error))])
                 if is_taken(stopped):
                     return None
                 if kwargs.get("json"):
                     click.echo(json_text(stopped), nl=False)
-            click.echo(plain(str(error)), err=True)
+            click.echo(printable(str(error)), err=True)
             raise click.exceptions.Exit(error.exit_code) from None
         except BrokenPipeError:
             # Whoever read the output has enough.
             raise
         except OSError as error:
-            click.echo(plain(f"cannot read or write: {error}"), err=True)
+            click.echo(printable(f"cannot read or write: {error}"), err=True)
             raise click.exceptions.Exit(InputError.exit_code) from None
         except KeyboardInterrupt:
             raise click.exceptions.Exit(EXIT_CODE) from None

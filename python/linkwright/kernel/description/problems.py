@@ -72,12 +72,12 @@ def _place(location: Iterable[str | int], model: type[BaseModel], data: object) 
     return tuple(place)
 
 
-def _as_written(place: Sequence[str], data: object, found: str) -> str:
+def _as_written(place: Sequence[str], data: object, short: str) -> str:
     """The value at a place as the user wrote it; else what the check found."""
     for key in place:
         data = look(data, key)
     written = isinstance(data, str | int | float)
-    return show(data) if written else found
+    return show(data) if written else short
 
 
 def _unknown_key(place: tuple[str, ...], model: type[BaseModel], data: object) -> Problem:
@@ -94,14 +94,14 @@ def _unknown_key(place: tuple[str, ...], model: type[BaseModel], data: object) -
 def _wrong_kind(place: tuple[str, ...], model: type[BaseModel], data: object) -> Problem:
     """A table whose kind is missing or unknown."""
     known = kinds_at(annotation_at(model, place[:-1], data))
-    found = data
+    entry = data
     for n, key in enumerate(place):
-        if isinstance(found, str):
+        if isinstance(entry, str):
             # A name in place of a table.
             place = place[:n]
             break
-        found = look(found, key)
+        entry = look(entry, key)
     expected = "one of " + ", ".join(f'"{kind}"' for kind in known)
-    if found is None:
+    if entry is None:
         return Problem(join(place), "nothing", expected)
-    return Problem(join(place), show(found), expected, close_match(str(found), known))
+    return Problem(join(place), show(entry), expected, close_match(str(entry), known))

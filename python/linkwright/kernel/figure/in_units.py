@@ -40,7 +40,7 @@ def _rescale(axis: Axis, factor: float) -> None:
     axis.set_major_formatter(_Numbers(formatter, factor))
 
 
-class _Scaled:
+class _UnitAxis:
     """An axis whose interval is in the unit that is shown."""
 
     def __init__(self, axis: Any, factor: float) -> None:
@@ -65,7 +65,7 @@ class _Places(Locator):
     def set_axis(self, axis: Any) -> None:
         """Let the other one see the axis in the unit that is shown."""
         super().set_axis(axis)
-        self.inner.set_axis(_Scaled(axis, self.factor))  # type: ignore[arg-type]
+        self.inner.set_axis(_UnitAxis(axis, self.factor))  # type: ignore[arg-type]
 
     def __call__(self) -> Any:
         return np.asarray(self.inner()) * self.factor
@@ -84,7 +84,7 @@ class _Numbers(Formatter):
     def set_axis(self, axis: Any) -> None:
         """Let the other one see the axis in the unit that is shown."""
         super().set_axis(axis)
-        self.inner.set_axis(_Scaled(axis, self.factor))  # type: ignore[arg-type]
+        self.inner.set_axis(_UnitAxis(axis, self.factor))  # type: ignore[arg-type]
 
     def set_locs(self, locs: Sequence[float]) -> None:
         """The places of all marks."""

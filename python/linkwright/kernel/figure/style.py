@@ -167,7 +167,7 @@ def roomy(axes: Axes, *values: Floats, share: float = 0.12) -> None:
     axes.set_ylim(middle - (0.5 + share) * span, middle + (0.5 + share) * span)
 
 
-class Captioned(NamedTuple):
+class CaptionedFigure(NamedTuple):
     """A figure, its name in the page, its title, and its caption."""
 
     name: str

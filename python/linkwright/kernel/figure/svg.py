@@ -40,7 +40,7 @@ def svg(figure: Figure, *, transparent: bool = False) -> str:
     text = StringIO()
     # A date would make each run's file another one.
     figure.savefig(text, format="svg", transparent=transparent, metadata={"Date": None})
-    _settle(figure)
+    _fix_layout(figure)
     element = re.search(r"<svg.*</svg>", text.getvalue(), re.DOTALL)
     assert element is not None
     return re.sub(r"\s*<metadata>.*?</metadata>", "", element[0], flags=re.DOTALL)
@@ -51,11 +51,11 @@ def png(figure: Figure) -> bytes:
     """A figure as a PNG file, at `DPI` dots an inch."""
     data = BytesIO()
     figure.savefig(data, format="png", dpi=DPI)
-    _settle(figure)
+    _fix_layout(figure)
     return data.getvalue()
 
 
-def _settle(figure: Figure) -> None:
+def _fix_layout(figure: Figure) -> None:
     """Let the axes of a figure stay where drawing has put them: placing them is a third of the time."""
     if figure.get_layout_engine() is not None:
         figure.set_layout_engine("none")

@@ -131,8 +131,8 @@ class OutputFolder:
                 self._require_ours(name, known)
             listed = _HEAD + "".join(f"{name}\n" for name in sorted(known | contents.keys()))
             # The list comes first: whatever a crash leaves behind is known as ours.
-            whole = {MARKER: listed, **contents}
-            _write_all({self.path / name: content for name, content in whole.items()})
+            marked = {MARKER: listed, **contents}
+            _write_all({self.path / name: content for name, content in marked.items()})
         except OSError as error:
             raise unwritable(self.path, error) from None
         return [self.path / name for name in contents]

@@ -5,7 +5,7 @@
 | `confidence` | How far estimates may be from the truth |
 | `formula_value` | The value of a formula: its tree worked through with numpy |
 | `least_squares` | Linear least squares with what it can tell; damped steps for many problems |
-| `roots` | Zeros and extremes of smooth functions of the crank angle, many at once, to rounding |
+| `zeros` | Zeros and extremes of smooth functions of the crank angle, many at once, to rounding |
 | `tangent` | Numbers that carry their derivatives by entries through the translation of a description |
 | `taylor` | Numbers that carry their first three derivatives by time, for functions written with numpy |
 | `turn_curve` | Quantities over a revolution as Chebyshev series, piece by piece |

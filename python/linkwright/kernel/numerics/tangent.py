@@ -41,19 +41,19 @@ class Tangent:
         return bool(self.value)
 
     def __eq__(self, other: object) -> bool:
-        return bool(self.value == plain(other))
+        return bool(self.value == primal(other))
 
     def __lt__(self, other: Any) -> bool:
-        return bool(self.value < plain(other))
+        return bool(self.value < primal(other))
 
     def __le__(self, other: Any) -> bool:
-        return bool(self.value <= plain(other))
+        return bool(self.value <= primal(other))
 
     def __gt__(self, other: Any) -> bool:
-        return bool(self.value > plain(other))
+        return bool(self.value > primal(other))
 
     def __ge__(self, other: Any) -> bool:
-        return bool(self.value >= plain(other))
+        return bool(self.value >= primal(other))
 
     __hash__ = None  # type: ignore[assignment]
 
@@ -158,7 +158,7 @@ class Tangent:
         return self._by(math.atan(self.value), 1.0 / (1.0 + self.value**2))
 
 
-def plain(x: Any) -> Any:
+def primal(x: Any) -> Any:
     """The number alone, where derivatives have no part: starting points, sides, windings."""
     return x.value if isinstance(x, Tangent) else x
 
@@ -178,7 +178,7 @@ def _held(x: Tangent) -> NDArray[Any]:
 
 def _arctan2(y: Any, x: Any) -> Any:
     """Angle of (x, y): dψ = (x dy − y dx)/(x² + y²)."""
-    a, b = float(plain(y)), float(plain(x))
+    a, b = float(primal(y)), float(primal(x))
     square = a * a + b * b
     return math.atan2(a, b) + (y * (b / square) - a * b / square) - (x * (a / square) - a * b / square)
 
@@ -205,15 +205,15 @@ _RULES: dict[str, Callable[..., Any]] = {
     "rad2deg": lambda x: x * (180 / math.pi),
     "radians": lambda x: x * (math.pi / 180),
     "degrees": lambda x: x * (180 / math.pi),
-    "maximum": lambda x, y: y if plain(y) > plain(x) else x,
-    "minimum": lambda x, y: y if plain(y) < plain(x) else x,
-    "sign": lambda x: float(np.sign(plain(x))),
-    "less": lambda x, y: plain(x) < plain(y),
-    "less_equal": lambda x, y: plain(x) <= plain(y),
-    "greater": lambda x, y: plain(x) > plain(y),
-    "greater_equal": lambda x, y: plain(x) >= plain(y),
-    "equal": lambda x, y: plain(x) == plain(y),
-    "not_equal": lambda x, y: plain(x) != plain(y),
-    "isfinite": lambda x: math.isfinite(plain(x)),
-    "isnan": lambda x: math.isnan(plain(x)),
+    "maximum": lambda x, y: y if primal(y) > primal(x) else x,
+    "minimum": lambda x, y: y if primal(y) < primal(x) else x,
+    "sign": lambda x: float(np.sign(primal(x))),
+    "less": lambda x, y: primal(x) < primal(y),
+    "less_equal": lambda x, y: primal(x) <= primal(y),
+    "greater": lambda x, y: primal(x) > primal(y),
+    "greater_equal": lambda x, y: primal(x) >= primal(y),
+    "equal": lambda x, y: primal(x) == primal(y),
+    "not_equal": lambda x, y: primal(x) != primal(y),
+    "isfinite": lambda x: math.isfinite(primal(x)),
+    "isnan": lambda x: math.isnan(primal(x)),
 }

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from linkwright.kernel.figure.style import Captioned
+    from linkwright.kernel.figure.style import CaptionedFigure
     from linkwright.kernel.page.formulas import Formula
     from linkwright.kernel.page.table import Table
 
@@ -22,7 +22,7 @@ class Part(NamedTuple):
 
     title: str
     tables: Sequence[Table] = ()
-    figures: Sequence[Captioned] = ()
+    figures: Sequence[CaptionedFigure] = ()
 
 
 class Few(NamedTuple):

@@ -75,7 +75,7 @@ def pretty_unit(unit: str) -> str:
     return unit.replace("^2", "²").replace("^3", "³")
 
 
-class Measured(str):
+class QuantityText(str):
     """Text of a number with its SI unit; an angle is in degrees.
 
     Attributes
@@ -107,15 +107,15 @@ def measured(
     before: str = "",
     usual: str = "",
 ) -> str:
-    """A value [SI] with its unit, a `Measured`; None is a dash. Angles are in degrees without a unit.
+    """A value [SI] with its unit, a `QuantityText`; None is a dash. Angles are in degrees without a unit.
 
     `scale` as of `number`; `before`: what stands before it; `usual`: unit where the reader wants no other.
     """
     if value is None or not math.isfinite(value):
         return "–"
-    plain = degrees(value) if unit == "rad" else quantity(value, unit, digits, scale, usual=usual)
+    number_text = degrees(value) if unit == "rad" else quantity(value, unit, digits, scale, usual=usual)
     return _marked(
-        before + plain, value if number(value, digits, scale) != "0" else 0.0, unit, digits, before
+        before + number_text, value if number(value, digits, scale) != "0" else 0.0, unit, digits, before
     )
 
 
@@ -124,14 +124,14 @@ def crank_angle(angle: float | None, before: str = "") -> str:
     if angle is None or not math.isfinite(angle):
         return "–"
     text = degrees(angle)
-    plain = "0°" if text == "360°" else text
-    return _marked(before + plain, angle, "rad", 5, before, is_crank_angle=True)
+    number_text = "0°" if text == "360°" else text
+    return _marked(before + number_text, angle, "rad", 5, before, is_crank_angle=True)
 
 
 def _marked(
     text: str, value: float, unit: str, digits: int, before: str, *, is_crank_angle: bool = False
-) -> Measured:
-    marked = Measured(text)
+) -> QuantityText:
+    marked = QuantityText(text)
     marked.value, marked.unit, marked.digits, marked.before = value, unit, digits, before
     marked.is_crank_angle = is_crank_angle
     return marked

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from linkwright.kernel.page.numbers import measured
 from linkwright.kernel.page.out_units import shown_columns
-from linkwright.kernel.quantities import Shown, in_table, shown
+from linkwright.kernel.quantities import Label, in_table, shown
 from linkwright.kernel.result import Result
 
 Row = tuple[str, ...]
@@ -52,7 +52,7 @@ def with_unit(value: float | None, unit: str, scale: float = 0.0) -> str:
     return measured(value, unit, scale)
 
 
-def _scale(result: Result, mark: Shown) -> float:
+def _scale(result: Result, mark: Label) -> float:
     """Peak absolute value of the quantities of one unit in a table; those without a unit have none."""
     beside = in_table(type(result), mark.table) if mark.table and mark.unit else ()
     same = (getattr(result, name) for name in beside if shown(type(result), name).unit == mark.unit)

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from linkwright.kernel.errors import InputError
-from linkwright.kernel.figure.style import Captioned
+from linkwright.kernel.figure.style import CaptionedFigure
 from linkwright.kernel.figure.svg import svg
 from linkwright.kernel.page.content import Content, Heading
 from linkwright.kernel.page.formulas import Formula, typst
@@ -134,14 +134,14 @@ def _table(table: Table) -> str:
     return f"#page(flipped: true)[{set_}]" if n > _BROAD else set_
 
 
-def _figure(captioned: Captioned) -> str:
+def _figure(captioned: CaptionedFigure) -> str:
     picture = f'#image("{_place(captioned)}", width: 100%)'
     return (
         f"#block(breakable: false)[== {_text(captioned.title)}\n{picture}\n#note[{_text(captioned.caption)}]]"
     )
 
 
-def _place(captioned: Captioned) -> str:
+def _place(captioned: CaptionedFigure) -> str:
     """Name of the file of a figure: names of a machine may hold any letter."""
     return "figure-" + captioned.name.encode().hex() + ".svg"
 

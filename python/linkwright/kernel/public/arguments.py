@@ -81,14 +81,14 @@ def number(name: str, value: Any, *, finite: bool = True, infinite: bool = False
 def integer(name: str, value: Any) -> int:
     """A whole number; an `InputError` if it is none, or out of its range."""
     try:
-        whole = operator.index(value)
+        number = operator.index(value)
     except TypeError:
         raise _wrong(name, value, "a whole number") from None
     # Beyond 2⁵³ whole numbers are no floats.
-    if isinstance(value, bool | np.bool_) or abs(whole) > 2**53:
+    if isinstance(value, bool | np.bool_) or abs(number) > 2**53:
         raise _wrong(name, value, "a whole number of usual size")
-    _require_in_range(name, whole, shown(whole))
-    return whole
+    _require_in_range(name, number, shown(number))
+    return number
 
 
 def array(name: str, value: Any, *, finite: bool = True, complex_too: bool = False) -> NDArray[Any]:
@@ -158,11 +158,11 @@ def _check(annotation: str, default: Any) -> Check | None:
     others = kinds - _CHECKS.keys() - {"None"}
     if check is None or (others and check is _text):
         return None
-    plain = (int, float, complex, str, list, np.ndarray, np.generic)
+    numeric = (int, float, complex, str, list, np.ndarray, np.generic)
 
     def checked(name: str, value: Any) -> Any:
         is_left_out = value is default or (value is None and "None" in kinds)
-        if is_left_out or (others and not isinstance(value, plain)):
+        if is_left_out or (others and not isinstance(value, numeric)):
             return value
         return check(name, value)
 

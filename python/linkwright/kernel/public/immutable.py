@@ -29,7 +29,7 @@ class Table(dict[K, V]):
         return Table, (dict(self),)
 
 
-class Looked(Mapping[K, V]):
+class LazyTable(Mapping[K, V]):
     """A table whose entries are made when they are looked at, and kept.
 
     Parameters

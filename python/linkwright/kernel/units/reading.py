@@ -90,14 +90,14 @@ def worded(value: float, kind: Kind) -> str:
 
 def _split(text: str, kind: Kind) -> tuple[str, str]:
     """The number and the unit of a text."""
-    plain = text.strip().replace("−", "-")
-    match = _VALUE.fullmatch(plain)
-    if _DECIMAL_COMMA.fullmatch(plain):
+    stripped = text.strip().replace("−", "-")
+    match = _VALUE.fullmatch(stripped)
+    if _DECIMAL_COMMA.fullmatch(stripped):
         raise wrong(text, kind, _NO_COMMA)
     if match is None:
         raise wrong(text, kind)
     if not match[2] and kind.unit:
-        raise wrong(text, kind, f'add the unit ("{plain} {kind.unit}"), or remove the quotes')
+        raise wrong(text, kind, f'add the unit ("{stripped} {kind.unit}"), or remove the quotes')
     return match[1], match[2]
 
 
@@ -115,23 +115,23 @@ def items(value: object, kind: Kind) -> Sequence[object]:
     return listed
 
 
-def _factor(unit: str, kind: Kind, found: object) -> float:
+def _factor(unit: str, kind: Kind, given: object) -> float:
     """What a value in this unit is multiplied by to be in SI."""
     known = factor_of(unit)
     if known is None:
-        raise wrong(found, kind, unknown(unit))
+        raise wrong(given, kind, unknown(unit))
     factor, dimension = known
     if not fits(dimension, kind):
-        raise wrong(found, kind, other_quantity(unit, dimension, kind))
+        raise wrong(given, kind, other_quantity(unit, dimension, kind))
     return factor
 
 
-def _in_range(number: float, found: object, kind: Kind) -> float:
+def _in_range(number: float, given: object, kind: Kind) -> float:
     """The number itself, unless it is larger than any of its kind, infinite, or not a number."""
     if not math.isfinite(number):
-        raise wrong(found, kind, "the number must be finite")
+        raise wrong(given, kind, "the number must be finite")
     if abs(number) > kind.most:
-        raise wrong(found, kind, range_words(kind))
+        raise wrong(given, kind, range_words(kind))
     return number
 
 

@@ -87,26 +87,26 @@ class _Builder:
     placed: set[str]
     ignored: set[str]
     used: set[str] = field(default_factory=set)
-    found: Build = field(default_factory=Build)
+    build: Build = field(default_factory=Build)
 
     def run(self) -> Build:
         while self._single() or self._together():
             pass
-        self.found.stuck.extend(self.parts)
-        return self.found
+        self.build.stuck.extend(self.parts)
+        return self.build
 
     def _single(self) -> bool:
         """Places the next element that hangs only on what is placed."""
         for name, part in self.parts.items():
             if part.role != "joint" and self.placed.issuperset(part.needs):
                 if part.role == "bar" and name not in self.used and name not in self.ignored:
-                    self.found.surplus.append(name)
+                    self.build.surplus.append(name)
                 self._place([name], Step("element", (name,)))
                 return True
         return False
 
     def _place(self, names: Iterable[str], step: Step) -> None:
-        self.found.steps.append(step)
+        self.build.steps.append(step)
         for name in names:
             self.placed.update(self.parts.pop(name).makes)
 
@@ -176,10 +176,10 @@ class _Builder:
         """What is missing or too much among the joints that are left."""
         taken = list(matched.values())
         open_joints = [name for name, part in self.parts.items() if part.role == "joint"]
-        self.found.loose.extend(
+        self.build.loose.extend(
             joint for joint in open_joints if taken.count((joint, 0)) + taken.count((joint, 1)) < 2
         )
-        self.found.surplus.extend(condition for condition in system if condition not in matched)
+        self.build.surplus.extend(condition for condition in system if condition not in matched)
 
 
 def _matching(system: Mapping[str, set[str]]) -> dict[str, tuple[str, int]]:

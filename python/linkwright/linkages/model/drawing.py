@@ -52,14 +52,14 @@ class DrawingPoints(Description):
     )
 
 
-class Drawn(NamedTuple):
+class SheetTables(NamedTuple):
     """Tables of a file with what follows from its drawing, and what is wrong with that."""
 
     tables: dict[str, Any]
     faults: list[InitErrorDetails]
 
 
-def with_drawing(data: Mapping[str, Any]) -> Drawn:
+def with_drawing(data: Mapping[str, Any]) -> SheetTables:
     """The tables of a machine file with lengths and places from its drawing, without the drawing itself.
 
     `data`: raw tables, with the points of a DXF file among those of the drawing.
@@ -67,20 +67,22 @@ def with_drawing(data: Mapping[str, Any]) -> Drawn:
     tables = {key: value for key, value in data.items() if key != "drawing"}
     drawing, mechanism = data["drawing"], data.get("mechanism")
     if not isinstance(drawing, Mapping) or not isinstance(mechanism, Mapping):
-        return Drawn(dict(data), [fault("drawing", found=drawing, expected="a table, beside a mechanism")])
+        return SheetTables(
+            dict(data), [fault("drawing", found=drawing, expected="a table, beside a mechanism")]
+        )
     places, faults = _places(drawing, mechanism)
     if faults:
-        return Drawn(dict(data), faults)
+        return SheetTables(dict(data), faults)
     sheet = _Sheet(places, mechanism)
     if unknown := list(_unknown(places, sheet, data.get("bodies"))):
-        return Drawn(dict(data), unknown)
+        return SheetTables(dict(data), unknown)
     tables["mechanism"] = sheet.filled()
     if isinstance(data.get("bodies"), Mapping):
         tables["bodies"] = {
             name: sheet.body(name, body) if isinstance(body, Mapping) else body
             for name, body in data["bodies"].items()
         }
-    return Drawn(tables, [])
+    return SheetTables(tables, [])
 
 
 def _places(

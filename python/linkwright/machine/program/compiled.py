@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright import _core
 from linkwright.kernel.description.place import arrays, join
 from linkwright.kernel.errors import InputError, MachineError, Problem, ShapeError
-from linkwright.kernel.numerics.tangent import plain
+from linkwright.kernel.numerics.tangent import primal
 from linkwright.kinetostatics.model.loads.force import FormulaLoad
 from linkwright.kinetostatics.model.loads.table import TorqueSpeed
 from linkwright.machine.address import addresses
@@ -47,7 +47,7 @@ class Translation:
         self.n_rows = _row_count(machine)
 
     @cached_property
-    def settled(self) -> InitialAssembly:
+    def assembly(self) -> InitialAssembly:
         """The program with all that follows from the motion filled in."""
         columns = _columns(self.program.parameters, self.program.varying, self.n_rows)
         assembly = InitialAssembly(self.program, columns, self._plan)
@@ -83,7 +83,7 @@ def _row_count(machine: Machine) -> int:
 def _columns(parameters: list[Any], varying: list[int], n: int) -> tuple[Floats, NDArray[np.int32], Floats]:
     """First row of all parameters; which vary; their values (k, n)."""
     columns = [np.asarray(parameters[slot], dtype=np.float64) for slot in varying]
-    first = [plain(value) for value in parameters]
+    first = [primal(value) for value in parameters]
     for slot, column in zip(varying, columns, strict=True):
         first[slot] = column[0]
     values = np.ascontiguousarray(columns) if columns else np.empty((0, n))
@@ -91,7 +91,7 @@ def _columns(parameters: list[Any], varying: list[int], n: int) -> tuple[Floats,
 
 
 @dataclass(frozen=True, slots=True)
-class Compiled:
+class CompiledMachine:
     """A machine in the core's terms.
 
     Attributes
@@ -158,7 +158,7 @@ class Compiled:
         """How many machines."""
         return int(self.values.shape[1])
 
-    def first(self) -> Compiled:
+    def first(self) -> CompiledMachine:
         """The first machine alone."""
         if self.n_rows == 1 and not len(self.slots):
             return self
@@ -182,7 +182,7 @@ class Compiled:
         """Third transfer functions of the first row at crank angles, (numbers, n); see `_core.third`."""
         return _core.third(self.plan, self.parameters, angles, channels)
 
-    def without_conservative(self) -> Compiled:
+    def without_conservative(self) -> CompiledMachine:
         """The machine without loads that have a potential: gravity, springs, forces fixed in the frame."""
         return replace(self, plan=self.resisting)
 
@@ -233,7 +233,7 @@ class Compiled:
         _core.motions(self.plan, self.parameters, self.slots, self.values, angles, channels, out)
 
 
-def compile_machine(machine: Machine, *, motor: bool = True, brake: bool = False) -> Compiled:
+def compile_machine(machine: Machine, *, motor: bool = True, brake: bool = False) -> CompiledMachine:
     """Translate a description into plan and parameters; entries may be arrays of one common length.
 
     `motor`: whether it is on, its inertia counts in any case; `brake`: whether it is applied. Raises
@@ -256,7 +256,7 @@ def compile_machine(machine: Machine, *, motor: bool = True, brake: bool = False
         return compiled
     if len(_known) >= _KNOWN_MAX:
         _known.pop(next(iter(_known)), None)
-    _known[key] = _Known(
+    _known[key] = _CacheEntry(
         machine, tuple((constant, dict(constant)) for constant in _constants(machine)), compiled
     )
     return compiled
@@ -280,24 +280,24 @@ def _require_mechanism(machine: Machine) -> None:
         )
 
 
-def _translate(machine: Machine, *, motor: bool, brake: bool) -> Compiled:
+def _translate(machine: Machine, *, motor: bool, brake: bool) -> CompiledMachine:
     translation = Translation(machine, motor=motor, brake=brake)
-    program, settled, drive = translation.program, translation.settled, translation.drive
-    parameters = settled.parameters
+    program, assembly, drive = translation.program, translation.assembly, translation.drive
+    parameters = assembly.parameters
     factors = (drive.ratio, drive.forward, drive.reverse)
     ratio, forward, reverse = (float(parameters[slot]) for slot in factors)
-    return Compiled(
-        plan=settled.plan,
+    return CompiledMachine(
+        plan=assembly.plan,
         parameters=parameters,
-        slots=settled.slots,
-        values=np.ascontiguousarray(settled.values),
+        slots=assembly.slots,
+        values=np.ascontiguousarray(assembly.values),
         points=program.points,
         links=program.links,
         slides=program.slides,
         dyads=tuple(program.dyads),
-        two_turns=settled.odd,
+        two_turns=assembly.odd,
         one_turn=not (
-            settled.odd.any() or any(isinstance(element, _RUNNING) for element in program.elements)
+            assembly.odd.any() or any(isinstance(element, _RUNNING) for element in program.elements)
         ),
         speed_guess=float(parameters[drive.speed_start]),
         ratio_slot=drive.ratio,
@@ -305,8 +305,8 @@ def _translate(machine: Machine, *, motor: bool, brake: bool) -> Compiled:
         speed_tables=tuple(
             (load.speed, load.torque) for load in machine.loads.values() if isinstance(load, TorqueSpeed)
         ),
-        has_laws=settled.plan.has_laws,
-        resisting=settled.plan.without_conservative(),
+        has_laws=assembly.plan.has_laws,
+        resisting=assembly.plan.without_conservative(),
         ground=tuple(program.ground),
         elements=tuple(program.elements),
     )
@@ -335,12 +335,12 @@ _RUNNING = (Element.Turn, Element.Runner, Element.Group, Element.Law)
 _SIZE_MAX = 1e100
 
 
-class _Known(NamedTuple):
+class _CacheEntry(NamedTuple):
     """A machine translated before: it is frozen, and the constants of its formulas are as they were then."""
 
     machine: Machine
     constants: tuple[tuple[Mapping[str, float], dict[str, float]], ...]
-    compiled: Compiled
+    compiled: CompiledMachine
 
     def is_of(self, machine: Machine) -> bool:
         """Whether a machine is the same, and its constants too."""
@@ -348,7 +348,7 @@ class _Known(NamedTuple):
 
 
 # Machines translated last. A few suffice for analyses that follow one another on one machine.
-_known: dict[tuple[int, bool, bool], _Known] = {}
+_known: dict[tuple[int, bool, bool], _CacheEntry] = {}
 _KNOWN_MAX = 8
 
 

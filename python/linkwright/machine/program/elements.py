@@ -23,7 +23,7 @@ from linkwright.linkages.model.element import (
     Yoke,
 )
 from linkwright.machine.program.numbers import core_law
-from linkwright.machine.program.places import Foldable, Placed, Places, angle_name
+from linkwright.machine.program.places import Foldable, GuideLine, Places, angle_name
 
 _RADIAN = 2 * np.pi
 
@@ -133,7 +133,7 @@ class Elements(Places):
         sign = 1.0 if slider.assembly == "positive" else -1.0
         self._rod(name, f"{name}.rod", slider.crank, self._guide(guide), slider.rod, sign)
 
-    def _rod(self, name: str, link: str, pin: str, line: Placed, length: Any, sign: float) -> int:
+    def _rod(self, name: str, link: str, pin: str, line: GuideLine, length: Any, sign: float) -> int:
         """A rod from a pin to a slider on any guide; gives the slot of its sign."""
         rod = _core.Element.GuidedRod(
             point=self._point(name),
@@ -197,7 +197,7 @@ class Elements(Places):
         slides = [self._slide(f"{name}.first"), self._slide(f"{name}.second")]
         self._cross(name, slides, [self._guide(crossing.first), self._guide(crossing.second)])
 
-    def _cross(self, name: str, slides: list[int], lines: list[Placed]) -> None:
+    def _cross(self, name: str, slides: list[int], lines: list[GuideLine]) -> None:
         self.elements.append(
             _core.Element.Crossing(
                 point=self._point(name),
@@ -209,7 +209,7 @@ class Elements(Places):
 
     def _yoke(self, name: str, yoke: Yoke) -> None:
         guide = self._guide(yoke.guide)
-        slot = Placed(self.points[yoke.pin], guide.link, guide.angle + yoke.slot, 0.0)
+        slot = GuideLine(self.points[yoke.pin], guide.link, guide.angle + yoke.slot, 0.0)
         self._cross(name, [self._slide(name), self._slide(f"{name}.slot")], [guide, slot])
         terms: list[tuple[int | None, Any]] = []
         if yoke.guide.on is not None:
@@ -272,7 +272,7 @@ class Elements(Places):
     def _cable(self, name: str, cable: Cable) -> None:
         """s = length ± R (reference − ψ): an arc to the left draws the cable in as it turns to the left."""
         radius = cable.radius if cable.side == "left" else -cable.radius
-        line = Placed(self.starts[cable.link], None, cable.angle, radius)
+        line = GuideLine(self.starts[cable.link], None, cable.angle, radius)
         start = cable.length + radius * cable.reference
         angle = self._angle_near(cable.link, angle_name(name), cable.reference)
         self._runner(name, line, start, [(angle, -radius)])

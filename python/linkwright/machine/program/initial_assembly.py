@@ -21,11 +21,11 @@ from numpy.typing import NDArray
 
 from linkwright import _core
 from linkwright.kernel.errors import AssemblyError
-from linkwright.kernel.numerics.tangent import plain
+from linkwright.kernel.numerics.tangent import primal
 from linkwright.machine.program.change_points import folding, in_line, stored, undecided, undecided_error
 from linkwright.machine.program.mechanism import MechanismProgram
 from linkwright.machine.program.numbers import table
-from linkwright.machine.program.places import Continuous, Foldable, Pending, Side, Solved
+from linkwright.machine.program.places import Continuous, Foldable, Pending, PendingGroup, Side
 
 Floats = NDArray[np.float64]
 
@@ -128,10 +128,10 @@ class InitialAssembly:
         """
         self._check_laws()
         for pending in self.program.pending:
-            self._settle(pending)
+            self._fill_in(pending)
         self._check_redundant()
 
-    def _settle(self, pending: Pending) -> None:
+    def _fill_in(self, pending: Pending) -> None:
         match pending:
             case Side():
                 self._side(pending)
@@ -139,7 +139,7 @@ class InitialAssembly:
                 self._continuous(pending)
             case Foldable():
                 self._fold(pending)
-            case Solved():
+            case PendingGroup():
                 self._follow(pending)
 
     def _check_laws(self) -> None:
@@ -289,7 +289,7 @@ class InitialAssembly:
 
     # -- groups ------------------------------------------------------------------------------------------
 
-    def _follow(self, pending: Solved) -> None:
+    def _follow(self, pending: PendingGroup) -> None:
         """Follows a group over the revolution from where it is assembled."""
         joints = [self.program.mechanism.joints[name] for name in pending.names]
         near = np.array([_first(value) for joint in joints for value in (joint.x, joint.y)])
@@ -351,4 +351,4 @@ class InitialAssembly:
 
 def _first(value: Any) -> float:
     """A number; of an array over many machines, that of the first."""
-    return float(np.ravel(plain(value))[0])
+    return float(np.ravel(primal(value))[0])

@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 
 from linkwright import _core
-from linkwright.kernel.numerics.tangent import plain
+from linkwright.kernel.numerics.tangent import primal
 from linkwright.linkages.model.assembly import Step
 from linkwright.linkages.model.mechanism import Mechanism
 from linkwright.machine.program.elements import Elements
 from linkwright.machine.program.numbers import table
-from linkwright.machine.program.places import Placed, Side, Solved
+from linkwright.machine.program.places import GuideLine, PendingGroup, Side
 
 
 class MechanismProgram(Elements):
@@ -83,7 +83,7 @@ class MechanismProgram(Elements):
         bars = list(dict.fromkeys([*bars, *(rigid[name].link for name in carried)]))
         places = [value for name in step.names for value in (joints[name].x, joints[name].y)]
         turns = self.slot(1.0)
-        self.pending.append(Solved(step.names, len(self.elements), turns))
+        self.pending.append(PendingGroup(step.names, len(self.elements), turns))
         self.elements.append(
             _core.Element.Group(
                 dyad=self._dyad(" and ".join(step.names)),
@@ -91,7 +91,7 @@ class MechanismProgram(Elements):
                 carried=[self._carried_point(name) for name in carried],
                 bars=[self._placed_bar(name, self.mechanism.bars[name]) for name in bars],
                 conditions=[self._condition(name) for name in step.conditions],
-                starts=[table((0.0,), (float(np.ravel(plain(value))[0]),)) for value in places],
+                starts=[table((0.0,), (float(np.ravel(primal(value))[0]),)) for value in places],
                 inverse_turns=turns,
                 repeats=True,
             )
@@ -141,7 +141,7 @@ class MechanismProgram(Elements):
         if guide.on in self.mechanism.bars and guide.on not in self.known:
             carrier = self.mechanism.bars[guide.on]
             through = carrier.start if guide.through is None else guide.through
-            line = self._line(Placed(self.points[through], None, guide.angle, guide.offset))
+            line = self._line(GuideLine(self.points[through], None, guide.angle, guide.offset))
             on = self._placed_bar(guide.on, carrier)
             return _core.Condition.OnBar(point=point, line=line, slide=slide, bar=on)
         return _core.Condition.OnLine(point=point, line=self._line(self._guide(guide)), slide=slide)

@@ -43,7 +43,7 @@ class Foldable(NamedTuple):
     sign: int
 
 
-class Solved(NamedTuple):
+class PendingGroup(NamedTuple):
     """A group, whose motion has to be followed once."""
 
     names: tuple[str, ...]
@@ -51,11 +51,11 @@ class Solved(NamedTuple):
     inverse_turns: int
 
 
-Pending = Side | Continuous | Foldable | Solved
+Pending = Side | Continuous | Foldable | PendingGroup
 
 
 @dataclass
-class Placed:
+class GuideLine:
     """A guide in the core's terms: point, link (none for the frame), direction in it, offset."""
 
     through: int
@@ -114,14 +114,14 @@ class Places(Numbers):
 
     # -- guides ------------------------------------------------------------------------------------------
 
-    def _guide(self, guide: Guide) -> Placed:
+    def _guide(self, guide: Guide) -> GuideLine:
         """A guide with its point and link found."""
         if guide.on is None:
-            return Placed(self._fixed_or_origin(guide.through), None, guide.angle, guide.offset)
+            return GuideLine(self._fixed_or_origin(guide.through), None, guide.angle, guide.offset)
         through = self.starts[guide.on] if guide.through is None else self.points[guide.through]
-        return Placed(through, self.links[guide.on], guide.angle, guide.offset)
+        return GuideLine(through, self.links[guide.on], guide.angle, guide.offset)
 
-    def _line(self, line: Placed) -> _core.Line:
+    def _line(self, line: GuideLine) -> _core.Line:
         return _core.Line(
             through=line.through,
             link=line.link,
@@ -137,7 +137,7 @@ class Places(Numbers):
         constant = self.slot(start)
         return _core.Sum(start=constant, terms=[(source, self.slot(factor)) for source, factor in terms])
 
-    def _runner(self, name: str, line: Placed, start: Any, terms: list[tuple[int | None, Any]]) -> None:
+    def _runner(self, name: str, line: GuideLine, start: Any, terms: list[tuple[int | None, Any]]) -> None:
         self.elements.append(
             _core.Element.Runner(
                 point=self._point(name),

@@ -62,7 +62,7 @@ def published_drives() -> tuple[PublishedDrive, ...]:
 
 
 @dataclass(frozen=True)
-class Recomputed:
+class ValueCheck:
     """A printed value against what follows from others of the same row by a formula of the paper [SI]."""
 
     quantity: str
@@ -81,7 +81,7 @@ def _last_digit(printed: float) -> float:
     return 1.000001 * 10.0 ** -len(repr(printed).partition(".")[2])
 
 
-def recompute(row: Mapping[str, float]) -> list[Recomputed]:
+def recompute(row: Mapping[str, float]) -> list[ValueCheck]:
     """Mean speed, δ, H and k_p of a row, each from other printed values by equations (13) to (15)."""
     mean = row["speed_mean"]
     steepest = max(abs(row["acceleration_min"]), abs(row["acceleration_max"]))
@@ -92,7 +92,7 @@ def recompute(row: Mapping[str, float]) -> list[Recomputed]:
         "dynamism": (steepest / mean**2, "|ε|_max/ω_mean²"),
         "motion_coefficient": (row["unevenness"] ** 2 + row["dynamism"], "δ² + H"),
     }
-    return [Recomputed(name, row[name], *value) for name, value in follows.items()]
+    return [ValueCheck(name, row[name], *value) for name, value in follows.items()]
 
 
 @dataclass(frozen=True)
@@ -143,7 +143,7 @@ class Drive:
         return self.choice.chosen.type if self.choice.chosen else ""
 
     @property
-    def recomputed(self) -> list[Recomputed]:
+    def recomputed(self) -> list[ValueCheck]:
         """The printed row against itself."""
         return recompute(self.published.values)
 

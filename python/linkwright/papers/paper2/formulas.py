@@ -212,6 +212,6 @@ def breadth_of(profile: CamProfile) -> float:
     return profile.cam.breadth
 
 
-def _share(found: Floats, printed: Floats) -> float:
+def _share(computed: Floats, printed: Floats) -> float:
     """Largest difference over the largest value."""
-    return float(np.abs(found - printed).max() / np.abs(printed).max())
+    return float(np.abs(computed - printed).max() / np.abs(printed).max())

@@ -104,7 +104,7 @@ class Paper2(Paper):
         laws = {alternative.short: alternative for alternative in self.alternatives}
         cam, crank = laws["as printed"], laws["crank"]
         free, smooth = laws["free at the reversal"], laws["continuous jerk"]
-        whole = [law for law in laws.values() if law.steady_share < _NOTHING and law is not crank]
+        smoothest = [law for law in laws.values() if law.steady_share < _NOTHING and law is not crank]
         low, high = self.course.steady_range
         peaks = ("velocity_max", "acceleration_max", "jerk_max", "torque_max")
         lower = all(getattr(free, name) < getattr(cam, name) for name in peaks)
@@ -118,7 +118,7 @@ class Paper2(Paper):
             "smooth_jerk": smooth.jerk_max / cam.jerk_max,
             "turn_is_better": lower and free.steady.unevenness < cam.steady.unevenness,
             "cam_beside_crank": cam.torque_max < crank.torque_max and cam.jerk_max > crank.jerk_max,
-            "other_laws_cost": all(drive.torque_max > cam.torque_max for drive in (smooth, *whole)),
+            "other_laws_cost": all(drive.torque_max > cam.torque_max for drive in (smooth, *smoothest)),
             "faster": self.course.speed_mean / self.course.speed_design - 1,
             "kept": 0.5 * (low + high),
             "kept_within": high - low,

@@ -163,7 +163,7 @@ class Paper3(Paper):
                 "throw_stiffness": self.trial.stiffness,
                 "natural_frequencies": self.trial.frequencies.tolist(),
             },
-            "formulas": [_plain(shift) for shift in self.shifts],
+            "formulas": [_shift_dict(shift) for shift in self.shifts],
             "restraint_length": self.throw["restraint"],
             "stiffness": self.throw["stiffness"],
             "unevenness": {
@@ -186,7 +186,7 @@ class Paper3(Paper):
         }
 
 
-def _plain(shift: Shift) -> dict[str, Any]:
+def _shift_dict(shift: Shift) -> dict[str, Any]:
     """One formula, ready for JSON."""
     arrays = {"frequencies": shift.frequencies.tolist(), "changes": shift.changes.tolist()}
     return vars(shift) | arrays

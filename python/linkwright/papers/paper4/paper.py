@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from linkwright.kernel.errors import ConvergenceError
 from linkwright.kernel.files.library import library_path
-from linkwright.kernel.numerics.roots import zero
+from linkwright.kernel.numerics.zeros import zero
 from linkwright.machine.read import read
 from linkwright.papers.paper import Paper, printed_values
 from linkwright.papers.paper4.formulas import LeverFormula, Unit

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from linkwright.machine.machine import Machine
-    from linkwright.studies.figures import Shown
+    from linkwright.studies.figures import StudyRows
     from linkwright.studies.folder import SweepFolder
     from linkwright.studies.sweep import Sweep
 
@@ -91,8 +91,8 @@ def show(folder: Folder, out: Drawn = None, force: Force = False, json: Json = F
     into = output_folder(out, force=force)
     known = opened(folder)
     plan = plan_of(known.manifest)
-    found = summary(known, plan.responses)
-    answer = _answer(plan.machine, found, known.units)
+    extremes = summary(known, plan.responses)
+    answer = _answer(plan.machine, extremes, known.units)
     drawn = Answer(
         machine=answer.machine,
         units=answer.units,
@@ -147,11 +147,11 @@ def _figures(folder: SweepFolder) -> dict[str, Figure]:
     return figures(shown_of(folder))
 
 
-def shown_of(folder: SweepFolder) -> Shown:
+def shown_of(folder: SweepFolder) -> StudyRows:
     """Rows of a folder with their labels, angles in degrees."""
     import numpy as np
 
-    from linkwright.studies.figures import Shown, rows_of
+    from linkwright.studies.figures import StudyRows, rows_of
     from linkwright.studies.folder import plan_of
 
     plan, rows = plan_of(folder.manifest), rows_of(folder)
@@ -160,7 +160,7 @@ def shown_of(folder: SweepFolder) -> Shown:
     columns: dict[str, Any] = {
         name: np.degrees(rows[name]) if folder.units[name] == "rad" else rows[name] for name in names
     }
-    return Shown(
+    return StudyRows(
         columns,
         {name: f"{name} [{units[name] or '–'}]" for name in names},
         tuple(axis.name for axis in plan.axes),

@@ -30,7 +30,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.topping.best.knife_search import MAP, KnifeGrid
@@ -61,37 +61,37 @@ _IS_VERIFIED = "Whether the other roots keep the limits, but for what the interv
 class BestKnife(Result):
     """The best knife."""
 
-    edge_angle: Annotated[float, Shown("edge angle", "α", "rad")]
-    edge_length: Annotated[float, Shown("length of the edge", "L", "m")]
-    knife_speed: Annotated[float, Shown("mean speed across the row", "v_h", "m/s")]
-    forward_speed: Annotated[float, Shown("speed along the row", "v", "m/s")]
+    edge_angle: Annotated[float, Label("edge angle", "α", "rad")]
+    edge_length: Annotated[float, Label("length of the edge", "L", "m")]
+    knife_speed: Annotated[float, Label("mean speed across the row", "v_h", "m/s")]
+    forward_speed: Annotated[float, Label("speed along the row", "v", "m/s")]
     crank_speed: Annotated[
         float | None,
-        Shown("speed of the crank that moves the knife", "ω", "rad/s", "None where it moves by a law."),
+        Label("speed of the crank that moves the knife", "ω", "rad/s", "None where it moves by a law."),
     ]
-    slicing_ratio_mean: Annotated[float, Shown("mean draw-cut ratio", "", "")]
+    slicing_ratio_mean: Annotated[float, Label("mean draw-cut ratio", "", "")]
     share_complete: Annotated[
         float,
-        Shown("share of heads cut through", "", "", "Over the roots that it was sought with."),
+        Label("share of heads cut through", "", "", "Over the roots that it was sought with."),
     ]
     share_complete_low: Annotated[
-        float, Shown("minimum share of heads cut through", "", "", "End of its interval.")
+        float, Label("minimum share of heads cut through", "", "", "End of its interval.")
     ]
     share_complete_high: Annotated[
-        float, Shown("maximum share of heads cut through", "", "", "End of its interval.")
+        float, Label("maximum share of heads cut through", "", "", "End of its interval.")
     ]
     haulm_mean: Annotated[
-        float, Shown("mean uncut share of the head", "", "", "Over the roots that it was sought with.")
+        float, Label("mean uncut share of the head", "", "", "Over the roots that it was sought with.")
     ]
     haulm_mean_low: Annotated[
-        float, Shown("minimum mean uncut share of the head", "", "", "End of its interval.")
+        float, Label("minimum mean uncut share of the head", "", "", "End of its interval.")
     ]
     haulm_mean_high: Annotated[
-        float, Shown("maximum mean uncut share of the head", "", "", "End of its interval.")
+        float, Label("maximum mean uncut share of the head", "", "", "End of its interval.")
     ]
     share_verified: Annotated[
         float,
-        Shown(
+        Label(
             "share of heads cut through, verified",
             "",
             "",
@@ -100,15 +100,15 @@ class BestKnife(Result):
     ]
     share_verified_low: Annotated[
         float,
-        Shown("minimum share of heads cut through, verified", "", "", "End of its interval."),
+        Label("minimum share of heads cut through, verified", "", "", "End of its interval."),
     ]
     share_verified_high: Annotated[
         float,
-        Shown("maximum share of heads cut through, verified", "", "", "End of its interval."),
+        Label("maximum share of heads cut through, verified", "", "", "End of its interval."),
     ]
     haulm_verified: Annotated[
         float,
-        Shown(
+        Label(
             "mean uncut share of the head, verified",
             "",
             "",
@@ -116,12 +116,12 @@ class BestKnife(Result):
         ),
     ]
     haulm_verified_low: Annotated[
-        float, Shown("minimum mean uncut share of the head, verified", "", "", "End of its interval.")
+        float, Label("minimum mean uncut share of the head, verified", "", "", "End of its interval.")
     ]
     haulm_verified_high: Annotated[
-        float, Shown("maximum mean uncut share of the head, verified", "", "", "End of its interval.")
+        float, Label("maximum mean uncut share of the head, verified", "", "", "End of its interval.")
     ]
-    seed_verified: Annotated[int, Shown("seed of the other roots", "", "")]
+    seed_verified: Annotated[int, Label("seed of the other roots", "", "")]
     is_verified: Annotated[bool, About(_IS_VERIFIED)]
     at_bounds: Annotated[tuple[str, ...], About("Bounds of the search on which it lies.")]
 
@@ -130,11 +130,11 @@ class BestKnife(Result):
 class KnifeSearch(Result):
     """A search for the best knife."""
 
-    map_angle: Annotated[Floats, Shown("angle of the map", "", "rad", shape="(a,)", over="map_angle")]
-    map_speed: Annotated[Floats, Shown("knife speed of the map", "", "m/s", shape="(b,)", over="map_speed")]
+    map_angle: Annotated[Floats, Label("angle of the map", "", "rad", shape="(a,)", over="map_angle")]
+    map_speed: Annotated[Floats, Label("knife speed of the map", "", "m/s", shape="(b,)", over="map_speed")]
     map_length: Annotated[
         Floats,
-        Shown(
+        Label(
             "minimum edge length for the required shares",
             "",
             "m",
@@ -142,10 +142,10 @@ class KnifeSearch(Result):
             shape="(a, b)",
         ),
     ]
-    map_slicing: Annotated[Floats, Shown("mean draw-cut ratio", "", "–", shape="(a, b)")]
+    map_slicing: Annotated[Floats, Label("mean draw-cut ratio", "", "–", shape="(a, b)")]
     objective: Annotated[Objective, About('``"shortest"`` or ``"fastest"``.')]
     limits: Annotated[TopperLimits, About("What had to be kept.")]
-    length_max: Annotated[float, Shown("maximum length of the edge", "", "m", "Infinite without a limit.")]
+    length_max: Annotated[float, Label("maximum length of the edge", "", "m", "Infinite without a limit.")]
     tried: Annotated[int, About("Number of knives evaluated.")]
     best: Annotated[BestKnife | None, About("The best one; None if no knife keeps the limits.")]
     failing: Annotated[LimitFailure | None, About("What cannot be kept then.")]
@@ -199,7 +199,7 @@ def best_knife(
     if trials.roots is not roots:
         trials = Trials(machine, topper, roots, trials.count)
         search = KnifeGrid(trials, length_max, objective, watch)
-        chosen = search.settled(chosen)
+        chosen = search.refined(chosen)
     keeps = search.keeps(chosen)
     return KnifeSearch(
         map_angle=np.array([row[0].edge_angle for row in table]),

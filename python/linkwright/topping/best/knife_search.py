@@ -76,16 +76,16 @@ class KnifeGrid:
             first = _listed(self.grid(forward_speed, _COARSE, self.low, self.high))
         return self._about(min(first, key=self._order), _ROUNDS)
 
-    def settled(self, chosen: Trial) -> Trial:
+    def refined(self, chosen: Trial) -> Trial:
         """The best about a knife that was found with a part of the roots."""
-        best = self._settled(chosen, chosen.forward_speed)
+        best = self._refined_at(chosen, chosen.forward_speed)
         slow = max(self.speeds[0], chosen.forward_speed - (self.speeds[1] - self.speeds[0]) / (_SPEEDS - 1))
         if not self.is_fastest or self.keeps(best) or slow >= chosen.forward_speed:
             return best
-        settled = self._settled(chosen, slow)
-        return self._between(settled, chosen.forward_speed, lambda v: self._settled(chosen, v))
+        slower = self._refined_at(chosen, slow)
+        return self._between(slower, chosen.forward_speed, lambda v: self._refined_at(chosen, v))
 
-    def _settled(self, chosen: Trial, forward_speed: float) -> Trial:
+    def _refined_at(self, chosen: Trial, forward_speed: float) -> Trial:
         own = self._at(chosen.edge_angle, chosen.knife_speed, forward_speed)
         return self._about(own, _ROUNDS - _SKIPPED)
 

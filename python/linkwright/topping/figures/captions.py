@@ -9,7 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
-from linkwright.kernel.figure.style import Captioned
+from linkwright.kernel.figure.style import CaptionedFigure
 from linkwright.kernel.page.numbers import degrees, number
 from linkwright.machine.machine import Machine
 from linkwright.topping.charts import length_chart, verdict_chart
@@ -39,7 +39,7 @@ class _Cut:
 
     machine: Machine
     described: Topper
-    found: TopperStudy
+    study: TopperStudy
 
     @cached_property
     def edges(self) -> list[Edge]:
@@ -47,32 +47,32 @@ class _Cut:
 
     @property
     def leaves(self) -> bool:
-        return leaves(self.found)
+        return leaves(self.study)
 
     @property
     def head(self) -> tuple[float, float]:
         """Offset and phase of the head that is drawn."""
-        return shown_head(self.found)
+        return shown_head(self.study)
 
 
-def topper_figures(machine: Machine, described: Topper, study: TopperStudy) -> Iterator[Captioned]:
+def topper_figures(machine: Machine, described: Topper, study: TopperStudy) -> Iterator[CaptionedFigure]:
     """The figures of the knife over heads."""
     cut = _Cut(machine, described, study)
     moves = cut.edges[0].knife.rate > 0
-    if not cut.found.obstacle:
+    if not cut.study.obstacle:
         yield _view(cut)
         yield from [_phases(cut)] if moves else []
     yield _chart(cut)
     yield _verdict(cut)
     # An edge that moves along itself has no use, and what cannot be followed none that is known.
-    if math.isfinite(cut.found.length_exact) and not cut.found.obstacle:
+    if math.isfinite(cut.study.length_exact) and not cut.study.obstacle:
         yield _use(cut)
     yield from [_slicing(cut)] if moves else []
 
 
-def _view(cut: _Cut) -> Captioned:
+def _view(cut: _Cut) -> CaptionedFigure:
     offset, phase = cut.head
-    study, length = cut.found, cut.described.edge_length
+    study, length = cut.study, cut.described.edge_length
     head = (study.head_diameter, offset, phase, length)
     seen = head_pass(worse_edge(cut.edges, *head), *head)
     figure = top_view_figure(seen, cut.described.offset, None if cut.leaves else (study.last_x, study.last_y))
@@ -86,7 +86,7 @@ def _view(cut: _Cut) -> Captioned:
             f"{mm(length)} cuts it completely."
         )
     words += " Five positions of the edge, later ones darker; the machine travels to the right."
-    return Captioned("topper_view", "The edge over the worst head, from above", words, figure)
+    return CaptionedFigure("topper_view", "The edge over the worst head, from above", words, figure)
 
 
 def _place(offset: float) -> str:
@@ -96,8 +96,8 @@ def _place(offset: float) -> str:
     return f"{mm(abs(offset))} to the {'left' if offset > 0 else 'right'} of the row"
 
 
-def _phases(cut: _Cut) -> Captioned:
-    study, length = cut.found, cut.described.edge_length
+def _phases(cut: _Cut) -> CaptionedFigure:
+    study, length = cut.study, cut.described.edge_length
     if cut.described.motion.phase is None:
         words = (
             f"At the worst offset heads require {mm(study.length_best_phase)} to {mm(study.length_exact)}, "
@@ -108,10 +108,10 @@ def _phases(cut: _Cut) -> Captioned:
     if cut.leaves:
         words += f" An edge of {mm(length)} leaves up to {percent(study.uncut_share)} of a head."
     figure = phase_figure(study, length, cut.described.motion.phase)
-    return Captioned("topper_phase", "Required length over the phase of the knife", words, figure)
+    return CaptionedFigure("topper_phase", "Required length over the phase of the knife", words, figure)
 
 
-def _chart(cut: _Cut) -> Captioned:
+def _chart(cut: _Cut) -> CaptionedFigure:
     chart = length_chart(cut.described, cut.edges)
     slow, own, fast = (number(speed, 3) for speed in chart.forward_speeds)
     words = (
@@ -123,17 +123,17 @@ def _chart(cut: _Cut) -> Captioned:
     )
     words += "; dashed: true motion." if chart.over_roots.moved.size else "."
     words += " Dot: this machine."
-    return Captioned(
+    return CaptionedFigure(
         "topper_lengths", "Lengths printed, consistent and exact", words, length_chart_figure(chart)
     )
 
 
-def _verdict(cut: _Cut) -> Captioned:
-    described, stroke = cut.described, stroke_of(cut.found)
+def _verdict(cut: _Cut) -> CaptionedFigure:
+    described, stroke = cut.described, stroke_of(cut.study)
     chart = verdict_chart(described, stroke)
     low, high = PAPER.lengths
     (slow, fast), (least, most) = PAPER.forward_speeds, PAPER.knife_speeds
-    judged = length_verdict(PAPER, described.edge_angle, cut.found.head_diameter, described.offset, stroke)
+    judged = length_verdict(PAPER, described.edge_angle, cut.study.head_diameter, described.offset, stroke)
     ways = [WAYS[demand.way] for demand in judged.demands if demand.holds]
     words = (
         f"Paper 5 gives {low:.2f} to {high:.2f} m for v from {slow:g} to {fast:g} m/s and knife speeds from "
@@ -143,11 +143,11 @@ def _verdict(cut: _Cut) -> Captioned:
         f"For its heads (dot), the range holds {'by the ' + ', the '.join(ways) if ways else 'by no method'}."
     )
     title = f"Where the published {low:.2f} to {high:.2f} m hold"
-    return Captioned("topper_verdict", title, words, verdict_figure(chart))
+    return CaptionedFigure("topper_verdict", title, words, verdict_figure(chart))
 
 
-def _use(cut: _Cut) -> Captioned:
-    study, length = cut.found, cut.described.edge_length
+def _use(cut: _Cut) -> CaptionedFigure:
+    study, length = cut.study, cut.described.edge_length
     place, use = study.edge_place, study.edge_use
     total = float(np.trapezoid(use, place))
     inside = np.abs(place) <= 0.5 * length
@@ -161,17 +161,19 @@ def _use(cut: _Cut) -> Captioned:
     if share < 1 - 1e-4:
         words += f" About {percent(1 - share)} of the cut lies beyond the ends of this edge."
     figure = edge_use_figure(place, use, length, study.head_diameter)
-    return Captioned("topper_use", "Use of the edge along its length", words, figure)
+    return CaptionedFigure("topper_use", "Use of the edge along its length", words, figure)
 
 
-def _slicing(cut: _Cut) -> Captioned:
+def _slicing(cut: _Cut) -> CaptionedFigure:
     phases = np.linspace(0.0, 2 * math.pi, _PHASES)
     ratio, speed = slicing_over_phase(cut.edges[0], phases)
-    study = cut.found
+    study = cut.study
     words = (
         "Draw-cut ratio: speed along the edge over speed normal to it; mean over the cut area "
         f"{number(study.slicing_ratio_mean, 3)}."
     )
     if study.edge_retreats:
         words += " Where it retreats, its back meets the head."
-    return Captioned("topper_slicing", "Slicing over the phase", words, slicing_figure(phases, ratio, speed))
+    return CaptionedFigure(
+        "topper_slicing", "Slicing over the phase", words, slicing_figure(phases, ratio, speed)
+    )

@@ -106,8 +106,8 @@ def _head(study: TopperStudy, described: Topper) -> Table:
     """The head, and what is left of it."""
     volume = f"{number(1e6 * study.cap_volume, 4)} cm³"
     rows: list[Row] = [
-        _told("head_diameter", mm(study.head_diameter), "in the plane of the cut"),
-        _told("cap_volume", volume, "of the root above the cut"),
+        _text_row("head_diameter", mm(study.head_diameter), "in the plane of the cut"),
+        _text_row("cap_volume", volume, "of the root above the cut"),
         ("band of the heads", "d + 2Δ", mm(study.head_diameter + 2 * described.offset), ""),
     ]
     if leaves(study):
@@ -122,12 +122,13 @@ def _head(study: TopperStudy, described: Topper) -> Table:
                 "at every offset" + (" and phase" if is_free else ""),
             )
         )
-        at = f"x = {mm(_settled(study.last_x, study))}, y = {mm(_settled(study.last_y, study))}"
+        x, y = (mm(_without_rounding(place, study)) for place in (study.last_x, study.last_y))
+        at = f"x = {x}, y = {y}"
         rows.append(("point farthest from the edge's middle", "", at, "from the head's centre"))
     return Table("topper_head", "Head and cut", _HEADS, rows)
 
 
-def _settled(value: float, study: TopperStudy) -> float:
+def _without_rounding(value: float, study: TopperStudy) -> float:
     """A place without what rounding leaves of zero."""
     return 0.0 if abs(value) < 1e-6 * study.head_diameter else value
 
@@ -167,20 +168,22 @@ def _way(study: TopperStudy) -> str:
 def _motion(study: TopperStudy) -> Table:
     rows: list[Row] = []
     if study.stroke:
-        rows.append(_told("stroke", mm(study.stroke), ""))
+        rows.append(_text_row("stroke", mm(study.stroke), ""))
         rows += rows_of(study, "frequency")
         rows.append(row(study, "strokes_per_head", "while the edge passes a head on the row"))
     rows.append(row(study, "knife_speed", _way(study)))
     if study.stroke:
         rows += rows_of(study, "knife_speed_max")
         jumps = not math.isfinite(study.knife_acceleration_max)
-        reach = _told("knife_acceleration_max", "no bound", "it turns back at once")
+        reach = _text_row("knife_acceleration_max", "no bound", "it turns back at once")
         rows.append(reach if jumps else row(study, "knife_acceleration_max"))
     holds = "not less than along it: (1) holds" if study.condition_holds else "less than along it: (1) fails"
     rows += [row(study, name, "paper 5 (2), (8)") for name in ("travel_along", "travel_across")]
     rows.append(row(study, "time_along"))
     is_endless = math.isinf(study.time_across)
-    rows.append(_told("time_across", "no bound", holds) if is_endless else row(study, "time_across", holds))
+    rows.append(
+        _text_row("time_across", "no bound", holds) if is_endless else row(study, "time_across", holds)
+    )
     return Table("topper_motion", "Motion of the knife", _HEADS, rows)
 
 
@@ -196,7 +199,7 @@ def _slicing(study: TopperStudy) -> Table:
 def _advance(study: TopperStudy) -> Row:
     """Zero but for rounding where the edge moves along itself."""
     if abs(study.least_advance) * _NO_BOUND < study.cutting_speed_max:
-        return _told("least_advance", "0 m/s", "it moves along itself")
+        return _text_row("least_advance", "0 m/s", "it moves along itself")
     return row(
         study, "least_advance", "its back meets the head" if study.edge_retreats else "it never retreats"
     )
@@ -206,10 +209,10 @@ def _ratio(study: TopperStudy, name: str, remark: str) -> Row:
     """A ratio that may have no bound."""
     if getattr(study, name) < _NO_BOUND:
         return row(study, name, remark)
-    return _told(name, "no bound", "the edge moves along itself")
+    return _text_row(name, "no bound", "the edge moves along itself")
 
 
-def _told(name: str, value: str, remark: str) -> Row:
+def _text_row(name: str, value: str, remark: str) -> Row:
     """A row whose value is not a number."""
     mark = shown(TopperStudy, name)
     return mark.word, mark.symbol, value, remark
@@ -221,7 +224,7 @@ def _drive(study: TopperStudy) -> Table:
     if abs(study.drive_torque_mean or 0.0) * _NO_BOUND < abs(study.drive_torque_max or 0.0):
         means = ("drive_torque_mean", "drive_power_mean")
         rows = rows_in(study, "topper_drive", {"drive_torque_max": "at the crank"}, without=means)
-        rows += [_told(name, f"0 {study.unit_of(name)}", "nothing is lost") for name in means]
+        rows += [_text_row(name, f"0 {study.unit_of(name)}", "nothing is lost") for name in means]
     return Table("topper_drive", "Drive of the knife at the design speed", _HEADS, rows)
 
 

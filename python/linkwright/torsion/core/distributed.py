@@ -71,8 +71,8 @@ def dynamic(referred: ReferredTrain, stiffness: Floats, omega: Floats | Complexe
 def lossless(referred: ReferredTrain, omega: Floats) -> Dynamic:
     """Without damping."""
     n = len(referred.shafts)
-    plain = replace(referred, damping=np.zeros(n), loss_factor=np.zeros(n))
-    return dynamic(plain, np.repeat(referred.stiffness[:, None], len(omega), axis=1), omega)
+    lossless = replace(referred, damping=np.zeros(n), loss_factor=np.zeros(n))
+    return dynamic(lossless, np.repeat(referred.stiffness[:, None], len(omega), axis=1), omega)
 
 
 def matrices(referred: ReferredTrain, at: Dynamic, omega: Floats) -> Floats:
@@ -233,10 +233,10 @@ def cut_up(referred: ReferredTrain, parts: list[list[Rod]]) -> ReferredTrain:
 
     Lumped, each part gives half of its inertia to each of its ends. Exact as the train itself is.
     """
-    plain = [n for n in range(len(referred.shafts)) if n not in {rod.shaft for rod in referred.rods}]
-    J, links, rods = list(bare_inertia(referred)), [referred.ends[n].tolist() for n in plain], list[Rod]()
-    k = [float(referred.stiffness[n]) for n in plain]
-    of = [*plain, *(rod.shaft for row in parts for rod in row)]
+    springs = [n for n in range(len(referred.shafts)) if n not in {rod.shaft for rod in referred.rods}]
+    J, links, rods = list(bare_inertia(referred)), [referred.ends[n].tolist() for n in springs], list[Rod]()
+    k = [float(referred.stiffness[n]) for n in springs]
+    of = [*springs, *(rod.shaft for row in parts for rod in row)]
     for row in parts:
         first, second = referred.ends[row[0].shaft].tolist()
         inner = list(range(len(J), len(J) + len(row) - 1))
@@ -251,7 +251,7 @@ def cut_up(referred: ReferredTrain, parts: list[list[Rod]]) -> ReferredTrain:
                     J[mass] += lumped
     # Losses of a piece are to its stiffness as those of the shaft are.
     share = np.array(k) / np.where(referred.stiffness[of] > 0, referred.stiffness[of], 1.0)
-    share[: len(plain)] = 1.0
+    share[: len(springs)] = 1.0
     return ReferredTrain(
         discs=referred.discs,
         shafts=tuple(referred.shafts[n] for n in of),

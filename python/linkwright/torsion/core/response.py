@@ -61,7 +61,7 @@ def tree_of(referred: ReferredTrain) -> Tree | None:
 
 
 @dataclass(frozen=True)
-class Operating:
+class OperatingState:
     """What a train is at some speeds, referred to that of its first disc."""
 
     speeds: Floats  # (speeds,) Ω of the first disc [rad/s]
@@ -100,7 +100,7 @@ def modal_losses(referred: ReferredTrain, stiffness: Floats) -> ModalLosses | No
     return ModalLosses(np.array([train.modal_damping for train in trains]), kind.ravel().astype(np.int32))
 
 
-def respond(referred: ReferredTrain, at: Operating, orders: Floats, torques: Complexes) -> Complexes:
+def respond(referred: ReferredTrain, at: OperatingState, orders: Floats, torques: Complexes) -> Complexes:
     """Amplitudes of the masses, (orders, masses, speeds).
 
     q [rad]; not finite at a resonance without any damping. `orders`: (orders,) cycles per revolution of the
@@ -146,7 +146,7 @@ class DynamicOrders(NamedTuple):
     second: Complexes
 
 
-def dynamic_orders(referred: ReferredTrain, at: Operating, orders: Floats) -> DynamicOrders:
+def dynamic_orders(referred: ReferredTrain, at: OperatingState, orders: Floats) -> DynamicOrders:
     """What a train with distributed inertia is where orders excite it."""
     shape = (-1, len(orders), len(at.speeds))
     omega = np.outer(orders, at.speeds).ravel()
@@ -161,7 +161,7 @@ def dynamic_orders(referred: ReferredTrain, at: Operating, orders: Floats) -> Dy
 
 
 def _distributed(
-    tree: Tree, at: Operating, there: DynamicOrders, orders: Floats, torques: Complexes
+    tree: Tree, at: OperatingState, there: DynamicOrders, orders: Floats, torques: Complexes
 ) -> Complexes:
     """Amplitudes of the masses of a tree with distributed inertia, all orders and speeds at once."""
     omega = orders[:, None, None] * at.speeds
@@ -233,7 +233,7 @@ def by_equilibrium(referred: ReferredTrain, tree: Tree, stiffness: Complexes, fo
     return carried
 
 
-def _whole(referred: ReferredTrain, at: Operating, orders: Floats, torques: Complexes) -> Complexes:
+def _whole(referred: ReferredTrain, at: OperatingState, orders: Floats, torques: Complexes) -> Complexes:
     """Amplitudes from the matrices, for trains with loops; not finite where they are singular."""
     n, speeds = len(referred.inertia), len(at.speeds)
     q = np.empty((len(orders), n, speeds), complex)

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from linkwright import _core
 from linkwright.kernel.errors import MachineError, Problem
-from linkwright.kernel.numerics.tangent import plain
+from linkwright.kernel.numerics.tangent import primal
 from linkwright.torsion.core.rod import Rod
 from linkwright.torsion.model.train import GROUND, ModalDamping, Shaft, Train, TrainGear
 from linkwright.torsion.model.whole_train import RodShaft, parts_of, speeds, whole_train
@@ -211,7 +211,7 @@ def _require_numbers(train: Train) -> None:
     wrong = [
         Problem(key, f"{value!r}", "one finite number above zero")
         for key, value in entries.items()
-        if not isinstance(plain(value), Real) or not (0 < value < np.inf or (value == 0 and key in fluids))
+        if not isinstance(primal(value), Real) or not (0 < value < np.inf or (value == 0 and key in fluids))
     ]
     if wrong:
         raise MachineError(wrong)

@@ -34,7 +34,7 @@ from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import INERTIA, RATIO, positive
 from linkwright.machine.machine import Machine
@@ -180,35 +180,35 @@ _RULES = {"viscous": viscous_rule, "tuned": tuned_rule, "rubber": rubber_rule}
 class DamperDesign(Result):
     """The best damper for a mode of a train."""
 
-    frequencies: Annotated[Floats, Shown("frequency", "f", "Hz")]
+    frequencies: Annotated[Floats, Label("frequency", "f", "Hz")]
     response_bare: Annotated[
-        Floats, Shown("twist over that at rest, without damper", "", "–", "Of the watched shaft in the mode.")
+        Floats, Label("twist over that at rest, without damper", "", "–", "Of the watched shaft in the mode.")
     ]
     response_rule: Annotated[
-        Floats, Shown("twist over that at rest, with the damper of the closed form", "", "–", "Likewise.")
+        Floats, Label("twist over that at rest, with the damper of the closed form", "", "–", "Likewise.")
     ]
     response_best: Annotated[
-        Floats, Shown("twist over that at rest, with the best damper", "", "–", "Likewise.")
+        Floats, Label("twist over that at rest, with the best damper", "", "–", "Likewise.")
     ]
     kind: Annotated[Kind, About('``"viscous"``, ``"tuned"`` or ``"rubber"``.')]
     on: Annotated[str, About("Disc that carries it.")]
     mode: Annotated[int, About("Number of the mode, from 0.")]
-    natural_frequency: Annotated[float, Shown("natural frequency of the mode without damper", "f", "Hz")]
+    natural_frequency: Annotated[float, Label("natural frequency of the mode without damper", "f", "Hz")]
     watched: Annotated[str, About("Shaft that the mode twists most.")]
-    ring_inertia: Annotated[float, Shown("inertia of the ring", "", "kg m²")]
-    modal_inertia: Annotated[float, Shown("inertia of the train in the mode, at the disc", "", "kg m²")]
-    mass_ratio: Annotated[float, Shown("inertia of the ring over that of the mode", "μ", "–")]
-    damping: Annotated[float, Shown("damping by the mode alone, in closed form", "c", "N m s/rad")]
-    stiffness: Annotated[float, Shown("stiffness by the mode alone, in closed form", "k", "N m/rad")]
-    loss_factor: Annotated[float, Shown("loss factor by the mode alone, in closed form", "η", "–")]
-    magnification: Annotated[float, Shown("magnification by the closed form", "", "–")]
+    ring_inertia: Annotated[float, Label("inertia of the ring", "", "kg m²")]
+    modal_inertia: Annotated[float, Label("inertia of the train in the mode, at the disc", "", "kg m²")]
+    mass_ratio: Annotated[float, Label("inertia of the ring over that of the mode", "μ", "–")]
+    damping: Annotated[float, Label("damping by the mode alone, in closed form", "c", "N m s/rad")]
+    stiffness: Annotated[float, Label("stiffness by the mode alone, in closed form", "k", "N m/rad")]
+    loss_factor: Annotated[float, Label("loss factor by the mode alone, in closed form", "η", "–")]
+    magnification: Annotated[float, Label("magnification by the closed form", "", "–")]
     magnification_rule: Annotated[
-        float, Shown("maximum magnification with the damper of the closed form", "", "–")
+        float, Label("maximum magnification with the damper of the closed form", "", "–")
     ]
-    damping_best: Annotated[float, Shown("damping for the whole train", "c", "N m s/rad")]
-    stiffness_best: Annotated[float, Shown("stiffness for the whole train", "k", "N m/rad")]
-    loss_factor_best: Annotated[float, Shown("loss factor for the whole train", "η", "–")]
-    magnification_best: Annotated[float, Shown("maximum magnification with the best damper", "", "–")]
+    damping_best: Annotated[float, Label("damping for the whole train", "c", "N m s/rad")]
+    stiffness_best: Annotated[float, Label("stiffness for the whole train", "k", "N m/rad")]
+    loss_factor_best: Annotated[float, Label("loss factor for the whole train", "η", "–")]
+    magnification_best: Annotated[float, Label("maximum magnification with the best damper", "", "–")]
 
 
 @public

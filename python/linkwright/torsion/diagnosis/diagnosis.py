@@ -39,7 +39,7 @@ from numpy.typing import NDArray
 from linkwright.kernel.errors import InputError, ShapeError
 from linkwright.kernel.numerics.confidence import coverage_factor
 from linkwright.kernel.numerics.least_squares import Fit, least_squares
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.torsion.diagnosis.engine_speed import cylinder_response
 from linkwright.torsion.diagnosis.measured_speed import MeasuredSpeed
@@ -55,7 +55,7 @@ class Diagnosis(Result):
     cylinders: Annotated[tuple[str, ...], About("Names of the cylinders.")]
     factor: Annotated[
         Floats,
-        Shown(
+        Label(
             "firing part over that of a healthy cylinder",
             "",
             "–",
@@ -66,7 +66,7 @@ class Diagnosis(Result):
     ]
     deviation: Annotated[
         Floats,
-        Shown(
+        Label(
             "standard deviation of the factor",
             "",
             "–",
@@ -77,7 +77,7 @@ class Diagnosis(Result):
     ]
     covariance: Annotated[
         Floats,
-        Shown(
+        Label(
             "covariance of the factors",
             "",
             "–",
@@ -88,7 +88,7 @@ class Diagnosis(Result):
     ]
     condition: Annotated[
         float,
-        Shown(
+        Label(
             "largest over smallest singular value",
             "",
             "–",
@@ -107,7 +107,7 @@ class Diagnosis(Result):
     warnings: Annotated[tuple[str, ...], About("Limitations of the diagnosis.")]
     delay: Annotated[
         Floats | None,
-        Shown(
+        Label(
             "crank angle by which the combustion is late",
             "",
             "rad",
@@ -118,7 +118,7 @@ class Diagnosis(Result):
     ] = None
     delay_deviation: Annotated[
         Floats | None,
-        Shown(
+        Label(
             "standard deviation of the delay",
             "",
             "rad",
@@ -129,7 +129,7 @@ class Diagnosis(Result):
     ] = None
     compression: Annotated[
         Floats | None,
-        Shown(
+        Label(
             "torque of compression and expansion over that of a tight cylinder",
             "",
             "–",
@@ -140,7 +140,7 @@ class Diagnosis(Result):
     ] = None
     compression_deviation: Annotated[
         Floats | None,
-        Shown(
+        Label(
             "standard deviation of the compression",
             "",
             "–",
@@ -239,7 +239,7 @@ class Diagnosis(Result):
     def relative(
         self,
     ) -> Annotated[
-        Floats, Shown("factor over the mean of the factors", "", "–", shape="(cylinders,)", over="relative")
+        Floats, Label("factor over the mean of the factors", "", "–", shape="(cylinders,)", over="relative")
     ]:
         """For an engine whose load is not known."""
         relative: Floats = self.factor / self.factor.mean()
@@ -292,7 +292,7 @@ def diagnosed(fit: Fit, A: Floats, names: tuple[str, ...], measured: MeasuredSpe
             f"{len(measured.orders)} orders for {len(names)} cylinders leave no residual to "
             f"estimate the noise from: {remedy}"
         )
-    n, (delay, compression) = len(names), _further(fit, len(names))
+    n, (delay, compression) = len(names), _delay_and_compression(fit, len(names))
     diagnosis = Diagnosis(
         cylinders=names,
         factor=np.where(fit.is_open[:n], 1.0, 1 + fit.values[:n]),
@@ -311,7 +311,7 @@ def diagnosed(fit: Fit, A: Floats, names: tuple[str, ...], measured: MeasuredSpe
     return replace(diagnosis, warnings=tuple(_warnings(diagnosis, A[:, :n], fit.is_open[:n])))
 
 
-def _further(fit: Fit, n: int) -> list[tuple[Floats, Floats] | tuple[None, None]]:
+def _delay_and_compression(fit: Fit, n: int) -> list[tuple[Floats, Floats] | tuple[None, None]]:
     """Values and deviations of delay and compression, if they were fitted."""
     if len(fit.values) == n:
         return [(None, None), (None, None)]

@@ -106,8 +106,8 @@ def fitted(model: EngineSpeed, measured: MeasuredSpeed) -> Diagnosis:
         spread = diagnosed(scaled(fit, fit.misfit), A, names, measured)
         diagnosis = replace(diagnosis, deviation=spread.deviation, covariance=spread.covariance)
         if diagnosis.delay is not None:
-            further = (spread.delay_deviation, spread.compression_deviation)
-            diagnosis = replace(diagnosis, delay_deviation=further[0], compression_deviation=further[1])
+            deviations = (spread.delay_deviation, spread.compression_deviation)
+            diagnosis = replace(diagnosis, delay_deviation=deviations[0], compression_deviation=deviations[1])
         warnings.append("intervals treat the residual as noise")
     return replace(diagnosis, warnings=(*diagnosis.warnings, *warnings))
 
@@ -148,22 +148,22 @@ def _without_delay(values: Floats, n: int) -> NDArray[np.intp]:
     return n + np.flatnonzero(values[:n] < _HARDLY - 1) if len(values) > n else np.empty(0, np.intp)
 
 
-def _wider(model: EngineSpeed, measured: MeasuredSpeed, values: Floats, plain: Fit) -> Floats | None:
+def _wider(model: EngineSpeed, measured: MeasuredSpeed, values: Floats, factors: Fit) -> Floats | None:
     """First values with delay and compression of each cylinder, if factors do not explain what was measured.
 
-    By the ratio of variances: what each further value explains, over the noise.
+    By the ratio of variances: what each added value explains, over the noise.
     """
-    further = np.zeros(2 * len(values))
-    start = np.concatenate([values, further])
+    others = np.zeros(2 * len(values))
+    start = np.concatenate([values, others])
     is_known = measured.noise is not None
-    if 2 * len(measured.orders) <= len(start) or plain.misfit <= _EXACT * _size(measured):
+    if 2 * len(measured.orders) <= len(start) or factors.misfit <= _EXACT * _size(measured):
         return None
     fit, _ = _linear_fit(model, measured, start)
     if fit.is_open[: len(values)].any():
         return None
-    explained = plain.misfit**2 * plain.freedom - fit.misfit**2 * fit.freedom
-    ratio = explained / len(further) / (1.0 if is_known else fit.misfit**2)
-    if chance_of_ratio(ratio, len(further), None if is_known else fit.freedom) > _CHANCE:
+    explained = factors.misfit**2 * factors.freedom - fit.misfit**2 * fit.freedom
+    ratio = explained / len(others) / (1.0 if is_known else fit.misfit**2)
+    if chance_of_ratio(ratio, len(others), None if is_known else fit.freedom) > _CHANCE:
         return None
     return start
 

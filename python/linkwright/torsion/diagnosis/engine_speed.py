@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError
 from linkwright.machine.machine import Machine
-from linkwright.torsion.core.response import Operating, respond
+from linkwright.torsion.core.response import OperatingState, respond
 from linkwright.torsion.core.train import ReferredTrain, refer
 from linkwright.torsion.model.engine.engine import ReciprocatingEngine
 from linkwright.torsion.modes.free import train_of
@@ -47,7 +47,7 @@ def cylinder_response(at: ExcitedTrain, sources: Complexes, disc: str, *, rigid:
     onto = np.zeros((len(referred.discs), len(referred.inertia)))
     onto[np.arange(len(onto)), referred.mass] = referred.speed
     torques = np.ascontiguousarray(np.einsum("sod,dm->oms", sources, onto))
-    same = Operating(
+    same = OperatingState(
         np.repeat(at.operating.speeds, many),
         np.repeat(at.operating.stiffness, many, axis=1),
         np.repeat(at.operating.disc_damping, many, axis=1),
@@ -70,7 +70,7 @@ def _place(referred: ReferredTrain, disc: str) -> int:
 
 
 def _rigid(
-    referred: ReferredTrain, operating: Operating, orders: NDArray[np.float64], torques: Complexes
+    referred: ReferredTrain, operating: OperatingState, orders: NDArray[np.float64], torques: Complexes
 ) -> Complexes:
     """Amplitude of a train that does not twist, (orders, speeds)."""
     if not referred.is_free:
@@ -113,8 +113,8 @@ class EngineSpeed:
         A column for each state, all at the same speed. `values`: (kinds · cylinders, states) [rad].
         """
         speeds = np.repeat(self.gas.banks[0].speeds, values.shape[1])
-        combustion, *further = np.split(values, len(values) // self.engine.n_cylinders)
-        delay, compression = further or (0.0, 0.0)
+        combustion, *others = np.split(values, len(values) // self.engine.n_cylinders)
+        delay, compression = others or (0.0, 0.0)
         states = CylinderStates(1 + combustion, delay, 1 + compression)
         sources = throw_sources(self.engine, self.gas, states)
         # A record is of steady running: whatever the cylinders give, the loads took it off.

@@ -131,8 +131,8 @@ class RecordedSpeed:
         (orders,) cycles per revolution.
         """
         waves = orders * self.turns
-        whole = np.abs(waves - np.rint(waves)) <= 1e-9 * np.maximum(waves, 1.0)
-        resolved: Floats = orders[whole & (waves >= 1) & (2 * waves < len(self.samples))]
+        is_integer = np.abs(waves - np.rint(waves)) <= 1e-9 * np.maximum(waves, 1.0)
+        resolved: Floats = orders[is_integer & (waves >= 1) & (2 * waves < len(self.samples))]
         return resolved
 
     def harmonics(self, disc: str, orders: Floats, noise: float | None = None) -> MeasuredSpeed:
@@ -164,10 +164,10 @@ def recorded_speed(angle: ArrayLike, speed: ArrayLike, turns: int) -> RecordedSp
         cycles = n * step / cycle
         if round(cycles) >= 1 and abs(n * step - round(cycles) * cycle) <= step / 2:
             return RecordedSpeed(float(phi[0]), omega[:n], round(cycles) * turns)
-    a, b, whole = np.degrees([phi[0], phi[-1], cycle])
+    a, b, span = np.degrees([phi[0], phi[-1], cycle])
     raise InputError(
         f"speed from {a:.6g}° to {b:.6g}° in steps of {np.degrees(step):.6g}°: expected whole cycles of "
-        f"{whole:.6g}°"
+        f"{span:.6g}°"
     )
 
 

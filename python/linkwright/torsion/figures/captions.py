@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from linkwright.kernel.errors import LinkwrightError
-from linkwright.kernel.figure.style import Captioned
+from linkwright.kernel.figure.style import CaptionedFigure
 from linkwright.torsion.figures.forced import (
     gear_figure,
     heat_figure,
@@ -38,22 +38,22 @@ _STARS = 8
 _TURNING = 0.02
 
 
-def torsion_figures(study: TorsionStudy) -> Iterator[Captioned]:
+def torsion_figures(study: TorsionStudy) -> Iterator[CaptionedFigure]:
     """The figures that a study has results for."""
     caption = "The height of a disc is its inertia, the length of a shaft its compliance."
-    yield Captioned("scheme", "Equivalent scheme", caption, scheme_figure(study.scheme))
+    yield CaptionedFigure("scheme", "Equivalent scheme", caption, scheme_figure(study.scheme))
     caption = "Amplitudes of the lowest elastic modes; the largest is 1."
-    yield Captioned("mode_shapes", "Mode shapes", caption, modes_figure(study.free))
+    yield CaptionedFigure("mode_shapes", "Mode shapes", caption, modes_figure(study.free))
     if study.forced is not None:
         yield from _forced(study, study.forced)
     if study.transient is not None:
         yield from _manoeuvre(study.transient)
 
 
-def _manoeuvre(moved: TorsionTransient) -> Iterator[Captioned]:
+def _manoeuvre(moved: TorsionTransient) -> Iterator[CaptionedFigure]:
     """Speeds and torques over time, and what orders they hold."""
     caption = "Speeds of discs and torques of the shafts with the largest amplitudes; extremes are marked."
-    yield Captioned("transient", "Manoeuvre", caption, transient_figure(moved))
+    yield CaptionedFigure("transient", "Manoeuvre", caption, transient_figure(moved))
     # Orders are found by revolutions: while the first disc stands there are none.
     turning = moved.speed[0] > _TURNING * moved.speed[0].max()
     first = int(np.argmax(turning))
@@ -68,25 +68,25 @@ def _manoeuvre(moved: TorsionTransient) -> Iterator[Captioned]:
         return
     caption = f"Torque in {moved.shafts[shaft]}, order by order as the speed changes [N m]."
     figure = waterfall_figure(orders, quantity="torque [N m]")
-    yield Captioned("waterfall", "Waterfall of the manoeuvre", caption, figure)
+    yield CaptionedFigure("waterfall", "Waterfall of the manoeuvre", caption, figure)
 
 
-def _forced(study: TorsionStudy, forced: ForcedVibration) -> Iterator[Captioned]:
+def _forced(study: TorsionStudy, forced: ForcedVibration) -> Iterator[CaptionedFigure]:
     """What the train does under its torques."""
     if study.campbell is not None:
         caption = "Natural frequencies and excitation orders over the speed, with their intersections."
-        yield Captioned("campbell", "Critical speeds", caption, campbell_figure(study.campbell))
+        yield CaptionedFigure("campbell", "Critical speeds", caption, campbell_figure(study.campbell))
     if forced.shafts:
         caption = "Half the peak-to-peak torque, all orders in phase."
-        yield Captioned("torques", "Torque of the shafts", caption, shaft_torques_figure(forced))
+        yield CaptionedFigure("torques", "Torque of the shafts", caption, shaft_torques_figure(forced))
     if study.stress is not None:
         caption = "Vibratory shear stress with its concentration; dashed: permitted."
         barred = () if study.verdict is None else study.verdict.barred
         caption += " Shaded are barred speed ranges." if barred else ""
-        yield Captioned("stress", "Stress of the shafts", caption, stress_figure(study.stress, barred))
+        yield CaptionedFigure("stress", "Stress of the shafts", caption, stress_figure(study.stress, barred))
     for one in study.overlays:
         caption = f"Dots: measured. Line: computed. {measured_words(one)}"
-        yield Captioned(f"measured_{one.name}", f"Measured {words(one)}", caption, overlay_figure(one))
+        yield CaptionedFigure(f"measured_{one.name}", f"Measured {words(one)}", caption, overlay_figure(one))
     if forced.shafts:
         yield _of_the_worst_shaft(study, forced)
     if study.stars and study.campbell is not None:
@@ -95,10 +95,10 @@ def _forced(study: TorsionStudy, forced: ForcedVibration) -> Iterator[Captioned]
             "vector sum, relative to the sum of all lengths."
         )
         stars = most_severe(study.campbell, study.stars, _STARS)
-        yield Captioned("stars", "Star diagrams", caption, star_figure(stars))
+        yield CaptionedFigure("stars", "Star diagrams", caption, star_figure(stars))
     if study.meshes is not None and np.isfinite(study.meshes.vibratory).any():
         caption = "Mean torque with the range of its vibration; below zero the teeth lose contact."
-        yield Captioned("gears", "Torque of the gear stages", caption, gear_figure(study.meshes))
+        yield CaptionedFigure("gears", "Torque of the gear stages", caption, gear_figure(study.meshes))
     yield _of_the_freest_disc(forced)
     shown = float(forced.speeds[service_place(study, forced)])
     caption = (
@@ -106,19 +106,21 @@ def _forced(study: TorsionStudy, forced: ForcedVibration) -> Iterator[Captioned]
         "phase and do not add up."
     )
     figure = torsion_unevenness_figure(forced, in_a_row(forced.discs, study.free.joined), shown)
-    yield Captioned("unevenness", "Speed fluctuation", caption, figure)
+    yield CaptionedFigure("unevenness", "Speed fluctuation", caption, figure)
     parts = _heated(study, forced)
     if parts:
-        yield Captioned("heat", "Heat", "Mean power dissipated by damping.", heat_figure(forced, parts))
+        yield CaptionedFigure("heat", "Heat", "Mean power dissipated by damping.", heat_figure(forced, parts))
 
 
-def _of_the_worst_shaft(study: TorsionStudy, forced: ForcedVibration) -> Captioned:
+def _of_the_worst_shaft(study: TorsionStudy, forced: ForcedVibration) -> CaptionedFigure:
     """Orders of the shaft that is nearest to its limit, or twisted most."""
     worst = worst_shaft(forced, study.stress)
     name = forced.shafts[worst]
     single, total = np.abs(forced.shaft_torques[:, worst]), forced.shaft_torque_vibratory[worst]
     figure = orders_figure(forced, single, total, "torque [kN m]", 1e-3)
-    return Captioned("orders", f"Orders in {name}", "Amplitude of each order, and all in phase.", figure)
+    return CaptionedFigure(
+        "orders", f"Orders in {name}", "Amplitude of each order, and all in phase.", figure
+    )
 
 
 def worst_shaft(forced: ForcedVibration, stress: ShaftStress | None) -> int:
@@ -133,7 +135,7 @@ def worst_shaft(forced: ForcedVibration, stress: ShaftStress | None) -> int:
     return int(size.argmax())
 
 
-def _of_the_freest_disc(forced: ForcedVibration) -> Captioned:
+def _of_the_freest_disc(forced: ForcedVibration) -> CaptionedFigure:
     """Orders of the disc that swings most."""
     swing = np.nan_to_num(np.abs(forced.amplitudes)).max(axis=(0, 2))
     name = forced.discs[int(swing.argmax())]
@@ -143,7 +145,7 @@ def _of_the_freest_disc(forced: ForcedVibration) -> Captioned:
         "Vibration superposed on steady rotation: amplitude of each order, and half the peak-to-peak value "
         "of all in phase."
     )
-    return Captioned("amplitude", f"Amplitude of {name}", caption, figure)
+    return CaptionedFigure("amplitude", f"Amplitude of {name}", caption, figure)
 
 
 def _heated(study: TorsionStudy, forced: ForcedVibration) -> list[str]:

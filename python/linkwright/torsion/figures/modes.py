@@ -216,10 +216,10 @@ def _points(axes: Axes, diagram: CampbellDiagram) -> None:
     )
     if name:
         worst = [n for n in np.argsort(-severity, kind="stable").tolist() if share[n] > 0]
-        _told(axes, [(x[n], y[n], area[n], critical[n].order) for n in worst[:_TOLD]])
+        _write_labels(axes, [(x[n], y[n], area[n], critical[n].order) for n in worst[:_TOLD]])
 
 
-def _told(axes: Axes, listed: list[tuple[float, float, float, float]]) -> None:
+def _write_labels(axes: Axes, listed: list[tuple[float, float, float, float]]) -> None:
     """Speed and order beside points of known area, the most severe first, where there is room."""
     (left, right), top = axes.get_xlim(), axes.get_ylim()[1]
     taken: list[tuple[float, float]] = []

@@ -60,9 +60,9 @@ class _Pen:
     def __init__(self, axes: Axes, laid: Page) -> None:
         self.axes, self.laid, self.places = axes, laid, laid.places
         self.levels = laid.levels()
-        J = laid.found.inertia_referred
+        J = laid.scheme.inertia_referred
         heights = np.maximum(LOW, HIGH * (J / J.max()) ** 0.25)
-        self.half = dict(zip(laid.found.discs, heights.tolist(), strict=True))
+        self.half = dict(zip(laid.scheme.discs, heights.tolist(), strict=True))
         # Discs that a line leaves upwards (+1) or downwards (−1): their words step aside.
         self.left: set[tuple[str, int]] = set()
 

@@ -92,10 +92,10 @@ def layout(
 
     Rows from 0 downwards, x from 0. `lengths`: [inch]; `room`: what a disc needs to either side [inch].
     """
-    return _Placing(discs, parts, lengths, room).run()
+    return _RowSearch(discs, parts, lengths, room).run()
 
 
-class _Placing:
+class _RowSearch:
     """Walks through the train, then finds rows for its lines."""
 
     def __init__(

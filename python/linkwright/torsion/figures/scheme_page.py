@@ -102,7 +102,7 @@ _PAGE = (7.0, 9.0)
 class Page:
     """A scheme with its words and places, in inches."""
 
-    found: Scheme  # the train
+    scheme: Scheme  # the train
     # `discs`, `parts`: what is written beside each disc, and each connection.
     discs: dict[str, Words]
     parts: dict[str, Words]
@@ -161,11 +161,11 @@ class Page:
         text = (
             "Height of a disc: fourth root of its referred inertia, as the diameter at equal thickness. "
             "Length of a shaft: its compliance, as far as labels permit; in metres: length of a solid steel "
-            f"shaft of {1e3 * self.found.diameter:.4g} mm"
+            f"shaft of {1e3 * self.scheme.diameter:.4g} mm"
         )
         text += ", shortened at a break." if self.broken else "."
-        if (np.abs(self.found.speed - 1) > 1e-9).any():
-            text += f" In brackets: referred to the speed of {self.found.discs[0]}."
+        if (np.abs(self.scheme.speed - 1) > 1e-9).any():
+            text += f" In brackets: referred to the speed of {self.scheme.discs[0]}."
         return wrap(text, int((self.width - 2 * MARGIN) / wide("x")))
 
     def _in_row(self, row: int) -> list[Words]:

@@ -55,8 +55,8 @@ def train_tangents(
     """A train, the same referred to its first disc, and its derivatives; what has none goes into
     `refused`.
     """
-    whole = whole_train(_described(machine))
-    referred = refer(whole)
+    train = whole_train(_described(machine))
+    referred = refer(train)
     if referred.rods:
         raise InputError(
             f"train.inertia: {machine.name} has shafts with distributed inertia, which have no exact "
@@ -71,7 +71,7 @@ def train_tangents(
     known = tuple(name for name in free if name in derivatives)
     table = np.array([derivatives[name] for name in known]).T.reshape(-1, len(known))
     ends = np.cumsum([len(getattr(referred, name)) for name in _NUMBERS])
-    return whole, referred, TrainTangents(known, *np.split(table, ends[:-1]))
+    return train, referred, TrainTangents(known, *np.split(table, ends[:-1]))
 
 
 def _described(machine: Machine) -> Train:

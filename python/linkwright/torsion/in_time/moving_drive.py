@@ -23,7 +23,7 @@ from linkwright.kernel.core.curve import Curve, straight
 from linkwright.kernel.core.periodic_table import spline
 from linkwright.kernel.errors import InputError
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import Compiled, compile_machine
+from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.torsion.core.torque import OverSpeed, Power, TrainTorque
 from linkwright.torsion.core.transient import MovingTrain, VariableInertia, variable_inertia
 from linkwright.torsion.in_time.moving_train import moving_train
@@ -82,13 +82,13 @@ def moving_drive(machine: Machine, manoeuvre: TrainTransient) -> tuple[MovingTra
     )
 
 
-def _inertia(compiled: Compiled, crank: int) -> VariableInertia:
+def _inertia(compiled: CompiledMachine, crank: int) -> VariableInertia:
     """Reduced inertia over the revolution of the crank."""
     at = compiled.reductions(_turn())
     return variable_inertia(crank, at.inertia, at.inertia_slope)
 
 
-def _resistance(compiled: Compiled, crank: int, guess: float) -> Iterator[TrainTorque]:
+def _resistance(compiled: CompiledMachine, crank: int, guess: float) -> Iterator[TrainTorque]:
     """What the loads of the mechanism ask of the crank."""
     phi = _turn()
     at = compiled.reductions(phi)
@@ -106,7 +106,7 @@ def _resistance(compiled: Compiled, crank: int, guess: float) -> Iterator[TrainT
         yield from _laws(compiled, phi, crank, guess)
 
 
-def _laws(compiled: Compiled, phi: Floats, crank: int, guess: float) -> Iterator[TrainTorque]:
+def _laws(compiled: CompiledMachine, phi: Floats, crank: int, guess: float) -> Iterator[TrainTorque]:
     """Loads of angle and speed together: the curve of each speed counts up to the speeds beside it."""
     speeds = np.linspace(0.0, 2 * guess, _SPEEDS)
     # At rest a law may jump: that just above counts.

@@ -63,10 +63,10 @@ _TURNS_MAX = 8
 
 def moving_train(train: Train, manoeuvre: TrainTransient) -> MovingTrain:
     """A train ready for a manoeuvre. With all torques; its notes say what was assumed."""
-    whole, referred = whole_train(train), refer(train)
-    _require_fit(train, manoeuvre, tuple(whole.discs))
-    place = {name: k for k, name in enumerate(whole.discs)}
-    own = np.array([disc.inertia for disc in whole.discs.values()])
+    expanded, referred = whole_train(train), refer(train)
+    _require_fit(train, manoeuvre, tuple(expanded.discs))
+    place = {name: k for k, name in enumerate(expanded.discs)}
+    own = np.array([disc.inertia for disc in expanded.discs.values()])
     inertias = [
         inertia
         for engine in train.installed
@@ -79,13 +79,13 @@ def moving_train(train: Train, manoeuvre: TrainTransient) -> MovingTrain:
     return moving(
         referred,
         own,
-        swing_damping=[disc.damping for disc in whole.discs.values()],
+        swing_damping=[disc.damping for disc in expanded.discs.values()],
         shaft_damping=damping,
         curves=[_coupling_curve(train, name) for name in referred.shafts],
         inertias=inertias,
         torques=[
             *_engines(train, manoeuvre, referred),
-            *_outside(whole, manoeuvre, place),
+            *_outside(expanded, manoeuvre, place),
             *_events(manoeuvre, place),
         ],
         modal_damping=replace(referred, ratios=ratios).modal_damping if ratios.any() else None,
@@ -182,15 +182,15 @@ def _engines(train: Train, manoeuvre: TrainTransient, referred: ReferredTrain) -
     return torques
 
 
-def _outside(whole: Train, manoeuvre: TrainTransient, place: dict[str, int]) -> Iterator[TrainTorque]:
+def _outside(train: Train, manoeuvre: TrainTransient, place: dict[str, int]) -> Iterator[TrainTorque]:
     """Loads, excitations and motors, as events switch them."""
-    for name, load in whole.loads.items():
+    for name, load in train.loads.items():
         yield from _load(name, load, manoeuvre, place[load.on])
-    for name, excitation in whole.excitations.items():
+    for name, excitation in train.excitations.items():
         law = None if excitation.speed is None else Power(excitation.speed, excitation.exponent, is_even=True)
         for shape, pitch, phase in _shapes(excitation.harmonics, 0.0):
             yield TrainTorque(name, place[excitation.on], 1.0, law, shape, pitch, phase)
-    for name, driver in whole.drivers.items():
+    for name, driver in train.drivers.items():
         if driver.torque is not None:
             law = None if driver.speed is None else Power(driver.speed, driver.exponent, is_even=True)
             yield TrainTorque(name, place[driver.on], driver.torque, law)
@@ -233,8 +233,8 @@ def _shapes(
     phases = [harmonic.phase for harmonic in harmonics]
     for turns in range(1, _TURNS_MAX + 1):
         if np.abs(orders * turns - np.round(orders * turns)).max() < 1e-9:
-            whole = np.round(orders * turns) / turns
-            return [(waves(whole.tolist(), sizes, phases, turns, mean), 1.0, 0.0)]
+            rounded = np.round(orders * turns) / turns
+            return [(waves(rounded.tolist(), sizes, phases, turns, mean), 1.0, 0.0)]
     # A load's mean goes with its first order.
     return [
         (waves([1.0], [size], [0.0], 1, mean if n == 0 else 0.0), float(order), phase)

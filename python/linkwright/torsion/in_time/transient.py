@@ -24,7 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright.kernel.errors import ConvergenceError, InputError
 from linkwright.kernel.limits import SAMPLES
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.transient import MovingTrain, TrainMotion
@@ -50,16 +50,16 @@ _SETTLE = 1.0
 class TorsionTransient(Result):
     """Motion of a train in time."""
 
-    time: Annotated[Floats, Shown("time", "t", "s", "Of the samples.")]
+    time: Annotated[Floats, Label("time", "t", "s", "Of the samples.")]
     discs: Annotated[tuple[str, ...], About("Discs in the order of the file.")]
-    angle: Annotated[Floats, Shown("angle of each disc", "φ", "rad", "In its own sense.", shape="(discs, n)")]
+    angle: Annotated[Floats, Label("angle of each disc", "φ", "rad", "In its own sense.", shape="(discs, n)")]
     speed: Annotated[
-        Floats, Shown("speed of each disc", "ω", "rad/s", "In its own sense.", shape="(discs, n)")
+        Floats, Label("speed of each disc", "ω", "rad/s", "In its own sense.", shape="(discs, n)")
     ]
     shafts: Annotated[tuple[str, ...], About("What twists.")]
     torque: Annotated[
         Floats,
-        Shown(
+        Label(
             "torque in each shaft",
             "M",
             "N m",
@@ -67,11 +67,11 @@ class TorsionTransient(Result):
             shape="(shafts, n)",
         ),
     ]
-    kinetic_energy: Annotated[Floats, Shown("kinetic energy", "", "J")]
-    potential_energy: Annotated[Floats, Shown("potential energy", "", "J")]
+    kinetic_energy: Annotated[Floats, Label("kinetic energy", "", "J")]
+    potential_energy: Annotated[Floats, Label("potential energy", "", "J")]
     torque_max: Annotated[
         Floats,
-        Shown(
+        Label(
             "maximum torque in each shaft",
             "M_max",
             "N m",
@@ -81,11 +81,11 @@ class TorsionTransient(Result):
         ),
     ]
     torque_max_time: Annotated[
-        Floats, Shown("time of the maximum torque", "", "s", shape="(shafts,)", over="torque_max_time")
+        Floats, Label("time of the maximum torque", "", "s", shape="(shafts,)", over="torque_max_time")
     ]
     torque_min: Annotated[
         Floats,
-        Shown(
+        Label(
             "minimum torque in each shaft",
             "M_min",
             "N m",
@@ -95,11 +95,11 @@ class TorsionTransient(Result):
         ),
     ]
     torque_min_time: Annotated[
-        Floats, Shown("time of the minimum torque", "", "s", shape="(shafts,)", over="torque_min_time")
+        Floats, Label("time of the minimum torque", "", "s", shape="(shafts,)", over="torque_min_time")
     ]
     speed_max: Annotated[
         Floats,
-        Shown(
+        Label(
             "maximum speed of each disc",
             "ω_max",
             "rad/s",
@@ -109,11 +109,11 @@ class TorsionTransient(Result):
         ),
     ]
     speed_max_time: Annotated[
-        Floats, Shown("time of the maximum speed", "", "s", shape="(discs,)", over="speed_max_time")
+        Floats, Label("time of the maximum speed", "", "s", shape="(discs,)", over="speed_max_time")
     ]
     speed_min: Annotated[
         Floats,
-        Shown(
+        Label(
             "minimum speed of each disc",
             "ω_min",
             "rad/s",
@@ -123,7 +123,7 @@ class TorsionTransient(Result):
         ),
     ]
     speed_min_time: Annotated[
-        Floats, Shown("time of the minimum speed", "", "s", shape="(discs,)", over="speed_min_time")
+        Floats, Label("time of the minimum speed", "", "s", shape="(discs,)", over="speed_min_time")
     ]
     work: Annotated[dict[str, float], About("Work of each torque from outside [J].")]
     loss: Annotated[
@@ -134,7 +134,7 @@ class TorsionTransient(Result):
     ]
     energy_error: Annotated[
         float,
-        Shown(
+        Label(
             "error of the energy",
             "",
             "",
@@ -142,10 +142,10 @@ class TorsionTransient(Result):
         ),
     ]
     method: Annotated[str, About('``"explicit"`` or ``"implicit"``.')]
-    steps: Annotated[int, Shown("steps", "", "")]
-    steps_rejected: Annotated[int, Shown("steps that were done again", "", "")]
-    evaluations: Annotated[int, Shown("evaluations of the train", "", "")]
-    frequency_bound: Annotated[float, Shown("bound of the fastest swing at the start", "", "Hz")]
+    steps: Annotated[int, Label("steps", "", "")]
+    steps_rejected: Annotated[int, Label("steps that were done again", "", "")]
+    evaluations: Annotated[int, Label("evaluations of the train", "", "")]
+    frequency_bound: Annotated[float, Label("bound of the fastest swing at the start", "", "Hz")]
     notes: Annotated[tuple[str, ...], About("What was assumed.")]
     balance: Annotated[
         str, About("What was changed so that mean torques balance at the start; empty where nothing was.")
@@ -214,7 +214,7 @@ def torsion_transient(machine: Machine, manoeuvre: TrainTransient | None = None)
         speed=speed,
         angle=manoeuvre.angle,
         loaded=manoeuvre.loaded and manoeuvre.speed > 0,
-        settle=_settle(manoeuvre),
+        settle=_settling_time(manoeuvre),
         sample_time=manoeuvre.sample_time,
         accuracy=manoeuvre.accuracy,
         method=manoeuvre.method,
@@ -257,7 +257,7 @@ def follow_train(
     return _result(train, times, moved)
 
 
-def _settle(manoeuvre: TrainTransient) -> float:
+def _settling_time(manoeuvre: TrainTransient) -> float:
     """Time before the start of a manoeuvre in which its train swings in."""
     if manoeuvre.settle is not None:
         return manoeuvre.settle

@@ -28,7 +28,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.quantities import Shown
+from linkwright.kernel.quantities import Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import COUNT, positive
 
@@ -45,16 +45,16 @@ _HOPS = 4
 class Waterfall(Result):
     """Amplitudes over speed and order."""
 
-    time: Annotated[Floats, Shown("time", "t", "s", "In the middle of each window.", shape="(windows,)")]
-    speed: Annotated[Floats, Shown("mean speed of the disc", "ω", "rad/s", "In each window.")]
+    time: Annotated[Floats, Label("time", "t", "s", "In the middle of each window.", shape="(windows,)")]
+    speed: Annotated[Floats, Label("mean speed of the disc", "ω", "rad/s", "In each window.")]
     orders: Annotated[
-        Floats, Shown("excitation order of the disc", "ν", "", shape="(orders,)", over="orders")
+        Floats, Label("excitation order of the disc", "ν", "", shape="(orders,)", over="orders")
     ]
     amplitudes: Annotated[
         Floats,
-        Shown("amplitude of each order", "", "", "In the unit of the signal.", shape="(windows, orders)"),
+        Label("amplitude of each order", "", "", "In the unit of the signal.", shape="(windows, orders)"),
     ]
-    turns: Annotated[int, Shown("revolutions of a window", "", "")]
+    turns: Annotated[int, Label("revolutions of a window", "", "")]
 
     def order(self, wanted: float) -> Floats:
         """Amplitudes of the order nearest to the one wanted, over the windows, (windows,), in the unit of the

@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.torsion.limits.criteria import (
@@ -55,7 +55,7 @@ class BarredRange(Result):
     shaft: Annotated[str, About("The shaft.")]
     speed_min: Annotated[
         float,
-        Shown(
+        Label(
             "lower end of the barred range",
             "ω_min",
             "rad/s",
@@ -64,7 +64,7 @@ class BarredRange(Result):
     ]
     speed_max: Annotated[
         float,
-        Shown(
+        Label(
             "upper end of the barred range",
             "ω_max",
             "rad/s",
@@ -74,20 +74,20 @@ class BarredRange(Result):
     open_min: Annotated[bool, About("Whether the range continues below the speeds analysed.")]
     open_max: Annotated[bool, About("Whether the range continues above the speeds analysed.")]
     worst_speed: Annotated[
-        float, Shown("speed at which stress over permitted stress is largest", "", "rad/s")
+        float, Label("speed at which stress over permitted stress is largest", "", "rad/s")
     ]
-    worst_stress: Annotated[float, Shown("vibratory stress at that speed", "τ", "Pa")]
+    worst_stress: Annotated[float, Label("vibratory stress at that speed", "τ", "Pa")]
     continuous: Annotated[
-        float, Shown("stress permitted there in continuous operation", "τ_C", "Pa", "NaN if nothing is said.")
+        float, Label("stress permitted there in continuous operation", "τ_C", "Pa", "NaN if nothing is said.")
     ]
     transient: Annotated[
         float | None,
-        Shown("stress permitted there in transient passage", "τ_T", "Pa", "NaN if nothing is said."),
+        Label("stress permitted there in transient passage", "τ_T", "Pa", "NaN if nothing is said."),
     ]
     not_passable: Annotated[tuple[tuple[float, float], ...], About(_NOT_PASSABLE)]
     critical_speed: Annotated[
         float | None,
-        Shown(
+        Label(
             "critical speed of the highest peak in the range",
             "",
             "rad/s",
@@ -96,7 +96,7 @@ class BarredRange(Result):
     ]
     order: Annotated[
         float | None,
-        Shown(
+        Label(
             "order that makes most of that peak",
             "ν",
             "",
@@ -105,7 +105,7 @@ class BarredRange(Result):
     ]
     class_min: Annotated[
         float | None,
-        Shown(
+        Label(
             "minimum speed that is barred by the societies' formula",
             "",
             "rad/s",
@@ -114,17 +114,17 @@ class BarredRange(Result):
     ]
     class_max: Annotated[
         float | None,
-        Shown(
+        Label(
             "maximum speed that is barred by the societies' formula",
             "",
             "rad/s",
             "About all peaks in the range.",
         ),
     ]
-    service_speed: Annotated[float, Shown("service speed", "", "rad/s", "That λ = 1 stands for.")]
+    service_speed: Annotated[float, Label("service speed", "", "rad/s", "That λ = 1 stands for.")]
     ratio_permitted: Annotated[
         float | None,
-        Shown("maximum speed ratio that the rule permits to be barred", "λ", "", "None without a rule."),
+        Label("maximum speed ratio that the rule permits to be barred", "λ", "", "None without a rule."),
     ]
 
     @property

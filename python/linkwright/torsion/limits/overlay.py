@@ -27,7 +27,7 @@ from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError, MachineFileError, Problem, UnitError
 from linkwright.kernel.files.points import columns_of, read_columns
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import ANGLE, PRESSURE, SPEED, TORQUE, Kind, parse, show
 from linkwright.torsion.limits.criteria import peaks_between
@@ -91,7 +91,7 @@ class Overlay(Result):
     what: Annotated[str, About("Stress, torque or angle.")]
     order: Annotated[float | None, About("Order of the first disc; None for all together.")]
     speeds: Annotated[
-        Floats, Shown("speed of the first disc", "ω", "rad/s", "Of the measurement.", shape="(points,)")
+        Floats, Label("speed of the first disc", "ω", "rad/s", "Of the measurement.", shape="(points,)")
     ]
     measured: Annotated[Floats, About("Measured amplitudes, shape (points,) [SI].")]
     computed: Annotated[Floats, About("Computed ones at the same speeds, shape (points,) [SI].")]
@@ -110,7 +110,7 @@ class Overlay(Result):
     @property
     def mean_difference(
         self,
-    ) -> Annotated[float, Shown("root mean square of computed less measured values over measured", "", "")]:
+    ) -> Annotated[float, Label("root mean square of computed less measured values over measured", "", "")]:
         """Root mean square of computed less measured values, over that of the measured ones."""
         return float(np.sqrt(np.mean((self.computed - self.measured) ** 2) / np.mean(self.measured**2)))
 

@@ -20,7 +20,7 @@ from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.description.curve import curve_faults, not_rising
-from linkwright.kernel.numerics.roots import zeros
+from linkwright.kernel.numerics.zeros import zeros
 from linkwright.kernel.units import INERTIA, POWER, Angles, Torques, positive
 from linkwright.torsion.model.train_base import Damping, LossFactor, PositiveStiffness, PositiveTorque
 

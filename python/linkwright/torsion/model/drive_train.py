@@ -27,7 +27,7 @@ from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.kernel.description.base import fault
 from linkwright.kernel.description.place import look
 from linkwright.kernel.errors import MachineError, Problem
-from linkwright.kernel.numerics.tangent import plain
+from linkwright.kernel.numerics.tangent import primal
 from linkwright.torsion.model.train import GROUND, Disc, ElasticShaft, Shaft, Train, TrainGear
 
 MOTOR, GEARBOX, WHEEL, CRANK = "motor", "gearbox", "wheel", "crank"
@@ -175,7 +175,7 @@ def _require_numbers(drive: Drive) -> None:
     wrong = [
         Problem(key, f"{value!r}", "one finite number above zero")
         for key, value in entries.items()
-        if not isinstance(plain(value), int | float) or not 0 < value < float("inf")
+        if not isinstance(primal(value), int | float) or not 0 < value < float("inf")
     ]
     if wrong:
         raise MachineError(wrong)

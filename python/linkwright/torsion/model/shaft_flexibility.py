@@ -37,8 +37,8 @@ from functools import cache
 
 import numpy as np
 
-from linkwright.kernel.numerics.roots import zero
 from linkwright.kernel.numerics.tangent import total
+from linkwright.kernel.numerics.zeros import zero
 
 # Points of one Gauss-Legendre rule; an interval is halved until two rules agree to this.
 _POINTS = 16
@@ -73,12 +73,12 @@ def cone_place(
 
     `diameters`, `bores`: outside and inside, at its two ends [m].
     """
-    whole = cone_integral(1.0, diameters, bores)
+    full = cone_integral(1.0, diameters, bores)
 
     # The twist grows steadily along the cone.
     def beyond(z: float) -> float:
         part = cone_integral(z, (diameters[0], _at(diameters, z)), (bores[0], _at(bores, z)))
-        return part - share * whole
+        return part - share * full
 
     return zero(beyond, 0.0, 1.0)
 
@@ -111,9 +111,9 @@ def _over_share(
 ) -> float:
     """The integral over shares of the length, halved where one rule is not enough."""
     middle = (start + end) / 2
-    whole = _rule(diameters, bores, start, end)
+    full = _rule(diameters, bores, start, end)
     halves = _rule(diameters, bores, start, middle) + _rule(diameters, bores, middle, end)
-    if depth == _DEEPEST or abs(whole - halves) <= _AGREE * halves:
+    if depth == _DEEPEST or abs(full - halves) <= _AGREE * halves:
         return halves
     return _over_share(diameters, bores, start, middle, depth + 1) + _over_share(
         diameters, bores, middle, end, depth + 1

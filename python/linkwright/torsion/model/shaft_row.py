@@ -85,9 +85,9 @@ def end_inertias(sections: Sequence[ShaftSection], density: float) -> tuple[floa
     At the first end and at the second. `density`: [kg/m³].
     """
     parts = flexibilities(sections)
-    whole, before, first, second = total(parts), 0.0, 0.0, 0.0
+    flexibility, before, first, second = total(parts), 0.0, 0.0, 0.0
     for section, part in zip(sections, parts, strict=True):
-        share, J = (before + part / 2) / whole, section.inertia(density)
+        share, J = (before + part / 2) / flexibility, section.inertia(density)
         first, second = first + (1 - share) * J, second + share * J
         before += part
     return first, second
@@ -130,10 +130,10 @@ def rod_pieces(shaft: Shaft) -> tuple[RodPiece, ...]:
 def _pieces(sections: Sequence[ShaftSection], density: float, modulus: float) -> Iterator[RodPiece]:
     """Pieces of sections; what a step adds to the twist is spread over its section."""
     for section, flexibility in zip(sections, flexibilities(sections), strict=True):
-        further = float(flexibility) / float(section.flexibility)
+        softer = float(flexibility) / float(section.flexibility)
         if section.kind == "taper":
             for piece in _cone(section, density, modulus):
-                yield piece._replace(stiffness=piece.stiffness / further)
+                yield piece._replace(stiffness=piece.stiffness / softer)
         else:
             yield RodPiece(
                 modulus / float(flexibility),

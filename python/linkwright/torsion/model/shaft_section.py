@@ -226,10 +226,10 @@ class ShaftSection(CheckedDescription):
             return math.pi / 2 * self.diameter**2 * self.length
         width, depth = self._keyway
         rings = zip(self.diameters, self.bores, strict=True)
-        plain = min(polar_moment(d, b) / (d / 2) for d, b in rings)
+        modulus = min(polar_moment(d, b) / (d / 2) for d, b in rings)
         # The strength that each keyway leaves [3].
         left: float = (1 - 0.2 * width - 1.1 * depth) ** (self.keyways or 1)
-        return plain * left
+        return modulus * left
 
     def inertia(self, density: float) -> float:
         """Moment of inertia about the axis [kg m²]; of a flange out to its circle of bolts.

@@ -52,14 +52,14 @@ def train_faults(train: object) -> Iterator[InitErrorDetails]:
     yield from _parts_faults(train, discs)
     if isinstance(train, Train):
         try:
-            whole = whole_train(train)
+            expanded = whole_train(train)
         except AssemblyError as error:
             yield _short_rod(error)
             return
         except (InputError, ArithmeticError) as error:
             yield _no_throw(error)
             return
-        yield from map(_loop_fault, speeds(whole)[1])
+        yield from map(_loop_fault, speeds(expanded)[1])
         yield from transient_faults(train, (*discs, *train.dampers))
 
 

@@ -56,7 +56,7 @@ Instants = Annotated[tuple[float, ...], QuantityList(TIME)]
 Share = Annotated[float, not_negative(RATIO)]
 
 
-class _Passing(CheckedDescription):
+class _TimedEvent(CheckedDescription):
     """An event that may end."""
 
     time: Instant = Field(description="Time at which it begins.")
@@ -99,7 +99,7 @@ class FuelSwitch(Description):
     over: Instant = Field(0.0, description="Duration of the change.")
 
 
-class Misfire(_Passing):
+class Misfire(_TimedEvent):
     """Cylinders do without combustion, or with part of it."""
 
     kind: Literal["misfire"]
@@ -108,7 +108,7 @@ class Misfire(_Passing):
     factor: Share = Field(0.0, description="Remaining share of the combustion.")
 
 
-class TorqueStep(_Passing):
+class TorqueStep(_TimedEvent):
     """A constant torque on a disc."""
 
     kind: Literal["torque"]
@@ -143,7 +143,7 @@ class SpeedCourse(CheckedDescription):
         yield from curve_faults(self, "times", ("speed",))
 
 
-class ShortCircuit(_Passing):
+class ShortCircuit(_TimedEvent):
     """The terminals of a generator are short-circuited, at the worst instant."""
 
     kind: Literal["short_circuit"]

@@ -43,7 +43,7 @@ from numpy.typing import NDArray
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import COUNT, RATIO, SPEED, not_negative, positive
 from linkwright.machine.machine import Machine
@@ -106,11 +106,11 @@ class CampbellDiagram(Result):
 
     speeds: Annotated[
         Floats,
-        Shown("speed of the first disc", "ω", "rad/s", "From the lowest to the highest.", shape="(speeds,)"),
+        Label("speed of the first disc", "ω", "rad/s", "From the lowest to the highest.", shape="(speeds,)"),
     ]
     frequencies: Annotated[
         Floats,
-        Shown(
+        Label(
             "natural frequencies",
             "ω/2π",
             "Hz",
@@ -119,7 +119,7 @@ class CampbellDiagram(Result):
         ),
     ]
     orders: Annotated[
-        Floats, Shown("excitation order of the first disc", "ν", "", shape="(orders,)", over="orders")
+        Floats, Label("excitation order of the first disc", "ν", "", shape="(orders,)", over="orders")
     ]
     critical: Annotated[tuple[CriticalSpeed, ...], About("Critical speeds in the range, by speed.")]
 

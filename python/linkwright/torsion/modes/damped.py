@@ -43,7 +43,7 @@ from numpy.typing import NDArray
 
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import SPEED, positive
 from linkwright.machine.machine import Machine
@@ -66,7 +66,7 @@ class DampedVibration(Result):
 
     natural_frequencies: Annotated[
         Floats,
-        Shown(
+        Label(
             "natural frequencies",
             "ω/2π",
             "Hz",
@@ -75,12 +75,12 @@ class DampedVibration(Result):
         ),
     ]
     eigenvalues: Annotated[
-        Complexes, Shown("eigenvalues", "s", "1/s", "Complex, with an imaginary part of zero or more.")
+        Complexes, Label("eigenvalues", "s", "1/s", "Complex, with an imaginary part of zero or more.")
     ]
     discs: Annotated[tuple[str, ...], About("Discs in the order of the file.")]
     mode_shapes: Annotated[
         Complexes,
-        Shown(
+        Label(
             "mode shapes",
             "θ",
             "",
@@ -91,13 +91,13 @@ class DampedVibration(Result):
     shafts: Annotated[tuple[str, ...], About("Shafts, then elastic meshes, in the order of the file.")]
     shaft_shares: Annotated[
         Floats,
-        Shown(
+        Label(
             "share of each shaft in the damping", "", "", "Zero where there is none.", shape="(modes, shafts)"
         ),
     ]
     disc_shares: Annotated[
         Floats,
-        Shown(
+        Label(
             "share of each disc in the damping",
             "",
             "",
@@ -107,25 +107,25 @@ class DampedVibration(Result):
     ]
 
     @property
-    def damped_frequencies(self) -> Annotated[Floats, Shown("damped natural frequencies", "ω_d/2π", "Hz")]:
+    def damped_frequencies(self) -> Annotated[Floats, Label("damped natural frequencies", "ω_d/2π", "Hz")]:
         """ω_d/2π, (modes,)."""
         frequencies: Floats = self.eigenvalues.imag / (2 * math.pi)
         return frequencies
 
     @property
-    def decay_rates(self) -> Annotated[Floats, Shown("decay rates", "σ", "1/s")]:
+    def decay_rates(self) -> Annotated[Floats, Label("decay rates", "σ", "1/s")]:
         """σ, (modes,)."""
         rates: Floats = -self.eigenvalues.real
         return rates
 
     @property
-    def damping_ratios(self) -> Annotated[Floats, Shown("damping ratios", "ζ", "")]:
+    def damping_ratios(self) -> Annotated[Floats, Label("damping ratios", "ζ", "")]:
         """ζ = σ/|s|, (modes,): 1 without vibration, 0 for a motion as a whole."""
         size = np.abs(self.eigenvalues)
         return np.divide(self.decay_rates, size, out=np.zeros_like(size), where=size > 0)
 
     @property
-    def logarithmic_decrements(self) -> Annotated[Floats, Shown("logarithmic decrements", "", "")]:
+    def logarithmic_decrements(self) -> Annotated[Floats, Label("logarithmic decrements", "", "")]:
         """2πσ/ω_d, (modes,): of two amplitudes a period apart; infinite without vibration."""
         omega, sigma = self.eigenvalues.imag, 2 * math.pi * self.decay_rates
         without = np.where(sigma == 0, 0.0, np.inf)
@@ -134,7 +134,7 @@ class DampedVibration(Result):
     @property
     def amplitudes(
         self,
-    ) -> Annotated[Floats, Shown("amplitude of each disc", "", "", shape="(modes, discs)")]:
+    ) -> Annotated[Floats, Label("amplitude of each disc", "", "", shape="(modes, discs)")]:
         """|θ|, (modes, discs)."""
         return np.abs(self.mode_shapes)
 
@@ -143,7 +143,7 @@ class DampedVibration(Result):
         self,
     ) -> Annotated[
         Floats,
-        Shown("lead of each disc before that of the largest amplitude", "", "rad", shape="(modes, discs)"),
+        Label("lead of each disc before that of the largest amplitude", "", "rad", shape="(modes, discs)"),
     ]:
         """Lead of each disc before the one of the largest amplitude, (modes, discs), −π to π."""
         return np.angle(self.mode_shapes)
@@ -194,17 +194,17 @@ def damped_vibration(machine: Machine, speed: float | None = None) -> DampedVibr
     discs = disc_damping * np.abs(shapes) ** 2
     # Divided by their own sum, which σ is but for rounding.
     modal = np.einsum("ma,ab,mb->m", masses.conj(), referred.modal_damping, masses).real
-    whole = (shafts.sum(axis=1) + discs.sum(axis=1) + modal * size**2)[:, None]
+    losses = (shafts.sum(axis=1) + discs.sum(axis=1) + modal * size**2)[:, None]
     damped = (-eigenvalues.real * inertia)[:, None] > 0
-    whole = np.where(damped & (whole > 0), whole, np.inf)
+    losses = np.where(damped & (losses > 0), losses, np.inf)
     return DampedVibration(
         natural_frequencies=np.abs(eigenvalues) / (2 * math.pi),
         eigenvalues=eigenvalues,
         discs=referred.discs,
         mode_shapes=shapes,
         shafts=train.shafts,
-        shaft_shares=shafts / whole,
-        disc_shares=discs / whole,
+        shaft_shares=shafts / losses,
+        disc_shares=discs / losses,
     )
 
 

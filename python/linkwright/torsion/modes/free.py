@@ -30,7 +30,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.distributed import ExactMode, RodShape, exact_modes
@@ -101,7 +101,7 @@ class FreeVibration(Result):
 
     natural_frequencies: Annotated[
         Floats,
-        Shown(
+        Label(
             "natural frequencies",
             "ω/2π",
             "Hz",
@@ -110,16 +110,16 @@ class FreeVibration(Result):
         ),
     ]
     discs: Annotated[tuple[str, ...], About("Discs in the order of the file.")]
-    mode_shapes: Annotated[Floats, Shown("mode shapes", "θ", "", _MODE_SHAPES, shape="(modes, discs)")]
+    mode_shapes: Annotated[Floats, Label("mode shapes", "θ", "", _MODE_SHAPES, shape="(modes, discs)")]
     shafts: Annotated[tuple[str, ...], About("Shafts, then elastic meshes, in the order of the file.")]
     twists: Annotated[
         Floats,
-        Shown("twist of each shaft per unit of amplitude", "Δ", "rad", _TWISTS, shape="(modes, shafts)"),
+        Label("twist of each shaft per unit of amplitude", "Δ", "rad", _TWISTS, shape="(modes, shafts)"),
     ]
     nodes: Annotated[tuple[tuple[Node, ...], ...], About("Nodes of each mode; the ground does not count.")]
     kinetic_shares: Annotated[
         Floats,
-        Shown(
+        Label(
             "share of each disc in the kinetic energy",
             "",
             "",
@@ -129,7 +129,7 @@ class FreeVibration(Result):
     ]
     potential_shares: Annotated[
         Floats,
-        Shown(
+        Label(
             "share of each shaft in the potential energy",
             "",
             "",
@@ -137,11 +137,11 @@ class FreeVibration(Result):
             shape="(modes, shafts)",
         ),
     ]
-    modal_inertia: Annotated[Floats, Shown("modal inertia", "Σ J θ²", "kg m²")]
+    modal_inertia: Annotated[Floats, Label("modal inertia", "Σ J θ²", "kg m²")]
     joined: Annotated[tuple[tuple[str, str], ...], About("The two ends of every shaft and gear stage.")]
     shaft_kinetic_shares: Annotated[
         Floats,
-        Shown(
+        Label(
             "share of each shaft in the kinetic energy",
             "",
             "",
@@ -154,12 +154,12 @@ class FreeVibration(Result):
     ] = ()
 
     @property
-    def angular_frequencies(self) -> Annotated[Floats, Shown("angular natural frequencies", "ω", "rad/s")]:
+    def angular_frequencies(self) -> Annotated[Floats, Label("angular natural frequencies", "ω", "rad/s")]:
         """ω."""
         return 2 * math.pi * self.natural_frequencies
 
     @property
-    def modal_stiffness(self) -> Annotated[Floats, Shown("modal stiffness", "ω² Σ J θ²", "N m/rad")]:
+    def modal_stiffness(self) -> Annotated[Floats, Label("modal stiffness", "ω² Σ J θ²", "N m/rad")]:
         """ω² Σ J θ²."""
         return self.angular_frequencies**2 * self.modal_inertia
 
@@ -167,7 +167,7 @@ class FreeVibration(Result):
     def sensitivity_to_stiffness(
         self,
     ) -> Annotated[
-        Floats, Shown("sensitivity to the stiffness of each shaft", "", "", shape="(modes, shafts)")
+        Floats, Label("sensitivity to the stiffness of each shaft", "", "", shape="(modes, shafts)")
     ]:
         """∂ln ω²/∂ln k, (modes, shafts)."""
         return self.potential_shares
@@ -175,7 +175,7 @@ class FreeVibration(Result):
     @property
     def sensitivity_to_inertia(
         self,
-    ) -> Annotated[Floats, Shown("sensitivity to the inertia of each disc", "", "", shape="(modes, discs)")]:
+    ) -> Annotated[Floats, Label("sensitivity to the inertia of each disc", "", "", shape="(modes, discs)")]:
         """∂ln ω²/∂ln J, (modes, discs); zero where ω = 0."""
         return np.where(self.natural_frequencies[:, None] > 0, -self.kinetic_shares, 0.0)
 

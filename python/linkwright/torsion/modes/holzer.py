@@ -30,7 +30,7 @@ from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import FindingError, InputError, UnitError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import FREQUENCY, SPEED, not_negative, parse
 from linkwright.machine.machine import Machine
@@ -46,28 +46,28 @@ Floats = NDArray[np.float64]
 class HolzerTable(Result):
     """The state of a train that swings at one frequency."""
 
-    frequency: Annotated[float, Shown("frequency of the swing", "ω/2π", "Hz")]
+    frequency: Annotated[float, Label("frequency of the swing", "ω/2π", "Hz")]
     discs: Annotated[tuple[str, ...], About("Discs in the order of the file.")]
     inertia: Annotated[
-        Floats, Shown("moment of inertia of each disc", "J", "kg m²", shape="(discs,)", over="inertia")
+        Floats, Label("moment of inertia of each disc", "J", "kg m²", shape="(discs,)", over="inertia")
     ]
     inertia_squared: Annotated[
-        Floats, Shown("inertia times the square of the frequency", "J ω²", "N m/rad", over="inertia_squared")
+        Floats, Label("inertia times the square of the frequency", "J ω²", "N m/rad", over="inertia_squared")
     ]
     amplitude: Annotated[
-        Floats, Shown("angle of each disc", "θ", "rad", "1 at the first disc.", over="amplitude")
+        Floats, Label("angle of each disc", "θ", "rad", "1 at the first disc.", over="amplitude")
     ]
     torque: Annotated[
         Floats,
-        Shown("inertia torque of each disc", "J ω² θ", "N m", "At the speed of the disc.", over="torque"),
+        Label("inertia torque of each disc", "J ω² θ", "N m", "At the speed of the disc.", over="torque"),
     ]
     shafts: Annotated[tuple[str, ...], About("Shafts, then elastic meshes.")]
     stiffness: Annotated[
-        Floats, Shown("stiffness of each shaft", "k", "N m/rad", shape="(shafts,)", over="stiffness")
+        Floats, Label("stiffness of each shaft", "k", "N m/rad", shape="(shafts,)", over="stiffness")
     ]
     twist: Annotated[
         Floats,
-        Shown(
+        Label(
             "twist of each shaft",
             "Δ",
             "rad",
@@ -78,7 +78,7 @@ class HolzerTable(Result):
     ]
     shaft_torque: Annotated[
         Floats,
-        Shown(
+        Label(
             "torque in each shaft",
             "k Δ",
             "N m",
@@ -89,7 +89,7 @@ class HolzerTable(Result):
     ]
     end: Annotated[str, About("Disc that is not in equilibrium.")]
     residual_torque: Annotated[
-        float, Shown("residual torque at the end", "", "N m", "Zero at a natural frequency.")
+        float, Label("residual torque at the end", "", "N m", "Zero at a natural frequency.")
     ]
 
 

@@ -22,7 +22,7 @@ from typing import Annotated, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.torsion.modes.campbell import CampbellDiagram
 from linkwright.torsion.modes.free import FreeVibration, train_modes
@@ -42,23 +42,23 @@ _EQUAL = 1e-9
 class PhaseVectors(Result):
     """Phase vectors of one order in one mode."""
 
-    order: Annotated[float, Shown("excitation order of the first disc", "ν", "")]
+    order: Annotated[float, Label("excitation order of the first disc", "ν", "")]
     mode: Annotated[int, About("Row of `FreeVibration`.")]
-    speed: Annotated[float, Shown("critical speed of the first disc", "ω", "rad/s")]
+    speed: Annotated[float, Label("critical speed of the first disc", "ω", "rad/s")]
     discs: Annotated[tuple[str, ...], About("Discs that the order excites.")]
     vectors: Annotated[
         Complexes,
-        Shown("phase vector of each disc", "v", "", "Complex; times its amplitude.", shape="(discs,)"),
+        Label("phase vector of each disc", "v", "", "Complex; times its amplitude.", shape="(discs,)"),
     ]
-    torque: Annotated[float, Shown("largest torque of the order on a disc", "", "N m")]
+    torque: Annotated[float, Label("largest torque of the order on a disc", "", "N m")]
 
     @property
-    def vector_sum(self) -> Annotated[float, Shown("phase vector sum", "S", "")]:
+    def vector_sum(self) -> Annotated[float, Label("phase vector sum", "S", "")]:
         """S."""
         return float(np.abs(self.vectors.sum()))
 
     @property
-    def largest_sum(self) -> Annotated[float, Shown("sum of the lengths of the vectors", "", "")]:
+    def largest_sum(self) -> Annotated[float, Label("sum of the lengths of the vectors", "", "")]:
         """The sum if all torques were in phase with the mode."""
         return float(np.abs(self.vectors).sum())
 

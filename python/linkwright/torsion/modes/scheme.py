@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import LENGTH, positive
 from linkwright.machine.machine import Machine
@@ -77,16 +77,16 @@ class Scheme(Result):
 
     discs: Annotated[tuple[str, ...], About("Discs in the order of the file; rings of dampers last.")]
     speed: Annotated[
-        Floats, Shown("speed of each disc over that of the first", "n", "", shape="(discs,)", over="speed")
+        Floats, Label("speed of each disc over that of the first", "n", "", shape="(discs,)", over="speed")
     ]
     inertia: Annotated[
-        Floats, Shown("moment of inertia of each disc", "J", "kg m²", "At its own speed.", over="inertia")
+        Floats, Label("moment of inertia of each disc", "J", "kg m²", "At its own speed.", over="inertia")
     ]
     inertia_referred: Annotated[
-        Floats, Shown("referred moment of inertia of each disc", "n² J", "kg m²", over="inertia_referred")
+        Floats, Label("referred moment of inertia of each disc", "n² J", "kg m²", over="inertia_referred")
     ]
     connections: Annotated[tuple[Connection, ...], About("Shafts, couplings and dampers, then gear stages.")]
-    diameter: Annotated[float, Shown("diameter of the solid steel shaft of the equivalent lengths", "", "m")]
+    diameter: Annotated[float, Label("diameter of the solid steel shaft of the equivalent lengths", "", "m")]
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """As of any result, each connection by the names of its entries."""

@@ -35,7 +35,7 @@ from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.public import public
 from linkwright.linkages.closure import require_full_turn, require_one_turn
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import Compiled, compile_machine
+from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.torsion.model.drive_train import CRANK, MOTOR, STIFFNESS_KEYS, drive_train
 from linkwright.torsion.model.train import Train
 from linkwright.torsion.response.harmonics import Source
@@ -161,7 +161,7 @@ def station_damping(machine: Machine, speed: ArrayLike) -> dict[str, Floats]:
     return {station: c.reshape(np.shape(speed)) for station, c in damping.items()}
 
 
-def mechanism_alone(machine: Machine) -> Compiled:
+def mechanism_alone(machine: Machine) -> CompiledMachine:
     """The mechanism without its drive, if its revolutions can be determined. In the core's terms."""
     alone = machine.with_entries({"drive": None})
     compiled = compile_machine(alone)
@@ -172,7 +172,7 @@ def mechanism_alone(machine: Machine) -> Compiled:
     return compiled
 
 
-def _resistance_harmonics(compiled: Compiled, nu: Floats, omega: Floats) -> Complex:
+def _resistance_harmonics(compiled: CompiledMachine, nu: Floats, omega: Floats) -> Complex:
     """Mean of what resists at constant speeds, inertia included, times e^{−iνφ}, (orders, speeds) [N m]."""
     turn = turn_curve(lambda phi: _parts(compiled, phi), compiled.kinks(), "torque of the mechanism")
     # Each part has its power of the speed.
@@ -181,13 +181,13 @@ def _resistance_harmonics(compiled: Compiled, nu: Floats, omega: Floats) -> Comp
     return M
 
 
-def _parts(compiled: Compiled, phi: Floats) -> Floats:
+def _parts(compiled: CompiledMachine, phi: Floats) -> Floats:
     """Torques at speed 0, per speed and per square of the speed, (3, n)."""
     at = compiled.reductions(phi)
     return np.stack([at.load + at.dry, at.viscous, 0.5 * at.inertia_slope])
 
 
-def _resistance(compiled: Compiled, omega: Floats) -> Floats:
+def _resistance(compiled: CompiledMachine, omega: Floats) -> Floats:
     """Mean torque of all loads over the speed but the viscous ones [N m]."""
     return mean_laws(compiled, omega) + compiled.speed_load(omega)
 

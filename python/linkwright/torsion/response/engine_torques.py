@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import SPEED, positive
 from linkwright.torsion.model.engine.cylinder import Cylinder, GasTorque, gas_torque
@@ -162,9 +162,9 @@ def _moving_parts(engine: ReciprocatingEngine, speeds: Floats, orders: Floats) -
     inertia, weight = (np.fft.rfft(curve) * 2 / samples for curve in curves)
     M = np.zeros((len(orders), len(speeds)), complex)
     # A motion that repeats every revolution has whole orders alone.
-    whole = np.flatnonzero(orders == np.round(orders))
-    nu = orders[whole].astype(int)
-    M[whole] = inertia[nu, None] * speeds**2 + weight[nu, None]
+    places = np.flatnonzero(orders == np.round(orders))
+    nu = orders[places].astype(int)
+    M[places] = inertia[nu, None] * speeds**2 + weight[nu, None]
     M[0] *= 0.5
     return M
 
@@ -174,21 +174,21 @@ class EngineData(Result):
     """An engine's part of a train."""
 
     own_inertia: Annotated[
-        float, Shown("moment of inertia of the rotating parts of a throw", "J_k", "kg m²", "Without rods.")
+        float, Label("moment of inertia of the rotating parts of a throw", "J_k", "kg m²", "Without rods.")
     ]
     throw_inertia: Annotated[
         float,
-        Shown(
+        Label(
             "moment of inertia of the disc of a throw",
             "",
             "kg m²",
             "Mean over the revolution of its exact inertia.",
         ),
     ]
-    throw_inertia_published: Annotated[float, Shown("the same by paper 3, (7) and (12)", "", "kg m²")]
+    throw_inertia_published: Annotated[float, Label("the same by paper 3, (7) and (12)", "", "kg m²")]
     stiffness: Annotated[
         float | None,
-        Shown("stiffness from throw to throw", "k", "N m/rad", "As it is used; None with a single throw."),
+        Label("stiffness from throw to throw", "k", "N m/rad", "As it is used; None with a single throw."),
     ]
     stiffness_by: Annotated[str, About('Formula that it is by, or "given".')]
     stiffness_formulas: Annotated[
@@ -197,7 +197,7 @@ class EngineData(Result):
     firing: Annotated[
         dict[str, float], About("Crank angle at which each cylinder fires, by number, in their order [rad].")
     ]
-    speed: Annotated[float, Shown("speed at which the gas is reported", "ω", "rad/s")]
+    speed: Annotated[float, Label("speed at which the gas is reported", "ω", "rad/s")]
     mean_effective_pressure: Annotated[tuple[float, ...], About("Of a sound cylinder of each bank [Pa].")]
     peak_pressure: Annotated[tuple[float, ...], About("Of a sound cylinder of each bank [Pa].")]
 

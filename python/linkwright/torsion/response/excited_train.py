@@ -17,7 +17,7 @@ from linkwright.kernel.limits import RESPONSE
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.response import (
     DynamicOrders,
-    Operating,
+    OperatingState,
     by_equilibrium,
     dynamic_orders,
     modal_losses,
@@ -50,7 +50,7 @@ class ExcitedTrain:
     referred: ReferredTrain  # the same, referred to its first disc
     torques: Torques  # on the discs
     mean_torques: Floats  # (shafts, speeds) in the shafts at their own speed [N m]
-    operating: Operating  # stiffness and damping at each speed
+    operating: OperatingState  # stiffness and damping at each speed
 
     @cached_property
     def disc_damping(self) -> Floats:
@@ -221,7 +221,9 @@ def mean_shaft_torques(referred: ReferredTrain, mean: Floats) -> Floats:
     return carried / lead_speeds(referred)[:, None]
 
 
-def _operating(train: Train | None, referred: ReferredTrain, torques: Torques, mean: Floats) -> Operating:
+def _operating(
+    train: Train | None, referred: ReferredTrain, torques: Torques, mean: Floats
+) -> OperatingState:
     """Stiffness about the mean torques, damping with that of the loads."""
     stiffness = np.repeat(referred.stiffness[:, None], len(torques.speeds), axis=1)
     lead = lead_speeds(referred)
@@ -231,4 +233,4 @@ def _operating(train: Train | None, referred: ReferredTrain, torques: Torques, m
             stiffness[s] = lead[s] ** 2 * coupling.slope(mean[s])
     damping = np.repeat(referred.disc_damping[:, None], len(torques.speeds), axis=1)
     np.add.at(damping, referred.mass, referred.speed[:, None] ** 2 * torques.damping)
-    return Operating(torques.speeds, stiffness, damping, modal_losses(referred, stiffness))
+    return OperatingState(torques.speeds, stiffness, damping, modal_losses(referred, stiffness))

@@ -31,7 +31,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.response import respond, shaft_torques
@@ -49,15 +49,15 @@ Places = NDArray[np.int64]
 class TorsionResponse(Result):
     """Vibration of the discs, and what the shafts carry in it."""
 
-    speeds: Annotated[Floats, Shown("speed of the first disc", "ω", "rad/s", shape="(speeds,)")]
+    speeds: Annotated[Floats, Label("speed of the first disc", "ω", "rad/s", shape="(speeds,)")]
     orders: Annotated[
-        Floats, Shown("excitation order of the first disc", "ν", "", shape="(orders,)", over="orders")
+        Floats, Label("excitation order of the first disc", "ν", "", shape="(orders,)", over="orders")
     ]
     discs: Annotated[tuple[str, ...], About("As in `FreeVibration`.")]
     shafts: Annotated[tuple[str, ...], About("As in `FreeVibration`.")]
     amplitudes: Annotated[
         Complexes,
-        Shown(
+        Label(
             "vibration angle of each disc",
             "θ",
             "rad",
@@ -67,7 +67,7 @@ class TorsionResponse(Result):
     ]
     shaft_torques: Annotated[
         Complexes,
-        Shown(
+        Label(
             "torque at the first end of each shaft",
             "",
             "N m",
@@ -75,10 +75,10 @@ class TorsionResponse(Result):
             shape="(orders, shafts, speeds)",
         ),
     ]
-    mean_torques: Annotated[Floats, Shown("mean torque of each shaft", "", "N m", shape="(shafts, speeds)")]
+    mean_torques: Annotated[Floats, Label("mean torque of each shaft", "", "N m", shape="(shafts, speeds)")]
     torque_greatest: Annotated[
         Floats,
-        Shown(
+        Label(
             "maximum torque of each shaft",
             "",
             "N m",
@@ -88,7 +88,7 @@ class TorsionResponse(Result):
     ]
     torque_least: Annotated[
         Floats,
-        Shown(
+        Label(
             "minimum torque of each shaft",
             "",
             "N m",
@@ -98,7 +98,7 @@ class TorsionResponse(Result):
     ]
     shaft_heat: Annotated[
         Floats,
-        Shown("heat of each shaft, coupling or damper", "", "W", "Mean power.", shape="(shafts, speeds)"),
+        Label("heat of each shaft, coupling or damper", "", "W", "Mean power.", shape="(shafts, speeds)"),
     ]
 
     places: Annotated[
@@ -112,14 +112,14 @@ class TorsionResponse(Result):
     @property
     def shaft_torque_max(
         self,
-    ) -> Annotated[Floats, Shown("largest torque of each shaft", "", "N m", shape="(shafts, speeds)")]:
+    ) -> Annotated[Floats, Label("largest torque of each shaft", "", "N m", shape="(shafts, speeds)")]:
         """Either way, mean and vibration together."""
         return np.maximum(self.torque_greatest, -self.torque_least)
 
     @property
     def shaft_torque_vibratory(
         self,
-    ) -> Annotated[Floats, Shown("vibratory torque of each shaft", "", "N m", shape="(shafts, speeds)")]:
+    ) -> Annotated[Floats, Label("vibratory torque of each shaft", "", "N m", shape="(shafts, speeds)")]:
         """Half the peak-to-peak torque."""
         return 0.5 * (self.torque_greatest - self.torque_least)
 
@@ -199,22 +199,22 @@ class ForcedVibration(TorsionResponse):
     """Forced vibration of a train over its speeds, with all that its shafts carry."""
 
     unevenness: Annotated[
-        Floats, Shown("coefficient of speed fluctuation of each disc", "δ", "", shape="(discs, speeds)")
+        Floats, Label("coefficient of speed fluctuation of each disc", "δ", "", shape="(discs, speeds)")
     ]
     unevenness_rigid: Annotated[
         Floats,
-        Shown("coefficient of speed fluctuation of the rigid train", "", "", shape="(discs, speeds)"),
+        Label("coefficient of speed fluctuation of the rigid train", "", "", shape="(discs, speeds)"),
     ]
     unevenness_torsional: Annotated[
-        Floats, Shown("coefficient of speed fluctuation, torsional part", "", "", shape="(discs, speeds)")
+        Floats, Label("coefficient of speed fluctuation, torsional part", "", "", shape="(discs, speeds)")
     ]
     disc_heat: Annotated[
-        Floats, Shown("heat by the damping of each disc", "", "W", "Mean power.", shape="(discs, speeds)")
+        Floats, Label("heat by the damping of each disc", "", "W", "Mean power.", shape="(discs, speeds)")
     ]
     modal_heat: Annotated[
-        Floats, Shown("heat by the damping ratios of the modes", "", "W", "Mean power of all modes.")
+        Floats, Label("heat by the damping ratios of the modes", "", "W", "Mean power of all modes.")
     ]
-    power: Annotated[Floats, Shown("mean power of the pulsating torques", "", "W", "The sum of all heat.")]
+    power: Annotated[Floats, Label("mean power of the pulsating torques", "", "W", "The sum of all heat.")]
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Curves over the speeds by name of shaft and disc."""
@@ -300,11 +300,11 @@ def _unevenness(at: ExcitedTrain, orders: Orders, q: Complexes) -> tuple[Floats,
     J = referred.inertia
     # Referred, δ of a mass is that of its discs: speed and mean speed both count n times.
     speed = 1j * orders.values[:, None, None] * q
-    whole = np.einsum("m,omw->ow", J, speed)[:, None] / J.sum()
+    common = np.einsum("m,omw->ow", J, speed)[:, None] / J.sum()
     if not referred.is_free:
-        whole = np.zeros_like(whole)
+        common = np.zeros_like(common)
     deltas = []
-    for part in (speed, np.broadcast_to(whole, speed[:, :1].shape), speed - whole):
+    for part in (speed, np.broadcast_to(common, speed[:, :1].shape), speed - common):
         greatest, least = span(orders, part)
         deltas.append(greatest - least)
     total, rigid, torsional = deltas

@@ -34,7 +34,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.train import HELD
@@ -56,17 +56,17 @@ _TOOTHED = ("external", "internal")
 class MeshTorque(Result):
     """Torques of gear stages at their first discs, positive where the first drives in its sense."""
 
-    speeds: Annotated[Floats, Shown("speed of the first disc", "ω", "rad/s", shape="(speeds,)")]
+    speeds: Annotated[Floats, Label("speed of the first disc", "ω", "rad/s", shape="(speeds,)")]
     stages: Annotated[tuple[str, ...], About("Gear stages in the order of the file.")]
     toothed: Annotated[
         tuple[bool, ...], About("Whether a stage can lose contact; belts are taken to be tight.")
     ]
     orders: Annotated[
-        Floats, Shown("excitation order of the first disc", "ν", "", shape="(orders,)", over="orders")
+        Floats, Label("excitation order of the first disc", "ν", "", shape="(orders,)", over="orders")
     ]
     torques: Annotated[
         Complexes,
-        Shown(
+        Label(
             "torque of each stage",
             "",
             "N m",
@@ -74,27 +74,27 @@ class MeshTorque(Result):
             shape="(orders, stages, speeds)",
         ),
     ]
-    mean: Annotated[Floats, Shown("mean torque of each stage", "", "N m", shape="(stages, speeds)")]
+    mean: Annotated[Floats, Label("mean torque of each stage", "", "N m", shape="(stages, speeds)")]
     greatest: Annotated[
         Floats,
-        Shown("maximum torque of each stage", "", "N m", "Mean and vibration.", shape="(stages, speeds)"),
+        Label("maximum torque of each stage", "", "N m", "Mean and vibration.", shape="(stages, speeds)"),
     ]
     least: Annotated[
         Floats,
-        Shown("minimum torque of each stage", "", "N m", "Mean and vibration.", shape="(stages, speeds)"),
+        Label("minimum torque of each stage", "", "N m", "Mean and vibration.", shape="(stages, speeds)"),
     ]
 
     @property
     def vibratory(
         self,
-    ) -> Annotated[Floats, Shown("vibratory torque of each stage", "", "N m", shape="(stages, speeds)")]:
+    ) -> Annotated[Floats, Label("vibratory torque of each stage", "", "N m", shape="(stages, speeds)")]:
         """Half the peak-to-peak torque, (stages, speeds) [N m]."""
         return 0.5 * (self.greatest - self.least)
 
     @property
     def application_factor(
         self,
-    ) -> Annotated[Floats, Shown("application factor of each stage", "K_A", "", shape="(stages, speeds)")]:
+    ) -> Annotated[Floats, Label("application factor of each stage", "K_A", "", shape="(stages, speeds)")]:
         """K_A: mean and vibratory torque over the mean one, (stages, speeds); infinite without a mean."""
         mean = np.abs(self.mean)
         factor = np.divide(mean + self.vibratory, mean, out=np.full_like(mean, np.inf), where=mean > 0)
@@ -124,7 +124,7 @@ class MeshTorque(Result):
     def drop(
         self,
     ) -> Annotated[
-        Floats, Shown("drop of the torque of each stage below its mean", "", "N m", shape="(stages, speeds)")
+        Floats, Label("drop of the torque of each stage below its mean", "", "N m", shape="(stages, speeds)")
     ]:
         """How far the torque falls below its mean, seen in the sense of the mean, (stages, speeds) [N m]."""
         return np.where(self.mean >= 0, self.mean - self.least, self.greatest - self.mean)

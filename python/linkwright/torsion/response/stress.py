@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import SPEED, positive
 from linkwright.machine.machine import Machine
@@ -46,11 +46,11 @@ Floats = NDArray[np.float64]
 class ShaftStress(Result):
     """Stresses in those shafts of which a section is known."""
 
-    speeds: Annotated[Floats, Shown("speed of the first disc", "ω", "rad/s", shape="(speeds,)")]
+    speeds: Annotated[Floats, Label("speed of the first disc", "ω", "rad/s", shape="(speeds,)")]
     shafts: Annotated[tuple[str, ...], About("Shafts with sections, or with a section in their limit.")]
     section_modulus: Annotated[
         Floats,
-        Shown(
+        Label(
             "section modulus of each shaft",
             "W",
             "m³",
@@ -60,12 +60,12 @@ class ShaftStress(Result):
         ),
     ]
     concentration: Annotated[
-        Floats, Shown("stress concentration of each shaft", "K", "", shape="(shafts,)", over="concentration")
+        Floats, Label("stress concentration of each shaft", "K", "", shape="(shafts,)", over="concentration")
     ]
-    mean: Annotated[Floats, Shown("mean stress of each shaft", "", "Pa", shape="(shafts, speeds)")]
+    mean: Annotated[Floats, Label("mean stress of each shaft", "", "Pa", shape="(shafts, speeds)")]
     vibratory: Annotated[
         Floats,
-        Shown(
+        Label(
             "vibratory stress of each shaft",
             "τ",
             "Pa",
@@ -75,11 +75,11 @@ class ShaftStress(Result):
     ]
     greatest: Annotated[
         Floats,
-        Shown("maximum stress of each shaft", "", "Pa", "Of the largest torque.", shape="(shafts, speeds)"),
+        Label("maximum stress of each shaft", "", "Pa", "Of the largest torque.", shape="(shafts, speeds)"),
     ]
     continuous: Annotated[
         Floats,
-        Shown(
+        Label(
             "stress permitted in continuous operation",
             "τ_C",
             "Pa",
@@ -89,7 +89,7 @@ class ShaftStress(Result):
     ]
     transient: Annotated[
         Floats,
-        Shown(
+        Label(
             "stress permitted in transient passage",
             "τ_T",
             "Pa",
@@ -101,7 +101,7 @@ class ShaftStress(Result):
     @property
     def utilisation(
         self,
-    ) -> Annotated[Floats, Shown("vibratory over permitted stress", "", "", shape="(shafts, speeds)")]:
+    ) -> Annotated[Floats, Label("vibratory over permitted stress", "", "", shape="(shafts, speeds)")]:
         """Vibratory stress over that permitted in continuous operation, shape (shafts, speeds)."""
         return self.vibratory / self.continuous
 

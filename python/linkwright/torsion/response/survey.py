@@ -15,7 +15,7 @@ from typing import Annotated, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.distributed import frequencies_below
@@ -130,7 +130,9 @@ class Survey:
     def _with_peaks(self) -> tuple[Floats, list[Criterion]]:
         """Speeds and limits, once peaks are found: damping has them beside the resonances."""
         speeds, limits = self._joined(
-            self.at.torques.speeds, criteria(self.machine, self.at, self.found, self.service), self._further
+            self.at.torques.speeds,
+            criteria(self.machine, self.at, self.found, self.service),
+            self._resonances_between,
         )
         places = [(n, k) for n, limit in enumerate(limits) for k in _highest(limit.ratio)]
         peaks = peaks_between(
@@ -141,19 +143,19 @@ class Survey:
         return self._joined(speeds, limits, np.setdiff1d(peaks, speeds))
 
     def _joined(
-        self, speeds: Floats, limits: list[Criterion], further: Floats
+        self, speeds: Floats, limits: list[Criterion], added: Floats
     ) -> tuple[Floats, list[Criterion]]:
-        """Speeds and limits with those at further speeds."""
-        if not len(limits) or not len(further):
-            return np.sort(np.concatenate([speeds, further])), limits
-        every = np.concatenate([speeds, further])
+        """Speeds and limits with those at added speeds."""
+        if not len(limits) or not len(added):
+            return np.sort(np.concatenate([speeds, added])), limits
+        every = np.concatenate([speeds, added])
         order = np.argsort(every)
         return every[order], [
             one._replace(
                 found=np.append(one.found, other.found)[order],
                 permitted=np.append(one.permitted, other.permitted)[order],
             )
-            for one, other in zip(limits, self.criteria_at(further), strict=True)
+            for one, other in zip(limits, self.criteria_at(added), strict=True)
         ]
 
     def _ratios(self, speeds: Floats) -> Floats:
@@ -198,7 +200,7 @@ class Survey:
             yield between(self.machine, self.at, speeds[first : first + _AT_ONCE])
 
     @cached_property
-    def _further(self) -> Floats:
+    def _resonances_between(self) -> Floats:
         """Speeds of resonances that the run does not have."""
         run = self.at.torques.speeds
         every = np.unique([resonance.speed for resonance in self.resonances])
@@ -268,7 +270,7 @@ class TorquePeaks(Result):
     shafts: Annotated[tuple[str, ...], About("As in `ForcedVibration`.")]
     vibratory: Annotated[
         Floats,
-        Shown(
+        Label(
             "vibratory torque in each shaft",
             "",
             "N m",
@@ -278,7 +280,7 @@ class TorquePeaks(Result):
         ),
     ]
     speed: Annotated[
-        Floats, Shown("speed of the first disc there", "ω", "rad/s", shape="(shafts,)", over="speed")
+        Floats, Label("speed of the first disc there", "ω", "rad/s", shape="(shafts,)", over="speed")
     ]
 
 

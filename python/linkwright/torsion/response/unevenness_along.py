@@ -26,7 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.errors import InputError
-from linkwright.kernel.quantities import About, Shown
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.torsion.response.excited_train import ExcitedTrain
 from linkwright.torsion.response.forced import ForcedVibration
@@ -46,12 +46,12 @@ _EQUAL = 1e-9
 class UnevennessAlong(Result):
     """Speed fluctuation over the cylinders at each disc, at one speed."""
 
-    speed: Annotated[float, Shown("speed of the first disc", "ω", "rad/s")]
+    speed: Annotated[float, Label("speed of the first disc", "ω", "rad/s")]
     discs: Annotated[tuple[str, ...], About("As in `ForcedVibration`.")]
     cylinders: Annotated[tuple[str, ...], About("Cylinders in the order in which they fire.")]
     firing: Annotated[
         Floats,
-        Shown(
+        Label(
             "angle of the first disc at which each cylinder fires",
             "",
             "rad",
@@ -61,13 +61,13 @@ class UnevennessAlong(Result):
     ]
     share: Annotated[
         Floats,
-        Shown(
+        Label(
             "speed fluctuation from each firing to the next", "N_i", "", "In all.", shape="(discs, cylinders)"
         ),
     ]
     share_rigid: Annotated[
         Floats,
-        Shown(
+        Label(
             "speed fluctuation of the rigid train from each firing to the next",
             "",
             "",
@@ -76,34 +76,34 @@ class UnevennessAlong(Result):
     ]
     share_torsional: Annotated[
         Floats,
-        Shown("torsional speed fluctuation from each firing to the next", "", "", shape="(discs, cylinders)"),
+        Label("torsional speed fluctuation from each firing to the next", "", "", shape="(discs, cylinders)"),
     ]
 
     @property
     def unevenness(
         self,
-    ) -> Annotated[Floats, Shown("speed fluctuation over the cylinders", "N", "", shape="(discs,)")]:
+    ) -> Annotated[Floats, Label("speed fluctuation over the cylinders", "N", "", shape="(discs,)")]:
         """N, shape (discs,)."""
         return _mean(self.share)
 
     @property
     def unevenness_rigid(
         self,
-    ) -> Annotated[Floats, Shown("speed fluctuation of the rigid train", "", "", shape="(discs,)")]:
+    ) -> Annotated[Floats, Label("speed fluctuation of the rigid train", "", "", shape="(discs,)")]:
         """N of the train rotating as a rigid body, shape (discs,)."""
         return _mean(self.share_rigid)
 
     @property
     def unevenness_torsional(
         self,
-    ) -> Annotated[Floats, Shown("speed fluctuation, torsional part", "", "", shape="(discs,)")]:
+    ) -> Annotated[Floats, Label("speed fluctuation, torsional part", "", "", shape="(discs,)")]:
         """N of the rest, shape (discs,)."""
         return _mean(self.share_torsional)
 
     @property
     def spread(
         self,
-    ) -> Annotated[Floats, Shown("spread of the speed fluctuation", "s", "", shape="(discs,)")]:
+    ) -> Annotated[Floats, Label("spread of the speed fluctuation", "s", "", shape="(discs,)")]:
         """s, largest minus smallest N_i, shape (discs,)."""
         spread: Floats = np.ptp(self.share, axis=1)
         return spread
@@ -123,8 +123,8 @@ def unevenness_along(
     orders = forced.orders[fits]
     # Speed over mean speed: iν θ/n, n being that of the disc.
     relative = 1j * orders[:, None] * forced.amplitudes[fits, :, column] / at.referred.speed
-    whole = _as_a_whole(at, relative)
-    parts = [_shares(orders, angle, angles, turns) for angle in (relative, whole, relative - whole)]
+    rigid = _as_a_whole(at, relative)
+    parts = [_shares(orders, angle, angles, turns) for angle in (relative, rigid, relative - rigid)]
     return UnevennessAlong(float(forced.speeds[column]), forced.discs, names, angles, *parts)
 
 

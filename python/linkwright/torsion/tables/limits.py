@@ -57,9 +57,9 @@ def limit_tables(study: TorsionStudy) -> Iterator[Table]:
         yield Table("manoeuvre_limits", "Limits in the manoeuvre", (*heads, "at", "verdict"), rows)
 
 
-def _row(part: str, what: str, found: float, permitted: float, kind: Kind, *rest: str) -> Row:
+def _row(part: str, what: str, reached: float, permitted: float, kind: Kind, *rest: str) -> Row:
     """One limit: what, found, permitted, and where."""
-    return (f"{part}: {what}", "", shown(found, kind), shown(permitted, kind), *rest)
+    return (f"{part}: {what}", "", shown(reached, kind), shown(permitted, kind), *rest)
 
 
 def shown(value: float, kind: Kind) -> str:

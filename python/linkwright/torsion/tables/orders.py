@@ -124,8 +124,8 @@ def _shown(at: ExcitedTrain, size: Floats) -> Mapping[str, int]:
     shown: dict[str, int] = {}
     for disc, name in enumerate(at.referred.discs):
         engine, _, throw = name.rpartition("throw_")
-        further = throw.isdigit() and int(throw) > 1 and f"{engine}throw_1" in at.referred.discs
-        if size[:, disc].any() and not further:
+        is_repeated = throw.isdigit() and int(throw) > 1 and f"{engine}throw_1" in at.referred.discs
+        if size[:, disc].any() and not is_repeated:
             shown[name] = disc
     return shown
 

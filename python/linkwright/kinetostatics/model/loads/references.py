@@ -146,5 +146,5 @@ def _formula_faults(topology: Topology, name: str, load: object, on: str) -> Ite
     known |= _OF_LINKS if key == "torque" or along is not None else frozenset()
     what = "a force along a guide" if is_slide else f"a {key} on {on}"
     for entry, expected, remedy in variable_faults(key, look(load, key), known, what):
-        found = look(load, entry)
-        yield fault("loads", name, "formula", entry, found=found, expected=expected, remedy=remedy)
+        target = look(load, entry)
+        yield fault("loads", name, "formula", entry, found=target, expected=expected, remedy=remedy)

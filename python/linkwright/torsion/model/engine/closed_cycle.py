@@ -266,13 +266,13 @@ def _split(gas: ClosedGas, p: Array, gamma: Array, C: Array | None) -> Split:
         loss = (gamma - 1) * C
         decay += loss / gas.charge
         source = loss * gas.wall.wall_temperature / V
-    course, whole = gas.mesh.integrals(decay), (decay @ w)[:, None]
+    course, total = gas.mesh.integrals(decay), (decay @ w)[:, None]
     if not (np.abs(course) <= _FASTEST).all():
         raise FindingError(
             "the walls change the pressure of the gas by a factor of more than e^300 within a cycle; check "
             "speed, bore, charge pressure and the factor of [train.engine.gas.walls]"
         )
-    E, E_end = np.exp(course), np.exp(whole)
+    E, E_end = np.exp(course), np.exp(total)
     released = (gamma - 1) * (gas.kept * gas.release / V) * E
     a, a_end = gas.pressure_closing + np.zeros_like(E), gas.pressure_closing
     if source is not None:

@@ -110,10 +110,10 @@ class Combustion(Gas):
                 found=" and ".join(given) or None,
                 expected="one of heat, mean_effective_pressure, peak_pressure, or a load map",
             )
-        whole = math.fsum(release.share for release in self.releases)
-        if abs(whole - 1) > _WHOLE:
+        total = math.fsum(release.share for release in self.releases)
+        if abs(total - 1) > _WHOLE:
             expected = "releases whose shares make 1"
-            yield fault("releases", found=f"shares that make {whole:.6g}", expected=expected)
+            yield fault("releases", found=f"shares that make {total:.6g}", expected=expected)
 
     def cycle_faults(self, strokes: int) -> Iterator[InitErrorDetails]:
         wrong = list(self.valves.cycle_faults(strokes))

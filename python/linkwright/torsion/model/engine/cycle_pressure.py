@@ -48,8 +48,8 @@ class CycleMesh:
         """
         _, w, S = _gauss()
         panels = values.reshape(*values.shape[:-1], -1, _POINTS) * self.half_width[:, None]
-        whole = panels @ w
-        before = np.cumsum(whole, axis=-1) - whole
+        panel = panels @ w
+        before = np.cumsum(panel, axis=-1) - panel
         return np.asarray((panels @ S.T + before[..., None]).reshape(values.shape))
 
 

@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.kernel.numerics.tangent import plain
+from linkwright.kernel.numerics.tangent import primal
 from linkwright.torsion.model.engine.engine import ReciprocatingEngine
 from linkwright.torsion.model.engine.equivalent_inertia import mean_inertia
 from linkwright.torsion.model.engine.running_gear import (
@@ -68,10 +68,10 @@ def own_inertia(engine: ReciprocatingEngine) -> float:
 def mean_throw_inertia(engine: ReciprocatingEngine) -> float:
     """Mean over the revolution of the inertia of a throw with its rods and pistons [kg m²]."""
     own = own_inertia(engine)
-    mean: float = mean_inertia(engine.radius, running_gears(engine), plain(own)).mean
+    mean: float = mean_inertia(engine.radius, running_gears(engine), primal(own)).mean
     # It is linear in what turns with the throw, which may have derivatives.
-    whole: float = mean + (own - plain(own))
-    return whole
+    inertia: float = mean + (own - primal(own))
+    return inertia
 
 
 def throw_stiffness(engine: ReciprocatingEngine) -> float:

@@ -138,11 +138,11 @@ def whole_cycle_faults(
 
 def _wrong_span(angle: tuple[float, ...], cycle: float, how: str) -> InitErrorDetails:
     """The fault of a diagram over another angle than that of the cycle."""
-    a, b, whole = (math.degrees(end) for end in (angle[0], angle[-1], cycle))
+    a, b, span = (math.degrees(end) for end in (angle[0], angle[-1], cycle))
     return fault(
         "angle",
         found=f"angles from {a:.6g} to {b:.6g} deg, {how} the cycle",
-        expected=f"one working cycle, {whole:.6g} deg",
+        expected=f"one working cycle, {span:.6g} deg",
         remedy='check the strokes of the engine, and the unit: "angle [deg]" in the head of the file',
     )
 
