@@ -2,6 +2,7 @@
 
 The torque is a half wave of sine for each stroke, so that all is known in closed form: a half wave of height
 a has the area 2a, and the shaft is fastest and slowest where the torque of the expansion passes the mean.
+A rim of cast iron may have a hoop stress of 4 MPa: that gives its radius, and with the inertia its mass.
 """
 
 from pathlib import Path
@@ -33,6 +34,9 @@ def study(machine: lw.Machine) -> dict[str, float]:
         "energy_coefficient": one.energy_coefficient,
         "energy_coefficient_of_two": two.energy_coefficient,
         "flywheel_inertia_of_two": two.flywheel_inertia,
+        "rim_radius": one.rim_radius,
+        "rim_mass": one.rim_mass,
+        "rim_thickness": one.rim_thickness,
         "fastest_deg": float(np.degrees(one.speed_max_angle)),
     }
 

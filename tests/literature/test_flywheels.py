@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pytest
 
 import linkwright as lw
@@ -53,6 +54,50 @@ def test_example_16_2() -> None:
     assert found.flywheel_mass is not None
     # The book rounds the speed to 31.42 m/s and the energy to 29.6 m before it divides.
     assert found.flywheel_mass == pytest.approx(183, abs=0.7)
+
+
+def test_two_stroke_engine() -> None:
+    """1000 + 300 sin 2θ − 500 cos 2θ N m at 250 rpm, 400 kg at 0.4 m: 26.18 kW, 1.33 %, 9.11 rad/s² are printed."""
+    found = diagram(
+        speed="250 rpm",
+        inertia=400 * 0.4**2,
+        driver={"kind": "formula", "torque": "1000 + 300*sin(2*phi) - 500*cos(2*phi)"},
+    )
+    assert found.power_mean == pytest.approx(26.18e3, abs=5)
+    # Printed 583.1 N m.
+    assert found.energy_fluctuation == pytest.approx(583.1, abs=0.05)
+    assert found.unevenness == pytest.approx(0.0133, abs=5e-5)
+    assert found.acceleration_max == pytest.approx(9.11, abs=5e-3)
+    assert found.acceleration_min == pytest.approx(-9.11, abs=5e-3)
+    # At 60° the excess accelerates the flywheel with 7.965 rad/s².
+    k = np.abs(np.degrees(found.crank_angle) - 60).argmin()
+    excess = found.torque_driver[k] - found.torque_load[k]
+    assert excess / found.inertia == pytest.approx(7.965, abs=5e-3)
+
+
+def test_four_stroke_gas_engine() -> None:
+    """20 kW at 300 rpm, triangles of expansion and compression, 3 to 1, ± 2 %: 255.2 kg m² is printed.
+
+    The work of a cycle is 8000 J, of which expansion gives 12 000 J: a triangle of height 24 000/π N m.
+    """
+    expansion, compression = 24000 / math.pi, -8000 / math.pi
+    found = diagram(
+        speed="300 rpm",
+        cycle="720 deg",
+        unevenness="4 %",
+        driver={
+            "kind": "table",
+            "angle": "0, 180, 270, 360, 450, 540, 720 deg",
+            "torque": [0, 0, compression, 0, expansion, 0, 0],
+        },
+    )
+    assert found.energy_cycle == pytest.approx(8000, rel=1e-12)
+    assert found.power_mean == pytest.approx(20e3, rel=1e-12)
+    # Closed form: the triangle above the mean, (11/12)² of its area.
+    assert found.energy_fluctuation == pytest.approx(12000 * (11 / 12) ** 2, rel=1e-12)
+    # Printed 10 081 N m and 255.2 kg m²; the book rounds the torques to 7638, 637 N m before.
+    assert found.energy_fluctuation == pytest.approx(10081, abs=3)
+    assert found.flywheel_inertia == pytest.approx(255.2, abs=0.3)
 
 
 def test_example_16_8() -> None:

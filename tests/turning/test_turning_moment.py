@@ -199,3 +199,41 @@ def test_one_torque_is_fitted_once(monkeypatch: pytest.MonkeyPatch) -> None:
     both = lw.turning_moment(machine(speed=10, load=formula(wave), driver=formula("100"), inertia=20.0))
     assert alone.energy_fluctuation == pytest.approx(both.energy_fluctuation, rel=1e-13)
     assert alone.speed == pytest.approx(both.speed, rel=1e-13)
+
+
+def test_rim_of_a_flywheel() -> None:
+    """σ = ρ v² both ways; the ring of that cross-section has the inertia and the mass that it was made for."""
+    given = {"speed": "40 rad/s", "areas": [3000, -3000], "unevenness": 0.02}
+    rim = {"density": 7200.0, "stress": "4.5 MPa", "inertia_share": 0.9, "width_ratio": 1.5}
+    found = lw.turning_moment(machine(**given, rim=rim))
+    R, J = found.rim_radius, found.flywheel_inertia
+    assert (R, J) == pytest.approx((25 / 40, 3000 / (0.02 * 1600)), rel=1e-14)
+    assert (found.rim_speed, found.rim_stress) == pytest.approx((25.0, 4.5e6), rel=1e-14)
+    volume = 2 * math.pi * R * found.rim_width * found.rim_thickness
+    assert found.rim_mass == pytest.approx(7200 * volume, rel=1e-13)
+    assert found.rim_mass * R**2 == pytest.approx(0.9 * J, rel=1e-13)
+    assert found.rim_width / found.rim_thickness == pytest.approx(1.5, rel=1e-13)
+    again = lw.turning_moment(machine(**given, rim={"density": 7200.0, "radius": R}))
+    assert again.rim_stress == pytest.approx(4.5e6, rel=1e-13)
+    assert again.rim_width is None
+
+
+def test_rim_without_flywheel_has_its_stress_alone() -> None:
+    found = lw.turning_moment(
+        machine(speed=10, areas=[5, -5], rim={"density": 7850.0, "radius": 0.5})
+    )
+    assert found.rim_stress == pytest.approx(7850 * 25.0, rel=1e-14)
+    assert found.rim_mass is None
+
+
+@pytest.mark.parametrize(
+    ("rim", "words"),
+    [
+        ({"density": 7200.0}, "radius, or stress"),
+        ({"density": 7200.0, "radius": 1.0, "stress": 1e6}, "nothing beside radius"),
+        ({"radius": 1.0}, "density"),
+    ],
+)
+def test_wrong_rims_are_refused(rim: dict[str, float], words: str) -> None:
+    with pytest.raises(MachineError, match=words):
+        machine(speed=10, areas=[5, -5], rim=rim)

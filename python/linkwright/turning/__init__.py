@@ -5,5 +5,6 @@
 | `diagram` | Fluctuation of energy over a cycle, and the flywheel that evens the motion |
 | `figures` | The diagram, the energy and the speed over a cycle |
 | `model` | Torques and the turning-moment diagram in a file |
+| `rim` | The rim of a flywheel: speed, hoop stress, mass and cross-section |
 | `tables` | The diagram as tables, headline and formulas |
 """

@@ -34,6 +34,7 @@ from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.turning.model import TurningMoment
+from linkwright.turning.rim import RimSize, rim_size
 
 Floats = NDArray[np.float64]
 
@@ -167,6 +168,13 @@ class TurningMomentDiagram(Result):
     acceleration_min: Annotated[
         float | None, Label("minimum acceleration", "ε_min", "rad/s²", "Of the shaft.", table="flywheel")
     ] = None
+    rim_radius: Annotated[float | None, Shown("mean radius of the rim", "R", "m", table="rim")] = None
+    rim_speed: Annotated[float | None, Shown("mean speed of the rim", "v", "m/s", table="rim")] = None
+    rim_stress: Annotated[float | None, Shown("hoop stress of the rim", "σ", "Pa", "At the mean speed, away from arms and hub.", table="rim")] = None
+    rim_mass: Annotated[float | None, Shown("mass of the rim", "m_r", "kg", table="rim")] = None
+    rim_area: Annotated[float | None, Shown("cross-section of the rim", "A_r", "m²", table="rim")] = None
+    rim_width: Annotated[float | None, Shown("width of the rim", "b", "m", table="rim")] = None
+    rim_thickness: Annotated[float | None, Shown("thickness of the rim", "t", "m", "In the direction of the radius.", table="rim")] = None
     crank_angle: Annotated[
         Floats,
         Label("crank angle", "φ", "rad", "Empty where areas are given, as all curves.", shape="(n + 1,)"),
@@ -247,6 +255,7 @@ def _of_areas(described: TurningMoment) -> TurningMomentDiagram:
         accuracy=0.0,
         areas=rows,
         **evened._asdict(),
+        **_rim(described, evened)._asdict(),
     )
 
 
@@ -284,6 +293,7 @@ def _of_curves(described: TurningMoment, n: int) -> TurningMomentDiagram:
         speed_max_angle=at_most,
         speed_min_angle=at_least,
         **evened._asdict(),
+        **_rim(described, evened)._asdict(),
         acceleration_max=None if J is None else speeding / J,
         acceleration_min=None if J is None else slowing / J,
         accuracy=float(curves.error[_EXCESS] / change) if change else 0.0,
@@ -351,6 +361,12 @@ def _evened(described: TurningMoment, change: float) -> _FlywheelEffect:
             f"{change / (2 * omega**2):.6g} kg m²"
         )
     return _FlywheelEffect(total, flywheel, mass, delta, omega * (1 - delta / 2), omega * (1 + delta / 2))
+
+
+def _rim(described: TurningMoment, evened: _Evened) -> RimSize:
+    """The rim of the flywheel that is asked for, or else of the inertia that the shaft has."""
+    wanted = evened.flywheel_inertia
+    return rim_size(described.rim, described.speed, evened.inertia if wanted is None else wanted)
 
 
 def _areas(curves: TurnCurve, energy: TurnCurve, cycle: float) -> tuple[dict[str, float | None], ...]:

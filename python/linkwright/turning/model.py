@@ -33,10 +33,12 @@ from linkwright.kernel.numerics.formula_value import value
 from linkwright.kernel.units import (
     ANGLE,
     COUNT,
+    DENSITY,
     ENERGY,
     FRACTION,
     INERTIA,
     LENGTH,
+    PRESSURE,
     RATIO,
     SPEED,
     Angles,
@@ -164,6 +166,33 @@ _TURNS_MAX = 24
 _WHOLE = 1e-9
 
 
+class FlywheelRim(CheckedDescription):
+    """The rim of a flywheel, a thin ring: its radius, or the hoop stress that gives it."""
+
+    density: Annotated[float, positive(DENSITY)] = Field(
+        description="Density of its material; cast iron has 7200 kg/m^3, steel 7850 kg/m^3."
+    )
+    radius: Annotated[float, positive(LENGTH)] | None = Field(
+        None, description="Mean radius; gives the hoop stress."
+    )
+    stress: Annotated[float, positive(PRESSURE)] | None = Field(
+        None, description="In place of the radius: permissible hoop stress at the mean speed; gives the largest radius."
+    )
+    inertia_share: Annotated[float, Quantity(RATIO, FRACTION)] = Field(
+        1.0, description="Share of the flywheel's moment of inertia that is in the rim; arms and hub have the rest."
+    )
+    width_ratio: Annotated[float, positive(RATIO)] | None = Field(
+        None, description="Width of a rectangular cross-section over its thickness; gives both."
+    )
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        if self.radius is None and self.stress is None:
+            yield fault(expected="radius, or stress, from which the radius follows")
+        if self.radius is not None and self.stress is not None:
+            remedy = "leave one of the two out: each follows from the other at the given speed"
+            yield fault("stress", found=f"{self.stress:.6g} Pa", expected="nothing beside radius", remedy=remedy)
+
+
 class TurningMoment(CheckedDescription):
     """Torques on a shaft over a cycle, and the speed fluctuation that a flywheel is to keep."""
 
@@ -193,6 +222,9 @@ class TurningMoment(CheckedDescription):
     )
     radius_of_gyration: Annotated[float, positive(LENGTH)] | None = Field(
         None, description="Of the flywheel, for its mass."
+    )
+    rim: FlywheelRim | None = Field(
+        None, description="Rim of the flywheel, for its hoop stress, mass and cross-section."
     )
 
     @property

@@ -11,12 +11,25 @@ from linkwright.kernel.quantities import in_table
 from linkwright.turning.diagram import TurningMomentDiagram
 
 _SOURCE = "Rattan, Theory of Machines, chapter 13"
+_RIM_SOURCE = "Khurmi, Gupta, Theory of Machines, chapter 16"
 
 # Of the diagram, with their sources.
 FORMULAS = (
     Formula("Energy that the shaft has taken up", "E = ∫ ( T − M ) d φ , Δ E = E_max − E_min", _SOURCE),
     Formula("Coefficient of speed fluctuation", "δ = frac(ω_max − ω_min|ω) = frac(Δ E|J ω^2)", _SOURCE),
 )
+
+# Of a rim, with its source.
+RIM_FORMULAS = (
+    Formula("Hoop stress of the rim", "σ = ρ v^2 , v = ω R", _RIM_SOURCE),
+    Formula("Mass and cross-section of the rim", "m_r = frac(k J_f|R^2) , A_r = frac(m_r|2 π R ρ)", _RIM_SOURCE),
+)
+
+
+def turning_formulas(diagram: TurningMomentDiagram) -> list[Formula]:
+    """Formulas of what was computed."""
+    return [*FORMULAS, *(RIM_FORMULAS if diagram.rim_radius is not None else ())]
+
 
 # What is taken for granted, in sentences.
 ASSUMPTIONS = (
@@ -47,6 +60,8 @@ def turning_tables(diagram: TurningMomentDiagram) -> Iterator[Table]:
     evened = _rows(diagram, "flywheel", without=() if diagram.inertia is not None else ("speed_mean",))
     if evened:
         yield Table("flywheel", "Speed and flywheel", heads, evened)
+    if diagram.rim_radius is not None:
+        yield Table("rim", "Rim of the flywheel", heads, _rows(diagram, "rim"))
     if diagram.areas:
         yield _areas(diagram)
 

@@ -152,9 +152,9 @@ def _topper_formulas(study: Study) -> list[Formula]:
 def _turning_formulas(study: Study) -> list[Formula]:
     if study.turning_moment is None:
         return []
-    from linkwright.turning.tables import FORMULAS
+    from linkwright.turning.tables import turning_formulas
 
-    return list(FORMULAS)
+    return turning_formulas(study.turning_moment)
 
 
 def _turning_headline(study: Study) -> Iterator[tuple[str, str, str]]:

@@ -99,6 +99,10 @@ class QuantityText(str):
     before: str
 
 
+# Units in which people read a quantity, where they want no other.
+_USUAL = {"Pa": "MPa"}
+
+
 def measured(
     value: float | None,
     unit: str,
@@ -113,6 +117,7 @@ def measured(
     """
     if value is None or not math.isfinite(value):
         return "–"
+    usual = usual or _USUAL.get(unit, "")
     number_text = degrees(value) if unit == "rad" else quantity(value, unit, digits, scale, usual=usual)
     return _marked(
         before + number_text, value if number(value, digits, scale) != "0" else 0.0, unit, digits, before
