@@ -20,6 +20,7 @@ _HOME = {
     "addresses": "machine.address",
     "get": "machine.address",
     "motors": "drive.model.catalogue",
+    "read_motors": "drive.model.motor_file",
     "pumping_units": "pumping.model.unit_catalogue",
     "replace": "machine.address",
     "read": "machine.read",
@@ -187,6 +188,7 @@ if TYPE_CHECKING:
     from linkwright.drive.cycle_motion import cycle_motion as cycle_motion
     from linkwright.drive.evenness import constant_energy as constant_energy
     from linkwright.drive.model.catalogue import motors as motors
+    from linkwright.drive.model.motor_file import read_motors as read_motors
     from linkwright.drive.motion_events import motion_events as motion_events
     from linkwright.drive.motion_events import motion_extremes as motion_extremes
     from linkwright.drive.reduction import reduction as reduction

@@ -57,7 +57,7 @@ def test_example_16_2() -> None:
 
 
 def test_two_stroke_engine() -> None:
-    """1000 + 300 sin 2θ − 500 cos 2θ N m at 250 rpm, 400 kg at 0.4 m: 26.18 kW, 1.33 %, 9.11 rad/s² are printed."""
+    """1000 + 300 sin 2θ − 500 cos 2θ N m, 250 rpm, 400 kg, 0.4 m: printed 26.18 kW, 1.33 %, 9.11 rad/s²."""
     found = diagram(
         speed="250 rpm",
         inertia=400 * 0.4**2,

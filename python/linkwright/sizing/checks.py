@@ -9,6 +9,7 @@ r"""Whether a motor suffices: each check with its number and its limit.
 | `run_up` | does the machine reach its steady motion? |
 | `torque_rms` | does the motor stay cool: is the effective torque at most the rated one? |
 | `torque_peak` | does it keep a reserve to the breakdown torque if the voltage drops? |
+| `inertia_ratio` | of a servo motor: is the mechanism not too heavy to be controlled? |
 
 The torques are those of the exact steady motion, not of a mean load.
 """
@@ -22,7 +23,7 @@ from typing import Annotated, Any
 import numpy as np
 
 from linkwright.drive.model.catalogue import CatalogueMotor
-from linkwright.drive.model.motor import InductionMotor
+from linkwright.drive.model.motor import ConstantSpeedMotor, DcMotor, InductionMotor
 from linkwright.drive.reduction import reduction_of
 from linkwright.drive.run_up import RunUp, run_up
 from linkwright.drive.steady_state import SteadyState, steady_state
@@ -48,6 +49,13 @@ _ANGLES = 1440
 
 # Speed of the crank that counts as standing still [rad/s]: loads by formulas then say which way they hold.
 _SLOW = 1e-9
+
+# Inertia of the load over that of the rotor up to which servo drives are usually well controlled: a rule of
+# thumb of makers of servo motors; it does not decide.
+INERTIA_RATIO = 10.0
+
+# A ratio chosen for the maximum speed meets it to rounding.
+_ROUNDED = 1e-12
 
 _RATING = ("speed", "rated_power")
 _START = ("starting_torque", "run_up")
@@ -149,6 +157,8 @@ def rating_checks(
 
     `ratio`: of the gearbox [–]; `reserve`: rated power over required power that is asked for [–].
     """
+    if known.kind == "servo":
+        return _servo_rating(known, ratio, required, reserve)
     speed = known.speed_rated / ratio
     suits = abs(speed / required.speed - 1) <= SPEED_BAND
     note = "" if suits else f"a ratio of {known.speed_rated / required.speed:.4g} would suit"
@@ -159,6 +169,21 @@ def rating_checks(
     )
 
 
+def _servo_rating(
+    known: CatalogueMotor, ratio: float, required: RequiredPower, reserve: float
+) -> tuple[Check, ...]:
+    """A servo motor may run at any speed up to its maximum, with its rated torque."""
+    speed, limit = required.speed * ratio, known.speed_max or known.speed_rated
+    note = "" if speed <= limit else f"a ratio of {limit / required.speed:.4g} or less would suit"
+    need, power = required.power * reserve, known.torque_rated * min(speed, known.speed_rated)
+    return (
+        Check("speed", speed, limit, "rad/s", speed <= limit * (1 + _ROUNDED), at_most=True, note=note),
+        Check(
+            "rated_power", power, need, "W", power >= need, note="rated torque at the speed that it runs at"
+        ),
+    )
+
+
 def _speed_check(speed: float, wanted: float, suits: bool, note: str) -> Check:
     """The speed against the nearer end of the band about the design speed."""
     fast = speed > wanted
@@ -166,10 +191,11 @@ def _speed_check(speed: float, wanted: float, suits: bool, note: str) -> Check:
     return Check("speed", speed, limit, "rad/s", suits, at_most=fast, note=note)
 
 
-def motion_checks(machine: Machine) -> MotorChecks:
+def motion_checks(machine: Machine, known: CatalogueMotor | None = None) -> MotorChecks:
     """Check what only the machine's motion tells: start, run-up, heat and overload.
 
-    `machine`: the machine with an induction motor in it. Returns: the checks, with steady motion and run-up.
+    `machine`: the machine with an induction, a DC or a servo motor in it; `known`: what the catalogue gives
+    of it. Returns: the checks, with steady motion and run-up.
 
     Where the catalogue gives no starting torque, Kloss's formula holds down to standstill. It gives less than
     real motors have, so a start by it is sure and a failure to start proves nothing.
@@ -178,24 +204,71 @@ def motion_checks(machine: Machine) -> MotorChecks:
     """
     assert machine.drive is not None
     motor = machine.drive.motor
-    assert isinstance(motor, InductionMotor)
-    by_kloss = motor.torque_start is None
-    starts = _start_checks(machine, by_kloss)
+    if isinstance(motor, ConstantSpeedMotor):
+        assert known is not None
+        return _servo_checks(machine, known)
+    assert isinstance(motor, InductionMotor | DcMotor)
+    by_kloss = isinstance(motor, InductionMotor) and motor.torque_start is None
+    # The current of a DC motor is limited, to that of its maximum torque.
+    most = known.torque_max if known is not None and known.kind == "dc" else None
+    starts = _start_checks(machine, by_kloss, most)
     try:
         steady = steady_state(machine, n=_ANGLES)
     except FindingError as error:
         lost = tuple(Check(name, None, None, "", False, note=str(error)) for name in DECISIVE["all"][3:])
         return MotorChecks((starts[0], lost[0], starts[1], *lost[2:]))
     up, check = _run_up_check(machine, steady, by_kloss)
-    return MotorChecks((starts[0], check, starts[1], *torque_checks(motor, steady)), steady, up)
+    return MotorChecks((starts[0], check, starts[1], *torque_checks(motor, steady, known)), steady, up)
 
 
-def torque_checks(motor: InductionMotor, steady: SteadyState) -> tuple[Check, Check]:
-    """Check the torque of steady motion against the rated and the breakdown torque."""
+def torque_checks(
+    motor: InductionMotor | DcMotor, steady: SteadyState, known: CatalogueMotor | None = None
+) -> tuple[Check, Check]:
+    """Check the torque of steady motion against the rated and the breakdown or maximum torque."""
+    if isinstance(motor, DcMotor):
+        return _torque_limits(steady, motor.torque_rated, known.torque_max if known else None)
     peak = max(steady.torque_motor_max, -steady.torque_motor_min)
     rms = _at_most("torque_rms", steady.torque_motor_rms, motor.torque_rated, "no rated torque")
     limit = PEAK_SHARE * motor.torque_breakdown if motor.torque_breakdown else None
     return rms, _at_most("torque_peak", peak, limit, "no breakdown torque")
+
+
+def _torque_limits(steady: SteadyState, rated: float | None, most: float | None) -> tuple[Check, Check]:
+    """Effective and peak torque of the motor against what it bears for long and for a short time."""
+    peak = max(steady.torque_motor_max, -steady.torque_motor_min)
+    rms = _at_most("torque_rms", steady.torque_motor_rms, rated, "no rated torque")
+    return rms, _at_most("torque_peak", peak, most, "no maximum torque, torque_max")
+
+
+def _servo_checks(machine: Machine, known: CatalogueMotor) -> MotorChecks:
+    """A servo motor: torques at the design speed, which it keeps, and the inertia that it controls.
+
+    It accelerates as its controller lets it, so that there is no run-up to compute.
+    """
+    assert machine.drive is not None
+    try:
+        steady = steady_state(machine, n=_ANGLES)
+    except FindingError as error:
+        lost = tuple(Check(name, None, None, "", False, note=str(error)) for name in DECISIVE["all"][2:])
+        return MotorChecks(lost)
+    starts = _start_checks(machine, False, known.torque_max)
+    up = Check("run_up", None, None, "s", True, note="by the controller")
+    torques = _torque_limits(steady, known.torque_rated, known.torque_max)
+    own = float(machine.drive.motor.inertia) if machine.drive.motor else 0.0
+    checks = (starts[0], up, starts[1], *torques, _inertia_ratio(machine, own))
+    return MotorChecks(checks, steady)
+
+
+def _inertia_ratio(machine: Machine, own: float) -> Check:
+    """Mean inertia that the rotor drives, referred to its shaft, over its own."""
+    assert machine.drive is not None
+    if not own > 0:
+        return Check(
+            "inertia_ratio", None, INERTIA_RATIO, "", None, at_most=True, note="no inertia of the rotor"
+        )
+    mean = float(np.mean(reduction_of(compile_machine(machine), _ANGLES).inertia_reduced[:-1]))
+    ratio = mean / machine.drive.gearbox.ratio**2 / own - 1
+    return Check("inertia_ratio", ratio, INERTIA_RATIO, "", ratio <= INERTIA_RATIO, at_most=True)
 
 
 def _at_most(name: str, value: float, limit: float | None, lacking: str) -> Check:
@@ -204,10 +277,14 @@ def _at_most(name: str, value: float, limit: float | None, lacking: str) -> Chec
     return Check(name, value, limit, "N m", value <= limit, at_most=True)
 
 
-def _start_checks(machine: Machine, by_kloss: bool) -> tuple[Check, Check]:
-    """Torque of the drive at standstill against the load at the start angle and at the worst angle."""
+def _start_checks(machine: Machine, by_kloss: bool, torque: float | None = None) -> tuple[Check, Check]:
+    """Torque of the drive at standstill, or by a motor torque, against the load at the start and at worst."""
     compiled = compile_machine(machine)
-    drive = float(compiled.motor_torques(0.0)[1][0])
+    if torque is None:
+        drive = float(compiled.motor_torques(0.0)[1][0])
+    else:
+        ratio, forward, _ = compiled.gear_factors
+        drive = torque * ratio * forward
     still = float(np.sum(compiled.speed_load(0.0)))
     at = np.array([machine.run_up.angle_start])
     start = compiled.reductions(at)

@@ -60,6 +60,15 @@ Inertia = Annotated[
         show_default=False,
     ),
 ]
+Catalogue = Annotated[
+    Path | None,
+    Option(
+        "--catalogue",
+        metavar="FILE",
+        help="Choose from the motors of a CSV file, induction, DC or servo, in place of the catalogue.",
+        show_default=False,
+    ),
+]
 OutFile = Annotated[Path | None, out_option("Write the machine with motor and flywheel there.", "FILE")]
 
 # Seconds after which a bar shows how far it is.
@@ -79,6 +88,7 @@ def size(
     free_ratio: FreeRatio = False,
     together: Together = False,
     inertia: Inertia = None,
+    catalogue: Catalogue = None,
     json: Json = False,
     out: OutFile = None,
     force: Force = False,
@@ -88,6 +98,7 @@ def size(
     The smallest motor of the catalogue that passes every check, then the flywheel on the crankshaft, both
     verified by analysing the machine again. Exit code 1 if no motor suffices.
     """
+    from linkwright.drive.model.motor_file import read_motors
     from linkwright.machine.read import read
     from linkwright.sizing.flywheel import choose_flywheel
     from linkwright.sizing.motor import choose_motor
@@ -100,6 +111,7 @@ def size(
         free_ratio=free_ratio,
         unevenness=unevenness if together else None,
         inertias=_inertias(inertia or []),
+        catalogue=None if catalogue is None else read_motors(catalogue),
         track=_tracked,
     )
     flywheel = None

@@ -7,11 +7,11 @@ from dataclasses import dataclass, replace
 from typing import Annotated, Any, Literal
 
 from linkwright.drive.model.catalogue import KNOWN, CatalogueMotor, motors
-from linkwright.drive.model.catalogue import motor as catalogue_motor
-from linkwright.drive.model.motor import InductionMotor
+from linkwright.drive.model.motor import DcMotor, InductionMotor
 from linkwright.drive.run_up import RunUp
 from linkwright.drive.steady_state import SteadyState
-from linkwright.kernel.errors import FindingError, InputError
+from linkwright.kernel.description.base import suggestion
+from linkwright.kernel.errors import FindingError, InputError, MachineError, Problem, show
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
@@ -169,6 +169,7 @@ def choose_motor(
     free_ratio: bool = False,
     unevenness: float | None = None,
     inertias: Mapping[str, float] | None = None,
+    catalogue: Sequence[CatalogueMotor] | None = None,
     track: Track = iter,
 ) -> MotorChoice:
     """Choose the smallest motor of the catalogue that will do.
@@ -191,6 +192,8 @@ def choose_motor(
         the peaks off the motor, so that a smaller one may do.
     inertias : mapping, optional
         Type → inertia of its rotor [kg m²], where it is known better than the catalogue does.
+    catalogue : sequence of CatalogueMotor, optional
+        Types to choose from, such as those of `read_motors`, also DC and servo motors; by default `motors`.
     track : callable, optional
         Takes the types and gives them back one by one, to show how far it is.
 
@@ -220,9 +223,12 @@ def choose_motor(
         raise InputError(
             f"the mean load is {required.torque_load_mean:.4g} N m: there is no motor to size for it"
         )
-    given = own_inertia(machine) | {catalogue_motor(type).type: J for type, J in (inertias or {}).items()}
+    types = motors() if catalogue is None else tuple(catalogue)
+    if not types:
+        raise InputError("catalogue: found no motor to choose from")
+    given = own_inertia(machine) | {_of(type, types).type: J for type, J in (inertias or {}).items()}
     judge = _Judge(machine, required, reserve, by, free_ratio or not _has_ratio(machine), unevenness, given)
-    candidates = sorted((judge.candidate(known) for known in track(motors())), key=_rank)
+    candidates = sorted((judge.candidate(known) for known in track(types)), key=_rank)
     chosen = candidates[0] if candidates[0].passes else None
     present = present_checks(machine, required, reserve)
     warnings = (*judge.doubts(chosen), *_smaller(candidates, chosen, by))
@@ -241,6 +247,15 @@ def _smaller(candidates: Sequence[Candidate], chosen: Candidate | None, by: By) 
     return [f"started from its start angle only, {least.type} of {power:.4g} kW would do: see fixed-start"]
 
 
+def _of(type: str, types: Sequence[CatalogueMotor]) -> CatalogueMotor:
+    """The motor of a name among some; an error names close ones."""
+    by_name = {known.type: known for known in types}
+    if type not in by_name:
+        expected, remedy = "a type of the catalogue of motors", suggestion(type, by_name)
+        raise MachineError([Problem(found=show(type), expected=expected, remedy=remedy)])
+    return by_name[type]
+
+
 def own_inertia(machine: Machine) -> dict[str, float]:
     """The rotor's inertia that the machine gives for a type of the catalogue, by type."""
     motor = machine.drive.motor if machine.drive else None
@@ -250,11 +265,11 @@ def own_inertia(machine: Machine) -> dict[str, float]:
 
 
 def present_checks(machine: Machine, required: RequiredPower, reserve: float) -> tuple[Check, ...]:
-    """The checks of the motor that the machine has. Returns: empty without an induction motor whose rated
-    point is known.
+    """The checks of the motor that the machine has. Returns: empty without an induction or DC motor whose
+    rated point is known.
     """
     motor = machine.drive.motor if machine.drive else None
-    if not isinstance(motor, InductionMotor) or None in (motor.power_rated, motor.speed_rated):
+    if not isinstance(motor, InductionMotor | DcMotor) or None in (motor.power_rated, motor.speed_rated):
         return ()
     assert machine.drive is not None
     assert motor.power_rated is not None
@@ -270,7 +285,7 @@ def _has_ratio(machine: Machine) -> bool:
 
 def _lacking(known: CatalogueMotor) -> Check | None:
     """What the catalogue does not give and no check can do without."""
-    if known.torque_breakdown is not None:
+    if known.kind != "induction" or known.torque_breakdown is not None:
         return None
     note = "not checkable: the catalogue gives no breakdown torque"
     return Check("torque_peak", None, None, "N m", None, note=note)
@@ -296,7 +311,8 @@ class _Judge:
     def candidate(self, known: CatalogueMotor) -> Candidate:
         """One type with its checks; its motion is analysed only if its rating suits."""
         assert self.machine.drive is not None
-        free = known.speed_rated / self.required.speed
+        most = known.speed_rated if known.speed_max is None else min(known.speed_rated, known.speed_max)
+        free = most / self.required.speed
         ratio = free if self.free_ratio else self.machine.drive.gearbox.ratio
         rating = rating_checks(known, ratio, self.required, self.reserve)
         estimate, estimated = rotor_inertia(known)
@@ -328,13 +344,13 @@ class _Judge:
         note += f"; the inertia of its rotor is {ESTIMATE}." if estimated else "."
         fitted = with_motor(self.machine, known, inertia=inertia, ratio=ratio, note=note)
         if self.unevenness is None:
-            return fitted, None, motion_checks(fitted)
+            return fitted, None, motion_checks(fitted, known)
         try:
             flywheel, _ = flywheel_inertia(with_flywheel(fitted, 0.0), self.unevenness)
         except FindingError as error:
             return fitted, None, MotorChecks((Check("run_up", None, None, "s", False, note=str(error)),))
         fitted = with_flywheel(fitted, flywheel)
-        return fitted, flywheel, motion_checks(fitted)
+        return fitted, flywheel, motion_checks(fitted, known)
 
     def doubts(self, chosen: Candidate | None) -> list[str]:
         """What the choice rests on without being known."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from linkwright.drive.model.catalogue import CatalogueMotor, estimated_inertia
+from linkwright.drive.model.catalogue import CatalogueMotor, estimated_inertia, motors
 from linkwright.machine.machine import Machine
 
 
@@ -27,9 +27,28 @@ def with_motor(
     """
     tables = _tables(machine)
     drive = tables.setdefault("drive", {})
-    drive["motor"] = {"kind": "induction", "catalogue": known.type, "inertia": inertia}
+    drive["motor"] = {**_motor_table(known, ratio, drive.get("speed")), "inertia": inertia}
     drive["gearbox"] = {**drive.get("gearbox", {}), "ratio": ratio}
     return _made(tables, note)
+
+
+def _motor_table(known: CatalogueMotor, ratio: float, speed: float | None) -> dict[str, Any]:
+    """A type as the table of a machine file; a servo motor keeps the design speed of the crank."""
+    if known in motors():
+        return {"kind": "induction", "catalogue": known.type}
+    if known.kind == "servo":
+        assert speed is not None
+        rated = {"speed_rated": known.speed_rated, "torque_rated": known.torque_rated}
+        return {"kind": "constant_speed", "speed": speed * ratio, **rated}
+    entries = {name: getattr(known, name) for name in _ENTRIES[known.kind]}
+    return {"kind": known.kind} | {name: value for name, value in entries.items() if value is not None}
+
+
+# Entries of a machine file that describe a motor of one's own, by its kind.
+_ENTRIES = {
+    "induction": ("speed_synchronous", "speed_rated", "torque_rated", "torque_breakdown", "torque_start"),
+    "dc": ("speed_no_load", "speed_rated", "torque_rated", "torque_stall"),
+}
 
 
 def with_flywheel(machine: Machine, inertia: float, *, note: str = "") -> Machine:

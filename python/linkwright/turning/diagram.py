@@ -168,13 +168,18 @@ class TurningMomentDiagram(Result):
     acceleration_min: Annotated[
         float | None, Label("minimum acceleration", "ε_min", "rad/s²", "Of the shaft.", table="flywheel")
     ] = None
-    rim_radius: Annotated[float | None, Shown("mean radius of the rim", "R", "m", table="rim")] = None
-    rim_speed: Annotated[float | None, Shown("mean speed of the rim", "v", "m/s", table="rim")] = None
-    rim_stress: Annotated[float | None, Shown("hoop stress of the rim", "σ", "Pa", "At the mean speed, away from arms and hub.", table="rim")] = None
-    rim_mass: Annotated[float | None, Shown("mass of the rim", "m_r", "kg", table="rim")] = None
-    rim_area: Annotated[float | None, Shown("cross-section of the rim", "A_r", "m²", table="rim")] = None
-    rim_width: Annotated[float | None, Shown("width of the rim", "b", "m", table="rim")] = None
-    rim_thickness: Annotated[float | None, Shown("thickness of the rim", "t", "m", "In the direction of the radius.", table="rim")] = None
+    rim_radius: Annotated[float | None, Label("mean radius of the rim", "R", "m", table="rim")] = None
+    rim_speed: Annotated[float | None, Label("mean speed of the rim", "v", "m/s", table="rim")] = None
+    rim_stress: Annotated[
+        float | None,
+        Label("hoop stress of the rim", "σ", "Pa", "At the mean speed, away from arms and hub.", table="rim"),
+    ] = None
+    rim_mass: Annotated[float | None, Label("mass of the rim", "m_r", "kg", table="rim")] = None
+    rim_area: Annotated[float | None, Label("cross-section of the rim", "A_r", "m²", table="rim")] = None
+    rim_width: Annotated[float | None, Label("width of the rim", "b", "m", table="rim")] = None
+    rim_thickness: Annotated[
+        float | None, Label("thickness of the rim", "t", "m", "In the direction of the radius.", table="rim")
+    ] = None
     crank_angle: Annotated[
         Floats,
         Label("crank angle", "φ", "rad", "Empty where areas are given, as all curves.", shape="(n + 1,)"),
@@ -363,7 +368,7 @@ def _evened(described: TurningMoment, change: float) -> _FlywheelEffect:
     return _FlywheelEffect(total, flywheel, mass, delta, omega * (1 - delta / 2), omega * (1 + delta / 2))
 
 
-def _rim(described: TurningMoment, evened: _Evened) -> RimSize:
+def _rim(described: TurningMoment, evened: _FlywheelEffect) -> RimSize:
     """The rim of the flywheel that is asked for, or else of the inertia that the shaft has."""
     wanted = evened.flywheel_inertia
     return rim_size(described.rim, described.speed, evened.inertia if wanted is None else wanted)

@@ -176,10 +176,12 @@ class FlywheelRim(CheckedDescription):
         None, description="Mean radius; gives the hoop stress."
     )
     stress: Annotated[float, positive(PRESSURE)] | None = Field(
-        None, description="In place of the radius: permissible hoop stress at the mean speed; gives the largest radius."
+        None,
+        description="In place of the radius: permissible hoop stress at the mean speed, which gives it.",
     )
     inertia_share: Annotated[float, Quantity(RATIO, FRACTION)] = Field(
-        1.0, description="Share of the flywheel's moment of inertia that is in the rim; arms and hub have the rest."
+        1.0,
+        description="Share of the flywheel's moment of inertia in the rim; arms and hub have the rest.",
     )
     width_ratio: Annotated[float, positive(RATIO)] | None = Field(
         None, description="Width of a rectangular cross-section over its thickness; gives both."
@@ -190,7 +192,9 @@ class FlywheelRim(CheckedDescription):
             yield fault(expected="radius, or stress, from which the radius follows")
         if self.radius is not None and self.stress is not None:
             remedy = "leave one of the two out: each follows from the other at the given speed"
-            yield fault("stress", found=f"{self.stress:.6g} Pa", expected="nothing beside radius", remedy=remedy)
+            yield fault(
+                "stress", found=f"{self.stress:.6g} Pa", expected="nothing beside radius", remedy=remedy
+            )
 
 
 class TurningMoment(CheckedDescription):

@@ -10,7 +10,7 @@ whatever its cross-section, and with the share k of the flywheel's moment of ine
 
 References
 ----------
-.. [1] R. S. Khurmi, J. K. Gupta, Theory of Machines, 14th edition, chapter 16: dimensions of the flywheel rim.
+.. [1] R. S. Khurmi, J. K. Gupta, Theory of Machines, 14th edition, chapter 16: dimensions of the rim.
 """
 
 from __future__ import annotations

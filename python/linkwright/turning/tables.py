@@ -22,7 +22,9 @@ FORMULAS = (
 # Of a rim, with its source.
 RIM_FORMULAS = (
     Formula("Hoop stress of the rim", "σ = ρ v^2 , v = ω R", _RIM_SOURCE),
-    Formula("Mass and cross-section of the rim", "m_r = frac(k J_f|R^2) , A_r = frac(m_r|2 π R ρ)", _RIM_SOURCE),
+    Formula(
+        "Mass and cross-section of the rim", "m_r = frac(k J_f|R^2) , A_r = frac(m_r|2 π R ρ)", _RIM_SOURCE
+    ),
 )
 
 

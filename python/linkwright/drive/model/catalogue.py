@@ -50,12 +50,18 @@ class CatalogueMotor:
         Of the whole motor [kg].
     current_rated : float
         Rated current [A].
+    kind : str
+        ``"induction"``, ``"dc"``, or ``"servo"``: one that a controller keeps at its speed.
+    speed_no_load, torque_stall : float
+        Of a DC motor: speed of zero torque [rad/s], torque at standstill [N m].
+    torque_max, speed_max : float
+        That the motor may give or reach for a short time [N m, rad/s].
     """
 
     type: str
     series: str
     poles: int
-    speed_synchronous: float
+    speed_synchronous: float | None
     power_rated: float
     speed_rated: float
     torque_rated: float
@@ -67,6 +73,11 @@ class CatalogueMotor:
     efficiency: float | None = None
     mass: float | None = None
     current_rated: float | None = None
+    kind: str = "induction"
+    speed_no_load: float | None = None
+    torque_stall: float | None = None
+    torque_max: float | None = None
+    speed_max: float | None = None
 
 
 def motors() -> tuple[CatalogueMotor, ...]:

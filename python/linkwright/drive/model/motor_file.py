@@ -8,13 +8,17 @@ torque. Lines that begin with ``#`` are comments.
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from linkwright.drive.model.catalogue import CatalogueMotor
+from linkwright.drive.model.motor import with_rated_point
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import MachineFileError, Problem, UnitError, show
 from linkwright.kernel.files.points import lines_of, require_below
+from linkwright.kernel.public import public
 from linkwright.kernel.units import INERTIA, POWER, RATIO, SPEED, TORQUE, Kind, parse
 
 _KEY = "drive.motor.file"
@@ -34,13 +38,20 @@ _ENTRIES: dict[str, Kind] = {
     "resistance_ratio": RATIO,
     "speed_no_load": SPEED,
     "torque_stall": TORQUE,
+    "torque_max": TORQUE,
+    "speed_max": SPEED,
 }
+
+# Those that size a motor and are no entries of a machine file.
+_SIZING = ("torque_max", "speed_max")
+
+KINDS = ("induction", "dc", "servo")
 
 # Over the rated torque.
 _RATIOS = {"torque_breakdown_ratio": "torque_breakdown", "torque_start_ratio": "torque_start"}
 
 # Columns for people.
-_WORDS = ("series", "frame", "poles", "efficiency", "mass", "current_rated", "remark")
+_WORDS = ("kind", "series", "frame", "poles", "efficiency", "mass", "current_rated", "remark")
 
 _HEAD = re.compile(r"\s*(\w+)\s*(?:\[([^\]]*)\])?\s*")
 
@@ -58,33 +69,111 @@ def with_motor_of_file(tables: dict[str, Any], folder: Path, *, allow_outside: b
     name, wanted = motor.pop("file"), motor.pop("catalogue", None)
     path = folder / name
     require_below(path, folder, name, _KEY, allow_outside=allow_outside)
-    row = _row(path, wanted)
+    rows = _Rows(path)
+    row = rows.entries(rows.known(wanted))
     for key, value in row.items():
-        motor.setdefault(key, value)
-    motor.setdefault("kind", "dc" if "speed_no_load" in row else "induction")
+        if key not in _SIZING:
+            motor.setdefault(key, value)
+    kind = rows.kind(str(wanted), row)
+    motor.setdefault("kind", "constant_speed" if kind == "servo" else kind)
 
 
-def _row(path: Path, wanted: object) -> dict[str, float]:
-    """The entries of one type in SI."""
-    lines = lines_of(path, _KEY)
-    if not lines:
-        raise _wrong(path, 1, "an empty file", 'a head such as "type, power_rated [kW], speed_rated [rpm]"')
-    heads = _heads(path, *lines[0])
-    types: dict[str, tuple[int, dict[str, str]]] = {}
-    for line, row in lines[1:]:
-        if len(row) != len(heads):
-            raise _wrong(path, line, show(",".join(row)), f"{len(heads)} values, one for each column")
-        cells = {head[0]: cell.strip() for head, cell in zip(heads, row, strict=True)}
-        if cells["type"] in types:
-            raise _wrong(path, line, show(cells["type"]), "each type once")
-        types[cells["type"]] = (line, cells)
-    if not isinstance(wanted, str) or wanted not in types:
-        remedy = suggestion(wanted, types) if isinstance(wanted, str) else suggestion("", types)
-        expected = f"a type of {path.name}"
+@public
+def read_motors(path: str | Path) -> tuple[CatalogueMotor, ...]:
+    """Motors of one's own, to size with.
+
+    Parameters
+    ----------
+    path : str or Path
+        File of comma-separated values: ``type``, ``power_rated`` or ``torque_rated``, ``speed_rated``, and
+        what is known besides. ``kind`` is ``induction``, ``dc`` or ``servo``; without it a type with
+        ``speed_no_load`` is a DC motor, one with ``torque_max`` a servo motor, others are induction motors.
+
+    Returns
+    -------
+    tuple of CatalogueMotor
+        In the order of the file, in SI.
+
+    Raises
+    ------
+    MachineFileError
+        The file cannot be read, has a wrong head or number, or a type lacks what its kind needs; with its
+        line.
+    """
+    rows = _Rows(Path(path))
+    return tuple(rows.motor(type) for type in rows.types)
+
+
+class _Rows:
+    """The rows of a file by type, with their lines."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        lines = lines_of(path, _KEY)
+        if not lines:
+            raise _wrong(
+                path, 1, "an empty file", 'a head such as "type, power_rated [kW], speed_rated [rpm]"'
+            )
+        self.heads = _heads(path, *lines[0])
+        self.types: dict[str, tuple[int, dict[str, str]]] = {}
+        for line, row in lines[1:]:
+            if len(row) != len(self.heads):
+                expected = f"{len(self.heads)} values, one for each column"
+                raise _wrong(path, line, show(",".join(row)), expected)
+            cells = {head[0]: cell.strip() for head, cell in zip(self.heads, row, strict=True)}
+            if cells["type"] in self.types:
+                raise _wrong(path, line, show(cells["type"]), "each type once")
+            self.types[cells["type"]] = (line, cells)
+
+    def known(self, wanted: object) -> str:
+        """The name of a type of the file."""
+        if isinstance(wanted, str) and wanted in self.types:
+            return wanted
+        remedy = suggestion(wanted if isinstance(wanted, str) else "", self.types)
         found = None if wanted is None else show(wanted)
-        raise MachineFileError([Problem("drive.motor.catalogue", found or "nothing", expected, remedy)])
-    line, cells = types[wanted]
-    return _entries(path, line, heads, cells)
+        problem = Problem("drive.motor.catalogue", found or "nothing", f"a type of {self.path.name}", remedy)
+        raise MachineFileError([problem])
+
+    def entries(self, type: str) -> dict[str, float]:
+        """The numbers of a type in SI."""
+        line, cells = self.types[type]
+        return _entries(self.path, line, self.heads, cells)
+
+    def kind(self, type: str, row: Mapping[str, float]) -> str:
+        """The kind that a type says, or that its numbers tell."""
+        line, cells = self.types[type]
+        given = cells.get("kind", "")
+        if given and given not in KINDS:
+            raise _wrong(
+                self.path, line, show(given), f"a kind of motor: {', '.join(KINDS)}", suggestion(given, KINDS)
+            )
+        return given or ("dc" if "speed_no_load" in row else "servo" if "torque_max" in row else "induction")
+
+    def motor(self, type: str) -> CatalogueMotor:
+        """A type with all that sizing needs of its kind."""
+        line, cells = self.types[type]
+        row = with_rated_point(self.entries(type))
+        kind = self.kind(type, row)
+        lacking = [name for name in (*_RATED, *_NEEDED[kind]) if name not in row]
+        if lacking:
+            remedy = f'sizing a motor of the kind "{kind}" needs it'
+            raise _wrong(self.path, line, f"{type} without {lacking[0]}", f"a column {lacking[0]}", remedy)
+        poles = cells.get("poles", "")
+        if poles and not poles.isdecimal():
+            raise _wrong(self.path, line, show(poles), "a number of poles")
+        known = {name: row[name] for name in row if name in CatalogueMotor.__slots__}
+        known.setdefault("speed_synchronous", None)
+        words = {"series": cells.get("series") or self.path.name, "poles": int(poles or 0), "kind": kind}
+        return CatalogueMotor(type=type, **words, **known)
+
+
+# What sizing needs of every motor, and of each kind.
+_RATED = ("power_rated", "speed_rated", "torque_rated")
+_NEEDED = {
+    "induction": ("speed_synchronous", "torque_breakdown"),
+    "dc": ("speed_no_load",),
+    "servo": ("torque_max",),
+}
 
 
 def _heads(path: Path, line: int, row: list[str]) -> list[tuple[str, str]]:
