@@ -78,7 +78,6 @@ def test_finding_is_reported_and_ends_with_1(folder: Path) -> None:
         (("--sections", "result", "run", CARTS), 'did you mean "results"'),
         (("--variant", "light", "run", CARTS), "expected a name, a colon and entries"),
         (("run", CARTS, "--json"), "leave out --json and --out"),
-        (("motion", CARTS), "`plot` draws its curves"),
         (("run", "nothing.toml"), "no such file"),
         (("nonsense",), "No such command 'nonsense'"),
         ((), "Missing argument"),
@@ -99,3 +98,17 @@ def test_file_that_exists_stays(folder: Path) -> None:
     assert result.exit_code == 2
     assert "--force replaces it" in result.output
     assert (folder / "report.html").read_text() == "mine"
+
+
+def test_report_of_a_motion_and_of_a_pose(folder: Path) -> None:
+    """The first cart with crank 0.2 m and rod 0.8 m: 1 m and 0.6 m at its dead centres."""
+    assert called("--to", "m.html", "motion", CARTS, "--speed", "60 rpm").exit_code == 0
+    page = (folder / "m.html").read_text()
+    row = page.split("cart1, position")[1].split("</tr>")[0]
+    cells = [cell.split("</td>")[0] for cell in row.split("<td>")[1:]]
+    assert cells[-4:] == ["0.6 m", "180°", "1 m", "0°"]
+    for figure in ("motion_of_slides", "motion_of_links", "motion_of_points"):
+        assert f'id="figure-{figure}"' in page or figure in page
+    assert called("--to", "p.html", "motion", CARTS, "--at", "90 deg").exit_code == 0
+    assert "0.77459667" in (folder / "p.html").read_text(), "√(0.8² − 0.2²) m"
+    assert called("--to", "l.html", "motion", CARTS, "--law", "2*t").exit_code == 0

@@ -9,6 +9,7 @@
 | `cycle` | What are its extreme positions, transmission angles, dead points, its Grashof class? |
 | `dyads` | Dyads as the core has them, and the angle at which each passes on its force |
 | `figures` | Figures of a linkage over its cycle, with their captions |
+| `figures_of_motion` | A motion over time as tables and figures of a report |
 | `grashof` | Four-bar loops of a mechanism and their class after Grashof |
 | `kinematics` | How do points, links and slides move? |
 | `law` | Laws of the driver: the crank angle over time with three derivatives |

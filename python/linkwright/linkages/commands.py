@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 from math import degrees, pi
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -10,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import click
 
 from linkwright.drive.crank_speed import CrankSpeed, crank_speed
-from linkwright.kernel.command.answer import Answer, as_wanted, json_text
+from linkwright.kernel.command.answer import Answer, as_wanted, is_reported, is_taken, json_text
 from linkwright.kernel.command.common import Json, Outside, Sets, ZeroAt, option_value
 from linkwright.kernel.command.out import Force, Out, put
 from linkwright.kernel.command.parameter import Argument, Option
@@ -56,7 +58,9 @@ Duration = Annotated[
         show_default=False,
     ),
 ]
-Steps = Annotated[int, Option("--steps", metavar="N", help="Intervals of the revolution or of the time.")]
+Steps = Annotated[
+    int, Option("--steps", metavar="N", help="Intervals of the revolution or of the time.", min=1)
+]
 Csv = Annotated[bool, Option("--csv", help="CSV with all columns, in SI.")]
 File = Annotated[Path, Argument(metavar="FILE", help="The machine file.")]
 
@@ -126,6 +130,9 @@ def _pose(machine: Machine, at: str, speed: CrankSpeed, zero: Zero, *, json: boo
         # A transmission angle stands alone: rows are as long as the head all the same.
         empty = (float("nan"),) * 2
         return csv_text(heads, ((name, what, *(*numbers, *empty)[:3]) for name, what, numbers in rows))
+    if is_reported():
+        is_taken(_pose_answer(machine, rows, f"Crank angle {degrees(phi):.7g}°{_from(zero)}, {speed}"))
+        return ""
     lines = [f"crank angle {degrees(phi):.7g}° = {phi:.7g} rad{_from(zero)}, {speed}"]
     lines += [f"{'':24}{'position':>16}{'velocity':>16}{'acceleration':>16}"]
     scales = [max((abs(row[2][k]) for row in rows if len(row[2]) > k), default=0.0) for k in range(3)]
@@ -137,6 +144,17 @@ def _pose(machine: Machine, at: str, speed: CrankSpeed, zero: Zero, *, json: boo
     if placed.near_limit:
         lines.append(f"near a limit: {', '.join(placed.near_limit)}")
     return "\n".join(lines) + "\n"
+
+
+def _pose_answer(machine: Machine, rows: Sequence[tuple[str, str, tuple[float, ...]]], head: str) -> Answer:
+    """One pose as a report shows it."""
+    from linkwright.kernel.page.numbers import number
+    from linkwright.kernel.page.table import Table
+
+    heads = ("name", "quantity", "position", "velocity", "acceleration")
+    cells = [(name, what, *(number(x, 8) for x in numbers)) for name, what, numbers in rows]
+    table = Table("pose", "Pose", heads, [(*row, *[""] * (len(heads) - len(row))) for row in cells])
+    return Answer(machine=machine.name, units=machine.units, head=lambda: head, tables=lambda: [table])
 
 
 def _row_shown(row: tuple[str, str, tuple[float, ...]]) -> tuple[str, str, tuple[float, ...]]:
@@ -234,7 +252,23 @@ def _followed(
     if csv:
         click.echo(head, err=True)
         return curves_csv(followed)
+    if is_reported():
+        is_taken(_course_answer(machine, followed, head))
+        return ""
     return f"{head}\n{_table(followed)}"
+
+
+def _course_answer(machine: Machine, followed: Motion, head: str) -> Answer:
+    """A motion as a report shows it."""
+    from linkwright.linkages.figures_of_motion import course_figures, course_tables
+
+    return Answer(
+        machine=machine.name,
+        units=machine.units,
+        head=lambda: head[:1].upper() + head[1:],
+        tables=partial(course_tables, followed),
+        figures=partial(course_figures, followed),
+    )
 
 
 def _lists(curves: dict[str, Any]) -> dict[str, list[float]]:

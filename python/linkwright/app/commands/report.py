@@ -127,8 +127,7 @@ def _content(words: list[str], command: str) -> Content:
     ):
         commands.invoke(context)
     if not contents:
-        remedy = "; `plot` draws its curves" if words[0] == "motion" else ""
-        raise InputError(f"there is nothing to report of `linkwright {words[0]}`{remedy}")
+        raise InputError(f"there is nothing to report of `linkwright {words[0]}`")
     return contents[0]
 
 

@@ -163,7 +163,11 @@ class _Rows:
             raise _wrong(self.path, line, show(poles), "a number of poles")
         known = {name: row[name] for name in row if name in CatalogueMotor.__slots__}
         known.setdefault("speed_synchronous", None)
-        words = {"series": cells.get("series") or self.path.name, "poles": int(poles or 0), "kind": kind}
+        words: dict[str, Any] = {
+            "series": cells.get("series") or self.path.name,
+            "poles": int(poles or 0),
+            "kind": kind,
+        }
         return CatalogueMotor(type=type, **words, **known)
 
 

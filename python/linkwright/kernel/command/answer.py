@@ -101,6 +101,11 @@ def taken(take: Callable[[Answer], None]) -> Iterator[None]:
         _TAKER.reset(token)
 
 
+def is_reported() -> bool:
+    """Whether somebody takes the answer of the command in place of the terminal."""
+    return _TAKER.get() is not None
+
+
 def is_taken(answer: Answer) -> bool:
     """Hand an answer to who takes it, if there is somebody."""
     take = _TAKER.get()
@@ -187,7 +192,7 @@ def hand_over(
     machine file are wanted; `force`: replace a machine file that exists. Raises `InputError` if one cannot be
     written, `InternalError` if there is no finding and no machine to write where one is wanted.
     """
-    if _TAKER.get() is not None and (json or folder is not None or out is not None):
+    if is_reported() and (json or folder is not None or out is not None):
         raise InputError("a report is written where its own --to says; leave out --json and --out")
     if is_taken(answer):
         return
