@@ -12,6 +12,7 @@ import pytest
 from pydantic import Field, ModelWrapValidatorHandler, ValidationError, model_validator
 from pydantic_core import InitErrorDetails
 
+import linkwright as lw
 from linkwright.cam.laws.programme import Programme
 from linkwright.cam.model.motion_section import Family, MotionSection, programme, section_faults
 from linkwright.kernel.description.base import CheckedDescription, Description
@@ -312,3 +313,38 @@ def test_files_that_hold_no_points(tmp_path: Path, content: str | None, expected
     with pytest.raises(MachineFileError) as caught:
         read_as(SomeFile, tmp_path / "cam.toml")
     assert expected in str(caught.value)
+
+
+def test_extremes_of_every_section() -> None:
+    """Rise by the cycloidal law, dwell, return by the harmonic law: their closed forms, and by time."""
+    h, rise, back, speed = 0.02, np.radians(120), np.radians(150), 8.0
+    sections = [
+        {"angle": rise, "lift": h, "law": "cycloidal"},
+        {"angle": np.radians(30)},
+        {"angle": back, "lift": -h, "law": "harmonic"},
+        {"angle": np.radians(60)},
+    ]
+    machine = lw.Machine.model_validate(
+        {
+            "format": 1,
+            "name": "cam",
+            "drive": {"speed": speed},
+            "mechanism": {"cams": {"C": {"base_radius": 0.05, "roller_radius": 0.01, "sections": sections}}},
+        }
+    )
+    first, dwell, third, _ = lw.cam_profile(machine).sections
+    assert (first["law"], dwell["law"], third["law"]) == ("cycloidal", "dwell", "harmonic")
+    assert (third["start"], third["end"]) == pytest.approx(tuple(np.radians([150, 300])), rel=1e-13)
+    assert first["lift_d1_max"] == pytest.approx(2 * h / rise, rel=1e-12)
+    assert first["lift_d1_max_angle"] == pytest.approx(rise / 2, rel=1e-6)
+    assert first["velocity_max"] == pytest.approx(2 * h / rise * speed, rel=1e-12)
+    assert first["acceleration_min"] == pytest.approx(-2 * np.pi * h / rise**2 * speed**2, rel=1e-12)
+    assert first["lift_d2_min_angle"] == pytest.approx(0.75 * rise, rel=1e-6)
+    assert first["jerk_max"] == pytest.approx(4 * np.pi**2 * h / rise**3 * speed**3, rel=1e-12)
+    assert first["lift_d1_min"] == 0.0
+    # Within the section: the harmonic law jumps at its ends.
+    assert third["lift_d2_max"] == pytest.approx(0.5 * np.pi**2 * h / back**2, rel=1e-12)
+    assert third["lift_d2_max_angle"] == pytest.approx(np.radians(300), rel=1e-13)
+    assert {dwell[name] for name in dwell if name.startswith(("lift_d", "jerk")) and "angle" not in name} == {
+        0.0
+    }

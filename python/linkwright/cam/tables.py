@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
+from typing import Any
 
 from linkwright.cam.dynamics.loaded import LoadedCam
 from linkwright.cam.law_factors import LawFactors, law_factors
@@ -43,6 +44,7 @@ def cam_tables(
         yield profile_table(profile)
         if profile.name in least:
             yield size_table(least[profile.name])
+        yield section_table(profile)
         yield joint_table(profile)
         if profile.name in borne:
             yield force_table(borne[profile.name])
@@ -119,6 +121,38 @@ def size_table(sizes: LeastSizes) -> Table:
         rows.append(("largest roller", "r_r", _mm(sizes.roller_radius_max), "on this pitch curve"))
     title = f"Minimum dimensions of cam {sizes.name}, other parameters fixed"
     return Table(f"cam_{sizes.name}_sizes", title, ("quantity", "", "value", "where"), rows)
+
+
+def section_table(profile: CamProfile) -> Table:
+    """What each section asks of the follower: the largest velocity, acceleration and jerk, in size."""
+    speed, length = profile.speed, "rad" if profile.cam.is_oscillating else "m"
+    rows: list[Row] = []
+    for count, section in enumerate(profile.sections, start=1):
+        place = f"{count}, {degrees(section['start'])} to {degrees(section['end'])}, {_law_words(section)}"
+        cells: list[str] = []
+        for order, name in enumerate(("lift_d1", "lift_d2", "lift_d3"), start=1):
+            end = max(("max", "min"), key=lambda end, name=name: abs(section[f"{name}_{end}"]))
+            value, at = section[f"{name}_{end}"], section[f"{name}_{end}_angle"]
+            unit = _PER_RAD[order] if speed is None else _PER_SECOND[order]
+            cells += [
+                measured(value * (1.0 if speed is None else abs(speed) ** order), length + unit, digits=4),
+                degrees(at) if value else "",
+            ]
+        rows.append((place, "", *cells))
+    heads = ("section", "", "velocity", "at φ", "acceleration", "at φ", "jerk", "at φ")
+    by = "by the cam angle" if speed is None else f"at {quantity(speed, 'rad/s')}"
+    title = f"Extremes of the sections of cam {profile.name}, {by}"
+    return Table(f"cam_{profile.name}_sections", title, heads, rows)
+
+
+def _law_words(section: Mapping[str, Any]) -> str:
+    """Name of the law of a section for people."""
+    return str(section["law"]).replace("_", " ")
+
+
+# Units of the derivatives of a lift.
+_PER_RAD = ("", "/rad", "/rad²", "/rad³")
+_PER_SECOND = ("", "/s", "/s²", "/s³")
 
 
 def joint_table(profile: CamProfile) -> Table:

@@ -152,6 +152,12 @@ class FollowerMotion:
         return joints(self.lift, self.lift.breaks[:-1])
 
     @cached_property
+    def stretches(self) -> tuple[MotionLaw, ...]:
+        """The lift over each section."""
+        starts = [joint.angle for joint in self.programme.joints]
+        return tuple(self.lift.stretch(low, high) for low, high in pairwise([*starts, self.lift.end]))
+
+    @cached_property
     def peaks(self) -> tuple[float | None, ...]:
         """Largest first, second and third derivative by the cam angle, in size; None where it is infinite."""
         smooth = min(joint.order for joint in self.joints)

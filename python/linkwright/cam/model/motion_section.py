@@ -90,6 +90,10 @@ AnyLaw = Annotated[
 ]
 
 
+# Law of a section that moves and names none.
+_DEFAULT_LAW: Literal["polynomial_3_4_5"] = "polynomial_3_4_5"
+
+
 class MotionSection(Description):
     """A section of a motion programme; without lift and law it is a dwell."""
 
@@ -120,6 +124,13 @@ class MotionSection(Description):
         None, description="Second derivative of that angle at the start."
     )
     swing_acceleration_end: SwingAcceleration | None = Field(None, description="The same at the end.")
+
+    @property
+    def law_name(self) -> str:
+        """Name of its law; that of a dwell is ``dwell``."""
+        if self.is_dwell:
+            return "dwell"
+        return _DEFAULT_LAW if self.law is None else str(self.law.kind)
 
     @property
     def is_dwell(self) -> bool:
@@ -168,7 +179,7 @@ def stretch(section: MotionSection, family: Family) -> Section:
 
     if section.is_dwell:
         return Section(section.angle)
-    law = section.law or PlainLaw(kind="polynomial_3_4_5")
+    law = section.law or PlainLaw(kind=_DEFAULT_LAW)
     shape = partial(law.over, angle=section.angle, swing=family == "swing")
     said = {name: section.end(name, family) for name in ENDS}
     return Section(section.angle, section.change(family) or 0.0, shape, section.is_steady, **said)

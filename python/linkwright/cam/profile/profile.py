@@ -16,7 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.cam.core import Extreme, Shape
+from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.cam.model.cam import Cam
+from linkwright.cam.model.motion_section import MotionSection
 from linkwright.cam.profile.contact import CamCurve, Contact, Opposite, contacts, opposite
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError
@@ -83,6 +85,12 @@ class Flank:
         """A curve beside the pitch curve, by its distance outwards; without it, the profile."""
         return CamCurve(self.contact, -self.contact.sizes.roller_radius if away is None else away)
 
+
+# Names of the lift and its derivatives, by the cam angle and over time.
+_DERIVATIVES = (("lift", ""), ("lift_d1", "velocity"), ("lift_d2", "acceleration"), ("lift_d3", "jerk"))
+
+# A derivative at rest is zero to this share of its peak: sums of pieces leave some units in the last place.
+_ROUNDING = 1e-13
 
 # Attributes of a profile that are no results to be written out.
 _PARTS = ("cam", "flanks", "opposite")
@@ -225,6 +233,30 @@ class CamProfile(Result):
         """Segment boundaries: cam angle [rad], highest continuous derivative, jumps of the derivatives."""
         joints = self.cam.motion.joints
         return tuple({"angle": j.angle, "order": j.order, "jumps": list(j.jumps)} for j in joints)
+
+    @property
+    def sections(self) -> tuple[dict[str, Any], ...]:
+        """Sections: ``start``, ``end`` [rad], ``law``; extremes of the lift and its derivatives by the cam
+        angle, ``lift_min``, ``lift_d1_max``, … [m or rad over rad], and their angles, ``lift_min_angle``, …
+        [rad]; extremes over time at the design speed, ``velocity_min``, ``acceleration_max``, ``jerk_max``.
+
+        Values at an end are those within the section.
+        """
+        described = zip(self.cam.motion.stretches, self.cam.sections, strict=True)
+        return tuple(self._section(law, section) for law, section in described)
+
+    def _section(self, law: MotionLaw, section: MotionSection) -> dict[str, Any]:
+        """One section with its extremes."""
+        entries: dict[str, Any] = {"start": law.start, "end": law.end, "law": section.law_name}
+        for order, (by_angle, over_time) in enumerate(_DERIVATIVES):
+            least, most = law.extremes(order)
+            rounding = _ROUNDING * max(abs(least.value), abs(most.value))
+            for end, extreme in (("min", least), ("max", most)):
+                value = 0.0 if abs(extreme.value) <= rounding else extreme.value
+                entries |= {f"{by_angle}_{end}": value, f"{by_angle}_{end}_angle": extreme.at}
+                if over_time:
+                    entries[f"{over_time}_{end}"] = _in_time(value, order, self.speed)
+        return entries
 
     def unit_of(self, name: str) -> str:
         """SI unit of an attribute: a lift has metres, that of an oscillating follower radians."""
