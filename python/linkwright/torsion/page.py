@@ -11,13 +11,21 @@ from linkwright.kernel.page.formulas import Formula
 from linkwright.kernel.page.html import html
 from linkwright.kernel.page.numbers import number, parted
 from linkwright.kernel.page.out_units import with_units_of
+from linkwright.kernel.page.table import Table
 from linkwright.machine.table import grouped, machine_parts
 from linkwright.machine.write import dumps
 from linkwright.torsion.figures.captions import torsion_figures
 from linkwright.torsion.model.train import Train
 from linkwright.torsion.response.survey import TorquePeaks
 from linkwright.torsion.study import TorsionStudy
-from linkwright.torsion.tables.torsion import holzer_tables, study_tables
+from linkwright.torsion.tables.torsion import (
+    detail_tables,
+    forced_tables,
+    free_tables,
+    holzer_tables,
+    system_part,
+    verdict_tables,
+)
 
 _SOURCES = (
     "Den Hartog, Mechanical Vibrations, 4th ed. 1956; Ker Wilson, Practical Solution of Torsional Vibration "
@@ -55,7 +63,11 @@ def _content(study: TorsionStudy, command: str) -> Content:
         title=study.machine.name,
         lead=study.machine.description or "",
         source=study.machine.source or "",
-        notes=[("Scaled loads", study.balance)] if study.balance else [],
+        notes=[
+            (title, text)
+            for title, text in (("Operation", study.operation), ("Scaled loads", study.balance))
+            if text
+        ],
         findings=study.findings,
         warnings=study.warnings,
         headline=[Few(*line) for line in _headline(study)],
@@ -70,34 +82,52 @@ def _content(study: TorsionStudy, command: str) -> Content:
 
 
 def _parts(study: TorsionStudy) -> Iterator[Part]:
-    """The results, then Holzer's tables at the modes that orders meet among the speeds."""
-    yield Part("Results", list(study_tables(study)), list(torsion_figures(study)))
-    details = [table for one in study.critical_holzer for table in holzer_tables(one)]
-    if details:
-        yield Part("Holzer's tables of the modes in the speed range", details)
+    """Verdict first, then the system, its modes, its vibration; details last."""
+    figures = {figure.name: figure for figure in torsion_figures(study)}
+
+    def part(title: str, tables: Iterator[Table], *names: str) -> Iterator[Part]:
+        shown = [figures.pop(name) for name in list(figures) if name.startswith(names)] if names else []
+        listed = list(tables)
+        if listed or shown:
+            yield Part(title, listed, shown)
+
+    yield from part("Verdict", verdict_tables(study), "stress", "measured", "gears")
+    yield from part("Torsional system", system_part(study), "scheme")
+    yield from part(
+        "Natural frequencies and critical speeds", free_tables(study), "mode_shapes", "campbell", "stars"
+    )
+    yield from part("Forced vibration", forced_tables(study), "")
+    yield from part("Excitation and mode shapes", detail_tables(study))
+    details = (table for one in study.critical_holzer for table in holzer_tables(one))
+    yield from part("Holzer's tables of the modes in the speed range", details)
 
 
 def _headline(study: TorsionStudy) -> Iterator[tuple[str, str, str]]:
     """The few numbers that one looks for first."""
-    twisting = [f for f in study.free.natural_frequencies.tolist() if f > 0]
-    if twisting:
-        yield "lowest natural frequency", *parted(twisting[0], "Hz", 4)
-        yield "critical speed of order 1", *parted(60 * twisting[0], "1/min", 4)
-    forced = study.forced
-    if forced is not None:
-        if study.peaks is not None and forced.shafts:
-            yield from _largest_torque(study.peaks)
-        run = study.machine.train.run if study.machine.train is not None else None
-        if run is not None:
-            at = int(np.argmin(np.abs(forced.speeds - run.service)))
-            yield "minimum speed fluctuation in service", number(float(forced.unevenness[:, at].min()), 3), ""
-            yield "maximum speed fluctuation in service", number(float(forced.unevenness[:, at].max()), 3), ""
     steady = () if study.verdict is None else study.verdict.judgements
     moved = () if study.transient is None else study.transient.judgements
     if steady or moved:
         state = "ok" if study.verdict is None else study.verdict.state
         words = {"ok": "all within limits", "bar": "barred speed ranges", "exceeds": "limits exceeded"}
         yield "verdict", words["exceeds" if study.findings else state], ""
+    if steady:
+        worst = max(steady, key=lambda row: row.found / row.permitted if row.permitted else np.inf)
+        if worst.permitted and np.isfinite(worst.found):
+            words_of = f"highest utilisation, {worst.part} {worst.what}"
+            yield words_of, f"{100 * worst.found / worst.permitted:.3g}", "%"
+    twisting = [f for f in study.free.natural_frequencies.tolist() if f > 0]
+    if twisting:
+        yield "lowest natural frequency", *parted(twisting[0], "Hz", 4)
+    forced = study.forced
+    if forced is None:
+        return
+    if study.peaks is not None and forced.shafts:
+        yield from _largest_torque(study.peaks)
+    run = study.machine.train.run if study.machine.train is not None else None
+    if run is not None:
+        at = int(np.argmin(np.abs(forced.speeds - run.service)))
+        yield "minimum speed fluctuation in service", number(float(forced.unevenness[:, at].min()), 3), ""
+        yield "maximum speed fluctuation in service", number(float(forced.unevenness[:, at].max()), 3), ""
 
 
 def _largest_torque(peaks: TorquePeaks) -> Iterator[tuple[str, str, str]]:

@@ -15,7 +15,9 @@ from linkwright.kernel.result import Result
 from linkwright.kernel.units import FREQUENCY, not_negative
 from linkwright.machine.machine import Machine
 from linkwright.torsion.in_time.transient import TorsionTransient, torsion_transient
+from linkwright.torsion.limits.critical_response import CriticalResponse, critical_responses
 from linkwright.torsion.limits.misfire import MisfireVerdict, misfire_verdict
+from linkwright.torsion.limits.operation import operation
 from linkwright.torsion.limits.overlay import Overlay, overlay
 from linkwright.torsion.limits.verdict import Verdict, verdict
 from linkwright.torsion.model.engine.engine import firing_angles
@@ -89,6 +91,8 @@ class TorsionStudy:
         At the natural frequencies that an order meets among the speeds.
     overlays : tuple of Overlay
         Measured curves over the computed ones.
+    critical_responses : tuple of CriticalResponse
+        Synthesis of the orders at the critical speeds.
     """
 
     machine: Machine
@@ -110,6 +114,7 @@ class TorsionStudy:
     stars: tuple[PhaseVectors, ...] = ()
     critical_holzer: tuple[HolzerTable, ...] = ()
     overlays: tuple[Overlay, ...] = ()
+    critical_responses: tuple[CriticalResponse, ...] = ()
 
     @property
     def engine(self) -> EngineData | None:
@@ -122,6 +127,14 @@ class TorsionStudy:
         judgements = [] if self.verdict is None else self.verdict.judgements
         steady = [f"{judgement.words}." for judgement in judgements if judgement.state == "exceeds"]
         return steady + ([] if self.transient is None else self.transient.findings)
+
+    @property
+    def operation(self) -> str:
+        """How the train may be operated in continuous operation, in sentences; empty without limits."""
+        if self.verdict is None or self.forced is None:
+            return ""
+        speeds = self.forced.speeds
+        return operation((float(speeds[0]), float(speeds[-1])), self.verdict, self.misfire)
 
     @property
     def balance(self) -> str:
@@ -163,6 +176,12 @@ class TorsionStudy:
             results["gears"] = self.meshes.to_dict()
         if self.stars:
             results["phase_vectors"] = [star.to_dict() for star in self.stars]
+        if self.operation:
+            results["operation"] = self.operation
+        if self.critical_responses:
+            results["critical_responses"] = [
+                one._asdict() | {"kind": one.kind.unit} for one in self.critical_responses
+            ]
         if self.overlays:
             results["measured"] = [one.to_dict() for one in self.overlays]
         if self.along is not None:
@@ -246,6 +265,7 @@ def torsion_study(
         _stars(machine, free, diagram, at),
         tuple(_at_critical(machine, free, diagram)),
         tuple(overlay(seen, name, curve) for name, curve in curves.items()),
+        critical_responses(seen, diagram),
     )
 
 

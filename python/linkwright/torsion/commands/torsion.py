@@ -114,10 +114,12 @@ def _tables(study: TorsionStudy) -> list[Table]:
 
 
 def _tail(study: TorsionStudy) -> str:
-    """What measured curves say of the computed ones."""
+    """What measured curves say of the computed ones, and how the train may be operated."""
     from linkwright.torsion.tables.limits import measured_words
 
-    return "".join(f"{measured_words(one)}\n" for one in study.overlays)
+    lines = [measured_words(one) for one in study.overlays]
+    lines += [study.operation] if study.operation else []
+    return "".join(f"{line}\n" for line in lines)
 
 
 def _files(study: TorsionStudy) -> dict[str, str]:

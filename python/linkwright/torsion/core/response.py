@@ -206,11 +206,13 @@ def shaft_torques(
             return twisted
         rounding = np.abs(stiffness) * (np.abs(held[:, first]) + np.abs(held[:, second]))
         balanced = by_equilibrium(referred, tree, stiffness, forces)
-        bound = np.abs(by_equilibrium(referred, tree, stiffness, size.astype(complex)))
+        bound = np.abs(by_equilibrium(referred, tree, stiffness, size))
         return np.where(bound < rounding, balanced, twisted)
 
 
-def by_equilibrium(referred: ReferredTrain, tree: Tree, stiffness: Complexes, forces: Complexes) -> Complexes:
+def by_equilibrium(
+    referred: ReferredTrain, tree: Tree, stiffness: Complexes, forces: Complexes | Floats
+) -> Complexes:
     """Torques of the shafts of a tree from what acts on one side of each; parallel ones share by stiffness.
 
     (orders, shafts, speeds): Positive if the first end drives the second, referred [N m]. `stiffness`:
@@ -223,13 +225,17 @@ def by_equilibrium(referred: ReferredTrain, tree: Tree, stiffness: Complexes, fo
         below[:, tree.parent[row]] += below[:, row]
     # Of the two ends of a shaft the one that hangs is that of its row; the ground is no mass.
     place = np.append(np.argsort(tree.order), HELD)
-    carried = np.zeros_like(stiffness)
+    carried = np.zeros(stiffness.shape, complex)
     for s, row in enumerate(tree.row.tolist()):
         if row < n:
-            together = stiffness[:, tree.row == row].sum(axis=1)
-            share = np.divide(stiffness[:, s], together, out=np.zeros_like(together), where=together != 0)
             sign = 1.0 if place[referred.ends[s, 0]] == row else -1.0
-            carried[:, s] = sign * share * below[:, row]
+            carried[:, s] = np.where(stiffness[:, s] != 0, sign * below[:, row], 0.0)
+            parallel = tree.row == row
+            if parallel.sum() > 1:
+                together = stiffness[:, parallel].sum(axis=1)
+                carried[:, s] *= np.divide(
+                    stiffness[:, s], together, out=np.zeros_like(together), where=together != 0
+                )
     return carried
 
 

@@ -4,7 +4,9 @@
 | --- | --- |
 | `barred_range` | Speeds that shafts do not bear indefinitely |
 | `criteria` | What is asked of the parts of a train, and where over the speed it is exceeded |
+| `critical_response` | Synthesis at the critical speeds |
 | `misfire` | The worst single misfire |
+| `operation` | How a train may be operated, in sentences |
 | `overlay` | A measured curve laid over the computed one |
 | `peak_judgement` | Whether shafts and couplings bear a manoeuvre |
 | `verdict` | Whether all limits are kept |

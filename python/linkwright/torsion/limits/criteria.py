@@ -54,17 +54,24 @@ class Criterion(NamedTuple):
 
 
 def criteria(
-    machine: Machine, at: ExcitedTrain, response: TorsionResponse, service: float | None = None
+    machine: Machine,
+    at: ExcitedTrain,
+    response: TorsionResponse,
+    service: float | None = None,
+    meshes: MeshTorque | None = None,
 ) -> list[Criterion]:
     """All that limits of a train ask for.
 
-    Shafts, couplings, dampers, gear stages; the same in number and order at any speeds. `service`: [rad/s].
+    Shafts, couplings, dampers, gear stages; the same in number and order at any speeds. `service`: [rad/s];
+    `meshes`: torques of the gear stages, if they are known already.
     """
     shafts = at.train.shafts
     stress = shaft_stress(machine, response, service)
     listed = [*_stresses(stress, shafts), *_torques(machine.train, shafts, response)]
     listed += _heats(machine.train, response)
-    return [*listed, *_contacts(meshed(at, response))] if at.train.gears else listed
+    if not at.train.gears:
+        return listed
+    return [*listed, *_contacts(meshed(at, response) if meshes is None else meshes)]
 
 
 def _stresses(stress: ShaftStress, shafts: dict[str, Shaft]) -> Iterator[Criterion]:

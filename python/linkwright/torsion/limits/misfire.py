@@ -12,7 +12,7 @@ References
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Annotated, Any, NamedTuple
 
@@ -23,7 +23,7 @@ from linkwright.kernel.quantities import About
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import Kind
 from linkwright.machine.machine import Machine
-from linkwright.torsion.limits.criteria import PASSING_STRESS, Criterion
+from linkwright.torsion.limits.criteria import PASSING_STRESS, Criterion, criteria
 from linkwright.torsion.response.engine_torques import (
     CylinderStates,
     EnginePlace,
@@ -32,8 +32,10 @@ from linkwright.torsion.response.engine_torques import (
     throw_sources,
 )
 from linkwright.torsion.response.excited_train import ExcitedTrain, highest_order, under
+from linkwright.torsion.response.forced import torsion_response
 from linkwright.torsion.response.harmonics import Source
-from linkwright.torsion.response.survey import Survey
+from linkwright.torsion.response.mesh_torque import MeshTorque, meshed
+from linkwright.torsion.response.survey import Survey, in_a_row
 
 Floats = NDArray[np.float64]
 
@@ -63,17 +65,33 @@ class MisfireJudgement(NamedTuple):
         return self.above is None
 
 
+class MisfireGear(NamedTuple):
+    """A gear stage, with the cylinders whose misfire is worst for its torque."""
+
+    stage: str
+    mean: float  # at the speed of service, of the case with the largest K_A there [N m]
+    vibratory: float  # likewise [N m]
+    application_factor: float  # K_A at the speed of service
+    cylinder: str  # that does not fire there
+    application_factor_max: float  # largest K_A of all speeds
+    speed: float  # there, of the first disc [rad/s]
+    cylinder_max: str  # that does not fire there
+
+
 @dataclass(frozen=True)
 class MisfireVerdict(Result):
     """All limits of a train with one cylinder misfiring."""
 
     judgements: Annotated[tuple[MisfireJudgement, ...], About("As in normal firing, in the same order.")]
+    gears: Annotated[
+        tuple[MisfireGear, ...], About("Gear stages whose torque statics tells, by the worst misfire.")
+    ] = ()
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
-        """Judgements as a table."""
+        """Judgements and gear stages as tables."""
         keys = ("part", "what", "found", "permitted", "speed", "cylinder", "above", "is_kept")
         rows = [{key: getattr(row, key) for key in keys} | {"unit": row.kind.unit} for row in self.judgements]
-        return {"judgements": rows}
+        return {"judgements": rows, "gears": [gear._asdict() for gear in self.gears]}
 
 
 def misfire_verdict(machine: Machine, seen: Survey) -> MisfireVerdict | None:
@@ -86,13 +104,17 @@ def misfire_verdict(machine: Machine, seen: Survey) -> MisfireVerdict | None:
     if not cases:
         return None
     worst: list[MisfireJudgement | None] = [None] * len(normal)
+    gears: dict[str, MisfireGear] = {}
     for case in cases:
-        for n, criteria in enumerate(_criteria(seen, case.at)):
-            judged = _judged(criteria, seen.speeds, case.cylinder)
+        limits, meshes = _looked_at(seen, case.at)
+        for n, criterion in enumerate(limits):
+            judged = _judged(criterion, seen.speeds, case.cylinder)
             before = worst[n]
             if before is None or _ratio(judged) > _ratio(before):
                 worst[n] = judged
-    return MisfireVerdict(tuple(judged for judged in worst if judged is not None))
+        for gear in _gears(meshes, seen.service, case.cylinder):
+            gears[gear.stage] = _worse(gears.get(gear.stage, gear), gear)
+    return MisfireVerdict(tuple(judged for judged in worst if judged is not None), tuple(gears.values()))
 
 
 def misfires(machine: Machine, at: ExcitedTrain) -> Iterator[MisfireCase]:
@@ -128,10 +150,41 @@ def _counts(criterion: Criterion) -> bool:
     return criterion.what != PASSING_STRESS and not np.isnan(criterion.permitted).all()
 
 
-def _criteria(seen: Survey, at: ExcitedTrain) -> list[Criterion]:
-    """The limits that count of another train at the speeds of a survey, in its order."""
-    limits = replace(seen, at=at).criteria_at(seen.speeds)
-    return [limit for limit, normal in zip(limits, seen.criteria, strict=True) if _counts(normal)]
+def _looked_at(seen: Survey, at: ExcitedTrain) -> tuple[list[Criterion], list[MeshTorque]]:
+    """The limits that count of another train at the speeds of a survey, in its order, and its gear stages."""
+    parts, gears = [], []
+    for part in replace(seen, at=at).parts(seen.speeds):
+        response = torsion_response(part)
+        meshes = meshed(part, response) if part.train.gears else None
+        parts.append(criteria(seen.machine, part, response, seen.service, meshes))
+        gears += [] if meshes is None else [meshes]
+    limits = zip(in_a_row(parts), seen.criteria, strict=True)
+    return [limit for limit, normal in limits if _counts(normal)], gears
+
+
+def _gears(parts: Sequence[MeshTorque], service: float, cylinder: str) -> Iterator[MisfireGear]:
+    """Each stage of one case, at the speed of service and where K_A is largest."""
+    for stage, name in enumerate(parts[0].stages if parts else ()):
+        speeds = np.concatenate([part.speeds for part in parts])
+        mean, vibratory, factor = (
+            np.concatenate([getattr(part, curve)[stage] for part in parts])
+            for curve in ("mean", "vibratory", "application_factor")
+        )
+        if parts[0].toothed[stage] and not np.isnan(factor).any():
+            at, worst = int(np.abs(speeds - service).argmin()), int(factor.argmax())
+            numbers = (float(abs(mean[at])), float(vibratory[at]), float(factor[at]))
+            yield MisfireGear(
+                name, *numbers, cylinder, float(factor[worst]), float(speeds[worst]), cylinder
+            )
+
+
+def _worse(one: MisfireGear, other: MisfireGear) -> MisfireGear:
+    """The larger K_A of two cases, in service and of all speeds."""
+    service = max(one, other, key=lambda gear: gear.application_factor)
+    peak = max(one, other, key=lambda gear: gear.application_factor_max)
+    return service._replace(
+        application_factor_max=peak.application_factor_max, speed=peak.speed, cylinder_max=peak.cylinder_max
+    )
 
 
 def _judged(criterion: Criterion, speeds: Floats, cylinder: str) -> MisfireJudgement:

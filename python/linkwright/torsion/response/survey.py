@@ -7,7 +7,7 @@ of the speed itself.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Annotated, NamedTuple, TypeVar
@@ -173,14 +173,8 @@ class Survey:
 
         In the same order at any speeds. `speeds`: (n,) [rad/s].
         """
-        parts = [criteria(self.machine, at, torsion_response(at), self.service) for at in self._parts(speeds)]
-        return [
-            first._replace(
-                found=np.concatenate([criterion.found for criterion in (first, *rest)]),
-                permitted=np.concatenate([criterion.permitted for criterion in (first, *rest)]),
-            )
-            for first, *rest in zip(*parts, strict=True)
-        ]
+        parts = [criteria(self.machine, at, torsion_response(at), self.service) for at in self.parts(speeds)]
+        return in_a_row(parts)
 
     def carried_at(self, speeds: Floats) -> TorsionResponse:
         """What the shafts carry at some speeds between the lowest and the highest.
@@ -191,10 +185,10 @@ class Survey:
 
     def vibratory_at(self, speeds: Floats) -> Floats:
         """Vibratory torque of each shaft at any speeds in the range, (shafts, n) [N m]."""
-        parts = [torsion_response(at).shaft_torque_vibratory for at in self._parts(speeds)]
+        parts = [torsion_response(at).shaft_torque_vibratory for at in self.parts(speeds)]
         return np.concatenate(parts, axis=1)
 
-    def _parts(self, speeds: Floats) -> Iterator[ExcitedTrain]:
+    def parts(self, speeds: Floats) -> Iterator[ExcitedTrain]:
         """The train at any speeds, some at a time: all orders of all shafts at once may be too many."""
         for first in range(0, max(len(speeds), 1), _AT_ONCE):
             yield between(self.machine, self.at, speeds[first : first + _AT_ONCE])
@@ -208,6 +202,17 @@ class Survey:
         apart = np.abs(every[:, None] - run).min(axis=1, initial=np.inf) > _EQUAL * every
         speeds: Floats = every[apart]
         return speeds
+
+
+def in_a_row(parts: Sequence[list[Criterion]]) -> list[Criterion]:
+    """Limits whose speeds were looked at in pieces."""
+    return [
+        first._replace(
+            found=np.concatenate([criterion.found for criterion in (first, *rest)]),
+            permitted=np.concatenate([criterion.permitted for criterion in (first, *rest)]),
+        )
+        for first, *rest in zip(*parts, strict=True)
+    ]
 
 
 def _highest(ratio: Floats) -> list[int]:

@@ -6,5 +6,6 @@
 | `gears` | Gear stages: torque, application factor, tooth contact |
 | `limits` | Limits in normal firing, with a misfire, in the manoeuvre |
 | `orders` | Every order over the speed, and the curves of a manoeuvre |
+| `system` | Masses and stiffnesses |
 | `torsion` | Tables of the torsional vibration of a train |
 """

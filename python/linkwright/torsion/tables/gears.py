@@ -8,6 +8,7 @@ import numpy as np
 
 from linkwright.kernel.page.numbers import quantity
 from linkwright.kernel.page.table import Row, Table, columns_csv
+from linkwright.torsion.limits.misfire import MisfireVerdict
 from linkwright.torsion.response.mesh_torque import MeshTorque
 from linkwright.torsion.tables.limits import per_minute, rpm
 
@@ -48,6 +49,27 @@ def gear_tables(meshes: MeshTorque, place: int) -> Iterator[Table]:
     service = rpm(float(meshes.speeds[place]))
     title = f"Gear stages: torque at the first wheel, at {service} {per_minute()} and over the speeds"
     yield Table("gears", title, heads, rows)
+
+
+def misfire_gear_table(verdict: MisfireVerdict, service: float) -> Table:
+    """Each stage with the cylinders whose misfire is worst for it. `service`: speed [rad/s]."""
+    rows: list[Row] = [
+        (
+            gear.stage,
+            "",
+            quantity(gear.vibratory, "N m", 4),
+            _factor(gear.application_factor),
+            gear.cylinder,
+            _factor(gear.application_factor_max),
+            rpm(gear.speed),
+            gear.cylinder_max,
+        )
+        for gear in verdict.gears
+    ]
+    at = f"at {per_minute()}"
+    heads = ("stage", "", "vibratory", "K_A", "cylinder", "largest K_A", at, "cylinder")
+    where = f"at {rpm(service)} {per_minute()} and over the speeds"
+    return Table("misfire_gears", f"Gear stages with one cylinder misfiring, {where}", heads, rows)
 
 
 def _factor(value: float) -> str:

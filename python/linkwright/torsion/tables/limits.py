@@ -9,7 +9,9 @@ import numpy as np
 from linkwright.kernel.page.numbers import measured, parted, quantity
 from linkwright.kernel.page.out_units import reader
 from linkwright.kernel.page.table import Row, Table
-from linkwright.kernel.units import Kind
+from linkwright.kernel.units import PRESSURE, Kind
+from linkwright.torsion.limits.barred_range import BarredRange
+from linkwright.torsion.limits.critical_response import CriticalResponse
 from linkwright.torsion.limits.overlay import Overlay, PeakComparison
 from linkwright.torsion.study import TorsionStudy
 
@@ -25,6 +27,8 @@ def limit_tables(study: TorsionStudy) -> Iterator[Table]:
             for row in study.verdict.judgements
         ]
         yield Table("limits", "Limits", (*heads, f"at {per_minute()}", "verdict"), rows)
+        if study.verdict.barred:
+            yield _barred(study.verdict.barred)
     if study.misfire is not None:
         rows = [
             _row(
@@ -57,7 +61,59 @@ def limit_tables(study: TorsionStudy) -> Iterator[Table]:
         yield Table("manoeuvre_limits", "Limits in the manoeuvre", (*heads, "at", "verdict"), rows)
 
 
+<<<<<<< HEAD
 def _row(part: str, what: str, reached: float, permitted: float, kind: Kind, *rest: str) -> Row:
+=======
+def _barred(ranges: Sequence[BarredRange]) -> Table:
+    """Ranges of speeds in which a shaft is stressed more than it may be in continuous operation."""
+    rows: list[Row] = [
+        (
+            one.shaft,
+            "",
+            f"{rpm(one.barred[0])} to {rpm(one.barred[1])}",
+            "–" if one.critical_speed is None else rpm(one.critical_speed),
+            "–" if one.order is None else f"{one.order:.4g}",
+            shown(one.continuous, PRESSURE),
+            "–" if one.transient is None else shown(one.transient, PRESSURE),
+            _passage(one),
+        )
+        for one in ranges
+    ]
+    speed = per_minute()
+    heads = ("shaft", "", f"barred [{speed}]", f"critical {speed}", "order", "τ_C", "τ_T", "passage")
+    return Table("barred", "Barred speed ranges", heads, rows)
+
+
+def _passage(one: BarredRange) -> str:
+    """Whether a range may be barred and passed."""
+    if one.is_passable is None:
+        return "no limit given"
+    if not one.is_passable:
+        return "not permitted"
+    return "quick passage" if one.may_be_barred else "speeds may not be barred"
+
+
+def critical_table(responses: Sequence[CriticalResponse]) -> Table:
+    """The critical order alone and all orders in phase, with what is permitted."""
+    rows: list[Row] = [
+        (
+            f"mode {one.mode}, order {one.order:.4g}",
+            "",
+            rpm(one.speed),
+            one.shaft,
+            shown(one.single, one.kind),
+            shown(one.total, one.kind),
+            "–" if one.permitted is None else shown(one.permitted, one.kind),
+        )
+        for one in responses
+    ]
+    at = f"peaks at {per_minute()}"
+    heads = ("critical speed", "", at, "shaft", "order alone", "all orders", "permitted")
+    return Table("synthesis", "Synthesis at the most severe critical speeds", heads, rows)
+
+
+def _row(part: str, what: str, found: float, permitted: float, kind: Kind, *rest: str) -> Row:
+>>>>>>> 0aeef41c (Trains: operation in a sentence, K_A with a misfire, system's tables, synthesis at critical speeds; verdict first in the report)
     """One limit: what, found, permitted, and where."""
     return (f"{part}: {what}", "", shown(reached, kind), shown(permitted, kind), *rest)
 

@@ -10,17 +10,26 @@ from numpy.typing import NDArray
 from linkwright.kernel.page.numbers import number, quantity
 from linkwright.kernel.page.table import Row, Table
 from linkwright.torsion.in_time.transient import TorsionTransient
+from linkwright.torsion.limits.critical_response import CriticalResponse
 from linkwright.torsion.modes.campbell import CampbellDiagram
 from linkwright.torsion.modes.damped import DampedVibration
-from linkwright.torsion.modes.free import FreeVibration, Node
+from linkwright.torsion.modes.free import FreeVibration, Node, train_of
 from linkwright.torsion.modes.holzer import HolzerTable
 from linkwright.torsion.modes.phase_vectors import most_severe
 from linkwright.torsion.response.forced import ForcedVibration
+from linkwright.torsion.response.stress import stressed
 from linkwright.torsion.study import TorsionStudy
 from linkwright.torsion.tables.engine import engine_tables
-from linkwright.torsion.tables.gears import gear_tables
-from linkwright.torsion.tables.limits import limit_tables, measured_tables, per_minute, rpm
+from linkwright.torsion.tables.gears import gear_tables, misfire_gear_table
+from linkwright.torsion.tables.limits import (
+    critical_table,
+    limit_tables,
+    measured_tables,
+    per_minute,
+    rpm,
+)
 from linkwright.torsion.tables.orders import excitation_tables, star_table
+from linkwright.torsion.tables.system import system_tables
 
 Floats = NDArray[np.float64]
 
@@ -39,27 +48,69 @@ _SHAPES = 5
 
 def study_tables(study: TorsionStudy) -> Iterator[Table]:
     """All tables of a study of torsional vibration."""
+    yield from verdict_tables(study)
+    yield from system_part(study)
+    yield from free_tables(study)
+    yield from forced_tables(study)
+    yield from detail_tables(study)
+
+
+def verdict_tables(study: TorsionStudy) -> Iterator[Table]:
+    """Limits, gear stages, measured peaks."""
     yield from limit_tables(study)
-    yield from measured_tables(study.overlays)
     if study.meshes is not None and study.forced is not None:
-        yield from gear_tables(study.meshes, service_place(study, study.forced))
+        place = service_place(study, study.forced)
+        yield from gear_tables(study.meshes, place)
+        if study.misfire is not None and study.misfire.gears:
+            yield misfire_gear_table(study.misfire, float(study.forced.speeds[place]))
+    yield from measured_tables(study.overlays)
+
+
+def system_part(study: TorsionStudy) -> Iterator[Table]:
+    """Masses, stiffnesses, engines."""
+    yield from system_tables(study.scheme, stressed(train_of(study.machine).shafts))
     if study.engines:
         yield from engine_tables(study.engines)
-    yield from torsion_tables(study.free)
+
+
+def free_tables(study: TorsionStudy) -> Iterator[Table]:
+    """Natural frequencies, damping, critical speeds."""
+    yield _frequencies(study.free)
     if study.damped is not None:
         yield _damped(study, study.damped)
     if study.campbell is not None and study.campbell.critical:
         yield _critical(study.campbell)
-    if study.forced is not None and study.excited is not None:
-        yield from excitation_tables(study.excited, service_place(study, study.forced))
+        if study.critical_responses:
+            yield critical_table(_severest(study.campbell, study.critical_responses))
+        if study.stars:
+            yield star_table(most_severe(study.campbell, study.stars, _CRITICAL))
+
+
+def forced_tables(study: TorsionStudy) -> Iterator[Table]:
+    """Torques of the shafts, speed fluctuation, the manoeuvre."""
+    if study.forced is not None:
         yield _shafts(study, study.forced)
         yield _discs(study, study.forced)
-        if study.stars and study.campbell is not None:
-            yield star_table(most_severe(study.campbell, study.stars, _CRITICAL))
     if study.transient is not None:
         yield _manoeuvre(study.transient)
+
+
+def detail_tables(study: TorsionStudy) -> Iterator[Table]:
+    """Excitation by orders, shapes by numbers, Holzer's tables that were asked for."""
+    if study.forced is not None and study.excited is not None:
+        yield from excitation_tables(study.excited, service_place(study, study.forced))
+    yield from shape_tables(study.free)
     for table in study.holzer:
         yield from holzer_tables(table)
+
+
+def _severest(
+    diagram: CampbellDiagram, responses: Sequence[CriticalResponse]
+) -> tuple[CriticalResponse, ...]:
+    """Those at the most severe critical speeds, by speed."""
+    severity = [point.resonance_amplitude or 0.0 for point in diagram.critical]
+    kept = sorted(np.argsort(severity, kind="stable")[::-1][:_CRITICAL].tolist())
+    return tuple(responses[n] for n in kept)
 
 
 def _manoeuvre(moved: TorsionTransient) -> Table:
@@ -191,9 +242,8 @@ def _finite(value: float, digits: int = 4) -> str:
     return number(value, digits) if np.isfinite(value) else "–"
 
 
-def torsion_tables(free: FreeVibration) -> Iterator[Table]:
-    """Frequencies with nodes and energy; then the shapes."""
-    yield _frequencies(free)
+def shape_tables(free: FreeVibration) -> Iterator[Table]:
+    """Shapes of the modes, some modes beside each other."""
     for start in range(0, len(free.natural_frequencies), _SHAPES):
         yield _shapes(free, range(start, min(start + _SHAPES, len(free.natural_frequencies))))
 
@@ -205,18 +255,19 @@ def _frequencies(free: FreeVibration) -> Table:
             f"f_{k}",
             f"{f:.6g}",
             f"{60 * f:.6g}",
+            str(len(free.nodes[k])) if f > 0 else "–",
             _nodes(free.nodes[k]) if f > 0 else "–",
         )
         for k, f in enumerate(free.natural_frequencies.tolist())
     ]
-    heads = ("dominant strain energy; kinetic energy", "", "Hz", "1/min", "nodes")
+    heads = ("dominant strain energy; kinetic energy", "", "Hz", "1/min", "nodes", "at")
     return Table("natural_frequencies", "Natural frequencies", heads, rows)
 
 
 def _nodes(nodes: Sequence[Node]) -> str:
     """The first nodes of a mode; results.json has them all."""
     text = ", ".join(map(_node, nodes[:_NODES])) or "–"
-    return f"{text}, {len(nodes)} in all" if len(nodes) > _NODES else text
+    return f"{text}, …" if len(nodes) > _NODES else text
 
 
 def _node(node: Node) -> str:
