@@ -98,6 +98,5 @@ def test_masses_and_stiffnesses(study: TorsionStudy) -> None:
     nodes = frequencies.heads.index("nodes")
     assert study.free.nodes
     assert [row[nodes] for row in frequencies.rows] == [
-        str(len(study.free.nodes[k])) if f > 0 else "–"
-        for k, f in enumerate(study.free.natural_frequencies)
+        str(len(study.free.nodes[k])) if f > 0 else "–" for k, f in enumerate(study.free.natural_frequencies)
     ]

@@ -173,9 +173,7 @@ def _gears(parts: Sequence[MeshTorque], service: float, cylinder: str) -> Iterat
         if parts[0].toothed[stage] and not np.isnan(factor).any():
             at, worst = int(np.abs(speeds - service).argmin()), int(factor.argmax())
             numbers = (float(abs(mean[at])), float(vibratory[at]), float(factor[at]))
-            yield MisfireGear(
-                name, *numbers, cylinder, float(factor[worst]), float(speeds[worst]), cylinder
-            )
+            yield MisfireGear(name, *numbers, cylinder, float(factor[worst]), float(speeds[worst]), cylinder)
 
 
 def _worse(one: MisfireGear, other: MisfireGear) -> MisfireGear:

@@ -61,9 +61,6 @@ def limit_tables(study: TorsionStudy) -> Iterator[Table]:
         yield Table("manoeuvre_limits", "Limits in the manoeuvre", (*heads, "at", "verdict"), rows)
 
 
-<<<<<<< HEAD
-def _row(part: str, what: str, reached: float, permitted: float, kind: Kind, *rest: str) -> Row:
-=======
 def _barred(ranges: Sequence[BarredRange]) -> Table:
     """Ranges of speeds in which a shaft is stressed more than it may be in continuous operation."""
     rows: list[Row] = [
@@ -112,8 +109,7 @@ def critical_table(responses: Sequence[CriticalResponse]) -> Table:
     return Table("synthesis", "Synthesis at the most severe critical speeds", heads, rows)
 
 
-def _row(part: str, what: str, found: float, permitted: float, kind: Kind, *rest: str) -> Row:
->>>>>>> 0aeef41c (Trains: operation in a sentence, K_A with a misfire, system's tables, synthesis at critical speeds; verdict first in the report)
+def _row(part: str, what: str, reached: float, permitted: float, kind: Kind, *rest: str) -> Row:
     """One limit: what, found, permitted, and where."""
     return (f"{part}: {what}", "", shown(reached, kind), shown(permitted, kind), *rest)
 
