@@ -37,7 +37,7 @@ def test_application_factor_with_a_misfire(ship: lw.Machine, study: TorsionStudy
     worst = np.max(list(by_cylinder.values()), axis=0)
     assert [gear.stage for gear in study.misfire.gears] == ["port_stage", "starboard_stage"]
     for stage, gear in enumerate(study.misfire.gears):
-        # The service speed is among the speeds of the run; the mesh of the gas cycle depends on what speeds are
+        # The service speed is among the speeds of the run; the mesh of the gas depends on what speeds are
         # computed together, to 1e-8.
         assert gear.application_factor == pytest.approx(worst[stage], rel=1e-7)
         assert by_cylinder[gear.cylinder][stage] == pytest.approx(worst[stage], rel=1e-7)

@@ -197,8 +197,13 @@ def together(ranges: Iterable[BarredRange]) -> list[tuple[float, float]]:
 
     Lowest and highest of each, by speed [rad/s].
     """
+    return joined_ranges(span.barred for span in ranges)
+
+
+def joined_ranges(ranges: Iterable[tuple[float, float]]) -> list[tuple[float, float]]:
+    """Ranges by their lower end, those that meet taken as one. In the unit of the ranges."""
     joined: list[tuple[float, float]] = []
-    for low, high in sorted(span.barred for span in ranges):
+    for low, high in sorted(ranges):
         if joined and low <= joined[-1][1]:
             joined[-1] = (joined[-1][0], max(joined[-1][1], high))
         else:

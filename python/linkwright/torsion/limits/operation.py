@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 
-from linkwright.torsion.limits.barred_range import together
+from linkwright.torsion.limits.barred_range import joined_ranges, together
 from linkwright.torsion.limits.misfire import MisfireVerdict
 from linkwright.torsion.limits.verdict import Verdict
 
@@ -55,13 +55,7 @@ def _misfiring(misfire: MisfireVerdict | None) -> Iterator[str]:
 
 def _listed(ranges: Iterable[tuple[float, float]]) -> str:
     """Ranges of speeds, those that meet taken as one."""
-    joined: list[tuple[float, float]] = []
-    for low, high in sorted(ranges):
-        if joined and low <= joined[-1][1]:
-            joined[-1] = (joined[-1][0], max(joined[-1][1], high))
-        else:
-            joined.append((low, high))
-    return ", ".join(f"{_between(low, high)}" for low, high in joined)
+    return ", ".join(_between(low, high) for low, high in joined_ranges(ranges))
 
 
 def _between(low: float, high: float) -> str:
