@@ -1,4 +1,4 @@
-"""Motion of trains in time: laws, closed forms, and SciPy's integrators on the same equations."""
+"""Transient motion of trains: laws, closed forms, and SciPy's integrators on the same equations."""
 
 from __future__ import annotations
 
