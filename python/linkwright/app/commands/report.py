@@ -52,6 +52,10 @@ Sections = Annotated[
         show_default=False,
     ),
 ]
+Lang = Annotated[
+    str,
+    Option("--lang", metavar="CODE", help="Language of the report: en, uk (Ukrainian)."),
+]
 Variants = Annotated[
     list[str] | None,
     Option(
@@ -69,6 +73,7 @@ def report(
     company: Company = None,
     sections: Sections = None,
     variant: Variants = None,
+    lang: Lang = "en",
     force: Force = False,
 ) -> None:
     """Write the answer of a command as a report, as a page or as PDF.
@@ -80,7 +85,9 @@ def report(
     from linkwright.app.report.answered import variant as of_text
     from linkwright.app.report.company import read_heading
     from linkwright.kernel.page.content import Heading
+    from linkwright.kernel.page.language import in_language, language
 
+    to_language = language(lang)
     places = output_files("--to", to or ["report.html"], (".html", ".pdf"), force=force)
     wanted = _sections(sections)
     head = read_heading(company) if company is not None else Heading()
@@ -92,7 +99,7 @@ def report(
     if variants:
         others = {one.name: _content(_varied(words, one), "") for one in variants}
         content = compared(content, everything, others)
-    _write(replace(content, heading=head), places, force=force)
+    _write(in_language(replace(content, heading=head), to_language), places, force=force)
     finish(Answer(machine=None, findings=content.findings))
 
 

@@ -30,7 +30,12 @@ if TYPE_CHECKING:
 
 @public
 def write_report(
-    study: Study, path: str | os.PathLike[str], *, command: str = "", heading: Heading | None = None
+    study: Study,
+    path: str | os.PathLike[str],
+    *,
+    command: str = "",
+    heading: Heading | None = None,
+    language: str = "en",
 ) -> None:
     """Write the report of a study to a file.
 
@@ -44,13 +49,19 @@ def write_report(
         Command line that made the study, for the section on how to repeat it.
     heading : Heading, optional
         What stands at its head, by `read_heading`.
+    language : str
+        ``"en"`` or ``"uk"``, Ukrainian.
 
     Raises
     ------
     InputError
-        The file cannot be written, or Typst is not installed.
+        The file cannot be written, Typst is not installed, or nobody knows the language.
     """
-    report = replace(content(study, command), heading=heading or Heading())
+    from linkwright.kernel.page.language import in_language
+    from linkwright.kernel.page.language import language as of_code
+
+    to = of_code(language, "language")
+    report = in_language(replace(content(study, command), heading=heading or Heading()), to)
     if Path(path).suffix.lower() != ".pdf":
         write_file(path, html(report))
         return

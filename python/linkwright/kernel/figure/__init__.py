@@ -2,6 +2,7 @@
 
 | module | |
 | --- | --- |
+| `in_language` | Figures with their words in another language |
 | `in_units` | Axes in the units that the reader wants |
 | `plotted` | The curves of a result as a figure |
 | `style` | Colours, fonts, axes |

@@ -6,6 +6,7 @@
 | `formulas` | Formulas of the measures, with their sources |
 | `glossary` | The field's words: terms, definitions, sources, and the words that they replace |
 | `html` | A report as a page, by templates of Jinja2; figures and data are in it |
+| `language` | Reports in another language: texts by a catalogue, numbers and units as it writes them |
 | `notebook` | Results and machines as a notebook shows them |
 | `numbers` | Numbers as text, and cells that know their number |
 | `out_units` | Units in which numbers are shown |

@@ -6,6 +6,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from linkwright.kernel.page.language import ENGLISH, Language
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
@@ -98,6 +100,8 @@ class Content:
         The machine as a machine file in SI; empty without one.
     command : str
         The command line that gives the same.
+    language : Language
+        That it is written in, by `linkwright.kernel.page.language.in_language`.
     """
 
     title: str
@@ -118,6 +122,7 @@ class Content:
     assumptions: Sequence[str] = ()
     file: str = ""
     command: str = ""
+    language: Language = ENGLISH
 
     @property
     def has_figures(self) -> bool:

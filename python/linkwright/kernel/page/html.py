@@ -31,7 +31,23 @@ def html(content: Content) -> str:
     import linkwright
 
     template = environment().get_template("report.html")
-    return template.render(content=content, version=linkwright.__version__)
+    return template.render(
+        content=content,
+        words=content.language,
+        page_words=_page_words(content),
+        version=linkwright.__version__,
+    )
+
+
+# What the scripts of the page say.
+_SAID = re.compile(r'\bsay\("([^"]+)"')
+
+
+def _page_words(content: Content) -> dict[str, Any]:
+    """Texts of the page's scripts in its language, and its decimal sign."""
+    scripts = (path.read_text(encoding="utf-8") for path in sorted(_FOLDER.glob("*.js")))
+    texts = {text: content.language.template(text) for script in scripts for text in _SAID.findall(script)}
+    return {"texts": texts, "decimal": content.language.decimal}
 
 
 def _picture(figure: Any, name: str, title: str) -> Markup:

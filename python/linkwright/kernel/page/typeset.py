@@ -45,34 +45,36 @@ def document(content: Content) -> str:
 
 
 def _lines(content: Content) -> Iterator[str]:
-    yield _STYLE.format(title=_string(content.title), foot=_foot(content))
+    code = _string(content.language.code)
+    yield _STYLE.format(title=_string(content.title), foot=_foot(content), language=code)
     yield from _head(content)
+    words = content.language
     for title, text in content.notes:
         yield _box(title, [text], "care")
     if content.findings:
-        yield _box("Failed checks", content.findings, "bad")
+        yield _box(words("Failed checks"), content.findings, "bad")
     if content.warnings:
-        yield _box("Warnings", content.warnings, "care")
+        yield _box(words("Warnings"), content.warnings, "care")
     if content.headline:
         cells = "".join(f"few[{_text(w)}][{_text(v)}][{_text(u)}], " for w, v, u in content.headline)
         columns = min(len(content.headline), 3)
         yield f"#grid(columns: (1fr,) * {columns}, gutter: 6pt, {cells})"
     if content.sketch is not None:
-        yield '== The mechanism\n#image("sketch.svg", width: 100%)'
+        yield f'== {words("The mechanism")}\n#image("sketch.svg", width: 100%)'
     if content.printed:
-        yield f"== Results\n#code({_string(content.printed)})"
+        yield f"== {words('Results')}\n#code({_string(content.printed)})"
     for part in content.parts:
         if part.tables:
             yield f"== {_text(part.title)}"
         yield from (_table(table) for table in part.tables)
         yield from (_figure(figure) for figure in part.figures)
     if content.formulas:
-        yield f"== Formulas\n{_formulas(content.formulas)}"
+        yield f"== {words('Formulas')}\n{_formulas(content.formulas)}"
         yield f"#note[{_text(content.papers)}.]" if content.papers else ""
     if content.groups:
         yield from _groups(content)
     if content.assumptions:
-        yield "== Assumptions\n" + "\n".join(
+        yield f"== {words('Assumptions')}\n" + "\n".join(
             f"- {_text(sentence, indices=True)}" for sentence in content.assumptions
         )
     if content.command:
@@ -86,9 +88,9 @@ def _head(content: Content) -> Iterator[str]:
     if content.lead:
         yield _text(content.lead)
     if content.source:
-        yield f"#note[Source of the numbers: {_text(content.source)}]"
+        yield f"#note[{content.language('Source of the numbers')}: {_text(content.source)}]"
     if rows := content.heading.rows():
-        cells = ", ".join(f"note[{_text(word)}], [{_text(entry)}]" for word, entry in rows)
+        cells = ", ".join(f"note[{_text(content.language(word))}], [{_text(entry)}]" for word, entry in rows)
         yield f"#grid(columns: (auto, 1fr, auto, 1fr), column-gutter: 10pt, row-gutter: 5pt, {cells})"
 
 
@@ -156,7 +158,8 @@ def _formulas(formulas: Sequence[Formula]) -> str:
 
 def _groups(content: Content) -> Iterator[str]:
     """Data of the machine; what was not given is in italics."""
-    yield "== Machine data"
+    words = content.language
+    yield f"== {words('Machine data')}"
     cells = []
     for group, parts in content.groups:
         for n, part in enumerate(parts):
@@ -171,18 +174,20 @@ def _groups(content: Content) -> Iterator[str]:
                 f"[{entries}]",
             ]
     yield f"#grid(columns: (2.6cm, 2.6cm, 1fr), column-gutter: 6pt, row-gutter: 7pt, {', '.join(cells)})"
-    yield "#note[Entries in italics are not given: they follow from other entries or are defaults.]"
+    note = words("Entries in italics are not given: they follow from other entries or are defaults.")
+    yield f"#note[{note}]"
 
 
 def _repeat(content: Content) -> Iterator[str]:
     """How the same numbers are made again."""
     import linkwright
 
-    made = f"Computed with Linkwright {_text(linkwright.__version__)}:"
+    words = content.language
+    made = f"{words('Computed with Linkwright')} {_text(linkwright.__version__)}:"
     code = f"#code({_string(content.command)})"
-    yield f"#block(breakable: false)[== Reproduce this report\n{made}\n{code}]"
+    yield f"#block(breakable: false)[== {words('Reproduce this report')}\n{made}\n{code}]"
     if content.file:
-        yield "The machine as computed, overrides included, as a machine file in SI:"
+        yield words("The machine as computed, overrides included, as a machine file in SI:")
         yield f"#code({_string(content.file)})"
 
 
@@ -214,7 +219,7 @@ _STYLE = """#set document(title: {title}, date: none)
   #set text(8pt, fill: soft)
   {foot} #h(1fr) #counter(page).display("1 / 1", both: true)
 ])
-#set text(font: "Libertinus Serif", size: 10pt, number-width: "tabular")
+#set text(lang: {language}, font: "Libertinus Serif", size: 10pt, number-width: "tabular")
 #set par(leading: 0.55em)
 #show heading.where(level: 1): set text(17pt)
 #show heading.where(level: 2): set text(12pt)

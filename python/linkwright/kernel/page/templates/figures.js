@@ -31,7 +31,7 @@
       return all.find(({ box }) => u >= box[0] && u <= box[2] && v >= box[1] && v <= box[3]);
     }
     const value = ([low, high, log], share) => (log ? low * (high / low) ** share : low + share * (high - low));
-    const text = (number) => (number === 0 ? "0" : Number(number.toPrecision(4)).toString()).replace("-", "−");
+    const text = (number) => (number === 0 ? "0" : Number(number.toPrecision(4)).toString()).replace("-", "−").replace(".", WORDS.decimal);
 
     // A curve at a share of the width, by halving; null beside it.
     function at([xs, ys], share) {

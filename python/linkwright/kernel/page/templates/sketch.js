@@ -279,7 +279,7 @@
   function setPlaying(on) {
     playing = on;
     before = null;
-    play.textContent = on ? "Pause" : "Play";
+    play.textContent = on ? say("Pause") : say("Play");
     play.setAttribute("aria-pressed", String(on));
     if (on) requestAnimationFrame(step);
   }
@@ -292,12 +292,12 @@
   });
 
   const shown = usual / duration;
-  const factor = shown > 1.05 ? `${shown.toPrecision(2)} times slower than the machine` : "as fast as the machine";
+  const factor = shown > 1.05 ? say("# times slower than the machine", shown.toPrecision(2)) : say("as fast as the machine");
   document.getElementById("sketch-words").textContent = scene.true_speed
-    ? `Speed of steady motion; at the middle playback speed ${factor}. Dots: centres of mass.`
+    ? say("Speed of steady motion; at the middle playback speed #. Dots: centres of mass.", factor)
     : scene.swings
-      ? "The mechanism does not close over the whole revolution: it oscillates within its range. Dots: centres of mass."
-      : "Constant speed: no steady-state solution is available. Dots: centres of mass.";
+      ? say("The mechanism does not close over the whole revolution: it oscillates within its range. Dots: centres of mass.")
+      : say("Constant speed: no steady-state solution is available. Dots: centres of mass.");
   draw(0);
   setPlaying(playing);
 })();

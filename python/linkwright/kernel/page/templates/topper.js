@@ -130,7 +130,7 @@
     scene.heads.forEach((_, n) => {
       const over = done >= passed[n];
       discs[n].setAttribute("class", over ? "left" : "haulm");
-      words[n].textContent = !over ? "" : left[n] > 5e-5 ? `${(100 * left[n]).toPrecision(3)} % left` : "cut";
+      words[n].textContent = !over ? "" : left[n] > 5e-5 ? say("# % left", (100 * left[n]).toPrecision(3)) : say("cut");
     });
     const sign = (value, digits) => (value < 0 ? "−" : "+") + Math.abs(value).toFixed(digits);
     const knife = scene.rate ? `φ = ${(phaseAt(t) * 180 / Math.PI).toFixed(0).padStart(3, "\u2007")}°   ` : "";
@@ -158,7 +158,7 @@
   function setPlaying(on) {
     [playing, before] = [on, null];
     if (on && time >= last) time = first;
-    play.textContent = on ? "Pause" : "Play";
+    play.textContent = on ? say("Pause") : say("Play");
     play.setAttribute("aria-pressed", String(on));
     if (on) requestAnimationFrame(step);
   }
@@ -183,10 +183,12 @@
   setPhase(scene.phase);
   const slow = scene.seconds / (last - first);
   document.getElementById("topper-words").textContent =
-    `Top view; the machine travels to the right. At the middle playback speed it is ${slow.toPrecision(2)} times slower than in ` +
-    "the field. Green: haulm; yellow: cut; hatched: uncut. " + (scene.heads.length > 1
-      ? `The head in the middle is the worst one, unless its phase is changed; all are up to ${(1e3 * scene.offset).toPrecision(3)} mm off the row.`
-      : "This head is the worst one.");
+    say("Top view; the machine travels to the right.") + " " +
+    say("At the middle playback speed it is # times slower than in the field.", slow.toPrecision(2)) + " " +
+    say("Green: haulm; yellow: cut; hatched: uncut.") + " " + (scene.heads.length > 1
+      ? say("The head in the middle is the worst one, unless its phase is changed; all are up to # mm off the row.",
+        (1e3 * scene.offset).toPrecision(3))
+      : say("This head is the worst one."));
   // An address that ends in #topper=0.4 shows the place 0.4 of the way.
   const asked = /^#topper=([\d.]+)$/.exec(location.hash);
   if (asked) setTime(Math.min(Math.max(Number(asked[1]), 0), 1)); else setPlaying(playing);

@@ -1,0 +1,209 @@
+"""Reports in another language than English: texts by a catalogue, numbers and units as it writes them.
+
+A catalogue, ``texts_CODE.toml``, has an English text and its translation a line. In a text, ``#`` stands for
+a number with its unit and ``{}`` for names; in the translation they come in the same order, or as ``#2``,
+``{1}`` where the order is another one. A text of several sentences is translated sentence by sentence. What
+has no translation stays as it is: names of a machine file, symbols, sources.
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, fields, is_dataclass, replace
+from functools import cache, cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from linkwright.kernel.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from linkwright.kernel.page.content import Content
+
+# A number as `linkwright.kernel.page.numbers` writes it, no digits of a name.
+_DIGITS = r"(?<![\w.])[-−+]?\d+(?:\.\d+)?(?:·10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+|e[-−+]?\d+)?(?![\w]|\.\d)"
+# A name, or a few words; it does not go on behind the end of a sentence.
+_NAME = r"((?:(?![.;:] ).)+?)"
+_WORD = re.compile(r"[A-Za-z]{2}")
+# Ends of sentences and of parts of sentences, with which a text may be written or not.
+_STOPS = frozenset(".;:,")
+# Where a number or a name stands in a translation.
+_PLACE = re.compile(r"#(\d?)|\{(\d?)\}")
+
+# Entries that are read by programs, or that only their author may change.
+_KEPT = frozenset({"name", "file", "command", "scenes", "text", "source", "heading", "language"})
+
+
+@dataclass(frozen=True)
+class Language:
+    """A language that reports are written in.
+
+    Attributes
+    ----------
+    code : str
+        As of ISO 639-1: ``"en"``, ``"uk"``.
+    texts, units : mapping of str to str
+        English text or unit → the language's own.
+    decimal : str
+        Decimal sign.
+    """
+
+    code: str = "en"
+    texts: Mapping[str, str] = field(default_factory=dict)
+    units: Mapping[str, str] = field(default_factory=dict)
+    decimal: str = "."
+
+    def __call__(self, text: str) -> str:
+        """A text in this language; the text itself where it has no translation."""
+        if self.code == "en" or not text.strip():
+            return text
+        known = self._known(text)
+        if known is not None:
+            return known
+        parts = re.split(r"(?<=[.;:]) ", text)
+        if len(parts) > 1:
+            return " ".join(self(part) for part in parts)
+        return text
+
+    def _known(self, text: str) -> str | None:
+        """The translation of a whole text; None if there is none."""
+        body = text.strip()
+        if "#" in body:
+            # A sign of the user's own, which would count as a number.
+            return None
+        if body[-1:] in _STOPS and (known := self._known(body[:-1])) is not None:
+            return known + body[-1]
+        numbers = self._number.findall(body)
+        key = self._number.sub("#", body)
+        pattern: str | None = self.texts.get(body) or self.texts.get(key)
+        if pattern is not None:
+            return _filled(pattern, [*map(self.number, numbers)], [])
+        if not _WORD.search(key):
+            # Numbers and signs alone.
+            return _filled(key, [*map(self.number, numbers)], [])
+        return self._named(key, numbers)
+
+    def template(self, text: str) -> str:
+        """A text in this language whose numbers, ``#``, are still to come."""
+        bare = text[:-1] if text[-1:] in _STOPS else text
+        return self.texts.get(bare, bare) + text[len(bare) :]
+
+    def _named(self, key: str, numbers: list[str]) -> str | None:
+        """The translation of a text with names in it; numbers inside a name belong to the name."""
+        places = [place for place, letter in enumerate(key) if letter == "#"]
+        for form, pattern in self._forms:
+            if match := form.fullmatch(key):
+                spans = [match.span(n + 1) for n in range(form.groups)]
+                held: list[list[str]] = [[] for _ in (*spans, "the text")]
+                for place, number in zip(places, numbers, strict=True):
+                    held[next((n for n, (a, b) in enumerate(spans) if a <= place < b), -1)].append(number)
+                names = [self(_filled(key[a:b], own, [])) for (a, b), own in zip(spans, held, strict=False)]
+                return _filled(pattern, [*map(self.number, held[-1])], names)
+        return None
+
+    @cached_property
+    def _forms(self) -> list[tuple[re.Pattern[str], str]]:
+        """Texts with names as expressions, those with most letters of their own first."""
+        named = sorted((text for text in self.texts if "{}" in text), key=len, reverse=True)
+        return [
+            (re.compile(re.escape(text).replace(r"\{\}", _NAME), re.DOTALL), self.texts[text])
+            for text in named
+        ]
+
+    @cached_property
+    def _unit(self) -> re.Pattern[str]:
+        """A unit: parts of it with powers, between strokes and spaces."""
+        part = rf"(?:{'|'.join(sorted(map(re.escape, self.units), key=len, reverse=True))})[²³⁴]?"
+        return re.compile(rf"(?:1/)?{part}(?:[ /·]{part})*(?: per {part}(?:[ /·]{part})*)?(?![\w²³⁴/])")
+
+    @cached_property
+    def _number(self) -> re.Pattern[str]:
+        return re.compile(rf"{_DIGITS}(?: ?°| ?%| {self._unit.pattern})?")
+
+    def number(self, text: str) -> str:
+        """A number with its unit."""
+        match = re.match(_DIGITS, text)
+        end = match.end() if match else 0
+        return text[:end].replace(".", self.decimal) + self.unit(text[end:])
+
+    def unit(self, text: str) -> str:
+        """A unit, whatever stands before it."""
+        written = re.sub(r"[A-Za-z]+", lambda part: self.units.get(part[0], part[0]), text.lstrip())
+        joined = re.sub(r"(?<=\w|[²³⁴]) (?=\w)(?!на )(?<!на )", "·", written)
+        return " " * (len(text) - len(text.lstrip())) + joined
+
+    def label(self, text: str) -> str:
+        """A label of an axis or the head of a column: words, and a unit in brackets at the end."""
+        match = re.fullmatch(r"(.*?)\s*\[([^\[\]]+)\]", text, re.DOTALL)
+        if match is None or self.code == "en":
+            return self(text)
+        return f"{self(match[1])} [{self.unit(match[2])}]"
+
+
+def _filled(pattern: str, numbers: list[str], names: list[str]) -> str:
+    """A translation with its numbers and names in place."""
+    counted: dict[str, Iterator[str]] = {"#": iter(numbers), "{": iter(names)}
+
+    def filling(place: re.Match[str]) -> str:
+        values, which = (numbers, place[1]) if place[0][0] == "#" else (names, place[2])
+        return values[int(which) - 1] if which else next(counted[place[0][0]], place[0])
+
+    return _PLACE.sub(filling, pattern)
+
+
+ENGLISH = Language()
+
+
+@cache
+def language(code: str, where: str = "--lang") -> Language:
+    """A language by its code; an `InputError` if there is no catalogue for it."""
+    if code == "en":
+        return ENGLISH
+    known = {path.stem.removeprefix("texts_"): path for path in Path(__file__).parent.glob("texts_*.toml")}
+    if code not in known:
+        raise InputError(f'{where}: found "{code}", expected one of {", ".join(sorted(["en", *known]))}')
+    tables = tomllib.loads(known[code].read_text(encoding="utf-8"))
+    return Language(code, tables["texts"], tables["units"], tables["decimal"])
+
+
+def in_language(content: Content, to: Language) -> Content:
+    """A content in a language; its figures are changed in place, and names of the machine's parts stay."""
+    if to.code == "en":
+        return content
+    names = {part.name for _, parts in content.groups for part in parts}
+    texts = {text: words for text, words in to.texts.items() if text not in names}
+    changed: Content = _changed(content, replace(to, texts=texts))
+    return replace(changed, language=to)
+
+
+def _changed(value: Any, to: Language) -> Any:
+    from linkwright.kernel.figure.in_language import Figure, translated_figure
+
+    if isinstance(value, str):
+        return to.label(value)
+    if isinstance(value, Figure):
+        return translated_figure(value, to)
+    if is_dataclass(value) and not isinstance(value, type):
+        entries = {one.name: getattr(value, one.name) for one in fields(value) if one.init}
+        return replace(value, **{name: _entry(name, entry, to) for name, entry in entries.items()})
+    if hasattr(value, "_fields"):
+        return type(value)(*(_entry(name, getattr(value, name), to) for name in value._fields))
+    if isinstance(value, (list, tuple)):
+        return type(value)(_changed(one, to) for one in value)
+    if callable(value):
+        return _drawn(value, to)
+    return value
+
+
+def _entry(name: str, entry: Any, to: Language) -> Any:
+    if name == "unit":
+        return to.unit(entry)
+    return entry if name in _KEPT else _changed(entry, to)
+
+
+def _drawn(draw: Callable[[], Any], to: Language) -> Callable[[], Any]:
+    """What draws, with its figure in a language."""
+    return lambda: _changed(draw(), to)

@@ -1,0 +1,120 @@
+"""Reports in Ukrainian: no words of the product stay English; numbers and names are what they were."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+
+import pytest
+
+from linkwright.app.commands.report import _content
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.page.html import html
+from linkwright.kernel.page.language import ENGLISH, Language, in_language, language
+
+UKRAINIAN = language("uk")
+
+# Two words of three letters and more: a sentence or a term, no symbol and no name.
+ENGLISH_WORDS = re.compile(r"\b[A-Za-z]{3,} [a-z]{3,}\b")
+
+FOLLOWER = "Штовхач піднімається на 5,5 мм; похідні — за кутом кулачка."
+
+
+@dataclass(frozen=True)
+class Watched(Language):
+    """A language that keeps what it left as it was."""
+
+    left: list[str] = field(default_factory=list)
+
+    def __call__(self, text: str) -> str:
+        words = super().__call__(text)
+        if words == text:
+            self.left.append(text)
+        return words
+
+    def template(self, text: str) -> str:
+        words = super().template(text)
+        if words == text:
+            self.left.append(text)
+        return words
+
+
+@pytest.mark.parametrize(
+    ("english", "ukrainian"),
+    [
+        ("907.06 N m", "907,06 Н·м"),
+        ("−1.41·10⁻⁸ kg m²", "−1,41·10⁻⁸ кг·м²"),
+        ("75.522°", "75,522°"),
+        ("0.5 rad/s per N m", "0,5 рад/с на Н·м"),
+        ("mean load torque", "середній момент опору"),
+        ("velocity v [m/s]", "швидкість v [м/с]"),
+        ("pin, A1 on cart1.rod", "шарнір, A1 на cart1.rod"),
+        ("Press #3", "Press #3"),
+        ("The follower rises by 5.5 mm; derivatives are by the cam angle.", FOLLOWER),
+        ("≥ 4.85 1/m", "≥ 4,85 1/м"),
+        ("Motion of cart 2.5 and cart 3.5", "Рух cart 2.5 і cart 3.5"),
+        ("2.5-axle at most 3.5 N", "2.5-axle — не більше 3,5 Н"),
+        ("something nobody wrote", "something nobody wrote"),
+    ],
+)
+def test_texts(english: str, ukrainian: str) -> None:
+    assert UKRAINIAN.label(english) == ukrainian
+    assert ENGLISH.label(english) == english
+
+
+def test_every_translation_has_the_places_of_its_text() -> None:
+    for english, ukrainian in UKRAINIAN.texts.items():
+        for sign in ("#", "{"):
+            assert english.count(sign) == ukrainian.count(sign), english
+
+
+def test_every_unit_of_a_text_is_part_of_its_number() -> None:
+    """Texts with a number in digits, or a unit behind a number, would never be found."""
+    for english in UKRAINIAN.texts:
+        key = UKRAINIAN._number.sub("#", english)
+        assert key == english or english == "1/min", english
+
+
+@pytest.mark.parametrize(
+    "words",
+    ["run roller_two_carts", "cam roller_cam", "run topper", "torsion v8_diesel", "run flywheel_four_stroke"],
+)
+def test_a_report_has_no_english_left(words: str) -> None:
+    content = _content(words.split(), "linkwright run machine.toml")
+    own = {content.title, content.lead, content.papers}
+    watched = Watched(UKRAINIAN.code, UKRAINIAN.texts, UKRAINIAN.units, UKRAINIAN.decimal)
+    page = html(in_language(content, watched))
+    left = {text for text in watched.left if ENGLISH_WORDS.search(text) and text not in own}
+    assert not [text for text in left if not any(text in one for one in own)]
+    assert '<html lang="uk">' in page
+    assert "Застереження" in page or "Результати" in page
+
+
+def test_numbers_are_the_same() -> None:
+    words = ["run", "roller_two_carts"]
+    english, ukrainian = (_numbers(in_language(_content(words, ""), language(code))) for code in ("en", "uk"))
+    assert len(english) > 100
+    assert ukrainian == [number.replace(".", ",") for number in english]
+
+
+def _numbers(content: object) -> list[str]:
+    """Numbers in the cells of all tables."""
+    cells = (
+        cell for part in content.parts for table in part.tables for row in table.rows for cell in row[2:]
+    )
+    return [number for cell in cells for number in re.findall(r"−?\d+(?:[.,]\d+)?", cell)]
+
+
+def test_names_of_the_machine_stay() -> None:
+    content = _content(["run", "roller_two_carts", "--set", "name=load"], "")
+    named = content.groups[-1][1][0]._replace(name="load")
+    changed = in_language(
+        content.__class__(title="load", groups=[("Bodies", [named])], warnings=["load", "speed"]), UKRAINIAN
+    )
+    assert changed.warnings == ["load", "швидкість"]
+    assert changed.groups[0][0] == "Тіла"
+
+
+def test_an_unknown_language_is_refused() -> None:
+    with pytest.raises(InputError, match='--lang: found "xx", expected one of en, uk'):
+        language("xx")
