@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 from matplotlib.ticker import Formatter
 
 if TYPE_CHECKING:
-    from matplotlib.axis import Axis
-
     from linkwright.kernel.page.language import Language
 
 
@@ -34,12 +31,12 @@ class _Marks(Formatter):
     def __init__(self, inner: Formatter, to: Language) -> None:
         self.inner, self.to = inner, to
 
-    def set_axis(self, axis: Axis | None) -> None:
+    def set_axis(self, axis: Any) -> None:
         """Let the other one see the axis."""
         super().set_axis(axis)
         self.inner.set_axis(axis)
 
-    def set_locs(self, locs: Sequence[float]) -> None:
+    def set_locs(self, locs: list[float]) -> None:
         """The places of all marks."""
         self.inner.set_locs(locs)
 

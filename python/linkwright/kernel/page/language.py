@@ -180,7 +180,9 @@ def in_language(content: Content, to: Language) -> Content:
 
 
 def _changed(value: Any, to: Language) -> Any:
-    from linkwright.kernel.figure.in_language import Figure, translated_figure
+    from matplotlib.figure import Figure
+
+    from linkwright.kernel.figure.in_language import translated_figure
 
     if isinstance(value, str):
         return to.label(value)
