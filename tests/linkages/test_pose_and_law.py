@@ -296,3 +296,19 @@ def test_motion_within_limits() -> None:
 def test_period_of_gears() -> None:
     assert lw.period_turns(four_bar()) == 1
     assert lw.period_turns(lw.loads(ALL)) == 2
+
+
+def test_pose_near_the_pivot_of_a_slotted_lever() -> None:
+    """Rounding of the pin's place counts in accelerations as the cube of crank over distance."""
+    parts = "mechanism.points.P = { x = 0.2, y = 0 }\nmechanism.cranks.A.radius = 0.2\n"
+    lever = 'mechanism.slotted_levers.L = { pin = "A", pivot = "P", length = 0.5 }\n'
+    machine = lw.loads(f'format = 1\nname = "lever"\n{parts}{lever}')
+    # The lever bisects the angle to the crank: ψ = φ/2 + 90°.
+    for angle, near in ((1.0, ()), (0.02, ("L",)), (1e-3, ("L",))):
+        pose = lw.pose(machine, angle)
+        assert pose.near_limit == near
+        assert pose.links["L"].velocity == pytest.approx(0.5, abs=1e-7)
+        assert pose.links["L"].acceleration == pytest.approx(0.0, abs=1e-6)
+    for angle in (0.0, 1e-5, -1e-4, 2 * np.pi):
+        with pytest.raises(AssemblyError, match="its pin passes over its pivot"):
+            lw.pose(machine, angle)

@@ -254,3 +254,45 @@ points = 400
         k = float(coupling.slope(1500 * (each.speed / 100) ** 2))
         # Straight between speeds 0.2 rad/s apart.
         assert math.sqrt(k / REDUCED) / 2 == pytest.approx(each.speed, rel=1e-4)
+
+
+def test_good_speeds_between_two_peaks_are_not_barred() -> None:
+    """A chain of three discs at three speeds: between its peaks the stress falls far below the limit."""
+    text = """
+format = 1
+name = "Three discs"
+[train.discs]
+a.inertia = 2
+b.inertia = 3
+c.inertia = 4
+[train.shafts.s]
+between = ["a", "b"]
+stiffness = 1e4
+damping = 4
+limit = { diameter = 0.05, stress_permitted = "6 MPa", stress_transient = "1 GPa" }
+[train.shafts.t]
+between = ["b", "c"]
+stiffness = 1e4
+damping = 4
+[train.excitations.pulse]
+on = "a"
+harmonics = [{ order = 2, torque = 80 }]
+[train.run]
+speed_min = 10
+speed_max = 100
+points = 3
+speed_rated = 100
+"""
+
+    def stressed(speed: float) -> float:
+        s, omega = 1e4 + 8j * speed, 2.0 * speed
+        stiffness = np.array([[s, -s, 0], [-s, 2 * s, -s], [0, -s, s]])
+        angles = np.linalg.solve(stiffness - omega**2 * np.diag([2.0, 3.0, 4.0]), [M, 0, 0])
+        return float(abs(s * (angles[0] - angles[1])) / W)
+
+    found = barred_ranges(lw.loads(text))
+    speeds = np.linspace(10, 100, 4001)
+    barred = np.any([(speeds >= one.speed_min) & (speeds <= one.speed_max) for one in found], axis=0)
+    too_much = np.array([stressed(speed) > 6e6 for speed in speeds])
+    assert len(found) == 2
+    np.testing.assert_array_equal(barred, too_much)

@@ -57,6 +57,10 @@ _ANGLES = 1440
 _BESIDE = 1e-5
 _JUMP = 1e-3
 
+# So near to where its pin passes over its pivot [rad] a slotted lever has no sound motion: rounding of the
+# pin's place, 1e-16 of the crank, makes 1e-16 over the cube of this of ψ″, a millionth.
+_OVER_PIVOT = 5e-4
+
 # Difference of inertia or load on the crank from one revolution to the next, over its size, that counts as
 # rounding.
 _SAME = 1e-7
@@ -432,7 +436,7 @@ def _meets_change_point(closed: Closure, angles: Floats) -> bool:
     if closed.change_point is None or closed.turns is None:
         return False
     turns = (angles - closed.change_point) / (2 * np.pi * closed.turns)
-    near = np.abs(turns - np.round(turns)) * 2 * np.pi * closed.turns < _BESIDE
+    near = np.abs(turns - np.round(turns)) * 2 * np.pi * closed.turns < _OVER_PIVOT
     return bool(near.any() or np.ptp(np.floor(turns)) > 0)
 
 

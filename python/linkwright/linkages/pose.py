@@ -9,20 +9,27 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record
 from linkwright.kernel.units import ANGLE, ANGULAR_ACCELERATION, SPEED, Quantity
-from linkwright.linkages.closure import require_closed
+from linkwright.linkages.closure import has_levers, require_closed, turn_angles
 from linkwright.linkages.dyads import dyads_of, evaluate, transmission, transmission_channels
 from linkwright.linkages.kinematics import everything, kinematics_of
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import compile_machine
+from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 
-# A dyad whose links are nearer than this to one line, as the sine of the angle between them, is near a limit.
+Floats = NDArray[np.float64]
+
+# A dyad whose links are nearer than this to one line, as the sine of the angle between them, is near a limit;
+# so is a slotted lever whose pin is nearer to its pivot than this share of what it reaches.
 _NEAR = 0.1
+
+# Angles at which the reach of a slotted lever is looked for.
+_LOOKS = 180
 
 
 @dataclass(frozen=True)
@@ -54,7 +61,10 @@ class Pose(Record):
     links: Annotated[dict[str, PoseCoordinate], About("Links by name, directions from −π to π [rad].")]
     slides: Annotated[dict[str, PoseCoordinate], About("Slides by name [m].")]
     transmission_angles: Annotated[dict[str, float], About("μ of each dyad [rad].")]
-    near_limit: Annotated[tuple[str, ...], About("Dyads whose links are within some 6° of one line.")]
+    near_limit: Annotated[
+        tuple[str, ...],
+        About("Dyads whose links are within some 6° of one line, levers with the pin near the pivot."),
+    ]
 
     def to_dict(self) -> dict[str, Any]:
         """Everything by name, ready for JSON. Returns: SI numbers; x and y as lists."""
@@ -106,7 +116,7 @@ def pose(machine: Machine, crank_angle: float, *, speed: float = 1.0, accelerati
     require_closed(compiled, machine, at)
     kinematics = kinematics_of(compiled, at, everything(compiled))
     rates = (speed, acceleration)
-    mu = {}
+    mu, short = {}, _short_levers(compiled, at)
     for dyad in dyads_of(compiled):
         if dyad.kind != "group":
             channels = transmission_channels(compiled, dyad)
@@ -121,8 +131,18 @@ def pose(machine: Machine, crank_angle: float, *, speed: float = 1.0, accelerati
             name: _coordinate(slide.position, slide, *rates) for name, slide in kinematics.slides.items()
         },
         transmission_angles=mu,
-        near_limit=tuple(name for name, angle in mu.items() if np.sin(angle) < _NEAR),
+        near_limit=tuple(name for name, angle in mu.items() if np.sin(angle) < _NEAR or name in short),
     )
+
+
+def _short_levers(compiled: CompiledMachine, at: Floats) -> set[str]:
+    """Slotted levers whose pin is near their pivot at an angle."""
+    if not has_levers(compiled):
+        return set()
+    reach = np.nanmax(compiled.gaps(turn_angles(_LOOKS)), axis=1)
+    share = np.sqrt(np.abs(compiled.gaps(at)[:, 0]) / reach)
+    levers = {dyad.name for dyad in dyads_of(compiled) if dyad.kind == "RPR"}
+    return {name for name, near in zip(compiled.dyads, share < _NEAR, strict=True) if near and name in levers}
 
 
 def _point(motion: Any, speed: float, acceleration: float) -> PosePoint:

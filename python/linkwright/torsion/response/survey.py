@@ -7,6 +7,7 @@ of the speed itself.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -140,7 +141,26 @@ class Survey:
             [(n, speeds[max(k - 1, 0)], speeds[min(k + 1, len(speeds) - 1)]) for n, k in places],
             [(speeds[k], limits[n].ratio[k]) for n, k in places],
         )
-        return self._joined(speeds, limits, np.setdiff1d(peaks, speeds))
+        speeds, limits = self._joined(speeds, limits, np.setdiff1d(peaks, speeds))
+        return self._joined(speeds, limits, np.setdiff1d(self._valleys(speeds, limits, peaks), speeds))
+
+    def _valleys(self, speeds: Floats, limits: list[Criterion], peaks: list[float]) -> list[float]:
+        """Speeds of the lowest values between resonances and peaks, where a limit is exceeded all along."""
+        tops = np.unique(np.concatenate([self._resonances_between, peaks]))
+        places = np.searchsorted(speeds, tops[(tops >= speeds[0]) & (tops <= speeds[-1])])
+        spans = [(low, high) for low, high in itertools.pairwise(places.tolist()) if low < high]
+        high = [
+            (n, *span) for n, limit in enumerate(limits) for span in spans if _is_above(limit.ratio, *span)
+        ]
+        least = [low + int(np.argmin(limits[n].ratio[low : up + 1])) for n, low, up in high]
+        return peaks_between(
+            lambda at: -self._ratios(at),
+            [
+                (n, speeds[max(k - 1, low)], speeds[min(k + 1, up)])
+                for (n, low, up), k in zip(high, least, strict=True)
+            ],
+            [(speeds[k], -limits[n].ratio[k]) for (n, _, _), k in zip(high, least, strict=True)],
+        )
 
     def _joined(
         self, speeds: Floats, limits: list[Criterion], added: Floats
@@ -220,6 +240,11 @@ def _highest(ratio: Floats) -> list[int]:
     inside = np.concatenate([[False], (ratio[1:-1] >= ratio[:-2]) & (ratio[1:-1] >= ratio[2:]), [False]])
     near = np.flatnonzero(inside & (ratio > _NEAR)).tolist()
     return sorted({int(np.argmax(ratio)), *near}) if ratio.max(initial=0.0) > 0 else []
+
+
+def _is_above(ratio: Floats, low: int, high: int) -> bool:
+    """Whether a limit is exceeded at all places of a span."""
+    return bool((ratio[low : high + 1] > 1).all())
 
 
 def survey(
