@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from html import escape
 from io import BytesIO, StringIO
 from typing import TYPE_CHECKING, Any
@@ -37,10 +37,12 @@ DPI = 150
 @styled
 def svg(figure: Figure, *, transparent: bool = False) -> str:
     """The ``<svg>`` element of a figure alone, letters as outlines; the same text in every run."""
+    from matplotlib.backends.backend_svg import FigureCanvasSVG
+
     text = StringIO()
+    _place(figure, FigureCanvasSVG)
     # A date would make each run's file another one.
     figure.savefig(text, format="svg", transparent=transparent, metadata={"Date": None})
-    _fix_layout(figure)
     element = re.search(r"<svg.*</svg>", text.getvalue(), re.DOTALL)
     assert element is not None
     return re.sub(r"\s*<metadata>.*?</metadata>", "", element[0], flags=re.DOTALL)
@@ -49,16 +51,25 @@ def svg(figure: Figure, *, transparent: bool = False) -> str:
 @styled
 def png(figure: Figure) -> bytes:
     """A figure as a PNG file, at `DPI` dots an inch."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
     data = BytesIO()
+    figure.set_dpi(DPI)
+    _place(figure, FigureCanvasAgg)
     figure.savefig(data, format="png", dpi=DPI)
-    _fix_layout(figure)
     return data.getvalue()
 
 
-def _fix_layout(figure: Figure) -> None:
-    """Let the axes of a figure stay where drawing has put them: placing them is a third of the time."""
-    if figure.get_layout_engine() is not None:
-        figure.set_layout_engine("none")
+def _place(figure: Figure, canvas: Callable[[Figure], object]) -> None:
+    """Place the axes of a figure, once, as the letters of a canvas need it.
+
+    A figure that still has a layout engine is gone through twice whenever it is written.
+    """
+    engine = figure.get_layout_engine()
+    if engine is not None:
+        canvas(figure)
+        engine.execute(figure)
+        figure.set_layout_engine(None)
 
 
 # Colours of the figures → variables of the page, which differ between light and dark.
