@@ -8,6 +8,7 @@ time.
 | `application` | All commands, one a file |
 | `commands/` | Commands that are of no single subject |
 | `curves` | Curves of a study by name: those of all its results, and of its motion over the cycle |
+| `lean_start` | What a process that runs one command leaves out when it starts |
 | `quantities` | What quantities there are: of a result, and of a whole study |
 | `report/` | The report of a study: page, tables, figures, moving sketch, assumptions |
 | `soundness` | What a machine can be seen to be unable to do without solving for its motion |
@@ -17,12 +18,11 @@ time.
 from __future__ import annotations
 
 import gc
-import os
 import sys
 from io import TextIOWrapper
-from types import ModuleType
 from typing import TYPE_CHECKING
 
+from linkwright.app.lean_start import import_schemas, leave_out, share_methods
 from linkwright.kernel.command.interrupt import Interrupts
 
 if TYPE_CHECKING:
@@ -36,29 +36,19 @@ def application() -> Commands:
     return application()
 
 
-def _without_plugins() -> ModuleType:
-    """In place of the module of pydantic that looks for plugins: there are none."""
-    module = ModuleType("pydantic.plugin._loader")
-    module.get_plugins = tuple  # type: ignore[attr-defined]
-    return module
-
-
 def main() -> None:
     """Run the command line, for the console script."""
     with Interrupts() as interrupts:
-        # Looking for plugins of pydantic among all installed packages costs more than reading a machine file.
-        # The module that would look for them imports what reads metadata of packages, and mails.
-        os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
-        # Threads of linear algebra start with NumPy and wait busily. The matrices of a machine are small,
-        # and what is large has threads of its own in the core.
-        os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-        sys.modules.setdefault("pydantic.plugin._loader", _without_plugins())
+        leave_out()
+        share_methods()
         # Names may hold letters that the terminal has not; they are no reason to fail.
         if isinstance(sys.stdout, TextIOWrapper):
             sys.stdout.reconfigure(errors="backslashreplace")
         # A start makes some 100 000 objects that all stay; looking among them for rubbish takes time.
         gc.set_threshold(200_000)
         commands = application()
+        if not {"--help", "-h", "--version"} & set(sys.argv) and sys.argv[1:]:
+            import_schemas()
         # The command that is asked for is imported while an interrupt still ends the program on the spot.
         commands.get_command(None, *sys.argv[1:2] or [""])
         interrupts.raise_from_now_on()
