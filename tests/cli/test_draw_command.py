@@ -70,3 +70,30 @@ def test_what_cannot_be_drawn_is_told(
     result = called(CARTS, *words)
     assert (result.exit_code, said in result.output) == (code, True), result.output
     assert not list(tmp_path.iterdir())
+
+
+def test_a_pose_is_that_of_the_angle_given(tmp_path: Path) -> None:
+    """Of a screw, whose motion never repeats, and of one that repeats after six revolutions."""
+    place = tmp_path / "pose.dxf"
+    for machine, angle, name in (("scissor_lift", "49680 deg", "post"), ("gears_and_guides", "450 deg", "Q")):
+        file = f"examples/{machine}/machine.toml"
+        done = called(file, "--at", angle, "--out", str(place), "--force")
+        assert done.exit_code == 0, done.output
+        drawn = ezdxf.readfile(place).modelspace()  # type: ignore[attr-defined]
+        found = {tuple(np.round(point.dxf.location, 6)[:2] + 0.0) for point in drawn.query("POINT")}
+        # In millimetres, to what a turn of many revolutions leaves of its digits.
+        pose = lw.pose(lw.read(file), np.radians(float(angle.split()[0])))
+        assert tuple(np.round(1e3 * np.array(pose.points[name].position), 6) + 0.0) in found
+
+
+@pytest.mark.parametrize(
+    ("machine", "angle", "code", "words"),
+    [
+        ("examples/scissor_lift/machine.toml", "-5000 deg", 1, "closes only at crank angles"),
+        ("machines/topper.toml", "0 deg", 2, "has no mechanism"),
+    ],
+)
+def test_what_cannot_be_drawn(machine: str, angle: str, code: int, words: str) -> None:
+    done = called(machine, "--at", angle)
+    assert done.exit_code == code
+    assert words in done.stderr

@@ -14,6 +14,8 @@ from click.testing import CliRunner
 from linkwright.app.application import application
 from linkwright.kernel.errors import MachineFileError
 from linkwright.kernel.page.table import csv_text
+from linkwright.kinetostatics.figures import hodograph_figure
+from linkwright.kinetostatics.forces import forces
 from linkwright.machine.read import loads
 
 # What each would do where it is taken for more than a name.
@@ -261,3 +263,12 @@ def test_an_empty_out_is_refused(
     assert "--out" in output
     assert "expected a path" in output
     assert list(tmp_path.iterdir()) == []
+
+
+def test_every_reaction_of_a_hodograph_is_in_the_legend() -> None:
+    """Matplotlib leaves out of a legend what begins with an underscore."""
+    machine = loads(slider_crank(["_a", "_b", "_c", "_d", "_e", "_f"]))
+    axes = hodograph_figure(forces(machine, speed=1.0)).axes[0]
+    labels = axes.get_legend_handles_labels()[1]
+    assert " _b" in labels
+    assert len(labels) == sum(line.get_linestyle() == "-" for line in axes.lines)

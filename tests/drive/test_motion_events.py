@@ -10,7 +10,7 @@ import pytest
 
 import linkwright as lw
 from linkwright.drive.motion_events import course
-from linkwright.kernel.errors import InputError
+from linkwright.kernel.errors import AssemblyError, InputError
 from linkwright.machine.program.compiled import compile_machine
 
 ROOT = Path(__file__).parents[2]
@@ -136,3 +136,24 @@ def test_a_dead_centre_that_is_not_told_apart(where: str, words: str) -> None:
 def test_what_moves_level_has_no_top() -> None:
     with pytest.raises(InputError, match="as high at both"):
         lw.zero_angle(lw.read(ROOT / "machines" / "roller_two_carts.toml"), "cart1 top")
+
+
+def test_a_dead_centre_keeps_its_revolution() -> None:
+    """The nut of a scissor lift passes below its top after 137.5 revolutions; where its screw ends, the
+    platform does not rest.
+    """
+    lift = lw.read(ROOT / "examples" / "scissor_lift" / "machine.toml")
+    top = lw.zero_angle(lift, "top")
+    # The screw moves the nut by 4 mm a revolution, from 550 mm.
+    assert top.angle == pytest.approx(2 * np.pi * 550 / 4, abs=1e-6)
+    assert lw.pose(lift, top.angle).slides["post"].velocity == pytest.approx(0.0, abs=1e-9)
+    with pytest.raises(InputError, match="a limit of its rotation"):
+        lw.zero_angle(lift, "bottom")
+
+
+def test_rates_without_limit_are_told() -> None:
+    lift = lw.read(ROOT / "examples" / "scissor_lift" / "machine.toml")
+    end = lw.closure(lift).ranges[0][0]
+    for ask in (lw.pose, lambda machine, at: lw.kinematics(machine, [0.0, at])):
+        with pytest.raises(AssemblyError, match=r"grow without limit|closes only"):
+            ask(lift, float(np.nextafter(end, np.inf)))

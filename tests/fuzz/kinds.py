@@ -10,6 +10,7 @@ import drive_laws
 import numpy as np
 import plans
 import random_parts
+import studies
 import texts
 from numpy.random import Generator
 
@@ -45,6 +46,9 @@ KINDS: dict[str, Kind] = {
     "cam": Kind(random_parts.cam, 60, 2),
     "drive": Kind(drive_laws.drive, 15, 8),
     "batch": Kind(drive_laws.batch, 40, 4),
+    "study": Kind(studies.study, 40, 6),
+    "record": Kind(studies.record, 20, 3),
+    "options": Kind(studies.options, 60, 6),
     "topper": Kind(random_parts.topper, 2, 1),
 }
 

@@ -22,7 +22,6 @@ import sys
 from io import TextIOWrapper
 from typing import TYPE_CHECKING
 
-from linkwright.app.lean_start import import_schemas, leave_out, share_methods
 from linkwright.kernel.command.interrupt import Interrupts
 
 if TYPE_CHECKING:
@@ -39,6 +38,8 @@ def application() -> Commands:
 def main() -> None:
     """Run the command line, for the console script."""
     with Interrupts() as interrupts:
+        from linkwright.app.lean_start import import_schemas, leave_out, share_methods
+
         leave_out()
         share_methods()
         # Names may hold letters that the terminal has not; they are no reason to fail.

@@ -124,8 +124,8 @@ GROUPS = {
         "Compute many variants of a machine.",
         """Compute the rows of a study into a folder, with FILE; or one of the commands below.
 
-        An interrupted run resumes with the same command. Failed rows keep their reason. Exit code 1 if no row
-        none has an answer.
+        An interrupted run resumes with the same command. Failed rows keep their reason. Exit code 1 if no
+        row has an answer.
         """,
         {"show": Place("Extremes, failed rows and figures of a sweep.", "studies.commands.sweep:show")},
         "studies.commands.sweep:sweep",

@@ -119,9 +119,8 @@ def _name(asked: str, known: dict[str, Curve]) -> str:
     if fitting:
         raise InputError(f'"{asked}" may be {", ".join(fitting[:6])}: give more of its name')
     listed = suggestion(asked, list(known)) if known else "the study of this machine has none"
-    raise InputError(
-        f'found no curve "{asked}": {listed}; `linkwright plot FILE` without a quantity lists them all'
-    )
+    remedy = "`linkwright plot FILE` without a quantity lists them all"
+    raise InputError(f'found no curve "{asked}"; ' + "; ".join(part for part in (listed, remedy) if part))
 
 
 def _fits(parts: Sequence[str], name: Sequence[str]) -> bool:

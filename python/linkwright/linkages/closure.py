@@ -426,6 +426,31 @@ def require_closed(compiled: CompiledMachine, machine: Machine, angles: Floats) 
     raise AssemblyError(text, element=closed.element, crank_angle=at)
 
 
+def require_finite_rates(table: Floats, compiled: CompiledMachine, machine: Machine, angles: Floats) -> None:
+    """Raise an `AssemblyError` at the very end of a range, where the rates in a table grow without limit."""
+    at = np.flatnonzero(np.isinf(table).any(axis=tuple(range(table.ndim - 1))))
+    if at.size:
+        angle = float(angles[at[0]])
+        closed = closure_of(compiled)
+        why = "" if closed.turns_fully else f": {_sentence(closed, machine)}"
+        text = f"at crank angle {_deg(angle)} velocities grow without limit{why}"
+        raise AssemblyError(text, element=closed.element, crank_angle=angle)
+
+
+def in_cycle(closed: Closure, angle: float) -> float:
+    """The crank angle within the cycle, or within a range, at which the mechanism stands as at `angle` [rad];
+    the same angle where there is none.
+    """
+    if closed.turns is None:
+        return angle
+    period = 2 * np.pi * closed.turns
+    if closed.turns_fully:
+        return float(angle % period)
+    shifted = (low + (angle - low) % period for low, _ in closed.ranges)
+    within = (at for at, (_, high) in zip(shifted, closed.ranges, strict=True) if at <= high)
+    return float(next(within, angle))
+
+
 def has_levers(compiled: CompiledMachine) -> bool:
     """Whether there is a dyad that is not carried on through a change point: levers turn about there."""
     return any(isinstance(element, Element.SlottedLever) for element in compiled.elements)

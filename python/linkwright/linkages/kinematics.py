@@ -16,7 +16,7 @@ from linkwright.kernel.public.arguments import array, shown
 from linkwright.kernel.public.immutable import LazyTable
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record
-from linkwright.linkages.closure import has_levers, require_closed
+from linkwright.linkages.closure import has_levers, require_closed, require_finite_rates
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import Channel
@@ -106,8 +106,11 @@ def kinematics(machine: Machine, angles: ArrayLike | None = None, *, third: bool
     phi = np.linspace(0, 2 * np.pi, 361) if angles is None else checked_angles(angles)
     what = everything(compiled)
     out = motion_arrays(compiled, phi, what)
-    if np.isnan(out).any() or has_levers(compiled):
+    is_finite = bool(np.isfinite(out).all())
+    if not is_finite or has_levers(compiled):
         require_closed(compiled, machine, phi)
+    if not is_finite:
+        require_finite_rates(out, compiled, machine, phi)
     single = compiled.n_rows == 1 and not len(compiled.slots)
     collect = _collect(phi, out[0] if single else out, what)
     return with_third(compiled, collect, what) if third else collect

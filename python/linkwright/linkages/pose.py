@@ -16,9 +16,9 @@ from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record
 from linkwright.kernel.units import ANGLE, ANGULAR_ACCELERATION, SPEED, Quantity
-from linkwright.linkages.closure import has_levers, require_closed, turn_angles
+from linkwright.linkages.closure import has_levers, require_closed, require_finite_rates, turn_angles
 from linkwright.linkages.dyads import dyads_of, evaluate, transmission, transmission_channels
-from linkwright.linkages.kinematics import everything, kinematics_of
+from linkwright.linkages.kinematics import everything, kinematics_of, motion_arrays
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 
@@ -114,7 +114,9 @@ def pose(machine: Machine, crank_angle: float, *, speed: float = 1.0, accelerati
     compiled = compile_machine(machine).first()
     at = np.array([crank_angle], dtype=np.float64)
     require_closed(compiled, machine, at)
-    kinematics = kinematics_of(compiled, at, everything(compiled))
+    what = everything(compiled)
+    require_finite_rates(motion_arrays(compiled, at, what), compiled, machine, at)
+    kinematics = kinematics_of(compiled, at, what)
     rates = (speed, acceleration)
     mu, short = {}, _short_levers(compiled, at)
     for dyad in dyads_of(compiled):

@@ -12,9 +12,14 @@ import numpy as np
 
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.public import public
-from linkwright.linkages.cycle import ElementMotion, linkage
-from linkwright.linkages.pose import pose
+from linkwright.linkages.closure import Closure, in_cycle
+from linkwright.linkages.cycle import ElementMotion, Linkage, linkage
+from linkwright.linkages.kinematics import kinematics_of
 from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import compile_machine
+
+# An extreme this near to the end of a range is that end [rad]: rounding of the search for both.
+_LIMIT = 1e-6
 
 ENDS = ("outer", "inner", "top", "bottom")
 
@@ -25,7 +30,7 @@ class Zero(NamedTuple):
     Attributes
     ----------
     angle : float
-        Within one revolution [rad].
+        Within one period of the mechanism, if it repeats [rad].
     words : str
         Such as ``"inner dead centre of ram"``; empty where angles are those of the file.
     """
@@ -55,18 +60,30 @@ def zero_angle(machine: Machine, where: str) -> Zero:
     ------
     InputError
         It is none of these, no such output moves back and forth, or there are several and none is named; the
-        top of what does not move up or down.
+        top of what does not move up or down; an end of the travel where the crank is at a limit.
     AssemblyError
         The mechanism closes nowhere.
     """
     name, end = _parts(where)
-    output = _output(machine, name)
+    cycle = linkage(machine)
+    output = _output(cycle, name)
     if end in ("top", "bottom"):
         end, said = _end_at(machine, output, end), end
     else:
         said = end
-    angle = output.high_angle if end == "outer" else output.low_angle
-    return Zero(float(angle % (2 * np.pi)), f"{said} dead centre of {output.output}")
+    angle = float(output.high_angle if end == "outer" else output.low_angle)
+    _require_dead_centre(cycle.closure, angle, f"the {said} end of {output.output}")
+    return Zero(in_cycle(cycle.closure, angle), f"{said} dead centre of {output.output}")
+
+
+def _require_dead_centre(closed: Closure, angle: float, what: str) -> None:
+    """Refuse an end of the travel where the mechanism closes no farther: its output does not rest there."""
+    limits = () if closed.turns_fully else closed.ranges
+    if any(abs(angle - limit) <= _LIMIT for limits_of_range in limits for limit in limits_of_range):
+        raise InputError(
+            f"zero: at {what} the crank is at a limit of its rotation ({np.degrees(angle):.6g}°), no dead "
+            "centre; name the other end"
+        )
 
 
 def _parts(where: str) -> tuple[str, str]:
@@ -78,9 +95,9 @@ def _parts(where: str) -> tuple[str, str]:
     return name.strip(), end
 
 
-def _output(machine: Machine, name: str) -> ElementMotion:
+def _output(cycle: Linkage, name: str) -> ElementMotion:
     """The output that is named, or the only one."""
-    outputs = [element for element in linkage(machine).elements if element.turns is None]
+    outputs = [element for element in cycle.elements if element.turns is None]
     names = list(dict.fromkeys(output.output for output in outputs))
     if not names:
         raise InputError(
@@ -98,16 +115,13 @@ def _output(machine: Machine, name: str) -> ElementMotion:
 
 def _end_at(machine: Machine, output: ElementMotion, end: str) -> str:
     """Which end is the higher or the lower one."""
-    heights = []
-    for angle in (output.low_angle, output.high_angle):
-        points = pose(machine, float(angle)).points
-        place = points.get(output.output) or points.get(output.element)
-        if place is None:
-            raise InputError(
-                f"zero: {output.output} has no point whose height tells its {end}; use outer, inner"
-            )
-        heights.append(float(place.position[1]))
-    low, high = heights
+    compiled = compile_machine(machine).first()
+    name = next((name for name in (output.output, output.element) if name in compiled.points), None)
+    if name is None:
+        raise InputError(f"zero: {output.output} has no point whose height tells its {end}; use outer, inner")
+    # At a limit of the crank the mechanism has a position, but no velocity.
+    ends = np.array([output.low_angle, output.high_angle])
+    low, high = kinematics_of(compiled, ends, [("points", name)]).points[name].position[:, 1]
     travel = output.high - output.low
     if abs(high - low) <= 1e-6 * travel:
         raise InputError(f"zero: {output.output} is as high at both dead centres; use outer or inner")

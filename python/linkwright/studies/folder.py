@@ -22,6 +22,7 @@ from typing import Any
 from linkwright import __version__
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.files.output import unwritable, write_file
+from linkwright.kernel.files.text_file import TextError, require_no_pipe
 from linkwright.machine.read import loads
 from linkwright.machine.write import dumps
 from linkwright.studies.engine import Rows
@@ -147,11 +148,12 @@ def opened(path: Path) -> SweepFolder:
     require_pyarrow()
     place = path / MANIFEST
     try:
+        require_no_pipe(place)
         manifest = json.loads(place.read_text(encoding="utf-8"))
         return SweepFolder(path, {**manifest, "rows": int(manifest["rows"]), "hash": manifest["hash"]})
     except FileNotFoundError:
         raise InputError(f"{path}: found no {MANIFEST}, expected the folder of a sweep") from None
-    except (ValueError, KeyError, TypeError):
+    except (ValueError, KeyError, TypeError, RecursionError, TextError):
         raise InputError(
             f"{place}: found no description of a sweep; remove the folder or name another"
         ) from None

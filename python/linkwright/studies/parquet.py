@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.errors import InputError
+from linkwright.kernel.files.text_file import TextError, require_no_pipe
 from linkwright.studies.engine import Rows
 
 if TYPE_CHECKING:
@@ -62,6 +63,8 @@ def is_whole(path: Path, n_rows: int, about: bytes) -> bool:
     import pyarrow as pa
     import pyarrow.parquet as pq
 
+    if not path.is_file():
+        return False
     try:
         with pq.ParquetFile(path) as file:
             metadata = file.schema_arrow.metadata or {}
@@ -96,7 +99,10 @@ def parquet_columns(path: Path, names: Sequence[str]) -> dict[str, Floats]:
     import pyarrow.parquet as pq
 
     try:
+        require_no_pipe(path)
         table = pq.read_table(path)
+    except TextError as error:
+        raise InputError(f"{path}: found {error.found}, expected a Parquet file; {error.remedy}") from None
     except (pa.ArrowException, OSError) as error:
         raise InputError(f"{path}: cannot be read as Parquet ({' '.join(str(error).split())})") from None
     missing = [name for name in names if name not in table.column_names]

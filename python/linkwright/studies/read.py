@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from linkwright.kernel.errors import InputError, MachineError, MachineFileError, Problem
 from linkwright.kernel.files.lines import located
-from linkwright.kernel.files.points import read_columns
+from linkwright.kernel.files.points import read_columns, require_below
 from linkwright.kernel.files.text_file import TextError, text_of
 from linkwright.kernel.limits import FILE_BYTES
 from linkwright.kernel.public import public
@@ -68,6 +68,8 @@ def read_study(
     text = _text(place)
     tables = tables_of(text, str(place))
     is_machine = isinstance(tables.get(TABLE), Mapping)
+    if "format" in tables and not is_machine:
+        raise MachineFileError([_no_study(place)])
     of_study, of_machine = _divided(parse_all(overrides))
     given = tables[TABLE] if is_machine else tables
     for change in of_study:
@@ -80,7 +82,7 @@ def read_study(
         described = read(source, options, allow_outside=allow_outside)
         # Results are those of the machine and of this study, whatever other study stands in its file.
         machine = described if described.study is None else described.with_entries({"study": None})
-        return plan(machine, study, _listed(place, machine, study))
+        return plan(machine, study, _listed(place, machine, study, allow_outside=allow_outside))
     except MachineFileError:
         raise
     except MachineError as error:
@@ -121,6 +123,15 @@ def _text(path: Path) -> str:
         raise MachineFileError([problem]) from None
 
 
+def _no_study(path: Path) -> Problem:
+    """A machine file where a study is expected."""
+    remedy = (
+        f'write the table [{TABLE}] into it, or a study into a file of its own with machine = "{path.name}"'
+    )
+    expected = f"a study file, or a machine file with a table [{TABLE}]"
+    return Problem(TABLE, "a machine file without that table", expected, remedy, str(path))
+
+
 def _divided(changes: Sequence[Override]) -> tuple[list[Override], list[Override]]:
     """Overrides of the study, without the name of its table, and those of the machine."""
     mark = f"{TABLE}."
@@ -142,11 +153,12 @@ def _machine_of(path: Path, study: StudyFile) -> Path:
     return beside if beside.exists() or Path(study.machine).suffix else Path(study.machine)
 
 
-def _listed(path: Path, machine: Machine, study: StudyFile) -> Floats | None:
+def _listed(path: Path, machine: Machine, study: StudyFile, *, allow_outside: bool) -> Floats | None:
     """Rows of a list in SI, (n, variables)."""
     if study.sweep.file is None:
         return None
     place = path.parent / study.sweep.file
+    require_below(place, path.parent, study.sweep.file, "sweep.file", allow_outside=allow_outside)
     names = list(study.variables)
     if place.suffix == ".parquet":
         columns = parquet_columns(place, names)

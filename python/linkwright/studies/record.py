@@ -75,8 +75,10 @@ class MeasuredRecord:
                 raise InputError(
                     f"record: {name}: found {np.shape(values)} values, expected as many finite ones as `at`"
                 )
-        if len(self.at) < 2 or not (np.diff(self.at) > 0).all():
-            place = int(np.argmax(np.diff(self.at) <= 0)) + 1 if len(self.at) > 1 else 0
+        if len(self.at) < 2:
+            raise InputError(f"record: found {len(self.at)} samples, expected two or more")
+        if not (np.diff(self.at) > 0).all():
+            place = int(np.argmax(np.diff(self.at) <= 0)) + 1
             raise InputError(f"record: sample {place}: its {self.over} does not come after the one before it")
 
     def unit(self, channel: str) -> str:

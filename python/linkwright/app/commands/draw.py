@@ -100,20 +100,26 @@ def _scene(machine: Machine, at: str | None) -> tuple[Scene, float]:
     from linkwright.app.report.scene import moving_scene
     from linkwright.drive.steady_state import steady_state
     from linkwright.kernel.units import ANGLE
+    from linkwright.linkages.closure import closure, in_cycle, require_full_turn
+    from linkwright.linkages.model.topology import DRIVERS
+    from linkwright.machine.program.compiled import compile_machine
 
-    angle = None if at is None else option_value("--at", at, ANGLE)
+    if not any(getattr(machine.linkage, table) for table in DRIVERS):
+        raise InputError("nothing to draw: the machine has no mechanism")
+    angle = None if at is None else in_cycle(closure(machine), option_value("--at", at, ANGLE))
     has_motor = machine.drive is not None and machine.drive.motor is not None
     try:
         steady = steady_state(machine) if has_motor else None
     except FindingError as error:
         click.echo(f"Drawn at constant speed: {printable(str(error))}", err=True)
         steady = None
-    scene = moving_scene(machine, steady, None if angle is None else float(np.mod(angle, 2 * np.pi)))
+    scene = moving_scene(machine, steady, angle)
     if scene is None:
-        raise InputError("nothing to draw: the mechanism does not close")
+        require_full_turn(compile_machine(machine), machine)
+        raise InputError("nothing to draw: the mechanism does not move")
     if angle is None:
         return scene, _EIGHTH
-    nearest = int(np.argmin(np.abs(scene["angles"] - np.mod(angle, 2 * np.pi))))
+    nearest = int(np.argmin(np.abs(scene["angles"] - angle)))
     return scene, nearest / (len(scene["angles"]) - 1)
 
 

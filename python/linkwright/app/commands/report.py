@@ -113,9 +113,7 @@ def _sections(text: str | None) -> list[str] | None:
     wanted = [section.strip() for section in text.split(",") if section.strip()]
     for name in wanted:
         if name not in SECTIONS:
-            raise InputError(
-                f'--sections: found "{name}", expected {", ".join(SECTIONS)}; {suggestion(name, SECTIONS)}'
-            )
+            raise InputError(f'--sections: found "{name}"; {suggestion(name, SECTIONS)}')
     return wanted
 
 
@@ -150,8 +148,11 @@ def _write(content: Content, places: list[Path], *, force: bool) -> None:
     from linkwright.kernel.page.html import html
     from linkwright.kernel.page.typeset import pdf
 
+    made: dict[Path, str | bytes] = {}
     for place in places:
         with progress(f"writing {place.name}"):
-            data = pdf(content) if place.suffix.lower() == ".pdf" else html(content)
+            made[place] = pdf(content) if place.suffix.lower() == ".pdf" else html(content)
+    # What cannot be made leaves no file behind, nor half of them.
+    for place, data in made.items():
         write_file(place, data, replace=force)
     say_written(places, quiet=False)

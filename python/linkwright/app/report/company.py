@@ -13,14 +13,14 @@ from linkwright.kernel.description.base import Description, Title
 from linkwright.kernel.description.problems import problems
 from linkwright.kernel.errors import InputError, MachineError, MachineFileError, Problem
 from linkwright.kernel.files.lines import located
-from linkwright.kernel.files.text_file import TextError, text_of
-from linkwright.kernel.limits import FILE_BYTES
+from linkwright.kernel.files.text_file import TextError, data_of, text_of
+from linkwright.kernel.limits import FILE_BYTES, LOGO_BYTES
 from linkwright.kernel.page.content import Heading
 from linkwright.kernel.public import public
 from linkwright.machine.read import tables_of
 
-# Kinds of pictures that a page and Typst both show, and how large a logo may be [byte].
-_KINDS, _LARGEST = ("svg", "png", "jpg", "jpeg"), 2_000_000
+# Kinds of pictures that a page and Typst both show.
+_KINDS = ("svg", "png", "jpg", "jpeg")
 
 
 def _as_text(value: object) -> object:
@@ -93,10 +93,7 @@ def _picture(path: Path) -> tuple[str, bytes]:
     if ending not in _KINDS:
         raise InputError(f"logo: found {path}, expected a picture that ends in {', '.join(_KINDS)}")
     try:
-        with path.open("rb") as file:
-            data = file.read(_LARGEST + 1)
-    except OSError as error:
-        raise InputError(f"logo: {path} cannot be read: {error.strerror or error}") from None
-    if len(data) > _LARGEST:
-        raise InputError(f"logo: {path} is larger than {_LARGEST // 1_000_000} MB")
-    return ending, data
+        return ending, data_of(path, LOGO_BYTES)
+    except TextError as error:
+        expected = error.expected or "a picture"
+        raise InputError(f"logo: {path}: found {error.found}, expected {expected}") from None

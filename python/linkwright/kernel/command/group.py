@@ -31,6 +31,15 @@ class Entry(NamedTuple):
     load: Callable[[], click.Command]
 
 
+class _FileContext(click.Context):
+    """Of a default command, which has no word of its own in its usage."""
+
+    @property
+    def command_path(self) -> str:
+        """The words before its arguments."""
+        return super().command_path.rstrip()
+
+
 class Commands(click.Group):
     """A group that imports a command when it is asked for.
 
@@ -73,6 +82,8 @@ class Commands(click.Group):
             load = self.entries[name].load
         if name not in self.commands and load is not None:
             self.commands[name] = load()
+            if name == _FILE:
+                self.commands[name].context_class = _FileContext
         return self.commands.get(name)
 
     @property

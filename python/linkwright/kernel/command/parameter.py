@@ -176,8 +176,15 @@ def _converter(kind: Any, low: int | None) -> Any:
 class _Whole(click.IntRange):
     """A whole number that is a float too: limits are compared with it, and no count is larger."""
 
+    # In the sentence of click on a word that is none.
+    name = "whole number"
+
     def __init__(self, low: int | None) -> None:
         super().__init__(min=low)
+
+    def _describe_range(self) -> str:
+        """For the help; nothing where the number has no limit of its own."""
+        return "" if self.min is None else super()._describe_range()
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         """The number of a word."""

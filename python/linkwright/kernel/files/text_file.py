@@ -6,7 +6,9 @@ Python's stack, or longer than its patience, is reported like any other fault.
 
 from __future__ import annotations
 
+import os
 import re
+import stat
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -30,9 +32,19 @@ class TextError(Exception):
 def text_of(path: Path, limit: Limit) -> str:
     """The text of a file of at most so many bytes.
 
-    A device without end is read no farther than the limit. A mark that editors on Windows put in front of the
-    text is left out. Raises `TextError` if it cannot be read, is too large, or is no UTF-8 text.
+    A mark that editors on Windows put in front of the text is left out. Raises `TextError` as `data_of`, or
+    if it is no UTF-8 text.
     """
+    return _decoded(data_of(path, limit))
+
+
+def data_of(path: Path, limit: Limit) -> bytes:
+    """The bytes of a file of at most so many.
+
+    A device without end is read no farther than the limit. Raises `TextError` if it cannot be read, or is too
+    large.
+    """
+    require_no_pipe(path)
     try:
         with path.open("rb") as file:
             data = file.read(limit.most + 1)
@@ -46,7 +58,21 @@ def text_of(path: Path, limit: Limit) -> str:
         raise TextError(f"a file that cannot be read ({error})") from None
     if len(data) > limit.most:
         raise TextError("a larger file", expected=limit.words)
-    return _decoded(data)
+    return data
+
+
+def require_no_pipe(path: Path) -> None:
+    """Raise `TextError` for a pipe with a name: opening it waits for somebody to write.
+
+    Pipes without a name, as a shell hands them over in ``<(…)`` and ``/dev/stdin``, have their writer.
+    """
+    try:
+        # What is open already leads to no place among the files.
+        is_pipe = stat.S_ISFIFO(os.lstat(os.path.realpath(path)).st_mode)
+    except (OSError, ValueError):
+        return
+    if is_pipe:
+        raise TextError("a named pipe", "write its content to a file, or use <(…) of the shell")
 
 
 def _decoded(data: bytes) -> str:

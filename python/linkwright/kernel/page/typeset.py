@@ -18,24 +18,41 @@ _WIDE, _BROAD = 6, 10
 
 
 def pdf(content: Content) -> bytes:
-    """A report as a PDF file; the same content gives the same file. An `InputError` without Typst."""
-    try:
-        import typst as compiler
-    except ImportError:
-        raise InputError("a PDF needs Typst: pip install 'linkwright[report]'") from None
-
+    """A report as a PDF file; the same content gives the same file. An `InputError` without Typst, or for a
+    logo that is no picture.
+    """
+    compiler = _compiler()
     files = {"main.typ": document(content).encode()}
     if content.heading.logo is not None:
         ending, data = content.heading.logo
         files[f"logo.{ending}"] = data
+        alone = {"main.typ": f'#image("logo.{ending}")'.encode(), f"logo.{ending}": data}
+        _compiled(compiler, alone, "logo: found a file that is no picture")
     if content.sketch is not None:
         files["sketch.svg"] = svg(content.sketch()).encode()
     for part in content.parts:
         files |= {_place(figure): svg(figure.figure).encode() for figure in part.figures}
-    # Letters are those that Typst brings, so that the file is the same on every machine.
-    # Its types do not tell of files in memory.
-    compiled: Any = compiler.compile
-    made: bytes = compiled(files, ignore_system_fonts=True, timestamp=0)
+    return _compiled(compiler, files, "the report cannot be typeset")
+
+
+def _compiler() -> Any:
+    """Typst, whose types do not tell of files in memory."""
+    try:
+        import typst as compiler
+    except ImportError:
+        raise InputError("a PDF needs Typst: pip install 'linkwright[report]'") from None
+    return compiler
+
+
+def _compiled(compiler: Any, files: dict[str, bytes], failure: str) -> bytes:
+    """What Typst makes of files; its error is an `InputError` that begins with `failure`.
+
+    Letters are those that Typst brings, so that the file is the same on every machine.
+    """
+    try:
+        made: bytes = compiler.compile(files, ignore_system_fonts=True, timestamp=0)
+    except (compiler.TypstError, RuntimeError) as error:
+        raise InputError(f"{failure} ({' '.join(str(error).split())})") from None
     return made
 
 

@@ -11,6 +11,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from linkwright.kernel.errors import MachineFileError, Problem, UnitError
+from linkwright.kernel.files.text_file import TextError, data_of
+from linkwright.kernel.limits import POINT_BYTES
 from linkwright.kernel.units import LENGTH, parse
 
 if TYPE_CHECKING:
@@ -43,10 +45,10 @@ def with_dxf_points(tables: dict[str, Any], folder: Path, *, allow_outside: bool
 
 def _points(path: Path, unit: Any) -> dict[str, list[float]]:
     """Coordinates of the layers with one place [m]."""
-    document = _document(path)
-    size = _unit(document, unit, path)
+    drawn, code = _read(path)
+    size = _unit(code, unit, path)
     places: dict[str, list[tuple[float, float]]] = {}
-    for layer, place in _drawn(document):
+    for layer, place in drawn:
         places.setdefault(layer, []).append(place)
     if not places:
         raise _wrong(
@@ -65,14 +67,22 @@ def _points(path: Path, unit: Any) -> dict[str, list[float]]:
     return {layer: [x * size, y * size] for layer, (x, y) in single.items()}
 
 
-def _document(path: Path) -> Document:
+def _read(path: Path) -> tuple[list[tuple[str, tuple[float, float]]], int]:
+    """Layers with their places, and the code of the unit; of a damaged file ezdxf raises whatever error
+    comes of reading on.
+    """
     from ezdxf.filemanagement import readfile
-    from ezdxf.lldxf.const import DXFError
 
     try:
-        return readfile(path)
-    except (OSError, DXFError, UnicodeDecodeError) as error:
-        raise _wrong(path, f"{error}".split("\n")[0], "a DXF file") from None
+        data_of(path, POINT_BYTES)
+    except TextError as error:
+        raise _wrong(path, error.found, error.expected or "a DXF file", error.remedy) from None
+    try:
+        document = readfile(path)
+        return list(_drawn(document)), int(document.header.get("$INSUNITS", 0))
+    except Exception as error:
+        words = " ".join(str(error).split()) or type(error).__name__
+        raise _wrong(path, f"a file that cannot be read as DXF ({words})", "a DXF file") from None
 
 
 def _drawn(document: Document) -> Iterator[tuple[str, tuple[float, float]]]:
@@ -84,7 +94,7 @@ def _drawn(document: Document) -> Iterator[tuple[str, tuple[float, float]]]:
         yield entity.dxf.layer, (float(place.x), float(place.y))
 
 
-def _unit(document: Document, unit: Any, path: Path) -> float:
+def _unit(code: int, unit: Any, path: Path) -> float:
     """Length of a unit of the drawing [m]."""
     if unit is not None:
         try:
@@ -92,7 +102,7 @@ def _unit(document: Document, unit: Any, path: Path) -> float:
         except UnitError as error:
             found, expected = error.problem.found, 'the length of a unit of the drawing, such as "1 mm"'
             raise MachineFileError([Problem("drawing.unit", found, expected, error.problem.remedy)]) from None
-    known = _UNITS.get(int(document.header.get("$INSUNITS", 0)))
+    known = _UNITS.get(code)
     if known is None:
         raise _wrong(
             path, "a drawing that does not say its unit ($INSUNITS)", 'an entry unit = "1 mm" beside it'
@@ -100,5 +110,5 @@ def _unit(document: Document, unit: Any, path: Path) -> float:
     return known
 
 
-def _wrong(path: Path, found: str, expected: str) -> MachineFileError:
-    return MachineFileError([Problem("drawing.file", found, expected, path=str(path))])
+def _wrong(path: Path, found: str, expected: str, remedy: str = "") -> MachineFileError:
+    return MachineFileError([Problem("drawing.file", found, expected, remedy, str(path))])

@@ -65,7 +65,9 @@ def fit(
 
     folder = output_folder(out, force=force)
     plan = _plan(file, vary or [], motion, set or [], allow_outside=allow_outside)
-    fitted = compute(plan, read_record(_record(file, record, plan), plan.machine), level=level)
+    fitted = compute(
+        plan, read_record(_record(file, record, plan, allow_outside=allow_outside), plan.machine), level=level
+    )
     hand_over(
         Answer(
             machine=plan.machine.name,
@@ -127,14 +129,18 @@ def _value(text: str) -> float | str:
         return text.strip()
 
 
-def _record(file: Path, record: Path | None, plan: StudyPlan) -> Path:
-    """The file of the record."""
+def _record(file: Path, record: Path | None, plan: StudyPlan, *, allow_outside: bool) -> Path:
+    """The file of the record; one that a study names lies in its folder."""
     from linkwright.kernel.errors import InputError
+    from linkwright.kernel.files.points import require_below
 
+    if record is not None:
+        return record
     own = plan.study.fit.record if plan.study.fit is not None else None
-    if record is None and own is None:
+    if own is None:
         raise InputError("--record: found nothing, expected a file with what was measured")
-    return record if record is not None else file.parent / str(own)
+    require_below(file.parent / own, file.parent, own, "fit.record", allow_outside=allow_outside)
+    return file.parent / own
 
 
 def _head(name: str, fitted: Fit) -> str:

@@ -10,6 +10,7 @@ from linkwright.kernel.command.parameter import Option
 from linkwright.studies.commands.sweep import StudyArgument
 
 if TYPE_CHECKING:
+    from linkwright.studies.allocation import Allocation
     from linkwright.studies.plan import StudyPlan
     from linkwright.studies.tolerance import Tolerance
 
@@ -92,7 +93,7 @@ def _hand_over_allocation(
     head = (
         f"{plan.machine.name}\ncost {allocation.cost:.4g} instead of {allocation.cost_before:.4g}; yield "
         f"{100 * allocation.share_within:.4g} % ({low:.4g} to {high:.4g} %) instead of "
-        f"{100 * allocation.share_before:.4g} %\nheld down by {', '.join(allocation.active)}"
+        f"{100 * allocation.share_before:.4g} %\n{_held(allocation)}"
     )
     answer = Answer(
         machine=plan.machine.name,
@@ -102,6 +103,13 @@ def _hand_over_allocation(
         tables=lambda: allocation_tables(allocation, plan.units),
     )
     hand_over(answer, json=json)
+
+
+def _held(allocation: Allocation) -> str:
+    """What keeps the tolerances from being wider."""
+    if allocation.active:
+        return f"held down by {', '.join(allocation.active)}"
+    return "no constraint holds them down: they are as wide as the search goes"
 
 
 def _head(plan: StudyPlan, scatter: Tolerance) -> str:
