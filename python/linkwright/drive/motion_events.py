@@ -151,7 +151,7 @@ def motion_extremes(motion: Transient) -> tuple[MotionExtreme, ...]:
     extremes = []
     for name, curves in (("speed", speed), ("acceleration", acceleration)):
         for kind, sign in (("minimum", -1.0), ("maximum", 1.0)):
-            value, k, z = _largest(sign * curves)
+            value, k, z = largest(sign * curves)
             time = float(motion.time[k] + z * step[k])
             extremes.append(
                 MotionExtreme(name, kind, sign * value + 0.0, time, float(motion.at([time])[0][0]))
@@ -183,8 +183,8 @@ def sides(motion: Transient) -> tuple[Floats, Floats]:
     return rates.sum(axis=1), rates[:, 0]
 
 
-def _largest(curves: Floats) -> tuple[float, int, float]:
-    """The largest value of polynomials on [0, 1]: value, polynomial, place."""
+def largest(curves: Floats) -> tuple[float, int, float]:
+    """The largest value of polynomials by powers, (k, degree + 1), on [0, 1]: value, polynomial, place."""
     looked = polynomial.polyval(_LOOK, curves.T)
     # Between two places a polynomial rises above them by an eighth of the square of their distance times its
     # second derivative at most, and that is at most the sum of the sizes of its coefficients.

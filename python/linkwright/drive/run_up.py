@@ -12,10 +12,11 @@ from typing import Annotated, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.drive.motion_events import largest
 from linkwright.drive.steady_state import SteadyState, steady_state
 from linkwright.drive.transient import End, MethodPart, Transient, transient
 from linkwright.kernel.errors import InputError, StartError, SteadyStateError
-from linkwright.kernel.numerics.zeros import minima, zeros
+from linkwright.kernel.numerics.zeros import zeros
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
@@ -193,7 +194,7 @@ def _steady_speed(steady: SteadyState, angle: Floats) -> Floats:
     grid, omega = steady.crank_angle, steady.speed
     slope = steady.acceleration / omega
     phi = angle % (2 * np.pi)
-    k = np.clip(np.searchsorted(grid, phi, side="right") - 1, 0, len(grid) - 2)
+    k = grid[1:-1].searchsorted(phi, side="right")
     h = grid[k + 1] - grid[k]
     z = (phi - grid[k]) / h
     value: Floats = (
@@ -227,21 +228,21 @@ def _settled(motion: Transient, steady: SteadyState, band: float) -> tuple[float
 
 def _peak(motion: Transient, until: float) -> float:
     """Maximum speed up to a time: that of the motion between the solver's steps, to rounding."""
-    looks = _looks(motion, until)
-    speed = motion.at(looks)[1]
-    inner = np.flatnonzero((speed[1:-1] >= speed[:-2]) & (speed[1:-1] >= speed[2:])) + 1
-    peak = float(speed.max())
-    if len(inner):
-        _, least = minima(lambda time: -motion.at(time)[1], looks[inner - 1], looks[inner + 1])
-        peak = max(peak, float(-least.min()))
-    return peak
+    if len(motion.time) < 2:
+        return float(motion.speed[0])
+    last = int(motion.time[1:-1].searchsorted(until, side="right"))
+    start, end = motion.time[last : last + 2]
+    speed = motion.between.coefficients(1)[: last + 1]
+    speed[:, 0] = motion.speed[: last + 1]
+    # Of the last step the part up to the time, as a step of its own.
+    speed[last] *= ((until - start) / (end - start)) ** np.arange(speed.shape[1])
+    return largest(speed)[0]
 
 
-def _looks(motion: Transient, until: float = np.inf) -> Floats:
-    """Eight looks a step of the solver, which itself takes some twenty a revolution, up to a time."""
+def _looks(motion: Transient) -> Floats:
+    """Eight looks a step of the solver, which itself takes some twenty a revolution."""
     even = np.linspace(motion.time[:-1], motion.time[1:], 8, endpoint=False, axis=-1)
-    every = np.append(even, motion.time[-1])
-    return np.append(every[every < until], min(until, float(every[-1])))
+    return np.append(even, motion.time[-1])
 
 
 # Turns after which a run-down is given up: nothing brakes.

@@ -317,10 +317,13 @@ def _motor_extremes(
     def power(omega: Floats) -> Floats:
         return torque(omega) * omega * ratio
 
-    speeds = np.array([x for a, b in pairwise(ends) for x in _ends_and_beside(a, b)])
-    torques = torque(speeds)
-    curves = ((downwards, -torques), (torque, torques), (power, torques * speeds * ratio))
-    down, up, most = (_highest(of, speeds.tolist(), values.tolist()) for of, values in curves)
+    speeds = [x for a, b in pairwise(ends) for x in _ends_and_beside(a, b)]
+    torques = torque(np.array(speeds)).tolist()
+    down = _highest(downwards, speeds, [-value for value in torques])
+    up = _highest(torque, speeds, torques)
+    most = _highest(
+        power, speeds, [value * speed * ratio for value, speed in zip(torques, speeds, strict=True)]
+    )
     return -down, up, most
 
 

@@ -71,16 +71,17 @@ class StepPolynomials:
 
     factors: Floats
 
-    def rise(self, z: Floats, step: NDArray[np.intp], which: int) -> Floats:
-        """Change since the start of steps, (m,): z (f₀ + (1 − z)(f₁ + z (f₂ + (1 − z)(f₃ + …)))).
+    def rises(self, z: Floats, step: NDArray[np.intp]) -> Floats:
+        """Change of angle and speed since the start of steps, (m, 2), at shares z of the steps, 0 to 1.
 
-        `z`: shares of the steps, 0 to 1; `which`: 0 the angle [rad], 1 the speed [rad/s].
+        z (f₀ + (1 − z)(f₁ + z (f₂ + (1 − z)(f₃ + …)))).
         """
-        factors = self.factors[step, which]
-        rise = np.zeros_like(z)
+        factors, ahead = self.factors[step], z[:, None]
+        left, rises = 1 - ahead, np.zeros((len(z), 2))
         for i in reversed(range(factors.shape[-1])):
-            rise = (rise + factors[..., i]) * (1 - z if i % 2 else z)
-        return rise
+            rises += factors[..., i]
+            rises *= left if i % 2 else ahead
+        return rises
 
     def coefficients(self, which: int) -> Floats:
         """The same polynomials by powers z⁰, whose coefficient is 0, to z⁷, (steps, 8) [rad or rad/s].
@@ -185,10 +186,12 @@ class Transient(Result):
         t = np.asarray(time, dtype=np.float64)
         if len(self.time) == 1:
             return np.full_like(t, self.crank_angle[0]), np.full_like(t, self.speed[0])
-        k = np.clip(np.searchsorted(self.time, t, side="right") - 1, 0, len(self.time) - 2)
-        z = (t - self.time[k]) / (self.time[k + 1] - self.time[k])
-        angle, speed = (self.between.rise(z, k, which) for which in (0, 1))
-        return self.crank_angle[k] + angle, self.speed[k] + speed
+        # Of times beyond the ends the first and the last step.
+        k = self.time[1:-1].searchsorted(t.ravel(), side="right")
+        begin = self.time[k]
+        rises = self.between.rises((t.ravel() - begin) / (self.time[k + 1] - begin), k)
+        angle, speed = self.crank_angle[k] + rises[:, 0], self.speed[k] + rises[:, 1]
+        return angle.reshape(t.shape), speed.reshape(t.shape)
 
 
 @public

@@ -64,9 +64,7 @@ class Collector:
 
     def forces(self) -> Forces:
         """Everything, by name."""
-        shares = {
-            name: self._contribution(k, name, column) for k, (name, column) in enumerate(self.columns.items())
-        }
+        shares = self._contributions()
         total = self.solution.x.sum(axis=-1)
         spans = list(zip(self.models, self.spans, strict=True))
         pairs = {m.name: self._pair(m, span, total) for m, span in spans if m.kind not in _DRIVES}
@@ -90,13 +88,13 @@ class Collector:
         )
 
     def _passed(self, model: PairModel, span: slice, x: Floats, member: str) -> Floats:
-        """What a pair does to a member for values (n, unknowns) of all unknowns: force and moment, (n, 3)."""
+        """What a pair does to a member for values (…, n, unknowns): force and moment, (…, n, 3)."""
         i = self.scene.index[member]
-        passed = np.zeros((self.scene.n, 3))
+        passed = np.zeros((*x.shape[:-1], 3))
         for j, unknown in enumerate(model.unknowns):
-            passed += x[:, span.start + j, None] * unknown.values[:, i]
+            passed += x[..., span.start + j, None] * unknown.values[:, i]
         if model.is_nonlinear and model.extra is not None:
-            passed += self._dry(span, x)[:, None] * model.extra.values[:, i]
+            passed += self._dry(span, x)[..., None] * model.extra.values[:, i]
         return passed
 
     def _viscous(self, model: PairModel) -> Floats:
@@ -108,7 +106,7 @@ class Collector:
 
     def _dry(self, span: slice, x: Floats) -> Floats:
         """Extra force of a pair that goes with its unknowns."""
-        dry: Floats = (self.solution.slopes[:, span] * x[:, span]).sum(axis=1)
+        dry: Floats = (self.solution.slopes[:, span] * x[..., span]).sum(axis=-1)
         return dry
 
     def _pair(self, model: PairModel, span: slice, total: Floats) -> PairForce:
@@ -123,24 +121,32 @@ class Collector:
         normal = np.hypot(at[:, 0], at[:, 1]) if model.kind == "pin" else total[:, span.start]
         return PairForce(pair.name, pair.kind, pair.first, pair.second, at[:, :2], moment, friction, normal)
 
-    def _contribution(self, k: int, name: str, source: AppliedLoad) -> Contribution:
-        """The share of one source."""
-        x = self.solution.x[..., k]
-        torque = source.resisting + 0.0
-        frame = source.wrenches.values[:, -1].copy()
+    def _contributions(self) -> dict[str, Contribution]:
+        """The share of each source."""
+        x = np.ascontiguousarray(np.moveaxis(self.solution.x, -1, 0))
+        torque = np.stack([source.resisting for source in self.columns.values()])
+        frame = np.stack([source.wrenches.values[:, -1] for source in self.columns.values()])
         reactions = {}
         for model, span in zip(self.models, self.spans, strict=True):
             frame += self._passed(model, span, x, FRAME)
             if model.kind in _DRIVES:
                 # The work of the drive on this member in a radian of the crank.
-                torque = torque + x[:, span.start] * self.works[model.name]
+                torque += x[..., span.start] * self.works[model.name]
                 if model.push is not None:
-                    torque = torque + self._dry(span, x) * model.push.lever
+                    torque += self._dry(span, x) * model.push.lever
                 continue
-            at = self._passed(model, span, x, model.second)
-            at += self._viscous(model) if name == "friction" else 0.0
-            reactions[model.name] = at[:, :2]
-        return Contribution(reactions, torque, frame[:, :2], frame[:, 2])
+            at = reactions[model.name] = self._passed(model, span, x, model.second)
+            if "friction" in self.columns:
+                at[list(self.columns).index("friction")] += self._viscous(model)
+        return {
+            name: Contribution(
+                {pair: at[k, :, :2] for pair, at in reactions.items()},
+                torque[k],
+                frame[k, :, :2],
+                frame[k, :, 2],
+            )
+            for k, name in enumerate(self.columns)
+        }
 
     def _powers(self, torque: Floats, total: Floats) -> dict[str, Floats]:
         """Power of drive, loads and friction, and change of kinetic energy."""

@@ -168,16 +168,23 @@ class Equilibrium:
             extra = self.extras[k]
             if extra is not None:
                 A[:, :, span] += extra * slopes[:, None, span]
-        A = (A * self.column_scale)[where]
+        A *= self.column_scale
+        is_everywhere = bool(where.all())
+        if not is_everywhere:
+            A, b = A[where], b[where]
+        right = np.empty((len(A), A.shape[1], b.shape[-1] + _PROBES))
+        np.negative(b, out=right[..., :-_PROBES])
         # Numbers without any pattern that a mechanism could have: squares of whole numbers, in radians.
-        random = np.cos(np.arange(1.0, A.shape[1] * _PROBES + 1) ** 2).reshape(A.shape[1], _PROBES)
-        probes = np.broadcast_to(random, (len(A), *random.shape))
-        solution, singular = _solved(A, np.concatenate((-b[where], probes), axis=-1))
+        right[..., -_PROBES:] = np.cos(np.arange(1.0, A.shape[1] * _PROBES + 1) ** 2).reshape(-1, _PROBES)
+        solution, singular = _solved(A, right)
         growth = np.abs(solution[..., -_PROBES:]).max(axis=(1, 2))
         singular |= ~(growth < _UNBOUNDED)
-        x = np.zeros((len(b), A.shape[1], b.shape[-1]))
-        x[where] = solution[..., :-_PROBES] * self.column_scale[:, None]
-        everywhere = np.zeros(len(b), dtype=bool)
+        scaled = solution[..., :-_PROBES] * self.column_scale[:, None]
+        if is_everywhere:
+            return scaled, singular
+        x = np.zeros((len(where), A.shape[1], b.shape[-1]))
+        x[where] = scaled
+        everywhere = np.zeros(len(where), dtype=bool)
         everywhere[where] = singular
         return x, everywhere
 
@@ -186,7 +193,7 @@ def _require_room(n: int, equations: int, unknowns: int) -> None:
     """Raise if the matrices of all angles are too large."""
     if n * equations * unknowns > FORCES.most:
         raise FindingError(
-            f"forces: found {grouped(n)} crank angles, {equations} equations and {unknowns} unknowns, "
+            f"forces: scaled {grouped(n)} crank angles, {equations} equations and {unknowns} unknowns, "
             f"expected {FORCES.words}; use fewer angles, or describe a part of the machine"
         )
 
@@ -206,8 +213,9 @@ def _solved(A: Floats, b: Floats) -> tuple[Floats, Bools]:
     # Where the mechanism has no motion there are no forces either.
     known = np.isfinite(A).all(axis=(1, 2)) & np.isfinite(b).all(axis=(1, 2))
     unknown: Bools = np.logical_not(known)
-    A = np.where(unknown[:, None, None], np.eye(A.shape[1]), A)
-    b = np.where(unknown[:, None, None], 0.0, b)
+    if unknown.any():
+        A = np.where(unknown[:, None, None], np.eye(A.shape[1]), A)
+        b = np.where(unknown[:, None, None], 0.0, b)
     singular = unknown
     try:
         return np.asarray(np.linalg.solve(A, b), dtype=np.float64), singular

@@ -18,6 +18,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import accumulate, pairwise
 from typing import Literal
 
 import numpy as np
@@ -97,7 +98,8 @@ def evaluate(compiled: CompiledMachine, channels: Sequence[Channel], angles: Flo
     widths = [_WIDTHS[type(channel)] for channel in channels]
     out = np.empty((sum(widths), len(angles)))
     compiled.motions(angles, channels, out.reshape(-1))
-    return np.split(out, np.cumsum(widths)[:-1]) if channels else []
+    ends = list(accumulate(widths, initial=0))
+    return [out[start:end] for start, end in pairwise(ends)]
 
 
 def transmission_channels(compiled: CompiledMachine, dyad: Dyad) -> list[Channel]:
@@ -120,7 +122,7 @@ def transmission(compiled: CompiledMachine, dyad: Dyad, values: list[Floats]) ->
     """Transmission angle, and a smooth function with the sign changes of its derivative, up to the sign.
 
     `values` (4, n) and (3, n): what the core gave for `transmission_channels`. Returns: mu: (n,) 0 to π
-    [rad]; slope: (n,) ±dμ/dφ, for a dyad RPR ±ds/dφ of its slot; NaN at a limit of crank rotation.
+    [rad]; slope: (n,) or (1,) ±dμ/dφ, for a dyad RPR ±ds/dφ of its slot; NaN at a limit of crank rotation.
     """
     if isinstance(dyad.element, Element.SlottedLever):
         offset = compiled.parameters[dyad.element.offset]
@@ -129,7 +131,7 @@ def transmission(compiled: CompiledMachine, dyad: Dyad, values: list[Floats]) ->
     cross, dot = e[0] * f[1] - e[1] * f[0], e[0] * f[0] + e[1] * f[1]
     # At a limit of crank rotation both rates are infinite, and their difference is no number.
     with np.errstate(invalid="ignore"):
-        slope = np.broadcast_to(f1 - e1, cross.shape)
+        slope = f1 - e1
     return np.arctan2(np.abs(cross), dot), slope
 
 

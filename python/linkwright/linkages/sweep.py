@@ -130,13 +130,14 @@ class LinkageSweep:
         ]
         rest = values[self._ends[-1] :]
         links = [output.kind == "swing" for output in self.outputs]
-        place = [np.arctan2(f[1], f[0]) if link else f[0] for f, link in zip(rest, links, strict=True)]
-        d1 = [f[2] if link else f[1] for f, link in zip(rest, links, strict=True)]
-        d2 = [f[3] if link else f[2] for f, link in zip(rest, links, strict=True)]
-        n = len(angles)
-        mu = np.array([np.broadcast_to(pair, n) for pair, _ in pairs]).reshape(len(pairs), n)
-        slopes = np.array([*(np.broadcast_to(pair, n) for _, pair in pairs), *d1, *d2])
-        return mu, np.array(place).reshape(len(rest), n), slopes.reshape(len(pairs) + 2 * len(rest), n)
+        n, dyads, outputs = len(angles), len(pairs), len(rest)
+        mu, place, slopes = np.empty((dyads, n)), np.empty((outputs, n)), np.empty((dyads + 2 * outputs, n))
+        for k, (angle, slope) in enumerate(pairs):
+            mu[k], slopes[k] = angle, slope
+        for k, (f, link) in enumerate(zip(rest, links, strict=True)):
+            place[k] = np.arctan2(f[1], f[0]) if link else f[0]
+            slopes[dyads + k], slopes[dyads + outputs + k] = (f[2], f[3]) if link else (f[1], f[2])
+        return mu, place, slopes
 
     def _locate(self, slopes: Floats) -> list[Floats]:
         """Angles of the zeros of each slope."""

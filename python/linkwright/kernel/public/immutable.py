@@ -105,6 +105,12 @@ def _fields(result: Any) -> None:
     """The fields of a frozen dataclass, once."""
     for name in _names(type(result)):
         value = getattr(result, name, None)
+        kind = type(value)
+        if kind in _PLAIN:
+            continue
+        if kind is np.ndarray:
+            value.flags.writeable = False
+            continue
         frozen = _inside(value)
         if frozen is not value:
             object.__setattr__(result, name, frozen)
