@@ -19,7 +19,7 @@ def rows(quick: bool) -> list[Row]:
     speeds = np.linspace(10.0, 200.0, 100 if quick else 1000)
     machine = chain(DISCS)
     at = excited_train(machine, speeds)
-    first = at.referred_harmonics()
+    first = at.referred_harmonics
     random = np.random.default_rng(DISCS)
     torques = first + random.uniform(1.0, 50.0, first.shape) * np.exp(
         1j * random.uniform(0.0, 6.0, first.shape)

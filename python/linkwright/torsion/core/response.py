@@ -8,7 +8,7 @@ The core takes trees; a train with loops, or with damping ratios of its modes, i
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,6 +34,16 @@ class Tree:
     # (shafts,) place in the order of the mass that each shaft holds; the number of masses if it joins one
     # with itself.
     row: Ints
+
+    @property
+    def is_in_order(self) -> bool:
+        """Whether each mass comes at its own place."""
+        return bool((self.order[1:] > self.order[:-1]).all())
+
+
+def in_order(tree: Tree, rows: NDArray[Any]) -> NDArray[Any]:
+    """A copy of the rows of the masses, (…, masses, speeds), in the order of the tree."""
+    return rows.copy() if tree.is_in_order else np.take(rows, tree.order, axis=1)
 
 
 def tree_of(referred: ReferredTrain) -> Tree | None:
@@ -68,10 +78,6 @@ class OperatingState:
     stiffness: Floats  # (shafts, speeds) about the mean torque [N m/rad]
     disc_damping: Floats  # (masses, speeds) Viscous, against the ground, with that of loads [N m s/rad]
     modal: ModalLosses | None = None  # of given damping ratios
-
-    def modal_torques(self, velocity: Complexes) -> Complexes | float:
-        """What given damping ratios ask of each mass that moves, (orders, masses, speeds) [N m]."""
-        return 0.0 if self.modal is None else self.modal.torques(velocity)
 
 
 @dataclass(frozen=True)
@@ -121,7 +127,7 @@ def respond(referred: ReferredTrain, at: OperatingState, orders: Floats, torques
     damping = np.broadcast_to(referred.damping[:, None], at.stiffness.shape)
     loss = referred.loss_factor[:, None] * at.stiffness
     ground = np.ascontiguousarray(at.disc_damping[tree.order]).ravel()
-    q = np.take(torques, tree.order, axis=1)
+    q = in_order(tree, torques)
     _core.torsion_forced(
         parent=tree.parent,
         inertia=np.ascontiguousarray(referred.inertia[tree.order]),
@@ -133,7 +139,7 @@ def respond(referred: ReferredTrain, at: OperatingState, orders: Floats, torques
         orders=orders,
         torques=q.view(np.float64).reshape(-1),
     )
-    return q if (tree.order[1:] > tree.order[:-1]).all() else np.take(q, np.argsort(tree.order), axis=1)
+    return q if tree.is_in_order else np.take(q, np.argsort(tree.order), axis=1)
 
 
 class DynamicOrders(NamedTuple):
@@ -196,18 +202,25 @@ def shaft_torques(
     `forces`: (orders, masses, speeds) [N m]; `size`: (orders, masses, speeds) sum of the sizes of their parts
     [N m].
     """
-    first, second = referred.ends.T
-    held = np.concatenate([q, np.zeros_like(q[:, :1])], axis=1)
-    # Amplitudes at a resonance without damping are not finite, nor are torques.
+    torques = np.empty(stiffness.shape, complex)
+    tree = tree_of(referred)
+    # Amplitudes at a resonance without damping are not finite, nor are torques. Shafts one by one stay
+    # in the cache.
     with np.errstate(invalid="ignore", over="ignore"):
-        twisted: Complexes = stiffness * (held[:, first] - held[:, second])
-        tree = tree_of(referred)
+        for s, (first, second) in enumerate(referred.ends.tolist()):
+            twist = (q[:, first] if first != HELD else 0.0) - (q[:, second] if second != HELD else 0.0)
+            np.multiply(stiffness[:, s], twist, out=torques[:, s])
         if tree is None:
-            return twisted
-        rounding = np.abs(stiffness) * (np.abs(held[:, first]) + np.abs(held[:, second]))
-        balanced = by_equilibrium(referred, tree, stiffness, forces)
-        bound = np.abs(by_equilibrium(referred, tree, stiffness, size))
-        return np.where(bound < rounding, balanced, twisted)
+            return torques
+        amplitude, below, bound = np.abs(q), _below(tree, forces), _below(tree, size)
+        for s, (first, second) in enumerate(referred.ends.tolist()):
+            if tree.row[s] == len(tree.order):
+                continue
+            ends = sum(amplitude[:, end] for end in (first, second) if end != HELD)
+            share = _share(referred, tree, stiffness, s)
+            is_rigid = np.abs(share) * bound[:, tree.row[s]] < np.abs(stiffness[:, s]) * ends
+            np.copyto(torques[:, s], share * below[:, tree.row[s]], where=is_rigid)
+    return torques
 
 
 def by_equilibrium(
@@ -219,24 +232,35 @@ def by_equilibrium(
     (orders, shafts, speeds) [N m/rad]; `forces`: (orders, masses, speeds) on each mass but for its shafts
     [N m].
     """
-    n = len(tree.order)
-    below = np.take(forces, tree.order, axis=1)
-    for row in range(n - 1, 0, -1):
-        below[:, tree.parent[row]] += below[:, row]
-    # Of the two ends of a shaft the one that hangs is that of its row; the ground is no mass.
-    place = np.append(np.argsort(tree.order), HELD)
+    below = _below(tree, forces)
     carried = np.zeros(stiffness.shape, complex)
     for s, row in enumerate(tree.row.tolist()):
-        if row < n:
-            sign = 1.0 if place[referred.ends[s, 0]] == row else -1.0
-            carried[:, s] = np.where(stiffness[:, s] != 0, sign * below[:, row], 0.0)
-            parallel = tree.row == row
-            if parallel.sum() > 1:
-                together = stiffness[:, parallel].sum(axis=1)
-                carried[:, s] *= np.divide(
-                    stiffness[:, s], together, out=np.zeros_like(together), where=together != 0
-                )
+        if row < len(tree.order):
+            np.multiply(_share(referred, tree, stiffness, s), below[:, row], out=carried[:, s])
     return carried
+
+
+def _below(tree: Tree, forces: NDArray[Any]) -> NDArray[Any]:
+    """Sums of what acts on each mass and on all that hang on it, in the order of the tree."""
+    below = in_order(tree, forces)
+    for row in range(len(tree.order) - 1, 0, -1):
+        below[:, tree.parent[row]] += below[:, row]
+    return below
+
+
+def _share(referred: ReferredTrain, tree: Tree, stiffness: Complexes, s: int) -> Complexes | Floats:
+    """Share of a shaft in what it holds, (orders, speeds): positive if the first end drives the second."""
+    row = tree.row[s]
+    # Of the two ends of a shaft the one that hangs is that of its row; the ground is no mass.
+    sign = 1.0 if referred.ends[s, 0] == tree.order[row] else -1.0
+    parallel = tree.row == row
+    share: Complexes | Floats
+    if parallel.sum() == 1:
+        share = sign * (stiffness[:, s] != 0)
+        return share
+    together = stiffness[:, parallel].sum(axis=1)
+    share = sign * np.divide(stiffness[:, s], together, out=np.zeros_like(together), where=together != 0)
+    return share
 
 
 def _whole(referred: ReferredTrain, at: OperatingState, orders: Floats, torques: Complexes) -> Complexes:

@@ -28,7 +28,7 @@ def disc_speed(at: ExcitedTrain, disc: str, *, rigid: bool = False) -> Complexes
     """Harmonics of the speed of a disc under the torques of its train, (speeds, orders) [rad/s]."""
     place = _place(at.referred, disc)
     if rigid:
-        torques = at.referred_harmonics()
+        torques = at.referred_harmonics
         q = _rigid(at.referred, at.operating, at.torques.orders, torques)
     else:
         q = responses(at)[:, at.referred.mass[place]]

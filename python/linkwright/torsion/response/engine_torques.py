@@ -71,8 +71,10 @@ class CylinderStates:
             array[:, None]
             for array in np.broadcast_arrays(self.combustion, np.asarray(self.delay), self.compression)
         )
-        late = np.exp(-1j * gas.orders[:, None] * delay)
-        M: Complexes = compression * gas.motored + combustion * late * (gas.firing - gas.motored)
+        burns = combustion * (gas.firing - gas.motored)
+        if delay.any():
+            burns *= np.exp(-1j * gas.orders[:, None] * delay)
+        M: Complexes = compression * gas.motored + burns
         return M
 
 

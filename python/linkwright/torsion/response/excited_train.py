@@ -66,6 +66,7 @@ class ExcitedTrain:
             return None
         return dynamic_orders(self.referred, self.operating, self.torques.orders)
 
+    @cached_property
     def referred_harmonics(self) -> Complexes:
         """Torques on the masses, (orders, masses, speeds) [N m]."""
         return _onto_masses(self.referred, self.torques.harmonics)

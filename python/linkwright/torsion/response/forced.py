@@ -136,7 +136,7 @@ def torsion_response(at: ExcitedTrain) -> TorsionResponse:
 
 def responses(at: ExcitedTrain) -> Complexes:
     """Amplitudes of the masses of a train, (orders, masses, speeds). q, referred to the first disc [rad]."""
-    return respond(at.referred, at.operating, at.torques.orders, at.referred_harmonics())
+    return respond(at.referred, at.operating, at.torques.orders, at.referred_harmonics)
 
 
 def response_by_amplitudes(at: ExcitedTrain, q: Complexes) -> TorsionResponse:
@@ -150,9 +150,9 @@ def response_by_amplitudes(at: ExcitedTrain, q: Complexes) -> TorsionResponse:
     lead = lead_speeds(referred)[:, None]
     # Stiffness and damping are referred, so that the torque is too.
     imaginary = loss * k + omega * c
-    stiffness = k + 1j * imaginary if at.distributed is None else at.distributed.stiffness
+    stiffness = _complex(k, imaginary) if at.distributed is None else at.distributed.stiffness
     flow = shaft_flow(at, q, stiffness)
-    torques, heat = flow / lead, 0.5 * (omega * imaginary * _twist(flow, stiffness) ** 2).sum(axis=0)
+    torques, heat = flow / lead, 0.5 * (omega * imaginary * _twist_squared(flow, stiffness)).sum(axis=0)
     places = {}
     for n, rod in enumerate(at.referred.rods):
         name = referred.shafts[rod.shaft]
@@ -179,19 +179,38 @@ def shaft_flow(at: ExcitedTrain, q: Complexes, stiffness: Complexes) -> Complexe
 
     Of a shaft with distributed inertia that of the spring which it is between its ends.
     """
-    omega = at.torques.orders[:, None, None] * at.torques.speeds
-    outside = at.referred_harmonics()
-    J = at.referred.inertia[:, None] if at.distributed is None else at.distributed.inertia
-    inertia = omega**2 * J * q
-    damping = 1j * omega * at.operating.disc_damping * q + at.operating.modal_torques(1j * omega * q)
-    size = np.abs(outside) + np.abs(inertia) + np.abs(damping)
-    return shaft_torques(at.referred, stiffness, q, outside + inertia - damping, size)
+    omega = np.outer(at.torques.orders, at.torques.speeds)
+    outside = at.referred_harmonics
+    forces, size = outside.copy(), np.abs(outside)
+    # Masses one by one stay in the cache.
+    for m, J in enumerate(at.referred.inertia.tolist()):
+        inertia = omega**2 * (J if at.distributed is None else at.distributed.inertia[:, m])
+        damping = omega * at.operating.disc_damping[m]
+        forces[:, m] += _complex(inertia.real, inertia.imag - damping) * q[:, m]
+        size[:, m] += (np.abs(inertia) + np.abs(damping)) * np.abs(q[:, m])
+    if at.operating.modal is not None:
+        modal = at.operating.modal.torques(1j * omega[:, None] * q)
+        forces, size = forces - modal, size + np.abs(modal)
+    return shaft_torques(at.referred, stiffness, q, forces, size)
 
 
-def _twist(flow: Complexes, stiffness: Complexes) -> Floats:
-    """Twist of each shaft, (orders, shafts, speeds) [rad]; 0 where nothing holds its ends together."""
-    size = np.abs(stiffness)
-    return np.abs(flow) / np.where(size > 0, size, 1.0) * (size > 0)
+def _complex(real: Floats, imaginary: Floats) -> Complexes:
+    """Numbers of which both parts are known, of the shape of the imaginary one."""
+    made = np.empty(imaginary.shape, complex)
+    made.real, made.imag = real, imaginary
+    return made
+
+
+def _squared(z: Complexes) -> Floats:
+    """|z|², without its root."""
+    size: Floats = z.real**2 + z.imag**2
+    return size
+
+
+def _twist_squared(flow: Complexes, stiffness: Complexes) -> Floats:
+    """|Δ|² of each shaft, (orders, shafts, speeds) [rad²]; 0 where nothing holds its ends together."""
+    size = _squared(stiffness)
+    return np.divide(_squared(flow), size, out=np.zeros_like(size), where=size > 0)
 
 
 @dataclass(frozen=True)
@@ -276,21 +295,24 @@ def responded(at: ExcitedTrain) -> ForcedVibration:
     shafts = response_by_amplitudes(at, q)
     total, rigid, torsional = _unevenness(at, shafts.together, q)
     omega = shafts.orders[:, None, None] * shafts.speeds
-    theta = shafts.amplitudes
+    theta, M = shafts.amplitudes, at.torques.harmonics
     return ForcedVibration(
         **vars(shafts),
         unevenness=total,
         unevenness_rigid=rigid,
         unevenness_torsional=torsional,
-        disc_heat=0.5 * (omega**2 * at.disc_damping * np.abs(theta) ** 2).sum(axis=0),
-        modal_heat=_modal_heat(at, 1j * omega * q),
-        power=0.5 * (at.torques.harmonics * (1j * omega * theta).conj()).real.sum(axis=(0, 1)),
+        disc_heat=0.5 * (omega**2 * at.disc_damping * _squared(theta)).sum(axis=0),
+        modal_heat=_modal_heat(at, omega, q),
+        power=0.5 * (omega * (M.imag * theta.real - M.real * theta.imag)).sum(axis=(0, 1)),
     )
 
 
-def _modal_heat(at: ExcitedTrain, velocity: Complexes) -> Floats:
-    """Mean power that given damping ratios take, (speeds,) [W]. `velocity`: (orders, masses, speeds)."""
-    heat: Floats = 0.5 * (at.operating.modal_torques(velocity) * velocity.conj()).real.sum(axis=(0, 1))
+def _modal_heat(at: ExcitedTrain, omega: Floats, q: Complexes) -> Floats:
+    """Mean power that given damping ratios take, (speeds,) [W]."""
+    if at.operating.modal is None:
+        return np.zeros(len(at.torques.speeds))
+    velocity = 1j * omega * q
+    heat: Floats = 0.5 * (at.operating.modal.torques(velocity) * velocity.conj()).real.sum(axis=(0, 1))
     return heat
 
 
