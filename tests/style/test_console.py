@@ -15,12 +15,13 @@ PACKAGE = Path(__file__).parents[2] / "python" / "linkwright"
 
 
 def test_one_module_makes_consoles() -> None:
-    makers = set()
-    for path in PACKAGE.rglob("*.py"):
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    makers, calls = set(), ("Console", "from_markup", "render_markup", "rprint")
+    texts = ((path, path.read_text(encoding="utf-8")) for path in PACKAGE.rglob("*.py"))
+    for path, text in texts:
+        for node in ast.walk(ast.parse(text)) if any(call in text for call in calls) else ():
             if isinstance(node, ast.Call):
                 name = getattr(node.func, "attr", getattr(node.func, "id", ""))
-                if name in ("Console", "from_markup", "render_markup", "rprint"):
+                if name in calls:
                     makers.add(str(path.relative_to(PACKAGE)))
     assert makers == {"kernel/command/console.py"}
 

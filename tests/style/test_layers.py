@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2] / "python" / "linkwright"
@@ -122,8 +123,13 @@ EDGES = {
 CORE = ("machine.program", "cam.core", "torsion.core", "topping.core")
 
 
-def imports(path: Path, root: Path = ROOT) -> Iterator[tuple[str, ...]]:
+@cache
+def imports(path: Path, root: Path = ROOT) -> tuple[tuple[str, ...], ...]:
     """Dotted names below linkwright that a file imports, also inside its functions."""
+    return tuple(_imports(path, root))
+
+
+def _imports(path: Path, root: Path) -> Iterator[tuple[str, ...]]:
     package = path.relative_to(root).parent.parts
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
@@ -155,6 +161,7 @@ def level(name: tuple[str, ...]) -> int:
     return PARTS.get(name[1], COMPUTES) if len(name) > 1 else COMPUTES
 
 
+@cache
 def part(name: tuple[str, ...]) -> str:
     """The part of a subject that a module is in: a folder of its own, or the room."""
     folder = len(name) > 1 and (ROOT / name[0] / name[1]).is_dir()
@@ -217,7 +224,7 @@ def test_every_edge_is_used() -> None:
     used = set()
     for path in ROOT.rglob("*.py"):
         own = path.relative_to(ROOT).with_suffix("").parts
-        for target in imports(path):
+        for target in imports(path, ROOT):
             names = {part(own), ".".join(own[:2])} if own[0] in SUBJECTS else set()
             used |= {(name, part(target)) for name in names if target[0] in SUBJECTS}
     assert used >= EDGES, EDGES - used
