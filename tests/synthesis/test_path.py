@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.optimize import least_squares
 from sizes import cases
 
 import linkwright as lw
@@ -248,3 +249,63 @@ def test_faults_of_a_task() -> None:
     with pytest.raises(MachineError) as caught:
         PathTask(x=(0, 1), y=(0,), pivots={"x": [1, 0], "y": [0, 1]}, crank_angle=(0,))
     assert {each.key for each in caught.value.problems} == {"x", "y", "crank_angle", "pivots.x"}
+
+
+@pytest.mark.parametrize("timed", [True, False])
+def test_given_pivots_are_kept(timed: bool) -> None:
+    """A known linkage is found about its own pivots, which the machine has to the last bit."""
+    timing = {"crank_angle": tuple(ANGLES)} if timed else {}
+    pivots = {"crank_pivot": {"x": 0.1, "y": 0.2}, "rocker_pivot": {"x": 0.5, "y": 0.3}}
+    found = lw.path_generator(PathTask(**drawn(), **timing, **pivots, population=60, generations=300))
+    assert found.error_relative < 1e-9
+    assert found.frame == pytest.approx(abs(0.4 + 0.1j), rel=1e-14)
+    points = found.machine.mechanism.points
+    assert (points["A0"].x, points["A0"].y) == pytest.approx((0.1, 0.2), rel=1e-14)
+    assert (points["B0"].x, points["B0"].y) == pytest.approx((0.5, 0.3), rel=1e-14)
+    if timed:
+        assert found.crank == pytest.approx(KNOWN.crank, rel=1e-6)
+
+
+def test_other_pivots_leave_an_error_that_no_start_beats() -> None:
+    """About other pivots no least squares of SciPy from forty places near comes nearer to the path."""
+    pivots = {"crank_pivot": {"x": 0.12, "y": 0.18}, "rocker_pivot": {"x": 0.52, "y": 0.3}}
+    found = lw.path_generator(PathTask(**drawn(), crank_angle=tuple(ANGLES), **pivots, population=60))
+    target = np.array(drawn()["x"]) + 1j * np.array(drawn()["y"])
+    A0, B0 = 0.12 + 0.18j, 0.52 + 0.3j
+
+    def off(v: np.ndarray) -> np.ndarray:
+        pin = A0 + v[0] * np.exp(1j * (ANGLES + v[5]))
+        D = B0 - pin
+        d = np.abs(D)
+        cosine = np.clip((d**2 + v[1] ** 2 - v[2] ** 2) / (2 * d * v[1]), -1, 1)
+        turn = D / d * (cosine + 1j * np.sqrt(1 - cosine**2))
+        away = pin + (v[3] + 1j * v[4]) * turn - target
+        return np.concatenate([away.real, away.imag])
+
+    start = [found.crank, found.coupler, found.rocker, found.along, found.across, 0.0]
+    rng = np.random.default_rng(3)
+    starts = [start + 0.1 * rng.standard_normal(6) for _ in range(40)]
+    best = min(least_squares(off, near).cost for near in starts)
+    rms = np.sqrt(2 * best / len(target))
+    assert found.error_rms <= rms * (1 + 1e-6)
+    assert found.error_rms > 1e-4
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"crank_pivot": {"x": 0, "y": 0}}, "rocker_pivot"),
+        ({"crank_pivot": {"x": 0, "y": 0}, "rocker_pivot": {"x": 0, "y": 0}}, "another place"),
+        (
+            {
+                "crank_pivot": {"x": 0, "y": 0},
+                "rocker_pivot": {"x": 1, "y": 0},
+                "pivots": {"x": (0, 1), "y": (0, 1)},
+            },
+            "nothing beside crank_pivot",
+        ),
+    ],
+)
+def test_pivots_that_do_not_go_together(given: dict[str, object], words: str) -> None:
+    with pytest.raises(MachineError, match=words):
+        PathTask(x=(0, 1, 1), y=(0, 0, 1), **given)

@@ -195,3 +195,44 @@ def test_least_transmission_angle_between_samples() -> None:
     assert least_transmission(bar.transmission_angle, -1.0, 0.5) == pytest.approx(exact, abs=1e-12)
     ends = bar.transmission_angle(np.array([0.5, 1.0]))
     assert least_transmission(bar.transmission_angle, 1.0, 0.5) == pytest.approx(ends.min(), abs=1e-12)
+
+
+def test_three_poses_about_given_fixed_pivots() -> None:
+    """Pivots that follow from points of the body give these points back."""
+    guide = lw.pose_guide(PoseTask(poses=POSES, crank_point=A, rocker_point=B))
+    points = guide.machine.mechanism.points
+    pivots = {
+        f"{name}_pivot": {"x": points[place].x, "y": points[place].y}
+        for name, place in (("crank", "A0"), ("rocker", "B0"))
+    }
+    again = lw.pose_guide(PoseTask(poses=POSES, **pivots))
+    for length in ("frame", "crank", "coupler", "rocker"):
+        assert getattr(again, length) == pytest.approx(getattr(guide, length), rel=1e-11)
+    assert again.pose_error < 1e-14
+    one = lw.pose_guide(PoseTask(poses=POSES, crank_point=A, rocker_pivot=pivots["rocker_pivot"]))
+    assert one.rocker == pytest.approx(guide.rocker, rel=1e-11)
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"rocker_point": B}, "crank_point"),
+        (
+            {"crank_point": A, "crank_pivot": {"x": 0, "y": 1}, "rocker_point": B},
+            "nothing beside crank_point",
+        ),
+        ({"crank_point": A, "rocker_point": B, "slider_point": B}, "has no such point"),
+    ],
+)
+def test_ends_of_links_that_do_not_go_together(given: dict[str, object], words: str) -> None:
+    with pytest.raises(MachineError, match=words):
+        PoseTask(poses=POSES, **given)
+
+
+def test_a_pivot_that_stays_in_the_body_is_refused() -> None:
+    """The body turns about (0.1, 0): this pivot is no end of a link."""
+    angles = np.array([0.0, 0.3, 0.8])
+    origin = 0.1 - 0.1 * np.exp(1j * angles)
+    poses = Poses(x=tuple(origin.real), y=tuple(origin.imag), angle=tuple(angles))
+    with pytest.raises(SynthesisError, match="only turns about this pivot"):
+        lw.pose_guide(PoseTask(poses=poses, crank_pivot={"x": 0.1, "y": 0.0}, rocker_point=B))

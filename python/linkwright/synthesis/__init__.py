@@ -26,7 +26,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 # The tasks, which a user writes; they are imported when they are used.
-__all__ = ["Box", "FunctionTask", "MovingPoint", "PathTask", "PoseTask", "Poses"]
+__all__ = ["Box", "FixedPivot", "FunctionTask", "MovingPoint", "PathTask", "PoseTask", "Poses"]
 
 
 def __getattr__(name: str) -> Any:
@@ -38,6 +38,7 @@ def __getattr__(name: str) -> Any:
 
 if TYPE_CHECKING:
     from linkwright.synthesis.task import Box as Box
+    from linkwright.synthesis.task import FixedPivot as FixedPivot
     from linkwright.synthesis.task import FunctionTask as FunctionTask
     from linkwright.synthesis.task import MovingPoint as MovingPoint
     from linkwright.synthesis.task import PathTask as PathTask

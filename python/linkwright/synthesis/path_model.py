@@ -170,6 +170,10 @@ class PathModel:
         Middle of it [m].
     timed : ndarray, shape (n,), or None
         Crank angles of the points [rad].
+    pivots : tuple of complex, or None
+        s and t, where both fixed pivots are given.
+    free : ndarray of int
+        Places of the numbers of a row that are sought.
     """
 
     def __init__(self, task: PathTask) -> None:
@@ -182,6 +186,19 @@ class PathModel:
         self._longest = _REACH if task.length_max is None else task.length_max / self.size
         self._frame_max = np.inf if task.length_max is None else self._longest
         self._box = [self._ends(key) for key in ("x", "y")]
+        self.pivots = self._given_pivots()
+        # Numbers that a search may change: scale, direction and place are fixed by given pivots.
+        held = () if self.pivots is None else (3, 4, 7, 8)
+        count = 9 + (self.timed is not None)
+        self.free = np.array([i for i in range(count) if i not in held])
+
+    def _given_pivots(self) -> tuple[complex, complex] | None:
+        """s and t of given pivots, over the size of the path."""
+        crank, rocker = self.task.crank_pivot, self.task.rocker_pivot
+        if crank is None or rocker is None:
+            return None
+        t = (complex(crank.x, crank.y) - self.middle) / self.size
+        return complex(rocker.x - crank.x, rocker.y - crank.y) / self.size, t
 
     def _ends(self, key: str) -> tuple[float, float]:
         """Where pivots may be along an axis."""
@@ -237,12 +254,12 @@ class PathModel:
         frame = np.maximum(np.abs(s), 1e-300)
         sizes = np.column_stack([frame, frame[:, None] * lengths])
         point = z * np.conj(s) / frame
-        for pivot in (t, s + t):
+        for pivot in (t, s + t) if self.pivots is None else ():
             for value, (low, high) in zip((pivot.real, pivot.imag), self._box, strict=True):
                 yield "pivots", np.maximum(low - value, value - high)
         for length in (*sizes.T[1:], np.abs(point.real), np.abs(point.imag)):
             yield "length_max", length - self._longest
-        if np.isfinite(self._frame_max):
+        if np.isfinite(self._frame_max) and self.pivots is None:
             yield "length_max", frame - self._frame_max
         yield "length_ratio_max", np.log(sizes.max(axis=1) / sizes.min(axis=1) / self.task.length_ratio_max)
         if self.task.transmission_angle_min > 0:

@@ -113,7 +113,7 @@ def _trials(model: PathModel, shares: Floats, number: NDArray[np.intp]) -> Linka
     way = np.where(number // 2 % 2 == 0, 1.0, -1.0)[:, None]
     phi = start + (model.timed if model.timed is not None else way * _timing(model.target, shares[:, 4:]))
     A, e = pin_and_coupler(shape(q, is_double)[0], side, phi)
-    pose = _posed(model.target, A, e)
+    pose = _posed(model.target, A, e) if model.pivots is None else _about(model, A, e)
     p = np.column_stack([q, *(part for column in pose for part in (column.real, column.imag))])
     if model.timed is not None:
         p = np.column_stack([p, start])
@@ -157,6 +157,14 @@ def _posed(target: Complexes, A: Complexes, e: Complexes) -> tuple[Complexes, Co
     s = (ff * aw - af * fw) / determinant
     z = (aa * fw - np.conj(af) * aw) / determinant
     return s, z, middle - s * A.mean(axis=1) - z * e.mean(axis=1)
+
+
+def _about(model: PathModel, A: Complexes, e: Complexes) -> tuple[Complexes, Complexes, Complexes]:
+    """s, z and t about given pivots, z of least squares, (m,) each."""
+    assert model.pivots is not None
+    s, t = (np.full(len(A), number) for number in model.pivots)
+    z: Complexes = (np.conj(e) * (model.target - s[:, None] * A - t[:, None])).mean(axis=1)
+    return s, z, t
 
 
 def _best(model: PathModel, trials: Linkages) -> Linkages:
@@ -256,7 +264,8 @@ def _stepped(model: PathModel, rows: Linkages, weights: Floats, shift: Floats, d
         distance, by = (along * off).imag, (along[:, :, None] * J).imag
     residual = np.concatenate([distance, weights[:, None] * broken], axis=1)
     by = np.concatenate([by, weights[:, None, None] * by_p], axis=1)
-    step = damped_step(residual, by, np.clip(damping, 1e-15, None))
+    step = np.zeros((len(residual), by.shape[2]))
+    step[:, model.free] = damped_step(residual, by[:, :, model.free], np.clip(damping, 1e-15, None))
     if model.timed is not None:
         phi = rows.phi + step[:, 9:]
     else:

@@ -24,7 +24,7 @@ from linkwright.linkages.kinematics import motions
 from linkwright.machine.machine import Machine
 from linkwright.synthesis.four_bar import Complexes, FourBar, cross, side_of
 from linkwright.synthesis.slider_pose import guide_slider
-from linkwright.synthesis.task import MovingPoint, PoseTask
+from linkwright.synthesis.task import FixedPivot, MovingPoint, PoseTask
 from linkwright.synthesis.verification import (
     TransmissionResult,
     least_transmission,
@@ -99,6 +99,8 @@ def pose_guide(task: PoseTask) -> PoseGuide:
     ----------
     .. [1] Hartenberg, Denavit, Kinematic Synthesis of Linkages, 1964.
     """
+    task = with_moving_points(task)
+    assert task.crank_point is not None
     places = body_places(task, task.crank_point)
     crank_pivot = centre(places, task.crank_point, "crank_point")
     if task.linkage == "slider-crank":
@@ -111,6 +113,43 @@ def body_places(task: PoseTask, point: MovingPoint) -> Complexes:
     poses = task.poses
     origin = np.asarray(poses.x) + 1j * np.asarray(poses.y)
     return origin + complex(point.x, point.y) * np.exp(1j * np.asarray(poses.angle))
+
+
+def with_moving_points(task: PoseTask) -> PoseTask:
+    """The task with points of the body in place of given fixed pivots.
+
+    Seen from the body a fixed pivot moves, and its three places lie on a circle about the pin.
+    """
+    found = {
+        f"{name}_point": _pin_about(task, pivot, f"{name}_pivot")
+        for name, pivot in (("crank", task.crank_pivot), ("rocker", task.rocker_pivot))
+        if pivot is not None
+    }
+    return task.model_copy(update=found) if found else task
+
+
+def _pin_about(task: PoseTask, pivot: FixedPivot, key: str) -> MovingPoint:
+    """The point of the body that keeps its distance from a fixed pivot in three poses."""
+    poses = task.poses
+    from_origin = complex(pivot.x, pivot.y) - (np.asarray(poses.x) + 1j * np.asarray(poses.y))
+    seen: Complexes = from_origin * np.exp(-1j * np.asarray(poses.angle))
+    reach = np.abs(seen - seen.mean()).max()
+    if reach <= _SAME * max(1e-3, np.abs(seen).max()):
+        raise SynthesisError(f"{key}: the body only turns about this pivot; choose another one")
+    u, v = seen[1] - seen[0], seen[2] - seen[0]
+    if abs(cross(u, v)) <= _FLAT * reach**2:
+        raise SynthesisError(
+            f"{key}: seen from the body, this pivot moves along a straight line, so that its pin is "
+            "infinitely far; choose another pivot"
+        )
+    pin = _circumcentre(seen)
+    return MovingPoint(x=pin.real, y=pin.imag)
+
+
+def _circumcentre(places: Complexes) -> complex:
+    """Centre of the circle through three places."""
+    u, v = places[1] - places[0], places[2] - places[0]
+    return complex(places[0] + 1j * (v * abs(u) ** 2 - u * abs(v) ** 2) / (-2 * cross(u, v)))
 
 
 def centre(places: Complexes, point: MovingPoint, key: str) -> complex:
@@ -139,7 +178,7 @@ def centre(places: Complexes, point: MovingPoint, key: str) -> complex:
             "centre of its link "
             'is infinitely far; choose another point of the body, or a slider (linkage = "slider-crank")'
         )
-    return complex(places[0] + 1j * (v * abs(u) ** 2 - u * abs(v) ** 2) / (-2 * area))
+    return _circumcentre(places)
 
 
 def _rocker_guide(task: PoseTask, pins: Complexes, crank_pivot: complex) -> PoseGuide:
@@ -201,7 +240,9 @@ def _travelled(
 ) -> Floats:
     """Crank angles of the poses from zero on, in the direction that passes them in order."""
     directions = np.angle(pins - pivot)
-    angles = travel(gap, list(directions - directions[0]), task.crank_point.turn)
+    angles = travel(
+        gap, list(directions - directions[0]), task.crank_point.turn if task.crank_point else None
+    )
     if angles is None:
         raise SynthesisError(
             f"{what} meets the poses at crank directions {listed(directions)}, and can be driven through "

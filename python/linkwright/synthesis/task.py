@@ -74,6 +74,13 @@ class MovingPoint(Description):
     )
 
 
+class FixedPivot(Description):
+    """A fixed pivot."""
+
+    x: Length = Field(description="To the right.")
+    y: Length = Field(description="Up.")
+
+
 class PoseTask(Task):
     """Two or three poses of a body that the coupler of a linkage shall pass through."""
 
@@ -81,9 +88,16 @@ class PoseTask(Task):
         "four-bar", description="What carries the body: crank and rocker, or crank and slider."
     )
     poses: Poses = Field(description="The poses.")
-    crank_point: MovingPoint = Field(description="Point of the body at the crank pin.")
+    crank_point: MovingPoint | None = Field(None, description="Point of the body at the crank pin.")
     rocker_point: MovingPoint | None = Field(
         None, description="Point of the body at the rocker; for a four-bar."
+    )
+    crank_pivot: FixedPivot | None = Field(
+        None,
+        description="In place of crank_point: fixed pivot of the crank. Three poses then give the crank pin.",
+    )
+    rocker_pivot: FixedPivot | None = Field(
+        None, description="In place of rocker_point: fixed pivot of the rocker, likewise."
     )
     slider_point: MovingPoint | None = Field(
         None,
@@ -97,15 +111,33 @@ class PoseTask(Task):
             yield fault("poses", "x", found=values(n), expected="2 or 3 values, one a pose")
         for key in ("y", "angle"):
             yield from same_length(("poses", key), len(getattr(self.poses, key)), n, "pose")
-        wanted = "rocker_point" if self.linkage == "four-bar" else "slider_point"
-        other = "slider_point" if self.linkage == "four-bar" else "rocker_point"
-        if getattr(self, wanted) is None:
-            yield fault(wanted, expected=f"a table; a {self.linkage} needs it")
-        if getattr(self, other) is not None:
-            yield fault(other, found="a table", expected=f"nothing; a {self.linkage} has no such point")
+        yield from self._holder_faults("crank", n)
+        if self.linkage == "four-bar":
+            yield from self._holder_faults("rocker", n)
+            others = ("slider_point",)
+        else:
+            others = ("rocker_point", "rocker_pivot")
+            if self.slider_point is None:
+                yield fault("slider_point", expected="a table; a slider-crank needs it")
+        for other in others:
+            if getattr(self, other) is not None:
+                yield fault(other, found="a table", expected=f"nothing; a {self.linkage} has no such point")
         turning = ("crank_point", "rocker_point")
         for key in (*turning, "slider_point"):
             yield from self._turn_faults(key, needed=n == 2 and key in turning)
+
+    def _holder_faults(self, name: str, poses: int) -> Iterator[InitErrorDetails]:
+        """A link of which neither end is given, or both, or a pivot that two poses leave undetermined."""
+        point, pivot = f"{name}_point", f"{name}_pivot"
+        given = [key for key in (point, pivot) if getattr(self, key) is not None]
+        if not given:
+            yield fault(point, expected=f"a table, or {pivot}; a {self.linkage} needs one of them")
+        elif len(given) == 2:
+            remedy = "each follows from the other"
+            yield fault(pivot, found="a table", expected=f"nothing beside {point}", remedy=remedy)
+        elif given == [pivot] and poses == 2:
+            remedy = f"give {point} with its turn, or a third pose"
+            yield fault(pivot, found="a table", expected="three poses: two leave the pin free", remedy=remedy)
 
     def _turn_faults(self, key: str, *, needed: bool) -> Iterator[InitErrorDetails]:
         """An angle of rotation that is missing, or has no meaning."""
@@ -208,6 +240,10 @@ class PathTask(Task):
         None,
         description="Region of the fixed pivots. Default: within four sizes of the path around it.",
     )
+    crank_pivot: FixedPivot | None = Field(
+        None, description="Fixed pivot of the crank, in place of a region; together with rocker_pivot."
+    )
+    rocker_pivot: FixedPivot | None = Field(None, description="Fixed pivot of the rocker.")
     linkage: Literal["crank-rocker", "double-crank", "any"] = Field(
         "crank-rocker", description="Type of linkage; its crank always rotates fully."
     )
@@ -248,12 +284,26 @@ class PathTask(Task):
             yield from same_length(("crank_angle",), len(self.crank_angle), n, "point")
         if len(self.y) == n and n and max(self.x) == min(self.x) and max(self.y) == min(self.y):
             yield fault("x", found="points at one place", expected="points at different places")
+        yield from self._pivot_faults()
         for key in ("x", "y") if self.pivots else ():
             ends: tuple[float, ...] = getattr(self.pivots, key)
             if len(ends) != 2 or ends[0] >= ends[1]:
                 yield fault(
                     "pivots", key, found=str(list(ends)), expected="two values, the smaller one first"
                 )
+
+    def _pivot_faults(self) -> Iterator[InitErrorDetails]:
+        """Fixed pivots of which one is missing, or that stand beside a region, or coincide."""
+        crank, rocker = self.crank_pivot, self.rocker_pivot
+        if crank is None and rocker is None:
+            return
+        if crank is None or rocker is None:
+            lacking = "crank_pivot" if crank is None else "rocker_pivot"
+            yield fault(lacking, expected="the other pivot too, or pivots, a region of both")
+        elif (crank.x, crank.y) == (rocker.x, rocker.y):
+            yield fault("rocker_pivot", found="the place of crank_pivot", expected="another place")
+        if self.pivots is not None:
+            yield fault("pivots", found="a table", expected="nothing beside crank_pivot and rocker_pivot")
 
 
 def same_length(place: tuple[str, ...], length: int, wanted: int, what: str) -> Iterator[InitErrorDetails]:
