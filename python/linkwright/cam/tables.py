@@ -131,7 +131,8 @@ def section_table(profile: CamProfile) -> Table:
         place = f"{count}, {degrees(section['start'])} to {degrees(section['end'])}, {_law_words(section)}"
         cells: list[str] = []
         for order, name in enumerate(("lift_d1", "lift_d2", "lift_d3"), start=1):
-            end = max(("max", "min"), key=lambda end, name=name: abs(section[f"{name}_{end}"]))
+            ends = (f"{name}_max", f"{name}_min")
+            end = "max" if abs(section[ends[0]]) >= abs(section[ends[1]]) else "min"
             value, at = section[f"{name}_{end}"], section[f"{name}_{end}_angle"]
             unit = _PER_RAD[order] if speed is None else _PER_SECOND[order]
             cells += [

@@ -23,7 +23,7 @@ _RATES = (
 )
 
 # Kinds of what moves, by the end of the name of its curve.
-_KINDS = {"slides": ".place", "links": ".angle", "points": (".x", ".y")}
+_KINDS: dict[str, str | tuple[str, ...]] = {"slides": ".place", "links": ".angle", "points": (".x", ".y")}
 
 # What moves by less than this share of the largest of its kind rests.
 _AT_REST = 1e-12

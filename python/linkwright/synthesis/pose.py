@@ -258,6 +258,7 @@ def _errors(task: PoseTask, machine: Machine, angles: Floats, link: str) -> tupl
     place = np.abs(table[0] + 1j * table[1] - np.asarray(task.poses.x) - 1j * np.asarray(task.poses.y))
     turned = (table[6] + 1j * table[7]) * np.exp(-1j * np.asarray(task.poses.angle))
     error, turning = float(place.max()), float(np.abs(np.angle(turned / turned[0])).max())
+    assert task.crank_point is not None
     extent = np.abs(body_places(task, task.crank_point) - body_origin(task)).max()
     require_met("a distance of the body from its poses", 0.0, error, "m", size=float(extent))
     require_met("a turning of the body off its poses", 0.0, turning, "rad", size=1.0)

@@ -114,7 +114,7 @@ class PoseTask(Task):
         yield from self._holder_faults("crank", n)
         if self.linkage == "four-bar":
             yield from self._holder_faults("rocker", n)
-            others = ("slider_point",)
+            others: tuple[str, ...] = ("slider_point",)
         else:
             others = ("rocker_point", "rocker_pivot")
             if self.slider_point is None:
@@ -136,7 +136,7 @@ class PoseTask(Task):
             remedy = "each follows from the other"
             yield fault(pivot, found="a table", expected=f"nothing beside {point}", remedy=remedy)
         elif given == [pivot] and poses == 2:
-            remedy = f"give {point} with its turn, or a third pose"
+            remedy = f"give {point} and the rotation of its link, or a third pose"
             yield fault(pivot, found="a table", expected="three poses: two leave the pin free", remedy=remedy)
 
     def _turn_faults(self, key: str, *, needed: bool) -> Iterator[InitErrorDetails]:
