@@ -120,12 +120,12 @@ def with_moving_points(task: PoseTask) -> PoseTask:
 
     Seen from the body a fixed pivot moves, and its three places lie on a circle about the pin.
     """
-    found = {
+    points = {
         f"{name}_point": _pin_about(task, pivot, f"{name}_pivot")
         for name, pivot in (("crank", task.crank_pivot), ("rocker", task.rocker_pivot))
         if pivot is not None
     }
-    return task.model_copy(update=found) if found else task
+    return task.model_copy(update=points) if points else task
 
 
 def _pin_about(task: PoseTask, pivot: FixedPivot, key: str) -> MovingPoint:
