@@ -951,6 +951,7 @@ class Status:
     NO_STEADY_MOTION: Final[Status]
     INACCURATE: Final[Status]
     TWO_TURNS: Final[Status]
+    SLIDES: Final[Status]
 
     def __int__(self) -> int: ...
     @staticmethod

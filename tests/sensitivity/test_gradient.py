@@ -161,3 +161,20 @@ def test_what_has_no_derivative_is_told():
     lengths = [name for name in lw.addresses(points) if name.endswith("radius")]
     with pytest.raises(LinkwrightError, match=r"change points|motor"):
         lw.gradient(points, None, lengths[:1])
+
+
+@pytest.mark.parametrize("address", ["bodies.cart1.mass", "drive.gearbox.ratio"])
+def test_peaks_of_acceleration_are_differentiated_at_their_peak(address: str) -> None:
+    """Not where they were read, some millionths of a step beside, which makes 9e-7 for the mass of a cart."""
+    machine = lw.read(TWO_CARTS)
+    value = dict(lw.addresses(machine))[address]
+
+    def peak(share: float) -> float:
+        changed = lw.replace(machine, {address: value * (1 + share)})
+        return lw.steady_state(changed, n=16, accuracy=1e-12).acceleration_max
+
+    rough = [(peak(share) - peak(-share)) / (2 * share * value) for share in (8e-3, 4e-3, 2e-3)]
+    finer = [(4 * rough[k + 1] - rough[k]) / 3 for k in range(2)]
+    expected = (16 * finer[1] - finer[0]) / 15
+    found = lw.gradient(machine, ["steady_state.acceleration_max"], [address])
+    assert found.derivatives[0, 0] == pytest.approx(expected, rel=1e-7)

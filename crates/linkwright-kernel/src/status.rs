@@ -14,12 +14,20 @@ pub enum Status {
     Inaccurate = 3,
     /// A dyad passes an odd number of change points: told by who has found these, not by a solver.
     TwoTurns = 4,
+    /// The motion slides along a jump of a load over the speed.
+    Slides = 5,
 }
 
 impl Status {
     /// All of them, by number.
-    pub const ALL: [Status; 5] =
-        [Status::Ok, Status::DoesNotClose, Status::NoSteadyMotion, Status::Inaccurate, Status::TwoTurns];
+    pub const ALL: [Status; 6] = [
+        Status::Ok,
+        Status::DoesNotClose,
+        Status::NoSteadyMotion,
+        Status::Inaccurate,
+        Status::TwoTurns,
+        Status::Slides,
+    ];
 
     /// What it means.
     pub fn sentence(self) -> &'static str {
@@ -31,6 +39,9 @@ impl Status {
             Status::NoSteadyMotion => "no steady motion: the drive cannot keep the machine turning",
             Status::Inaccurate => "the accuracy was not reached",
             Status::TwoTurns => "the motion repeats only after two revolutions of the crank",
+            Status::Slides => {
+                "the motion slides along a jump of a load over the speed, where the load has no value of its own"
+            }
         }
     }
 }

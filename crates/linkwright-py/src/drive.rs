@@ -356,6 +356,7 @@ fn name_of(end: End) -> &'static str {
         End::Reversal => "REVERSAL",
         End::DoesNotClose => "DOES_NOT_CLOSE",
         End::Inaccurate => "INACCURATE",
+        End::Slides => "SLIDES",
     }
 }
 

@@ -12,6 +12,7 @@ pub(crate) enum Status {
     NoSteadyMotion = CoreStatus::NoSteadyMotion as isize,
     Inaccurate = CoreStatus::Inaccurate as isize,
     TwoTurns = CoreStatus::TwoTurns as isize,
+    Slides = CoreStatus::Slides as isize,
 }
 
 impl From<CoreStatus> for Status {
@@ -22,6 +23,7 @@ impl From<CoreStatus> for Status {
             CoreStatus::NoSteadyMotion => Status::NoSteadyMotion,
             CoreStatus::Inaccurate => Status::Inaccurate,
             CoreStatus::TwoTurns => Status::TwoTurns,
+            CoreStatus::Slides => Status::Slides,
         }
     }
 }

@@ -18,6 +18,11 @@ Floats = NDArray[np.float64]
 # Angles at which loads are looked at; a hole narrower than half a degree is met by the solver, which says so.
 _ANGLES = 720
 
+
+# How far, as a share of its speed, steps that go to and fro across a jump leave the motion from it; and the
+# share of a load that counts as a jump between both sides, far above what a slope makes of that.
+_NEAR, _JUMPS = 1e-5, 1e-4
+
 # Loads that may have no value at some place, or jump.
 _DOUBTFUL = (FormulaLoad, GasSpring, TorsionalSpring)
 
@@ -60,6 +65,44 @@ def require_sound_loads(compiled: CompiledMachine, machine: Machine) -> None:
         torques = _torques(alone, phi)
         if not np.isfinite(torques).all():
             raise FindingError(_no_value(name, load, float(phi[np.argmin(np.isfinite(torques))])))
+
+
+def is_held(compiled: CompiledMachine, angle: float, speed: float) -> bool:
+    """Whether a load jumps near a speed, and the torques of both sides drive the crank back there."""
+    phi, omega = np.array([angle]), speed * (1.0 + np.array([-_NEAR, _NEAR]))
+    loads = compiled.law_torques(phi, omega)[:, 0]
+    at = compiled.reductions(phi)
+    resisting = at.load + at.dry + at.viscous * omega + compiled.speed_load(omega) + loads
+    net = compiled.motor_torques(omega)[1] - resisting - 0.5 * at.inertia_slope * omega**2
+    jumps = abs(loads[1] - loads[0]) > _JUMPS * np.abs(loads).sum()
+    return bool(compiled.has_laws and jumps and net[0] > 0.0 > net[1])
+
+
+def sliding(machine: Machine, angle: float, speed: float) -> SteadyStateError:
+    """The error for a motion that a jump of a load holds at an angle and a speed, with the load that jumps.
+
+    The torques of both sides drive the crank back to that speed (Filippov, *Differential Equations with
+    Discontinuous Righthand Sides*, 1988, § 4).
+    """
+    where = f"at {speed:.6g} rad/s (φ = {np.degrees(angle) % 360:.4g}°)"
+    what = f"a load jumps {where}"
+    for name, load in machine.loads.items():
+        if not isinstance(load, FormulaLoad):
+            continue
+        alone = compile_machine(machine.with_entries({"loads": {name: load}}))
+        below, above = (
+            float(alone.law_torques(np.array([angle]), speed * (1 + side))[0, 0]) for side in (-_NEAR, _NEAR)
+        )
+        if abs(above - below) > _JUMPS * (abs(above) + abs(below)):
+            what = (
+                f'the formula of {name}, "{load.text}", jumps {where} from {below:.4g} to {above:.4g} N m of '
+                "load torque at the crank"
+            )
+    return SteadyStateError(
+        f"the motion slides along a jump: {what}, and the torques of both sides drive the crank back there, "
+        "so that it keeps that speed under a load in between, which no formula gives; write the jump as a "
+        "steep slope over speed, such as min(max((omega - w0)/width, 0), 1)"
+    )
 
 
 def require_half_turns(compiled: CompiledMachine, machine: Machine) -> None:

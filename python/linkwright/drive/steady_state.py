@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from linkwright.drive import evenness
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.reduction import NO_INERTIA, mean_laws, mean_over_turn
-from linkwright.drive.sound_loads import require_same_turns, require_sound_loads
+from linkwright.drive.sound_loads import require_same_turns, require_sound_loads, sliding
 from linkwright.kernel.errors import ConvergenceError, InputError, SteadyStateError
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.public import public
@@ -255,7 +255,7 @@ def steady_state(
     FindingError
         It does not repeat after one revolution of the crank.
     SteadyStateError
-        There is no periodic motion; says what the drive lacks.
+        There is no periodic motion; says what the drive lacks. Or it slides along a jump of a load.
     ConvergenceError
         The accuracy was not reached.
     InputError
@@ -290,7 +290,7 @@ def solved_state(machine: Machine, accuracy: float, phi: Floats) -> tuple[Steady
         return _at_constant_speed(machine, compiled, phi), None
     motion = compiled.steady(phi, accuracy)
     if isinstance(motion, NoSteadyMotion):
-        raise _failure(motion, compiled, accuracy)
+        raise _failure(motion, machine, compiled, accuracy)
     return _from_core(machine, motion, phi, compiled), motion.solution
 
 
@@ -457,11 +457,15 @@ def _at_constant_speed(machine: Machine, compiled: CompiledMachine, phi: Floats)
     )
 
 
-def _failure(motion: NoSteadyMotion, compiled: CompiledMachine, accuracy: float) -> Exception:
+def _failure(
+    motion: NoSteadyMotion, machine: Machine, compiled: CompiledMachine, accuracy: float
+) -> Exception:
     """The error for a machine without steady motion, with the numbers of the core."""
     angle, speed, reached = motion.crank_angle, motion.speed, motion.accuracy
     if motion.status == Status.DOES_NOT_CLOSE:
         return SteadyStateError(NO_INERTIA)
+    if motion.status == Status.SLIDES:
+        return sliding(machine, angle, speed)
     if motion.status == Status.NO_STEADY_MOTION:
         if np.isnan(angle):
             return SteadyStateError(_runs_away(compiled, speed))

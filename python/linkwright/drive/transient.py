@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.reduction import NO_INERTIA
-from linkwright.drive.sound_loads import require_half_turns, require_sound_loads
+from linkwright.drive.sound_loads import is_held, require_half_turns, require_sound_loads, sliding
 from linkwright.kernel.errors import ConvergenceError, InputError, SteadyStateError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
@@ -38,6 +38,7 @@ class End(IntEnum):
     REVERSAL = 5
     DOES_NOT_CLOSE = 6
     INACCURATE = 7
+    SLIDES = 8
 
 
 class MethodPart(NamedTuple):
@@ -236,6 +237,8 @@ def transient(
         The accuracy cannot be kept.
     InputError
         Neither duration nor turns is finite, or the motor is one of constant speed.
+    SteadyStateError
+        The motion is held at a speed at which a load jumps.
 
     References
     ----------
@@ -264,6 +267,9 @@ def transient(
         raise SteadyStateError(NO_INERTIA)
     if not np.isfinite([motion.torque_drive_end, motion.torque_load_end]).all():
         require_sound_loads(compiled, machine)
+    last = float(motion.crank_angle[-1]), float(motion.speed[-1])
+    if end == End.SLIDES or (end == End.INACCURATE and is_held(compiled, *last)):
+        raise sliding(machine, *last)
     if end == End.INACCURATE:
         raise ConvergenceError(
             f"the motion was given up at {motion.time[-1]:.6g} s: steps became too small or too many for an "

@@ -271,7 +271,8 @@ impl<'a, R: Real> Lanes<'a, R> {
         );
         for k in (1..coarse.steps.len()).filter(|&k| meshes.iter().any(|mesh| mesh.is_kink(k))) {
             // The end of a step is that of the second of its halves.
-            let side = machine.growth_on_side(&turn.steps[2 * k - 1], turn.given_of(&machine, 2 * k - 1));
+            let step = &turn.steps[2 * k - 1];
+            let side = machine.growth_on_side(step, turn.given_of(&machine, 2 * k - 1)) / step.growth;
             let is_kink: Vec<f64> = meshes.iter().map(|mesh| f64::from(u8::from(mesh.is_kink(k)))).collect();
             let factor = R::load(&is_kink).select_lt(R::splat(0.5), R::splat(1.0), side);
             turn.multiplier = turn.multiplier * factor;

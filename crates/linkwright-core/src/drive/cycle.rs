@@ -220,17 +220,16 @@ impl<'a, R: Real> Machine<'a, R> {
         (Step { X, ..Step::at_rest(phi, h, rows, u) }, given)
     }
 
-    /// For a step that ends on a kink of the drive: its growth with the slope that the drive's torque has on its side of
-    /// the kink, over that with the slope that rounding chose. The torque itself is the same on either side.
+    /// Growth of a step that ends on a kink of the drive, with the slope that the drive's torque has on its side of the
+    /// kink; the step's own has the slope that rounding chose. The torque itself is the same on either side.
     #[inline(always)]
     pub fn growth_on_side(&self, step: &Step<R>, given: &[Given<R>]) -> R {
         let (f, mut d) = self.accelerations(&step.rows, given, &step.X);
-        let chosen = stage_newton(step.u, step.h, &f, &d, &step.X).u[S - 1];
         let u = OnBranch { value: Dual::variable(step.X[S - 1]), at: step.X[REFERENCE] };
         let row = &step.rows[S - 1];
         d[S - 1] =
             d[S - 1] + (self.drive_acceleration(row, u).value.d - self.drive_acceleration(row, u.value).d);
-        stage_newton(step.u, step.h, &f, &d, &step.X).u[S - 1] / chosen
+        stage_newton(step.u, step.h, &f, &d, &step.X).u[S - 1]
     }
 
     /// Where the stages of a step lie on another branch than the one that the step keeps to: the most that this makes of

@@ -29,6 +29,9 @@ const BESIDE: f64 = 1e-5;
 /// A change of the acceleration at a kink below this share of it is no jump.
 const NO_JUMP: f64 = 1e-8;
 
+/// Distance of u from a jump, as a share, at which its two sides are looked at.
+const ASIDE: f64 = 1e-6;
+
 /// What the motion may pass where its equation has a kink.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Event {
@@ -36,6 +39,20 @@ pub enum Event {
     Speed(usize),
     /// A kink of a law.
     Law(Moving),
+}
+
+/// Newton steps to the zero of an event: g is nearly linear in u.
+const LEVEL_SWEEPS: usize = 4;
+
+/// What the torques beside a jump do with a motion that is on it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pull {
+    /// Drive it back from either side.
+    Holds,
+    /// Drive it to where u is larger.
+    Up,
+    /// Drive it to where u is smaller.
+    Down,
 }
 
 /// Where the motion passes a kink.
@@ -194,7 +211,42 @@ impl Events<'_, f64> {
         passages
     }
 
-    /// By what the growth of a step that ends on a kink of the drive is to be corrected.
+    /// The jump of a law on which the motion is held: there, within the share `near` of u, the torques of both sides drive it
+    /// back. It slides along the jump then (Filippov, *Differential Equations with Discontinuous Righthand Sides*, 1988,
+    /// § 4), and the law has some value between those of its sides.
+    pub fn held(&self, phi: f64, u: f64, near: f64, m: &mut Motion<f64>) -> Option<Event> {
+        self.laws.iter().copied().map(Event::Law).find(|&event| {
+            let level = self.level(event, phi, u, m);
+            (level / u - 1.0).abs() <= near && self.pull(event, phi, level, m) == Pull::Holds
+        })
+    }
+
+    /// u on the zero of an event, near the one given, by Newton.
+    pub fn level(&self, event: Event, phi: f64, mut u: f64, m: &mut Motion<f64>) -> f64 {
+        for _ in 0..LEVEL_SWEEPS {
+            u -= self.value(event, phi, u, m) / self.slopes(event, phi, u, m)[1];
+        }
+        u
+    }
+
+    /// What the torques beside the zero of an event do with a motion that is on it.
+    pub fn pull(&self, event: Event, phi: f64, u: f64, m: &mut Motion<f64>) -> Pull {
+        let [by_phi, by_u] = self.slopes(event, phi, u, m);
+        let mut given = Vec::new();
+        let row = self.machine.row(phi, m, &mut given);
+        let epsilon = |share: f64| self.machine.acceleration(&row, &given, u * (1.0 + share)).value;
+        // How fast u leaves the zero on either side of it.
+        let [below, above] = [-ASIDE, ASIDE].map(|x| 2.0 * epsilon(x) - epsilon(2.0 * x) + by_phi / by_u);
+        if below > 0.0 && above < 0.0 && below - above > NO_JUMP * u {
+            Pull::Holds
+        } else if above > 0.0 {
+            Pull::Up
+        } else {
+            Pull::Down
+        }
+    }
+
+    /// Growth of a step that ends on a kink of the drive.
     pub fn growth_on_side(&self, piece: &Piece, m: &mut Motion<f64>) -> f64 {
         let (step, given) = self.machine.step_of(piece.phi, piece.h, piece.u, piece.X, m);
         self.machine.growth_on_side(&step, &given)

@@ -34,6 +34,9 @@ pub const CURVES: usize = 7;
 const PASSAGES_MAX: usize = 60;
 const MOVED: f64 = 1e-11;
 
+/// Share of a step to both sides of a peak of the acceleration at which it is read for its slope and bend.
+const ASIDE: f64 = 1e-3;
+
 /// An angle this near to the end of a step \[rad\] is that end.
 const AT_END: f64 = 1e-12;
 
@@ -169,7 +172,7 @@ impl<'a, R: Real> Moved<'a, R> {
     fn move_passages(&mut self, m: &mut Motion<Dual<R>>) {
         let events = Events::new(self.machine);
         for _ in 0..PASSAGES_MAX {
-            let (mut most, mut factors) = (0.0_f64, Dual::splat(1.0));
+            let (mut most, mut factors, mut ends) = (0.0_f64, Dual::splat(1.0), Vec::new());
             for passage in &self.steady.passages {
                 let marks = &self.steady.marks;
                 let k = marks.partition_point(|mark| mark.phi < passage.phi - AT_END).max(1);
@@ -178,13 +181,17 @@ impl<'a, R: Real> Moved<'a, R> {
                 let (before, behind) = (self.turn.steps[k - 1].K[S - 1], self.start_of(k, m));
                 let along = slopes[0] + slopes[1] * before;
                 let left = events.value(passage.event, phi, step.u, m).d / along.value;
-                let given = self.turn.given_of(&self.machine, k - 1);
-                let side = self.machine.growth_on_side(&self.turn.steps[k - 1], given);
                 most = most.max((left.abs() - phi.d.abs() * MOVED).max_lane());
                 self.edges[k].d = phi.d - left;
-                factors = factors * side * events.saltation(slopes, before, behind);
+                factors = factors * events.saltation(slopes, before, behind);
+                ends.push(k - 1);
             }
             self.differentiate(m);
+            for &k in &ends {
+                let step = &self.turn.steps[k];
+                let given = self.turn.given_of(&self.machine, k);
+                factors = factors * self.machine.growth_on_side(step, given) / step.growth;
+            }
             self.turn.multiplier = self.turn.multiplier * factors;
             if most <= 0.0 {
                 return;
@@ -214,8 +221,11 @@ impl<'a, R: Real> Moved<'a, R> {
             [extremes.speed_min, extremes.speed_max, extremes.acceleration_min, extremes.acceleration_max];
         let mut found = [Dual::splat(0.0); 4];
         for (k, extreme) in places.iter().enumerate() {
-            let there = self.state(extreme.phi, m).1;
-            found[k] = if k < 2 { there.omega } else { there.epsilon };
+            found[k] = if k < 2 {
+                self.state(extreme.phi, m).1.omega
+            } else {
+                self.peak_of_acceleration(extreme.phi, m)
+            };
         }
         let totals = self.turn.totals(&self.machine);
         [
@@ -231,6 +241,28 @@ impl<'a, R: Real> Moved<'a, R> {
             totals.torque_mean,
             totals.torque_rms,
         ]
+    }
+
+    /// An extreme of the acceleration. Its derivative is that at the place of the peak, from which the angle where it was
+    /// read is off by some millionths of a step: −ε′/ε″.
+    #[inline(always)]
+    fn peak_of_acceleration(&self, phi: f64, m: &mut Motion<Dual<R>>) -> Dual<R> {
+        let epsilon = |phi: f64, m: &mut Motion<Dual<R>>| self.state(phi, m).1.epsilon;
+        let there = epsilon(phi, m);
+        let ends = |k: usize| self.edges[k].value.max_lane();
+        let k = self.steady.marks.partition_point(|mark| mark.phi < phi - AT_END).max(1) - 1;
+        let aside = ASIDE * (ends(k + 1) - ends(k));
+        if phi - ends(k) < 2.0 * aside || ends(k + 1) - phi < 2.0 * aside {
+            // A corner is where it is.
+            return there;
+        }
+        let [left, right] = [phi - aside, phi + aside].map(|phi| epsilon(phi, m));
+        let slope = (right - left) * (0.5 / aside);
+        let bend = (right.value - there.value * 2.0 + left.value) * aside.powi(-2);
+        let off = slope.value / bend;
+        // Where the acceleration is constant there is no peak.
+        let off = off.abs().select_lt(R::splat(aside), off, R::splat(0.0));
+        Dual { value: there.value, d: there.d - off * slope.d }
     }
 
     /// The curves at a crank angle.

@@ -14,10 +14,10 @@
 //! clear of zero, or the interval is halved.
 
 use crate::drive::cycle::{Machine, divide};
-use crate::drive::events::Events;
+use crate::drive::events::{Event, Events, Pull};
 use crate::drive::mesh::Piece;
 use crate::kernel::call::poll;
-use crate::kernel::radau::{S, tail};
+use crate::kernel::radau::{C, S, tail};
 use crate::linkage::motion::Motion;
 
 /// What the polynomial of a step may have of the highest degree, as a share of u: with order 9, errors are
@@ -57,6 +57,18 @@ const HALVINGS: u32 = 8;
 /// bends towards zero, the gain itself may get there.
 const CLEAR: f64 = 0.9;
 
+/// A motion this near to a jump of a law, as a share of u, is on it.
+const ON_JUMP: f64 = 1e-9;
+
+/// By how much of u a motion that leaves a jump is put beside it.
+const BESIDE_JUMP: f64 = 1e-11;
+
+/// First step that leaves a jump, as a share of the longest.
+const FIRST_OFF: f64 = 0.02;
+
+/// Halvings of a step to the angle at which a motion leaves a jump.
+const LEAVING: usize = 40;
+
 /// The next start lies above this share of u, so that the gain is seen in all its turns.
 const LEAP: f64 = 0.85;
 
@@ -71,6 +83,17 @@ struct Revolution {
     /// Derivative of the end by the start.
     growth: f64,
     pieces: Vec<Piece>,
+    /// Where it begins to slide along a jump of a law.
+    slides: Option<Sliding>,
+}
+
+/// Where a motion begins to slide along a jump of a law.
+#[derive(Clone, Copy, Debug)]
+pub struct Sliding {
+    /// Crank angle \[rad\].
+    pub phi: f64,
+    /// Speed at which it is held \[rad/s\].
+    pub omega: f64,
 }
 
 /// A motion that repeats, to about seven digits.
@@ -80,6 +103,8 @@ pub struct Repeated {
     pub pieces: Vec<Piece>,
     /// Derivative of the end of the turn by its start.
     pub growth: f64,
+    /// Where it begins to slide along a jump of a law, if it does.
+    pub slides: Option<Sliding>,
 }
 
 impl Repeated {
@@ -198,7 +223,7 @@ impl March<'_> {
     fn walk(&mut self, working: f64, which: Which) -> Result<(), NoMotion> {
         let mut high = self.fast_start(9.0 * working)?;
         loop {
-            if which == Which::Fastest && !self.found.is_empty() {
+            if which == Which::Fastest && self.found.iter().any(|motion| motion.slides.is_none()) {
                 return Ok(());
             }
             let next = high.next_below();
@@ -261,7 +286,8 @@ impl March<'_> {
             *if (high.gain() < 0.0) == falls { &mut top } else { &mut bottom } = high.start;
             nearest = high;
         }
-        self.found.push(Repeated { pieces: nearest.pieces, growth: nearest.growth });
+        let Revolution { pieces, growth, slides, .. } = nearest;
+        self.found.push(Repeated { pieces, growth, slides });
         Ok(())
     }
 
@@ -297,7 +323,7 @@ impl March<'_> {
         if self.turns > TURNS_MAX {
             return Err(NoMotion::Unknown);
         }
-        let mut turn = Revolution { start, end: start, growth: 1.0, pieces: Vec::new() };
+        let mut turn = Revolution { start, end: start, growth: 1.0, pieces: Vec::new(), slides: None };
         let longest = divide(&[0.0, std::f64::consts::TAU], LONGEST)[1];
         let mut h = 0.25 * longest;
         let mut next_break = 1;
@@ -308,6 +334,17 @@ impl March<'_> {
                 return Err(NoMotion::Unknown);
             }
             let left = self.breaks[next_break] - phi;
+            if let Some(event) = self.events.held(phi, turn.end, ON_JUMP, &mut self.m) {
+                let slid = self.slide(event, &mut turn, phi, left.min(longest));
+                (phi, next_break) = if slid < left {
+                    (phi + slid, next_break)
+                } else {
+                    (self.breaks[next_break], next_break + 1)
+                };
+                // A step that starts on a jump is not seen to come back to it.
+                h = FIRST_OFF * longest;
+                continue;
+            }
             let mut step = h.min(left);
             let (mut found, _) = self.machine.advance(phi, turn.end, step, &mut self.m);
             let piece = Piece { phi, h: step, u: turn.end, X: found.X };
@@ -349,5 +386,38 @@ impl March<'_> {
             }
         }
         Ok(turn)
+    }
+
+    /// Takes a motion that is held on a jump along it, at most by `most`, to where one side lets it go; how far.
+    fn slide(&mut self, event: Event, turn: &mut Revolution, phi: f64, most: f64) -> f64 {
+        let (start, events, m) = (turn.end, &self.events, &mut self.m);
+        let mut at = |x: f64| {
+            let u = events.level(event, phi + x, start, m);
+            (u, events.pull(event, phi + x, u, m))
+        };
+        let (mut slid, mut end) = (most, at(most));
+        if end.1 != Pull::Holds {
+            let mut held = 0.0;
+            for _ in 0..LEAVING {
+                let middle = 0.5 * (held + slid);
+                let there = at(middle);
+                if there.1 == Pull::Holds {
+                    held = middle;
+                } else {
+                    (slid, end) = (middle, there);
+                }
+            }
+        }
+        turn.pieces.push(Piece { phi, h: slid, u: start, X: C.map(|c| at(c * slid).0) });
+        turn.end = match end.1 {
+            Pull::Holds => end.0,
+            Pull::Up => end.0 * (1.0 + BESIDE_JUMP),
+            Pull::Down => end.0 * (1.0 - BESIDE_JUMP),
+        };
+        // Whatever reaches the jump leaves it in the same way.
+        turn.growth = 0.0;
+        let omega = (2.0 * start).sqrt();
+        turn.slides.get_or_insert(Sliding { phi, omega });
+        slid
     }
 }

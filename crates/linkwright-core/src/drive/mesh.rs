@@ -62,6 +62,14 @@ impl<R: Real> Turn<R> {
         (0..phi.len()).filter(|&k| h[k] > 0.0).map(piece).collect()
     }
 
+    /// Growth of a disturbance in each of these steps.
+    #[inline(always)]
+    pub fn growths(&self) -> Vec<f64> {
+        let columns = |of: &dyn Fn(usize) -> R| unbundle(&(0..self.steps.len()).map(of).collect::<Vec<_>>());
+        let (h, growth) = (columns(&|k| self.steps[k].h), columns(&|k| self.steps[k].growth));
+        growth.into_iter().zip(h).filter(|&(_, h)| h > 0.0).map(|(growth, _)| growth).collect()
+    }
+
     /// Starts every step from a solution on other steps.
     #[inline(always)]
     pub fn start_from(&mut self, pieces: &[Piece]) {

@@ -15,7 +15,7 @@ use crate::drive::cycle::{Machine, Turn, divide};
 use crate::drive::events::{Events, Passage};
 use crate::drive::extremes::{Extreme, Extremes};
 use crate::drive::layout::unbundle;
-use crate::drive::march::{NoMotion, Repeated, Which, repeating};
+use crate::drive::march::{NoMotion, Repeated, Sliding, Which, repeating};
 use crate::drive::measures::Totals;
 use crate::drive::mesh::{Mesh, Piece};
 use crate::drive::reading::Mark;
@@ -97,9 +97,10 @@ pub struct Other {
 pub struct Failure {
     /// The kind.
     pub status: Status,
-    /// Crank angle where the machine comes to rest or does not close \[rad\]; NaN where there is none.
+    /// Crank angle where the machine comes to rest, does not close, or begins to slide along a jump \[rad\]; NaN where
+    /// there is none.
     pub phi: f64,
-    /// Speed from which it slows down, or which it still exceeds \[rad/s\]; NaN where there is none.
+    /// Speed from which it slows down, which it still exceeds, or at which it slides \[rad/s\]; NaN where there is none.
     pub omega: f64,
     /// Accuracy that was reached.
     pub reached: f64,
@@ -176,6 +177,11 @@ fn fastest_and(which: Which, plan: &Plan, q: &[f64], accuracy: f64) -> Result<St
 fn fastest_of(search: &Search<'_>, motions: &[Repeated], known: Option<Steady>) -> Result<Steady, Failure> {
     let (mut answer, mut others, mut failed): (Option<Steady>, Vec<Other>, _) = (None, Vec::new(), None);
     for motion in motions {
+        if let Some(Sliding { phi, omega }) = motion.slides {
+            others.push(Other::from(motion));
+            failed = failed.or(Some(Failure { phi, omega, ..Failure::new(Status::Slides) }));
+            continue;
+        }
         let is_known = |found: &&Steady| (motion.u() / found.marks[0].u - 1.0).abs() <= SAME;
         let solved = match known.as_ref().filter(is_known) {
             Some(found) => Ok(found.clone()),
@@ -192,6 +198,7 @@ fn fastest_of(search: &Search<'_>, motions: &[Repeated], known: Option<Steady>) 
     }
     match (answer.or(known), failed) {
         (Some(found), _) => Ok(Steady { others, ..found }),
+        (None, Some(failure)) if failure.status == Status::Slides => Err(failure),
         // There is a motion, but Newton does not hold it.
         (None, failed) => {
             let reached = failed.map_or(f64::NAN, |failure| failure.reached);
@@ -308,9 +315,12 @@ impl Job for Search<'_> {
                 // A march ends its steps at jumps too.
                 let starts = pieces.iter().filter(|piece| may_jump || mesh.is_crossing(piece.phi));
                 let passages = events.passages(starts, &mut plain_motion);
+                let growths = turn.growths();
                 for passage in &passages {
-                    let k = pieces.partition_point(|piece| piece.phi < passage.phi).max(1);
-                    multiplier *= passage.factor * events.growth_on_side(&pieces[k - 1], &mut plain_motion);
+                    let k = pieces.partition_point(|piece| piece.phi < passage.phi).max(1) - 1;
+                    // What the step has counted for so far, on the side that rounding chose.
+                    let side = events.growth_on_side(&pieces[k], &mut plain_motion) / growths[k];
+                    multiplier *= passage.factor * side;
                 }
                 if multiplier.is_nan() || (multiplier >= 1.0 && !self.any) {
                     return Err(Failure { reached, ..Failure::new(Status::NoSteadyMotion) });

@@ -24,6 +24,7 @@ use self::attempt::{Attempts, ExplicitAttempt, Piece};
 use self::equation::{AT_REST, Equation, Y};
 use self::stiff::StiffAttempt;
 use crate::drive::cycle::Machine;
+use crate::drive::events::Events;
 use crate::drive::mesh::crossing;
 use crate::drive::structure::Plan;
 use crate::kernel::call::poll;
@@ -67,6 +68,8 @@ pub enum End {
     DoesNotClose = 6,
     /// Too many steps, or steps too small, for the accuracy.
     Inaccurate = 7,
+    /// Slides along a jump of a load over the speed.
+    Slides = 8,
 }
 
 impl End {
@@ -105,6 +108,12 @@ const LANDING: f64 = 1e-13;
 /// How close a landing on a kink must be, for an accuracy ε: this times √ε \[rad\]. Passing a kink by δ errs
 /// by δ² times its change of slope, a millionth of ε.
 const NEAR: f64 = 1e-3;
+
+/// A step of the crank shorter than this \[rad\] may be due to a jump on which the motion is held.
+const SHORT: f64 = 1e-7;
+
+/// How near to a jump, as a share of u, steps that go to and fro across it leave the motion.
+const NEAR_JUMP: f64 = 1e-5;
 
 /// Follows the motion until time, turns or an event end it.
 pub fn follow(plan: &Plan, q: &[f64], start: &Start) -> Trajectory {
@@ -207,11 +216,16 @@ impl Path {
             let step = match self.step(follower, (t, &y, &k0), h, is_stiff) {
                 Ok(step) => step,
                 Err(end) => {
-                    self.trajectory.end = end;
+                    let slides = end == End::Inaccurate && follower.slides(&y);
+                    self.trajectory.end = if slides { End::Slides } else { end };
                     return;
                 }
             };
             h = step.next;
+            if h * y[1] < SHORT && follower.slides(&y) {
+                self.trajectory.end = End::Slides;
+                return;
+            }
             k0 = self.keep(&step.pieces, is_stiff);
             if step.at_rest {
                 let (t, y) = self.now();
@@ -387,6 +401,14 @@ impl Path {
         (path.drive_torque, path.load_torque, _) = follower.balance_at_rest(t, y[0]);
         path.evaluations = follower.evaluations;
         self.trajectory
+    }
+}
+
+impl Equation<'_> {
+    /// Whether the motion is held on a jump of a law here.
+    fn slides(&mut self, y: &Y) -> bool {
+        let u = 0.5 * y[1] * y[1];
+        u > 0.0 && Events::new(self.machine).held(y[0], u, NEAR_JUMP, &mut self.motion).is_some()
     }
 }
 

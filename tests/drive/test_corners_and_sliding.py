@@ -1,0 +1,141 @@
+"""Multipliers of motions that pass corners of the motor's curve; motions held by a jump of a load."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import linkwright as lw
+from linkwright.kernel.errors import SteadyStateError
+from linkwright.machine.program.core import Status
+
+J = 2.0  # kg m²
+
+# A crank of constant inertia; a motor of two straight lines.
+FILE = """format = 1
+name = "Crank"
+mechanism.cranks.A.radius = "1 m"
+bodies.A = {{ on = "A", inertia = {inertia} }}
+[drive]
+motor = {{ kind = "table", speed = {speeds}, torque = [100, 80, {last}], inertia = 0 }}
+gearbox = {{ ratio = 1, efficiency = 1 }}
+[loads.L]
+kind = "formula"
+on = "A"
+torque = "-(60 + {amplitude}*cos(phi){more})"
+"""
+
+
+def corners(amplitude: float, corner: float) -> lw.Machine:
+    text = FILE.format(inertia=J, speeds=[0, corner, 14], last=-20, amplitude=amplitude, more="")
+    return lw.loads(text)
+
+
+def growth(amplitude: float, corner: float, omega: float) -> float:
+    """d u(2π)/d u(0) by SciPy's variational equation, stopped where the speed passes the corner."""
+    is_above, phi, state = omega > corner, 0.0, np.array([0.5 * omega**2, 0.0])
+
+    def slope(phi: float, state: np.ndarray) -> list[float]:
+        omega = np.sqrt(2.0 * state[0])
+        falls = 100.0 / (14.0 - corner) if is_above else 20.0 / corner
+        motor = 80.0 - falls * (omega - corner)
+        return [(motor - 60.0 - amplitude * np.cos(phi)) / J, -falls / (J * omega)]
+
+    def passes(phi: float, state: np.ndarray) -> float:
+        return float(state[0] - 0.5 * corner**2)
+
+    passes.terminal = True  # type: ignore[attr-defined]
+    while phi < 2 * np.pi:
+        piece = solve_ivp(
+            slope, (phi, 2 * np.pi), state, "DOP853", rtol=1e-12, atol=1e-12, events=passes, max_step=0.1
+        )
+        phi, state = float(piece.t[-1]), piece.y[:, -1]
+        if piece.status == 1:
+            # Off the corner, whose sides have the same torque: 1e-9 rad change what grows by as much.
+            is_above = not is_above
+            rate = slope(phi, state)
+            phi, state = phi + 1e-9, state + 1e-9 * np.array(rate)
+    return float(np.exp(state[1]))
+
+
+@pytest.mark.parametrize(("amplitude", "corner"), [(80, 10.5), (60, 10), (40, 8), (60, 9.5)])
+def test_multiplier_counts_each_side_of_a_corner(amplitude: float, corner: float) -> None:
+    """On which side of the corner rounding puts the end of a step changes nothing; in batches neither."""
+    machine = corners(amplitude, corner)
+    motion = lw.steady_state(machine)
+    expected = growth(amplitude, corner, float(motion.speed[0]))
+    assert motion.multiplier == pytest.approx(expected, rel=1e-7)
+    rows = lw.steady_states(machine, {"bodies.A.inertia": [J, 1.001 * J]})
+    assert rows.multiplier[0] == pytest.approx(expected, rel=1e-6)
+
+
+def jumps(amplitude: float, at: str = "12", by: float = 8.0, inertia: float = 5.0) -> lw.Machine:
+    more = f" + where(omega > {at}, {by}, 0)"
+    text = FILE.format(inertia=inertia, speeds=[0, 10, 20], last=0, amplitude=amplitude, more=more)
+    return lw.loads(text)
+
+
+# The motor's torque at 12 rad/s is 64 N m: above the load of 60 below the jump, below that of 68 above it.
+@pytest.mark.parametrize("amplitude", [0.0, 2.0, 3.9])
+def test_motion_on_a_jump_is_told(amplitude: float) -> None:
+    with pytest.raises(SteadyStateError, match=r"slides along a jump: the formula of L.* jumps at 12 rad/s"):
+        lw.steady_state(jumps(amplitude))
+
+
+@pytest.mark.parametrize(("amplitude", "begins"), [(5.0, "72.9"), (7.0, "110.6")])
+def test_part_of_a_revolution_on_a_jump_is_told(amplitude: float, begins: str) -> None:
+    """The angle is that at which the same motion with a slope 1e-4 rad/s wide comes to the jump, by SciPy."""
+    with pytest.raises(SteadyStateError, match=rf"slides along a jump.*φ = {begins}"):
+        lw.steady_state(jumps(amplitude))
+
+
+def test_a_jump_that_is_passed_is_none_to_slide_on() -> None:
+    assert lw.steady_state(jumps(40.0)).multiplier > 0.0
+    # A load that falls with the speed drives the motion away from its jump.
+    assert lw.steady_state(jumps(2.0, by=-8.0)).speed_min > 12.0
+
+
+def test_a_level_that_moves_with_the_angle_holds_too() -> None:
+    with pytest.raises(SteadyStateError, match="slides along a jump"):
+        lw.steady_state(jumps(0.0, at="12 + 0.01*sin(phi)"))
+
+
+def test_a_row_on_a_jump_has_a_status() -> None:
+    rows = lw.steady_states(jumps(2.0), {"bodies.A.inertia": [5.0, 6.0]})
+    assert (rows.status == int(Status.SLIDES)).all()
+
+
+def test_motion_in_time_tells_what_holds_it() -> None:
+    """Its steps across the jump become too many; with an accuracy of 1e-6 they hold the speed of the jump."""
+    with pytest.raises(SteadyStateError, match="slides along a jump: the formula of L"):
+        lw.transient(jumps(2.0), speed=11.9, turns=5.0, accuracy=1e-8)
+    motion = lw.transient(jumps(2.0), speed=11.9, turns=5.0, accuracy=1e-6)
+    assert motion.speed[-1] == pytest.approx(12.0, rel=1e-5)
+
+
+def steep(amplitude: float, width: float) -> Callable[[float, np.ndarray], list[float]]:
+    """The same crank with a slope of a width in place of the jump."""
+
+    def slope(phi: float, u: np.ndarray) -> list[float]:
+        omega = np.sqrt(2.0 * u[0])
+        load = 60.0 + amplitude * np.cos(phi) + 8.0 * np.clip((omega - 12.0) / width + 0.5, 0.0, 1.0)
+        return [(160.0 - 8.0 * omega - load) / 5.0]
+
+    return slope
+
+
+@pytest.mark.parametrize(("amplitude", "begins"), [(5.0, 73.0), (7.0, 110.6)])
+def test_a_slope_in_place_of_the_jump_keeps_its_speed(amplitude: float, begins: float) -> None:
+    """The motion comes to the jump at the angle that is told, and stays on the slope for some time."""
+    width = 1e-3
+    u = np.array([72.0])
+    for _ in range(4):
+        last = solve_ivp(
+            steep(amplitude, width), (0, 2 * np.pi), u, "LSODA", rtol=1e-8, atol=1e-8, max_step=0.02
+        )
+        u = last.y[:, -1]
+    speed, at = np.sqrt(2 * last.y[0]), np.degrees(last.t)
+    on = np.abs(speed - 12.0) < width
+    assert on[(at > begins + 1) & (at < 113)].all()
+    assert not on[(at > begins - 30) & (at < begins - 2)].any()
