@@ -193,7 +193,7 @@ def _require_room(n: int, equations: int, unknowns: int) -> None:
     """Raise if the matrices of all angles are too large."""
     if n * equations * unknowns > FORCES.most:
         raise FindingError(
-            f"forces: scaled {grouped(n)} crank angles, {equations} equations and {unknowns} unknowns, "
+            f"forces: found {grouped(n)} crank angles, {equations} equations and {unknowns} unknowns, "
             f"expected {FORCES.words}; use fewer angles, or describe a part of the machine"
         )
 
