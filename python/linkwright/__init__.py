@@ -96,6 +96,7 @@ _HOME = {
     "shaft_stress": "torsion.response.stress",
     "barred_ranges": "torsion.limits.barred_range",
     "mesh_torques": "torsion.response.mesh_torque",
+    "crankshaft_fatigue": "torsion.limits.crank_fatigue",
     "read_measured": "torsion.limits.overlay",
     "engine_diagnosis": "torsion.diagnosis.engine_diagnosis",
     "measured_speed": "torsion.diagnosis.measured_speed",
@@ -257,6 +258,7 @@ if TYPE_CHECKING:
     from linkwright.torsion.in_time.transient import torsion_transient as torsion_transient
     from linkwright.torsion.in_time.waterfall import waterfall as waterfall
     from linkwright.torsion.limits.barred_range import barred_ranges as barred_ranges
+    from linkwright.torsion.limits.crank_fatigue import crankshaft_fatigue as crankshaft_fatigue
     from linkwright.torsion.limits.overlay import read_measured as read_measured
     from linkwright.torsion.modes.campbell import campbell as campbell
     from linkwright.torsion.modes.damped import damped_vibration as damped_vibration

@@ -15,6 +15,7 @@ from linkwright.kernel.result import Result
 from linkwright.kernel.units import FREQUENCY, not_negative
 from linkwright.machine.machine import Machine
 from linkwright.torsion.in_time.transient import TorsionTransient, torsion_transient
+from linkwright.torsion.limits.crank_fatigue import CrankshaftFatigue, surveyed_fatigue
 from linkwright.torsion.limits.critical_response import CriticalResponse, critical_responses
 from linkwright.torsion.limits.misfire import MisfireVerdict, misfire_verdict
 from linkwright.torsion.limits.operation import operation
@@ -91,6 +92,8 @@ class TorsionStudy:
         At the natural frequencies that an order meets among the speeds.
     overlays : tuple of Overlay
         Measured curves over the computed ones.
+    fatigue : tuple of CrankshaftFatigue
+        Of the crankshafts whose fillets and steel are known.
     critical_responses : tuple of CriticalResponse
         Synthesis of the orders at the critical speeds.
     """
@@ -115,6 +118,7 @@ class TorsionStudy:
     critical_holzer: tuple[HolzerTable, ...] = ()
     overlays: tuple[Overlay, ...] = ()
     critical_responses: tuple[CriticalResponse, ...] = ()
+    fatigue: tuple[CrankshaftFatigue, ...] = ()
 
     @property
     def engine(self) -> EngineData | None:
@@ -126,6 +130,8 @@ class TorsionStudy:
         """What the machine does not bear, in sentences."""
         judgements = [] if self.verdict is None else self.verdict.judgements
         steady = [f"{judgement.words}." for judgement in judgements if judgement.state == "exceeds"]
+        weak = (one for one in self.fatigue if not one.is_acceptable and not one.outside)
+        steady += [f"{one.words}." for one in weak]
         return steady + ([] if self.transient is None else self.transient.findings)
 
     @property
@@ -134,7 +140,9 @@ class TorsionStudy:
         if self.verdict is None or self.forced is None:
             return ""
         speeds = self.forced.speeds
-        return operation((float(speeds[0]), float(speeds[-1])), self.verdict, self.misfire)
+        weak = [f"{one.words}." for one in self.fatigue if not one.is_acceptable]
+        words = operation((float(speeds[0]), float(speeds[-1])), self.verdict, self.misfire)
+        return " ".join([*weak, words]).strip()
 
     @property
     def balance(self) -> str:
@@ -176,6 +184,8 @@ class TorsionStudy:
             results["gears"] = self.meshes.to_dict()
         if self.stars:
             results["phase_vectors"] = [star.to_dict() for star in self.stars]
+        if self.fatigue:
+            results["fatigue"] = [one.to_dict() for one in self.fatigue]
         if self.operation:
             results["operation"] = self.operation
         if self.critical_responses:
@@ -245,6 +255,8 @@ def torsion_study(
     stress, seen = shaft_stress(machine, forced), survey(machine, at, forced)
     speeds = at.torques.speeds
     diagram = campbell(machine, speed_range=(speeds[0], speeds[-1]))
+    judged = verdict(machine, seen)
+    misfire = misfire_verdict(machine, seen, judged.barred)
     return TorsionStudy(
         machine,
         scheme(machine),
@@ -254,8 +266,8 @@ def torsion_study(
         at,
         forced,
         stress if stress.shafts else None,
-        verdict(machine, seen),
-        misfire_verdict(machine, seen),
+        judged,
+        misfire,
         _along(machine, at, forced),
         _engines(machine, at),
         diagram,
@@ -266,6 +278,7 @@ def torsion_study(
         tuple(_at_critical(machine, free, diagram)),
         tuple(overlay(seen, name, curve) for name, curve in curves.items()),
         critical_responses(seen, diagram),
+        surveyed_fatigue(seen, judged, misfire),
     )
 
 
@@ -367,6 +380,11 @@ def _warnings(study: TorsionStudy) -> Iterator[str]:
         return
     yield from () if study.verdict is None else (f"{note}." for note in study.verdict.notes)
     yield from () if study.misfire is None else _about_misfires(study.misfire)
+    for one in study.fatigue:
+        if one.outside:
+            listed = ", ".join(one.outside)
+            name = f"Crankshaft {one.engine}".rstrip()
+            yield f"{name}: {listed} outside the range of IACS UR M53; its factor Q is no verdict."
     if not np.isfinite(forced.shaft_torque_max).all():
         rows = ~np.isfinite(forced.shaft_torque_max).all(axis=0)
         rpm = ", ".join(f"{speed * 30 / np.pi:.5g}" for speed in forced.speeds[rows][:4])

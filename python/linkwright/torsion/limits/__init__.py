@@ -3,6 +3,7 @@
 | module | |
 | --- | --- |
 | `barred_range` | Speeds that shafts do not bear indefinitely |
+| `crank_fatigue` | Fatigue of crankshafts by IACS UR M53 |
 | `criteria` | What is asked of the parts of a train, and where over the speed it is exceeded |
 | `critical_response` | Synthesis at the critical speeds |
 | `misfire` | The worst single misfire |

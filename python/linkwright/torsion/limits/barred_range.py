@@ -211,6 +211,14 @@ def joined_ranges(ranges: Iterable[tuple[float, float]]) -> list[tuple[float, fl
     return joined
 
 
+def not_barred(speeds: Floats, ranges: list[tuple[float, float]]) -> NDArray[np.bool_]:
+    """Which speeds lie in no barred range, (n,). All where all would be barred."""
+    kept = np.ones(len(speeds), bool)
+    for low, high in joined_ranges(ranges):
+        kept &= (speeds < low) | (speeds > high)
+    return kept if kept.any() else ~kept
+
+
 def _range(
     seen: Survey,
     above: Exceedance,

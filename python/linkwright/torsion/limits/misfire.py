@@ -23,6 +23,7 @@ from linkwright.kernel.quantities import About
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import Kind
 from linkwright.machine.machine import Machine
+from linkwright.torsion.limits.barred_range import BarredRange, not_barred
 from linkwright.torsion.limits.criteria import PASSING_STRESS, Criterion, criteria
 from linkwright.torsion.response.engine_torques import (
     CylinderStates,
@@ -78,6 +79,15 @@ class MisfireGear(NamedTuple):
     cylinder_max: str  # that does not fire there
 
 
+class MisfireTorque(NamedTuple):
+    """The largest vibratory torque of a shaft at speeds that are not barred, by the worst misfire."""
+
+    shaft: str
+    torque: float  # half the peak-to-peak torque [N m]
+    speed: float  # of the first disc [rad/s]
+    cylinder: str
+
+
 @dataclass(frozen=True)
 class MisfireVerdict(Result):
     """All limits of a train with one cylinder misfiring."""
@@ -86,27 +96,42 @@ class MisfireVerdict(Result):
     gears: Annotated[
         tuple[MisfireGear, ...], About("Gear stages whose torque statics tells, by the worst misfire.")
     ] = ()
+    torques: Annotated[
+        tuple[MisfireTorque, ...],
+        About("Largest vibratory torque of each shaft at speeds that are not barred, by the worst misfire."),
+    ] = ()
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Judgements and gear stages as tables."""
         keys = ("part", "what", "found", "permitted", "speed", "cylinder", "above", "is_kept")
         rows = [{key: getattr(row, key) for key in keys} | {"unit": row.kind.unit} for row in self.judgements]
-        return {"judgements": rows, "gears": [gear._asdict() for gear in self.gears]}
+        gears, torques = ([one._asdict() for one in listed] for listed in (self.gears, self.torques))
+        return {"judgements": rows, "gears": gears, "torques": torques}
 
 
-def misfire_verdict(machine: Machine, seen: Survey) -> MisfireVerdict | None:
+def misfire_verdict(
+    machine: Machine, seen: Survey, barred: Sequence[BarredRange] = ()
+) -> MisfireVerdict | None:
     """Limits with the worst single misfire.
 
-    None without an engine whose cylinders all fire, or without limits.
+    None without an engine whose cylinders all fire, or without anything to judge. `barred`: in normal firing.
     """
     normal = [criterion for criterion in seen.criteria if _counts(criterion)]
-    cases = list(misfires(machine, seen.at)) if normal else []
+    engines = () if machine.train is None else machine.train.installed
+    is_asked = bool(normal) or any(one.engine.fatigue for one in engines)
+    cases = list(misfires(machine, seen.at)) if is_asked else []
     if not cases:
         return None
     worst: list[MisfireJudgement | None] = [None] * len(normal)
     gears: dict[str, MisfireGear] = {}
+    torques: dict[str, MisfireTorque] = {}
+    kept = not_barred(seen.speeds, [span.barred for span in barred])
     for case in cases:
-        limits, meshes = _looked_at(seen, case.at)
+        limits, meshes, vibratory = _looked_at(seen, case.at)
+        for shaft, row in zip(seen.found.shafts, vibratory[:, kept], strict=True):
+            n = int(np.nan_to_num(row, nan=np.inf).argmax())
+            twisted = MisfireTorque(shaft, float(row[n]), float(seen.speeds[kept][n]), case.cylinder)
+            torques[shaft] = max(torques.get(shaft, twisted), twisted, key=lambda one: one.torque)
         for n, criterion in enumerate(limits):
             judged = _judged(criterion, seen.speeds, case.cylinder)
             before = worst[n]
@@ -114,7 +139,8 @@ def misfire_verdict(machine: Machine, seen: Survey) -> MisfireVerdict | None:
                 worst[n] = judged
         for gear in _gears(meshes, seen.service, case.cylinder):
             gears[gear.stage] = _worse(gears.get(gear.stage, gear), gear)
-    return MisfireVerdict(tuple(judged for judged in worst if judged is not None), tuple(gears.values()))
+    rows = tuple(judged for judged in worst if judged is not None)
+    return MisfireVerdict(rows, tuple(gears.values()), tuple(torques.values()))
 
 
 def misfires(machine: Machine, at: ExcitedTrain) -> Iterator[MisfireCase]:
@@ -150,16 +176,20 @@ def _counts(criterion: Criterion) -> bool:
     return criterion.what != PASSING_STRESS and not np.isnan(criterion.permitted).all()
 
 
-def _looked_at(seen: Survey, at: ExcitedTrain) -> tuple[list[Criterion], list[MeshTorque]]:
-    """The limits that count of another train at the speeds of a survey, in its order, and its gear stages."""
-    parts, gears = [], []
+def _looked_at(seen: Survey, at: ExcitedTrain) -> tuple[list[Criterion], list[MeshTorque], Floats]:
+    """The limits that count of another train at the speeds of a survey, in its order.
+
+    With its gear stages, and the vibratory torques of its shafts (shafts, n) [N m].
+    """
+    parts, gears, torques = [], [], []
     for part in replace(seen, at=at).parts(seen.speeds):
         response = torsion_response(part)
         meshes = meshed(part, response) if part.train.gears else None
         parts.append(criteria(seen.machine, part, response, seen.service, meshes))
         gears += [] if meshes is None else [meshes]
+        torques.append(response.shaft_torque_vibratory)
     limits = zip(in_a_row(parts), seen.criteria, strict=True)
-    return [limit for limit, normal in limits if _counts(normal)], gears
+    return [limit for limit, normal in limits if _counts(normal)], gears, np.concatenate(torques, axis=1)
 
 
 def _gears(parts: Sequence[MeshTorque], service: float, cylinder: str) -> Iterator[MisfireGear]:

@@ -3,6 +3,7 @@
 | module | |
 | --- | --- |
 | `along_shaft` | The torque along a shaft with distributed inertia, and where it counts |
+| `crank_bending` | Forces of rods on crank pins, and the bending of a throw |
 | `drive_line` | The train of a driveline, and how its mechanism excites it |
 | `engine_torques` | Torques of an engine on its throws: gas, inertia, weight; its data |
 | `excited_train` | A train made ready for forced vibration: its torques, and what it is at each speed |

@@ -11,6 +11,7 @@ from linkwright.kernel.page.out_units import reader
 from linkwright.kernel.page.table import Row, Table
 from linkwright.kernel.units import PRESSURE, Kind
 from linkwright.torsion.limits.barred_range import BarredRange
+from linkwright.torsion.limits.crank_fatigue import ACCEPTABLE, CrankshaftFatigue
 from linkwright.torsion.limits.critical_response import CriticalResponse
 from linkwright.torsion.limits.overlay import Overlay, PeakComparison
 from linkwright.torsion.study import TorsionStudy
@@ -29,7 +30,7 @@ def limit_tables(study: TorsionStudy) -> Iterator[Table]:
         yield Table("limits", "Limits", (*heads, f"at {per_minute()}", "verdict"), rows)
         if study.verdict.barred:
             yield _barred(study.verdict.barred)
-    if study.misfire is not None:
+    if study.misfire is not None and study.misfire.judgements:
         rows = [
             _row(
                 row.part,
@@ -107,6 +108,51 @@ def critical_table(responses: Sequence[CriticalResponse]) -> Table:
     at = f"peaks at {per_minute()}"
     heads = ("critical speed", "", at, "shaft", "order alone", "all orders", "permitted")
     return Table("synthesis", "Synthesis at the most severe critical speeds", heads, rows)
+
+
+def fatigue_table(fatigue: CrankshaftFatigue) -> Table:
+    """Each place of a throw by IACS UR M53: stresses with their concentration, fatigue strength, Q."""
+    rows: list[Row] = [
+        (
+            one.place,
+            "",
+            shown(one.bending, PRESSURE),
+            shown(one.torsion, PRESSURE),
+            shown(one.equivalent, PRESSURE),
+            shown(one.strength, PRESSURE),
+            f"{one.acceptability:.3f}",
+            "sufficient" if one.acceptability >= ACCEPTABLE else "not sufficient",
+        )
+        for one in fatigue.places
+    ]
+    heads = ("place", "", "bending", "torsion", "σ_v", "σ_DW", "Q", "Q ≥ 1.15")
+    name = f"Crankshaft {fatigue.engine}".rstrip()
+    title = f"{name}: fatigue by IACS UR M53, alternating stresses with their concentration"
+    return Table(f"fatigue_{fatigue.engine}".rstrip("_"), title, heads, rows)
+
+
+def nominal_table(fatigue: CrankshaftFatigue) -> Table:
+    """Nominal stresses and concentration factors of a throw."""
+    misfire = f", cylinder {fatigue.cylinder} misfiring" if fatigue.cylinder else ""
+    rows: list[Row] = [
+        (
+            f"vibratory torque, {fatigue.shaft} at {rpm(fatigue.speed)} {per_minute()}{misfire}",
+            "M_TN",
+            quantity(fatigue.torque, "N m"),
+        ),
+        ("torsion of the crank pin", "τ_N", shown(fatigue.torsion_pin, PRESSURE)),
+        ("torsion of the journal", "", shown(fatigue.torsion_journal, PRESSURE)),
+        ("bending of the web", "σ_BFN", shown(fatigue.bending_nominal, PRESSURE)),
+        ("radial force in the web", "σ_QFN", shown(fatigue.shear_nominal, PRESSURE)),
+    ]
+    if fatigue.bore_nominal is not None:
+        rows.append(("bending at the oil bore", "σ_BON", shown(fatigue.bore_nominal, PRESSURE)))
+    rows += [
+        ("stress concentration factor", symbol, f"{value:.4f}") for symbol, value in fatigue.factors.items()
+    ]
+    name = f"Crankshaft {fatigue.engine}".rstrip()
+    title = f"{name}: nominal alternating stresses and concentration factors"
+    return Table(f"fatigue_nominal_{fatigue.engine}".rstrip("_"), title, ("quantity", "", "value"), rows)
 
 
 def _row(part: str, what: str, reached: float, permitted: float, kind: Kind, *rest: str) -> Row:

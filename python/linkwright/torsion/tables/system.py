@@ -39,9 +39,9 @@ def system_tables(
     if not scheme.connections:
         return
     place = {name: str(n + 1) for n, name in enumerate(scheme.discs)}
-    joined = [_joined(one, place, sections) for one in scheme.connections]
-    heads = ("connection", "", "between", "kind", "stiffness", "referred n² k", "diameter", "W_p")
-    yield Table("stiffnesses", "Stiffnesses, with the sections whose stress counts", heads, joined)
+    joined: list[Row] = [_joined(one, place, sections) for one in scheme.connections]
+    columns: Row = ("connection", "", "between", "kind", "stiffness", "referred n² k", "diameter", "W_p")
+    yield Table("stiffnesses", "Stiffnesses, with the sections whose stress counts", columns, joined)
 
 
 def _joined(

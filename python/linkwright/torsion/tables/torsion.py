@@ -23,8 +23,10 @@ from linkwright.torsion.tables.engine import engine_tables
 from linkwright.torsion.tables.gears import gear_tables, misfire_gear_table
 from linkwright.torsion.tables.limits import (
     critical_table,
+    fatigue_table,
     limit_tables,
     measured_tables,
+    nominal_table,
     per_minute,
     rpm,
 )
@@ -58,6 +60,8 @@ def study_tables(study: TorsionStudy) -> Iterator[Table]:
 def verdict_tables(study: TorsionStudy) -> Iterator[Table]:
     """Limits, gear stages, measured peaks."""
     yield from limit_tables(study)
+    for fatigue in study.fatigue:
+        yield fatigue_table(fatigue)
     if study.meshes is not None and study.forced is not None:
         place = service_place(study, study.forced)
         yield from gear_tables(study.meshes, place)
@@ -99,6 +103,8 @@ def detail_tables(study: TorsionStudy) -> Iterator[Table]:
     """Excitation by orders, shapes by numbers, Holzer's tables that were asked for."""
     if study.forced is not None and study.excited is not None:
         yield from excitation_tables(study.excited, service_place(study, study.forced))
+    for fatigue in study.fatigue:
+        yield nominal_table(fatigue)
     yield from shape_tables(study.free)
     for table in study.holzer:
         yield from holzer_tables(table)

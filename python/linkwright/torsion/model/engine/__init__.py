@@ -4,6 +4,8 @@
 | --- | --- |
 | `closed_cycle` | The gas between closing and opening, and its specific heats |
 | `combustion` | A working cycle by calculation, at many speeds |
+| `crank_concentration` | Stress concentration in fillets and oil bores of a throw |
+| `crank_fatigue` | What the fatigue of a crankshaft asks of the file; fatigue strength |
 | `cycle_pressure` | The pressure in a cylinder over its working cycle, and the angles of integrals |
 | `cylinder` | A cylinder: volume, motion of the piston, torque of the gas |
 | `engine` | A reciprocating engine: throws, banks, rods, gas, firing order |

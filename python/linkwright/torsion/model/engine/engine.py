@@ -30,6 +30,7 @@ from linkwright.kernel.limits import THROWS
 from linkwright.kernel.units import INERTIA, MASS, RATIO, Angles, not_negative, positive
 from linkwright.linkages.model.element import PositiveLength
 from linkwright.torsion.model.engine.combustion import Combustion
+from linkwright.torsion.model.engine.crank_fatigue import CrankFatigue
 from linkwright.torsion.model.engine.indicator import Indicator
 from linkwright.torsion.model.engine.rod import ArticulatedRod, Rod
 from linkwright.torsion.model.engine.throw import CrankThrow
@@ -139,6 +140,9 @@ class ReciprocatingEngine(CheckedDescription):
         None,
         description="Permitted stresses of the crankshaft; without a diameter of its own, at the crank pin.",
     )
+    fatigue: CrankFatigue | None = Field(
+        None, description="Fillets, oil bores and steel, for the fatigue of the crankshaft by IACS UR M53."
+    )
     gas: AnyGas = Field(description="Gas pressure in the cylinders.")
     factors: dict[str, Annotated[float, not_negative(RATIO)]] = Field(
         default_factory=dict,
@@ -149,6 +153,7 @@ class ReciprocatingEngine(CheckedDescription):
         yield from self._angle_faults()
         yield from self._part_faults()
         yield from self._limit_fault()
+        yield from self._fatigue_fault()
         if self.n_cylinders:
             yield from self._number_faults()
         for wrong in self.gas.cycle_faults(self.strokes):
@@ -206,6 +211,17 @@ class ReciprocatingEngine(CheckedDescription):
             yield fault(
                 "crank_radius", found=self.crank_radius, expected=expected, remedy="give one of the two"
             )
+
+    def _fatigue_fault(self) -> Iterator[InitErrorDetails]:
+        """Fatigue asked for without what it is computed from."""
+        if self.fatigue is None:
+            return
+        if self.throw is None:
+            expected = "the geometry of a throw, [train.engine.throw]"
+            yield fault("fatigue", found="a table", expected=expected)
+        if self.rods == "articulated":
+            expected = 'rods = "side_by_side" or "fork_and_blade": IACS UR M53 has no articulated rods'
+            yield fault("fatigue", found="a table", expected=expected)
 
     def _limit_fault(self) -> Iterator[InitErrorDetails]:
         """A limit of stress without the section where it counts."""
