@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -12,8 +14,17 @@ from linkwright.app.application import application
 from linkwright.drive.steady_state import steady_state
 from linkwright.kernel.files.library import library_path
 from linkwright.machine.read import read
+from linkwright.papers.paper import paper
 
 TWO_CARTS = library_path("roller_two_carts")
+
+
+@pytest.fixture(scope="module", autouse=True)
+def recomputed_once() -> Iterator[None]:
+    """A paper is asked for with files and for people, and computed once."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("linkwright.papers.paper.paper", cache(paper))
+        yield
 
 
 def run(*arguments: str | Path) -> Result:
