@@ -1,8 +1,8 @@
-"""Pages that are computed while the documentation is built, a hook of MkDocs: gallery of examples, papers.
+"""Pages that are computed while the documentation is built, a hook of MkDocs: gallery, papers, notebooks.
 
 Each example has a page with its question, its picture, script, machine file and numbers with their sources;
-each paper the page that ``linkwright papers`` writes. Nothing of it is stored: pictures and numbers are those
-of the package that is documented.
+each paper the page that ``linkwright papers`` writes; each notebook is executed. Nothing of it is stored:
+pictures and numbers are those of the package that is documented.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from mkdocs.structure.files import File, Files
 import linkwright as lw
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
+NOTEBOOKS = Path(__file__).with_name("notebooks")
 
 _ROW = re.compile(r"^\| \[(\w+)\]\(\1/run\.py\) \| (.*?) \| (.*?) \|$", re.MULTILINE)
 
@@ -34,7 +35,7 @@ class Example(NamedTuple):
 
 def on_files(files: Files, config: MkDocsConfig) -> Files:
     """Add the computed pages to those that are written."""
-    for place, content in (*gallery(), *papers()):
+    for place, content in (*gallery(), *papers(), *notebooks()):
         files.append(File.generated(config, place, content=content))
     return files
 
@@ -95,3 +96,22 @@ def papers() -> Iterator[tuple[str, str | bytes]]:
         "papers/index.md",
         f"# Papers\n\n{text}\n\n| paper | statements compared |\n| --- | --- |\n{table}\n",
     )
+
+
+def notebooks() -> Iterator[tuple[str, str | bytes]]:
+    """The page of each notebook with its results, its pictures, and the executed notebook itself."""
+    import nbformat
+    from nbconvert import MarkdownExporter
+    from nbconvert.preprocessors import ExecutePreprocessor
+
+    for path in sorted(NOTEBOOKS.glob("*.ipynb")):
+        notebook = nbformat.read(path, as_version=4)
+        ExecutePreprocessor(timeout=300, startup_timeout=300).preprocess(
+            notebook, {"metadata": {"path": str(NOTEBOOKS)}}
+        )
+        resources = {"unique_key": path.stem, "output_files_dir": "."}
+        text, results = MarkdownExporter().from_notebook_node(notebook, resources)
+        yield f"notebooks/{path.stem}.md", f"{text}\n[The notebook]({path.stem}_executed.ipynb)\n"
+        yield f"notebooks/{path.stem}_executed.ipynb", nbformat.writes(notebook)
+        for name, data in results["outputs"].items():
+            yield f"notebooks/{Path(name).name}", data
