@@ -124,6 +124,24 @@ pub struct Contact<R> {
     pub lead: Vec2<R>,
 }
 
+/// The centre of a roller in the ground's frame: P, w, a and d as in the head of this file.
+struct Path<R> {
+    p: Vec2<R>,
+    w: Vec2<R>,
+    a: Vec2<R>,
+    d: Vec2<R>,
+}
+
+/// What a search over cams compares of their contacts.
+#[derive(Clone, Copy, Debug)]
+pub struct Compared<R> {
+    /// d·n and d×n, times a positive factor.
+    pub lead: Vec2<R>,
+    /// A fraction that grows with the bend: κ|κ| of a roller, ρ of a flat face. `under` is not negative.
+    pub over: R,
+    pub under: R,
+}
+
 impl<R> Cam<R> {
     /// The same in another number.
     #[inline(always)]
@@ -169,28 +187,65 @@ impl<R: Real> Cam<R> {
     #[inline(always)]
     pub fn contact(&self, s: [R; 3]) -> Contact<R> {
         match self.kind {
-            Kind::TranslatingRoller => self.translating_roller(s),
+            Kind::TranslatingRoller => self.roller(&self.translating_path(s)),
             Kind::TranslatingFlat => self.translating_flat(s),
-            Kind::OscillatingRoller => self.oscillating_roller(s),
+            Kind::OscillatingRoller => self.roller(&self.oscillating_path(s)),
             Kind::OscillatingFlat => self.oscillating_flat(s),
         }
     }
 
+    /// The same as a search compares it, without a root or a quotient.
     #[inline(always)]
-    fn translating_roller(&self, [s, s1, s2]: [R; 3]) -> Contact<R> {
-        let zero = R::splat(0.0);
-        let place = Vec2::new(self.start + s, self.size.offset);
-        self.roller([place, Vec2::new(s1, zero), Vec2::new(s2, zero)], Vec2::new(R::splat(1.0), zero))
+    pub fn compared(&self, s: [R; 3]) -> Compared<R> {
+        let path = match self.kind {
+            Kind::TranslatingRoller => self.translating_path(s),
+            Kind::OscillatingRoller => self.oscillating_path(s),
+            Kind::TranslatingFlat | Kind::OscillatingFlat => {
+                let Contact { lead, bend, .. } = self.contact(s);
+                return Compared { lead, over: bend, under: R::splat(1.0) };
+            }
+        };
+        let turning = path.w.cross(path.a) * -self.sense;
+        let square = path.w.dot(path.w);
+        Compared {
+            lead: self.lead(&path, path.w.left() * R::splat(self.sense)),
+            over: turning * turning.abs(),
+            under: square * square * square,
+        }
+    }
+
+    /// The bend that a fraction of [`Compared`] stands for.
+    #[inline(always)]
+    pub fn bend_of(&self, over: R, under: R) -> R {
+        let quotient = over / under;
+        if !self.kind.is_roller() {
+            return quotient;
+        }
+        let size = quotient.abs().sqrt();
+        quotient.select_lt(R::splat(0.0), -size, size)
+    }
+
+    /// P = (x, offset), so that w = (s′ + σ offset, −σ x) and a = (s″ − x, −offset − 2σ s′).
+    #[inline(always)]
+    fn translating_path(&self, [s, s1, s2]: [R; 3]) -> Path<R> {
+        let (zero, one, sense) = (R::splat(0.0), R::splat(1.0), R::splat(self.sense));
+        let (x, offset) = (self.start + s, self.size.offset);
+        Path {
+            p: Vec2::new(x, offset),
+            w: Vec2::new(offset.mul_add(sense, s1), x * -self.sense),
+            a: Vec2::new(s2 - x, s1.mul_add(-(sense + sense), -offset)),
+            d: Vec2::new(one, zero),
+        }
     }
 
     /// P = A + l u, u = (−cos ψ, ± sin ψ), u′ = s′ d, d′ = −s′ u.
     #[inline(always)]
-    fn oscillating_roller(&self, [s, s1, s2]: [R; 3]) -> Contact<R> {
+    fn oscillating_path(&self, [s, s1, s2]: [R; 3]) -> Path<R> {
         let (u, d) = self.arm_at(s);
-        let l = self.size.arm;
-        let pivot = Vec2::new(self.size.distance, R::splat(0.0));
-        let second = (d * (l * s2)).plus(u, -(l * s1.squared()));
-        self.roller([pivot.plus(u, l), d * (l * s1), second], d)
+        let (l, sense) = (self.size.arm, R::splat(self.sense));
+        let p = Vec2::new(self.size.distance, R::splat(0.0)).plus(u, l);
+        let (p1, p2) = (d * (l * s1), (d * (l * s2)).plus(u, -(l * s1.squared())));
+        Path { p, w: p1.plus(p.left(), -sense), a: (p2 - p).plus(p1.left(), -(sense + sense)), d }
     }
 
     /// Direction of the arm, and direction in which its end moves as the lift grows.
@@ -200,22 +255,24 @@ impl<R: Real> Cam<R> {
         (Vec2::new(-cos, sin * self.side), Vec2::new(sin, cos * self.side))
     }
 
-    /// The envelope of a roller whose centre moves with P, P′, P″.
+    /// d·n and d×n of a normal.
     #[inline(always)]
-    fn roller(&self, [p, p1, p2]: [Vec2<R>; 3], d: Vec2<R>) -> Contact<R> {
-        let sense = R::splat(self.sense);
-        let w = p1.plus(p.left(), -sense);
-        let a = (p2 - p).plus(p1.left(), -(sense + sense));
-        let inverse = w.dot(w).sqrt().recip();
-        let normal = w.left() * (sense * inverse);
-        let bend = -(sense * w.cross(a) * inverse.squared() * inverse);
-        Contact {
-            pitch: p,
-            normal,
-            bend,
-            along: R::splat(0.0),
-            lead: Vec2::new(d.dot(normal), d.cross(normal)),
+    fn lead(&self, path: &Path<R>, normal: Vec2<R>) -> Vec2<R> {
+        match self.kind {
+            // d lies along x.
+            Kind::TranslatingRoller => normal,
+            _ => Vec2::new(path.d.dot(normal), path.d.cross(normal)),
         }
+    }
+
+    /// The envelope of a roller whose centre goes along a path.
+    #[inline(always)]
+    fn roller(&self, path: &Path<R>) -> Contact<R> {
+        let sense = R::splat(self.sense);
+        let inverse = path.w.dot(path.w).sqrt().recip();
+        let normal = path.w.left() * (sense * inverse);
+        let bend = -(sense * path.w.cross(path.a) * inverse.squared() * inverse);
+        Contact { pitch: path.p, normal, bend, along: R::splat(0.0), lead: self.lead(path, normal) }
     }
 
     #[inline(always)]

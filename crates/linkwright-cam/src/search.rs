@@ -82,20 +82,24 @@ impl Chunk<'_> {
         );
         let cam = Cam::new(cams.kind, cams.sense, cams.side, size);
         let lift: R = load(cams.lift, first);
-        let (zero, infinite) = (R::splat(0.0), R::splat(f64::INFINITY));
-        let (mut most, mut least) = (-infinite, infinite);
-        // The largest |tan γ| so far as a fraction: fractions are compared crosswise, and divided once. One whose lower
-        // part is not positive is infinite.
-        let (mut over, mut under) = (zero, R::splat(1.0));
+        let (zero, one) = (R::splat(0.0), R::splat(1.0));
+        // Fractions are compared crosswise, and divided once in the end: the largest |tan γ| so far, where one whose lower
+        // part is not positive is infinite, and the largest and the least bend, of which the first is none.
+        let (mut over, mut under) = (zero, one);
+        let (mut most, mut least) = ((-one, zero), (one, zero));
         for s in self.lifts {
-            let contact = cam.contact([lift * s[0], lift * s[1], lift * s[2]]);
+            let contact = cam.compared([lift * s[0], lift * s[1], lift * s[2]]);
             let (y, x) = (contact.lead.y.abs(), contact.lead.x.max(zero));
             let (known, found) = (over * x, y * under);
             over = known.select_lt(found, y, over);
             under = known.select_lt(found, x, under);
-            most = most.max(contact.bend);
-            least = least.min(contact.bend);
+            let bend = (contact.over, contact.under);
+            let (known, found) = (most.0 * bend.1, bend.0 * most.1);
+            most = (known.select_lt(found, bend.0, most.0), known.select_lt(found, bend.1, most.1));
+            let (known, found) = (least.0 * bend.1, bend.0 * least.1);
+            least = (found.select_lt(known, bend.0, least.0), found.select_lt(known, bend.1, least.1));
         }
+        let (most, least) = (cam.bend_of(most.0, most.1), cam.bend_of(least.0, least.1));
         let lead = over / under;
         // Soundness falls with the bend of a pitch curve, and is the radius of a face's profile.
         let at = if cams.kind.is_roller() { most } else { least };

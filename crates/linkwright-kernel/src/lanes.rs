@@ -284,6 +284,11 @@ impl<S: Simd> Real for V<S> {
         lanes[..Self::LANES].iter().copied().fold(f64::NEG_INFINITY, f64::max)
     }
     #[inline(always)]
+    fn any_below(self, limit: Self) -> bool {
+        let simd = token::<S>();
+        simd.first_true_m64s(simd.less_than_f64s(self.0, limit.0)) < S::F64_LANES
+    }
+    #[inline(always)]
     fn outline<T>(f: impl FnOnce() -> T) -> T {
         struct Call<F>(F);
         impl<T, F: FnOnce() -> T> WithSimd for Call<F> {
@@ -415,6 +420,10 @@ impl<R: Real> Real for Pair<R> {
     #[inline(always)]
     fn max_lane(self) -> f64 {
         self.0.max_lane().max(self.1.max_lane())
+    }
+    #[inline(always)]
+    fn any_below(self, limit: Self) -> bool {
+        self.0.any_below(limit.0) || self.1.any_below(limit.1)
     }
     #[inline(always)]
     fn outline<T>(f: impl FnOnce() -> T) -> T {

@@ -54,6 +54,11 @@ pub trait Real:
     fn taylor(self, f: &impl Fn(f64, &mut [f64]), to: &mut [Self]);
     /// Largest lane; of several lanes a NaN is passed over.
     fn max_lane(self) -> f64;
+    /// Whether some lane lies below that of a limit; one that is no number does not.
+    #[inline(always)]
+    fn any_below(self, limit: Self) -> bool {
+        (limit - self).max_lane() > 0.0
+    }
     /// Runs `f` as a function of its own, compiled for the same instruction set. Cuts kernels at their
     /// natural joints: one body of many thousand instructions would no longer be optimised well.
     fn outline<T>(f: impl FnOnce() -> T) -> T;

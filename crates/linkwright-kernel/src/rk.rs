@@ -8,6 +8,9 @@
 //! by Hairer and Wanner; the coefficients are theirs. Enright, *Continuous numerical methods for ODEs with defect
 //! control*, J. Comput. Appl. Math. 125 (2000) 159: the error between the ends from the defect at few places.
 
+use crate::lanes::{Job, in_single_lanes};
+use crate::real::Real;
+
 /// Stages.
 const S: usize = 12;
 
@@ -218,6 +221,17 @@ impl<Y: State> Stages<Y> {
         y + sum
     }
 
+    /// All numbers of the state, which start from `y`, at a share of the step, after [`Stages::fill`].
+    pub fn components(&self, share: f64, y: &[f64], to: &mut [f64]) {
+        in_single_lanes(Read {
+            rows: self.polynomial.each_ref().map(AsRef::as_ref),
+            share,
+            y,
+            to,
+            slopes: None,
+        });
+    }
+
     /// h times the rate of number `n` at a share of the step, after [`Stages::fill`].
     pub fn slope(&self, share: f64, n: usize) -> f64 {
         let (mut sum, mut slope) = (0.0, 0.0);
@@ -240,13 +254,13 @@ impl<Y: State> Stages<Y> {
         measure: &impl Fn(&[f64], &[f64]) -> f64,
     ) -> f64 {
         let measured = WATCHED.map(|share| {
-            for (n, &y) in y.as_ref().iter().enumerate() {
-                self.stage.as_mut()[n] = self.component(share, y, n);
-            }
-            let mut error = self.sums[0].clone();
-            f(t + share * h, &self.stage, &mut error);
-            for (n, error) in error.as_mut().iter_mut().enumerate() {
-                *error = ERROR_OF_DEFECT * (self.slope(share, n) - h * *error);
+            let [slopes, error, _] = &mut self.sums;
+            let rows = self.polynomial.each_ref().map(AsRef::as_ref);
+            let (y, to, slopes) = (y.as_ref(), self.stage.as_mut(), slopes.as_mut());
+            in_single_lanes(Read { rows, share, y, to, slopes: Some(&mut *slopes) });
+            f(t + share * h, &self.stage, error);
+            for (error, slope) in error.as_mut().iter_mut().zip(slopes.iter()) {
+                *error = ERROR_OF_DEFECT * (*slope - h * *error);
             }
             measure(self.stage.as_ref(), error.as_ref())
         });
@@ -298,9 +312,12 @@ pub fn over(error: f64, tolerance: f64, size: f64) -> f64 {
 /// Weights of the derivatives over a step: the first and those of [`Stages::try_step`]'s stages in order.
 pub const WEIGHTS: [f64; S] = B;
 
-/// Adds h Σ w k.
+/// Adds h Σ w k, in the order of the stages.
 #[inline(always)]
-fn add<Y: State>(to: &mut [f64], h: f64, weights: &[f64], k: &[Y]) {
+pub fn add<Y: AsRef<[f64]>>(to: &mut [f64], h: f64, weights: &[f64], k: &[Y]) {
+    if to.len() >= LONG {
+        return in_single_lanes(Sum { to, h, weights, k });
+    }
     for (&weight, k) in weights.iter().zip(k) {
         if weight != 0.0 {
             let weight = h * weight;
@@ -309,6 +326,114 @@ fn add<Y: State>(to: &mut [f64], h: f64, weights: &[f64], k: &[Y]) {
             }
         }
     }
+}
+
+/// Numbers of a state from which on lanes pay.
+const LONG: usize = 8;
+
+/// [`add`] in lanes, each a number of the state.
+struct Sum<'a, Y> {
+    to: &'a mut [f64],
+    h: f64,
+    weights: &'a [f64],
+    k: &'a [Y],
+}
+
+impl<Y: AsRef<[f64]>> Job for Sum<'_, Y> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        let Sum { to, h, weights, k } = self;
+        let (n, mut first) = (to.len(), 0);
+        // Sums beside each other do not wait for one another.
+        while first + 3 * R::LANES <= n {
+            sum_block::<R, 3>(&mut to[first..], h, weights, k, first);
+            first += 3 * R::LANES;
+        }
+        while first + R::LANES <= n {
+            sum_block::<R, 1>(&mut to[first..], h, weights, k, first);
+            first += R::LANES;
+        }
+        for i in first..n {
+            sum_block::<f64, 1>(&mut to[i..], h, weights, k, i);
+        }
+    }
+}
+
+/// [`add`] to some bundles of neighbours, the first of which has a place in the state.
+#[inline(always)]
+fn sum_block<R: Real, const N: usize>(
+    to: &mut [f64],
+    h: f64,
+    weights: &[f64],
+    k: &[impl AsRef<[f64]>],
+    first: usize,
+) {
+    let mut sums: [R; N] = [R::splat(0.0); N];
+    for (i, sum) in sums.iter_mut().enumerate() {
+        *sum = R::load(&to[i * R::LANES..]);
+    }
+    for (&weight, k) in weights.iter().zip(k) {
+        if weight != 0.0 {
+            let (weight, k) = (h * weight, &k.as_ref()[first..][..N * R::LANES]);
+            for (i, sum) in sums.iter_mut().enumerate() {
+                *sum = *sum + R::load(&k[i * R::LANES..]) * weight;
+            }
+        }
+    }
+    for (i, sum) in sums.into_iter().enumerate() {
+        sum.store(&mut to[i * R::LANES..]);
+    }
+}
+
+/// Numbers of a state at a share of a step, and h times their rates; as [`Stages::component`] and [`Stages::slope`] have
+/// them, the numbers side by side.
+struct Read<'a> {
+    rows: [&'a [f64]; 7],
+    share: f64,
+    y: &'a [f64],
+    to: &'a mut [f64],
+    slopes: Option<&'a mut [f64]>,
+}
+
+impl Job for Read<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        let Read { rows, share, y, to, mut slopes } = self;
+        let n = to.len();
+        let rows = rows.map(|row| &row[..n]);
+        let factors: [f64; 7] = std::array::from_fn(|i| if i % 2 == 0 { share } else { 1.0 - share });
+        let mut sums = [0.0; 2 * LONG];
+        for first in (0..n).step_by(R::LANES) {
+            let (mut sum, mut slope) = (R::splat(0.0), R::splat(0.0));
+            for (i, row) in rows.iter().enumerate().rev() {
+                sum = sum + part::<R>(&row[first..]);
+                slope = slope * factors[i] + if i % 2 == 0 { sum } else { -sum };
+                sum = sum * factors[i];
+            }
+            let last = (n - first).min(R::LANES);
+            (part::<R>(&y[first..]) + sum).store(&mut sums);
+            to[first..][..last].copy_from_slice(&sums[..last]);
+            if let Some(slopes) = &mut slopes {
+                slope.store(&mut sums);
+                slopes[first..][..last].copy_from_slice(&sums[..last]);
+            }
+        }
+    }
+}
+
+/// The first lanes of a list, zeros beyond its end.
+#[inline(always)]
+fn part<R: Real>(list: &[f64]) -> R {
+    if list.len() >= R::LANES {
+        return R::load(list);
+    }
+    let mut lanes = [0.0; 2 * LONG];
+    lanes[..list.len()].copy_from_slice(list);
+    R::load(&lanes)
 }
 
 /// A tried step: where it leads and how large its error is against the tolerance (accept below 1).

@@ -3,7 +3,7 @@
 use super::knife::{Head, Knife};
 use super::needed::{Stations, half_chord, needed};
 use super::retreat;
-use super::uncut::{Scratch, uncut};
+use super::uncut::{ShortEdge, Uncut};
 use linkwright_kernel::call::{in_threads, poll};
 use linkwright_kernel::lanes::{Job, in_lanes};
 use linkwright_kernel::real::Real;
@@ -93,17 +93,10 @@ impl Work<'_> {
         }
     }
 
-    /// Row of a head of which it is known what it needs.
-    #[inline(always)]
-    fn row<R: Real>(&self, k: usize, found: [f64; 6], scratch: &mut Scratch, row: &mut [f64]) {
-        let [half, at, p, s, from, to] = found;
+    /// Row of a head of which it is known what it needs; areas are still to come.
+    fn row(&self, [half, p, s]: [f64; 3], row: &mut [f64]) {
         let [x, y] = self.point(p, s);
         row.copy_from_slice(&[2.0 * half, x, y, 0.0, 0.0, 0.0]);
-        if let Some(short) = self.half.filter(|&short| short < half) {
-            let (head, turns) = (self.head(k), self.knife.turns(self.longest));
-            let area = uncut::<R>(self.knife, &head, short, [from, to], turns, self.stations, at, scratch);
-            row[3..5].copy_from_slice(&area);
-        }
     }
 }
 
@@ -120,7 +113,10 @@ impl Job for Chunk<'_> {
     fn run<R: Real>(self) {
         let n = self.out.len() / RESULTS;
         let mut lanes = vec![0.0; 6 * R::LANES];
-        let mut scratch = Scratch::default();
+        let Work { knife, stations, longest, .. } = *self.work;
+        let turns = knife.turns(longest);
+        let edge = self.work.half.map(|half| ShortEdge { knife, half, turns, stations });
+        let mut uncut = Uncut::default();
         for at in (0..n).step_by(R::LANES) {
             poll();
             let found = R::outline(
@@ -130,14 +126,30 @@ impl Job for Chunk<'_> {
             for (x, to) in found.into_iter().zip(lanes.chunks_exact_mut(R::LANES)) {
                 x.store(to);
             }
-            let rows = self.out[at * RESULTS..].chunks_exact_mut(RESULTS).take(R::LANES);
-            for (lane, row) in rows.enumerate() {
-                let found = std::array::from_fn(|k| lanes[k * R::LANES + lane]);
+            let of = |k: usize, lane: usize| lanes[k * R::LANES + lane];
+            let rows = &mut self.out[at * RESULTS..];
+            for (lane, row) in rows.chunks_exact_mut(RESULTS).take(R::LANES).enumerate() {
+                self.work.row([of(0, lane), of(2, lane), of(3, lane)], row);
+            }
+            let Some(edge) = &edge else { continue };
+            uncut.clear();
+            for lane in (0..R::LANES.min(n - at)).filter(|&lane| edge.half < of(0, lane)) {
+                let head = self.work.head(self.first + at + lane);
                 R::outline(
                     #[inline(always)]
-                    || self.work.row::<R>(self.first + at + lane, found, &mut scratch, row),
+                    || uncut.add::<R>(edge, lane, &head, [of(4, lane), of(5, lane)], of(1, lane)),
                 );
             }
+            R::outline(
+                #[inline(always)]
+                || {
+                    uncut.areas::<R>(edge, |lane, area| {
+                        for (to, more) in rows[lane * RESULTS + 3..].iter_mut().zip(area) {
+                            *to += more;
+                        }
+                    });
+                },
+            );
         }
     }
 }

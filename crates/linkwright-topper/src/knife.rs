@@ -27,14 +27,15 @@ impl Law {
 /// The sum and its derivatives; each harmonic is turned on from the one before.
 #[inline(always)]
 fn series<R: Real>(coefficients: &[[f64; 2]], phase: R) -> [R; 3] {
+    let Some(([mean, _], waves)) = coefficients.split_first() else { return [R::splat(0.0); 3] };
     let (s1, c1) = phase.sin_cos();
-    let (mut s, mut c) = (R::splat(0.0), R::splat(1.0));
-    let [mut y, mut d1, mut d2] = [R::splat(0.0); 3];
-    for (k, &[a, b]) in coefficients.iter().enumerate() {
+    let (mut s, mut c) = (s1, c1);
+    let [mut y, mut d1, mut d2] = [R::splat(*mean), R::splat(0.0), R::splat(0.0)];
+    for (k, &[a, b]) in waves.iter().enumerate() {
         if k > 0 {
             (s, c) = (s * c1 + c * s1, c * c1 - s * s1);
         }
-        let (k, value) = (k as f64, c * a + s * b);
+        let (k, value) = ((k + 1) as f64, c * a + s * b);
         y = y + value;
         d1 = d1 + (c * b - s * a) * k;
         d2 = d2 - value * (k * k);

@@ -22,8 +22,9 @@ pub struct Needed<R> {
 #[derive(Clone, Debug)]
 pub struct Stations {
     pub turns: Vec<[f64; 2]>,
-    /// u, with both ends of the stretch.
+    /// u, with both ends of the stretch, and their sines.
     pub u: Vec<f64>,
+    pub sines: Vec<f64>,
     pub step: f64,
 }
 
@@ -33,8 +34,9 @@ impl Stations {
         let step = PI / n as f64;
         let inner = |j: usize| (j as f64 + 0.5) * step - 0.5 * PI;
         let turns = (0..n).map(|j| inner(j).sin_cos().into()).collect();
-        let u = std::iter::once(-0.5 * PI).chain((0..n).map(inner)).chain([0.5 * PI]).collect();
-        Stations { turns, u, step }
+        let u: Vec<f64> = std::iter::once(-0.5 * PI).chain((0..n).map(inner)).chain([0.5 * PI]).collect();
+        let sines = u.iter().map(|u| u.sin()).collect();
+        Stations { turns, u, sines, step }
     }
 }
 
@@ -137,10 +139,11 @@ fn higher<R: Real>(a: Top<R>, b: Top<R>) -> Top<R> {
 fn parabola<R: Real>([a, b, c]: [R; 3], at: R, pace: R) -> Top<R> {
     let (slope, bend) = (c - a, a - b - b + c);
     let is_top = (b - a).min(b - c);
-    let height = b - slope * slope / (bend * 8.0);
+    let quotient = slope / bend;
+    let height = b - slope * quotient * 0.125;
     let nothing = R::splat(f64::NEG_INFINITY);
-    let shift = slope / (bend * -2.0);
-    Top { height: is_top.select_lt(R::splat(0.0), nothing, height), at: at + pace * shift, reach: pace }
+    let at = at - pace * (quotient * 0.5);
+    Top { height: is_top.select_lt(R::splat(0.0), nothing, height), at, reach: pace }
 }
 
 /// Newton on the slope of √(r² − p²) ± q from about its top.

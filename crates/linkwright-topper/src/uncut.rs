@@ -1,8 +1,8 @@
 //! What an edge of given length leaves of a head, if it never retreats: the parts of chords beyond its two ends, over
 //! the way of the edge along its normal.
 //!
-//! The integrand has kinks where an end of the edge crosses the rim of the head. They are found first; between them it is
-//! smooth, and Gauss's rule takes it. A lane is a place of the edge over one head.
+//! The integrand has kinks where an end of the edge crosses the rim of the head. They are found first, those of many heads side
+//! by side; between them it is smooth, and Gauss's rule takes it. A lane is a kink, or a place of the edge over one head.
 
 use super::knife::{Head, Knife};
 use super::needed::{Stations, half_chord};
@@ -15,237 +15,301 @@ const PART: f64 = 0.25;
 /// Steps of the search for a kink: regula falsi (Illinois) gains a digit and a half each.
 const SEARCH: usize = 60;
 
-/// How well a kink is known: the integrand is zero at its one side, so that an error counts squared.
-const CLOSE: f64 = 1e-9;
+/// Length of a step to a kink after which it is known: the next would be a thousandth of it, and the integrand is zero at
+/// its one side, so that an error counts squared.
+const CLOSE: f64 = 1e-7;
 
-/// Lists that are used again from head to head.
+/// An edge that is too short for some heads.
+#[derive(Clone, Debug)]
+pub struct ShortEdge<'a> {
+    pub knife: &'a Knife,
+    /// Half of its length.
+    pub half: f64,
+    /// Turns of the law that a corner may fall into while a head is passed.
+    pub turns: std::ops::RangeInclusive<i32>,
+    pub stations: &'a Stations,
+}
+
+/// Some heads of which something is left, and lists that are used again for the next ones.
 #[derive(Clone, Debug, Default)]
-pub struct Scratch {
-    /// Places u of the edge, how far it lies from the centre along itself, and half of the chord there.
-    places: Vec<[f64; 3]>,
+pub struct Uncut {
+    passes: Vec<Pass>,
+    brackets: Brackets,
+    /// Places u of the edge, their sines, and by how much the ends of the chord lie beyond those of the edge.
+    places: [Vec<f64>; 6],
     kinks: Vec<f64>,
     /// Places u and weights of Gauss's rule.
     nodes: Vec<f64>,
     weights: Vec<f64>,
 }
 
-/// Area that is left beyond the end behind and that ahead, seen along e; `top` is when most is left.
-#[inline(always)]
-#[expect(clippy::too_many_arguments, reason = "one head, one edge, one pass")]
-pub fn uncut<R: Real>(
-    knife: &Knife,
-    head: &Head<f64>,
-    half: f64,
-    window: [f64; 2],
-    turns: std::ops::RangeInclusive<i32>,
-    stations: &Stations,
-    top: f64,
-    scratch: &mut Scratch,
-) -> [f64; 2] {
-    let mut area = [0.0; 2];
-    knife.stretches(
-        head,
-        window,
-        turns,
-        #[inline(always)]
-        |[start, end]| {
-            if end > start {
-                let (middle, width) = (0.5 * (start + end), 0.5 * (end - start));
-                let swing = Swing { knife, head, half, middle, width };
-                swing.look::<R>(stations, top, scratch);
-                swing.kinks::<R>(scratch);
-                let more = swing.area::<R>(scratch);
-                area = [area[0] + more[0], area[1] + more[1]];
-            }
-        },
-    );
-    area
+/// A smooth stretch of the pass over one head.
+#[derive(Clone, Copy, Debug)]
+struct Pass {
+    /// Whose it is.
+    row: usize,
+    swing: Swing<f64>,
+    /// Its brackets are those before this place, from that of the pass before on.
+    end: usize,
 }
 
-/// What an end of the edge lies beyond an end of the chord by: these times q and the half chord, less half of the edge.
+/// What an end of the edge lies beyond an end of the chord by: these times q and the half chord, less half of the edge. Behind
+/// and ahead; and the same of the chord's other ends.
 const ENDS: [[f64; 2]; 4] = [[1.0, 1.0], [-1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]];
 
-/// Brackets of kinks: both ends, the function there, what it is made of.
-#[derive(Default)]
+/// Brackets of kinks: both ends, the function there, what it is made of; and the pass.
+#[derive(Clone, Debug, Default)]
 struct Brackets {
-    rows: [[f64; 16]; 6],
-    n: usize,
-}
-
-impl Brackets {
-    #[inline(always)]
-    fn push(&mut self, [a, b]: [f64; 2], [fa, fb]: [f64; 2], [along, across]: [f64; 2]) {
-        for (row, x) in self.rows.iter_mut().zip([a, b, fa, fb, along, across]) {
-            row[self.n] = x;
-        }
-        self.n += 1;
-    }
+    rows: [Vec<f64>; 6],
+    pass: Vec<usize>,
 }
 
 /// A stretch of time, run through as t = m + w sin u.
-struct Swing<'a> {
-    knife: &'a Knife,
-    head: &'a Head<f64>,
-    half: f64,
-    middle: f64,
-    width: f64,
+#[derive(Clone, Copy, Debug)]
+struct Swing<R> {
+    head: Head<R>,
+    middle: R,
+    width: R,
 }
 
-impl Swing<'_> {
-    /// Half of the chord, the place of the edge along it, and how fast the edge goes over u.
+impl Uncut {
+    /// Forgets all heads.
+    pub fn clear(&mut self) {
+        self.passes.clear();
+        self.brackets.pass.clear();
+        self.brackets.rows.iter_mut().for_each(Vec::clear);
+    }
+
+    /// Adds a head that is passed between two times; `top` is when most is left of it.
     #[inline(always)]
-    fn at<R: Real>(&self, u: R) -> [R; 3] {
-        let Head { radius, offset, phase } = *self.head;
-        let head = Head { radius: R::splat(radius), offset: R::splat(offset), phase: R::splat(phase) };
-        let (sin, cos) = u.sin_cos();
-        let place = self.knife.place(&head, sin * self.width + self.middle);
-        [half_chord(head.radius, place.p[0]), place.q[0], place.p[1] * cos * self.width]
+    pub fn add<R: Real>(
+        &mut self,
+        edge: &ShortEdge<'_>,
+        row: usize,
+        head: &Head<f64>,
+        window: [f64; 2],
+        top: f64,
+    ) {
+        edge.knife.stretches(
+            head,
+            window,
+            edge.turns.clone(),
+            #[inline(always)]
+            |[start, end]| {
+                if end > start {
+                    let (middle, width) = (0.5 * (start + end), 0.5 * (end - start));
+                    let swing = Swing { head: *head, middle, width };
+                    self.look::<R>(edge, &swing, (top - middle) / width);
+                    self.bracket();
+                    self.passes.push(Pass { row, swing, end: self.brackets.pass.len() });
+                }
+            },
+        );
+    }
+
+    /// Areas that are left of the heads beyond the end behind and that ahead, seen along e: those of each smooth stretch, with
+    /// the head's row.
+    #[inline(always)]
+    pub fn areas<R: Real>(&mut self, edge: &ShortEdge<'_>, mut take: impl FnMut(usize, [f64; 2])) {
+        self.cross::<R>(edge);
+        let mut first = 0;
+        for nth in 0..self.passes.len() {
+            let Pass { row, swing, end } = self.passes[nth];
+            let (u, kinks) = (&edge.stations.u, &mut self.kinks);
+            kinks.clear();
+            kinks.push(u[0]);
+            kinks.extend_from_slice(&self.brackets.rows[1][first..end]);
+            kinks.push(u[u.len() - 1]);
+            kinks.sort_unstable_by(f64::total_cmp);
+            first = end;
+            let lanes = swing.splat::<R>();
+            self.nodes(edge, &swing, &lanes);
+            take(row, self.area(edge, &lanes));
+        }
     }
 
     /// The edge at all stations and where most is left: between two stations nothing else might be.
     #[inline(always)]
-    fn look<R: Real>(&self, stations: &Stations, top: f64, scratch: &mut Scratch) {
-        let mut lanes = [0.0; 16];
-        scratch.places.clear();
-        for u in stations.u.chunks(R::LANES) {
-            lanes[..u.len()].copy_from_slice(u);
-            lanes[u.len()..].fill(u[0]);
-            let [chord, q, _] = self.at(R::load(&lanes));
-            let (mut chords, mut along) = ([0.0; 16], [0.0; 16]);
-            chord.store(&mut chords);
-            q.store(&mut along);
-            scratch.places.extend((0..u.len()).map(|k| [u[k], along[k], chords[k]]));
-        }
-        let highest = (top - self.middle) / self.width;
+    fn look<R: Real>(&mut self, edge: &ShortEdge<'_>, swing: &Swing<f64>, highest: f64) {
+        let Stations { u, sines, .. } = edge.stations;
+        let [places, sin, ends @ ..] = &mut self.places;
+        places.clear();
+        places.extend_from_slice(u);
+        sin.clear();
+        sin.extend_from_slice(sines);
         if highest.abs() < 1.0 {
-            let u = highest.asin();
-            let [chord, q, _] = self.at(u);
-            let next = scratch.places.partition_point(|place| place[0] < u);
-            scratch.places.insert(next, [u, q, chord]);
+            let next = sines.partition_point(|&sine| sine < highest);
+            places.insert(next, highest.asin());
+            sin.insert(next, highest);
+        }
+        let n = places.len();
+        let whole = n.next_multiple_of(R::LANES);
+        sin.resize(whole, 0.0);
+        ends.iter_mut().for_each(|row| row.resize(whole, 0.0));
+        let (swing, half) = (swing.splat::<R>(), R::splat(edge.half));
+        let mut most = [R::splat(f64::NEG_INFINITY); 4];
+        for first in (0..n).step_by(R::LANES) {
+            let [chord, q, _] = swing.at_sine(edge.knife, R::load(&sin[first..]));
+            for ((row, most), [along, across]) in ends.iter_mut().zip(&mut most).zip(ENDS) {
+                let beyond = q * along + chord * across - half;
+                *most = most.max(beyond);
+                beyond.store(&mut row[first..]);
+            }
+        }
+        // Where an end of the edge lies beyond that of the chord all the time there is nothing to look for.
+        for (row, most) in ends.iter_mut().zip(most) {
+            row.truncate(if most.max_lane() > 0.0 { n } else { 0 });
         }
     }
 
-    /// How far the chord's ends lie beyond the edge's, behind and ahead; and how far its other ends do.
+    /// Brackets of kinks between neighbouring places.
     #[inline(always)]
-    fn beyond(&self, q: f64, chord: f64) -> [f64; 4] {
-        ENDS.map(|[along, across]| along * q + across * chord - self.half)
-    }
-
-    /// Both ends, and where an end of the edge crosses the rim, increasing.
-    #[inline(always)]
-    fn kinks<R: Real>(&self, scratch: &mut Scratch) {
-        let Scratch { places, kinks, .. } = scratch;
-        kinks.clear();
-        let mut found = Brackets::default();
-        for pair in places.windows(2) {
-            let [here, there] = [pair[0], pair[1]].map(|[_, q, chord]| self.beyond(q, chord));
-            for k in 0..4 {
-                if (here[k] > 0.0) != (there[k] > 0.0) {
-                    found.push([pair[0][0], pair[1][0]], [here[k], there[k]], ENDS[k]);
-                    if found.n == R::LANES {
-                        kinks.extend_from_slice(&self.crossings::<R>(&found)[..found.n]);
-                        found.n = 0;
-                    }
+    fn bracket(&mut self) {
+        let [u, _, ends @ ..] = &self.places;
+        for (row, [along, across]) in ends.iter().zip(ENDS) {
+            for (i, pair) in row.windows(2).enumerate() {
+                if (pair[0] > 0.0) != (pair[1] > 0.0) {
+                    let numbers = [u[i], u[i + 1], pair[0], pair[1], along, across];
+                    self.brackets.rows.iter_mut().zip(numbers).for_each(|(row, x)| row.push(x));
+                    self.brackets.pass.push(self.passes.len());
                 }
             }
         }
-        if found.n > 0 {
-            kinks.extend_from_slice(&self.crossings::<R>(&found)[..found.n]);
-        }
-        kinks.push(places[0][0]);
-        kinks.push(places[places.len() - 1][0]);
-        kinks.sort_by(f64::total_cmp);
     }
 
-    /// Where an end of the edge crosses the rim, a bracket each: regula falsi (Illinois) in lanes.
+    /// Where an end of the edge crosses the rim, in place of the end of each bracket: regula falsi (Illinois), a bracket a lane.
     #[inline(always)]
-    fn crossings<R: Real>(&self, found: &Brackets) -> [f64; 16] {
-        let mut rows = found.rows;
-        for row in &mut rows {
-            // Lanes without a bracket repeat the first.
-            let first = row[0];
-            row[found.n..].fill(first);
+    fn cross<R: Real>(&mut self, edge: &ShortEdge<'_>) {
+        let (zero, tiny, half) = (R::splat(0.0), R::splat(f64::MIN_POSITIVE), R::splat(edge.half));
+        let Brackets { rows, pass } = &mut self.brackets;
+        let n = pass.len();
+        let whole = n.next_multiple_of(R::LANES);
+        if n > 0 {
+            // Lanes without a bracket repeat the last.
+            pass.resize(whole, pass[n - 1]);
+            rows.iter_mut().for_each(|row| row.resize(whole, row[n - 1]));
         }
-        let [mut a, mut b, mut fa, mut fb, along, across] = rows.map(
-            #[inline(always)]
-            |row| R::load(&row),
-        );
-        let (zero, tiny) = (R::splat(0.0), R::splat(f64::MIN_POSITIVE));
-        for _ in 0..SEARCH {
-            let x = fb.abs().select_lt(tiny, b, b - fb * (b - a) / (fb - fa));
-            let [chord, q, _] = self.at(x);
-            let fx = q * along + chord * across - R::splat(self.half);
-            let far = (x - b).abs().max_lane();
-            // On the side of b the other end counts half; else b becomes the other end.
-            let same = fx * fb;
-            let (at, value) = (same.select_lt(zero, b, a), same.select_lt(zero, fb, fa * 0.5));
-            (a, fa, b, fb) = (at, value, x, fx);
-            if far < CLOSE {
-                break;
+        for first in (0..n).step_by(R::LANES) {
+            let swing = Swing::<R>::of(&self.passes, &pass[first..]);
+            let mut a = R::load(&rows[0][first..]);
+            let mut b = R::load(&rows[1][first..]);
+            let mut fa = R::load(&rows[2][first..]);
+            let mut fb = R::load(&rows[3][first..]);
+            let (along, across) = (R::load(&rows[4][first..]), R::load(&rows[5][first..]));
+            // A lane that is close keeps its place, so that it does not depend on the others.
+            let (mut found, mut open) = (b, R::splat(1.0));
+            for _ in 0..SEARCH {
+                let x = fb.abs().select_lt(tiny, b, b - fb * (b - a) / (fb - fa));
+                let (sin, _) = x.sin_cos();
+                let [chord, q, _] = swing.at_sine(edge.knife, sin);
+                let fx = q * along + chord * across - half;
+                found = zero.select_lt(open, x, found);
+                open = (x - b).abs().select_lt(R::splat(CLOSE), zero, open);
+                // On the side of b the other end counts half; else b becomes the other end.
+                let same = fx * fb;
+                let (at, value) = (same.select_lt(zero, b, a), same.select_lt(zero, fb, fa * 0.5));
+                (a, fa, b, fb) = (at, value, x, fx);
+                if open.max_lane() <= 0.0 {
+                    break;
+                }
             }
+            found.store(&mut rows[1][first..]);
         }
-        let mut at = [0.0; 16];
-        b.store(&mut at);
-        at
-    }
-
-    /// Length of a chord beyond an end of the edge.
-    #[inline(always)]
-    fn left<R: Real>(&self, q: R, chord: R) -> R {
-        (q + chord - R::splat(self.half)).max(R::splat(0.0)).min(chord + chord)
-    }
-
-    /// Area left on both sides.
-    #[inline(always)]
-    fn area<R: Real>(&self, scratch: &mut Scratch) -> [f64; 2] {
-        self.nodes::<R>(scratch);
-        let zero = R::splat(0.0);
-        let (mut behind, mut ahead) = (zero, zero);
-        for (u, weight) in scratch.nodes.chunks_exact(R::LANES).zip(scratch.weights.chunks_exact(R::LANES)) {
-            let [chord, q, pace] = self.at(R::load(u));
-            let share = pace * R::load(weight);
-            behind = behind + self.left(q, chord) * share;
-            ahead = ahead + self.left(-q, chord) * share;
-        }
-        [sum(behind), sum(ahead)]
     }
 
     /// Gauss's nodes of all panels in which something is left, filled up to whole lanes with nodes of no weight.
     #[inline(always)]
-    fn nodes<R: Real>(&self, scratch: &mut Scratch) {
-        let Scratch { kinks, nodes, weights, .. } = scratch;
+    fn nodes<R: Real>(&mut self, edge: &ShortEdge<'_>, swing: &Swing<f64>, lanes: &Swing<R>) {
+        let Uncut { kinks, nodes, weights, .. } = self;
         nodes.clear();
         weights.clear();
-        for panels in kinks.windows(2).collect::<Vec<_>>().chunks(R::LANES) {
+        for first in (0..kinks.len() - 1).step_by(R::LANES) {
+            let pairs = kinks[first..].windows(2).take(R::LANES);
             let mut middles = [0.0; 16];
-            for (middle, pair) in middles.iter_mut().zip(panels) {
+            for (middle, pair) in middles.iter_mut().zip(pairs.clone()) {
                 *middle = 0.5 * (pair[0] + pair[1]);
             }
-            let [chord, q, _] = self.at(R::load(&middles));
-            let (mut chords, mut along) = ([0.0; 16], [0.0; 16]);
-            chord.store(&mut chords);
-            q.store(&mut along);
-            for (k, pair) in panels.iter().enumerate() {
-                // Beyond either end, whichever.
-                if along[k].abs() + chords[k] > self.half {
-                    self.panel([pair[0], pair[1]], nodes, weights);
+            let [chord, q, _] = lanes.at_sine(edge.knife, R::load(&middles).sin_cos().0);
+            // Beyond either end, whichever.
+            let mut beyond = [0.0; 16];
+            (q.abs() + chord).store(&mut beyond);
+            for (pair, beyond) in pairs.zip(beyond) {
+                if beyond > edge.half {
+                    let rate = edge.knife.rate * swing.width;
+                    panel([pair[0], pair[1]], rate, nodes, weights);
                 }
             }
         }
-        let whole = nodes.len().next_multiple_of(16);
+        let whole = nodes.len().next_multiple_of(R::LANES);
         nodes.resize(whole, 0.0);
         weights.resize(whole, 0.0);
     }
 
-    /// Gauss's nodes of a panel: parts that are short in u, and in the phase of the law.
+    /// Area left on both sides.
     #[inline(always)]
-    fn panel(&self, [from, to]: [f64; 2], nodes: &mut Vec<f64>, weights: &mut Vec<f64>) {
-        let turned = self.knife.rate * self.width * (to.sin() - from.sin());
-        let parts = ((to - from).max(turned) / PART).ceil().max(1.0);
-        let step = (to - from) / parts;
-        for part in 0..parts as usize {
-            nodes.extend(C.iter().map(|c| from + (part as f64 + c) * step));
-            weights.extend(B.iter().map(|b| b * step));
+    fn area<R: Real>(&self, edge: &ShortEdge<'_>, swing: &Swing<R>) -> [f64; 2] {
+        let (zero, half) = (R::splat(0.0), R::splat(edge.half));
+        let (mut behind, mut ahead) = (zero, zero);
+        for (u, weight) in self.nodes.chunks_exact(R::LANES).zip(self.weights.chunks_exact(R::LANES)) {
+            let (sin, cos) = R::load(u).sin_cos();
+            let [chord, q, speed] = swing.at_sine(edge.knife, sin);
+            let share = speed * cos * swing.width * R::load(weight);
+            behind = behind + left(q, chord, half) * share;
+            ahead = ahead + left(-q, chord, half) * share;
+        }
+        [sum(behind), sum(ahead)]
+    }
+}
+
+impl<R: Real> Swing<R> {
+    /// Half of the chord, the place of the edge along it, and the speed of the edge along its normal, where u has a sine.
+    #[inline(always)]
+    fn at_sine(&self, knife: &Knife, sin: R) -> [R; 3] {
+        let place = knife.place(&self.head, sin * self.width + self.middle);
+        [half_chord(self.head.radius, place.p[0]), place.q[0], place.p[1]]
+    }
+
+    /// Those of some passes side by side.
+    #[inline(always)]
+    fn of(passes: &[Pass], chosen: &[usize]) -> Self {
+        let mut lanes = [[0.0; 16]; 5];
+        for (lane, &nth) in chosen[..R::LANES].iter().enumerate() {
+            let Swing { head: Head { radius, offset, phase }, middle, width } = passes[nth].swing;
+            for (row, x) in lanes.iter_mut().zip([radius, offset, phase, middle, width]) {
+                row[lane] = x;
+            }
+        }
+        let head = Head { radius: R::load(&lanes[0]), offset: R::load(&lanes[1]), phase: R::load(&lanes[2]) };
+        Swing { head, middle: R::load(&lanes[3]), width: R::load(&lanes[4]) }
+    }
+}
+
+impl Swing<f64> {
+    /// The same in every lane.
+    #[inline(always)]
+    fn splat<R: Real>(&self) -> Swing<R> {
+        let Head { radius, offset, phase } = self.head;
+        let head = Head { radius: R::splat(radius), offset: R::splat(offset), phase: R::splat(phase) };
+        Swing { head, middle: R::splat(self.middle), width: R::splat(self.width) }
+    }
+}
+
+/// Length of a chord beyond an end of the edge.
+#[inline(always)]
+fn left<R: Real>(q: R, chord: R, half: R) -> R {
+    (q + chord - half).max(R::splat(0.0)).min(chord + chord)
+}
+
+/// Gauss's nodes of a panel: parts that are short in u, and in the phase of the law, which changes at most by `rate` over u.
+#[inline(always)]
+fn panel([from, to]: [f64; 2], rate: f64, nodes: &mut Vec<f64>, weights: &mut Vec<f64>) {
+    let turned = rate * (to.sin() - from.sin());
+    let parts = ((to - from).max(turned) / PART).ceil().max(1.0);
+    let step = (to - from) / parts;
+    for part in 0..parts as usize {
+        for (c, b) in C.iter().zip(B) {
+            nodes.push(from + (part as f64 + c) * step);
+            weights.push(b * step);
         }
     }
 }

@@ -76,8 +76,12 @@ impl Job for Sampled<'_> {
         let zero = R::splat(0.0);
         // Even and odd harmonics in turn: an odd number of them has one of zero at its end.
         let mut c = vec![(zero, zero); harmonics.next_multiple_of(2)];
-        let mut samples = vec![0.0; places * R::LANES];
+        // The first and the last once more behind the other end, so that each has its neighbours.
+        let mut samples = vec![0.0; (places + 2) * R::LANES];
         let mut buffer = vec![0.0; 2 * R::LANES];
+        let mut tops = vec![[const { Vec::new() }; 2]; R::LANES];
+        let mut thirds = vec![0.0; R::LANES];
+        let mut wave = Wave::default();
         let mut found = Vec::with_capacity(range.len());
         let end = range.end;
         for first in range.step_by(R::LANES) {
@@ -92,35 +96,97 @@ impl Job for Sampled<'_> {
                         }
                         *c = (R::load(re), R::load(im));
                     }
-                    for (block, rows) in table.chunks_exact(c.len()).enumerate() {
-                        let sums = parts(&c, rows);
-                        for (b, [ce, se, co, so]) in sums.into_iter().enumerate() {
-                            let j = (BLOCK * block + b).min(quarter);
-                            // ±τ and π ± τ share their cosines and sines but for the sign.
-                            let (plus, minus) = (ce + co, ce - co);
-                            let (up, down) = (se + so, se - so);
-                            let mirrored = [
-                                (j, plus - up),
-                                (places - j, plus + up),
-                                (2 * quarter - j, minus + down),
-                                (2 * quarter + j, minus - down),
-                            ];
-                            for (place, value) in mirrored {
-                                value.store(&mut samples[place % places * R::LANES..][..R::LANES]);
-                            }
-                        }
+                    let [second, third] = bounds(&c[..harmonics]);
+                    third.store(&mut thirds);
+                    let range = sample(&c, table, quarter, &mut samples);
+                    for (side, sign) in SIGNS.into_iter().enumerate() {
+                        let top = range[side] * sign;
+                        tops_of(&samples, sign, least_beside(top, second, places), side, &mut tops);
                     }
                 },
             );
             for lane in 0..R::LANES.min(end - first) {
-                let mut wave: Vec<Complex> =
-                    (0..harmonics).map(|h| coefficients[h * waves + first + lane]).collect();
-                wave.resize(harmonics.next_multiple_of(ABREAST), [0.0; 2]);
-                let of: Vec<f64> = samples.iter().skip(lane).step_by(R::LANES).copied().collect();
-                found.push(wave_extremes(&wave, &of));
+                wave.set((0..harmonics).map(|h| coefficients[h * waves + first + lane]));
+                found.push(R::outline(
+                    #[inline(always)]
+                    || wave_extremes(&wave, &mut tops[lane], places, thirds[lane]),
+                ));
             }
         }
         found
+    }
+}
+
+/// Maxima, then minima.
+const SIGNS: [f64; 2] = [1.0, -1.0];
+
+/// The top of a parabola through three samples: where, how high, and the sample in the middle.
+type Top = (f64, f64, f64);
+
+/// Samples all waves at even places; their greatest and their least.
+#[inline(always)]
+fn sample<R: Real>(c: &[(R, R)], table: &[[[f64; 2]; BLOCK]], quarter: usize, samples: &mut [f64]) -> [R; 2] {
+    let places = 4 * quarter;
+    let (mut most, mut least) = (R::splat(f64::NEG_INFINITY), R::splat(f64::INFINITY));
+    for (block, rows) in table.chunks_exact(c.len()).enumerate() {
+        let sums = parts(c, rows);
+        for (b, [ce, se, co, so]) in sums.into_iter().enumerate() {
+            let j = (BLOCK * block + b).min(quarter);
+            // ±τ and π ± τ share their cosines and sines but for the sign.
+            let (plus, minus) = (ce + co, ce - co);
+            let (up, down) = (se + so, se - so);
+            let mirrored = [
+                (j, plus - up),
+                (places - j, plus + up),
+                (2 * quarter - j, minus + down),
+                (2 * quarter + j, minus - down),
+            ];
+            for (place, value) in mirrored {
+                most = most.max(value);
+                least = least.min(value);
+                value.store(&mut samples[(place % places + 1) * R::LANES..][..R::LANES]);
+            }
+        }
+    }
+    samples.copy_within(places * R::LANES..(places + 1) * R::LANES, 0);
+    samples.copy_within(R::LANES..2 * R::LANES, (places + 1) * R::LANES);
+    [most, least]
+}
+
+/// A sample beside the top of a wave is no lower than that by more than half a step's parabola.
+#[inline(always)]
+fn least_beside<R: Real>(most: R, second: R, places: usize) -> R {
+    let step = TAU / places as f64;
+    most - second * 0.125 * step * step
+}
+
+/// Tops of parabolas about samples of ±f that are no lower than a limit, lane by lane.
+#[inline(always)]
+fn tops_of<R: Real>(samples: &[f64], sign: f64, least: R, side: usize, tops: &mut [[Vec<Top>; 2]]) {
+    let step = TAU / (samples.len() / R::LANES - 2) as f64;
+    tops.iter_mut().for_each(|lane| lane[side].clear());
+    let mut limits = [0.0; 16];
+    least.store(&mut limits);
+    // Strictly below, so that a sample on the limit, and one as high as its neighbour, are looked at.
+    let below = least - least.abs() * f64::EPSILON - R::splat(f64::MIN_POSITIVE);
+    let (one, below_zero) = (R::splat(1.0), R::splat(-f64::MIN_POSITIVE));
+    for (j, rows) in samples.windows(3 * R::LANES).step_by(R::LANES).enumerate() {
+        let (before, rest) = rows.split_at(R::LANES);
+        let (here, after) = rest.split_at(R::LANES);
+        let sample = R::load(here) * sign;
+        let rise = (sample - R::load(before) * sign).min(sample - R::load(after) * sign);
+        if !below_zero.any_below(below.select_lt(sample, rise, -one)) {
+            continue;
+        }
+        for (lane, tops) in tops.iter_mut().enumerate() {
+            let [before, here, after] = [before, here, after].map(|row| sign * row[lane]);
+            if here >= limits[lane] && here >= before && here >= after {
+                let bend = before - 2.0 * here + after;
+                let shift = if bend < 0.0 { 0.5 * (before - after) / bend } else { 0.0 };
+                let height = here - 0.25 * (before - after) * shift;
+                tops[side].push(((j as f64 + shift) * step, height, here));
+            }
+        }
     }
 }
 
@@ -159,53 +225,40 @@ fn parts<R: Real>(c: &[(R, R)], rows: &[[[f64; 2]; BLOCK]]) -> [[R; 4]; BLOCK] {
     sums
 }
 
-/// Extremes of one wave from its samples.
-fn wave_extremes(wave: &[Complex], samples: &[f64]) -> Extremes {
-    if samples.iter().any(|x| !x.is_finite()) {
+/// Extremes of one wave from tops of its samples and of those of −f; `third` is a bound of its third derivative.
+#[inline(always)]
+fn wave_extremes(wave: &Wave, tops: &mut [Vec<Top>; 2], places: usize, third: f64) -> Extremes {
+    // The bound counts every coefficient but the mean.
+    if !(third.is_finite() && wave.rows[0].iter().all(|part| part[0].is_finite())) {
         return Extremes { max: f64::NAN, at_max: f64::NAN, min: f64::NAN, at_min: f64::NAN };
     }
-    let bounds = bounds(wave);
-    let (at_max, max) = highest(wave, samples, 1.0, bounds);
-    let (at_min, min) = highest(wave, samples, -1.0, bounds);
+    let (at_max, max) = highest(wave, &mut tops[0], SIGNS[0], places, third);
+    let (at_min, min) = highest(wave, &mut tops[1], SIGNS[1], places, third);
     Extremes { max, at_max, min: -min, at_min }
 }
 
-/// What second and third derivative of a wave do not exceed.
-fn bounds(wave: &[Complex]) -> [f64; 2] {
-    let (mut second, mut third) = (0.0, 0.0);
-    for (h, [re, im]) in wave.iter().enumerate() {
+/// What second and third derivative of waves do not exceed.
+#[inline(always)]
+fn bounds<R: Real>(c: &[(R, R)]) -> [R; 2] {
+    let (mut second, mut third) = (R::splat(0.0), R::splat(0.0));
+    for (h, &(re, im)) in c.iter().enumerate() {
         let (h, size) = (h as f64, (re * re + im * im).sqrt());
-        second += h * h * size;
-        third += h * h * h * size;
+        second = second + size * (h * h);
+        third = third + size * (h * h * h);
     }
     [second, third]
 }
 
-/// Where ±f is largest, and how much it is there; `second` and `third` are bounds of these derivatives.
-fn highest(wave: &[Complex], samples: &[f64], sign: f64, [second, third]: [f64; 2]) -> (f64, f64) {
-    let n = samples.len();
-    let step = TAU / n as f64;
-    let most = samples.iter().fold(f64::NEG_INFINITY, |most, x| most.max(sign * x));
-    // A sample beside the top is no lower than that by more than half a step's parabola.
-    let least = most - 0.125 * second * step * step;
-    // Tops of parabolas through three samples: where, and how high.
-    let mut tops = Vec::with_capacity(8);
-    for (j, here) in samples.iter().enumerate() {
-        let here = sign * here;
-        if here < least {
-            continue;
-        }
-        let (before, after) = (sign * samples[(j + n - 1) % n], sign * samples[(j + 1) % n]);
-        if here >= before && here >= after {
-            let bend = before - 2.0 * here + after;
-            let shift = if bend < 0.0 { 0.5 * (before - after) / bend } else { 0.0 };
-            tops.push(((j as f64 + shift) * step, here - 0.25 * (before - after) * shift, here));
-        }
-    }
+/// Where ±f is largest, and how much it is there.
+#[inline(always)]
+fn highest(wave: &Wave, tops: &mut [Top], sign: f64, places: usize, third: f64) -> (f64, f64) {
+    let step = TAU / places as f64;
     let missed = MISSED * third * step.powi(3);
-    tops.sort_by(|a, b| b.1.total_cmp(&a.1));
+    if tops.len() > 1 {
+        tops.sort_by(|a, b| b.1.total_cmp(&a.1));
+    }
     let mut found = (0.0, f64::NEG_INFINITY);
-    for (start, top, sample) in tops {
+    for &(start, top, sample) in tops.iter() {
         if top + missed < found.1 {
             break;
         }
@@ -218,7 +271,8 @@ fn highest(wave: &[Complex], samples: &[f64], sign: f64, [second, third]: [f64; 
 }
 
 /// Newton from beside a top; no less than the sample if that leads nowhere.
-fn climb(wave: &[Complex], start: f64, step: f64, sign: f64, sample: f64) -> (f64, f64) {
+#[inline(always)]
+fn climb(wave: &Wave, start: f64, step: f64, sign: f64, sample: f64) -> (f64, f64) {
     let (mut at, mut best) = (start, (start, sample));
     for _ in 0..STEPS {
         let [value, d1, d2] = evaluate(wave, at);
@@ -241,27 +295,48 @@ fn climb(wave: &[Complex], start: f64, step: f64, sign: f64, sample: f64) -> (f6
 /// How many harmonics are summed beside each other: one by one each would wait for the one before it.
 const ABREAST: usize = 4;
 
-/// f, f′ and f″ of a wave whose harmonics are filled up to a multiple of [`ABREAST`].
-fn evaluate(wave: &[Complex], at: f64) -> [f64; 3] {
-    let (s1, c1) = at.sin_cos();
-    let further = |(s, c): (f64, f64)| (s * c1 + c * s1, c * c1 - s * s1);
-    let mut turns = [(0.0, 1.0); ABREAST];
-    for k in 1..ABREAST {
-        turns[k] = further(turns[k - 1]);
-    }
-    let (s4, c4) = further(turns[ABREAST - 1]);
-    let mut sums = [[0.0; 3]; ABREAST];
-    for (first, four) in wave.chunks_exact(ABREAST).enumerate() {
-        for (k, (sum, ((s, c), &[re, im]))) in sums.iter_mut().zip(turns.iter_mut().zip(four)).enumerate() {
-            let h = (ABREAST * first + k) as f64;
-            let (value, turned) = (re * *c - im * *s, re * *s + im * *c);
-            sum[0] += value;
-            sum[1] -= h * turned;
-            sum[2] -= h * h * value;
-            (*s, *c) = (*s * c4 + *c * s4, *c * c4 - *s * s4);
+/// Harmonics of a wave, some side by side: real parts and imaginary parts, the last filled up with zeros.
+#[derive(Clone, Debug, Default)]
+struct Wave {
+    rows: Vec<[[f64; ABREAST]; 2]>,
+}
+
+impl Wave {
+    /// Takes the harmonics of another wave.
+    fn set(&mut self, harmonics: impl ExactSizeIterator<Item = Complex>) {
+        self.rows.clear();
+        self.rows.resize(harmonics.len().div_ceil(ABREAST), [[0.0; ABREAST]; 2]);
+        for (h, [re, im]) in harmonics.enumerate() {
+            let [real, imaginary] = &mut self.rows[h / ABREAST];
+            (real[h % ABREAST], imaginary[h % ABREAST]) = (re, im);
         }
     }
-    std::array::from_fn(|part| sums.iter().map(|sum| sum[part]).sum())
+}
+
+/// f, f′ and f″ of a wave at an angle.
+#[inline(always)]
+fn evaluate(wave: &Wave, at: f64) -> [f64; 3] {
+    let (s1, c1) = at.sin_cos();
+    let further = |(s, c): (f64, f64)| (s * c1 + c * s1, c * c1 - s * s1);
+    let (mut s, mut c) = ([0.0; ABREAST], [1.0; ABREAST]);
+    for k in 1..ABREAST {
+        (s[k], c[k]) = further((s[k - 1], c[k - 1]));
+    }
+    let (s4, c4) = further((s[ABREAST - 1], c[ABREAST - 1]));
+    let [mut value, mut slope, mut bend] = [[0.0; ABREAST]; 3];
+    for (row, h) in wave.rows.iter().zip(0..) {
+        let [re, im] = row;
+        let first = f64::from(ABREAST as u32 * h);
+        for k in 0..ABREAST {
+            let h = first + k as f64;
+            let (here, turned) = (re[k] * c[k] - im[k] * s[k], re[k] * s[k] + im[k] * c[k]);
+            value[k] += here;
+            slope[k] -= h * turned;
+            bend[k] -= h * h * here;
+            (s[k], c[k]) = (s[k] * c4 + c[k] * s4, c[k] * c4 - s[k] * s4);
+        }
+    }
+    [value, slope, bend].map(|parts| parts.iter().sum())
 }
 
 #[cfg(test)]
@@ -280,8 +355,8 @@ mod tests {
         let c: Vec<Complex> = (0..waves * harmonics).map(|_| [random(), random()]).collect();
         let found = extremes(&c, waves);
         for (w, found) in found.iter().enumerate() {
-            let mut wave: Vec<Complex> = (0..harmonics).map(|h| c[h * waves + w]).collect();
-            wave.resize(harmonics.next_multiple_of(ABREAST), [0.0; 2]);
+            let mut wave = Wave::default();
+            wave.set((0..harmonics).map(|h| c[h * waves + w]));
             let fine = (0..100_000).map(|j| evaluate(&wave, TAU * f64::from(j) / 1e5)[0]);
             let (low, high) = fine.fold((f64::MAX, f64::MIN), |(a, b), x| (a.min(x), b.max(x)));
             // Fine samples miss an extreme by no more than ½ f″ (π/1e5)².

@@ -140,7 +140,7 @@ fn free_spin_keeps_its_energy() {
     let mut system = chain(&[0.5], &[]);
     system.rotors.push(Rotor { mass: 0, ratio: 2.0, phase: 0.7, table: 0 });
     system.tables.push(table.clone());
-    let inertia = |theta: f64| 0.5 + 4.0 * table.at(2.0 * theta + 0.7)[0];
+    let inertia = |theta: f64| 0.5 + 4.0 * table.value_and_slope(2.0 * theta + 0.7)[0];
     let times = even_times(1.0, 301);
     let energy = 0.5 * inertia(0.2) * 80.0 * 80.0;
     for method in BOTH {

@@ -252,9 +252,10 @@ impl<'a, S: Stepper> Follower<'a, S> {
         while self.next_sample < self.request.times.len() && self.request.times[self.next_sample] <= reached {
             let time = self.request.times[self.next_sample];
             let share = if time == reached { 1.0 } else { ((time - t) / h).clamp(0.0, 1.0) };
-            for i in 0..self.sample.len() {
-                let inside = || self.stepper.component(share, &self.state, i);
-                self.sample[i] = if time == reached { self.end[i] } else { inside() };
+            if time == reached {
+                self.sample.copy_from_slice(&self.end);
+            } else {
+                self.stepper.components(share, &self.state, &mut self.sample);
             }
             self.write_sample(h, share);
         }

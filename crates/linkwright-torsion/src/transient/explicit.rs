@@ -2,7 +2,8 @@
 
 use super::rates::Rates;
 use super::stepper::{Scale, Stepper};
-use linkwright_kernel::rk::{Stages, WEIGHTS, next_factor};
+use linkwright_kernel::rk::{Stages, WEIGHTS, add, next_factor};
+use std::mem::swap;
 
 /// Phase of the fastest undamped swing up to which its amplitude does not grow in a step.
 pub const STABLE_PHASE: f64 = 5.9;
@@ -59,7 +60,8 @@ impl Stepper for Explicit {
             let mut f = |t: f64, y: &Vec<f64>, to: &mut Vec<f64>| {
                 rates.derivative(t, y, to);
                 stage += 1;
-                powers[stage].copy_from_slice(&rates.powers);
+                // All of them are written anew each time.
+                swap(&mut powers[stage], &mut rates.powers);
             };
             let error = self.stages.try_step(&mut f, at, h, &size, end);
             if error <= 1.0 {
@@ -77,7 +79,7 @@ impl Stepper for Explicit {
 
     fn accept(&mut self, rates: &mut Rates<'_>, t_end: f64, end: &[f64]) {
         rates.derivative(t_end, end, self.stages.end());
-        self.end_powers.copy_from_slice(&rates.powers);
+        swap(&mut self.end_powers, &mut rates.powers);
     }
 
     fn fill(
@@ -109,23 +111,21 @@ impl Stepper for Explicit {
         self.stages.component(share, state[i], i)
     }
 
+    fn components(&self, share: f64, state: &[f64], to: &mut [f64]) {
+        self.stages.components(share, state, to);
+    }
+
     fn slope(&self, share: f64, h: f64, i: usize) -> f64 {
         self.stages.slope(share, i) / h
     }
 
     fn work(&mut self, _: &mut Rates<'_>, _: (f64, &Vec<f64>), h: f64, to: &mut [f64]) {
-        for (&weight, powers) in WEIGHTS.iter().zip(&self.powers) {
-            if weight != 0.0 {
-                for (to, power) in to.iter_mut().zip(powers) {
-                    *to += h * weight * power;
-                }
-            }
-        }
+        add(to, h, &WEIGHTS, &self.powers);
     }
 
     fn advance(&mut self) {
         self.stages.advance();
-        self.powers[0].copy_from_slice(&self.end_powers);
+        swap(&mut self.powers[0], &mut self.end_powers);
     }
 
     fn rejected(&self) -> usize {

@@ -103,10 +103,14 @@ impl Extremes {
     fn inside(&self, row: usize, h: f64) -> impl Iterator<Item = Turn> {
         let (before, now, [most, _, least, _]) = (self.before[row], self.now[row], self.rows[row]);
         let (most, least, ends) = (most.max(now.0), least.min(now.0), 0.5 * (before.0 + now.0));
-        turns(before, now, h).filter(move |turn| {
-            let bold = turn.value + DOUBT * (turn.value - ends);
+        let is_new = move |value: f64| {
+            let bold = value + DOUBT * (value - ends);
             bold > most || bold < least
-        })
+        };
+        // The cubic lies between the least and the greatest of its coefficients over Bernstein's polynomials.
+        let inner = [before.0 + h / 3.0 * before.1, now.0 - h / 3.0 * now.1];
+        let may_be = inner.into_iter().any(|value| !value.is_finite() || is_new(value));
+        may_be.then(|| turns(before, now, h).filter(move |turn| is_new(turn.value))).into_iter().flatten()
     }
 }
 

@@ -13,8 +13,10 @@
 //! Source: the equation is Lagrange's for T = ½ J(θ) θ̇²; e.g. Eksergian, *Dynamical analysis of machines*,
 //! J. Franklin Inst. 209 (1930).
 
-use super::system::{Link, System};
+use super::system::{Link, Rotor, System};
 use super::torque::{Pull, Stretch};
+use linkwright_kernel::lanes::{Job, in_single_lanes};
+use linkwright_kernel::real::Real;
 
 /// A system at one instant, with room for what the equations need.
 #[derive(Clone, Debug)]
@@ -31,9 +33,13 @@ pub struct Rates<'a> {
     /// Shares of the masses in the inertia of the whole.
     shares: Vec<f64>,
     inertia: Vec<f64>,
-    /// J′ and J″ of each mass.
-    bends: Vec<[f64; 2]>,
+    /// Whether anything damps swings.
+    damps_swings: bool,
+    /// J′ of each mass.
+    bends: Vec<f64>,
     pub acceleration: Vec<f64>,
+    /// Sum of torques on each mass and on the ground.
+    net: Vec<f64>,
     /// Power of each torque, then loss in each link, then loss at each mass \[W\].
     pub powers: Vec<f64>,
     /// How often the equations were evaluated.
@@ -54,8 +60,10 @@ impl<'a> Rates<'a> {
             aside_speed: vec![0.0; n + 1],
             shares: system.shares(),
             inertia: vec![0.0; n],
-            bends: vec![[0.0; 2]; n],
+            damps_swings: system.swing_damping.iter().any(|&d| d != 0.0),
+            bends: vec![0.0; n],
             acceleration: vec![0.0; n],
+            net: vec![0.0; n + 1],
             powers: vec![0.0; system.torques.len() + system.links.len() + n],
             evaluations: 0,
         }
@@ -104,97 +112,111 @@ impl<'a> Rates<'a> {
     }
 
     /// The derivative of a state.
-    #[inline(never)]
-    pub fn derivative(&mut self, t: f64, state: &[f64], rates: &mut [f64]) {
+    pub fn derivative(&mut self, t: f64, state: &[f64], to: &mut [f64]) {
+        in_single_lanes(Derivative { rates: self, t, state, to });
+    }
+
+    /// What [`Rates::derivative`] does, in a function for the processor's own instructions.
+    #[inline(always)]
+    fn derive(&mut self, t: f64, state: &[f64], to: &mut [f64]) {
         self.evaluations += 1;
         self.place(state);
         self.turn();
         self.push(t);
         self.twist();
         let n = self.system.len();
-        for i in 0..n {
-            let gyration = 0.5 * self.bends[i][0] * self.omega[i] * self.omega[i];
-            self.acceleration[i] = (self.acceleration[i] - gyration) / self.inertia[i];
+        let moving = self.bends[..n].iter().zip(&self.omega[..n]).zip(&self.inertia[..n]);
+        let found = self.acceleration[..n].iter_mut().zip(&self.net[..n]);
+        for ((a, net), ((bend, omega), inertia)) in found.zip(moving) {
+            let gyration = 0.5 * bend * omega * omega;
+            *a = (net - gyration) / inertia;
         }
-        rates[..n].copy_from_slice(&state[n..]);
-        rates[n..].copy_from_slice(&self.acceleration);
+        let (angles, speeds) = to.split_at_mut(n);
+        angles.copy_from_slice(&state[n..]);
+        speeds.copy_from_slice(&self.acceleration);
         if self.relative {
-            let first = rates[n];
-            rates[n + 1..].iter_mut().for_each(|x| *x -= first);
+            let first = speeds[0];
+            speeds[1..].iter_mut().for_each(|x| *x -= first);
         }
     }
 
     /// Angles and speeds of the masses.
+    #[inline(always)]
     fn place(&mut self, state: &[f64]) {
-        let n = self.system.len();
-        let (angles, speeds) = state.split_at(n);
-        self.aside[..n].copy_from_slice(angles);
-        self.aside_speed[..n].copy_from_slice(speeds);
-        let (mut angle, mut speed) = (0.0, 0.0);
-        if self.relative {
-            (angle, speed) = (angles[0], speeds[0]);
-            (self.aside[0], self.aside_speed[0]) = (0.0, 0.0);
-        }
-        for i in 0..n {
-            self.theta[i] = angle + self.aside[i];
-            self.omega[i] = speed + self.aside_speed[i];
+        let (angles, speeds) = state.split_at(self.system.len());
+        let halves =
+            [(angles, &mut self.theta, &mut self.aside), (speeds, &mut self.omega, &mut self.aside_speed)];
+        for (numbers, whole, aside) in halves {
+            let lead = if self.relative { numbers[0] } else { 0.0 };
+            for ((whole, aside), number) in whole.iter_mut().zip(aside.iter_mut()).zip(numbers) {
+                *aside = *number;
+                *whole = lead + number;
+            }
+            if self.relative {
+                (aside[0], whole[0]) = (0.0, lead);
+            }
         }
     }
 
     /// Inertias at these angles.
+    #[inline(always)]
     fn turn(&mut self) {
         self.inertia.copy_from_slice(&self.system.inertia);
-        self.bends.fill([0.0; 2]);
+        self.bends.fill(0.0);
         for rotor in &self.system.rotors {
             let i = rotor.mass;
             let n = rotor.ratio;
-            let [value, d1, d2] = self.system.tables[rotor.table].at(n * self.theta[i] + rotor.phase);
+            let [value, d1] =
+                self.system.tables[rotor.table].value_and_slope(n * self.theta[i] + rotor.phase);
             let square = n * n;
             self.inertia[i] += square * value;
-            self.bends[i][0] += square * n * d1;
-            self.bends[i][1] += square * square * d2;
+            self.bends[i] += square * n * d1;
         }
     }
 
-    /// Torques from outside and damping against the ground; sums of torques are kept as accelerations.
+    /// Torques from outside and damping against the ground.
+    #[inline(always)]
     fn push(&mut self, t: f64) {
-        let system = self.system;
-        let at_masses = system.torques.len() + system.links.len();
-        let losses = &mut self.powers[at_masses..];
-        let whole: f64 = self.shares.iter().zip(&self.aside_speed).map(|(share, w)| share * w).sum();
-        for (i, loss) in losses.iter_mut().enumerate() {
-            let swing = self.aside_speed[i] - whole;
-            let drag = system.damping[i] * self.omega[i] + system.swing_damping[i] * swing;
-            self.acceleration[i] = -drag;
-            *loss = drag * self.omega[i];
+        let (system, n) = (self.system, self.system.len());
+        let (powers, losses) = self.powers.split_at_mut(system.torques.len() + system.links.len());
+        let whole = if self.damps_swings {
+            self.shares.iter().zip(&self.aside_speed).map(|(share, w)| share * w).sum()
+        } else {
+            0.0
+        };
+        let damping = system.damping[..n].iter().zip(&system.swing_damping[..n]);
+        let speeds = self.omega[..n].iter().zip(&self.aside_speed[..n]);
+        let found = self.net[..n].iter_mut().zip(&mut losses[..n]);
+        for (((damping, swing_damping), (omega, aside)), (net, loss)) in damping.zip(speeds).zip(found) {
+            let drag = damping * omega + swing_damping * (aside - whole);
+            *net = -drag;
+            *loss = drag * omega;
         }
         let about = (&system.tables[..], &system.curves[..], &self.stretch);
-        for (torque, power) in system.torques.iter().zip(&mut self.powers) {
+        for (torque, power) in system.torques.iter().zip(powers) {
             let i = torque.mass;
             let pull = torque.at(about, (t, self.theta[i], self.omega[i]));
-            self.acceleration[i] += pull.torque;
+            self.net[i] += pull.torque;
             *power = pull.torque * self.omega[i];
         }
     }
 
     /// Torques of the links.
+    #[inline(always)]
     fn twist(&mut self) {
-        let system = self.system;
-        let n = system.len();
+        let (system, n) = (self.system, self.system.len());
+        // The ground is the mass beyond the last.
+        let (aside, speed, net) = (&self.aside[..=n], &self.aside_speed[..=n], &mut self.net[..=n]);
         let losses = &mut self.powers[system.torques.len()..];
         for (link, loss) in system.links.iter().zip(losses) {
             let [a, b] = link.ends;
-            let rate = link.ratio * (self.aside_speed[a] - self.aside_speed[b]);
-            let twist = link.ratio * (self.aside[a] - self.aside[b]);
+            let rate = link.ratio * (speed[a] - speed[b]);
+            let twist = link.ratio * (aside[a] - aside[b]);
             let elastic = link.elastic(system, twist).0;
             let torque = link.ratio * (elastic + link.damping * rate);
             *loss = link.damping * rate * rate;
-            if a < n {
-                self.acceleration[a] -= torque;
-            }
-            if b < n {
-                self.acceleration[b] += torque;
-            }
+            net[a] -= torque;
+            net[b] += torque;
         }
     }
 
@@ -290,9 +312,14 @@ impl<'a> Rates<'a> {
         let n = system.len();
         by_angle.fill(0.0);
         by_speed.fill(0.0);
+        let mut d2 = vec![0.0; n];
+        for Rotor { mass, ratio, phase, table } in &system.rotors {
+            let square = ratio * ratio;
+            d2[*mass] += square * square * system.tables[*table].bend(ratio * self.theta[*mass] + phase);
+        }
         for i in 0..n {
             let omega = self.omega[i];
-            let [d1, d2] = self.bends[i];
+            let (d1, d2) = (self.bends[i], d2[i]);
             by_angle[i * n + i] = -0.5 * d2 * omega * omega - self.acceleration[i] * d1;
             by_speed[i * n + i] = -d1 * omega - system.damping[i] - system.swing_damping[i];
             for (j, share) in self.shares.iter().enumerate() {
@@ -323,6 +350,24 @@ impl<'a> Rates<'a> {
     }
 }
 
+/// The equations at one instant.
+struct Derivative<'r, 'a> {
+    rates: &'r mut Rates<'a>,
+    t: f64,
+    state: &'r [f64],
+    to: &'r mut [f64],
+}
+
+impl Job for Derivative<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        // Every mass has formulas of its own, so that there is no bundle of lanes; the compiler takes neighbours together.
+        self.rates.derive(self.t, self.state, self.to);
+    }
+}
+
 /// A stiffness between two masses, as it acts on them.
 fn couple(matrix: &mut [f64], n: usize, [a, b]: [usize; 2], stiffness: f64) {
     for (i, j) in [(a, b), (b, a)] {
@@ -346,7 +391,10 @@ impl Link {
     /// Elastic torque at a twist, and its slope.
     #[inline(always)]
     fn elastic(&self, system: &System, twist: f64) -> (f64, f64) {
-        let (curved, slope) = self.curve.map_or((0.0, 0.0), |curve| system.curves[curve].at(twist));
+        let (curved, slope) = match self.curve {
+            None => (0.0, 0.0),
+            Some(curve) => system.curves[curve].at(twist),
+        };
         (self.stiffness * twist + curved, self.stiffness + slope)
     }
 }

@@ -40,6 +40,11 @@ pub trait Stepper {
     /// One number of the state at a share 0…1 of the step.
     fn component(&self, share: f64, state: &[f64], i: usize) -> f64;
 
+    /// All numbers of the state there.
+    fn components(&self, share: f64, state: &[f64], to: &mut [f64]) {
+        to.iter_mut().enumerate().for_each(|(i, to)| *to = self.component(share, state, i));
+    }
+
     /// Rate of one number of the state at a share of the step \[1/s\].
     fn slope(&self, share: f64, h: f64, i: usize) -> f64;
 
@@ -122,21 +127,20 @@ impl Scale {
 
     /// Largest error between the ends of a step over what it may be, of the numbers of the state and of the twist of each link,
     /// which may be small beside the angles; their sizes are the larger of two states.
-    pub fn worst(&self, system: &System, error: &[f64], states: [&[f64]; 2]) -> f64 {
-        let size = |value: &dyn Fn(&[f64]) -> f64| value(states[0]).abs().max(value(states[1]).abs());
-        let numbers = error.iter().enumerate().map(|(i, &error)| {
-            let size = size(&|state| state[i]);
-            over(error, self.between * self.counted(i, size), size)
-        });
-        let links = system.links.iter().map(|link| {
+    pub fn worst(&self, system: &System, error: &[f64], [from, to]: [&[f64]; 2]) -> f64 {
+        let mut most = 0.0;
+        for (i, ((error, from), to)) in error.iter().zip(from).zip(to).enumerate() {
+            let size = from.abs().max(to.abs());
+            most = worse(most, over(*error, self.between * self.counted(i, size), size));
+        }
+        let farthest = to[..self.n].iter().skip(1).fold(0.0, |most: f64, x| most.max(x.abs()));
+        for link in &system.links {
             let twist = |list: &[f64]| link.twist(self.n, self.relative, |i| list[i]);
-            let size = size(&twist);
-            let angle =
-                link.ratio * states[1][..self.n].iter().skip(1).fold(0.0, |most: f64, x| most.max(x.abs()));
+            let size = twist(from).abs().max(twist(to).abs());
             let tolerance = self.between * size.max(self.twist_floor(link));
-            over(twist(error), tolerance, size.max(angle))
-        });
-        numbers.chain(links).fold(0.0, worse)
+            most = worse(most, over(twist(error), tolerance, size.max(link.ratio * farthest)));
+        }
+        most
     }
 
     /// Twist of a link below which the accuracy is no longer relative to it.

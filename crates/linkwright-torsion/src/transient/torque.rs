@@ -121,7 +121,7 @@ impl Torque {
         let Some(shape) = self.shape else {
             return Pull { torque: size * law, by_angle: 0.0, by_speed: size * slope };
         };
-        let [value, d1, _] = tables[shape.table].at(shape.pitch * theta + shape.phase);
+        let [value, d1] = tables[shape.table].value_and_slope(shape.pitch * theta + shape.phase);
         Pull {
             torque: size * law * value,
             by_angle: size * law * d1 * shape.pitch,
