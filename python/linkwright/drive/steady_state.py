@@ -464,8 +464,6 @@ def _failure(
     angle, speed, reached = motion.crank_angle, motion.speed, motion.accuracy
     if motion.status == Status.DOES_NOT_CLOSE:
         return SteadyStateError(NO_INERTIA)
-    if motion.status == Status.SLIDES:
-        return sliding(machine, angle, speed)
     if motion.status == Status.NO_STEADY_MOTION:
         if np.isnan(angle):
             return SteadyStateError(_runs_away(compiled, speed))
@@ -473,6 +471,8 @@ def _failure(
             f"{_what_lacks(compiled)} (started at {speed:.4g} rad/s at φ = 0, it comes to rest at "
             f"φ = {np.degrees(angle):.4g}°; from higher speeds it slows down to this motion)"
         )
+    if motion.status == Status.SLIDES:
+        return sliding(machine, angle, speed)
     text = "was not decided within 500 revolutions" if np.isnan(reached) else f"{reached:.1e} was reached"
     return ConvergenceError(
         f"steady motion was not found to a relative accuracy of {accuracy:g} ({text}); reduce the accuracy, "
