@@ -7,6 +7,7 @@ torque. Lines that begin with ``#`` are comments.
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Mapping
 from dataclasses import replace
@@ -79,12 +80,12 @@ def with_motor_of_file(tables: dict[str, Any], folder: Path, *, allow_outside: b
 
 
 @public
-def read_motors(path: str | Path) -> tuple[CatalogueMotor, ...]:
+def read_motors(path: str | os.PathLike[str]) -> tuple[CatalogueMotor, ...]:
     """Motors of one's own, to size with.
 
     Parameters
     ----------
-    path : str or Path
+    path : path
         File of comma-separated values: ``type``, ``power_rated`` or ``torque_rated``, ``speed_rated``, and
         what is known besides. ``kind`` is ``induction``, ``dc`` or ``servo``; without it a type with
         ``speed_no_load`` is a DC motor, one with ``torque_max`` a servo motor, others are induction motors.

@@ -254,6 +254,15 @@ def _texts(name: str, value: Any) -> Any:
     return texts
 
 
+def _motors(name: str, value: Any) -> Any:
+    """Several motors of a catalogue."""
+    expected = "a list of motors, such as motors() or read_motors() gives"
+    listed = _several(name, value, expected)
+    if not all(type(motor).__name__ == "CatalogueMotor" for motor in listed):
+        raise _wrong(name, value, expected)
+    return listed
+
+
 def _numbers_or_texts(name: str, value: Any) -> Any:
     """Several of them; what a text says is read where it is used."""
     parts = _several(name, value, "a list of numbers or texts")
@@ -332,6 +341,7 @@ _CHECKS: dict[str, Check] = {
     "Mapping[str, MeasuredResponse]": _mapping,
     "Sequence[str]": _texts,
     "Sequence[float | str]": _numbers_or_texts,
+    "Sequence[CatalogueMotor]": _motors,
     "Iterable[str]": _texts,
     "ArrayLike": _one_or_more,
     "tuple[ArrayLike, ArrayLike, ArrayLike]": _three,
