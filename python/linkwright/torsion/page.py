@@ -155,6 +155,10 @@ def _formulas(study: TorsionStudy) -> Iterator[Formula]:
     yield Formula("Orders in phase", "θ ( t ) = Σ Re θ_ν e^iνΩt", "Ker Wilson, vol. 2")
     yield Formula("Speed fluctuation", "δ = frac(ω_max − ω_min|ω_m)", "Paper 3")
     yield Formula("Heat", "P = frac(1|2) Σ ( ω^2 c + ω η k ) Δ^2", den_hartog)
+    if study.meshes is not None:
+        yield Formula("Application factor", "K_A = frac(T_m + T_v|T_m)", "ISO 6336-1, DNV-CG-0036")
+    if study.fatigue:
+        yield Formula("Fatigue of the crankshaft", "Q = frac(σ_DW|σ_v)", "IACS UR M53")
     if study.machine.train is not None and study.machine.train.installed:
         yield Formula(
             "Inertia torque of a throw", "M = − frac(1|2) J′ ( φ ) Ω^2", "Biezeno and Grammel, vol. 4"
@@ -205,6 +209,11 @@ def _assumptions(study: TorsionStudy) -> Iterator[str]:
     if train.installed:
         yield "A throw is a disc with its mean inertia; the variation of its inertia acts as a torque."
         yield "Gas pressure is that of steady running; cylinders differ only by their factors."
+    if study.fatigue:
+        yield (
+            "Fatigue: a throw is a beam on two supports, under the forces of its rods at the speed of service; "
+            "torsion is that of the worst misfire outside barred speed ranges."
+        )
     if train.loads:
         yield _balanced(train)
     for name, coupling in train.couplings.items():
