@@ -211,8 +211,8 @@ def _assumptions(study: TorsionStudy) -> Iterator[str]:
         yield "Gas pressure is that of steady running; cylinders differ only by their factors."
     if study.fatigue:
         yield (
-            "Fatigue: a throw is a beam on two supports, under the forces of its rods at the speed of service; "
-            "torsion is that of the worst misfire outside barred speed ranges."
+            "Fatigue: a throw is a beam on two supports, under the forces of its rods at the speed of "
+            "service; torsion is that of the worst misfire outside barred speed ranges."
         )
     if train.loads:
         yield _balanced(train)
