@@ -73,15 +73,15 @@ class StepPolynomials:
     factors: Floats
 
     def rises(self, z: Floats, step: NDArray[np.intp]) -> Floats:
-        """Change of angle and speed since the start of steps, (m, 2), at shares z of the steps, 0 to 1.
+        """Change of angle and speed since the start of steps, (2, m), at shares z of the steps, 0 to 1.
 
         z (f₀ + (1 − z)(f₁ + z (f₂ + (1 − z)(f₃ + …)))).
         """
-        factors, ahead = self.factors[step], z[:, None]
-        left, rises = 1 - ahead, np.zeros((len(z), 2))
-        for i in reversed(range(factors.shape[-1])):
-            rises += factors[..., i]
-            rises *= left if i % 2 else ahead
+        factors = np.ascontiguousarray(self.factors[step].T)
+        left, rises = 1 - z, np.zeros((2, len(z)))
+        for i in reversed(range(len(factors))):
+            rises += factors[i]
+            rises *= left if i % 2 else z
         return rises
 
     def coefficients(self, which: int) -> Floats:
@@ -191,7 +191,7 @@ class Transient(Result):
         k = self.time[1:-1].searchsorted(t.ravel(), side="right")
         begin = self.time[k]
         rises = self.between.rises((t.ravel() - begin) / (self.time[k + 1] - begin), k)
-        angle, speed = self.crank_angle[k] + rises[:, 0], self.speed[k] + rises[:, 1]
+        angle, speed = self.crank_angle[k] + rises[0], self.speed[k] + rises[1]
         return angle.reshape(t.shape), speed.reshape(t.shape)
 
 
