@@ -127,3 +127,74 @@ def test_machines_of_the_pages_are_sound() -> None:
     for page in PAGES:
         for text in blocks(page, "toml"):
             tomllib.loads(text)
+
+
+# Pages that lead through the sources, and where the paths that they name begin.
+MAPS = [
+    "ARCHITECTURE.md",
+    "CONTRIBUTING.md",
+    "README.md",
+    "benches/README.md",
+    "docs/style.md",
+    "docs/performance.md",
+]
+STARTS = [
+    ROOT,
+    ROOT / "python" / "linkwright",
+    ROOT / "crates",
+    ROOT / "crates" / "linkwright-core" / "src",
+    ROOT / "benches",
+    ROOT / "tests" / "style",
+]
+# What a command writes.
+WRITTEN = {"out/roller_two_carts/report.html", "benches/results.json"}
+
+
+def paths(text: str) -> list[str]:
+    """The paths between backticks, one for each name in braces."""
+    named = [
+        words
+        for words in re.findall(r"`([^`\s]+)`", text)
+        if re.fullmatch(r"[\w{},*/.-]+", words) and re.search(r"\w/|\.(?:py|pyi|rs|toml|md|mjs)$", words)
+    ]
+    return [
+        re.sub(r"\{.*\}", part, words).replace("paperN", "paper1")
+        for words in named
+        for part in (re.search(r"\{(.*)\}|$", words)[1] or "").split(",")
+    ]
+
+
+def leads_somewhere(path: str) -> bool:
+    """Whether a path begins at one of the starts, or in a crate that has the name of its room."""
+    room, _, rest = path.partition("/")
+    starts = [(start, path) for start in STARTS] + [(ROOT / "crates" / f"linkwright-{room}" / "src", rest)]
+    return any(next(start.glob(name or "*"), None) for start, name in starts if start.is_dir())
+
+
+@pytest.mark.parametrize("page", MAPS)
+def test_paths_of_the_maps_exist(page: str) -> None:
+    named = paths((ROOT / page).read_text(encoding="utf-8"))
+    assert [path for path in named if path not in WRITTEN and not leads_somewhere(path)] == []
+
+
+def test_public_names_of_the_pages_exist() -> None:
+    pages = [ROOT / "README.md", ROOT / "ARCHITECTURE.md", *PAGES]
+    named = {
+        (page.name, name) for page in pages for name in re.findall(r"\blw\.(\w+)", page.read_text("utf-8"))
+    }
+    assert len(named) > 50
+    assert [(page, name) for page, name in sorted(named) if not hasattr(lw, name)] == []
+
+
+def test_a_wrong_path_is_found() -> None:
+    assert paths("`cam/{model,nowhere}.py`, `lw.cam`, `--out DIR`") == ["cam/model.py", "cam/nowhere.py"]
+    assert leads_somewhere("cam/core.py")
+    assert leads_somewhere("kernel/lanes.rs")
+    assert not leads_somewhere("cam/nowhere.py")
+
+
+def test_worked_example_is_the_code() -> None:
+    text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    (example,) = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+    source = (ROOT / "python" / "linkwright" / "drive" / "steady_state.py").read_text(encoding="utf-8")
+    assert " ".join(example.split()) in " ".join(source.split())
