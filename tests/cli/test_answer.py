@@ -14,6 +14,8 @@ import click
 import numpy as np
 import pytest
 from click.testing import CliRunner, Result
+from tests.samples.tasks import FUNCTION, POSES
+from tests.samples.topper_fields import FIELD, TOPPER
 
 import linkwright as lw
 from linkwright.app.application import COMMANDS, GROUPS, application
@@ -41,47 +43,9 @@ right = { inertia = 1 }
 one = { between = ["left", "middle"], stiffness = 1e4 }
 two = { between = ["middle", "right"], stiffness = 1e4 }
 """,
-    "field.toml": """
-format = 1
-name = "Topper"
-[topper]
-root_diameter = "110 mm"
-cut_height = "30 mm"
-offset = "20 mm"
-edge_angle = "20 deg"
-edge_length = "0.18 m"
-forward_speed = "1.9 m/s"
-knife_speed = "0.55 m/s"
-[topper.motion]
-kind = "harmonic"
-stroke = "60 mm"
-[topper.field]
-kind = "random"
-roots = 500
-rows = 10
-cut_height = { kind = "normal", mean = "28 mm", deviation = "12 mm" }
-root_density = "1050 kg/m^3"
-""",
-    "poses.toml": """
-[poses]
-x = "0, 40, 60 mm"
-y = "0, 20, 60 mm"
-angle = "0, 20, 50 deg"
-[crank_point]
-x = "-20 mm"
-y = "-50 mm"
-[rocker_point]
-x = "60 mm"
-y = "-40 mm"
-""",
-    "function.toml": """
-name = "log"
-function = "log10(x)"
-range = [1, 2]
-crank_range = "60 deg"
-rocker_range = "90 deg"
-points = 5
-""",
+    "field.toml": TOPPER + FIELD,
+    "poses.toml": POSES,
+    "function.toml": FUNCTION,
     "phases.toml": """
 machine = "roller_two_carts"
 [variables.phase]

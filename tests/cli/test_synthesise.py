@@ -7,31 +7,12 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
+from tests.samples.tasks import FUNCTION, POSES
 
 from linkwright.app.application import application
 from linkwright.linkages.kinematics import kinematics
 from linkwright.machine.read import read
 
-POSES = """
-[poses]
-x = "0, 40, 60 mm"
-y = "0, 20, 60 mm"
-angle = "0, 20, 50 deg"
-[crank_point]
-x = "-20 mm"
-y = "-50 mm"
-[rocker_point]
-x = "60 mm"
-y = "-40 mm"
-"""
-FUNCTION = """
-name = "log"
-function = "log10(x)"
-range = [1, 2]
-crank_range = "60 deg"
-rocker_range = "90 deg"
-points = 5
-"""
 PATH = """
 x = "60, 40, 0, -30, 0, 40 mm"
 y = "0, 30, 40, 10, -20, -20 mm"

@@ -8,30 +8,9 @@ from typing import Any
 
 import pytest
 from click.testing import CliRunner, Result
+from tests.samples.topper_fields import FIELD, TOPPER
 
 from linkwright.app.application import application
-
-TOPPER = """
-format = 1
-name = "Topper"
-[topper]
-root_diameter = "110 mm"
-cut_height = "30 mm"
-offset = "20 mm"
-edge_angle = "20 deg"
-edge_length = "0.18 m"
-forward_speed = "1.9 m/s"
-knife_speed = "0.55 m/s"
-[topper.motion]
-kind = "harmonic"
-stroke = "60 mm"
-[topper.field]
-kind = "random"
-roots = 500
-rows = 10
-cut_height = { kind = "normal", mean = "28 mm", deviation = "12 mm" }
-root_density = "1050 kg/m^3"
-"""
 
 
 def run(*words: str) -> Result:
@@ -41,7 +20,7 @@ def run(*words: str) -> Result:
 @pytest.fixture
 def file(tmp_path: Path) -> str:
     path = tmp_path / "topper.toml"
-    path.write_text(TOPPER, encoding="utf-8")
+    path.write_text(TOPPER + FIELD, encoding="utf-8")
     return str(path)
 
 
@@ -232,7 +211,7 @@ def test_wrong_words(file: str, words: tuple[str, ...], message: str) -> None:
 
 
 def test_a_measured_root_that_cannot_be(file: str, tmp_path: Path) -> None:
-    text = TOPPER.split("[topper.field]")[0] + '[topper.field]\nkind = "measured"\nfile = "roots.csv"\n'
+    text = TOPPER + '[topper.field]\nkind = "measured"\nfile = "roots.csv"\n'
     Path(file).write_text(text)
     points = tmp_path / "roots.csv"
     points.write_text("root_diameter [mm], cut_height [mm], offset [mm]\n100, 20, 3\n90, 95, -4\n")

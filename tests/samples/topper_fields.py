@@ -22,6 +22,15 @@ kind = "harmonic"
 stroke = "60 mm"
 """
 
+FIELD = """
+[topper.field]
+kind = "random"
+roots = 500
+rows = 10
+cut_height = { kind = "normal", mean = "28 mm", deviation = "12 mm" }
+root_density = "1050 kg/m^3"
+"""
+
 
 def machine(text: str = "", **entries: Any) -> lw.Machine:
     """The topper with tables added, and entries of [topper] exchanged; two underscores go down a table."""

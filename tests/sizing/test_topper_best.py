@@ -7,6 +7,7 @@ import re
 
 import numpy as np
 import pytest
+from tests.samples import topper_fields
 
 import linkwright as lw
 from linkwright.topping.best.best_knife import KnifeSearch, best_knife
@@ -14,19 +15,7 @@ from linkwright.topping.best.knife_trial import Trials, thinned
 from linkwright.topping.field import topper_field
 from linkwright.topping.roots import draw_roots, head_diameter
 
-TOPPER = """
-format = 1
-name = "Topper"
-[topper]
-root_diameter = "110 mm"
-cut_height = "30 mm"
-offset = "20 mm"
-edge_length = "0.18 m"
-forward_speed = "1.9 m/s"
-knife_speed = "0.55 m/s"
-[topper.motion]
-kind = "harmonic"
-stroke = "60 mm"
+FIELD = """
 [topper.field]
 kind = "random"
 roots = 1000
@@ -37,8 +26,7 @@ root_diameter = { kind = "normal", mean = "110 mm", deviation = "15 mm", least =
 
 
 def machine(text: str = "", **entries: object) -> lw.Machine:
-    changes = {"topper." + key.replace("__", "."): value for key, value in entries.items()}
-    return lw.loads(TOPPER + text, changes)
+    return topper_fields.machine(FIELD + text, **entries)
 
 
 def bands(topped: lw.Machine) -> np.ndarray:

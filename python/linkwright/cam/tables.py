@@ -18,7 +18,7 @@ from linkwright.cam.laws.catalogue import BOUNDS, LAWS
 from linkwright.cam.profile.least_sizes import LeastSizes
 from linkwright.cam.profile.profile import CamProfile
 from linkwright.kernel.page.numbers import degrees, measured, number, quantity
-from linkwright.kernel.page.table import Row, Table, with_unit
+from linkwright.kernel.page.table import Row, Table
 
 # Laws that sections are compared with: the usual ones, from the gentlest velocity on.
 _COMPARED = (
@@ -71,7 +71,7 @@ def _motion_rows(profile: CamProfile) -> Iterator[Row]:
         ("maximum jerk", "j_max", profile.jerk_max, "/s³"),
     ):
         if value is not None:
-            yield word, symbol, with_unit(value, unit + per), at
+            yield word, symbol, measured(value, unit + per), at
 
 
 def _lift(profile: CamProfile, value: float) -> str:
@@ -170,7 +170,7 @@ def joint_table(profile: CamProfile) -> Table:
 def force_table(loaded: LoadedCam) -> Table:
     """Forces on a cam."""
     rows: list[Row] = [
-        (f"{word} contact force", symbol, with_unit(force, "N"), f"at φ = {degrees(angle)}")
+        (f"{word} contact force", symbol, measured(force, "N"), f"at φ = {degrees(angle)}")
         for word, symbol, force, angle in (
             ("maximum", "N_max", loaded.force_max, loaded.force_max_angle),
             ("minimum", "N_min", loaded.force_min, loaded.force_min_angle),
@@ -180,7 +180,7 @@ def force_table(loaded: LoadedCam) -> Table:
         rows.append(("contact-side reversals per revolution", "", str(loaded.side_changes), ""))
     if loaded.speed_lost is not None and loaded.speed_lost_angle is not None:
         at = f"at φ = {degrees(loaded.speed_lost_angle)}"
-        rows.append(("speed at which contact is lost", "ω_off", with_unit(loaded.speed_lost, "rad/s"), at))
+        rows.append(("speed at which contact is lost", "ω_off", measured(loaded.speed_lost, "rad/s"), at))
     if loaded.pressure_max is not None and loaded.pressure_max_angle is not None:
         at = f"at φ = {degrees(loaded.pressure_max_angle)}"
         rows.append(

@@ -28,8 +28,8 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-# What is handed on of each machine's steady motion.
-_COLUMNS = (
+# Numbers of a steady motion that the core gives, and of which it gives the derivatives.
+COLUMNS = (
     "speed_min",
     "speed_max",
     "acceleration_min",
@@ -100,7 +100,7 @@ class SteadyStates(Record):
         """Entries and results as a table, a row for each machine (needs pandas)."""
         import pandas as pd
 
-        names = [*_COLUMNS, "unevenness", "dynamism", "motion_coefficient"]
+        names = [*COLUMNS, "unevenness", "dynamism", "motion_coefficient"]
         columns = {name: getattr(self, name) for name in names}
         return pd.DataFrame({**self.entries, **columns, "status": self.status})
 
@@ -157,7 +157,7 @@ def steady_states(
         )
     require_one_turn(compiled)
     motions = compiled.steady_rows(accuracy)
-    status, columns = motions.status, {name: getattr(motions, name) for name in _COLUMNS}
+    status, columns = motions.status, {name: getattr(motions, name) for name in COLUMNS}
     if not compiled.two_turns[0]:
         # The first machine was checked above.
         longer = np.broadcast_to(compiled.two_turns, status.shape)

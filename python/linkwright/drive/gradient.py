@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.drive.batch import COLUMNS
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.steady_state import SteadyState, solved_state
 from linkwright.kernel.errors import InputError
@@ -25,21 +26,6 @@ from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import SteadyCurves, SteadySolution
 
 Floats = NDArray[np.float64]
-
-# Numbers of which the core gives the derivative.
-_NUMBERS = (
-    "speed_min",
-    "speed_max",
-    "acceleration_min",
-    "acceleration_max",
-    "period",
-    "multiplier",
-    "energy_motor",
-    "energy_drive",
-    "energy_load",
-    "torque_motor_mean",
-    "torque_motor_rms",
-)
 
 # Angles at which rivals of an extreme are looked for. A peak between two of the even ones is missed by
 # (2π/1440)² of the curve at most; where the motor is steep, the motion bends sharply beside a kink.
@@ -92,7 +78,7 @@ def steady_tangents(machine: Machine, values: Floats, accuracy: float = 1e-11) -
     angles = np.array([state.speed_min_angle, state.speed_max_angle])
     gradient = solution.gradient(values, angles)
     tangents: dict[str, Any] = {
-        name: Tangent(getattr(state, name), getattr(gradient, name)) for name in _NUMBERS
+        name: Tangent(getattr(state, name), getattr(gradient, name)) for name in COLUMNS
     }
     ratio = Tangent(compiled.gear_factors[0], values[compiled.ratio_slot])
     tangents |= _of_motor(compiled, state, gradient.curves, ratio)

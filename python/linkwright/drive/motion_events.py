@@ -103,7 +103,6 @@ def motion_events(machine: Machine, motion: Transient) -> tuple[MotionEvent, ...
     machine : Machine
         The machine that moves.
     motion : Transient
-        Its motion.
 
     Returns
     -------
@@ -135,7 +134,6 @@ def motion_extremes(motion: Transient) -> tuple[MotionExtreme, ...]:
     Parameters
     ----------
     motion : Transient
-        The motion.
 
     Returns
     -------

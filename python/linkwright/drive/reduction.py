@@ -81,7 +81,6 @@ def reduction(machine: Machine, *, n: int = 360) -> Reduction:
     Parameters
     ----------
     machine : Machine
-        The machine.
     n : int
         Intervals of the revolution for the curves.
 

@@ -266,7 +266,6 @@ def run_down(machine: Machine, *, steady: SteadyState | None = None) -> RunDown:
     Parameters
     ----------
     machine : Machine
-        The machine.
     steady : SteadyState, optional
         Its steady motion, if known already.
 

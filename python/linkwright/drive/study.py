@@ -41,7 +41,6 @@ class DriveStudy:
     Attributes
     ----------
     machine : Machine
-        The machine.
     reduction, constant_energy, steady_state, run_up, run_down, step_method : Result or None
         Results by analysis.
     attempt : Transient or None

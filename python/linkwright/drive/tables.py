@@ -7,8 +7,8 @@ from collections.abc import Collection, Iterator, Sequence
 from linkwright.drive.steady_state import SteadyState
 from linkwright.drive.step_method import StepMotion
 from linkwright.drive.study import DriveStudy
-from linkwright.kernel.page.numbers import crank_angle, degrees, number
-from linkwright.kernel.page.table import Row, Table, rows_in, with_unit
+from linkwright.kernel.page.numbers import crank_angle, degrees, measured, number
+from linkwright.kernel.page.table import Row, Table, rows_in
 from linkwright.kernel.quantities import in_table, shown
 from linkwright.kernel.result import Result
 
@@ -64,7 +64,7 @@ def _measures(study: DriveStudy) -> Table | None:
     if not columns:
         return None
     words = [(mark.word, mark.symbol) for mark in (shown(SteadyState, name) for name in _MEASURES)]
-    speeds = ("mean speed", "ω_m", *(with_unit(values[0], "rad/s") for _, values in columns))
+    speeds = ("mean speed", "ω_m", *(measured(values[0], "rad/s") for _, values in columns))
     # The limit has any speed.
     rows: list[Row] = [speeds] if study.steady_state is not None else []
     for n, (word, symbol) in enumerate(words, start=1):
@@ -96,8 +96,8 @@ def _drive(study: DriveStudy) -> Table | None:
     if steady is None or drive is None or drive.motor is None:
         return None
     motor = drive.motor
-    power, torque = with_unit(motor.power_rated, "W"), with_unit(motor.torque_rated, "N m")
-    breakdown = with_unit(getattr(motor, "torque_breakdown", None), "N m")
+    power, torque = measured(motor.power_rated, "W"), measured(motor.torque_rated, "N m")
+    breakdown = measured(getattr(motor, "torque_breakdown", None), "N m")
     beside = {
         "power_motor_mean": _beside("rated", power),
         "torque_motor_rms": _beside("rated", torque),
@@ -143,7 +143,7 @@ def _step_method(study: DriveStudy) -> Table | None:
 def _compared(stepped: StepMotion, steady: SteadyState | None, name: str) -> Row:
     mark, value = shown(StepMotion, name), getattr(stepped, name)
     if steady is None:
-        return mark.word, mark.symbol, with_unit(value, mark.unit), "–", "–"
+        return mark.word, mark.symbol, measured(value, mark.unit), "–", "–"
     exact = getattr(steady, name)
     off = f"{number(100 * (value / exact - 1), 2)} %" if exact else "–"
-    return mark.word, mark.symbol, with_unit(value, mark.unit), with_unit(exact, mark.unit), off
+    return mark.word, mark.symbol, measured(value, mark.unit), measured(exact, mark.unit), off

@@ -212,7 +212,6 @@ def transient(
     Parameters
     ----------
     machine : Machine
-        The machine.
     angle, speed : float
         Crank angle [rad] and speed [rad/s] at the start; the speed is not negative.
     duration : float

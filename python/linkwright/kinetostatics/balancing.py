@@ -93,7 +93,6 @@ def balance(
     Parameters
     ----------
     machine : Machine
-        The machine.
     links : sequence of str
         Links that turn about fixed points.
     speed : float, optional
@@ -214,7 +213,6 @@ def partial_balance(
     Parameters
     ----------
     machine : Machine
-        The machine.
     slider : str
         A slider that is driven by the pin of a crank.
     share : float

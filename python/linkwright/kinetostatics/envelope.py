@@ -104,7 +104,6 @@ def load_cases(machine: Machine, cases: Mapping[str, Mapping[str, Any]], **optio
     Parameters
     ----------
     machine : Machine
-        The machine.
     cases : mapping of str to mapping
         Name of each case → address of each entry that differs → its value, such as
         ``{"idle": {"loads.work.force": 0.0}}``; see `linkwright.replace`.

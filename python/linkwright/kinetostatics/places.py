@@ -26,7 +26,6 @@ class Scene:
     machine : Machine
         One machine.
     motion : Motion
-        Its motion.
 
     Raises
     ------

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from linkwright.kernel.page.numbers import degrees, number
-from linkwright.kernel.page.table import Row, Table, with_unit
+from linkwright.kernel.page.numbers import degrees, measured, number
+from linkwright.kernel.page.table import Row, Table
 from linkwright.kernel.quantities import declared, shown
 from linkwright.kinetostatics.balancing import Balance
 from linkwright.kinetostatics.envelope import Extent, envelope
@@ -32,7 +32,7 @@ def envelope_table(forces: Forces) -> Table:
 def _row(extent: Extent, forces: Forces, scale: float) -> Row:
     word, symbol = _words(extent.name, forces)
     peak, rms, mean = (
-        with_unit(value, extent.unit, scale) for value in (extent.peak, extent.rms, extent.mean)
+        measured(value, extent.unit, scale) for value in (extent.peak, extent.rms, extent.mean)
     )
     return word, symbol, peak, degrees(extent.peak_angle), rms, mean
 
@@ -66,7 +66,7 @@ def cases_table(cases: Mapping[str, Forces]) -> Table:
     for name in names:
         extents = [column.get(name) for column in columns.values()]
         peaks = (
-            with_unit(extent.peak, extent.unit, scales[extent.unit]) if extent else "–" for extent in extents
+            measured(extent.peak, extent.unit, scales[extent.unit]) if extent else "–" for extent in extents
         )
         rows.append((*_words(name, first), *peaks))
     return Table("load_cases", "Peaks by load case", ("quantity", "", *cases), rows)
@@ -89,7 +89,7 @@ def contribution_table(forces: Forces) -> Table:
     }
     largest = [max(map(abs, shares.values()), default=0.0) for shares in (torques, along)]
     rows: list[Row] = [
-        (name, "", with_unit(torques[name], "N m", largest[0]), with_unit(along[name], "N", largest[1]))
+        (name, "", measured(torques[name], "N m", largest[0]), measured(along[name], "N", largest[1]))
         for name in forces.contributions
     ]
     heads = ("source", "", "of the peak of M_d", "of the peak shaking force")
@@ -102,10 +102,10 @@ def balance_tables(balance: Balance) -> list[Table]:
         (
             counterweight.link,
             "",
-            with_unit(counterweight.mass, "kg"),
-            with_unit(counterweight.radius, "m"),
+            measured(counterweight.mass, "kg"),
+            measured(counterweight.radius, "m"),
             degrees(counterweight.angle),
-            with_unit(counterweight.moment, "kg m"),
+            measured(counterweight.moment, "kg m"),
         )
         for counterweight in balance.counterweights
     ]
@@ -114,7 +114,7 @@ def balance_tables(balance: Balance) -> list[Table]:
     for name, (before, after) in balance.measures().items():
         mark = shown(Forces, name)
         change = "–" if before == 0 else f"{number(100 * (after / before - 1), 4)} %"
-        values = (with_unit(value, mark.unit, max(before, after)) for value in (before, after))
+        values = (measured(value, mark.unit, max(before, after)) for value in (before, after))
         rows.append((f"{mark.word}, rms", mark.symbol, *values, change))
     return [
         Table("counterweights", "Counterweights", heads, weights),

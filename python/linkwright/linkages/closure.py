@@ -121,7 +121,6 @@ def closure(machine: Machine) -> Closure:
     Parameters
     ----------
     machine : Machine
-        The machine.
 
     Returns
     -------

@@ -35,7 +35,6 @@ def period_turns(machine: Machine) -> int | None:
     Parameters
     ----------
     machine : Machine
-        The machine.
 
     Returns
     -------

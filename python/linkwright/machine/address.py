@@ -32,7 +32,6 @@ def addresses(machine: Machine) -> dict[str, float]:
     Parameters
     ----------
     machine : Machine
-        The machine.
 
     Returns
     -------
@@ -49,7 +48,6 @@ def get(machine: Machine, address: str) -> Any:
     Parameters
     ----------
     machine : Machine
-        The machine.
     address : str
         Such as ``mechanism.cranks.A2.phase``.
 

@@ -29,7 +29,6 @@ def write(machine: Machine, path: str | os.PathLike[str]) -> None:
     Parameters
     ----------
     machine : Machine
-        The machine.
     path : path
         The file; replaced if it exists.
 
@@ -48,7 +47,6 @@ def dumps(machine: Machine) -> str:
     Parameters
     ----------
     machine : Machine
-        The machine.
 
     Returns
     -------

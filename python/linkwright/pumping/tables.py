@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from linkwright.kernel.page.numbers import degrees, number
-from linkwright.kernel.page.table import Row, Table, known_rows, rows_in, with_unit
+from linkwright.kernel.page.numbers import degrees, measured, number
+from linkwright.kernel.page.table import Row, Table, known_rows, rows_in
 from linkwright.pumping.gear_torque import GearTorque
 from linkwright.pumping.rod_rotator import RodRotatorMotion
 from linkwright.pumping.unit import PumpingUnitMotion
@@ -35,7 +35,7 @@ def _torque_factors(unit: PumpingUnitMotion) -> Table:
     """As API tabulates them."""
     n = len(unit.torque_factors)
     rows: list[Row] = [
-        (f"{360 * k / n:g}°", "", number(unit.rod_positions[k], 4), with_unit(unit.torque_factors[k], "m"))
+        (f"{360 * k / n:g}°", "", number(unit.rod_positions[k], 4), measured(unit.torque_factors[k], "m"))
         for k in range(n)
     ]
     return Table(
@@ -45,8 +45,8 @@ def _torque_factors(unit: PumpingUnitMotion) -> Table:
 
 def _gear(gear: GearTorque) -> Table:
     beside = {
-        "torque_net_up": f"rated {with_unit(gear.torque_rated, 'N m')}",
-        "load_max": f"rated {with_unit(gear.load_rated, 'N')}",
+        "torque_net_up": f"rated {measured(gear.torque_rated, 'N m')}",
+        "load_max": f"rated {measured(gear.load_rated, 'N')}",
     }
     without = "counterbalance_effect" if gear.counterbalance is not None else "counterbalance"
     rows = rows_in(gear, "gear_torque", beside, without=(without,))

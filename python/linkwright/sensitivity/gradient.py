@@ -95,7 +95,6 @@ def gradient(
     Parameters
     ----------
     machine : Machine
-        The machine.
     responses : sequence of str, optional
         Such as ``"steady_state.unevenness"``, ``"free_vibration.natural_frequencies.1"`` or, of all modes,
         ``"free_vibration.natural_frequencies"``; an analysis stands for its usual ones. Without them every

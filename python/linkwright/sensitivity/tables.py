@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from linkwright.kernel.page.numbers import number
-from linkwright.kernel.page.table import Row, Table, with_unit
+from linkwright.kernel.page.numbers import measured, number
+from linkwright.kernel.page.table import Row, Table
 from linkwright.sensitivity.gradient import Gradient
 
 # Rows of a table: what comes after changes a response by less than these.
@@ -28,7 +28,7 @@ def ranked(gradient: Gradient, response: str) -> list[int]:
 def gradient_tables(gradient: Gradient) -> Iterator[Table]:
     """A table for each response."""
     for row, response in enumerate(gradient.responses):
-        title = f"{gradient.words[row]} = {with_unit(float(gradient.values[row]), gradient.units[row])}"
+        title = f"{gradient.words[row]} = {measured(float(gradient.values[row]), gradient.units[row])}"
         heads = ("entry", "", "value", "derivative", "change for +1 %")
         rows = [_row(gradient, row, at) for at in ranked(gradient, response)[:ROWS]]
         yield Table(response.replace(".", "_"), title, heads, rows)
@@ -40,4 +40,4 @@ def _row(gradient: Gradient, row: int, at: int) -> Row:
     per = f"{gradient.units[row]} per {unit}".strip() if unit else gradient.units[row]
     elasticity = float(gradient.elasticities[row, at])
     share = "–" if not np.isfinite(elasticity) or value == 0 else f"{number(elasticity, 3)} %"
-    return entry, "", with_unit(value, unit), with_unit(derivative, per), share
+    return entry, "", measured(value, unit), measured(derivative, per), share

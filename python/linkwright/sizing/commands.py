@@ -379,8 +379,7 @@ def _tables(motors: list[CatalogueMotor]) -> list[Table]:
 def _row(motor: CatalogueMotor) -> Row:
     """A motor in the units of catalogues: kW, rpm, torques over the rated one."""
     from linkwright.drive.model.catalogue import OVERLOAD
-    from linkwright.kernel.page.numbers import number, quantity
-    from linkwright.kernel.page.table import with_unit
+    from linkwright.kernel.page.numbers import measured, number, quantity
 
     entries = _entries(motor)
     mark = "~" if entries["inertia_is_estimated"] else ""
@@ -397,7 +396,7 @@ def _row(motor: CatalogueMotor) -> Row:
         str(motor.poles),
         quantity(motor.power_rated, "W", 3, usual="kW"),
         quantity(motor.speed_rated, "rad/s", 4, usual="rpm"),
-        with_unit(motor.torque_rated, "N m"),
+        measured(motor.torque_rated, "N m"),
         *over,
         quantity(entries["inertia"], "kg m²", 3, before=mark),
         motor.series,

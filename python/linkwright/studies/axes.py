@@ -36,7 +36,6 @@ class Axis:
     Attributes
     ----------
     name : str
-        Its name.
     addresses : tuple of str
         Entries of the machine that take its value.
     unit : str

@@ -33,7 +33,6 @@ class Formula:
     Attributes
     ----------
     name : str
-        Its name.
     tree : Node
         The formula.
     addresses : tuple of str

@@ -96,7 +96,6 @@ def new_study(machine: Machine, tables: Mapping[str, Any]) -> StudyPlan:
     Parameters
     ----------
     machine : Machine
-        The machine.
     tables : Mapping
         ``variables``, ``responses``, ``fit`` and so on.
 

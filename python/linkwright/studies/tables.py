@@ -21,9 +21,9 @@ def sweep_tables(sweep: Sweep, units: dict[str, str]) -> list[Table]:
         (
             name,
             "",
-            with_unit(extremes["min"], units[name]),
+            measured(extremes["min"], units[name]),
             str(extremes["min_row"]),
-            with_unit(extremes["max"], units[name]),
+            measured(extremes["max"], units[name]),
             str(extremes["max_row"]),
         )
         for name, extremes in sweep.extremes.items()
@@ -39,11 +39,6 @@ def sweep_tables(sweep: Sweep, units: dict[str, str]) -> list[Table]:
     return tables
 
 
-def with_unit(value: float, unit: str) -> str:
-    """A value with its unit, an angle in degrees; a dash for none."""
-    return measured(value, unit)
-
-
 def tolerance_tables(tolerance: Tolerance, units: dict[str, str]) -> list[Table]:
     """Scatter of the responses, and what contributes to it."""
     scatter: list[Row] = []
@@ -57,7 +52,7 @@ def tolerance_tables(tolerance: Tolerance, units: dict[str, str]) -> list[Table]
             "worst_low",
             "worst_high",
         )
-        scatter.append((name, "", *(with_unit(response[key], units[name]) for key in keys)))
+        scatter.append((name, "", *(measured(response[key], units[name]) for key in keys)))
     heads = ("response", "", "mean", "standard deviation", "to first order", "99.73 % from", "to")
     tables = [Table("scatter", "Scatter", (*heads, "worst case from", "to"), scatter)]
     shares: list[Row] = []
@@ -77,7 +72,7 @@ def allocation_tables(allocation: Allocation, units: dict[str, str]) -> list[Tab
     rows: list[Row] = []
     for name, (low, high) in allocation.tolerances.items():
         factor = number(allocation.factors[name], 4)
-        rows.append((name, "", *(with_unit(end, units[name]) for end in (low, high)), factor))
+        rows.append((name, "", *(measured(end, units[name]) for end in (low, high)), factor))
     heads = ("variable", "", "lower limit deviation", "upper limit deviation", "times as wide")
     return [Table("allocation", "Cheapest tolerances", heads, rows)]
 
@@ -87,7 +82,7 @@ def optimum_tables(optimum: Optimum, units: dict[str, str]) -> list[Table]:
     rows: list[Row] = []
     for name, value in (*optimum.variables.items(), *optimum.responses.items()):
         is_number = isinstance(value, float)
-        rows.append((name, "", with_unit(value, units[name]) if is_number else str(value)))
+        rows.append((name, "", measured(value, units[name]) if is_number else str(value)))
     tables = [Table("optimum", f"Best by {optimum.goal}", ("name", "", "value"), rows)]
     if optimum.tried:
         heads = [*optimum.tried[0]]
@@ -111,7 +106,7 @@ def front_tables(front: Front, units: dict[str, str]) -> list[Table]:
     for nth, machine in enumerate(front.machines, start=1):
         values = {**machine.variables, **machine.responses}
         shown = [
-            with_unit(values[name], units[name]) if isinstance(values[name], float) else str(values[name])
+            measured(values[name], units[name]) if isinstance(values[name], float) else str(values[name])
             for name in names
         ]
         rows.append((str(nth), "", *shown, "; ".join(machine.active) or "–"))
@@ -125,7 +120,7 @@ def fit_tables(fit: Fit) -> list[Table]:
     rows: list[Row] = []
     for name, value in fit.values.items():
         low, high = fit.intervals[name]
-        shown = (with_unit(number, fit.units[name]) for number in (value, fit.deviations[name], low, high))
+        shown = (measured(number, fit.units[name]) for number in (value, fit.deviations[name], low, high))
         rows.append((name, "", *shown))
     heads = ("number", "", "value", "standard deviation", f"{100 * fit.level:g} % from", "to")
     tables = [Table("fit", "Fitted numbers", heads, rows)]

@@ -161,7 +161,6 @@ class PathModel:
     Attributes
     ----------
     task : PathTask
-        The task.
     target : ndarray of complex, shape (n,)
         The points, over the size, about their middle.
     size : float

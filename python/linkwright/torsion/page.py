@@ -35,20 +35,7 @@ _SOURCES = (
 
 
 def torsion_html(study: TorsionStudy, *, command: str = "") -> str:
-    """The report of a study of torsional vibration as one HTML page that needs nothing else.
-
-    Parameters
-    ----------
-    study : TorsionStudy
-        The study.
-    command : str
-        Command line that made the study.
-
-    Returns
-    -------
-    str
-        The page; the same study gives the same page.
-    """
+    """The report of a study of torsional vibration as one HTML page; `command`: the command that made it."""
     return html(torsion_content(study, command))
 
 

@@ -55,7 +55,6 @@ class TorsionStudy:
     Attributes
     ----------
     machine : Machine
-        The machine.
     scheme : Scheme
         Its equivalent scheme, referred to one speed.
     free : FreeVibration

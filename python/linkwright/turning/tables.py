@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 
 from linkwright.kernel.page.formulas import Formula
-from linkwright.kernel.page.numbers import degrees, number, parted
-from linkwright.kernel.page.table import Row, Table, known_rows, with_unit
+from linkwright.kernel.page.numbers import degrees, measured, number, parted
+from linkwright.kernel.page.table import Row, Table, known_rows
 from linkwright.kernel.quantities import in_table
 from linkwright.turning.diagram import TurningMomentDiagram
 
@@ -81,6 +81,6 @@ def _areas(diagram: TurningMomentDiagram) -> Table:
     for n, area in enumerate(diagram.areas, start=1):
         start, end = area["start"], area["end"]
         place = "" if start is None or end is None else f", {degrees(start)} to {degrees(end)}"
-        energies = (with_unit(area[name], "J") for name in ("energy", "energy_after"))
+        energies = (measured(area[name], "J") for name in ("energy", "energy_after"))
         rows.append((f"{n}{place}", "", *energies))
     return Table("areas", "Areas between driver and load", ("area", "", "energy", "excess after it"), rows)

@@ -42,7 +42,6 @@ def write_report(
     Parameters
     ----------
     study : Study
-        The study.
     path : path
         A file that ends in ``.pdf`` is a PDF, any other an HTML page; replaced if it exists.
     command : str
@@ -71,19 +70,8 @@ def write_report(
 
 
 def report_html(study: Study, *, command: str = "") -> str:
-    """The report of a study as one HTML page that needs nothing else: style, figures and script are in it.
-
-    Parameters
-    ----------
-    study : Study
-        The study.
-    command : str
-        Command line that made the study.
-
-    Returns
-    -------
-    str
-        The page, in the units of the table ``[units]`` of the machine; the same study gives the same page.
+    """The report of a study as one HTML page that contains its style, figures and script, in the units of the
+    machine; `command`: the command line that made the study.
     """
     return html(content(study, command))
 

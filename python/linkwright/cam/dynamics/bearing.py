@@ -104,24 +104,9 @@ class StemGuide:
         )
 
     def held(self, course: CamCourse, push: Push) -> BearingReaction:
-        """Reactions and friction for a normal force of one.
+        """Reactions and friction at each angle of a course, (n,), for a normal force of one.
 
-        Parameters
-        ----------
-        course : CamCourse
-            n angles.
-        push : Push
-            Of the contact.
-
-        Returns
-        -------
-        BearingReaction
-            For each angle.
-
-        Raises
-        ------
-        FindingError
-            The follower's end would be drawn into its guide.
+        Refuses a lift that draws the end of the follower into its guide.
         """
         overhang = self.overhang - course.lift
         if (overhang < 0).any():
@@ -166,20 +151,7 @@ class ArmPivot:
         )
 
     def held(self, course: CamCourse, push: Push) -> BearingReaction:
-        """Reaction and friction for a normal force of one.
-
-        Parameters
-        ----------
-        course : CamCourse
-            n angles.
-        push : Push
-            Of the contact.
-
-        Returns
-        -------
-        BearingReaction
-            For each angle.
-        """
+        """Reaction and friction at each angle of a course, (n,), for a normal force of one."""
         force = np.full_like(course.cam_angle, np.hypot(1.0, push.friction))
         loss = self.coefficient * self.radius * push.moving * force
         arm = alike(cam_angle=course.cam_angle, arm=self.arm)["arm"]

@@ -54,7 +54,6 @@ class MotionLaw:
     breaks : tuple of float, length n + 1
         Ends of the pieces, increasing [rad, s or –].
     pieces : tuple of Piece, length n
-        The pieces.
     """
 
     breaks: tuple[float, ...]

@@ -41,30 +41,10 @@ _BEND, _BESIDE = 1e-6, 1e-9
 def read_back(
     file: File, drawing: Drawing, tolerance: float = TOLERANCE, *, layers: tuple[str, ...] | None = None
 ) -> tuple[MeasuredOutline, ...]:
-    """Read a file and compare its outlines with their curves.
+    """What is measured in each layer of a DXF, SVG, STEP or CSV file, against the curves of a drawing.
 
-    Parameters
-    ----------
-    file : path
-        A DXF, SVG, STEP or CSV file; its name says which.
-    drawing : Drawing
-        What it is to hold.
-    tolerance : float
-        Largest distance of an outline from its curve [m]. The rows of a CSV lie on the curve whatever it is.
-    layers : tuple of str, optional
-        Which of the drawing's layers; without it all. A CSV file has one, a STEP file ``PROFILE`` alone.
-
-    Returns
-    -------
-    tuple of MeasuredOutline
-        One a layer: what was measured.
-
-    Raises
-    ------
-    ExchangeError
-        The file cannot be read, lacks an outline, has it open, in another unit or farther from the curve.
-    InputError
-        Another kind of file, or a layer that the drawing does not have.
+    `tolerance`: largest distance of an outline from its curve [m]; `layers`: all without it. An
+    `ExchangeError` if the file cannot be read, lacks an outline, has it open, in another unit or too far.
     """
     layers = tuple(drawing.curves) if layers is None else layers
     if unknown := [layer for layer in layers if layer not in drawing.curves]:

@@ -291,7 +291,6 @@ def cam_profile(machine: Machine, name: str | None = None, *, n: int = ANGLES) -
     Parameters
     ----------
     machine : Machine
-        The machine.
     name : str, optional
         The cam's name; may be left out if there is one.
     n : int

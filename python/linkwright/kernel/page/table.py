@@ -44,12 +44,7 @@ class Table(NamedTuple):
 def row(result: Result, name: str, at: str = "") -> Row:
     """Word, symbol, value with its unit (of an angle, degrees), and where it is."""
     mark, value = shown(type(result), name), getattr(result, name)
-    return mark.word, mark.symbol, with_unit(value, mark.unit, _scale(result, mark)), at
-
-
-def with_unit(value: float | None, unit: str, scale: float = 0.0) -> str:
-    """A value with its unit; a dash for none, and zero for what is rounding beside a scale."""
-    return measured(value, unit, scale)
+    return mark.word, mark.symbol, measured(value, mark.unit, _scale(result, mark)), at
 
 
 def _scale(result: Result, mark: Label) -> float:

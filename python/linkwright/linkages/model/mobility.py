@@ -58,7 +58,6 @@ def mobility(mechanism: Mechanism) -> Mobility:
     Parameters
     ----------
     mechanism : Mechanism
-        The mechanism.
 
     Returns
     -------

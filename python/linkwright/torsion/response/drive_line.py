@@ -132,7 +132,6 @@ def station_damping(machine: Machine, speed: ArrayLike) -> dict[str, Floats]:
     Parameters
     ----------
     machine : Machine
-        The machine.
     speed : array_like, shape () or (speeds,)
         Of the crank [rad/s].
 

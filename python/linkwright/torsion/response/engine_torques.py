@@ -221,7 +221,6 @@ def engine_data(engine: ReciprocatingEngine, speed: float) -> EngineData:
     Parameters
     ----------
     engine : ReciprocatingEngine
-        The engine.
     speed : float
         Of its crank, at which its gas is reported [rad/s].
 

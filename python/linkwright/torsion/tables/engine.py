@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from linkwright.kernel.page.numbers import quantity
-from linkwright.kernel.page.table import Row, Table, with_unit
+from linkwright.kernel.page.numbers import measured, quantity
+from linkwright.kernel.page.table import Row, Table
 from linkwright.torsion.damper.damper_design import DamperDesign
 from linkwright.torsion.diagnosis.record_diagnosis import RecordDiagnosis
 from linkwright.torsion.response.engine_torques import EngineData
@@ -29,8 +29,8 @@ def engine_tables(engines: Mapping[str, EngineData]) -> Iterator[Table]:
 def engine_table(data: EngineData, names: str = "") -> Table:
     """Discs and stiffness of throws by every formula, and the gas."""
     rows: list[Row] = [
-        ("rotating inertia of a throw", "J_k", with_unit(data.own_inertia, "kg m²"), ""),
-        ("disc of a throw, mean of the exact inertia", "J", with_unit(data.throw_inertia, "kg m²"), "used"),
+        ("rotating inertia of a throw", "J_k", measured(data.own_inertia, "kg m²"), ""),
+        ("disc of a throw, mean of the exact inertia", "J", measured(data.throw_inertia, "kg m²"), "used"),
         _beside(
             "disc of a throw as printed in paper 3, (7) and (12)",
             data.throw_inertia_published,
@@ -40,15 +40,15 @@ def engine_table(data: EngineData, names: str = "") -> Table:
     ]
     if data.stiffness is not None:
         if data.stiffness_by == "given":
-            rows.append(("stiffness from throw to throw", "k", with_unit(data.stiffness, "N m/rad"), "given"))
+            rows.append(("stiffness from throw to throw", "k", measured(data.stiffness, "N m/rad"), "given"))
         for name, stiffness in data.stiffness_formulas.items():
             word = f"stiffness by formula {name}"
             if name == data.stiffness_by:
-                rows.append((word, "k", with_unit(stiffness, "N m/rad"), "used"))
+                rows.append((word, "k", measured(stiffness, "N m/rad"), "used"))
             else:
                 rows.append(_beside(word, stiffness, data.stiffness, "N m/rad"))
     rows += [
-        (f"{word}, bank {n + 1}", "", with_unit(value / 1e5, "bar"), "")
+        (f"{word}, bank {n + 1}", "", measured(value / 1e5, "bar"), "")
         for word, values in (
             ("indicated mean pressure", data.mean_effective_pressure),
             ("peak pressure", data.peak_pressure),
@@ -69,7 +69,7 @@ def engine_table(data: EngineData, names: str = "") -> Table:
 
 def _beside(word: str, value: float, used: float, unit: str) -> Row:
     """A value that is not used, and how far it is from the one that is."""
-    return word, "", with_unit(value, unit), f"{100 * (value / used - 1):+.3g} %".replace("-", "−")
+    return word, "", measured(value, unit), f"{100 * (value / used - 1):+.3g} %".replace("-", "−")
 
 
 def diagnosis_table(read: RecordDiagnosis, level: float) -> Table:
