@@ -38,7 +38,7 @@ def figure(machine: lw.Machine):
 
     figure, axes = plt.subplots(2, 1, figsize=(8, 5.5), layout="constrained", sharex=True)
     angle = np.linspace(0, 2 * np.pi, 721)
-    # The sine begins amid its stroke, a quarter revolution after the lift of the cam.
+    # The sine begins at mid-stroke, a quarter revolution after the lift of the cam.
     for each, lag in ((machine, 0.0), (by_a_sine(machine), np.pi / 2)):
         found = lw.topper(each)
         knife = edges_of(each, each.topper)[0].knife

@@ -122,7 +122,7 @@ class Piece:
 
 @final
 class MotionLaw:
-    """Pieces that follow one another over a whole turn; ValueError if they do not."""
+    """Pieces that follow one another over a whole revolution; ValueError if they do not."""
 
     def __new__(cls, pieces: Sequence[Piece]) -> MotionLaw: ...
 
@@ -454,7 +454,7 @@ class Element:
 
     @final
     class AngleOf(Element):
-        """The continuous angle of a link, within half a turn of winding·φ + centre."""
+        """The continuous angle of a link, within half a revolution of winding·φ + centre."""
 
         __match_args__: Final = ("link", "slide", "winding", "centre")
 
@@ -679,7 +679,7 @@ class Load:
 
     @final
     class ForcePosition(Load):
-        """A force over the position on a guide, against the motion to and fro."""
+        """A force over the position on a guide, against the motion in both directions."""
 
         __match_args__: Final = ("slide", "forward", "back")
 
@@ -901,7 +901,7 @@ class Motor:
 
 @final
 class Drive:
-    """The drive line: motor, if it is on, ratio, factors of torque, inertia, speed where a search starts."""
+    """The driveline: motor, if it is on, ratio, factors of torque, inertia, speed where a search starts."""
 
     def __new__(
         cls, *, motor: Motor | None, ratio: int, forward: int, reverse: int, inertia: int, speed_start: int
@@ -960,7 +960,7 @@ class Status:
 
 @final
 class OtherMotion:
-    """Another motion that repeats [rad/s, s]; its multiplier is what a turn leaves of a disturbance."""
+    """Another motion that repeats [rad/s, s]; its multiplier is the share of a disturbance left after it."""
 
     speed_min: Final[float]
     speed_max: Final[float]
@@ -972,8 +972,8 @@ class SteadyMotion:
     """Steady motion of one machine.
 
     Curves at the crank angles asked for: time [s], speed [rad/s], acceleration [rad/s²], torques [N m],
-    inertia [kg m²]. Of the turn: extremes [rad/s, rad/s²] and their crank angles [rad], period [s], work
-    [J], mean and root mean square of the motor's torque [N m]; the accuracy reached, and what it took.
+    inertia [kg m²]. Of the revolution: extremes [rad/s, rad/s²] and their crank angles [rad], period [s],
+    work [J], mean and root mean square of the motor's torque [N m]; the accuracy reached, and what it took.
     """
 
     time: Final[_Floats]
@@ -1177,7 +1177,7 @@ def third(plan: Plan, q: _Floats, phi: _Floats, what: Sequence[Channel]) -> _Flo
     """Third transfer functions at the angles `phi`: two rows for a point, one for a link or slide."""
 
 def in_line(plan: Plan, q: _Floats, slots: _Ints, values: _Floats, element: int) -> list[InLine]:
-    """Where the links of a dyad come into line over the turn, in each machine."""
+    """Where the links of a dyad come into line over the revolution, in each machine."""
 
 def follow_group(plan: Plan, q: _Floats, element: int, phi: float, near: _Floats) -> GroupPath | None:
     """Motion of a group from places near those given (x, y of each joint); None if it does not close."""
@@ -1203,7 +1203,7 @@ def reductions(plan: Plan, q: _Floats, phi: _Floats) -> Reductions:
     """The machine reduced to its crank at crank angles."""
 
 def law_torques(plan: Plan, q: _Floats, phi: _Floats, omega: _Floats) -> _Floats:
-    """Resisting torque of the laws at angles and speeds (speeds, angles)."""
+    """Load torque of the laws at angles and speeds (speeds, angles)."""
 
 def motor_torques(plan: Plan, q: _Floats, omega: _Floats) -> tuple[_Floats, _Floats]:
     """Motor torque at its shaft and at the crank, at crank speeds."""
@@ -1259,7 +1259,7 @@ class CamPasses:
 
 @final
 class CamShape:
-    """A contact over a turn.
+    """A contact over a revolution.
 
     Angles (n,) [rad], pieces of the law, rows by name, extremes of pressure angle, bend and, under a flat
     face, place along it by name, and for each level asked for where its row passes it. The rows are `lift`
@@ -1276,7 +1276,7 @@ class CamShape:
 
 @final
 class CamSearch:
-    """Largest tan γ, infinite where the follower locks, least soundness, greatest and least bend; (cams,)."""
+    """Largest tan γ, infinite where the follower locks, minimum soundness, extremes of the bend; (cams,)."""
 
     tan_pressure_angle: Final[_Floats]
     soundness: Final[_Floats]
@@ -1285,7 +1285,7 @@ class CamSearch:
 
 @final
 class Cam:
-    """A motion law over a turn and the cam that follows it: `crates/linkwright-cam/src`.
+    """A motion law over a revolution and the cam that follows it: `crates/linkwright-cam/src`.
 
     `sense` is +1 for a cam that turns counter-clockwise, else −1; `side` +1 for an arm to the left of the
     line from cam to pivot, else −1.
@@ -1295,7 +1295,7 @@ class Cam:
         cls, law: MotionLaw, *, is_oscillating: bool, is_roller: bool, sense: float, side: float
     ) -> Cam: ...
     def shape(self, size: CamDimensions, n: int, levels: Sequence[tuple[str, float]]) -> CamShape:
-        """The contact at about n angles a turn; levels are name of the row and value."""
+        """The contact at about n angles per revolution; levels are name of the row and value."""
 
     def rows(self, size: CamDimensions, phi: _Floats, before: bool) -> dict[str, _Floats]:
         """The rows of `CamShape` at angles."""
@@ -1397,7 +1397,7 @@ def torsion_forced(
 
 @final
 class Extremes:
-    """Greatest and least values of waves or of curves over time, and their places; (n,) each.
+    """Maximum and minimum values of waves or of curves over time, and their places; (n,) each.
 
     Places are angles from 0 to 2π of waves, and times [s].
     """
@@ -1439,7 +1439,7 @@ class Periodic:
 class TorsionMass:
     """Discs that move as one: constant inertia [kg m²], damping against the ground, and that of swings.
 
-    The latter resists what goes beyond the speed of the train as a whole [N m s/rad].
+    The latter resists what goes beyond the rigid-body speed of the train [N m s/rad].
     """
 
     def __new__(cls, *, inertia: float, damping: float, swing_damping: float) -> TorsionMass: ...

@@ -12,7 +12,8 @@ import io
 import pkgutil
 import re
 import tokenize
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from itertools import groupby
 from pathlib import Path
 
 import pytest
@@ -36,6 +37,9 @@ _NO_TEXT = re.compile(r"\S*")
 _PARAMETER = re.compile(r"^\s*\*{0,2}\w[\w, *]* : .*$|^\s*(?:>>>|\.\.\.) .*$", re.MULTILINE)
 _CODE = re.compile(r"^```(?:python|toml|json)\n.*?^```$|``[^`]*``|`[^`\n]*`", re.DOTALL | re.MULTILINE)
 _RUST = re.compile(r'//[^\n]*|"((?:[^"\\]|\\.)*)"', re.DOTALL)
+# A comment on a line of its own, or behind code.
+_COMMENT = re.compile(r"^\s*#:? (.*)|  # (.*)$")
+_REMARK = re.compile(r"^\s*//[/!]? ?(.*)|[;,{})] // (.*)$")
 _BLANK = r"(?:[^\S\n]+|[^\S\n]*\n[^\S\n]*)"
 
 
@@ -70,7 +74,8 @@ def without_fields(text: str) -> str:
 
 
 def of_python(source: str) -> Iterator[str]:
-    """Docstrings, messages and other texts of a module."""
+    """Docstrings, messages, comments and other texts of a module."""
+    yield from in_blocks("".join(next(iter(_COMMENT.findall(line)), "")) for line in source.splitlines())
     for token in tokenize.generate_tokens(io.StringIO(source).readline):
         literal = _LITERAL.match(token.string) if token.type == tokenize.STRING else None
         if literal is None or _NO_TEXT.fullmatch(literal[3]):
@@ -79,8 +84,16 @@ def of_python(source: str) -> Iterator[str]:
         yield _CODE.sub("·", _PARAMETER.sub("", text))
 
 
+def in_blocks(comments: Iterable[str]) -> Iterator[str]:
+    """Comments of lines that follow one another as one text; empty strings divide them."""
+    for is_comment, lines in groupby(comments, bool):
+        if is_comment:
+            yield _CODE.sub("·", "\n".join(lines))
+
+
 def of_rust(source: str) -> Iterator[str]:
-    """Texts of a Rust module that are no test: what its messages are made of."""
+    """Comments of a Rust module, and what its messages are made of, but for its tests."""
+    yield from in_blocks("".join(next(iter(_REMARK.findall(line)), "")) for line in source.splitlines())
     source = source.split("#[cfg(test)]")[0]
     for literal in _RUST.finditer(source):
         if literal[1] and not _NO_TEXT.fullmatch(literal[1]):
@@ -118,10 +131,10 @@ def of_data(source: str) -> Iterator[str]:
 
 KINDS = {
     "pages": (of_page, ["*.md", "docs/**/*.md", "examples/**/*.md", "benches/*.md"]),
-    "package": (of_python, ["python/**/*.py", "docs/*.py", "examples/**/*.py"]),
+    "package": (of_python, ["python/**/*.py", "python/**/*.pyi", "docs/*.py", "examples/**/*.py"]),
     "templates": (of_template, ["python/**/*.html"]),
     "scripts": (of_script, ["python/**/*.js"]),
-    "core": (of_rust, ["crates/*/src/**/*.rs"]),
+    "core": (of_rust, ["crates/**/*.rs"]),
     "machines": (of_machine, ["machines/*.toml", "examples/**/*.toml", "python/**/*.toml"]),
     "papers": (of_data, ["python/linkwright/papers/**/*.toml"]),
     "messages": (of_page, ["tests/files/broken/*.txt"]),
@@ -174,7 +187,10 @@ def test_retired_words_are_found() -> None:
     assert list(faults(*of_python("f\"{least:g} of {'the greatest' if least else 0}\""))) == [
         "0 of the greatest 0"
     ]
-    assert list(of_rust('// greatest\nlet a = "in a turn";')) == ["in a turn"]
+    assert list(of_rust('// greatest\nlet a = "in a turn"; // least')) == ["greatest\nleast", "in a turn"]
+    assert list(of_python("# the greatest\n# torque `least`\nx = 1  # in a turn\n")) == [
+        "the greatest\ntorque ·\nin a turn"
+    ]
 
 
 def test_terms_are_defined_once() -> None:

@@ -11,7 +11,7 @@ use linkwright_kernel::motion_law::MotionLaw;
 use linkwright_kernel::real::Real;
 use rayon::prelude::*;
 
-/// Results per cam: largest |tan γ|, infinite where the follower locks; least soundness, greatest and least bend of
+/// Results per cam: largest |tan γ|, infinite where the follower locks; minimum soundness, maximum and minimum bend of
 /// [`super`].
 pub const RESULTS: usize = 4;
 

@@ -54,7 +54,7 @@ pub enum Quantity {
     Along,
 }
 
-/// Where a quantity is largest or least, and how much.
+/// Where a quantity is largest or smallest, and its value there.
 #[derive(Clone, Copy, Debug)]
 pub struct Extreme {
     pub phi: f64,
@@ -68,7 +68,7 @@ pub(super) fn angles(piece: &Piece, n: usize) -> impl Iterator<Item = f64> + use
     (0..=steps).map(move |i| start + step * i as f64)
 }
 
-/// Least number of intervals in a piece; a shorter one still shows its extremes.
+/// Minimum number of intervals in a piece; a shorter one still shows its extremes.
 const LEAST: usize = 16;
 
 impl Cam<f64> {
@@ -112,7 +112,7 @@ impl Cam<f64> {
         (found.value, found.d)
     }
 
-    /// The greatest of sign·quantity over the turn.
+    /// The maximum of sign·quantity over the revolution.
     pub fn extreme(&self, what: Quantity, sign: f64, law: &MotionLaw, shape: &Shape) -> Extreme {
         let values: Vec<f64> = what.column(shape).iter().map(|x| sign * x).collect();
         let mut best = Extreme { phi: f64::NAN, value: f64::NEG_INFINITY };

@@ -29,7 +29,7 @@ fn law(h: f64) -> MotionLaw {
         piece(b, c, vec![0.5 * h], vec![[PI, 0.5 * h, 0.0]]),
         piece(c, TAU, vec![0.0], vec![]),
     ])
-    .expect("a whole turn")
+    .expect("a whole revolution")
 }
 
 /// Dimensions with which all kinds are sound.
@@ -123,7 +123,7 @@ fn passes_are_zeros_with_the_sign_of_what_follows() {
     });
 }
 
-/// A row that is negative up to the end of the turn, where it jumps.
+/// A row that is negative up to the end of the revolution, where it jumps.
 #[test]
 fn a_jump_where_the_turn_closes_is_a_pass() {
     let h = 0.03;
@@ -132,7 +132,7 @@ fn a_jump_where_the_turn_closes_is_a_pass() {
         // From rest to a curvature at its end: s″ = −2h/π² · 3u.
         Piece { start: PI, length: PI, polynomial: vec![h, 0.0, 0.0, -h], harmonics: vec![] },
     ])
-    .expect("a whole turn");
+    .expect("a whole revolution");
     // ρ = r₀ + s + s″ falls from r₀ + h to r₀ − 6h/π².
     let size = Dimensions {
         base_radius: 0.5 * 6.0 * h / (PI * PI),
@@ -145,7 +145,7 @@ fn a_jump_where_the_turn_closes_is_a_pass() {
     let cam = Cam::new(Kind::TranslatingFlat, 1.0, 1.0, size);
     let found = cam.passes(SOUNDNESS, 0.0, &law, &cam.shape(&law, 100));
     assert_eq!(found.len(), 2, "{found:?}");
-    assert_eq!(found[0], (0.0, 1.0), "sound again from the start of the turn");
+    assert_eq!(found[0], (0.0, 1.0), "sound again from the start of the revolution");
     assert!(found[1].0 > PI && found[1].1 == -1.0);
 }
 
@@ -198,7 +198,7 @@ fn a_harmonic_law_makes_an_eccentric_circle() {
         polynomial: vec![e],
         harmonics: vec![[TAU, -e, 0.0]],
     }])
-    .expect("a whole turn");
+    .expect("a whole revolution");
     let plain =
         Dimensions { base_radius: r0, roller_radius: 0.0, offset: 0.0, distance: 0.0, arm: 0.0, tilt: 0.0 };
     for sense in [1.0, -1.0] {

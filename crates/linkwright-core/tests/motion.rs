@@ -35,7 +35,7 @@ fn two_carts_move_as_recomputed() {
     assert!((h - 0.1254).abs() < 5e-5, "H {h}");
 }
 
-/// Over a turn of steady motion the drive's work at the crank is the loads' work.
+/// Over a revolution of steady motion the drive's work at the crank is the loads' work.
 #[test]
 fn work_over_a_turn_is_balanced() {
     let mut random = Random(5);
@@ -96,7 +96,7 @@ fn run_up_ends_in_steady_motion() {
     let run_up = follow(&built.plan, &built.q, &from_rest(FOREVER, 40.0));
     assert_eq!(run_up.end, End::Turns, "how it ended");
     let last = *run_up.omega.last().expect("a motion");
-    // 40 turns leave nothing of the start; 1e-10 a step over a thousand steps.
+    // 40 revolutions leave nothing of the start; 1e-10 a step over a thousand steps.
     assert!((last / omega - 1.0).abs() < 1e-8, "{last} rad/s after the run-up, {omega} in steady motion");
 
     let disturbed = |by: f64| {
@@ -363,7 +363,7 @@ fn batch_is_the_single_machine() {
             for k in 0..11 {
                 let scale = exact[k].abs().max(if k == 5 { 1.0 } else { 1e-12 });
                 let error = (out[row * QUANTITIES + k] - exact[k]).abs() / scale;
-                // 32 steps a turn: speeds to 1e-8, accelerations to 1e-7, the multiplier to 1e-6.
+                // 32 steps a revolution: speeds to 1e-8, accelerations to 1e-7, the multiplier to 1e-6.
                 assert!(error < 1e-6, "row {row}, number {k}: off by {error:e}");
             }
         }

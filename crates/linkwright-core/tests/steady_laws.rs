@@ -1,6 +1,6 @@
 //! Laws of steady motion on random drives over twelve decades of steepness, on the curves and not only at
 //! the ends of the steps: the speed is the integral of the acceleration, the acceleration that of the
-//! torques, extremes are extremes of the curves, a turn closes. Together these say that what is returned
+//! torques, extremes are extremes of the curves, a revolution closes. Together these say that what is returned
 //! solves the equation of motion.
 
 mod common;

@@ -5,7 +5,7 @@
 //! returns the reason. Unwinding keeps kernels free of half results and of ways to return them.
 //!
 //! The threads are a pool of our own. A forked process has the pool's memory and none of its threads, and would wait
-//! for them for ever: a pool belongs to one process, and another process makes its own.
+//! for them without end: a pool belongs to one process, and another process makes its own.
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::any::Any;

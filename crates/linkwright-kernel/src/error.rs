@@ -13,7 +13,7 @@ pub enum PlanError {
     In { what: &'static str, number: usize, error: Box<PlanError> },
     /// A list of the wrong length.
     Length { what: &'static str, found: usize, expected: usize },
-    /// A motion law whose pieces do not make a turn.
+    /// A motion law whose pieces do not make a revolution.
     MotionLaw,
 }
 

@@ -15,7 +15,7 @@ use crate::slot::Slot;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Variable {
-    /// Crank angle within the turn \[rad\].
+    /// Crank angle within the revolution \[rad\].
     Phi,
     /// Speed of the crank \[rad/s\].
     Omega,

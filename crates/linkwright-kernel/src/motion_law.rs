@@ -1,4 +1,4 @@
-//! A motion law in pieces: the lift of a cam's follower over the crank angle, repeated every turn.
+//! A motion law in pieces: the lift of a cam's follower over the crank angle, repeated every revolution.
 //!
 //! Each piece counts its own u = (φ − start)/length from 0 to 1 and is Σ cᵢ uⁱ + Σ (a cos ku + b sin ku), the form
 //! that every law of the textbooks has. Values come as Taylor coefficients of any order, so that the same
@@ -18,17 +18,17 @@ pub struct Piece {
     pub harmonics: Vec<[f64; 3]>,
 }
 
-/// A law over one turn.
+/// A law over one revolution.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MotionLaw {
     pieces: Vec<Piece>,
 }
 
-/// Rounding by which the ends of a turn may miss it \[rad\].
+/// Rounding by which the ends of a revolution may miss it \[rad\].
 const CLOSED: f64 = 1e-9;
 
 impl MotionLaw {
-    /// From pieces that follow one another over a whole turn; `None` if they do not.
+    /// From pieces that follow one another over a whole revolution; `None` if they do not.
     pub fn new(pieces: Vec<Piece>) -> Option<Self> {
         let mut end = 0.0;
         for piece in &pieces {
@@ -47,7 +47,7 @@ impl MotionLaw {
         &self.pieces
     }
 
-    /// The piece that an angle falls into, and the angle within the turn; at a break the later piece counts, or the
+    /// The piece that an angle falls into, and the angle within the revolution; at a break the later piece counts, or the
     /// earlier one if `before`.
     #[inline]
     pub fn piece(&self, phi: f64, before: bool) -> (&Piece, f64) {

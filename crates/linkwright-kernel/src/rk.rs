@@ -503,7 +503,7 @@ mod tests {
         assert!((order - 8.0).abs() < 0.6, "local error falls with power {order}");
     }
 
-    /// A swing under a torque over the angle: what is told bounds what the polynomial errs against steps of a hundredth, and
+    /// A swing under a torque over the angle: the reported bound covers what the polynomial errs against steps of a hundredth, and
     /// is no more than ten times too large; the slope is that of the polynomial.
     #[test]
     fn error_between_the_ends_is_told() {

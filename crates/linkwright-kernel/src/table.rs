@@ -1,4 +1,4 @@
-//! Tables: values at knots, straight lines between, end values held outside or repeated every turn.
+//! Tables: values at knots, straight lines between, end values held outside or repeated every revolution.
 
 use std::f64::consts::TAU;
 
@@ -45,7 +45,7 @@ impl Table {
         between(x, (self.x[i], self.y[i]), (self.x[i + 1], self.y[i + 1]))
     }
 
-    /// Value and slope at angle `x` \[rad\], the table being repeated every turn.
+    /// Value and slope at angle `x` \[rad\], the table being repeated every revolution.
     pub fn periodic(&self, x: f64) -> (f64, f64) {
         let n = self.x.len();
         let (first, last) = (self.x[0], self.x[n - 1]);

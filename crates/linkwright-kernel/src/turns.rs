@@ -1,6 +1,6 @@
 //! Where the speed turns inside a step, and whether it passes a kink of the drive there and comes back.
 //!
-//! The polynomial of a step ([`crate::rk::Stages::component`]) lies between the least and the greatest of its
+//! The polynomial of a step ([`crate::rk::Stages::component`]) lies between the minimum and the maximum of its
 //! coefficients over Bernstein's polynomials: most steps are done with these eight numbers. Where these rise all along, or fall,
 //! so does the polynomial: a part in which they do neither is halved, until its ends say all of it.
 //!
@@ -10,7 +10,7 @@
 /// Degree of the polynomial.
 const DEGREE: usize = 7;
 
-/// Most halvings of a step towards a turn: its place is then known to 1e-9 of the step, the speed there to rounding.
+/// Most halvings of a step towards a turning point: its place is then known to 1e-9 of the step, the speed there to rounding.
 const HALVINGS: u32 = 30;
 
 const BINOMIALS: [[f64; DEGREE + 1]; DEGREE + 1] = binomials();
@@ -72,7 +72,7 @@ impl Bernstein {
     }
 
     /// Adds the starts of parts that rise all along, fall all along, or change by less than `small`: shares of the step, and
-    /// the values there. What the polynomial reaches between two of them is told by their values.
+    /// the values there. What the polynomial reaches between two of them follows from their values.
     fn parts(&self, (from, length): (f64, f64), small: f64, found: &mut Vec<(f64, f64)>) {
         let (low, high) = self.hull();
         if !self.may_turn() || high - low <= small || length <= 0.5_f64.powi(HALVINGS as i32) {

@@ -32,7 +32,7 @@ pub(crate) struct OtherMotion {
     multiplier: f64,
 }
 
-/// Steady motion of one machine: curves over the crank angles asked for, extremes and integrals of the turn.
+/// Steady motion of one machine: curves over the crank angles asked for, extremes and integrals of the revolution.
 #[pyclass(frozen, get_all, module = "linkwright._core")]
 pub(crate) struct SteadyMotion {
     time: Array,

@@ -57,9 +57,9 @@ pub struct Knife {
     pub rate: f64,
     /// A constant speed across the row.
     pub drift: f64,
-    /// Greatest |y| of the law.
+    /// Maximum |y| of the law.
     pub reach: f64,
-    /// Least and greatest speed across the row, drift included.
+    /// Minimum and maximum speed across the row, drift included.
     pub speeds: [f64; 2],
 }
 

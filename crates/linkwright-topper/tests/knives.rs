@@ -30,7 +30,7 @@ fn harmonic() -> Knife {
     knife
 }
 
-/// The same speed to and fro.
+/// The same speed in both directions.
 fn to_and_fro(stroke: f64, speed: f64, angle: f64) -> Knife {
     let half = 0.5 * stroke;
     let piece = |start, length, polynomial| Piece { start, length, polynomial, harmonics: vec![] };
@@ -40,7 +40,7 @@ fn to_and_fro(stroke: f64, speed: f64, angle: f64) -> Knife {
         piece(1.5 * PI, 0.5 * PI, vec![-half, half]),
     ]);
     Knife {
-        law: Law::Pieces(law.expect("a whole turn")),
+        law: Law::Pieces(law.expect("a whole revolution")),
         corners: vec![0.5 * PI, 1.5 * PI],
         direction: angle.sin_cos().into(),
         forward: FORWARD,

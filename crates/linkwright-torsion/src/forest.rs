@@ -8,7 +8,7 @@ use super::{Train, is_positive};
 /// The end of a shaft that is held.
 pub const HELD: i32 = -1;
 
-/// A train that hangs together, and which disc of the whole each of its own is.
+/// A train that is connected, and which disc of the whole each of its own is.
 #[derive(Clone, Debug, Default)]
 pub struct Part {
     pub train: Train,
@@ -137,7 +137,7 @@ struct Found {
 }
 
 impl Found {
-    /// All that hangs together with a disc; `None` if shafts close a loop.
+    /// All that is connected with a disc; `None` if shafts close a loop.
     fn grow(&mut self, net: &Net<'_>, root: usize, inertia: &[f64]) -> Option<Part> {
         let n = inertia.len();
         let mut part = Part { discs: Vec::with_capacity(n), ..Part::default() };

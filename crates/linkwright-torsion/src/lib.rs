@@ -3,7 +3,7 @@
 //! | module | answers |
 //! | --- | --- |
 //! | here | what a train is |
-//! | [`forest`] | which discs hang together, in which order |
+//! | [`forest`] | which discs are connected, in which order |
 //! | [`holzer`] | how many natural frequencies lie below ω, and where the next are |
 //! | [`frequencies`] | all natural frequencies |
 //! | [`shapes`] | mode shapes |
@@ -87,7 +87,7 @@ impl Train {
         self.inertia.is_empty()
     }
 
-    /// Whether it can turn as a whole.
+    /// Whether it can rotate as a rigid body.
     pub fn is_free(&self) -> bool {
         self.ground.iter().all(|&k| k == 0.0)
     }

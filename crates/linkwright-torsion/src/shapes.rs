@@ -1,7 +1,7 @@
 //! Mode shapes of a train, all at once, a lane each.
 //!
 //! One sweep from the leaves gives the response of every disc and all discs beyond it, x; another from the root what the
-//! rest answers there, y. At the disc where both fit together best, γ = x + y least, the shape begins; from there
+//! rest answers there, y. At the disc where both fit together best, γ = x + y smallest, the shape begins; from there
 //! outwards all its ratios are stable,
 //!
 //! ```text
@@ -56,7 +56,7 @@ impl Job for Shapes<'_> {
         let Shapes { train, lambda, to } = self;
         let modes = lambda.len();
         let mut twisted = Twisted::<R>::new(train);
-        // The first mode of a free train is known: it turns as a whole.
+        // The first mode of a free train is known: it rotates as a rigid body.
         let known = usize::from(train.is_free());
         if train.is_free() {
             let whole = 1.0 / train.inertia.iter().sum::<f64>().sqrt();

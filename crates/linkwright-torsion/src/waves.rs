@@ -1,4 +1,4 @@
-//! What waves add up to: the greatest and the least value of a sum of harmonics over its period.
+//! What waves add up to: the maximum and the minimum value of a sum of harmonics over its period.
 //!
 //! ```text
 //! f(τ) = Σ Re c_h e^{ihτ},    h = 0, 1, … H

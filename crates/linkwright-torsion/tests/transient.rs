@@ -128,7 +128,7 @@ fn step_of_load_doubles_the_static_torque() {
         // One of the five peaks.
         let phase = (omega * at / TAU).rem_euclid(1.0);
         assert!((phase - 0.5).abs() < 0.01, "{method:?}: phase {phase}");
-        assert!(least.abs() < 10.0 * inside * still, "{method:?}: least {least}");
+        assert!(least.abs() < 10.0 * inside * still, "{method:?}: minimum {least}");
         assert!(imbalance(&system, &course).abs() < ends, "{method:?}: energy");
     }
 }
@@ -150,7 +150,7 @@ fn free_spin_keeps_its_energy() {
             let (angle, speed) = (row(&course, &times, 0), row(&course, &times, 1));
             let wanted = angle.iter().map(|&x| (2.0 * energy / inertia(x)).sqrt());
             let off = worst(&speed, wanted) / 80.0;
-            // 25 turns of the table with some twenty steps each.
+            // 25 revolutions of the table with some twenty steps each.
             let allowed =
                 if method == Method::Explicit { 30.0 * accuracy } else { 300.0 * accuracy.powf(0.8) };
             assert!(off < allowed, "{method:?}, asked for {accuracy:e}: {off:e}");
@@ -219,7 +219,7 @@ fn backlash_is_crossed_coasting() {
         row(&course, &times, 2).iter().zip(row(&course, &times, 3)).map(|(a, b)| a - b).collect();
     // At a kink a step errs more than its estimate says: forty kinks are passed.
     assert!(worst(&relative, std::iter::repeat(v)) < 1e-6 * v, "{relative:?}");
-    assert!((course.extremes[0][0] / (k * v / omega) - 1.0).abs() < 1e-6, "greatest torque");
+    assert!((course.extremes[0][0] / (k * v / omega) - 1.0).abs() < 1e-6, "maximum torque");
 }
 
 /// A torque switched on and off within the motion: the closed form of each stretch, with steps that end on the switches.
@@ -440,7 +440,7 @@ fn derivatives_of_the_accelerations() {
     }
 }
 
-/// Twists keep their digits after a million turns: the state counts the masses from the first.
+/// Twists keep their digits after a million revolutions: the state counts the masses from the first.
 #[test]
 fn twists_keep_their_digits() {
     let mut system = chain(&[1.0, 1.0], &[1e9]);
@@ -539,7 +539,7 @@ fn work_is_as_before() {
     assert_eq!(count(Method::Implicit, 1e-8), [10294, 510, 117320], "implicit");
 }
 
-/// Systems that make no sense are told.
+/// Systems that make no sense are refused.
 #[test]
 fn bad_systems_are_refused() {
     let good = everything();

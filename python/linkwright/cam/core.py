@@ -53,7 +53,7 @@ class Shape:
     angle: Floats
     piece: NDArray[np.uint32]  # (n,): piece of the law
     rows: dict[str, Floats]  # (n,): by the names of `linkwright._core.CamShape`
-    # greatest, least: of the pressure angle, of the bend, and of the place along a flat face (``along``).
+    # `greatest`, `least`: of the pressure angle, of the bend, and of the place along a flat face (``along``).
     greatest: dict[str, Extreme]
     least: dict[str, Extreme]
     passes: tuple[Passes, ...]  # for each level asked for

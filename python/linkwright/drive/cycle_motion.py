@@ -50,8 +50,8 @@ _AGREE = 1e-12
 # What changes less than this share of its size, or of those of its kind, is constant but for rounding.
 _CONSTANT = 1e-12
 
-# Near a limit of the crank rates grow with one over the root of the distance: at distances of these shares of
-# the range they differ by a factor of 100, and by about 1 where they are bounded.
+# Near a limit of crank rotation rates grow with one over the root of the distance: at distances of these
+# shares of the range they differ by a factor of 100, and by about 1 where they are bounded.
 _LIMIT_FAR, _LIMIT_NEAR, _GROWS = 1e-4, 1e-8, 10.0
 
 

@@ -87,7 +87,7 @@ def _panel(panel: Axes, motion: CycleMotion, curves: Sequence[str], names: Seque
         extremes = motion.extremes.get(curve)
         values = size * known[curve]
         if extremes is not None and extremes.maximum is None and not curve.endswith(".angle"):
-            # Towards a limit of the crank it grows without limit: what most of the range needs is shown.
+            # Towards a limit of crank rotation it is unbounded: the height suits most of the range.
             drawn.append(np.percentile(values, (4, 96)))
         else:
             drawn.append(values)

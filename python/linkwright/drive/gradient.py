@@ -41,7 +41,7 @@ _DOUBT = 1e-2
 # the height lacks, from round to round.
 _ROUNDS, _READINGS = 3, 17
 
-# Angles of a tie that are told.
+# Angles of a tie that a message lists.
 _TOLD = 4
 
 # Peaks nearer than this [rad] are one: the two sides of a corner.

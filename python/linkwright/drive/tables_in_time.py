@@ -47,7 +47,7 @@ _METHODS = {
     "implicit": "the implicit method Radau IIA, order 9, where the drive is stiff",
 }
 
-# Parts that are told one by one; of a motion that changes its method more often the sums of steps are told.
+# Parts that are listed one by one; of a motion that changes its method more often, the sums of steps.
 _PARTS = 4
 
 

@@ -65,7 +65,7 @@ _OVER_PIVOT = 5e-4
 # rounding.
 _SAME = 1e-7
 
-# Doublings of the revolutions looked at in a motion that never repeats: some 8000 turns either way.
+# Doublings of the revolutions looked at in a motion that never repeats: some 8000 revolutions either way.
 _DOUBLINGS = 13
 
 # Number of a link among what the core can give the motion of.

@@ -142,7 +142,7 @@ class TableLaw:
                 f"a table of times and angles needs two lists of one length, at least 3 numbers each; "
                 f"found shapes {t.shape} and {phi.shape}"
             )
-        # Of what is closer together than the smallest time, no speed can be told.
+        # Of what is closer together than the smallest time, no speed can be given.
         close = np.diff(t) < TIME.least / 2
         if close.any():
             at = int(np.argmax(close))

@@ -27,7 +27,7 @@ Floats = NDArray[np.float64]
 # A combination that the record knows no better than to its own size is not determined.
 _WEAK = 1.0
 
-# Parts of a direction, as a share of its largest, that are told.
+# Parts of a direction, as a share of its largest, that a message lists.
 _PART = 0.02
 
 

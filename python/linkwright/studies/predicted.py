@@ -73,7 +73,7 @@ class RecordModel:
             try:
                 self._known[key] = self.require(x)
             except (FindingError, InputError) as error:
-                # The search takes a shorter step; how often that was so is told with the result.
+                # The search takes a shorter step; how often that was so is reported with the result.
                 text = " ".join(str(error).split())
                 self.reasons[text] = self.reasons.get(text, 0) + 1
                 self._known[key] = np.full(self.record.size, np.nan)

@@ -24,7 +24,7 @@ Tell = Callable[[Body], None]
 # Values of a curve, and of each entry of a map, at most; machines of a search.
 _VALUES, _SIDE, _MACHINES = 401, 61, 20_000
 
-# Rows that are computed before the page is told, and seconds between two tellings of a search.
+# Rows that are computed before the first message to the page, and seconds between two messages of a search.
 _ROWS, _PAUSE = 64, 0.15
 
 

@@ -34,7 +34,7 @@ from linkwright.topping.roots import Roots
 
 Floats = NDArray[np.float64]
 
-# Stations per revolution of the law for one machine: tops between them are then told apart to 1e-9.
+# Stations per revolution of the law for one machine: tops between them are then distinguished to 1e-9.
 FINE = 128
 
 # Stations per revolution of the law for many heads: two tops that differ by less than 1e-6 of the head may be

@@ -127,7 +127,7 @@ def _use(edge: Edge, diameter: float, offset: float) -> tuple[Floats, Floats]:
     chord = np.sqrt(np.clip(radius**2 - p**2, 0.0, None))
     reach = float((np.abs(q) + chord)[chord > 0].max(initial=radius))
     place = np.linspace(-reach, reach, _PLACES)
-    # Each chord adds its pace to the places between its ends.
+    # Each chord adds its speed to the places between its ends.
     weight = np.broadcast_to(pace, chord.shape)[chord > 0]
     bounds = [np.searchsorted(place, (sign * chord - q)[chord > 0]) for sign in (-1, 1)]
     ends = [np.bincount(bound, weight, _PLACES + 1)[:_PLACES] for bound in bounds]

@@ -66,10 +66,10 @@ impl Rows<'_> {
 /// Quantities of a row's steady motion, in the order of a result row.
 pub const QUANTITIES: usize = 13;
 
-/// Steps a turn in lanes before they are halved; [`PROMISED`] tells where these do not suffice.
+/// Steps a revolution in lanes before they are halved; [`PROMISED`] tells where these do not suffice.
 const STEPS: usize = 16;
 
-/// Relative corrections after which a turn, and the turn in steps of half the length, have converged. The next would be
+/// Relative corrections after which a revolution, and the revolution in steps of half the length, have converged. The next would be
 /// about their squares, which measured errors do not notice.
 const CONVERGED: [f64; 2] = [1e-5, 1e-7];
 
@@ -85,7 +85,7 @@ const PROMISED: f64 = 1e-7;
 /// Rows that a thread takes at once: enough to amortise its buffers, few enough to share the work evenly.
 const CHUNK: usize = 256;
 
-/// Measures of a turn as a row of numbers:
+/// Measures of a revolution as a row of numbers:
 /// speed min, max; acceleration min, max; period; multiplier; motor work, crank work, load work;
 /// torque mean, rms; crank angles of the speed's extremes.
 fn row_of<R: Real>(multiplier: R, e: &Extremes<R>, t: &Totals<R>) -> [R; QUANTITIES] {

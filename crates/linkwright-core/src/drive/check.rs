@@ -1,8 +1,8 @@
-//! The error of a solved turn, measured: every step is done again in two halves.
+//! The error of a solved revolution, measured: every step is done again in two halves.
 //!
 //! From the same start, two steps of half the length give the end of a step and the acceleration there some
 //! 500 times more accurately (order 9), so the difference is the error of the step itself. What errs in one
-//! step is carried on to the others by their growth and by the closure of the turn, like any disturbance.
+//! step is carried on to the others by their growth and by the closure of the revolution, like any disturbance.
 //! Where the motor is steep the curve may change fast behind the start of a step, though its end is right:
 //! there the parts of a half, a quarter, … of the step, from which the curve is read, are compared in the
 //! same way, down to where the steepness no longer matters.
@@ -20,7 +20,7 @@ const LEVELS: usize = 30;
 /// Parts of the coarsest step that are looked at in lanes with a machine each.
 const LEVELS_IN_LANES: usize = 3;
 
-/// By how much halving all steps of a turn makes its error less, at least: 500 times where the motion is as smooth as the
+/// By how much halving all steps of a revolution makes its error less, at least: 500 times where the motion is as smooth as the
 /// method's order asks for; so much where the steps are still too long for that.
 const WON: f64 = 8.0;
 
@@ -28,7 +28,7 @@ const WON: f64 = 8.0;
 const ROUNDING: f64 = 2e-15;
 
 /// Accelerations count against their peak, but at least against this share of ω², and torques and work
-/// against what makes it: a machine that turns evenly has none, and rounding is all that there is.
+/// against what makes it: at constant speed there is none, and rounding is all that there is.
 const EVEN: f64 = 1e-4;
 
 /// What is wrong with a step.
@@ -40,7 +40,7 @@ pub struct Excess {
     pub halvings: u32,
 }
 
-/// The measured error of a turn.
+/// The measured error of a revolution.
 #[derive(Clone, Debug)]
 pub struct Check {
     /// For each step.
@@ -73,7 +73,7 @@ struct Limits {
 }
 
 impl<R: Real> Turn<R> {
-    /// Measures the error of a solved turn of one machine.
+    /// Measures the error of a solved revolution of one machine.
     #[inline(always)]
     pub fn check(&self, machine: &Machine<'_, R>, accuracy: f64, m: &mut Motion<R>) -> Check {
         let limits = Limits { accuracy, epsilon: self.acceleration_scale() };
@@ -225,7 +225,7 @@ impl<R: Real> Turn<R> {
 }
 
 impl<R: Real> Turn<R> {
-    /// The relative error of each lane's turn: what it differs by from the turn in steps of twice the length, at the ends
+    /// The relative error of each lane's turn: what it differs by from the revolution in steps of twice the length, at the ends
     /// of all of these, over what halving wins; and, in the step that differs most, the errors of its parts from the
     /// start on, as in [`Turn::check`].
     #[inline(always)]
@@ -286,7 +286,7 @@ fn size<R: Real>(difference: R) -> R {
 }
 
 /// Adds the errors of an integral; its size is that of its parts, so that nothing is lost where they cancel. What the
-/// rounding of speeds makes of it is told, but no finer step would take it away.
+/// rounding of speeds makes of it is reported, but no finer step would take it away.
 fn add_integral(check: &mut Check, parts: &[f64], size: f64, rounding: f64, accuracy: f64) {
     let sum: f64 = parts.iter().sum();
     if size <= 0.0 || sum <= ROUNDING * size {

@@ -1,4 +1,4 @@
-//! One turn of steady motion: the periodic solution of the machine's equation of motion over the crank angle.
+//! One revolution of steady motion: the periodic solution of the machine's equation of motion over the crank angle.
 //!
 //! ```text
 //! du/dφ = ε = [M_d(ω) − M_r(φ, ω) − J′(φ) u] / J(φ),   ω = √(2u),   u(2π) = u(0)
@@ -6,10 +6,10 @@
 //!
 //! u = ½ ω² is the state (paper 1, equation (1), divided by J): its derivative by the angle *is* the
 //! acceleration, so the acceleration is known as well as the solution is, also where a steep motor leaves
-//! little of it. The turn is divided from kink to kink into steps of [`crate::kernel::radau`]; the stages of all
+//! little of it. The revolution is divided from kink to kink into steps of [`crate::kernel::radau`]; the stages of all
 //! steps and the closure u(2π) = u(0) are solved together by Newton. Eliminating the stages step by step
-//! leaves the Newton step of the turn-to-turn map, and the product of the steps' growth is that map's
-//! derivative: the multiplier of a small disturbance over one turn (stable when below 1 in size).
+//! leaves the Newton step of the return map, and the product of the steps' growth is that map's
+//! derivative: the multiplier of a small disturbance over one revolution (stable when below 1 in size).
 
 use crate::drive::law::Given;
 use crate::drive::layout::{Layout, bundle};
@@ -30,13 +30,13 @@ pub struct Row<R> {
     pub inverse: R,
     /// J′/J \[1/rad\].
     pub drift: R,
-    /// Resisting torque that does not depend on speed \[N m\].
+    /// Load torque that does not depend on speed \[N m\].
     pub load: R,
     /// Viscous coefficient \[N m s/rad\].
     pub viscous: R,
 }
 
-/// A step of the turn: where it starts, how long it is, its stages.
+/// A step of the revolution: where it starts, how long it is, its stages.
 #[derive(Clone, Copy, Debug)]
 pub struct Step<R> {
     /// Crank angle at its start \[rad\].
@@ -57,7 +57,7 @@ pub struct Step<R> {
     pub growth: R,
 }
 
-/// A turn in steps, and what the solution took.
+/// A revolution in steps, and what the solution took.
 #[derive(Clone, Debug)]
 pub struct Turn<R> {
     /// The steps from φ = 0 to 2π.
@@ -66,17 +66,17 @@ pub struct Turn<R> {
     pub given: Vec<Given<R>>,
     /// What the lanes hold.
     pub layout: Layout,
-    /// Derivative of the turn-to-turn map.
+    /// Derivative of the return map.
     pub multiplier: R,
-    /// Newton sweeps over the turn.
+    /// Newton sweeps over the revolution.
     pub sweeps: u32,
-    /// Largest relative correction of the last sweep, of the turn in each lane.
+    /// Largest relative correction of the last sweep, of the revolution in each lane.
     pub correction: R,
     /// Relative correction after which a lane has converged: the next would be about its square.
     pub limit: f64,
 }
 
-/// A machine with its parameters in lanes of `R`: what every function of a turn works on.
+/// A machine with its parameters in lanes of `R`: what every function of a revolution works on.
 #[derive(Clone, Copy)]
 pub struct Machine<'a, R> {
     /// Its structure.
@@ -156,7 +156,7 @@ impl<'a, R: Real> Machine<'a, R> {
         free - taken * Dual::constant(row.inverse)
     }
 
-    /// Resisting torque of all laws at a stage; no time counts, since no turn differs from another.
+    /// Load torque of all laws at a stage; no time counts, since no turn differs from another.
     #[inline(always)]
     pub fn laws<N: Lift<R>>(&self, given: &[Given<R>], omega: N) -> N {
         N::outline(
@@ -271,7 +271,7 @@ impl<'a, R: Real> Machine<'a, R> {
     }
 
     /// A step of its own from (`phi`, `u`) on by `h`, and what its laws needed. This is how the solution is
-    /// read between the steps of the turn. Lanes that do not converge are NaN.
+    /// read between the steps of the revolution. Lanes that do not converge are NaN.
     #[inline(always)]
     pub fn advance(&self, phi: R, u: R, h: R, m: &mut Motion<R>) -> (Step<R>, Vec<Given<R>>) {
         self.advance_near(phi, u, h, [u; S], m)
@@ -481,7 +481,7 @@ impl<R: Real> Turn<R> {
         Self::tabulate(machine, steps, Layout::Steps, m)
     }
 
-    /// The turn in steps of half the length, to be solved from this solution on, in the place of another.
+    /// The revolution in steps of half the length, to be solved from this solution on, in the place of another.
     #[inline(always)]
     pub fn halve_into(&self, halved: &mut Self, machine: &Machine<'_, R>, m: &mut Motion<R>) {
         let mut steps = Vec::with_capacity(2 * self.steps.len());
@@ -499,7 +499,7 @@ impl<R: Real> Turn<R> {
         }
     }
 
-    /// A turn without steps.
+    /// A revolution without steps.
     #[inline(always)]
     pub fn empty(layout: Layout) -> Self {
         Turn {
@@ -521,7 +521,7 @@ impl<R: Real> Turn<R> {
         turn
     }
 
-    /// The same in the place of this turn: a turn of machines in lanes takes some hundred thousand bytes, which a batch
+    /// The same in the place of this turn: a revolution of machines in lanes takes some hundred thousand bytes, which a batch
     /// asks for once.
     #[inline(always)]
     pub fn tabulate_again(&mut self, machine: &Machine<'_, R>, steps: &[(R, R)], m: &mut Motion<R>) {
@@ -561,7 +561,7 @@ impl<R: Real> Turn<R> {
         }
     }
 
-    /// Means over the turn of the load and of the viscous coefficient.
+    /// Means over the revolution of the load and of the viscous coefficient.
     #[inline(always)]
     fn mean_load(&self) -> (R, R) {
         let (mut load, mut viscous) = (R::splat(0.0), R::splat(0.0));
@@ -575,7 +575,7 @@ impl<R: Real> Turn<R> {
         (self.layout.total(load), self.layout.total(viscous))
     }
 
-    /// Mean over the turn of the laws' resisting torque at one constant speed.
+    /// Mean over the revolution of the laws' load torque at one constant speed.
     #[inline(always)]
     fn mean_laws(&self, machine: &Machine<'_, R>, omega: Dual<R>) -> Dual<R> {
         let mut sum = Dual::constant(R::splat(0.0));

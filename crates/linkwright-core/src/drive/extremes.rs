@@ -1,4 +1,4 @@
-//! Extremes of speed and acceleration over a turn.
+//! Extremes of speed and acceleration over a revolution.
 //!
 //! Extremes are found inside the steps, not at their ends: samples of every step tell which steps promise
 //! one, the polynomial through them the place, and the solution is read there like any curve
@@ -29,7 +29,7 @@ impl<R: Real> Extreme<R> {
     }
 }
 
-/// Speed and acceleration extremes of a turn.
+/// Speed and acceleration extremes of a revolution.
 #[derive(Clone, Copy, Debug)]
 pub struct Extremes<R> {
     pub speed_min: Extreme<R>,

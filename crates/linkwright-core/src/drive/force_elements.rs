@@ -14,7 +14,7 @@ use crate::kernel::real::Real;
 use crate::linkage::motion::{Motion, stretch};
 
 impl Plan {
-    /// Resisting torque and viscous coefficient of all force elements.
+    /// Load torque and viscous coefficient of all force elements.
     #[inline(always)]
     pub(crate) fn force_element_torques<R: Real>(
         &self,
@@ -31,7 +31,7 @@ impl Plan {
         (torque, viscous)
     }
 
-    /// Resisting torque and viscous coefficient of one.
+    /// Load torque and viscous coefficient of one.
     #[inline(always)]
     fn force_element_torque<R: Real>(
         &self,

@@ -23,7 +23,7 @@ use crate::kernel::real::Real;
 use crate::linkage::motion::Motion;
 use std::f64::consts::TAU;
 
-/// Numbers of the turn that are differentiated: the four extremes, the period, the multiplier, the works of
+/// Numbers of the revolution that are differentiated: the four extremes, the period, the multiplier, the works of
 /// motor, drive and loads, mean and root mean square of the motor's torque.
 pub const NUMBERS: usize = 11;
 
@@ -117,7 +117,7 @@ impl Job for Gradient<'_> {
     }
 }
 
-/// The solved turn in dual numbers.
+/// The solved revolution in dual numbers.
 struct Moved<'a, R: Real> {
     machine: Machine<'a, Dual<R>>,
     steady: &'a Steady,
@@ -213,7 +213,7 @@ impl<'a, R: Real> Moved<'a, R> {
         self.machine.acceleration_on_branch(&row, &given, step.u, (known, step.X[REFERENCE])).value
     }
 
-    /// The numbers of the turn.
+    /// The numbers of the revolution.
     #[inline(always)]
     fn numbers(&self, m: &mut Motion<Dual<R>>) -> [Dual<R>; NUMBERS] {
         let extremes = &self.steady.extremes;

@@ -1,4 +1,4 @@
-//! Where over the turn the reduced machine is not smooth: dead centres under dry friction, knots of tables.
+//! Where over the revolution the reduced machine is not smooth: dead centres under dry friction, knots of tables.
 //!
 //! A dry resistance enters the energy equation as F·|s′|, which has a kink where the slide turns back
 //! (s′ = 0); a table has one at each knot; a formula where the argument of `abs`, `sign`, `step`, `min`,
@@ -17,7 +17,7 @@ use crate::linkage::mechanism::Element;
 use crate::linkage::motion::{Motion, stretch};
 use std::f64::consts::TAU;
 
-/// A quantity whose zeros over the turn are kinks.
+/// A quantity whose zeros over the revolution are kinks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Watch {
     /// The slide turns back.
@@ -93,7 +93,7 @@ const ON_KINK: f64 = 1e-9;
 const TOUCHES: f64 = 1e-6;
 const BESIDE: f64 = 1e-2;
 
-/// Zeros closer than this \[rad\] to the end of the turn count as its start: rounding must not decide.
+/// Zeros closer than this \[rad\] to the end of the revolution count as its start: rounding must not decide.
 const WRAP: f64 = 1e-7;
 
 impl Plan {
@@ -200,7 +200,7 @@ impl<R: Real> Machine<'_, R> {
         }
     }
 
-    /// Ends of the smooth pieces of the turn of each lane: increasing from 0 to 2π.
+    /// Ends of the smooth pieces of the revolution of each lane: increasing from 0 to 2π.
     #[inline(always)]
     pub fn breaks(&self, m: &mut Motion<R>) -> Vec<Vec<f64>> {
         let mut lanes: Vec<Vec<f64>> = vec![vec![0.0]; R::LANES];

@@ -20,7 +20,7 @@ use std::f64::consts::TAU;
 /// What a law needs to know of the machine at one crank angle.
 #[derive(Clone, Copy, Debug)]
 pub struct Given<R> {
-    /// Crank angle within the turn.
+    /// Crank angle within the revolution.
     phi: R,
     p: Vec2<R>,
     d1: Vec2<R>,
@@ -100,7 +100,7 @@ impl<R: Real> Given<R> {
     }
 }
 
-/// The crank angle within the turn, 0 to 2π, which a formula knows.
+/// The crank angle within the revolution, 0 to 2π, which a formula knows.
 #[inline(always)]
 fn within_turn<R: Real>(phi: R) -> R {
     phi.map(

@@ -1,7 +1,7 @@
-//! What the lanes of a turn hold: machines side by side, or the steps of one machine in a row.
+//! What the lanes of a revolution hold: machines side by side, or the steps of one machine in a row.
 //!
 //! Everything inside a step is the same for both. They differ where steps meet: in the recurrence from step
-//! to step, in sums over the turn, and in what follows a step.
+//! to step, in sums over the revolution, and in what follows a step.
 
 use crate::kernel::real::Real;
 
@@ -33,7 +33,7 @@ impl Layout {
         }
     }
 
-    /// A sum over bundles made one over the turn.
+    /// A sum over bundles made one over the revolution.
     #[inline(always)]
     pub fn total<R: Real>(self, sum: R) -> R {
         match self {
@@ -42,7 +42,7 @@ impl Layout {
         }
     }
 
-    /// A maximum over bundles made one over the turn.
+    /// A maximum over bundles made one over the revolution.
     #[inline(always)]
     pub fn highest<R: Real>(self, value: R) -> R {
         match self {
@@ -51,14 +51,14 @@ impl Layout {
         }
     }
 
-    /// A minimum over bundles made one over the turn.
+    /// A minimum over bundles made one over the revolution.
     #[inline(always)]
     pub fn lowest<R: Real>(self, value: R) -> R {
         -self.highest(-value)
     }
 
     /// Solves `δ_{k+1} = growth_k δ_k + defect_k` with `δ_n = δ_0`. Returns all δ, and the product of the
-    /// growths: the derivative of the turn-to-turn map.
+    /// growths: the derivative of the return map.
     #[inline(always)]
     pub fn close<R: Real>(self, growth: &[R], defect: &[R]) -> (Vec<R>, R) {
         match self {

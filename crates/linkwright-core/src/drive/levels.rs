@@ -87,7 +87,7 @@ impl<R: Real> Turn<R> {
         may
     }
 
-    /// The least of some quantities over the turn.
+    /// The minimum of some quantities over the revolution.
     #[inline(always)]
     fn bottom(&self) -> Bottom<R> {
         let infinity = R::splat(f64::INFINITY);
@@ -108,7 +108,7 @@ impl<R: Real> Turn<R> {
         }
     }
 
-    /// Work over the turn that drive and loads leave at a level of energy \[J\], zero where it is noise.
+    /// Work over the revolution that drive and loads leave at a level of energy \[J\], zero where it is noise.
     #[inline(always)]
     fn torque_left(&self, machine: &Machine<'_, R>, level: R) -> R {
         let zero = R::splat(0.0);
@@ -134,7 +134,7 @@ impl<R: Real> Turn<R> {
     }
 }
 
-/// The least over a turn of u, kinetic energy, 1/J and viscous coefficient.
+/// The minimum over a revolution of u, kinetic energy, 1/J and viscous coefficient.
 struct Bottom<R> {
     u: R,
     energy: R,

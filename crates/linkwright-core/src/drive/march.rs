@@ -1,6 +1,6 @@
-//! All motions over one turn, from the fastest down: which repeat, and whether any does.
+//! All motions over one revolution, from the fastest down: which repeat, and whether any does.
 //!
-//! The equation has one unknown u over φ, so motions from different starts never cross: the turn-to-turn map
+//! The equation has one unknown u over φ, so motions from different starts never cross: the return map
 //! P is increasing. Three things follow.
 //!
 //! * A motion that starts too fast to repeat, P(u) < u, slows down turn by turn, and whatever repeats lies
@@ -24,14 +24,14 @@ use crate::linkage::motion::Motion;
 /// about the square of that.
 const TAIL: f64 = 1e-5;
 
-/// Longest step: a 24th of the turn.
+/// Longest step: a 24th of the revolution.
 const LONGEST: usize = 24;
 
 /// A step shorter than this \[rad\], or a u below this share of that at the working speed, is rest.
 const REST_STEP: f64 = 1e-9;
 const REST: f64 = 1e-10;
 
-/// Most steps of a turn.
+/// Most steps of a revolution.
 const STEPS_MAX: usize = 20_000;
 
 /// Turns that may be marched through before the search is given up.
@@ -75,7 +75,7 @@ const LEAP: f64 = 0.85;
 /// How far behind the place that Newton expects the next start lies, so that what repeats lies between.
 const BEHIND: f64 = 0.1;
 
-/// A motion through one turn.
+/// A motion through one revolution.
 #[derive(Clone, Debug)]
 struct Revolution {
     start: f64,
@@ -101,7 +101,7 @@ pub struct Sliding {
 pub struct Repeated {
     /// Its steps.
     pub pieces: Vec<Piece>,
-    /// Derivative of the end of the turn by its start.
+    /// Derivative of the end of the revolution by its start.
     pub growth: f64,
     /// Where it begins to slide along a jump of a law, if it does.
     pub slides: Option<Sliding>,
@@ -177,7 +177,7 @@ pub fn repeating(
 }
 
 impl Revolution {
-    /// What u gains over the turn.
+    /// What u gains over the revolution.
     fn gain(&self) -> f64 {
         self.end - self.start
     }
@@ -317,7 +317,7 @@ impl March<'_> {
         })
     }
 
-    /// The motion from a start through one turn.
+    /// The motion from a start through one revolution.
     fn revolution(&mut self, start: f64) -> Result<Revolution, NoMotion> {
         self.turns += 1;
         if self.turns > TURNS_MAX {

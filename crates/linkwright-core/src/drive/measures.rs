@@ -1,4 +1,4 @@
-//! Integrals over a turn: its duration, work, and the torque of the motor.
+//! Integrals over a revolution: its duration, work, and the torque of the motor.
 //!
 //! Source of δ, H, k_p: paper 1, equations (13)–(15).
 
@@ -9,10 +9,10 @@ use crate::kernel::branch::OnBranch;
 use crate::kernel::radau::{B, S};
 use crate::kernel::real::Real;
 
-/// Integrals over a turn, by the quadrature of the steps (order 9).
+/// Integrals over a revolution, by the quadrature of the steps (order 9).
 #[derive(Clone, Copy, Debug)]
 pub struct Totals<R> {
-    /// Duration of the turn \[s\].
+    /// Duration of the revolution \[s\].
     pub period: R,
     /// Work of the motor at its shaft \[J\].
     pub motor_work: R,
@@ -26,12 +26,12 @@ pub struct Totals<R> {
     pub torque_rms: R,
 }
 
-/// What is integrated over a turn: time, work of the motor, work at the crank, work of the loads \[J\], and
+/// What is integrated over a revolution: time, work of the motor, work at the crank, work of the loads \[J\], and
 /// the motor's torque and its square over time.
 pub const INTEGRALS: usize = 6;
 
 impl<R: Real> Machine<'_, R> {
-    /// Torque of the motor at its shaft, the same at the crank, and resisting torque, at a stage \[N m\].
+    /// Torque of the motor at its shaft, the same at the crank, and load torque, at a stage \[N m\].
     #[inline(always)]
     pub fn torques(&self, step: &Step<R>, given: &[Given<R>], stage: usize) -> [R; 3] {
         let (row, own) = (&step.rows[stage], self.given_at(given, stage));
@@ -74,7 +74,7 @@ impl<R: Real> Machine<'_, R> {
 }
 
 impl<R: Real> Totals<R> {
-    /// From the integrals over a turn.
+    /// From the integrals over a revolution.
     #[inline(always)]
     fn new(layout: Layout, sums: [R; INTEGRALS]) -> Self {
         let mut totals = sums;
@@ -89,7 +89,7 @@ impl<R: Real> Totals<R> {
 }
 
 impl<R: Real> Turn<R> {
-    /// Integrals over the turn.
+    /// Integrals over the revolution.
     #[inline(always)]
     pub fn totals(&self, machine: &Machine<'_, R>) -> Totals<R> {
         let mut sums = [R::splat(0.0); INTEGRALS];

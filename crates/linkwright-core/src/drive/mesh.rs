@@ -99,7 +99,7 @@ impl<R: Real> Turn<R> {
     }
 }
 
-/// Steps of a turn.
+/// Steps of a revolution.
 #[derive(Clone, Debug)]
 pub struct Mesh {
     /// Ends of the steps from 0 to 2π.

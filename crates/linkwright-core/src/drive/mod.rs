@@ -9,13 +9,13 @@
 //! | [`force_elements`] | loads of the reduction in a loop of their own: springs by a curve, gas springs, dampers, … |
 //! | [`law`] | loads by formulas and tables that depend on speed or time |
 //! | [`kinks`] | where the reduced machine is not smooth |
-//! | [`layout`] | what the lanes of a turn hold: machines or steps |
+//! | [`layout`] | what the lanes of a revolution hold: machines or steps |
 //! | [`cycle`] | steady motion on one mesh, in any lanes |
 //! | [`mesh`], [`check`] | steps of one machine's turn; the error in each, measured |
 //! | [`events`] | kinks and jumps at angles that depend on the motion |
-//! | [`reading`], [`measures`], [`extremes`] | curves; work and torque of a turn; its extremes |
+//! | [`reading`], [`measures`], [`extremes`] | curves; work and torque of a revolution; its extremes |
 //! | [`levels`] | whether a machine may have other periodic motions than one that is known |
-//! | [`march`] | all motions over one turn, from the fastest down: which repeat, and whether any does |
+//! | [`march`] | all motions over one revolution, from the fastest down: which repeat, and whether any does |
 //! | [`steady`] | steady motion of one machine to a wanted accuracy |
 //! | [`gradient`] | derivatives of steady motion by the numbers of the machine |
 //! | [`transient`] | motion in time from given angle and speed, with its events |

@@ -1,4 +1,4 @@
-//! Motions of many machines at many angles: rows or pieces of the turn over threads, angles into lanes.
+//! Motions of many machines at many angles: rows or pieces of the revolution over threads, angles into lanes.
 //!
 //! What is asked for is found along the chains that lead to it ([`crate::linkage::chain`]) where there are such, else the
 //! whole mechanism is placed.

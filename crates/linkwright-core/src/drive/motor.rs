@@ -42,7 +42,7 @@ pub struct Span {
     pub is_level: bool,
 }
 
-/// The drive line: motor, gearbox, and the inertia that turns with the crank.
+/// The driveline: motor, gearbox, and the inertia that turns with the crank.
 #[derive(Clone, Debug)]
 pub struct Drive {
     pub motor: Motor,
@@ -56,7 +56,7 @@ pub struct Drive {
     pub inertia: Slot,
     /// Crank speed at which the search for steady motion starts \[rad/s\].
     pub speed_start: Slot,
-    /// Tables of resisting torque over crank speed.
+    /// Tables of load torque over crank speed.
     pub speed_loads: Vec<usize>,
 }
 
@@ -91,7 +91,7 @@ impl Drive {
         motor_torque * N::lift(q[self.ratio]) * factor
     }
 
-    /// Resisting torque of loads over speed \[N m\] at crank speed ω.
+    /// Load torque of loads over speed \[N m\] at crank speed ω.
     #[inline(always)]
     pub fn speed_load<N: Real>(&self, tables: &[Table], omega: N) -> N {
         let mut sum = N::splat(0.0);

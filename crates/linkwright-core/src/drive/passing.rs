@@ -34,7 +34,7 @@ pub(super) struct Passing {
 }
 
 impl Passing {
-    /// A row from its solution on a mesh without kinks; `breaks` are the ends of the smooth pieces of its turn.
+    /// A row from its solution on a mesh without kinks; `breaks` are the ends of the smooth pieces of its revolution.
     pub(super) fn new(row: usize, pieces: Vec<Piece>, breaks: &[f64], speeds: &[f64], n: usize) -> Self {
         let mut passages: Vec<(f64, f64)> = Vec::new();
         for u in speeds.iter().map(|speed| 0.5 * speed * speed) {

@@ -1,4 +1,4 @@
-//! The solution between the steps of a turn: state of the machine at any angle, and curves over the turn.
+//! The solution between the steps of a revolution: state of the machine at any angle, and curves over the revolution.
 //!
 //! From the start of the step that an angle lies in, a step of its own leads to the angle
 //! ([`Machine::advance`]): what is read has the order of the method, is stiffly stable like it, and is what
@@ -39,7 +39,7 @@ pub struct State<R> {
     pub motor_torque: R,
     /// Torque of the motor at the crank, through the gearbox \[N m\].
     pub drive_torque: R,
-    /// Resisting torque at the crank \[N m\].
+    /// Load torque at the crank \[N m\].
     pub load_torque: R,
     /// Reduced inertia \[kg m²\].
     pub J: R,
@@ -69,7 +69,7 @@ impl<R: Real> Machine<'_, R> {
     }
 }
 
-/// Curves over the turn at given angles (from 0 to 2π): each list as long as `phi`.
+/// Curves over the revolution at given angles (from 0 to 2π): each list as long as `phi`.
 #[derive(Clone, Debug, Default)]
 pub struct Curves {
     pub time: Vec<f64>,

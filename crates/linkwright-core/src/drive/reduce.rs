@@ -14,7 +14,7 @@ use crate::kernel::plane::{Angle, Place, Vec2};
 use crate::kernel::real::Real;
 use crate::linkage::motion::{Motion, on_link, stretch};
 
-/// The machine reduced to the crank at one angle. The resisting torque at speed ω is
+/// The machine reduced to the crank at one angle. The load torque at speed ω is
 /// `load + sense·dry + viscous·ω`, with `sense` the direction of rotation.
 #[derive(Clone, Copy, Debug)]
 pub struct Reduction<R> {
@@ -22,9 +22,9 @@ pub struct Reduction<R> {
     pub J: R,
     /// dJ_red/dφ \[kg m²/rad\]; zero at order 1.
     pub J_d1: R,
-    /// Resisting torque of loads that do not ask for the direction \[N m\].
+    /// Load torque of loads that do not ask for the direction \[N m\].
     pub load: R,
-    /// Resisting torque of dry loads, not negative when they are true resistances \[N m\].
+    /// Load torque of dry loads, not negative when they are true resistances \[N m\].
     pub dry: R,
     /// Viscous coefficient \[N m s/rad\].
     pub viscous: R,

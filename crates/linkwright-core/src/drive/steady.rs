@@ -1,15 +1,15 @@
 //! Steady motion of one machine to a wanted accuracy.
 //!
-//! The turn is solved on a mesh, the error of every step is measured ([`crate::drive::check`]), and steps that err
+//! The revolution is solved on a mesh, the error of every step is measured ([`crate::drive::check`]), and steps that err
 //! too much are made shorter, until none does. Where the motor's or gearbox's characteristic has a kink at
 //! some speed, the angles at which the motion passes it become ends of steps. The accuracy that is reported
 //! is what was measured.
 //!
-//! Newton over the whole turn from one constant speed finds the motion of all but a few machines. Where it
+//! Newton over the whole revolution from one constant speed finds the motion of all but a few machines. Where it
 //! fails, or finds a motion from which the machine departs, or one that may not be the only one
-//! ([`crate::drive::levels`]), the turn is marched through instead ([`crate::drive::march`]): that finds all motions that
+//! ([`crate::drive::levels`]), the revolution is marched through instead ([`crate::drive::march`]): that finds all motions that
 //! repeat, or shows that none does. The fastest is the answer: it draws in every faster start. The others are
-//! told.
+//! reported.
 
 use crate::drive::cycle::{Machine, Turn, divide};
 use crate::drive::events::{Events, Passage};
@@ -29,7 +29,7 @@ use crate::linkage::motion::Motion;
 /// Steps of the first mesh for an accuracy of 1e-8 or more.
 const FIRST: f64 = 24.0;
 
-/// Most steps of a turn.
+/// Most steps of a revolution.
 const STEPS_MAX: usize = 12_288;
 
 /// Most meshes. Some make steps at least half as long, and steps behind a kink shorter at once; some place a
@@ -54,7 +54,7 @@ pub struct Steady {
     pub marks: Vec<Mark>,
     /// Where the motion passes kinks that depend on it: ends of steps.
     pub passages: Vec<Passage>,
-    /// Derivative of the turn-to-turn map.
+    /// Derivative of the return map.
     pub multiplier: f64,
     /// Extremes.
     pub extremes: Extremes<f64>,
@@ -82,13 +82,13 @@ pub struct Rivals {
 /// Another motion of the machine that repeats.
 #[derive(Clone, Copy, Debug)]
 pub struct Other {
-    /// Least speed of the crank \[rad/s\].
+    /// Minimum speed of the crank \[rad/s\].
     pub speed_min: f64,
-    /// Greatest speed of the crank \[rad/s\].
+    /// Maximum speed of the crank \[rad/s\].
     pub speed_max: f64,
-    /// Duration of the turn \[s\].
+    /// Duration of the revolution \[s\].
     pub period: f64,
-    /// Derivative of the turn-to-turn map: the machine departs from the motion above 1.
+    /// Derivative of the return map: the machine departs from the motion above 1.
     pub multiplier: f64,
 }
 
@@ -126,7 +126,7 @@ impl From<NoMotion> for Failure {
 /// Another motion counts as the same if their u at φ = 0 differ by less than this share.
 const SAME: f64 = 1e-5;
 
-/// Accuracy to which other motions are told.
+/// Accuracy to which other motions are reported.
 const TOLD: f64 = 1e-7;
 
 /// Solves for the steady motion with relative accuracy `accuracy`.
@@ -247,7 +247,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// The search from a marched turn on: for the answer, or for another motion, which is only told.
+    /// The search from a marched revolution on: for the answer, or for another motion, which is only reported.
     fn from(&self, motion: &Repeated, told: bool) -> Self {
         let mut edges: Vec<f64> = motion.pieces.iter().map(|piece| piece.phi).collect();
         edges.push(std::f64::consts::TAU);

@@ -57,7 +57,7 @@ pub struct Chain {
     end: Stage,
 }
 
-/// What is found at the end.
+/// What is computed at the end.
 enum Found<R> {
     Point(Place<R>),
     Link(Heading<R>),

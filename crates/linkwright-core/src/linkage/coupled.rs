@@ -70,8 +70,8 @@ pub struct Runner {
     pub place: Sum,
 }
 
-/// The continuous angle of a link, kept as a slide: `winding` turns a turn of the crank, and about that never
-/// farther than half a turn from `centre`.
+/// The continuous angle of a link, kept as a slide: `winding` revolutions per revolution of the crank, and about that never
+/// farther than half a revolution from `centre`.
 #[derive(Clone, Copy, Debug)]
 pub struct AngleOf {
     pub link: usize,

@@ -65,7 +65,7 @@ impl ChangePoint {
     }
 
     /// Sine and cosine of the distance from it, and the size of the sine where the cosine is positive: the opposite
-    /// side of the turn has the same sine, and is put out of reach.
+    /// half of the circle has the same sine, and is put out of reach.
     #[inline(always)]
     fn distance<R: Real>(&self, q: &[R], angle: Angle<R>) -> [R; 3] {
         let sine = angle.sin * q[self.cos] - angle.cos * q[self.sin];
@@ -130,7 +130,7 @@ fn near<R: Real>(series: &[Slot], q: &[R], delta: R) -> Series<R> {
 }
 
 /// Sign of S where the root would be positive: that of `side` times the half-angle sines of all change points.
-/// Just after change point `passed` its sine is that of a small angle, times ±1 by the turn: the cosine.
+/// Just after change point `passed` its sine is that of a small angle, times ±1 by the half of the circle: the cosine.
 #[inline(always)]
 fn sign_of<R: Real>(
     change_points: &[ChangePoint],

@@ -67,7 +67,7 @@ pub struct Group {
     pub gap: usize,
     /// Where to start, x and y of each unknown over φ·`inverse_turns`.
     pub starts: Vec<Table>,
-    /// One over the turns of the crank after which the motion repeats.
+    /// One over the revolutions of the crank after which the motion repeats.
     pub inverse_turns: Slot,
     /// Whether the tables repeat; otherwise the group moves from their first knot to their last.
     pub repeats: bool,
@@ -225,7 +225,7 @@ impl Group {
         )
     }
 
-    /// The greatest of the given lengths, or one where there is none.
+    /// The maximum of the given lengths, or one where there is none.
     pub(super) fn length_scale(&self, q: &[f64]) -> f64 {
         let lengths = self.conditions.iter().filter_map(|condition| match *condition {
             Condition::Distance { length, .. } => Some(q[length]),
@@ -345,7 +345,7 @@ impl Group {
                         Condition::OnBar { point, line, bar, .. } => {
                             self.spread(point, a[0], row, system);
                             self.spread(line.through, a[0] * minus, row, system);
-                            // n·c by u: n = Z u with Z a turn and a factor, so Zᵀ c.
+                            // n·c by u: n = Z u with Z a rotation and a factor, so Zᵀ c.
                             let (cos, sin) =
                                 (q[line.cos] * q[bar.inverse_length], q[line.sin] * q[bar.inverse_length]);
                             let back = b[0].left() * minus;

@@ -32,7 +32,7 @@ const ROUNDING: f64 = 0.02;
 /// the radicand is small at any rate, and lengths are compared.
 const MEETS: f64 = 1e-13;
 
-/// Shares below which both count as undecided: the radicand, some 1e-16 of its greatest by rounding, has eight digits
+/// Shares below which both count as undecided: the radicand, some 1e-16 of its maximum by rounding, has eight digits
 /// left above.
 const UNDECIDED: f64 = 1e-8;
 
@@ -48,12 +48,12 @@ const LAST_TERM: f64 = 1e-15;
 /// Rounds of Newton on g′ = 0 from an angle of a fine grid: it doubles its digits in each.
 const ROUNDS: usize = 20;
 
-/// Angles of a first look over the turn, and the share of its greatest above which a radicand has room to spare all
+/// Angles of a first look over the revolution, and the share of its maximum above which a radicand has room to spare all
 /// round: one that falls to zero between two of these angles is a few ten-thousandths at the nearer one.
 const FEW: usize = 192;
 const AMPLE: f64 = 0.02;
 
-/// Angles of a fine look, and the share of its greatest below which the lowest of a parabola through three of them is
+/// Angles of a fine look, and the share of its maximum below which the lowest of a parabola through three of them is
 /// looked into.
 const MANY: usize = 720;
 const NEAR_ZERO: f64 = 1e-3;
@@ -101,7 +101,7 @@ impl Dyad {
         }
     }
 
-    /// What the radicand is measured against: its greatest value, and for links of very different length the
+    /// What the radicand is measured against: its maximum value, and for links of very different length the
     /// rounding of its factors.
     fn size(&self, q: &[f64]) -> f64 {
         match self {
@@ -124,7 +124,7 @@ struct Meeting {
     fold: Option<Fold>,
 }
 
-/// The radicand of a dyad over the turn.
+/// The radicand of a dyad over the revolution.
 struct OverTheTurn<'a> {
     look: &'a Look<'a>,
     g: &'a mut [f64],
@@ -172,7 +172,7 @@ impl Look<'_> {
         self.dyad.radicand(&q, &m)[0].c
     }
 
-    /// The radicand at angles spread evenly over the turn.
+    /// The radicand at angles spread evenly over the revolution.
     fn over_the_turn(&self, n: usize) -> Vec<f64> {
         let mut g = vec![0.0; n];
         in_lanes(OverTheTurn { look: self, g: &mut g });
@@ -285,7 +285,7 @@ impl Look<'_> {
     }
 }
 
-/// Where the links of a dyad come into line over the turn, by crank angle; nothing where they clearly do not, and for
+/// Where the links of a dyad come into line over the revolution, by crank angle; nothing where they clearly do not, and for
 /// an element that is no such dyad.
 pub fn in_line(mechanism: &Mechanism, element: usize, q: &[f64]) -> Vec<InLine> {
     let Some(dyad) = Dyad::of(mechanism, element) else {
@@ -297,7 +297,7 @@ pub fn in_line(mechanism: &Mechanism, element: usize, q: &[f64]) -> Vec<InLine> 
     }
     let mut found: Vec<InLine> = look.lowest().into_iter().filter_map(|near| look.near(near)).collect();
     found.sort_by(|a, b| a.phi.total_cmp(&b.phi));
-    // Two angles of the grid beside one minimum; the first and the last may meet across the turn.
+    // Two angles of the grid beside one minimum; the first and the last may meet across the revolution.
     found.dedup_by(|a, b| a.phi - b.phi < SAME);
     if found.len() > 1 && found[0].phi + TAU - found[found.len() - 1].phi < SAME {
         found.pop();

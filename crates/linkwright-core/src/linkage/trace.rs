@@ -17,12 +17,12 @@ pub struct Path {
     pub phi: Vec<f64>,
     /// x and y of each unknown at each of them.
     pub places: Vec<Vec<f64>>,
-    /// Whether the motion came back to its first position, after how many turns; otherwise it was followed
+    /// Whether the motion came back to its first position, after how many revolutions; otherwise it was followed
     /// to its limits, or to the most turns allowed.
     pub turns: Option<u32>,
 }
 
-/// Steps a turn that a group is followed with; between them its table is straight, wrong by some 2e-5 of a
+/// Steps a revolution that a group is followed with; between them its table is straight, wrong by some 2e-5 of a
 /// length, from where Newton needs three rounds.
 const STEPS: u32 = 360;
 

@@ -130,7 +130,7 @@ impl Builder {
         Ok(())
     }
 
-    /// Adds a resisting torque by a table over the speed of the crank.
+    /// Adds a load torque by a table over the speed of the crank.
     ///
     /// # Errors
     /// The table does not exist.

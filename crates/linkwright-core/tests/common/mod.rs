@@ -245,7 +245,7 @@ impl Builder {
     }
 
     /// A group of joints and the bars between points, followed from near the places of the joints at φ = 0; after
-    /// how many turns it repeats.
+    /// how many revolutions it repeats.
     pub fn group(&mut self, bars: &[(usize, usize, f64)], unknowns: &[usize], near: &[f64]) -> Option<u32> {
         let gap = self.gap();
         let inverse_turns = self.number(1.0);

@@ -1,4 +1,4 @@
-//! The drive line: `drive::motor` of the core, with the same names.
+//! The driveline: `drive::motor` of the core, with the same names.
 
 use linkwright_core::drive::motor::{self, Motor as CoreMotor};
 use linkwright_core::plan::builder::Builder;

@@ -6,7 +6,7 @@
 //! | `parts` | guides, sums, bars, change points: what elements consist of |
 //! | `elements` | elements of the mechanism |
 //! | `loads` | bodies and loads |
-//! | `drive` | motor and drive line |
+//! | `drive` | motor and driveline |
 //! | `train` | masses, links and torques of a train in motion |
 
 pub(crate) mod drive;

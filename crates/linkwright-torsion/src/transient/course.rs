@@ -78,7 +78,7 @@ pub struct Course {
 /// Steps that stability would ask of the explicit method beyond which the implicit one is taken: a second or so of work.
 const STIFF: f64 = 200_000.0;
 
-/// Angle of a table over which a step may go, so that none is overlooked: a twelfth of its turn \[rad\].
+/// Angle of a table over which a step may go, so that none is overlooked: a twelfth of its revolution \[rad\].
 const REACH: f64 = 0.5;
 
 /// Fastest swing that implicit steps are asked to follow \[rad/s\]: 1.6 kHz, the twelfth harmonic of ignition in an engine of

@@ -1,4 +1,4 @@
-//! Largest and least torque of each link and speed of each mass, with their times, between the ends of steps as well.
+//! Maximum and minimum torque of each link and speed of each mass, with their times, between the ends of steps as well.
 //!
 //! Values and their rates at both ends of a step tell where the cubic between them turns; where that could be a new extreme,
 //! the method's own polynomial is asked.
@@ -7,7 +7,7 @@ use super::equilibrium::Equilibrium;
 use super::rates::Rates;
 use super::stepper::Stepper;
 
-/// Largest value, its time, least value, its time.
+/// Largest value, its time, minimum value, its time.
 pub type Extreme = [f64; 4];
 
 /// Share of a cubic's rise above the ends by which it may miss.

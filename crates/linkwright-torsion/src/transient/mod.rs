@@ -11,7 +11,7 @@
 //! | [`matrix`], [`implicit`] | steps of order 5, whatever the stiffness |
 //! | [`equilibrium`] | torques of shafts as good as rigid |
 //! | [`rounding`] | what the rounding of angles leaves of torques |
-//! | [`extremes`] | largest and least torques and speeds, with their times |
+//! | [`extremes`] | Maximum and minimum torques and speeds, with their times |
 //! | [`course`] | the motion from event to event, sampled |
 
 pub mod course;

@@ -72,7 +72,7 @@ const SLOWEST: f64 = 1.0;
 /// Share of the largest twist, torque or speed so far below which the accuracy is no longer relative to the number itself.
 const SMALL: f64 = 0.01;
 
-/// Torque of a shaft to which its accuracy is relative, from its own size and the greatest of any \[N m\].
+/// Torque of a shaft to which its accuracy is relative, from its own size and the maximum of any \[N m\].
 pub fn torque_counted(size: f64, greatest: f64) -> f64 {
     size.max(SMALL * greatest).max(TORQUE_FLOOR)
 }

@@ -64,7 +64,7 @@ impl System {
         self.inertia.is_empty()
     }
 
-    /// Whether it can turn as a whole.
+    /// Whether it can rotate as a rigid body.
     pub fn is_free(&self) -> bool {
         self.links.iter().all(|link| !link.ends.contains(&self.len()))
     }

@@ -128,7 +128,7 @@ def _mechanism(machine: Machine) -> list[tuple[str, str]]:
     """The names of the elements, kind by kind."""
     from linkwright.linkages.model.topology import TABLES
 
-    # A cam is told as such, not as the driver that it is in the whole mechanism.
+    # A cam is listed as such, not as the driver that it is in the complete mechanism.
     cams = machine.mechanism.cams
     known = {
         table: [name for name in getattr(_whole(machine), table) if name not in cams] for table in TABLES

@@ -24,7 +24,7 @@ from linkwright.cam.dynamics.follower_load import CamCourse
 
 Floats = NDArray[np.float64]
 
-# Share of a turn within which the first and the last angle are one revolution apart.
+# Share of a revolution within which the first and the last angle are one revolution apart.
 _TURN = 1e-9
 
 

@@ -211,7 +211,7 @@ def _joined(ends: Floats, pieces: Floats, multiplicity: NDArray[np.intp], degree
         ]
     )
     arguments = np.lib.stride_tricks.sliding_window_view(knots[1:-1], degree)
-    # The piece taken is the longest between the arguments: that goes least beyond its own ends.
+    # The piece taken is the longest between the arguments: its extrapolation is smallest.
     first = np.searchsorted(ends, arguments[:, 0], "right") - 1
     last = np.searchsorted(ends, arguments[:, -1], "left")
     first = np.minimum(first, len(pieces) - 1)

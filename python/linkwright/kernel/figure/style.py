@@ -21,8 +21,8 @@ P = ParamSpec("P")
 R = TypeVar("R")
 Floats = NDArray[np.float64]
 
-# Okabe and Ito's colours, told apart by all kinds of colour vision (jfly.uni-koeln.de/color, 2008); yellow is
-# left out, it is too faint for lines on white, and the purple is darker for the same reason.
+# Okabe and Ito's colours, distinguished by all kinds of colour vision (jfly.uni-koeln.de/color, 2008); yellow
+# is left out, it is too faint for lines on white, and the purple is darker for the same reason.
 BLUE = "#0072b2"
 RED = "#d55e00"
 GREEN = "#009e73"

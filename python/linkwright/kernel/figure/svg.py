@@ -105,7 +105,7 @@ def inline_svg(figure: Figure, name: str, text: str) -> str:
     return drawn.replace("xlink:href", "href")
 
 
-# Points of a curve that a page reads, and steps across the axes in which they are told.
+# Points of a curve that a page reads, and steps across the axes in which they are given.
 _POINTS, _STEPS = 241, 10_000
 
 

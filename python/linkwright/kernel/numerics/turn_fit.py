@@ -29,7 +29,7 @@ Floats = NDArray[np.float64]
 # Values of k quantities at crank angles (n,), shape (k, n).
 Quantities = Callable[[Floats], Floats]
 
-# Nodes of a piece: fewer ask for more pieces, more for longer ones; the work is least between 12 and 24.
+# Nodes of a piece: fewer ask for more pieces, more for longer ones; the work is smallest between 12 and 24.
 _NODES = 16
 
 # Pieces of the revolution to begin with, so that a peak of some ten degrees is not between the first nodes.

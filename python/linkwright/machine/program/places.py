@@ -31,7 +31,7 @@ class Continuous(NamedTuple):
     link: int
     winding: int
     centre: int
-    # The turn is the one in which the angle at the start is nearest to this.
+    # The revolution is the one in which the angle at the start is nearest to this.
     near: Any = 0.0
 
 

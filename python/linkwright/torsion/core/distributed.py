@@ -208,7 +208,7 @@ def _normal(
     for rod in fine:
         first, second = (0.0 if end == HELD else masses[end] for end in referred.ends[rod.shaft])
         inner = len(rod.stiffness) - 1
-        # A train that turns as a whole has no stations of its own.
+        # A train that rotates as a rigid body has no stations of its own.
         inside = angles[after : after + inner] if omega else np.full(inner, first)
         shapes.append(RodShape(rod, np.concatenate([[first], inside, [second]])))
         kinetic += float(energies(rod, omega, shapes[-1].angles).kinetic.sum())

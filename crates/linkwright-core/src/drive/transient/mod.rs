@@ -42,7 +42,7 @@ pub struct Start {
     pub omega: f64,
     /// Longest time \[s\].
     pub duration: f64,
-    /// Most turns of the crank.
+    /// Most revolutions of the crank.
     pub turns: f64,
     /// Relative accuracy of a step, at its end and on the way there.
     pub accuracy: f64,
@@ -149,7 +149,7 @@ struct Accepted {
 const STABLE: f64 = 4.0;
 
 /// What an implicit step must have of it at least. An explicit step at the limit of its stability leaves a disturbance, for which
-/// the first implicit steps must be as short; they are to go on until it has died, or the two methods take turns for ever.
+/// the first implicit steps must be as short; they are to go on until it has died, or the two methods take turns without end.
 const STIFF: f64 = 1.0;
 
 /// Steps after which it is looked again which method is to go on: a look costs one evaluation, a step 17.

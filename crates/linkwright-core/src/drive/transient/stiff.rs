@@ -8,7 +8,7 @@
 //! ω_i = ω + h Σ a_ij ε(t_j, φ_j, ω_j),   φ_i = φ + h Σ a_ij ω_j
 //! ```
 //!
-//! Newton takes ∂ε/∂ω exactly and leaves out ∂ε/∂φ: a correction of the speed by δ turns the crank by h δ, little of a turn.
+//! Newton takes ∂ε/∂ω exactly and leaves out ∂ε/∂φ: a correction of the speed by δ turns the crank by h δ, little of a revolution.
 //!
 //! A step is done once as a whole and once in two halves. The halves are what is returned; the two differ by what the
 //! whole errs, 2⁶ times as much as the halves, since the quintic through the stages errs with h⁶.

@@ -253,7 +253,7 @@
     state.textContent = scene.true_speed ? `${words}   ω = ${speed.toPrecision(4)} ${unit}` : words;
   }
 
-  // One turn in two seconds at the middle of the slider, or in its own time if that is longer and still watchable.
+  // One revolution in two seconds at the middle of the slider, or in its own time if that is longer and still watchable.
   const usual = Math.min(Math.max(duration, 2), 8);
   let time = 0, way = 1, before = null;
   const still = matchMedia("(prefers-reduced-motion: reduce)").matches;

@@ -29,7 +29,7 @@ _POINTS = 6
 # Panels of the closed cycle. With a compression ratio of 20 the pressure's nearest pole is some 25 deg away
 # from the dead centre, so six points leave 1e-10 of it.
 _CLOSED = math.radians(6.0)
-# Panels of the gas exchange: order 24 turns by less than a third of its period from point to point.
+# Panels of the gas exchange: order 24 advances by less than a third of its period from point to point.
 _OPEN = math.radians(10.0)
 
 
