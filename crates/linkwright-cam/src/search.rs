@@ -84,7 +84,7 @@ impl Chunk<'_> {
         let lift: R = load(cams.lift, first);
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
         // Fractions are compared crosswise, and divided once in the end: the largest |tan γ| so far, where one whose lower
-        // part is not positive is infinite, and the largest and the least bend, of which the first is none.
+        // part is not positive is infinite, and the largest and the smallest bend, of which the first is none.
         let (mut over, mut under) = (zero, one);
         let (mut most, mut least) = ((-one, zero), (one, zero));
         for s in self.lifts {

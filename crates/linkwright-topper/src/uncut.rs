@@ -107,7 +107,7 @@ impl Uncut {
         );
     }
 
-    /// Areas that are left of the heads beyond the end behind and that ahead, seen along e: those of each smooth stretch, with
+    /// Areas of the heads left uncut beyond the rear and the front end, along e: those of each smooth stretch, with
     /// the head's row.
     #[inline(always)]
     pub fn areas<R: Real>(&mut self, edge: &ShortEdge<'_>, mut take: impl FnMut(usize, [f64; 2])) {

@@ -123,7 +123,7 @@ const SIGNS: [f64; 2] = [1.0, -1.0];
 /// The top of a parabola through three samples: where, how high, and the sample in the middle.
 type Top = (f64, f64, f64);
 
-/// Samples all waves at even places; their greatest and their least.
+/// Samples all waves at even places; their maximum and minimum.
 #[inline(always)]
 fn sample<R: Real>(c: &[(R, R)], table: &[[[f64; 2]; BLOCK]], quarter: usize, samples: &mut [f64]) -> [R; 2] {
     let places = 4 * quarter;

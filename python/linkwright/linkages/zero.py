@@ -119,7 +119,7 @@ def _end_at(machine: Machine, output: ElementMotion, end: str) -> str:
     name = next((name for name in (output.output, output.element) if name in compiled.points), None)
     if name is None:
         raise InputError(f"zero: {output.output} has no point whose height tells its {end}; use outer, inner")
-    # At a limit of the crank the mechanism has a position, but no velocity.
+    # At a limit of crank rotation the mechanism has a position, but no velocity.
     ends = np.array([output.low_angle, output.high_angle])
     low, high = kinematics_of(compiled, ends, [("points", name)]).points[name].position[:, 1]
     travel = output.high - output.low

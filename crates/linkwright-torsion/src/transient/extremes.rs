@@ -107,7 +107,7 @@ impl Extremes {
             let bold = value + DOUBT * (value - ends);
             bold > most || bold < least
         };
-        // The cubic lies between the least and the greatest of its coefficients over Bernstein's polynomials.
+        // The cubic lies between the minimum and the maximum of its coefficients over Bernstein's polynomials.
         let inner = [before.0 + h / 3.0 * before.1, now.0 - h / 3.0 * now.1];
         let may_be = inner.into_iter().any(|value| !value.is_finite() || is_new(value));
         may_be.then(|| turns(before, now, h).filter(move |turn| is_new(turn.value))).into_iter().flatten()

@@ -41,7 +41,7 @@ impl Periodic {
     fn piece(&self, angle: f64) -> (&[f64; 6], f64) {
         let turns = angle * self.inverse_period;
         let place = (turns - turns.floor()) * self.pieces.len() as f64;
-        // Just below a whole turn rounding may lead to the knot after the last.
+        // Just below a whole revolution rounding may lead to the knot after the last.
         let (whole, last) = (place.floor(), self.pieces.len() - 1);
         let whole = if whole < last as f64 { whole } else { last as f64 };
         (&self.pieces[index(whole).min(last)], place - whole)

@@ -112,7 +112,7 @@ const NEAR: f64 = 1e-3;
 /// A step of the crank shorter than this \[rad\] may be due to a jump on which the motion is held.
 const SHORT: f64 = 1e-7;
 
-/// How near to a jump, as a share of u, steps that go to and fro across it leave the motion.
+/// How near to a jump, as a share of u, steps that go back and forth across it leave the motion.
 const NEAR_JUMP: f64 = 1e-5;
 
 /// Follows the motion until time, turns or an event end it.
