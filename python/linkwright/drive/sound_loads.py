@@ -19,7 +19,7 @@ Floats = NDArray[np.float64]
 _ANGLES = 720
 
 
-# How far, as a share of its speed, steps that go back and forth across a jump leave the motion from it; and the
+# How far, as a share of its speed, steps that go back and forth across a jump leave the motion; and the
 # share of a load that counts as a jump between both sides, far above what a slope makes of that.
 _NEAR, _JUMPS = 1e-5, 1e-4
 
