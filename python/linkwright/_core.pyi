@@ -690,12 +690,24 @@ class Load:
 
     @final
     class TorqueAngle(Load):
-        """A torque over the crank angle, against positive turning."""
+        """A torque over the crank angle, against positive turning, that repeats after some revolutions."""
 
-        __match_args__: Final = ("table",)
+        __match_args__: Final = ("table", "turns")
 
-        def __new__(cls, *, table: Table) -> Load.TorqueAngle: ...
+        def __new__(cls, *, table: Table, turns: int) -> Load.TorqueAngle: ...
         table: Final[Table]
+        turns: Final[int]
+
+    @final
+    class ForceAngle(Load):
+        """A force along a guide over the crank angle, that repeats after some revolutions."""
+
+        __match_args__: Final = ("slide", "table", "turns")
+
+        def __new__(cls, *, slide: int, table: Table, turns: int) -> Load.ForceAngle: ...
+        slide: Final[int]
+        table: Final[Table]
+        turns: Final[int]
 
     @final
     class TorqueSpeed(Load):
@@ -797,49 +809,55 @@ class Load:
     class FormulaOnSlide(Load):
         """A formula along a guide, of the point that slides."""
 
-        __match_args__: Final = ("formula", "slide", "point")
+        __match_args__: Final = ("formula", "slide", "point", "turns")
 
-        def __new__(cls, *, formula: Formula, slide: int, point: int) -> Load.FormulaOnSlide: ...
+        def __new__(cls, *, formula: Formula, slide: int, point: int, turns: int) -> Load.FormulaOnSlide: ...
         formula: Final[Formula]
         slide: Final[int]
         point: Final[int]
+        turns: Final[int]
 
     @final
     class FormulaOnPoint(Load):
         """A formula on a point in a fixed direction."""
 
-        __match_args__: Final = ("formula", "point", "cos", "sin")
+        __match_args__: Final = ("formula", "point", "cos", "sin", "turns")
 
-        def __new__(cls, *, formula: Formula, point: int, cos: int, sin: int) -> Load.FormulaOnPoint: ...
+        def __new__(
+            cls, *, formula: Formula, point: int, cos: int, sin: int, turns: int
+        ) -> Load.FormulaOnPoint: ...
         formula: Final[Formula]
         point: Final[int]
         cos: Final[int]
         sin: Final[int]
+        turns: Final[int]
 
     @final
     class FormulaAlong(Load):
         """A formula on a point in a direction that turns with a link."""
 
-        __match_args__: Final = ("formula", "point", "link", "cos", "sin")
+        __match_args__: Final = ("formula", "point", "link", "cos", "sin", "turns")
 
         def __new__(
-            cls, *, formula: Formula, point: int, link: int, cos: int, sin: int
+            cls, *, formula: Formula, point: int, link: int, cos: int, sin: int, turns: int
         ) -> Load.FormulaAlong: ...
         formula: Final[Formula]
         point: Final[int]
         link: Final[int]
         cos: Final[int]
         sin: Final[int]
+        turns: Final[int]
 
     @final
     class FormulaOnLink(Load):
         """A formula on a link, counter-clockwise."""
 
-        __match_args__: Final = ("formula", "link")
+        __match_args__: Final = ("formula", "link", "turns")
 
-        def __new__(cls, *, formula: Formula, link: int) -> Load.FormulaOnLink: ...
+        def __new__(cls, *, formula: Formula, link: int, turns: int) -> Load.FormulaOnLink: ...
         formula: Final[Formula]
         link: Final[int]
+        turns: Final[int]
 
 @final
 class Span:
@@ -938,6 +956,13 @@ class Plan:
     @property
     def has_laws(self) -> bool:
         """Whether loads depend on both angle and speed in their own way, or on time."""
+
+    @property
+    def turns(self) -> int:
+        """Revolutions of the crank after which all loads repeat."""
+
+    def over_turns(self, turns: int) -> Plan:
+        """The same over a cycle of which so many revolutions are a part too."""
 
     def without_conservative(self) -> Plan:
         """The same without loads that have a potential over the position of the mechanism."""

@@ -55,8 +55,10 @@ def test_motions_of_every_address(machine: Machine) -> None:
         alone = lw.motions(lw.replace(machine, {address: column[1]}), angles, points=points)
         # Sides and turns of angles are the first machine's; the numbers are the same to rounding.
         np.testing.assert_allclose(found[1], alone[0], rtol=1e-12, atol=1e-12, err_msg=address)
-    # The crank angle of given places, and in a cam's sections angle, lift and two shares of each.
-    assert refused == (9 if machine.mechanism.cams else 1)
+    # The crank angle of given places, the cycles of loads, and in a cam's sections angle, lift and two shares
+    # of each.
+    cycles = sum(hasattr(load, "cycle") for load in machine.loads.values())
+    assert refused == (9 if machine.mechanism.cams else 1) + cycles
 
 
 def _has_characteristic(machine: Machine) -> bool:

@@ -28,6 +28,7 @@ dry = { kind = "dry", on = "S", force = 50 }
 work = { kind = "force_position", on = "S", position = [0, 0.5], forward = [10, 90], return = [5, 5] }
 viscous = { kind = "viscous", on = "S", damping = 12 }
 shaft = { kind = "torque_angle", angle = [0, 2, 4], torque = [1, 3, 2] }
+gas = { kind = "force_angle", on = "S", angle = [0, 2, 4], force = [30, -50, 10] }
 fan = { kind = "torque_speed", speed = [0, 10], torque = [0.5, 2] }
 """,
     "four-bar with coupler point": _CRANK

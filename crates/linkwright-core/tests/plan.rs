@@ -142,11 +142,11 @@ fn bodies_loads_and_drive_hang_on_what_exists() {
     let missing = |what, value, made| Err(PlanError::Missing { what, value, made });
     assert_eq!(b.body(Body::Point { point: 3, mass: 0 }), missing("point", 3, 3));
     assert_eq!(b.load(Load::DrySlide { slide: 0, force: 0 }), missing("slide", 0, 0));
-    assert_eq!(b.load(Load::TorqueAngle { table: 0 }), missing("table", 0, 0));
+    assert_eq!(b.load(Load::TorqueAngle { table: 0, turns: 1 }), missing("table", 0, 0));
     let spring = ForceElement::TorsionSpring { link: 0, other: Some(1), stiffness: 0, cos: 0, sin: 0 };
     assert_eq!(b.force_element(spring), missing("link", 1, 1));
     let carrier = Carrier::Link { link: 0 };
-    assert_eq!(b.formula_load(FormulaLoad { formula: 0, carrier }), missing("formula", 0, 0));
+    assert_eq!(b.formula_load(FormulaLoad { formula: 0, carrier, turns: 1 }), missing("formula", 0, 0));
     let far = Formula::new(vec![Op::Number(4)]).expect("one number");
     assert_eq!(b.formula(far).map(|_| ()), missing("parameter", 4, 4));
     let motor = Motor::Table { table: 0 };
@@ -161,11 +161,32 @@ fn formulas_are_sorted_by_their_degree() {
     let square = vec![Op::Variable(Variable::PsiDot), Op::Power(2)];
     for ops in [vec![Op::Variable(Variable::Psi)], vec![Op::Variable(Variable::PsiDot)], square] {
         let formula = b.formula(Formula::new(ops).expect("a formula")).expect("no parameters");
-        b.formula_load(FormulaLoad { formula, carrier: Carrier::Link { link: 0 } }).expect("on the crank");
+        let carrier = Carrier::Link { link: 0 };
+        b.formula_load(FormulaLoad { formula, carrier, turns: 1 }).expect("on the crank");
     }
     let plan = b.into_plan(DRIVE).expect("a sound drive");
     assert!(matches!(plan.force_elements[..], [ForceElement::Formula(_), ForceElement::ViscousFormula(_)]));
     assert_eq!(plan.laws.len(), 1, "the square of a speed");
+}
+
+/// Loads over two and over three turns repeat together after six; a formula counts if it knows the angle.
+#[test]
+fn loads_repeat_together() {
+    let mut b = started();
+    let table = b.table(Table::new(&[0.0, 1.0], &[0.0, 1.0]).expect("a table"));
+    let none = PlanError::Missing { what: "turn", value: 0, made: 1000 };
+    assert_eq!(b.load(Load::TorqueAngle { table, turns: 0 }), Err(none));
+    b.load(Load::TorqueAngle { table, turns: 2 }).expect("two turns");
+    let carrier = Carrier::Link { link: 0 };
+    for (variable, turns) in [(Variable::Phi, 3), (Variable::Psi, 5)] {
+        let formula =
+            b.formula(Formula::new(vec![Op::Variable(variable)]).expect("a variable")).expect("sound");
+        b.formula_load(FormulaLoad { formula, carrier, turns }).expect("on the crank");
+    }
+    let plan = b.into_plan(DRIVE).expect("a sound drive");
+    assert_eq!(plan.turns, 6);
+    assert_eq!(plan.over_turns(4).map(|plan| plan.turns), Ok(12));
+    assert!(plan.over_turns(1001).is_err(), "too many");
 }
 
 /// What has a potential does no work over a closed cycle, and can be left off.
@@ -178,7 +199,7 @@ fn loads_with_a_potential_are_told() {
         Load::Force { point: 2, x: 0, y: 1 },
         Load::Spring { from: 0, to: 2, stiffness: 0, free_length: 1, preload: 2 },
         Load::DryPoint { point: 2, force: 0 },
-        Load::TorqueAngle { table },
+        Load::TorqueAngle { table, turns: 1 },
     ];
     loads.into_iter().try_for_each(|load| b.load(load)).expect("sound loads");
     let elements = [

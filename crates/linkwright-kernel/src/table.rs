@@ -1,6 +1,4 @@
-//! Tables: values at knots, straight lines between, end values held outside or repeated every revolution.
-
-use std::f64::consts::TAU;
+//! Tables: values at knots, straight lines between, end values held outside or repeated every period.
 
 /// A table of `y` over increasing `x`.
 #[derive(Clone, Debug)]
@@ -45,13 +43,13 @@ impl Table {
         between(x, (self.x[i], self.y[i]), (self.x[i + 1], self.y[i + 1]))
     }
 
-    /// Value and slope at angle `x` \[rad\], the table being repeated every revolution.
-    pub fn periodic(&self, x: f64) -> (f64, f64) {
+    /// Value and slope at `x`, the table being repeated every `period`.
+    pub fn periodic(&self, x: f64, period: f64) -> (f64, f64) {
         let n = self.x.len();
         let (first, last) = (self.x[0], self.x[n - 1]);
-        let x = first + (x - first).rem_euclid(TAU);
+        let x = first + (x - first).rem_euclid(period);
         if x >= last {
-            let closing = (first + TAU, self.y[0]);
+            let closing = (first + period, self.y[0]);
             return if closing.0 > last {
                 between(x, (last, self.y[n - 1]), closing)
             } else {
@@ -70,6 +68,7 @@ fn between(x: f64, a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::TAU;
 
     #[test]
     fn ends_are_held_and_turns_repeat() {
@@ -77,10 +76,12 @@ mod tests {
         assert_eq!(table.held(0.5), (2.0, 2.0), "between knots");
         assert_eq!(table.held(-1.0), (1.0, 0.0), "before the first");
         assert_eq!(table.held(9.0), (-1.0, 0.0), "after the last");
-        let (value, _) = table.periodic(0.5 + 3.0 * TAU);
+        let (value, _) = table.periodic(0.5 + 3.0 * TAU, TAU);
         assert!((value - 2.0).abs() < 1e-14, "three turns on: {value}");
-        let (closing, _) = table.periodic(-1e-12);
+        let (closing, _) = table.periodic(-1e-12, TAU);
         assert!((closing - 1.0).abs() < 1e-11, "meets the first knot: {closing}");
+        let (longer, _) = table.periodic(2.0 * TAU + 2.0, 2.0 * TAU);
+        assert!((longer - 1.0).abs() < 1e-14, "two turns are one period: {longer}");
     }
 
     #[test]

@@ -3,7 +3,7 @@
 | looked at | for | by |
 | --- | --- | --- |
 | mechanism | closes over the whole revolution, loads have values there | `require_turn` |
-| drive | masses and loads repeat, the motor drives, the machine starts | `require_one_turn`, `start_of` |
+| drive | masses and loads repeat, the motor drives, the machine starts | `over_whole_cycle`, `start_of` |
 | pumping unit | the crank rotates fully | `PolishedRod` |
 | rotator | the lever does as its regime asks | `rod_rotator` |
 | cams | undercut, crossed, locked, hollow, no room for a second follower | `cam_profile`, `cam_faults` |
@@ -29,7 +29,7 @@ from linkwright.drive.run_up import start_of
 from linkwright.drive.sound_loads import require_same_turns, require_turn
 from linkwright.kernel.errors import StartError
 from linkwright.kernel.findings import Findings
-from linkwright.linkages.closure import require_one_turn
+from linkwright.linkages.closure import over_whole_cycle
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine
 
@@ -122,7 +122,7 @@ def _mechanism(machine: Machine, findings: Findings) -> Iterator[str]:
 def _require_drive(machine: Machine, compiled: CompiledMachine) -> None:
     """Raise unless the motor drives, the revolution repeats, and the machine moves from its start."""
     drive = machine.drive
-    require_one_turn(compiled)
+    over_whole_cycle(compiled)
     require_same_turns(machine)
     if drive is None or isinstance(drive.motor, ConstantSpeedMotor):
         return

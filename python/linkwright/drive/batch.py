@@ -17,7 +17,7 @@ from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import array
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record
-from linkwright.linkages.closure import require_one_turn
+from linkwright.linkages.closure import over_whole_cycle
 from linkwright.machine.address import get, replace
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
@@ -70,6 +70,7 @@ class SteadyStates(Record):
         Floats, Label("root mean square torque of the motor", "M_rms", "N m", "Over time.")
     ]
     turns_swept: Annotated[int, About("Revolutions that the solver went through in all.")]
+    turns: Annotated[int, Label("revolutions of a cycle", "", "")] = 1
 
     @property
     def speed_mean_extremes(self) -> Annotated[Floats, Label("mean of the extreme speeds", "ω_m", "rad/s")]:
@@ -78,8 +79,8 @@ class SteadyStates(Record):
 
     @property
     def speed_mean_time(self) -> Annotated[Floats, Label("mean speed over time", "ω_m", "rad/s")]:
-        """2π/period."""
-        return 2 * np.pi / self.period
+        """Angle of a cycle over its duration."""
+        return 2 * np.pi * self.turns / self.period
 
     @property
     def unevenness(self) -> Annotated[Floats, Label("coefficient of speed fluctuation", "δ", "")]:
@@ -155,7 +156,7 @@ def steady_states(
             f"{', '.join(arrays)}: no effect on the steady motion of {machine.name}; vary an entry of the "
             "motor's characteristic, the mechanism, its bodies or its loads"
         )
-    require_one_turn(compiled)
+    compiled = over_whole_cycle(compiled)
     motions = compiled.steady_rows(accuracy)
     status, columns = motions.status, {name: getattr(motions, name) for name in COLUMNS}
     if not compiled.two_turns[0]:
@@ -164,7 +165,12 @@ def steady_states(
         status[longer] = int(Status.TWO_TURNS)
         for column in columns.values():
             column[longer] = np.nan
-    return SteadyStates(entries=arrays, status=status, turns_swept=motions.turns_swept, **columns)
+    for name in ("energy_motor", "energy_drive", "energy_load"):
+        if name in columns:
+            columns[name] = columns[name] / compiled.turns
+    return SteadyStates(
+        entries=arrays, status=status, turns_swept=motions.turns_swept, turns=compiled.turns, **columns
+    )
 
 
 def _columns(machine: Machine, entries: Mapping[str, ArrayLike]) -> dict[str, Floats]:

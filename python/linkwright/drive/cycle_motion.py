@@ -9,6 +9,7 @@ rounds agree: values are those of the exact motion there, not of an interpolatio
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from typing import Annotated, Any
@@ -21,6 +22,7 @@ from linkwright.drive.steady_state import SteadyState, steady_state
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About
 from linkwright.kernel.result import Record
+from linkwright.linkages.closure import over_whole_cycle
 from linkwright.linkages.cycle import Linkage, linkage
 from linkwright.linkages.motion import Motion, motion_along
 from linkwright.machine.machine import Machine
@@ -154,14 +156,15 @@ def cycle_motion_of(
     speed.
     """
     compiled = compile_machine(machine).first()
+    turns = known.period_turns or 1
     if steady is None:
         low, high = _cycle(known)
         speed, source = crank_speed(machine, None)
         crank = _at_constant_speed(speed, low)
     else:
-        low, high, source = 0.0, 2 * np.pi, "steady motion"
+        turns = math.lcm(steady.turns, known.period_turns or 1)
+        low, high, source = 0.0, 2 * np.pi * turns, "steady motion"
         crank = _in_steady_motion(compiled, steady, accuracy)
-    turns = known.period_turns or 1
     drawn = np.linspace(low, high, _DRAWN * turns + 1)
     motion = _along(machine, crank, drawn)
     cycle = CycleMotion(
@@ -176,6 +179,9 @@ def cycle_motion_of(
     limit = None if known.closure.turns_fully else (low, high)
     return CycleMotion(**{**vars(cycle), "extremes": search.extremes(looked, limit)})
 
+
+# An angle that is past the end of a cycle by less than this share of it is the end.
+_AT_END = 1e-12
 
 # Columns that are the crank's own, first in `curves`.
 _CRANK = ("time", "crank_angle", "speed", "acceleration")
@@ -196,14 +202,18 @@ def _in_steady_motion(compiled: CompiledMachine, steady: SteadyState, accuracy: 
     """The same solution read at any angles; a motor of constant speed has none to solve."""
     if steady.method != "collocation":
         return _at_constant_speed(steady.speed_max, 0.0)
+    compiled = over_whole_cycle(compiled)
     motion = compiled.steady(np.empty(0), accuracy)
     assert isinstance(motion, SteadyMotion)
 
     def at(phi: Floats) -> tuple[Floats, Floats, Floats]:
-        order = np.argsort(phi, kind="stable")
-        curves = motion.solution.curves(phi[order])
+        # The end of a cycle is not the start of the next, which would be back at its time zero.
+        done = np.maximum(np.ceil(phi / compiled.cycle - _AT_END) - 1, 0)
+        within = np.clip(phi - done * compiled.cycle, 0.0, compiled.cycle)
+        order = np.argsort(within, kind="stable")
+        curves = motion.solution.curves(within[order])
         back = np.argsort(order, kind="stable")
-        return curves.time[back], curves.speed[back], curves.acceleration[back]
+        return done * motion.period + curves.time[back], curves.speed[back], curves.acceleration[back]
 
     return at
 

@@ -67,8 +67,8 @@ def speed_figure(steady: SteadyState) -> Figure:
     acceleration.set_ylabel("acceleration ε\n[rad/s²]")
     roomy(acceleration, steady.acceleration)
     zero_line(acceleration)
-    turn_axis(speed, label=False)
-    turn_axis(acceleration)
+    turn_axis(speed, degrees, label=False)
+    turn_axis(acceleration, degrees)
     return figure
 
 
@@ -100,8 +100,8 @@ def torque_figure(steady: SteadyState) -> Figure:
     zero_line(torque)
     legend_above(torque)
     _power(power, degrees, steady)
-    turn_axis(torque, label=False)
-    turn_axis(power)
+    turn_axis(torque, degrees, label=False)
+    turn_axis(power, degrees)
     return figure
 
 
@@ -120,7 +120,7 @@ def _power(axes: Axes, degrees: np.ndarray, steady: SteadyState) -> None:
 
 @styled
 def time_figure(steady: SteadyState) -> Figure:
-    """Draw speed and motor torque against time, over two revolutions."""
+    """Draw speed and motor torque against time, over two cycles."""
     figure, (speed, torque) = panels(2, height=4.2)
     time = np.concatenate([steady.time + turn * steady.period for turn in range(_TURNS)])
     speed.plot(time, np.tile(steady.speed, _TURNS), color=SPEED, label="speed")
@@ -134,7 +134,8 @@ def time_figure(steady: SteadyState) -> Figure:
     roomy(torque, steady.torque_motor)
     zero_line(torque)
     legend_above(torque)
-    torque.set_xlabel("time t [s], two revolutions")
+    count = "two" if steady.turns == 1 else _TURNS * steady.turns
+    torque.set_xlabel(f"time t [s], {count} revolutions")
     torque.set_xlim(0, _TURNS * steady.period)
     return figure
 
@@ -160,8 +161,8 @@ def compare_figure(motions: Mapping[str, SteadyState]) -> Figure:
     acceleration.set_ylabel("acceleration ε\n[rad/s²]")
     zero_line(acceleration)
     legend_above(speed)
-    turn_axis(speed, label=False)
-    turn_axis(acceleration)
+    turn_axis(speed, degrees, label=False)
+    turn_axis(acceleration, degrees)
     return figure
 
 
@@ -179,8 +180,8 @@ def reduction_figure(reduction: Reduction) -> Figure:
     roomy(torque, reduction.torque_load, np.array([0.0]))
     zero_line(torque)
     legend_above(torque)
-    turn_axis(inertia, label=False)
-    turn_axis(torque)
+    turn_axis(inertia, degrees, label=False)
+    turn_axis(torque, degrees)
     return figure
 
 
@@ -309,7 +310,12 @@ def _detail(
     _points(axes, characteristic)
     speed = steady.speed * characteristic.ratio
     axes.plot(
-        speed, steady.torque_motor, color=BLUE, linewidth=4, alpha=0.75, label="steady motion, one revolution"
+        speed,
+        steady.torque_motor,
+        color=BLUE,
+        linewidth=4,
+        alpha=0.75,
+        label=f"steady motion, {_cycle_words(steady)}",
     )
     axes.axvspan(*span, color=SKY, alpha=0.25, linewidth=0)
     # Room for the rated point and the synchronous speed, which lie near the working range.
@@ -353,23 +359,27 @@ def drive_figures(study: DriveStudy) -> Iterator[CaptionedFigure]:
     yield from _reduction(study)
 
 
+def _cycle_words(steady: SteadyState) -> str:
+    """What steady motion repeats after."""
+    return "one revolution" if steady.turns == 1 else f"{steady.turns} revolutions"
+
+
 def _steady(study: DriveStudy) -> Iterator[CaptionedFigure]:
     steady = study.steady_state
     if steady is None:
         return
     low, high = quantity(steady.speed_min, "rad/s"), quantity(steady.speed_max, "rad/s")
+    over = _cycle_words(steady)
     caption = (
-        f"The crank speed varies from {low} to {high}, δ = {number(steady.unevenness)}; a revolution takes "
+        f"The crank speed varies from {low} to {high}, δ = {number(steady.unevenness)}; {over} takes "
         f"{quantity(steady.period, 's')}."
     )
-    yield CaptionedFigure(
-        "speed", "Speed and acceleration over one revolution", caption, speed_figure(steady)
-    )
+    yield CaptionedFigure("speed", f"Speed and acceleration over {over}", caption, speed_figure(steady))
     caption = (
         "The speed follows the difference of driving and load torque and the change of the reduced inertia. "
         f"The work of the motor is {quantity(steady.energy_motor, 'J')} per revolution."
     )
-    yield CaptionedFigure("torque", "Torque and power over one revolution", caption, torque_figure(steady))
+    yield CaptionedFigure("torque", f"Torque and power over {over}", caption, torque_figure(steady))
     caption = "The same motion over time, as a tachometer records it."
     yield CaptionedFigure("time", "Speed and motor torque over time", caption, time_figure(steady))
 

@@ -20,7 +20,7 @@ from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.steady_state import SteadyState, solved_state
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.numerics.tangent import Tangent
-from linkwright.linkages.closure import turn_angles
+from linkwright.linkages.closure import over_whole_cycle, turn_angles
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import SteadyCurves, SteadySolution
@@ -30,7 +30,6 @@ Floats = NDArray[np.float64]
 # Angles at which rivals of an extreme are looked for. A peak between two of the even ones is missed by
 # (2π/1440)² of the curve at most; where the motor is steep, the motion bends sharply beside a kink.
 _LOOK = 1440
-_EVEN = np.linspace(0.0, 2 * np.pi, _LOOK, endpoint=False)
 _BESIDE = np.geomspace(1e-9, 3e-3, 14)
 
 # How far a rival may seem to stay below the extreme before it is read more closely, as a share of the range:
@@ -72,14 +71,18 @@ def steady_tangents(machine: Machine, values: Floats, accuracy: float = 1e-11) -
     """
     if machine.drive is not None and isinstance(machine.drive.motor, ConstantSpeedMotor):
         raise InputError("a motor of constant speed has the same speed whatever the machine is")
-    state, solution = solved_state(machine, accuracy, turn_angles(_LOOK))
+    state, solution = solved_state(machine, accuracy, _LOOK)
     assert solution is not None
-    compiled = compile_machine(machine)
+    compiled = over_whole_cycle(compile_machine(machine))
     angles = np.array([state.speed_min_angle, state.speed_max_angle])
     gradient = solution.gradient(values, angles)
     tangents: dict[str, Any] = {
         name: Tangent(getattr(state, name), getattr(gradient, name)) for name in COLUMNS
     }
+    for name in _NUMBERS:
+        if name.startswith("energy"):
+            # The core's works are those of a cycle.
+            tangents[name] = Tangent(getattr(state, name), getattr(gradient, name) / state.turns)
     ratio = Tangent(compiled.gear_factors[0], values[compiled.ratio_slot])
     tangents |= _of_motor(compiled, state, gradient.curves, ratio)
     return SteadyTangents(replace(state, **tangents), _ties(compiled, state, solution))
@@ -134,15 +137,16 @@ class _Peaks:
     """Peaks of speed and acceleration over a revolution, on the solution itself."""
 
     def __init__(self, compiled: CompiledMachine, solution: SteadySolution) -> None:
-        self.solution = solution
+        self.solution, self.cycle = solution, compiled.cycle
+        even = turn_angles(_LOOK, compiled.turns)[:-1]
         beside = np.concatenate([-_BESIDE, _BESIDE])
-        angles = np.concatenate([_EVEN, (compiled.kinks()[:, None] + beside).ravel()])
-        self.angles = np.unique(angles % (2 * np.pi))
+        angles = np.concatenate([even, (compiled.kinks()[:, None] + beside).ravel()])
+        self.angles = np.unique(angles % self.cycle)
         self.curves = self._read(self.angles)
 
     def _read(self, angles: Floats) -> dict[str, Floats]:
         """Speed and acceleration at crank angles of any shape."""
-        order, back = np.unique(angles % (2 * np.pi), return_inverse=True)
+        order, back = np.unique(angles % self.cycle, return_inverse=True)
         read = self.solution.curves(order)
         back = back.reshape(angles.shape)
         return {name: getattr(read, name)[back] for name in ("speed", "acceleration")}
@@ -153,15 +157,15 @@ class _Peaks:
         curve = sign * self.curves[quantity]
         span = float(np.ptp(curve))
         peaks = np.flatnonzero((curve >= np.roll(curve, 1)) & (curve > np.roll(curve, -1)))
-        peaks = peaks[(curve[peaks] >= top - _DOUBT * span) & (_apart(self.angles[peaks], at) > _APART)]
+        peaks = peaks[(curve[peaks] >= top - _DOUBT * span) & (self._apart(self.angles[peaks], at) > _APART)]
         if not len(peaks):
             return [at]
-        low = np.roll(self.angles, 1)[peaks] - 2 * np.pi * (peaks == 0)
-        high = np.roll(self.angles, -1)[peaks] + 2 * np.pi * (peaks == len(curve) - 1)
+        low = np.roll(self.angles, 1)[peaks] - self.cycle * (peaks == 0)
+        high = np.roll(self.angles, -1)[peaks] + self.cycle * (peaks == len(curve) - 1)
         places, heights = self._refined(low, high, quantity, sign)
         angles = [at]
-        for angle in places[heights >= top - _TIE * span] % (2 * np.pi):
-            if _apart(np.array(angles), angle).min() > _APART:
+        for angle in places[heights >= top - _TIE * span] % self.cycle:
+            if self._apart(np.array(angles), angle).min() > _APART:
                 angles.append(float(angle))
         return sorted(angles)
 
@@ -175,7 +179,7 @@ class _Peaks:
             low, high = (angles[rows, np.clip(best + way, 0, _READINGS - 1)] for way in (-1, 1))
         return angles[rows, best], values[rows, best]
 
-
-def _apart(angles: Floats, angle: float) -> Floats:
-    """How far angles are from another one round the revolution [rad]."""
-    return np.abs((angles - angle + np.pi) % (2 * np.pi) - np.pi)
+    def _apart(self, angles: Floats, angle: float) -> Floats:
+        """How far angles are from another one round the cycle [rad]."""
+        half = 0.5 * self.cycle
+        return np.abs((angles - angle + half) % self.cycle - half)

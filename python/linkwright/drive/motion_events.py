@@ -112,7 +112,7 @@ def motion_events(machine: Machine, motion: Transient) -> tuple[MotionEvent, ...
     """
     before, after = sides(motion)
     scale = float(np.abs([before, after]).max()) if len(before) else 0.0
-    away = _from_kink(motion.crank_angle, compile_machine(machine).first().kinks())
+    away = _from_kink(motion.crank_angle, *_kinks(machine))
     events = [_event(motion, 0, "start", None, _at(after, 0))]
     for first, last in _passages(motion, away):
         # A short step may lead over the kink itself: what comes after is read behind it.
@@ -218,11 +218,17 @@ def _passages(motion: Transient, away: Floats) -> Iterator[tuple[int, int]]:
         k = last + 1
 
 
-def _from_kink(angles: Floats, kinks: Floats) -> Floats:
-    """How far angles are past the next kink of any revolution, negative before it [rad]; (n,)."""
+def _kinks(machine: Machine) -> tuple[Floats, float]:
+    """Crank angles at which the equation of motion has kinks, and the cycle of these [rad]."""
+    compiled = compile_machine(machine).first()
+    return compiled.kinks(), compiled.cycle
+
+
+def _from_kink(angles: Floats, kinks: Floats, cycle: float) -> Floats:
+    """How far angles are past the next kink of any cycle, negative before it [rad]; (n,)."""
     if not len(kinks):
         return np.full(len(angles), np.inf)
-    away = np.mod(angles[:, None] - kinks[None, :] + np.pi, 2 * np.pi) - np.pi
+    away = np.mod(angles[:, None] - kinks[None, :] + 0.5 * cycle, cycle) - 0.5 * cycle
     return np.take_along_axis(away, np.abs(away).argmin(axis=1)[:, None], axis=1)[:, 0]
 
 

@@ -109,7 +109,7 @@ def reduction(machine: Machine, *, n: int = 360) -> Reduction:
 
 def reduction_of(compiled: CompiledMachine, n: int = 360) -> Reduction:
     """`reduction` of a compiled machine that closes."""
-    phi = turn_angles(n)
+    phi = turn_angles(n, compiled.turns)
     at = compiled.reductions(phi)
     turn = turn_curve(lambda at: _inertia_and_load(compiled, at), compiled.kinks(), "inertia and load")
     low, low_at = turn.extreme(-1, 0)
@@ -136,9 +136,10 @@ def mean_over_turn(compiled: CompiledMachine) -> tuple[float, float]:
     """Means of the load torque and of the viscous coefficient over the crank angle.
 
     Loads that have a potential do no work over a closed cycle, whatever their size: they are left out of the
-    integral where the mechanism is after one revolution where it was.
+    integral where the mechanism is after a cycle where it was.
     """
-    if turns_to_repeat(compiled) == 1:
+    turns = turns_to_repeat(compiled)
+    if turns is not None and compiled.turns % turns == 0:
         compiled = compiled.without_conservative()
     turn = turn_curve(lambda at: _resistance(compiled, at), compiled.kinks(), "resistance")
     load, viscous = turn.mean()

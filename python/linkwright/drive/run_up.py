@@ -193,7 +193,7 @@ def _steady_speed(steady: SteadyState, angle: Floats) -> Floats:
     """Speed of steady motion at crank angles, by the cubic through speeds and slopes of its curve."""
     grid, omega = steady.crank_angle, steady.speed
     slope = steady.acceleration / omega
-    phi = angle % (2 * np.pi)
+    phi = angle % (2 * np.pi * steady.turns)
     k = grid[1:-1].searchsorted(phi, side="right")
     h = grid[k + 1] - grid[k]
     z = (phi - grid[k]) / h

@@ -56,7 +56,7 @@ def require_sound_loads(compiled: CompiledMachine, machine: Machine) -> None:
     doubtful = {name: load for name, load in machine.loads.items() if isinstance(load, _DOUBTFUL)}
     if not doubtful:
         return
-    phi = turn_angles(_ANGLES)
+    phi = turn_angles(_ANGLES, compiled.turns)
     require_half_turns(compiled, machine)
     if np.isfinite(_torques(compiled, phi)).all():
         return

@@ -25,7 +25,7 @@ from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-from linkwright.linkages.closure import require_full_turn, require_one_turn, turn_angles
+from linkwright.linkages.closure import over_whole_cycle, require_full_turn, turn_angles
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import NoSteadyMotion, Status, SteadyMotion, SteadySolution
@@ -52,21 +52,24 @@ class OtherMotion(NamedTuple):
     speed_min, speed_max : float
         Of the crank [rad/s].
     period : float
-        Duration of a revolution [s].
+        Duration of a cycle [s].
     multiplier : float
-        What is left of a small disturbance of the speed after one revolution, as a share. From 1 up the
+        What is left of a small disturbance of the speed after one cycle, as a share. From 1 up the
         machine departs from the motion: what starts slower slows down, what starts faster speeds up.
+    turns : int
+        Revolutions of a cycle.
     """
 
     speed_min: float
     speed_max: float
     period: float
     multiplier: float
+    turns: int = 1
 
     @property
     def speed_mean_time(self) -> float:
-        """2π/period [rad/s]."""
-        return 2 * np.pi / self.period
+        """Angle of a cycle over its duration [rad/s]."""
+        return 2 * np.pi * self.turns / self.period
 
     @property
     def is_stable(self) -> bool:
@@ -75,7 +78,7 @@ class OtherMotion(NamedTuple):
 
 
 _MULTIPLIER = (
-    "Share of a small disturbance of the speed left after one revolution; the motion is stable if it is "
+    "Share of a small disturbance of the speed left after one cycle; the motion is stable if it is "
     "below 1 in magnitude."
 )
 _ACCURACY = (
@@ -87,10 +90,15 @@ _OTHERS = "Other periodic motions of the machine, from the fastest down to a hun
 
 @dataclass(frozen=True)
 class SteadyState(Result):
-    """One revolution of steady motion; extremes are exact, not those of the curves."""
+    """One cycle of steady motion; extremes are exact, not those of the curves.
 
-    crank_angle: Annotated[Floats, Label("crank angle", "φ", "rad", "0 to 2π.", shape="(n + 1,)")]
-    time: Annotated[Floats, Label("time", "t", "s", "From the start of the revolution.")]
+    A cycle is a revolution of the crank, or as many as loads and mechanism take to repeat.
+    """
+
+    crank_angle: Annotated[
+        Floats, Label("crank angle", "φ", "rad", "Over a cycle, from 0 on.", shape="(n + 1,)")
+    ]
+    time: Annotated[Floats, Label("time", "t", "s", "From the start of the cycle.")]
     speed: Annotated[Floats, Label("speed of the crank", "ω", "rad/s")]
     acceleration: Annotated[Floats, Label("acceleration of the crank", "ε", "rad/s²")]
     torque_motor: Annotated[Floats, Label("torque of the motor", "M", "N m", "At its shaft.")]
@@ -110,7 +118,7 @@ class SteadyState(Result):
     acceleration_max_angle: Annotated[
         float, Label("crank angle of the maximum acceleration", "φ(ε_max)", "rad")
     ]
-    period: Annotated[float, Label("period", "T", "s", table="steady_state")]
+    period: Annotated[float, Label("period", "T", "s", "Duration of a cycle.", table="steady_state")]
     multiplier: Annotated[
         float,
         Label("Floquet multiplier", "G", "", _MULTIPLIER, table="steady_state"),
@@ -136,6 +144,7 @@ class SteadyState(Result):
     accuracy: Annotated[float, Label("accuracy reached", "", "", _ACCURACY, table="steady_state")]
     sweeps: Annotated[int, Label("Newton sweeps", "", "", "Over the revolution, in all.")]
     steps: Annotated[int, Label("steps of the finest mesh", "", "", table="steady_state")]
+    turns: Annotated[int, Label("revolutions of a cycle", "", "")] = 1
     method: Annotated[str, About('``"collocation"`` or ``"constant speed"``.')] = "collocation"
     others: Annotated[tuple[OtherMotion, ...], About(_OTHERS)] = ()
 
@@ -152,8 +161,8 @@ class SteadyState(Result):
 
     @property
     def speed_mean_time(self) -> Annotated[float, Label("mean speed over time", "ω_m", "rad/s")]:
-        """2π/period."""
-        return 2 * np.pi / self.period
+        """Angle of a cycle over its duration."""
+        return 2 * np.pi * self.turns / self.period
 
     @property
     def unevenness(self) -> Annotated[float, Label("coefficient of speed fluctuation", "δ", "")]:
@@ -198,8 +207,8 @@ class SteadyState(Result):
     ) -> Annotated[
         float, Label("mean power of the motor", "P_mean", "W", table="drive", before="power_motor_max")
     ]:
-        """Work of the motor per revolution over its period."""
-        return self.energy_motor / self.period
+        """Work of the motor in a cycle over its period."""
+        return self.energy_motor * self.turns / self.period
 
     @property
     def cyclic_load_factor(
@@ -239,21 +248,21 @@ def steady_state(
         peak, integrals. Rounding may forbid it where the motor is very steep; `SteadyState.accuracy` says
         what was reached.
     n : int
-        Intervals of the revolution for the curves; extremes and integrals do not depend on it.
+        Intervals of a revolution for the curves; extremes and integrals do not depend on it.
     angles : ndarray, shape (m,), optional
-        Crank angles of the curves instead, from 0 to 2π and increasing [rad].
+        Crank angles of the curves instead, within the cycle and increasing [rad].
 
     Returns
     -------
     SteadyState
-        One revolution from φ = 0.
+        One cycle from φ = 0.
 
     Raises
     ------
     AssemblyError
         The mechanism does not close all round.
     FindingError
-        It does not repeat after one revolution of the crank.
+        It does not repeat after 24 revolutions of the crank or fewer.
     SteadyStateError
         There is no periodic motion; says what the drive lacks. Or it slides along a jump of a load.
     ConvergenceError
@@ -269,11 +278,13 @@ def steady_state(
     ----------
     .. [1] Paper 1, equation (1) for the motion, (13)–(15) for the measures.
     """
-    return solved_state(machine, accuracy, turn_angles(n) if angles is None else angles)[0]
+    return solved_state(machine, accuracy, n if angles is None else angles)[0]
 
 
-def solved_state(machine: Machine, accuracy: float, phi: Floats) -> tuple[SteadyState, SteadySolution | None]:
-    """`steady_state` with curves at crank angles, and the solution that it is read from.
+def solved_state(
+    machine: Machine, accuracy: float, at: Floats | int
+) -> tuple[SteadyState, SteadySolution | None]:
+    """`steady_state` with curves at crank angles, or so many a revolution, and its solution.
 
     None where the motor keeps its speed: nothing is solved.
     """
@@ -283,7 +294,8 @@ def solved_state(machine: Machine, accuracy: float, phi: Floats) -> tuple[Steady
         raise InputError(f"accuracy {accuracy:g}: expected a number from 1e-13 to 1e-2")
     compiled = compile_machine(machine)
     require_full_turn(compiled, machine)
-    require_one_turn(compiled)
+    compiled = over_whole_cycle(compiled)
+    phi = turn_angles(at, compiled.turns) if isinstance(at, int) else at
     require_same_turns(machine)
     require_sound_loads(compiled, machine)
     if isinstance(machine.drive.motor, ConstantSpeedMotor):
@@ -386,9 +398,9 @@ def _from_core(machine: Machine, motion: SteadyMotion, phi: Floats, compiled: Co
         acceleration_max_angle=motion.acceleration_max_angle,
         period=motion.period,
         multiplier=motion.multiplier,
-        energy_motor=motion.energy_motor,
-        energy_drive=motion.energy_drive,
-        energy_load=motion.energy_load,
+        energy_motor=motion.energy_motor / compiled.turns,
+        energy_drive=motion.energy_drive / compiled.turns,
+        energy_load=motion.energy_load / compiled.turns,
         torque_motor_mean=motion.torque_motor_mean,
         torque_motor_rms=motion.torque_motor_rms,
         torque_motor_min=weakest,
@@ -397,7 +409,8 @@ def _from_core(machine: Machine, motion: SteadyMotion, phi: Floats, compiled: Co
         accuracy=motion.accuracy,
         sweeps=motion.sweeps,
         steps=motion.steps,
-        others=tuple(OtherMotion(*other) for other in others),
+        turns=compiled.turns,
+        others=tuple(OtherMotion(*other, compiled.turns) for other in others),
     )
 
 
@@ -422,7 +435,7 @@ def _at_constant_speed(machine: Machine, compiled: CompiledMachine, phi: Floats)
     turn = turn_curve(needs, compiled.kinks(), "torque of the drive")
     _, load_mean, drive_mean, motor_mean = turn.mean().tolist()
     motor_max = turn.extreme(+1, 3)[0]
-    period = 2 * np.pi / omega
+    period = compiled.cycle / omega
     still: dict[str, Any] = dict.fromkeys(("speed_min_angle", "speed_max_angle"), 0.0)
     still |= dict.fromkeys(("acceleration_min", "acceleration_max"), 0.0)
     still |= dict.fromkeys(
@@ -451,6 +464,7 @@ def _at_constant_speed(machine: Machine, compiled: CompiledMachine, phi: Floats)
         power_motor_max=motor_max * omega * ratio,
         sweeps=0,
         steps=0,
+        turns=compiled.turns,
         method="constant speed",
         others=(),
         **still,

@@ -31,7 +31,7 @@ from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import ANGLE, positive
-from linkwright.linkages.closure import require_full_turn, require_one_turn, turn_angles
+from linkwright.linkages.closure import over_whole_cycle, require_full_turn, turn_angles
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 
@@ -106,7 +106,7 @@ def step_method(machine: Machine, *, step: float = np.radians(1.0)) -> StepMotio
     Raises
     ------
     InputError
-        The step does not divide the revolution.
+        The step does not divide the revolution, or the machine repeats after several.
     StartError
         The machine does not start, or comes to rest.
     SteadyStateError
@@ -114,7 +114,11 @@ def step_method(machine: Machine, *, step: float = np.radians(1.0)) -> StepMotio
     """
     compiled = compile_machine(machine)
     require_full_turn(compiled, machine)
-    require_one_turn(compiled)
+    if over_whole_cycle(compiled).turns > 1:
+        raise InputError(
+            f"{machine.name}: the step method knows one revolution, and loads or mechanism repeat after "
+            "several; use steady_state"
+        )
     require_same_turns(machine)
     n = whole_steps(step)
     phi = turn_angles(n)[:-1]

@@ -41,7 +41,8 @@ def _steady(study: DriveStudy) -> Table | None:
         return None
     heads = ("quantity", "", "value", "where")
     rows = _rows(steady, "steady_state", without=_NUMERICAL)
-    return Table("steady_state", "Steady motion", heads, rows)
+    title = "Steady motion" + (f", cycle of {steady.turns} revolutions" if steady.turns > 1 else "")
+    return Table("steady_state", title, heads, rows)
 
 
 # What says how the solution was found, not how the machine moves.

@@ -6,7 +6,7 @@ the body of its guide, a spring between the members that carry its ends.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -31,7 +31,14 @@ from linkwright.kinetostatics.model.loads.force import (
     Gravity,
     ViscousFriction,
 )
-from linkwright.kinetostatics.model.loads.table import ForcePosition, TorqueAngle, TorqueSpeed, TorqueSwing
+from linkwright.kinetostatics.model.loads.table import (
+    ForceAngle,
+    ForcePosition,
+    OverCrankAngle,
+    TorqueAngle,
+    TorqueSpeed,
+    TorqueSwing,
+)
 from linkwright.kinetostatics.places import Scene, dot, unit
 from linkwright.kinetostatics.wrench import Wrenches, masses
 from linkwright.linkages.model.structure import FRAME
@@ -58,10 +65,9 @@ def formula_wrenches(scene: Scene, load: FormulaLoad) -> Wrenches:
 def _names(scene: Scene, load: FormulaLoad) -> dict[str, Any]:
     """Variables and constants of a formula (docs/loads.md)."""
     motion = scene.motion
-    turn = 2 * np.pi
     names: dict[str, Any] = {
         **NUMBERS,
-        "phi": motion.crank_angle % turn,
+        "phi": motion.crank_angle % load.cycle,
         "omega": motion.speed,
         "t": motion.time,
     }
@@ -102,7 +108,7 @@ class AppliedLoad:
 def applied(scene: Scene, load: Any) -> AppliedLoad:
     """What a load does. Returns: forces and moments on the members, and torque on the crankshaft."""
     on_crankshaft: dict[type, Callable[[Scene, Any], Floats]] = {
-        TorqueAngle: _over_angle,
+        TorqueAngle: _torque_over_angle,
         TorqueSpeed: _over_speed,
     }
     on_members: dict[type, Callable[[Scene, Any], Wrenches]] = {
@@ -117,6 +123,7 @@ def applied(scene: Scene, load: Any) -> AppliedLoad:
         TorsionalSpring: _torsional_spring,
         TorsionalDamper: _torsional_damper,
         ForcePosition: _over_position,
+        ForceAngle: _force_over_angle,
         TorqueSwing: _over_swing,
         FormulaLoad: formula_wrenches,
     }
@@ -261,9 +268,17 @@ def _over_swing(scene: Scene, load: TorqueSwing) -> Wrenches:
     return Wrenches(scene).couple(load.on, np.where(sense > 0, -ahead, np.where(sense < 0, behind, 0.0)))
 
 
-def _over_angle(scene: Scene, load: TorqueAngle) -> Floats:
-    torque: Floats = np.interp(scene.motion.crank_angle, load.angle, load.torque, period=2 * np.pi)
-    return torque
+def _over_angle(scene: Scene, load: OverCrankAngle, values: Sequence[float]) -> Floats:
+    at: Floats = np.interp(scene.motion.crank_angle, *load.points(values), period=load.cycle)
+    return at
+
+
+def _torque_over_angle(scene: Scene, load: TorqueAngle) -> Floats:
+    return _over_angle(scene, load, load.torque)
+
+
+def _force_over_angle(scene: Scene, load: ForceAngle) -> Wrenches:
+    return Wrenches(scene).along_slide(load.on, _over_angle(scene, load, load.force))
 
 
 def _over_speed(scene: Scene, load: TorqueSpeed) -> Floats:

@@ -111,8 +111,8 @@ def cases_figure(cases: Mapping[str, Forces]) -> Figure:
 
 def _angle_axis(axes: Axes, degrees: np.ndarray, *, label: bool = True) -> None:
     """One revolution along x, or the angles that there are."""
-    turn_axis(axes, label=label)
-    if abs(degrees[0]) > 1e-6 or abs(degrees[-1] - 360) > 1e-6:
+    turn_axis(axes, degrees, label=label)
+    if abs(degrees[0]) > 1e-6 or degrees[-1] < 359 or abs((degrees[-1] + 180) % 360 - 180) > 1e-6:
         axes.set_xticks([])
         axes.autoscale(axis="x")
         axes.xaxis.set_major_locator(_ticks())

@@ -17,6 +17,7 @@ from linkwright.kernel.result import Record
 from linkwright.kernel.units import ANGULAR_ACCELERATION, SPEED, Quantity
 from linkwright.linkages.closure import closure, closure_error, turn_angles
 from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import compile_machine
 
 Floats = NDArray[np.float64]
 
@@ -83,7 +84,9 @@ def motion_at(
             'give one, such as --speed "10 rad/s"'
         )
     in_range(speed=(speed, Quantity(SPEED)), acceleration=(acceleration, Quantity(ANGULAR_ACCELERATION)))
-    return _at_speed(speed, acceleration, turn_angles(n) if angles is None else angles)
+    return _at_speed(
+        speed, acceleration, turn_angles(n, compile_machine(machine).turns) if angles is None else angles
+    )
 
 
 def _require_full_turn(machine: Machine) -> None:

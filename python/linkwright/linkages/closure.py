@@ -10,6 +10,7 @@ the motion is not determined.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
@@ -18,6 +19,7 @@ from typing import Annotated
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.kernel.description.cycle import TURNS_MAX
 from linkwright.kernel.errors import AssemblyError, InputError
 from linkwright.kernel.numerics.zeros import minima, zeros
 from linkwright.kernel.public import public
@@ -372,26 +374,29 @@ def require_full_turn(compiled: CompiledMachine, machine: Machine) -> None:
         raise closure_error(closed, machine)
 
 
-def require_one_turn(compiled: CompiledMachine) -> None:
-    """Raise if the crank does not feel the same masses and loads again after one revolution.
+def over_whole_cycle(compiled: CompiledMachine) -> CompiledMachine:
+    """The machine over the revolutions after which the crank feels the same masses and loads again.
 
-    The `AssemblyError` says after how many revolutions it does, and what to change.
+    The `AssemblyError` says after how many revolutions it does, if they are many, and what to change.
     """
     if compiled.one_turn:
-        return
+        return compiled
     turns = turns_to_repeat(compiled)
-    if turns != 1 and not _feels_one_turn(compiled):
+    if turns == 1 or _repeats(compiled):
+        return compiled
+    if turns is None or math.lcm(turns, compiled.turns) > TURNS_MAX:
         after = f"only after {turns} revolutions" if turns else "never"
         raise AssemblyError(
-            f"masses and loads return to their positions {after}, so one revolution of the crank is not a "
-            "period; choose the slowest part as the crank, or put masses and loads on parts that repeat "
-            "with it"
+            f"masses and loads return to their positions {after}; a cycle may take up to {TURNS_MAX}: choose "
+            "the slowest part as the crank, or put masses and loads on parts that repeat with it"
         )
+    return compiled.over_turns(turns)
 
 
-def _feels_one_turn(compiled: CompiledMachine) -> bool:
-    """Whether the crank feels the same inertia and load in the next revolution."""
-    first, next_ = (compiled.first().reductions(turn_angles(16) + turn) for turn in (0.0, 2 * np.pi))
+def _repeats(compiled: CompiledMachine) -> bool:
+    """Whether the crank feels the same inertia and load in the next cycle of the loads."""
+    looks = turn_angles(16, compiled.turns)
+    first, next_ = (compiled.first().reductions(looks + cycle) for cycle in (0.0, compiled.cycle))
     return all(
         bool((np.abs(after - before) <= _SAME * np.abs(before).max()).all())
         for before, after in (
@@ -500,10 +505,13 @@ def _deg(angle: float) -> str:
 
 
 @lru_cache(maxsize=8)
-def turn_angles(n: int) -> NDArray[np.float64]:
-    """Crank angles from 0 to 2π inclusive, ``n`` ≥ 1 intervals [rad]; shared by results, so read-only."""
+def turn_angles(n: int, turns: int = 1) -> NDArray[np.float64]:
+    """Crank angles over some revolutions from 0 on, ``n`` ≥ 1 intervals a revolution [rad].
+
+    Both ends are included. They are shared by results, so read-only.
+    """
     if n < 1:
         raise InputError(f"n = {n}: expected at least 1 interval of the revolution")
-    angles = np.linspace(0.0, 2 * np.pi, n + 1)
+    angles = np.linspace(0.0, 2 * np.pi * turns, n * turns + 1)
     angles.flags.writeable = False
     return angles

@@ -289,7 +289,7 @@ def _start_checks(machine: Machine, by_kloss: bool, torque: float | None = None)
     at = np.array([machine.run_up.angle_start])
     start = compiled.reductions(at)
     worst = reduction_of(compiled, _ANGLES).torque_load_max
-    turn = turn_angles(_ANGLES)
+    turn = turn_angles(_ANGLES, compiled.turns)
     laws = compiled.law_torques(np.append(at, turn), _SLOW)[0]
     here = _start("starting_torque", drive, float(start.load[0] + start.dry[0] + laws[0]) + still, by_kloss)
     if compiled.has_laws:

@@ -33,7 +33,7 @@ from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import RATIO, Bound, Quantity
-from linkwright.linkages.closure import turn_angles
+from linkwright.linkages.closure import over_whole_cycle, turn_angles
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.drive_line import drive_inertia
@@ -172,7 +172,7 @@ def classical_flywheel(machine: Machine, unevenness: float) -> tuple[float, floa
     Source: Artobolevsky, Theory of Mechanisms and Machines: flywheel by Mertsalov's method.
     """
     assert machine.drive is not None
-    compiled = compile_machine(machine)
+    compiled = over_whole_cycle(compile_machine(machine))
     omega_m = machine.drive.speed or compiled.speed_guess
     turn = turn_curve(lambda phi: _load_and_inertia(compiled, phi, omega_m), compiled.kinks(), "excess work")
     # The curve of −ΔA.

@@ -17,7 +17,7 @@ from linkwright.kernel.errors import InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-from linkwright.linkages.closure import require_full_turn, require_one_turn
+from linkwright.linkages.closure import over_whole_cycle, require_full_turn
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 
@@ -89,7 +89,7 @@ def required_power(machine: Machine) -> RequiredPower:
         raise InputError(f'{machine.name}: sizing needs the design speed; add speed = "… rad/s" to [drive]')
     compiled = compile_machine(machine, motor=False)
     require_full_turn(compiled, machine)
-    require_one_turn(compiled)
+    compiled = over_whole_cycle(compiled)
     load, viscous = mean_over_turn(compiled)
     torque = load + viscous * drive.speed + float(np.sum(compiled.speed_load(drive.speed)))
     torque += float(mean_laws(compiled, drive.speed)[0])

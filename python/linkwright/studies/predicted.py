@@ -16,6 +16,7 @@ from linkwright.drive.steady_state import solved_state, steady_state
 from linkwright.drive.transient import Transient, transient
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.numerics.zeros import zeros
+from linkwright.linkages.closure import over_whole_cycle
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 from linkwright.machine.tangents import directions
@@ -161,7 +162,9 @@ class RecordModel:
 
     def _steady(self, machine: Machine) -> dict[str, Floats]:
         """Channels of steady motion over the crank angle."""
-        angles, back = np.unique(self.record.at % (2 * np.pi), return_inverse=True)
+        angles, back = np.unique(
+            self.record.at % over_whole_cycle(compile_machine(machine)).cycle, return_inverse=True
+        )
         state = steady_state(machine, accuracy=_ACCURACY, angles=angles)
         ratio = compile_machine(machine).gear_factors[0]
         return {
@@ -202,7 +205,9 @@ class RecordModel:
             return None
         by_entry = np.stack([tangents[name].d for name in ways.variables])
         parameters = ways.values @ by_entry
-        angles, back = np.unique(self.record.at % (2 * np.pi), return_inverse=True)
+        angles, back = np.unique(
+            self.record.at % over_whole_cycle(compile_machine(machine)).cycle, return_inverse=True
+        )
         state, solution = solved_state(machine, _ACCURACY, angles)
         if solution is None:
             return None

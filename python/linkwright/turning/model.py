@@ -27,11 +27,11 @@ from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.description.curve import curve_faults, unread_file
+from linkwright.kernel.description.cycle import ONE_TURN, CycleAngle, cycle_faults, cycle_turns
 from linkwright.kernel.description.formula import NUMBERS, parse
 from linkwright.kernel.description.formula_faults import constant_faults, text_faults
 from linkwright.kernel.numerics.formula_value import value
 from linkwright.kernel.units import (
-    ANGLE,
     COUNT,
     DENSITY,
     ENERGY,
@@ -159,13 +159,6 @@ AnyShaftTorque = Annotated[
 ]
 
 
-# Revolutions that a cycle may take: two of a four-stroke engine, more where several machines share a shaft.
-_TURNS_MAX = 24
-
-# A cycle given in degrees is a whole number of revolutions to rounding.
-_WHOLE = 1e-9
-
-
 class FlywheelRim(CheckedDescription):
     """The rim of a flywheel, a thin ring: its radius, or the hoop stress that gives it."""
 
@@ -203,8 +196,8 @@ class TurningMoment(CheckedDescription):
     speed: Annotated[float, positive(SPEED)] = Field(
         description="Mean speed of the shaft, the mean of its extremes."
     )
-    cycle: Annotated[float, positive(ANGLE)] = Field(
-        2 * math.pi, description="Angle of a cycle: 360 deg, or 720 deg for a four-stroke engine."
+    cycle: CycleAngle = Field(
+        ONE_TURN, description="Angle of a cycle: 360 deg, or 720 deg for a four-stroke engine."
     )
     driver: AnyShaftTorque | None = Field(
         None, description="Driving torque. Default: constant, the mean of the load."
@@ -234,13 +227,10 @@ class TurningMoment(CheckedDescription):
     @property
     def turns(self) -> int:
         """Revolutions of a cycle."""
-        return round(self.cycle / (2 * math.pi))
+        return cycle_turns(self.cycle)
 
     def _faults(self) -> Iterator[InitErrorDetails]:
-        turns = self.cycle / (2 * math.pi)
-        if not 1 <= round(turns) <= _TURNS_MAX or abs(turns - round(turns)) > _WHOLE * turns:
-            expected = f"1 to {_TURNS_MAX} whole revolutions, such as 360 deg or 720 deg"
-            yield fault("cycle", found=f"{math.degrees(self.cycle):.6g} deg", expected=expected)
+        yield from cycle_faults(self.cycle)
         torques = {"driver": self.driver, "load": self.load}
         if self.areas:
             yield from self._area_faults()

@@ -1,4 +1,5 @@
-//! One revolution of steady motion: the periodic solution of the machine's equation of motion over the crank angle.
+//! One cycle of steady motion, a revolution or as many as the loads take to repeat: the periodic solution of the
+//! machine's equation of motion over the crank angle.
 //!
 //! ```text
 //! du/dφ = ε = [M_d(ω) − M_r(φ, ω) − J′(φ) u] / J(φ),   ω = √(2u),   u(2π) = u(0)
@@ -21,7 +22,6 @@ use crate::kernel::plane::Angle;
 use crate::kernel::radau::{B, C, N, S, StageNewton, stage_newton, through, value};
 use crate::kernel::real::{Lift, Real};
 use crate::linkage::motion::Motion;
-use std::f64::consts::TAU;
 
 /// The reduced machine at one stage: all that the equation of motion needs besides u.
 #[derive(Clone, Copy, Debug)]
@@ -346,7 +346,7 @@ impl<'a, R: Real> Machine<'a, R> {
     /// drag, by Newton from the drive's starting speed. A first guess only, so it need not converge.
     #[inline(always)]
     fn guess_speed(&self, turn: &Turn<R>) -> R {
-        let (load, viscous) = turn.mean_load();
+        let (load, viscous) = turn.mean_load(self.plan.cycle());
         let start = self.q[self.plan.drive.speed_start];
         let (low, high) = (start * 0.02, start * 3.0);
         let mut omega = start;
@@ -451,11 +451,11 @@ pub fn stages_of_part<R: Real>(quintic: &[R; N], from: R, length: R) -> [R; S] {
 }
 
 impl<R: Real> Turn<R> {
-    /// Machines in lanes, each with its own ends of steps; lanes with fewer steps are filled up at 2π.
+    /// Machines in lanes, each with its own ends of steps; lanes with fewer steps are filled up at its end.
     #[inline(always)]
     pub fn tabulate_machines(&mut self, machine: &Machine<'_, R>, edges: &[Vec<f64>], m: &mut Motion<R>) {
         let most = edges.iter().map(Vec::len).max().unwrap_or(0);
-        let at = |lane: &Vec<f64>, k: usize| lane.get(k).copied().unwrap_or(TAU);
+        let at = |lane: &Vec<f64>, k: usize| lane.get(k).copied().unwrap_or(machine.plan.cycle());
         let mut starts = vec![0.0; R::LANES];
         let mut ends = starts.clone();
         let mut steps = Vec::with_capacity(most);
@@ -469,13 +469,13 @@ impl<R: Real> Turn<R> {
         self.tabulate_again(machine, &steps, m);
     }
 
-    /// One machine, its steps between the given angles in lanes, the last bundle filled up at 2π.
+    /// One machine, its steps between the given angles in lanes, the last bundle filled up at the end.
     #[inline(always)]
     pub fn of_steps(machine: &Machine<'_, R>, edges: &[f64], m: &mut Motion<R>) -> Self {
         let (mut phi, mut h): (Vec<f64>, Vec<f64>) =
             edges.windows(2).map(|ends| (ends[0], ends[1] - ends[0])).unzip();
         let filled = phi.len().next_multiple_of(R::LANES);
-        phi.resize(filled, TAU);
+        phi.resize(filled, machine.plan.cycle());
         h.resize(filled, 0.0);
         let steps = bundle(&phi).into_iter().zip(bundle(&h)).collect();
         Self::tabulate(machine, steps, Layout::Steps, m)
@@ -563,11 +563,11 @@ impl<R: Real> Turn<R> {
 
     /// Means over the revolution of the load and of the viscous coefficient.
     #[inline(always)]
-    fn mean_load(&self) -> (R, R) {
+    fn mean_load(&self, cycle: f64) -> (R, R) {
         let (mut load, mut viscous) = (R::splat(0.0), R::splat(0.0));
         for step in &self.steps {
             for i in 0..S {
-                let weight = step.h * (B[i] / TAU);
+                let weight = step.h * (B[i] / cycle);
                 load = weight.mul_add(step.rows[i].load, load);
                 viscous = weight.mul_add(step.rows[i].viscous, viscous);
             }
@@ -583,7 +583,7 @@ impl<R: Real> Turn<R> {
             let given = self.given_of(machine, k);
             for i in 0..S {
                 let torque = machine.laws(machine.given_at(given, i), omega);
-                sum = torque * Dual::constant(step.h * (B[i] / TAU)) + sum;
+                sum = torque * Dual::constant(step.h * (B[i] / machine.plan.cycle())) + sum;
             }
         }
         Dual { value: self.layout.total(sum.value), d: self.layout.total(sum.d) }
@@ -649,9 +649,9 @@ impl<R: Real> Turn<R> {
     }
 }
 
-/// Ends of equal steps, no longer than 2π/`n`, from break to break.
+/// Ends of equal steps, `n` a turn at least, from break to break.
 pub fn divide(breaks: &[f64], n: usize) -> Vec<f64> {
-    let longest = TAU / n as f64;
+    let longest = std::f64::consts::TAU / n as f64;
     let mut edges = vec![0.0];
     for ends in breaks.windows(2) {
         let length = ends[1] - ends[0];

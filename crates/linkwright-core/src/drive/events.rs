@@ -173,7 +173,8 @@ impl Events<'_, f64> {
                 }
             }
         }
-        crossings.retain(|phi| *phi > 0.0 && *phi < std::f64::consts::TAU);
+        let cycle = self.machine.plan.cycle();
+        crossings.retain(|phi| *phi > 0.0 && *phi < cycle);
         crossings.sort_by(f64::total_cmp);
         crossings.dedup();
         crossings

@@ -21,7 +21,6 @@ use crate::kernel::lanes::{Job, in_single_lanes};
 use crate::kernel::radau::S;
 use crate::kernel::real::Real;
 use crate::linkage::motion::Motion;
-use std::f64::consts::TAU;
 
 /// Numbers of the revolution that are differentiated: the four extremes, the period, the multiplier, the works of
 /// motor, drive and loads, mean and root mean square of the motor's torque.
@@ -50,7 +49,7 @@ pub struct Gradient<'a> {
     pub directions: &'a [f64],
     /// The solution.
     pub steady: &'a Steady,
-    /// Crank angles of the curves, in \[0, 2π\] \[rad\].
+    /// Crank angles of the curves, within the cycle \[rad\].
     pub phi: &'a [f64],
 }
 
@@ -122,7 +121,7 @@ struct Moved<'a, R: Real> {
     machine: Machine<'a, Dual<R>>,
     steady: &'a Steady,
     turn: Turn<Dual<R>>,
-    /// Ends of the steps, the last at 2π.
+    /// Ends of the steps, the last at the end of the cycle.
     edges: Vec<Dual<R>>,
 }
 
@@ -130,7 +129,7 @@ impl<'a, R: Real> Moved<'a, R> {
     #[inline(always)]
     fn new(machine: Machine<'a, Dual<R>>, steady: &'a Steady, m: &mut Motion<Dual<R>>) -> Self {
         let marks = &steady.marks;
-        let ends: Vec<f64> = marks.iter().map(|mark| mark.phi).chain([TAU]).collect();
+        let ends: Vec<f64> = marks.iter().map(|mark| mark.phi).chain([machine.plan.cycle()]).collect();
         let edges = R::outline(
             #[inline(always)]
             || machine.moving(&ends, m),

@@ -45,7 +45,7 @@ const SHORT: f64 = 0.1;
 /// A point rests where its path speed p′ falls below this share of p″.
 const AT_REST: f64 = 1e-6;
 
-/// Angles at which zeros are looked for. Two zeros between neighbours are found where the cubic through
+/// Angles of a turn at which zeros are looked for. Two zeros between neighbours are found where the cubic through
 /// values and slopes dips towards zero.
 const SCAN: usize = 48;
 
@@ -158,15 +158,24 @@ impl Plan {
         found
     }
 
-    fn angle_knots(&self) -> impl Iterator<Item = f64> + '_ {
-        self.loads
-            .iter()
-            .filter_map(|load| match *load {
-                Load::TorqueAngle { table } => Some(self.tables[table].knots()),
-                _ => None,
-            })
-            .flatten()
-            .map(|knot| knot.rem_euclid(TAU))
+    /// Knots of tables over the crank angle, within the cycle.
+    fn angle_knots(&self) -> Vec<f64> {
+        let mut knots = Vec::new();
+        for load in &self.loads {
+            if let Load::TorqueAngle { table, turns } | Load::ForceAngle { table, turns, .. } = *load {
+                for first in (0..self.turns).step_by(turns as usize) {
+                    let start = TAU * f64::from(first);
+                    let within = |knot: &f64| start + knot.rem_euclid(TAU * f64::from(turns));
+                    knots.extend(self.tables[table].knots().iter().map(within));
+                }
+            }
+        }
+        knots
+    }
+
+    /// Angles of a cycle at which zeros are looked for.
+    fn scan(&self) -> usize {
+        SCAN * self.turns as usize
     }
 }
 
@@ -200,7 +209,7 @@ impl<R: Real> Machine<'_, R> {
         }
     }
 
-    /// Ends of the smooth pieces of the revolution of each lane: increasing from 0 to 2π.
+    /// Ends of the smooth pieces of the cycle of each lane: increasing from 0 to its end.
     #[inline(always)]
     pub fn breaks(&self, m: &mut Motion<R>) -> Vec<Vec<f64>> {
         let mut lanes: Vec<Vec<f64>> = vec![vec![0.0]; R::LANES];
@@ -210,17 +219,18 @@ impl<R: Real> Machine<'_, R> {
                 #[inline(always)]
                 || self.scan(&watches, m),
             );
-            for (watch, values) in watches.iter().zip(scan.chunks_exact(2 * SCAN * R::LANES)) {
+            for (watch, values) in watches.iter().zip(scan.chunks_exact(2 * self.plan.scan() * R::LANES)) {
                 self.zeros(*watch, values, &mut lanes, m);
             }
         }
         self.programme_joints(&mut lanes);
+        let cycle = self.plan.cycle();
         for lane in &mut lanes {
             lane.extend(self.plan.angle_knots());
             for angle in lane.iter_mut() {
-                *angle = if *angle > TAU - WRAP { 0.0 } else { *angle };
+                *angle = if *angle > cycle - WRAP { 0.0 } else { *angle };
             }
-            lane.push(TAU);
+            lane.push(cycle);
             lane.sort_by(f64::total_cmp);
             lane.dedup();
         }
@@ -236,7 +246,8 @@ impl<R: Real> Machine<'_, R> {
             for piece in programme.law.pieces() {
                 (self.q[programme.phase] + piece.start).store(&mut row);
                 for (lane, joint) in lanes.iter_mut().zip(&row) {
-                    lane.push(joint.rem_euclid(TAU));
+                    let turns = (0..self.plan.turns).map(|turn| TAU * f64::from(turn));
+                    lane.extend(turns.map(|start| start + joint.rem_euclid(TAU)));
                 }
             }
         }
@@ -246,14 +257,15 @@ impl<R: Real> Machine<'_, R> {
     /// angle by angle, lane by lane.
     #[inline(always)]
     fn scan(&self, watches: &[Watch], m: &mut Motion<R>) -> Vec<f64> {
-        let mut values = vec![0.0; watches.len() * 2 * SCAN * R::LANES];
-        for i in 0..SCAN {
+        let n = self.plan.scan();
+        let mut values = vec![0.0; watches.len() * 2 * n * R::LANES];
+        for i in 0..n {
             let phi = R::splat(scan_angle(i));
             self.plan.mechanism.place::<R, 2>(self.q, Angle::new(phi), m);
             for (w, watch) in watches.iter().enumerate() {
                 let (value, slope) = self.watched(*watch, phi, m);
-                value.store(&mut values[(2 * w * SCAN + i) * R::LANES..]);
-                slope.store(&mut values[((2 * w + 1) * SCAN + i) * R::LANES..]);
+                value.store(&mut values[(2 * w * n + i) * R::LANES..]);
+                slope.store(&mut values[((2 * w + 1) * n + i) * R::LANES..]);
             }
         }
         values
@@ -262,12 +274,13 @@ impl<R: Real> Machine<'_, R> {
     /// Adds the zeros of one watched quantity to each lane's list.
     #[inline(always)]
     fn zeros(&self, watch: Watch, values: &[f64], lanes: &mut [Vec<f64>], m: &mut Motion<R>) {
-        let (values, slopes) = values.split_at(SCAN * R::LANES);
+        let n = self.plan.scan();
+        let (values, slopes) = values.split_at(n * R::LANES);
         let (mut brackets, mut dips) = (vec![Vec::new(); R::LANES], vec![Vec::new(); R::LANES]);
         let mut pairs = vec![Vec::new(); R::LANES];
         for lane in 0..R::LANES {
-            let at = |list: &[f64], i: usize| list[(i % SCAN) * R::LANES + lane];
-            for i in 0..SCAN {
+            let at = |list: &[f64], i: usize| list[(i % n) * R::LANES + lane];
+            for i in 0..n {
                 let (a, b) = (at(values, i), at(values, i + 1));
                 if a * b < 0.0 {
                     let (low, width) = (scan_angle(i), TAU / SCAN as f64);
@@ -315,7 +328,7 @@ impl<R: Real> Machine<'_, R> {
             root.store(&mut guess);
             for lane in 0..R::LANES {
                 if brackets[lane].len() > nth && guess[lane].is_finite() {
-                    lanes[lane].push(guess[lane].rem_euclid(TAU));
+                    lanes[lane].push(guess[lane].rem_euclid(self.plan.cycle()));
                 }
             }
         }

@@ -20,7 +20,7 @@ use std::f64::consts::TAU;
 /// What a law needs to know of the machine at one crank angle.
 #[derive(Clone, Copy, Debug)]
 pub struct Given<R> {
-    /// Crank angle within the revolution.
+    /// Crank angle within the cycle.
     phi: R,
     p: Vec2<R>,
     d1: Vec2<R>,
@@ -100,12 +100,13 @@ impl<R: Real> Given<R> {
     }
 }
 
-/// The crank angle within the revolution, 0 to 2π, which a formula knows.
+/// The crank angle within a cycle of some revolutions, from 0 on, which a formula knows.
 #[inline(always)]
-fn within_turn<R: Real>(phi: R) -> R {
+fn within_cycle<R: Real>(phi: R, turns: u32) -> R {
+    let cycle = TAU * f64::from(turns);
     phi.map(
         #[inline(always)]
-        |phi| (if (0.0..=TAU).contains(&phi) { phi } else { phi.rem_euclid(TAU) }, 1.0),
+        |phi| (if (0.0..=cycle).contains(&phi) { phi } else { phi.rem_euclid(cycle) }, 1.0),
     )
 }
 
@@ -115,7 +116,7 @@ impl FormulaLoad {
     fn given<R: Real>(&self, formula: &Formula, q: &[R], phi: R, m: &Motion<R>) -> Given<R> {
         let mut given = Given::nothing();
         if formula.reads(Variable::Phi) {
-            given.phi = within_turn(phi);
+            given.phi = within_cycle(phi, self.turns);
         }
         match self.carrier {
             Carrier::Slide { slide, point } => {
@@ -142,7 +143,10 @@ impl FormulaLoad {
     fn over_angle<R: Real>(&self, formula: &Formula, phi: R, m: &Motion<R>) -> Inputs<Dual<R>> {
         let one = R::splat(1.0);
         let dual = Inputs {
-            phi: Dual { value: if formula.reads(Variable::Phi) { within_turn(phi) } else { phi }, d: one },
+            phi: Dual {
+                value: if formula.reads(Variable::Phi) { within_cycle(phi, self.turns) } else { phi },
+                d: one,
+            },
             ..Given::<Dual<R>>::nothing().inputs(Dual::constant(one), Dual::constant(one))
         };
         match self.carrier {

@@ -73,9 +73,16 @@ pub enum Load {
         forward: usize,
         back: usize,
     },
-    /// Torque on the crankshaft opposing positive rotation by a periodic table over φ.
+    /// Torque on the crankshaft opposing positive rotation by a table over φ that repeats after some turns.
     TorqueAngle {
         table: usize,
+        turns: u32,
+    },
+    /// Force along a guide by a table over φ that repeats after some turns.
+    ForceAngle {
+        slide: usize,
+        table: usize,
+        turns: u32,
     },
 }
 
@@ -139,6 +146,8 @@ pub enum Carrier {
 pub struct FormulaLoad {
     pub formula: usize,
     pub carrier: Carrier,
+    /// Turns after which the crank angle that the formula knows starts again from 0.
+    pub turns: u32,
 }
 
 /// A load that depends on the speed of the crank in its own way, or on time.

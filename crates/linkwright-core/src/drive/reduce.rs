@@ -13,6 +13,7 @@ use crate::drive::structure::Plan;
 use crate::kernel::plane::{Angle, Place, Vec2};
 use crate::kernel::real::Real;
 use crate::linkage::motion::{Motion, on_link, stretch};
+use std::f64::consts::TAU;
 
 /// The machine reduced to the crank at one angle. The load torque at speed ω is
 /// `load + sense·dry + viscous·ω`, with `sense` the direction of rotation.
@@ -115,10 +116,25 @@ impl Plan {
                 let force = (slide.d1 * sense).select_lt(R::splat(0.0), behind, ahead);
                 r.dry = slide.d1.abs().mul_add(force, r.dry);
             }
-            Load::TorqueAngle { table } => {
-                r.load = r.load + angle.phi.map(|phi| self.tables[table].periodic(phi));
+            Load::TorqueAngle { table, turns } => {
+                r.load = r.load + self.over_angle(table, turns, angle.phi);
+            }
+            Load::ForceAngle { slide, table, turns } => {
+                r.load = r.load - self.over_angle(table, turns, angle.phi) * m.slides[slide].d1;
             }
         }
+    }
+}
+
+impl Plan {
+    /// Value of a table over the crank angle that repeats after some turns.
+    #[inline(always)]
+    fn over_angle<R: Real>(&self, table: usize, turns: u32, phi: R) -> R {
+        let period = TAU * f64::from(turns);
+        phi.map(
+            #[inline(always)]
+            |phi| self.tables[table].periodic(phi, period),
+        )
     }
 }
 

@@ -250,7 +250,7 @@ impl Search<'_> {
     /// The search from a marched revolution on: for the answer, or for another motion, which is only reported.
     fn from(&self, motion: &Repeated, told: bool) -> Self {
         let mut edges: Vec<f64> = motion.pieces.iter().map(|piece| piece.phi).collect();
-        edges.push(std::f64::consts::TAU);
+        edges.push(self.plan.cycle());
         let accuracy = if told { self.accuracy.max(TOLD) } else { self.accuracy };
         Search {
             mesh: Mesh::new(edges),

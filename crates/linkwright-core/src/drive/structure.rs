@@ -4,9 +4,28 @@
 
 use crate::drive::loads::{Body, ForceElement, Law, Load};
 use crate::drive::motor::Drive;
+use crate::kernel::error::PlanError;
 use crate::kernel::formula::Formula;
 use crate::kernel::table::Table;
 use crate::linkage::mechanism::Mechanism;
+use std::f64::consts::TAU;
+
+/// Most turns of a cycle: its steps are kept in memory.
+const TURNS_MAX: u64 = 1000;
+
+/// Turns after which two motions repeat together: the least common multiple.
+///
+/// # Errors
+/// No turn, or too many.
+pub fn together(first: u32, second: u32) -> Result<u32, PlanError> {
+    let (mut divisor, mut rest) = (first, second);
+    while rest > 0 {
+        (divisor, rest) = (rest, divisor % rest);
+    }
+    let turns = u64::from(first / divisor.max(1)) * u64::from(second);
+    let outside = PlanError::Missing { what: "turn", value: turns as usize, made: TURNS_MAX as usize };
+    u32::try_from(turns).ok().filter(|_| (1..=TURNS_MAX).contains(&turns)).ok_or(outside)
+}
 
 /// What a machine consists of.
 #[derive(Clone, Debug)]
@@ -22,9 +41,24 @@ pub struct Plan {
     pub laws: Vec<Law>,
     /// How many parameters the plan refers to.
     pub n_parameters: usize,
+    /// Turns of the crank after which all loads repeat.
+    pub turns: u32,
 }
 
 impl Plan {
+    /// Angle of the crank after which all loads repeat \[rad\].
+    pub fn cycle(&self) -> f64 {
+        TAU * f64::from(self.turns)
+    }
+
+    /// The same over a cycle of which the given turns are a part too: those after which the mechanism repeats.
+    ///
+    /// # Errors
+    /// No turn, or too many.
+    pub fn over_turns(&self, turns: u32) -> Result<Plan, PlanError> {
+        Ok(Plan { turns: together(self.turns, turns)?, ..self.clone() })
+    }
+
     /// The same without loads that have a potential over the position of the mechanism, whose work over a closed cycle
     /// is zero.
     pub fn without_conservative(&self) -> Plan {

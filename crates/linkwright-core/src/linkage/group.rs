@@ -105,7 +105,8 @@ impl Group {
         let share = share.map(|x| (first + (x - first).rem_euclid(TAU), 1.0));
         for (k, &unknown) in self.unknowns.iter().enumerate() {
             let (x, y) = (&self.starts[2 * k], &self.starts[2 * k + 1]);
-            let start = Vec2::new(share.map(|phi| x.periodic(phi)), share.map(|phi| y.periodic(phi)));
+            let start =
+                Vec2::new(share.map(|phi| x.periodic(phi, TAU)), share.map(|phi| y.periodic(phi, TAU)));
             m.points[unknown] = Place::fixed(start);
         }
         self.solve::<R, ORDER>(q, m);

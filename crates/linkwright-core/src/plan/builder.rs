@@ -1,6 +1,7 @@
 //! The plan as it grows, and the checks of what is used and made.
 
 use crate::drive::loads::{Body, ForceElement, Law, Load};
+use crate::drive::structure::together;
 use crate::kernel::error::PlanError;
 use crate::kernel::formula::Formula;
 use crate::kernel::slot::Slot;
@@ -23,6 +24,8 @@ pub struct Builder {
     pub(super) tables: Vec<Table>,
     pub(super) formulas: Vec<Formula>,
     pub(super) n_parameters: usize,
+    /// Turns after which all loads so far repeat.
+    pub(super) turns: u32,
 }
 
 fn below(value: usize, bound: usize, what: &'static str) -> Result<(), PlanError> {
@@ -47,7 +50,7 @@ fn count(values: &[usize], counted: &mut usize, what: &'static str) -> Result<()
 impl Builder {
     /// An empty plan for a list of parameters.
     pub fn new(n_parameters: usize) -> Self {
-        Builder { n_parameters, ..Builder::default() }
+        Builder { n_parameters, turns: 1, ..Builder::default() }
     }
 
     /// Room for one more parameter.
@@ -75,6 +78,12 @@ impl Builder {
         self.check_formula(&formula)?;
         self.formulas.push(formula);
         Ok(self.formulas.len() - 1)
+    }
+
+    /// One more load, which repeats after some turns.
+    pub(super) fn repeats_after(&mut self, turns: u32) -> Result<(), PlanError> {
+        self.turns = together(self.turns, turns)?;
+        Ok(())
     }
 
     pub(super) fn slots(&self, slots: &[Slot]) -> Result<(), PlanError> {

@@ -30,6 +30,7 @@ impl Builder {
             formulas: self.formulas,
             laws: self.laws,
             n_parameters: self.n_parameters,
+            turns: self.turns,
         })
     }
 

@@ -3,7 +3,7 @@
 use super::builder::{Builder, all_below};
 use crate::drive::loads::{Body, Carrier, ForceElement, FormulaLoad, Law, Load};
 use crate::kernel::error::PlanError;
-use crate::kernel::formula::Degree;
+use crate::kernel::formula::{Degree, Variable};
 
 impl Builder {
     /// Adds a body.
@@ -60,7 +60,15 @@ impl Builder {
                 self.slides(&[slide])?;
                 self.tables(&[forward, back])?;
             }
-            Load::TorqueAngle { table } => self.tables(&[table])?,
+            Load::TorqueAngle { table, turns } => {
+                self.tables(&[table])?;
+                self.repeats_after(turns)?;
+            }
+            Load::ForceAngle { slide, table, turns } => {
+                self.slides(&[slide])?;
+                self.tables(&[table])?;
+                self.repeats_after(turns)?;
+            }
         }
         self.loads.push(load);
         Ok(())
@@ -140,8 +148,11 @@ impl Builder {
         Ok(())
     }
 
-    fn check_formula_load(&self, load: &FormulaLoad) -> Result<(), PlanError> {
+    fn check_formula_load(&mut self, load: &FormulaLoad) -> Result<(), PlanError> {
         all_below(&[load.formula], self.formulas.len(), "formula")?;
+        if self.formulas[load.formula].reads(Variable::Phi) {
+            self.repeats_after(load.turns)?;
+        }
         match load.carrier {
             Carrier::Slide { slide, point } => {
                 self.slides(&[slide])?;

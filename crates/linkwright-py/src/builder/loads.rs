@@ -54,8 +54,10 @@ pub(crate) enum Load {
     Spring { start: usize, end: usize, stiffness: usize, free_length: usize, preload: usize },
     #[pyo3(constructor = (*, slide, forward, back))]
     ForcePosition { slide: usize, forward: Knots, back: Knots },
-    #[pyo3(constructor = (*, table))]
-    TorqueAngle { table: Knots },
+    #[pyo3(constructor = (*, table, turns))]
+    TorqueAngle { table: Knots, turns: u32 },
+    #[pyo3(constructor = (*, slide, table, turns))]
+    ForceAngle { slide: usize, table: Knots, turns: u32 },
     #[pyo3(constructor = (*, table))]
     TorqueSpeed { table: Knots },
     #[pyo3(constructor = (*, point, link, along, across))]
@@ -72,14 +74,14 @@ pub(crate) enum Load {
     TorsionDamper { link: usize, other: Option<usize>, damping: usize },
     #[pyo3(constructor = (*, start, end, force, length, column, exponent))]
     GasSpring { start: usize, end: usize, force: usize, length: usize, column: usize, exponent: usize },
-    #[pyo3(constructor = (*, formula, slide, point))]
-    FormulaOnSlide { formula: Formula, slide: usize, point: usize },
-    #[pyo3(constructor = (*, formula, point, cos, sin))]
-    FormulaOnPoint { formula: Formula, point: usize, cos: usize, sin: usize },
-    #[pyo3(constructor = (*, formula, point, link, cos, sin))]
-    FormulaAlong { formula: Formula, point: usize, link: usize, cos: usize, sin: usize },
-    #[pyo3(constructor = (*, formula, link))]
-    FormulaOnLink { formula: Formula, link: usize },
+    #[pyo3(constructor = (*, formula, slide, point, turns))]
+    FormulaOnSlide { formula: Formula, slide: usize, point: usize, turns: u32 },
+    #[pyo3(constructor = (*, formula, point, cos, sin, turns))]
+    FormulaOnPoint { formula: Formula, point: usize, cos: usize, sin: usize, turns: u32 },
+    #[pyo3(constructor = (*, formula, point, link, cos, sin, turns))]
+    FormulaAlong { formula: Formula, point: usize, link: usize, cos: usize, sin: usize, turns: u32 },
+    #[pyo3(constructor = (*, formula, link, turns))]
+    FormulaOnLink { formula: Formula, link: usize, turns: u32 },
 }
 
 impl Load {
@@ -103,9 +105,13 @@ impl Load {
                 let (forward, back) = (to.table(forward.0.clone()), to.table(back.0.clone()));
                 to.load(CoreLoad::ForcePosition { slide, forward, back })
             }
-            Load::TorqueAngle { ref table } => {
+            Load::TorqueAngle { ref table, turns } => {
                 let table = to.table(table.0.clone());
-                to.load(CoreLoad::TorqueAngle { table })
+                to.load(CoreLoad::TorqueAngle { table, turns })
+            }
+            Load::ForceAngle { slide, ref table, turns } => {
+                let table = to.table(table.0.clone());
+                to.load(CoreLoad::ForceAngle { slide, table, turns })
             }
             Load::TorqueSpeed { ref table } => {
                 let table = to.table(table.0.clone());
@@ -118,16 +124,18 @@ impl Load {
             | Load::TorsionSpring { .. }
             | Load::TorsionDamper { .. }
             | Load::GasSpring { .. } => self.add_between(to),
-            Load::FormulaOnSlide { ref formula, slide, point } => {
-                by_formula(to, formula, Carrier::Slide { slide, point })
+            Load::FormulaOnSlide { ref formula, slide, point, turns } => {
+                by_formula(to, formula, turns, Carrier::Slide { slide, point })
             }
-            Load::FormulaOnPoint { ref formula, point, cos, sin } => {
-                by_formula(to, formula, Carrier::Point { point, cos, sin })
+            Load::FormulaOnPoint { ref formula, point, cos, sin, turns } => {
+                by_formula(to, formula, turns, Carrier::Point { point, cos, sin })
             }
-            Load::FormulaAlong { ref formula, point, link, cos, sin } => {
-                by_formula(to, formula, Carrier::Along { point, link, cos, sin })
+            Load::FormulaAlong { ref formula, point, link, cos, sin, turns } => {
+                by_formula(to, formula, turns, Carrier::Along { point, link, cos, sin })
             }
-            Load::FormulaOnLink { ref formula, link } => by_formula(to, formula, Carrier::Link { link }),
+            Load::FormulaOnLink { ref formula, link, turns } => {
+                by_formula(to, formula, turns, Carrier::Link { link })
+            }
         }
     }
 
@@ -160,7 +168,7 @@ impl Load {
     }
 }
 
-fn by_formula(to: &mut Builder, formula: &Formula, carrier: Carrier) -> Result<(), PlanError> {
+fn by_formula(to: &mut Builder, formula: &Formula, turns: u32, carrier: Carrier) -> Result<(), PlanError> {
     let formula = to.formula(formula.0.clone())?;
-    to.formula_load(FormulaLoad { formula, carrier })
+    to.formula_load(FormulaLoad { formula, carrier, turns })
 }

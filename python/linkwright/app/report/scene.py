@@ -8,6 +8,7 @@ drawn over all of them. What is drawn at these places is said in `scene_parts`.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from typing import Any
 
@@ -79,7 +80,9 @@ def moving_scene(machine: Machine, steady: SteadyState | None, through: float | 
     if not _closes(machine):
         return None
     closed = closure(machine)
-    angles = _angles(closed) if through is None else np.union1d(_angles(closed), [through])
+    angles = _angles(closed, steady.turns if steady else 1)
+    if through is not None:
+        angles = np.union1d(angles, [through])
     motion = kinematics(machine, angles)
     drawn = _points(machine, motion)
     listed = list(parts(machine, motion))
@@ -130,13 +133,13 @@ def _closes(machine: Machine) -> bool:
         return False
 
 
-def _angles(closed: Closure) -> Floats:
-    """Crank angles of the motion that is drawn [rad]."""
+def _angles(closed: Closure, cycle: int) -> Floats:
+    """Crank angles of the motion that is drawn, over the revolutions of a cycle of the motion [rad]."""
     if not closed.turns_fully:
         # Without its very ends, where a radicand may round to below zero.
         low, high = closed.ranges[0]
         return np.linspace(low + _MARGIN, high - _MARGIN, _INTERVALS + 1)
-    turns = closed.turns or 1
+    turns = math.lcm(closed.turns or 1, cycle)
     return np.linspace(0.0, 2 * np.pi * turns, _INTERVALS * min(turns, _TURNS_FINE) + 1)
 
 
@@ -180,8 +183,9 @@ def _times(machine: Machine, steady: SteadyState | None, angles: Floats) -> tupl
     """Time and speed at each angle."""
     if steady is not None:
         # The last angle of a revolution is not the first of the next, which would be back at its time zero.
-        turn = np.ceil(angles / (2 * np.pi) - 1e-9) - 1
-        within = angles - 2 * np.pi * turn
+        cycle = 2 * np.pi * steady.turns
+        turn = np.ceil(angles / cycle - 1e-9) - 1
+        within = angles - cycle * turn
         time = turn * steady.period + np.interp(within, steady.crank_angle, steady.time)
         return time - time[0], np.interp(within, steady.crank_angle, steady.speed)
     drive = machine.drive

@@ -4,6 +4,7 @@
 | --- | --- |
 | `base` | What all descriptions share |
 | `curve` | Curves given by points |
+| `cycle` | Cycles of several revolutions: the angle after which a torque or a load repeats |
 | `deferred_model` | Tables of a machine file that another room describes |
 | `formula` | Formulas as texts |
 | `formula_faults` | What can be wrong with a formula in a file: its text, its names, its constants |

@@ -116,10 +116,11 @@ def panels(rows: int, *, height: float, columns: int = 1, shared: bool = True) -
     return figure, list(axes.ravel())
 
 
-def turn_axis(axes: Axes, *, label: bool = True) -> None:
-    """Let x be the crank angle of one revolution in degrees."""
-    axes.set_xlim(0, 360)
-    axes.set_xticks(range(0, 361, 45))
+def turn_axis(axes: Axes, degrees: np.ndarray | None = None, *, label: bool = True) -> None:
+    """Let x be the crank angle of one revolution in degrees, or of the cycle of some angles [°]."""
+    turns = 1 if degrees is None else max(1, round(float(degrees[-1]) / 360))
+    axes.set_xlim(0, 360 * turns)
+    axes.set_xticks(range(0, 360 * turns + 1, 45 * turns))
     if label:
         axes.set_xlabel("crank angle φ [°]")
 

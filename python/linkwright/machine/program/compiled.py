@@ -154,6 +154,20 @@ class CompiledMachine:
     kept: dict[str, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     @property
+    def turns(self) -> int:
+        """Revolutions of the crank after which all loads repeat."""
+        return self.plan.turns
+
+    @property
+    def cycle(self) -> float:
+        """Angle of the crank after which all loads repeat [rad]."""
+        return 2 * np.pi * self.plan.turns
+
+    def over_turns(self, turns: int) -> CompiledMachine:
+        """The machine over a cycle of which so many revolutions are a part too."""
+        return replace(self, plan=self.plan.over_turns(turns), resisting=self.resisting.over_turns(turns))
+
+    @property
     def n_rows(self) -> int:
         """How many machines."""
         return int(self.values.shape[1])
@@ -187,7 +201,7 @@ class CompiledMachine:
         return replace(self, plan=self.resisting)
 
     def kinks(self) -> Floats:
-        """Crank angles from 0 to 2π [rad] between which everything is smooth."""
+        """Crank angles from 0 to the end of the cycle [rad] between which everything is smooth."""
         return _core.kinks(self.plan, self.one)
 
     def reductions(self, angles: Floats) -> _core.Reductions:
@@ -221,7 +235,7 @@ class CompiledMachine:
         return _core.transient(self.plan, self.one, *start, duration, turns, accuracy)
 
     def steady(self, angles: Floats, accuracy: float) -> _core.SteadyMotion | _core.NoSteadyMotion:
-        """Steady motion with curves at crank angles in [0, 2π]; see `_core.steady_state`."""
+        """Steady motion with curves at crank angles within the cycle; see `_core.steady_state`."""
         return _core.steady_state(self.plan, self.one, accuracy, angles)
 
     def steady_rows(self, accuracy: float) -> _core.SteadyRows:

@@ -9,8 +9,10 @@ import numpy as np
 
 from linkwright import _core
 from linkwright.kernel.description import formula
+from linkwright.kernel.description.cycle import ONE_TURN, cycle_turns
 from linkwright.kernel.description.place import arrays, join
 from linkwright.kernel.errors import ShapeError
+from linkwright.kernel.numerics.tangent import primal
 from linkwright.kinetostatics.model.body import Body
 from linkwright.kinetostatics.model.loads.between import (
     Damper,
@@ -27,7 +29,14 @@ from linkwright.kinetostatics.model.loads.force import (
     Gravity,
     ViscousFriction,
 )
-from linkwright.kinetostatics.model.loads.table import ForcePosition, TorqueAngle, TorqueSpeed, TorqueSwing
+from linkwright.kinetostatics.model.loads.table import (
+    ForceAngle,
+    ForcePosition,
+    OverCrankAngle,
+    TorqueAngle,
+    TorqueSpeed,
+    TorqueSwing,
+)
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.mechanism import MechanismProgram
 from linkwright.machine.program.numbers import table
@@ -124,7 +133,15 @@ class Loads:
                 back = self._table(load.position, load.return_ or (0.0,) * len(load.position))
                 return _core.Load.ForcePosition(slide=self.slides[load.on], forward=forward, back=back)
             case TorqueAngle():
-                return _core.Load.TorqueAngle(table=self._table(*_one_turn(load.angle, load.torque)))
+                return _core.Load.TorqueAngle(
+                    table=self._table(*load.points(load.torque)), turns=whole_turns(load)
+                )
+            case ForceAngle():
+                return _core.Load.ForceAngle(
+                    slide=self.slides[load.on],
+                    table=self._table(*load.points(load.force)),
+                    turns=whole_turns(load),
+                )
             case TorqueSpeed():
                 return _core.Load.TorqueSpeed(table=self._table(load.speed, load.torque))
         raise TypeError(f"no translation for {type(load).__name__}")
@@ -193,6 +210,7 @@ class Loads:
         """A load for each summand, so that each enters the motion in its own way."""
         on: Callable[..., _core.Load] = _core.Load.FormulaOnSlide
         carrier: dict[str, int]
+        turns = whole_turns(load)
         if load.torque is not None:
             on, carrier = _core.Load.FormulaOnLink, {"link": self.links[load.on]}
         elif load.along is not None or load.direction is not None:
@@ -204,7 +222,7 @@ class Loads:
             carrier = {"slide": self.slides[load.on], "point": self.points[load.on]}
         constants = {name: self.slot(value) for name, value in load.constants.items()}
         for term in formula.terms(formula.parse(load.text)):
-            yield on(formula=self.program.formula(term, constants), **carrier)
+            yield on(formula=self.program.formula(term, constants), **carrier, turns=turns)
 
     def _vector(self, size: Any, direction: Any) -> tuple[int, int]:
         return self.slot(size * np.cos(direction)), self.slot(size * np.sin(direction))
@@ -221,6 +239,7 @@ def swing_formulas(load: TorqueSwing) -> Iterator[FormulaLoad]:
             direction=None,
             along=None,
             constants=constants,
+            cycle=ONE_TURN,
         )
 
 
@@ -248,7 +267,11 @@ def gas_column(spring: GasSpring) -> Any:
     return way * root / (root - 1.0)
 
 
-def _one_turn(angles: Sequence[float], torques: Sequence[float]) -> tuple[Sequence[float], Sequence[float]]:
-    """A table without the repetition of its first point at the end of the revolution."""
-    closes = angles[-1] - angles[0] >= 2 * np.pi * (1 - 1e-9)
-    return (angles[:-1], torques[:-1]) if closes else (angles, torques)
+def whole_turns(load: OverCrankAngle | FormulaLoad) -> int:
+    """Revolutions after which a load repeats. Raises ShapeError: they vary from machine to machine."""
+    if np.ndim(load.cycle):
+        raise ShapeError(
+            "cycle: the revolutions after which a load repeats cannot vary from machine to machine in a "
+            "batch; compute machines with others one by one"
+        )
+    return cycle_turns(float(primal(load.cycle)))

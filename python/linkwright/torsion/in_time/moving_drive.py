@@ -65,6 +65,12 @@ def moving_drive(machine: Machine, manoeuvre: TrainTransient) -> tuple[MovingTra
     given = manoeuvre.model_copy(update={"balanced": False, "motors": motors})
     moving = moving_train(train, given)
     compiled = mechanism_alone(machine)
+    if compiled.turns > 1:
+        raise InputError(
+            f"{machine.name}: loads or mechanism repeat after {compiled.turns} revolutions; motion in time "
+            "of a torsionally flexible driveline covers one: leave the stiffness out, or compute the forced "
+            "vibration"
+        )
     crank = moving.discs.index(CRANK)
     own = np.array(moving.inertia)
     # The rest is what turns with the crank beside the mechanism; of nothing, rounding is left.

@@ -33,7 +33,7 @@ from linkwright.drive.steady_state import steady_state
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.public import public
-from linkwright.linkages.closure import require_full_turn, require_one_turn
+from linkwright.linkages.closure import over_whole_cycle, require_full_turn
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.torsion.model.drive_train import CRANK, MOTOR, STIFFNESS_KEYS, drive_train
@@ -97,8 +97,8 @@ def mechanism_harmonics(machine: Machine, speed: ArrayLike, orders: ArrayLike) -
     speed : array_like, shape () or (speeds,)
         Of the crank [rad/s].
     orders : array_like, shape (n,)
-        Per revolution of the crank, multiples of ½. Halves of a revolution are not in a motion that repeats
-        every revolution: their harmonics are zero.
+        Per revolution of the crank, multiples of ½. Halves of a revolution are in a motion that repeats
+        after two: in one that repeats after every revolution their harmonics are zero.
 
     Returns
     -------
@@ -110,7 +110,7 @@ def mechanism_harmonics(machine: Machine, speed: ArrayLike, orders: ArrayLike) -
     InputError
         An order is negative or no multiple of ½, or a speed is not positive.
     AssemblyError
-        The mechanism does not close all round, or does not repeat every revolution.
+        The mechanism does not close all round, or does not repeat after 24 revolutions or fewer.
 
     Notes
     -----
@@ -119,7 +119,7 @@ def mechanism_harmonics(machine: Machine, speed: ArrayLike, orders: ArrayLike) -
     """
     nu, omega = _orders(orders), _positive(speed)
     compiled = mechanism_alone(machine)
-    size = np.where(nu == 0, 1.0, 2.0) * (nu == np.round(nu))
+    size = np.where(nu == 0, 1.0, 2.0) * (nu * compiled.turns == np.round(nu * compiled.turns))
     M: Complex = -size[:, None] * _resistance_harmonics(compiled, nu, omega)
     M[nu == 0] -= compiled.speed_load(omega)
     return M[:, 0] if np.ndim(speed) == 0 else M
@@ -166,9 +166,8 @@ def mechanism_alone(machine: Machine) -> CompiledMachine:
     compiled = compile_machine(alone)
     require_same_turns(alone)
     require_full_turn(compiled, alone)
-    require_one_turn(compiled)
     require_sound_loads(compiled, alone)
-    return compiled
+    return over_whole_cycle(compiled)
 
 
 def _resistance_harmonics(compiled: CompiledMachine, nu: Floats, omega: Floats) -> Complex:
@@ -229,7 +228,7 @@ def mechanism_sources(
     over that of the first; `speeds`: (speeds,) [rad/s].
     """
     n = turning[place[CRANK]]
-    of_crank = np.arange(_ORDERS + 1.0)
+    of_crank = np.arange(0.0, _ORDERS + 0.5, 0.5 if mechanism_alone(machine).turns % 2 == 0 else 1.0)
     M = mechanism_harmonics(machine, n * speeds, of_crank)
     size = np.abs(M).max(axis=1)
     kept = (of_crank > 0) & (size > _NEGLIGIBLE * size.max())

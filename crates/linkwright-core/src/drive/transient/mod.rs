@@ -130,6 +130,8 @@ pub fn follow(plan: &Plan, q: &[f64], start: &Start) -> Trajectory {
 struct Path {
     trajectory: Trajectory,
     kinks: Vec<f64>,
+    /// Angle after which the kinks come again.
+    cycle: f64,
     speeds: Vec<f64>,
     last_angle: f64,
     last_time: f64,
@@ -173,6 +175,7 @@ impl Path {
             trajectory,
             kinks,
             speeds: plan.drive.speed_kinks(&plan.tables, q),
+            cycle: plan.cycle(),
             last_angle: start.phi + start.turns * TAU,
             last_time: start.duration,
             accuracy: start.accuracy,
@@ -347,10 +350,10 @@ impl Path {
 
     /// The next angle at which a step must end.
     fn next_angle(&self, phi: f64) -> f64 {
-        let turn = (phi / TAU).floor() * TAU;
+        let turn = (phi / self.cycle).floor() * self.cycle;
         let passed = phi + 10.0 * NEAR * self.accuracy.sqrt();
         let after = |base: f64| self.kinks.iter().map(move |kink| base + kink).find(|&angle| angle > passed);
-        let kink = after(turn).or_else(|| after(turn + TAU)).unwrap_or(f64::INFINITY);
+        let kink = after(turn).or_else(|| after(turn + self.cycle)).unwrap_or(f64::INFINITY);
         kink.min(self.last_angle)
     }
 

@@ -34,7 +34,13 @@ from linkwright.kinetostatics.model.loads.force import (
     Load,
     ViscousFriction,
 )
-from linkwright.kinetostatics.model.loads.table import ForcePosition, TorqueAngle, TorqueSpeed, TorqueSwing
+from linkwright.kinetostatics.model.loads.table import (
+    ForceAngle,
+    ForcePosition,
+    TorqueAngle,
+    TorqueSpeed,
+    TorqueSwing,
+)
 
 AnyLoad = Annotated[
     DryFriction
@@ -48,6 +54,7 @@ AnyLoad = Annotated[
     | TorsionalSpring
     | TorsionalDamper
     | ForcePosition
+    | ForceAngle
     | TorqueAngle
     | TorqueSpeed
     | TorqueSwing
@@ -62,6 +69,7 @@ __all__ = [
     "ConstantTorque",
     "Damper",
     "DryFriction",
+    "ForceAngle",
     "ForcePosition",
     "FormulaLoad",
     "GasSpring",

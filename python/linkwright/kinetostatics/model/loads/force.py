@@ -11,6 +11,7 @@ from pydantic import Field
 from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import CheckedDescription, fault
+from linkwright.kernel.description.cycle import ONE_TURN, CycleAngle, cycle_faults, cycle_turns
 from linkwright.kernel.description.formula import VARIABLES, names, parse
 from linkwright.kernel.description.formula_faults import constant_faults, text_faults, used_names
 from linkwright.kernel.units import (
@@ -122,6 +123,14 @@ class FormulaLoad(Load):
     constants: dict[str, Annotated[float, AnyQuantity()]] = Field(
         default_factory=dict, description="Constants of the formula by name, in any unit."
     )
+    cycle: CycleAngle = Field(
+        ONE_TURN, description="Angle after which phi in the formula starts again from 0, such as 720 deg."
+    )
+
+    @property
+    def turns(self) -> int:
+        """Revolutions after which the crank angle of the formula starts again from 0."""
+        return cycle_turns(self.cycle)
 
     @property
     def text(self) -> str:
@@ -136,6 +145,7 @@ class FormulaLoad(Load):
     def _faults(self) -> Iterator[InitErrorDetails]:
         yield from one_of(self, "force", "torque")
         yield from constant_faults(self.constants, self.text)
+        yield from cycle_faults(self.cycle)
         for key in ("force", "torque"):
             text = getattr(self, key)
             if text is not None:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import fault, suggestion
+from linkwright.kernel.description.cycle import TURNS_MAX
 from linkwright.kernel.description.place import keys, look
 from linkwright.kinetostatics.model.loads.force import variable_faults
 from linkwright.linkages.model.topology import Topology, Wanted
@@ -36,6 +38,9 @@ _BELONGS = {
     ("formula", "moving point"): "force",
     ("formula", "link"): "torque",
 }
+# Loads that act along a guide.
+_GUIDED = ("force_position", "force_angle")
+
 # Entries that name a further link.
 _LINKS = ("along", "against")
 
@@ -51,6 +56,7 @@ def load_faults(topology: Topology, loads: object) -> Iterator[InitErrorDetails]
     Loads on nothing; entries that do not belong to what the load acts on. As in the errors of pydantic, the
     kind of the load stands in the place, before its key.
     """
+    yield from _cycle_faults(loads)
     for name in keys(loads):
         load = look(loads, name)
         kind, on = look(load, "kind"), look(load, "on")
@@ -58,13 +64,25 @@ def load_faults(topology: Topology, loads: object) -> Iterator[InitErrorDetails]
             yield from _between_faults(topology, name, kind, look(load, "between"))
         elif not isinstance(on, str) or not isinstance(kind, str):
             continue
-        elif kind == "force_position":
-            yield from _slide_faults(topology, name, on)
+        elif kind in _GUIDED:
+            yield from _slide_faults(topology, name, kind, on)
         else:
             yield from _carrier_faults(topology, name, load, kind, on)
             yield from _link_faults(topology, name, load, kind, on)
             if kind == "formula":
                 yield from _formula_faults(topology, name, load, on)
+
+
+def _cycle_faults(loads: object) -> Iterator[InitErrorDetails]:
+    """Loads that repeat together only after many revolutions."""
+    turns = [(name, getattr(look(loads, name), "turns", 1)) for name in keys(loads)]
+    together = math.lcm(*(count for _, count in turns))
+    if together > TURNS_MAX:
+        name = max(turns, key=lambda load: load[1])[0]
+        expected = f"cycles of loads that repeat together after {TURNS_MAX} revolutions or fewer"
+        yield fault(
+            "loads", name, "cycle", found=f"{together} revolutions with the others", expected=expected
+        )
 
 
 def _between_faults(topology: Topology, name: str, kind: str, between: object) -> Iterator[InitErrorDetails]:
@@ -82,12 +100,12 @@ def _between_faults(topology: Topology, name: str, kind: str, between: object) -
         yield fault(*here, found=" and ".join(ends), expected=expected)
 
 
-def _slide_faults(topology: Topology, name: str, on: str) -> Iterator[InitErrorDetails]:
-    """A force by position on something that has no guide."""
+def _slide_faults(topology: Topology, name: str, kind: str, on: str) -> Iterator[InitErrorDetails]:
+    """A force along a guide on something that has none."""
     guided = guided_points(topology)
     if on not in guided:
         remedy = topology.instead(on) or suggestion(on, guided)
-        place = ("loads", name, "force_position", "on")
+        place = ("loads", name, kind, "on")
         yield fault(*place, found=on, expected="the name of a point on a guide", remedy=remedy)
 
 

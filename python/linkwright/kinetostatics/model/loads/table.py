@@ -1,7 +1,7 @@
 """Loads by tables: over the position of a slide, the angle of a link, the angle or the speed of the crank."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import Literal
 
@@ -10,11 +10,12 @@ from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import fault
 from linkwright.kernel.description.curve import curve_faults
+from linkwright.kernel.description.cycle import ONE_TURN, CycleAngle, cycle_faults, cycle_turns
 from linkwright.kernel.units import Angles, Forces, Lengths, Speeds, Torques
 from linkwright.kinetostatics.model.loads.force import Load
 
-# A curve over one revolution may close exactly; printed degrees and π are rounded.
-_ONE_TURN = 2 * math.pi * (1 + 1e-9)
+# A table over the whole cycle may close exactly; printed degrees and π are rounded.
+_ROUNDED = 1e-9
 
 
 class ForcePosition(Load):
@@ -55,7 +56,7 @@ class TorqueSwing(Load):
     def _faults(self) -> Iterator[InitErrorDetails]:
         yield from curve_faults(self, "angle", ("forward", "return_"))
         span = self.angle[-1] - self.angle[0] if self.angle else 0.0
-        if span > _ONE_TURN:
+        if span > ONE_TURN * (1 + _ROUNDED):
             expected = "angles within one revolution"
             yield fault("angle", found=f"{math.degrees(span):.6g} deg", expected=expected)
 
@@ -83,23 +84,62 @@ class TorqueSwing(Load):
 _PIECE = "slope*(min(max(atan2(sin(psi - middle), cos(psi - middle)), low), high) - low)"
 
 
-class TorqueAngle(Load):
-    """A load torque on the crankshaft over one revolution, linear between the given angles."""
+class OverCrankAngle(Load):
+    """A load by a table over the crank angle that repeats after its cycle; linear between the angles."""
+
+    angle: Angles = Field(description="Crank angles, increasing, within one cycle.")
+    cycle: CycleAngle = Field(
+        ONE_TURN, description="Angle after which the table repeats: 720 deg for a four-stroke engine."
+    )
+
+    @property
+    def turns(self) -> int:
+        """Revolutions after which it repeats."""
+        return cycle_turns(self.cycle)
+
+    def points(self, values: Sequence[float]) -> tuple[Sequence[float], Sequence[float]]:
+        """Angles [rad] and values without the repetition of the first point at the end of the cycle."""
+        closes = self.angle[-1] - self.angle[0] >= self.cycle * (1 - _ROUNDED)
+        return (self.angle[:-1], values[:-1]) if closes else (self.angle, values)
+
+    def _table_faults(self, key: str, unit: str) -> Iterator[InitErrorDetails]:
+        """What is wrong with the table of a quantity."""
+        yield from curve_faults(self, "angle", (key,))
+        yield from cycle_faults(self.cycle)
+        values: tuple[float, ...] = getattr(self, key)
+        span = self.angle[-1] - self.angle[0] if self.angle else 0.0
+        if span > self.cycle * (1 + _ROUNDED):
+            remedy = 'set cycle = "720 deg" if it takes two revolutions'
+            found = f"{math.degrees(span):.6g} deg"
+            yield fault("angle", found=found, expected="angles within one cycle", remedy=remedy)
+        elif span >= self.cycle * (1 - _ROUNDED) and values and values[0] != values[-1]:
+            expected = f"{values[0]:.6g} {unit}, as at the first angle, one cycle before"
+            yield fault(key, len(values) - 1, found=values[-1], expected=expected)
+
+
+class TorqueAngle(OverCrankAngle):
+    """A load torque on the crankshaft over the crank angle, linear between the given angles."""
 
     kind: Literal["torque_angle"]
-    angle: Angles = Field(description="Crank angles, increasing, within one revolution.")
     torque: Torques = Field(description="Torque at each angle.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
-        yield from curve_faults(self, "angle", ("torque",))
-        span = self.angle[-1] - self.angle[0] if self.angle else 0.0
-        if span > _ONE_TURN:
-            yield fault(
-                "angle", found=f"{math.degrees(span):.6g} deg", expected="angles within one revolution"
-            )
-        elif span >= 2 * math.pi * (1 - 1e-9) and self.torque and self.torque[0] != self.torque[-1]:
-            expected = f"{self.torque[0]:.6g} N m, as at the first angle, one revolution before"
-            yield fault("torque", len(self.torque) - 1, found=self.torque[-1], expected=expected)
+        return self._table_faults("torque", "N m")
+
+
+class ForceAngle(OverCrankAngle):
+    """A force along a guide over the crank angle, such as that of the gas on a piston.
+
+    It acts on sliders, yokes, linear drivers, racks, joints on a guide and followers, in the direction in
+    which the position along the guide increases.
+    """
+
+    kind: Literal["force_angle"]
+    on: str = Field(description="Point on a guide that it acts on.")
+    force: Forces = Field(description="Force at each angle, positive along the guide.")
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        return self._table_faults("force", "N")
 
 
 class TorqueSpeed(Load):
