@@ -373,16 +373,6 @@ def _of_kinds(kinds: set[str]) -> Check:
     return check
 
 
-def _motors(name: str, value: Any) -> tuple[Any, ...]:
-    """Several motors of a catalogue."""
-    expected = "motors, such as read_motors() gives"
-    motors = _several(name, value, expected)
-    for motor in motors:
-        if type(motor).__name__ != "CatalogueMotor":
-            raise _wrong(name, motor, expected)
-    return motors
-
-
 _CHECKS: dict[str, Check] = {
     "os.PathLike[str]": _path,
     "Overrides": _overrides,
@@ -396,7 +386,6 @@ _CHECKS: dict[str, Check] = {
     "Mapping[str, MeasuredResponse]": _mapping,
     "Sequence[str]": _texts,
     "Sequence[float | str]": _numbers_or_texts,
-    "Sequence[CatalogueMotor]": _motors,
     "Iterable[str]": _texts,
     "Sequence[CatalogueMotor]": _motors,
     "ArrayLike": _one_or_more,
