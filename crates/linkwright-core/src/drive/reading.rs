@@ -176,9 +176,12 @@ impl ReadCurves<'_> {
         let mut numbers = vec![0.0; (3 + 2 * TERMS) * R::LANES];
         for (lane, &(k, phi)) in places.iter().enumerate() {
             let (mark, series) = (&self.marks[k], &series[k]);
-            let all = [phi, (phi - mark.phi) / mark.h, mark.t].into_iter().chain(series.u).chain(series.t);
-            for (number, to) in all.zip(numbers.iter_mut().skip(lane).step_by(R::LANES)) {
-                *to = number;
+            numbers[lane] = phi;
+            numbers[R::LANES + lane] = (phi - mark.phi) / mark.h;
+            numbers[2 * R::LANES + lane] = mark.t;
+            for i in 0..TERMS {
+                numbers[(3 + i) * R::LANES + lane] = series.u[i];
+                numbers[(3 + TERMS + i) * R::LANES + lane] = series.t[i];
             }
         }
         R::outline(
