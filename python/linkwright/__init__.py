@@ -9,8 +9,14 @@
 Public names are loaded when they are first used, so that importing the package costs little.
 """
 
+from __future__ import annotations
+
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+
+# As in `typing`, whose import takes longer than all else before the command line listens to interrupts.
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any
 
 __version__ = "0.1.0"
 

@@ -72,3 +72,16 @@ def test_while_it_computes() -> None:
     assert "Traceback" not in told
     # A second is promised; five leave room for a busy machine.
     assert time.monotonic() - start < 5.0
+
+
+def test_little_is_imported_before_it_listens() -> None:
+    """An interrupt before that ends in Python's own traceback."""
+    # Without the modules of the environment itself, which may import this and that.
+    ask = (
+        f"import sys; sys.path.insert(0, {str(ROOT / 'python')!r}); known = set(sys.modules); "
+        "import linkwright.app; print(*set(sys.modules) - known)"
+    )
+    told = subprocess.run([sys.executable, "-I", "-S", "-c", ask], capture_output=True, text=True, check=True)
+    assert "linkwright.app" in told.stdout.split()
+    large = {"collections", "dataclasses", "enum", "functools", "inspect", "re", "signal", "typing"}
+    assert not large & set(told.stdout.split())

@@ -69,3 +69,17 @@ def test_peaks_of_rows_of_like_cranks() -> None:
     rows = lw.steady_states(machine, {entry: speeds})
     alone = [lw.steady_state(lw.replace(machine, {entry: float(speed)}), n=8) for speed in speeds]
     assert rows.acceleration_max == pytest.approx([each.acceleration_max for each in alone], rel=1e-6)
+
+
+@pytest.mark.parametrize("accuracy", [1e-6, 1e-9])
+def test_curves_between_the_steps_are_as_exact_as_asked_for(accuracy: float) -> None:
+    machine = lw.read("machines/roller_two_carts.toml")
+    # Some ten angles a step, none of them at its end.
+    angles = np.linspace(0.001, 2 * np.pi - 0.001, 400)
+    rough, fine = (lw.steady_state(machine, accuracy=a, angles=angles) for a in (accuracy, 1e-13))
+    assert rough.steps < fine.steps
+    for name in ("time", "speed", "acceleration", "torque_motor", "inertia_reduced"):
+        curve, exact = getattr(rough, name), getattr(fine, name)
+        assert np.abs(curve - exact).max() <= accuracy * np.abs(exact).max(), name
+    for name in ("speed_min", "speed_max", "acceleration_min", "acceleration_max"):
+        assert getattr(rough, name) == pytest.approx(getattr(fine, name), rel=accuracy), name

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.drive.figures import in_time_figure
 from linkwright.drive.motion_events import course
 from linkwright.kernel.errors import AssemblyError, InputError
 from linkwright.machine.program.compiled import compile_machine
@@ -157,3 +158,11 @@ def test_rates_without_limit_are_told() -> None:
     for ask in (lw.pose, lambda machine, at: lw.kinematics(machine, [0.0, at])):
         with pytest.raises(AssemblyError, match=r"grow without limit|closes only"):
             ask(lift, float(np.nextafter(end, np.inf)))
+
+
+def test_what_has_no_acceleration_is_drawn_all_the_same() -> None:
+    """Without masses and torques nothing accelerates: 0/0."""
+    machine = lw.loads("format = 1\nname = 'x'\n[mechanism.cranks.A]\nradius = 0.1\n")
+    motion = lw.transient(machine, turns=1.0)
+    assert not np.isfinite(motion.curves()["acceleration"]).any()
+    assert in_time_figure(motion, ()).axes

@@ -46,9 +46,9 @@ KINDS: dict[str, Kind] = {
     "cam": Kind(random_parts.cam, 60, 2),
     "drive": Kind(drive_laws.drive, 15, 8),
     "batch": Kind(drive_laws.batch, 40, 4),
-    "study": Kind(studies.study, 40, 6),
-    "record": Kind(studies.record, 20, 3),
-    "options": Kind(studies.options, 60, 6),
+    "study": Kind(studies.study, 12, 6),
+    "record": Kind(studies.record, 4, 2),
+    "options": Kind(studies.options, 30, 6),
     "topper": Kind(random_parts.topper, 2, 1),
 }
 

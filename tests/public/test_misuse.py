@@ -313,25 +313,12 @@ def test_a_study_of_a_cam_can_be_pickled() -> None:
     assert again.to_dict() == study.to_dict()
 
 
-# Annotations of arguments that their function looks at itself: words of which it takes one, calls, what is
-# one of several unlike things.
+# Annotations of arguments that their function looks at itself: one of several unlike things.
 _OWN = {
     "Any",
     "Bearing | None",
-    "By",
-    "Callable[..., None] | None",
-    "Closure",
-    "Ends",
-    "Form",
-    "Kind",
-    "Method",
     "Law | Callable[[Any], Any] | Sequence[ArrayLike]",
     "NDArray[np.float64] | None",
-    "Objective",
-    "Track",
-    "Track | None",
-    "Watch | None",
-    "tuple[int, int] | None",
 }
 
 
@@ -366,3 +353,36 @@ def test_what_is_of_another_class_is_named(wrong: Any) -> None:
     # One text is not the list of its letters.
     with pytest.raises(InputError, match=r"responses: found .steady_state.period., expected a list of texts"):
         lw.gradient(_machine("roller_one_cart"), "steady_state.period")
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (
+            lambda: lw.front(_study(), method=np.arange(3)),
+            r'^method: .* one of "both"',
+        ),
+        (lambda: lw.optimise(_study(), method="best"), "^method: found 'best'"),
+        (lambda: lw.optimise(_study(), seed=-1), "^seed: found -1"),
+        # As long as a generator of another library takes.
+        (lambda: lw.optimise(_study(), seed=2**32), "^seed: found 4294967296"),
+        (lambda: lw.optimise(_study(), watch=3), "^watch: found 3, expected a function$"),
+        (lambda: lw.choose_motor(_machine("roller_one_cart"), track=3), "^track: found 3"),
+        (lambda: lw.choose_motor(_machine("roller_one_cart"), by=None), "^by: found None"),
+        (lambda: lw.sweep(_study(), "rows", chunks="0:1"), "^chunks: found '0:1'"),
+        (lambda: lw.sweep(_study(), "rows", chunks=(0, 1, 2)), "^chunks: found"),
+        (lambda: lw.choose_motor(_machine("roller_one_cart"), catalogue=[3]), "^catalogue: found"),
+        (lambda: lw.read_motors(3), "^path: found 3"),
+        (lambda: lw.gradient(_machine("roller_one_cart"), []), "^responses: found an empty list"),
+    ],
+)
+def test_words_functions_and_pairs_are_checked(call: Callable[[], Any], words: str) -> None:
+    with pytest.raises(InputError, match=words):
+        call()
+
+
+@cache
+def _study() -> Any:
+    variables = {"ratio": {"address": "drive.gearbox.ratio", "range": [9.0, 10.0], "steps": 2}}
+    tables = {"variables": variables, "responses": {"delta": "steady_state.unevenness"}}
+    return lw.new_study(_machine("roller_one_cart"), {**tables, "goals": {"delta": "minimise"}})

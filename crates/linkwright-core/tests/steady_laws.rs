@@ -7,6 +7,7 @@ mod common;
 
 use common::{Builder, Built, Random};
 use linkwright_core::drive::batch::{QUANTITIES, Rows, row_of_steady, steady_rows};
+use linkwright_core::drive::between::Between;
 use linkwright_core::drive::loads::Load;
 use linkwright_core::drive::motor::Motor;
 use linkwright_core::drive::reading::{Curves, ReadCurves};
@@ -75,11 +76,16 @@ fn angles(found: &Steady) -> (Vec<f64>, Vec<f64>) {
     (ends, nodes)
 }
 
-/// Checks all laws of a solution; gives its worst violation as a share of what is allowed.
+/// Checks all laws of a solution, read as it is and by steps alone; gives its worst violation as a share of what is allowed.
 fn violation(built: &Built, found: &Steady) -> f64 {
+    let by_steps = violation_of(built, found, None);
+    found.between.as_deref().map_or(by_steps, |series| by_steps.max(violation_of(built, found, Some(series))))
+}
+
+fn violation_of(built: &Built, found: &Steady, between: Option<&[Between<f64>]>) -> f64 {
     let Built { plan, q } = built;
     let (ends, nodes) = angles(found);
-    let read = |phi: &[f64]| in_lanes(ReadCurves { plan, q, marks: &found.marks, phi });
+    let read = |phi: &[f64]| in_lanes(ReadCurves { plan, q, marks: &found.marks, between, phi });
     let (at_ends, at_nodes) = (read(&ends), read(&nodes));
     let peak = at_nodes.epsilon.iter().fold(0.0_f64, |peak, e| peak.max(e.abs()));
     let top = at_nodes.omega.iter().fold(0.0_f64, |top, &w| top.max(w));

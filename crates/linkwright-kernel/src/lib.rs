@@ -9,6 +9,7 @@
 //! | [`table`], [`motion_law`] | straight lines between points; laws in pieces |
 //! | [`formula`], [`formula_words`] | what a user writes as text, as a program; its words |
 //! | [`gauss`], [`radau`], [`rk`] | quadrature of order 8; collocation of order 9; Runge–Kutta of order 8 |
+//! | [`series`] | series over a step, and collocation by them |
 //! | [`turns`] | where the polynomial of a step turns, past a limit or not |
 //! | [`call`] | threads of a call, and how it is stopped |
 //! | [`error`], [`status`] | what is wrong with what crosses the border; why a machine has no answer |
@@ -30,6 +31,7 @@ pub mod plane;
 pub mod radau;
 pub mod real;
 pub mod rk;
+pub mod series;
 pub mod slot;
 pub mod status;
 pub mod table;

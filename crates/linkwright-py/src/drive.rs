@@ -148,8 +148,8 @@ impl SteadySolution {
         let (plan, q, phi) = (&self.plan.get().0, &self.q, phi.as_slice()?);
         let analysis = "curves of steady motion";
         require_room(analysis, [CURVES, phi.len()])?;
-        let marks = &self.steady.marks;
-        let read = guarded(py, analysis, || ReadCurves { plan, q, marks, phi }.curves())?;
+        let (marks, between) = (&self.steady.marks, self.steady.between.as_deref());
+        let read = guarded(py, analysis, || ReadCurves { plan, q, marks, between, phi }.curves())?;
         let Curves { time, omega, epsilon, motor_torque, drive_torque, load_torque, J } = &read;
         let lists = [time, omega, epsilon, motor_torque, drive_torque, load_torque, J];
         SteadyCurves::of(py, lists.map(Vec::as_slice), &[phi.len()])
@@ -224,7 +224,8 @@ pub(crate) fn steady_state(
     require_room(analysis, [7, phi.len()])?;
     let solved = guarded(py, analysis, || {
         let found = steady_with_others(plan, q, accuracy)?;
-        let curves = ReadCurves { plan, q, marks: &found.marks, phi }.curves();
+        let curves =
+            ReadCurves { plan, q, marks: &found.marks, between: found.between.as_deref(), phi }.curves();
         Ok::<_, Failure>((found, curves))
     })?;
     Ok(match solved {

@@ -20,10 +20,11 @@ from __future__ import annotations
 import gc
 import sys
 from io import TextIOWrapper
-from typing import TYPE_CHECKING
 
 from linkwright.kernel.command.interrupt import Interrupts
 
+# As in `typing`, which is not imported before the command line listens to interrupts.
+TYPE_CHECKING = False
 if TYPE_CHECKING:
     from linkwright.kernel.command.group import Commands
 

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from linkwright.kernel.errors import InputError
+from linkwright.kernel.errors import InputError, cut
 from linkwright.kernel.public import public
 from linkwright.linkages.closure import Closure, in_cycle
 from linkwright.linkages.cycle import ElementMotion, Linkage, linkage
@@ -91,7 +91,7 @@ def _parts(where: str) -> tuple[str, str]:
     name, _, end = where.strip().rpartition(" ")
     if end not in ENDS:
         expected = f"one of {', '.join(ENDS)}, with the name of an output before it if there are several"
-        raise InputError(f'zero: found "{where}", expected {expected}')
+        raise InputError(f'zero: found "{cut(where)}", expected {expected}')
     return name.strip(), end
 
 
@@ -110,7 +110,7 @@ def _output(cycle: Linkage, name: str) -> ElementMotion:
     for output in outputs:
         if wanted in (output.output, output.element):
             return output
-    raise InputError(f'zero: found "{wanted}", expected one of {", ".join(names)}')
+    raise InputError(f'zero: found "{cut(wanted)}", expected one of {", ".join(names)}')
 
 
 def _end_at(machine: Machine, output: ElementMotion, end: str) -> str:

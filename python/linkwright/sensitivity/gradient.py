@@ -133,6 +133,8 @@ def gradient(
     for name in names:
         get(machine, name)
     asked = [usual_analysis(machine)] if responses is None else list(dict.fromkeys(responses))
+    if not asked:
+        raise InputError("responses: found an empty list, expected one response or more")
     sources = {name: source(machine, name, names) for name in dict.fromkeys(map(analysis_of, asked))}
     refused = {name: why for source in sources.values() for name, why in source.refused.items()}
     if variables is not None and refused:

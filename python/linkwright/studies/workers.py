@@ -21,7 +21,7 @@ from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from functools import lru_cache
-from multiprocessing import get_context
+from multiprocessing import active_children, get_context
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -71,6 +71,7 @@ def computed(ready: StudyPlan, folder: SweepFolder, numbers: list[int], workers:
 def _round(ready: StudyPlan, folder: SweepFolder, numbers: list[int], workers: int) -> Iterator[int]:
     """The same until a process is lost."""
     given = (folder.path, folder.manifest, ready.listed, workers)
+    others = active_children()
     # Started afresh: a copy of a process with threads may hang.
     with ProcessPoolExecutor(workers, get_context("spawn"), initializer=_begin, initargs=given) as pool:
         try:
@@ -78,6 +79,12 @@ def _round(ready: StudyPlan, folder: SweepFolder, numbers: list[int], workers: i
             for done in as_completed(waiting):
                 done.result()
                 yield waiting[done]
+        except BaseException:
+            # Nobody waits for files that are not wanted any more; one that is not finished is not there.
+            for process in active_children():
+                if process not in others:
+                    process.terminate()
+            raise
         finally:
             pool.shutdown(wait=False, cancel_futures=True)
 

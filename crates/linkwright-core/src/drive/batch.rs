@@ -279,7 +279,7 @@ impl<'a, R: Real> Lanes<'a, R> {
         }
         let extremes = R::outline(
             #[inline(always)]
-            || turn.extremes(&machine, m),
+            || turn.extremes(&machine, None, m),
         );
         let totals = R::outline(
             #[inline(always)]

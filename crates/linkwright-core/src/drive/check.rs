@@ -139,7 +139,7 @@ impl<R: Real> Turn<R> {
 
     /// Peak acceleration of the stages, or what counts in its place.
     #[inline(always)]
-    fn acceleration_scale(&self) -> f64 {
+    pub(super) fn acceleration_scale(&self) -> f64 {
         let (mut epsilon, mut u) = (R::splat(0.0), R::splat(0.0));
         for step in &self.steps {
             for i in 0..S {

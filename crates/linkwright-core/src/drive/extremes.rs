@@ -2,13 +2,15 @@
 //!
 //! Extremes are found inside the steps, not at their ends: samples of every step tell which steps promise
 //! one, the polynomial through them the place, and the solution is read there like any curve
-//! ([`Machine::advance`]). So an extreme is a value of the curve; the square of the error in its place is
+//! ([`crate::drive::between`], or [`Machine::advance`]). So an extreme is a value of the curve; the square of the error in its place is
 //! what it may fall short by.
 
+use crate::drive::between::Between;
 use crate::drive::cycle::{Machine, REFERENCE, Turn, stages_of_part};
 use crate::drive::layout::{Layout, unbundle};
 use crate::kernel::radau::{AT, N, S, slope_and_bend, through};
 use crate::kernel::real::Real;
+use crate::kernel::series::{TERMS, value as on_series};
 use crate::linkage::motion::Motion;
 
 /// An extreme and the crank angle where it is.
@@ -54,8 +56,8 @@ const LEAP: f64 = 4.0;
 /// u and ε at the samples of a step.
 type Samples<R> = [[R; N]; 2];
 
-/// Numbers of a step that a promise is made of: start, length, and its samples.
-const NUMBERS: usize = 2 + 2 * N;
+/// Numbers of a step that a promise is made of: start, length, its samples, and the series of u where there is one.
+const NUMBERS: usize = 2 + 2 * N + TERMS;
 
 /// What is made as large as possible: u or acceleration, with sign −1 for the smallest.
 #[derive(Clone, Copy)]
@@ -103,6 +105,8 @@ struct Promise<R> {
     samples: [R; N],
     /// u over the step.
     quintic: [R; N],
+    /// The same to the accuracy of the steps.
+    series: Option<[R; TERMS]>,
 }
 
 /// The four extremes, in their order.
@@ -114,14 +118,19 @@ const QUANTITIES: [Quantity; 4] = [
 ];
 
 impl<R: Real> Turn<R> {
-    /// Extremes of speed and acceleration.
+    /// Extremes of speed and acceleration; read from series `between` the ends of the steps where there are any.
     #[inline(always)]
-    pub fn extremes(&self, machine: &Machine<'_, R>, m: &mut Motion<R>) -> Extremes<R> {
+    pub fn extremes(
+        &self,
+        machine: &Machine<'_, R>,
+        between: Option<&[Between<R>]>,
+        m: &mut Motion<R>,
+    ) -> Extremes<R> {
         let samples = R::outline(
             #[inline(always)]
             || self.samples(machine, m),
         );
-        let numbers = self.numbers(&samples);
+        let numbers = self.numbers(&samples, between);
         let hints = R::outline(
             #[inline(always)]
             || hints(&samples),
@@ -135,7 +144,9 @@ impl<R: Real> Turn<R> {
                 }
                 best
             }
-            Layout::Steps => self.largest_of_steps(machine, &samples, &numbers, &hints, m),
+            Layout::Steps => {
+                self.largest_of_steps(machine, &samples, (&numbers, between.is_some()), &hints, m)
+            }
         };
         for (best, quantity) in best.iter_mut().zip(QUANTITIES) {
             best.value = best.value * quantity.sign;
@@ -171,15 +182,18 @@ impl<R: Real> Turn<R> {
 
     /// The numbers of all steps in a row: step by step, number by number, lane by lane.
     #[inline(always)]
-    fn numbers(&self, samples: &[Samples<R>]) -> Vec<f64> {
+    fn numbers(&self, samples: &[Samples<R>], between: Option<&[Between<R>]>) -> Vec<f64> {
         let mut numbers = vec![0.0; self.steps.len() * NUMBERS * R::LANES];
         let rows = numbers.chunks_exact_mut(NUMBERS * R::LANES);
-        for ((step, [u, epsilon]), to) in self.steps.iter().zip(samples).zip(rows) {
+        for (k, ((step, [u, epsilon]), to)) in self.steps.iter().zip(samples).zip(rows).enumerate() {
             step.phi.store(to);
             step.h.store(&mut to[R::LANES..]);
             for i in 0..N {
                 u[i].store(&mut to[(2 + i) * R::LANES..]);
                 epsilon[i].store(&mut to[(2 + N + i) * R::LANES..]);
+            }
+            for (i, term) in between.iter().flat_map(|all| &all[k].u).enumerate() {
+                term.store(&mut to[(2 + 2 * N + i) * R::LANES..]);
             }
         }
         numbers
@@ -217,7 +231,7 @@ impl<R: Real> Turn<R> {
             let asides = if QUANTITIES[quantity].is_speed { &ASIDE[..0] } else { &ASIDE[..1] };
             let found = R::outline(
                 #[inline(always)]
-                || Promise::<R>::of_picks(&picks, numbers).read_around(machine, self.limit, asides, m),
+                || Promise::<R>::of_picks(&picks, numbers, false).read_around(machine, self.limit, asides, m),
             );
             // A lane whose step was not worth it takes nothing: its bits do not depend on its neighbours.
             let value = worth.select_lt(hint.value, found.value, lowest);
@@ -244,7 +258,7 @@ impl<R: Real> Turn<R> {
         &self,
         machine: &Machine<'_, R>,
         samples: &[Samples<R>],
-        numbers: &[f64],
+        (numbers, has_series): (&[f64], bool),
         hints: &[Vec<Hint<R>>; 4],
         m: &mut Motion<R>,
     ) -> [Extreme<R>; 4] {
@@ -271,8 +285,13 @@ impl<R: Real> Turn<R> {
             }
         }
         for picks in picks.chunks(R::LANES) {
-            let promise = Promise::<R>::of_picks(picks, numbers);
-            let found = promise.read_around(machine, self.limit, &ASIDE, m);
+            let found = R::outline(
+                #[inline(always)]
+                || {
+                    let promise = Promise::<R>::of_picks(picks, numbers, has_series);
+                    promise.read_around(machine, self.limit, &ASIDE, m)
+                },
+            );
             let (values, places) = (unbundle(&[found.value]), unbundle(&[found.phi]));
             for (lane, pick) in picks.iter().enumerate() {
                 best[pick.quantity].keep_larger(&Extreme { value: values[lane], phi: places[lane] });
@@ -330,7 +349,7 @@ fn take_best<R: Real>(hints: &mut [Hint<R>]) -> (R, Hint<R>) {
 impl<R: Real> Promise<R> {
     /// One in each lane; the last fills the lanes that are left.
     #[inline(always)]
-    fn of_picks(picks: &[Pick], numbers: &[f64]) -> Self {
+    fn of_picks(picks: &[Pick], numbers: &[f64], has_series: bool) -> Self {
         let zero = R::splat(0.0);
         let (mut rows, mut lanes) = ([zero; NUMBERS + 3], vec![0.0; R::LANES]);
         for (number, row) in rows.iter_mut().enumerate() {
@@ -352,12 +371,22 @@ impl<R: Real> Promise<R> {
             us[i] = rows[5 + i];
             samples[i] = is_speed.select_lt(R::splat(0.5), rows[5 + N + i], us[i]) * sign;
         }
-        Promise { sign, is_speed, at, phi, h, u, samples, quintic: through(&us) }
+        let mut terms = [u; TERMS];
+        terms.copy_from_slice(&rows[5 + 2 * N..]);
+        let series = has_series.then_some(terms);
+        Promise { sign, is_speed, at, phi, h, u, samples, quintic: through(&us), series }
     }
 
     /// The quantity at a place of the step, on the curve.
     #[inline(always)]
     fn read(&self, machine: &Machine<'_, R>, limit: f64, at: R, m: &mut Motion<R>) -> Extreme<R> {
+        if let Some(series) = &self.series {
+            let (u, phi) = (on_series(series, at), at.mul_add(self.h, self.phi));
+            let mut given = Vec::new();
+            let row = machine.row(phi, m, &mut given);
+            let epsilon = machine.acceleration(&row, &given, u).value;
+            return Extreme { value: self.is_speed.select_lt(R::splat(0.5), epsilon, u) * self.sign, phi };
+        }
         let X = stages_of_part(&self.quintic, R::splat(0.0), at);
         let (there, _) = machine.advance_within(limit, self.phi, self.u, at * self.h, X, m);
         let value = self.is_speed.select_lt(R::splat(0.5), there.K[S - 1], there.end());

@@ -61,7 +61,11 @@ impl<R: Real> Turn<R> {
         let levels = if rises.max_lane() > 0.5 { LEVELS } else { 1 };
         let mut may = zero;
         for level in 0..levels {
-            let left = self.torque_left(machine, top * 0.5_f64.powi(level as i32));
+            let energy = top * 0.5_f64.powi(level as i32);
+            let left = R::outline(
+                #[inline(always)]
+                || self.torque_left(machine, energy),
+            );
             may = zero.select_lt(left, one, may);
         }
         may
@@ -80,7 +84,11 @@ impl<R: Real> Turn<R> {
             // Down to where the machine comes to rest at some angle, and close to the known motion.
             let near = 0.5_f64.powi(level as i32);
             for share in [near, 1.0 - near] {
-                let left = self.torque_left(machine, bottom.energy * -share);
+                let energy = bottom.energy * -share;
+                let left = R::outline(
+                    #[inline(always)]
+                    || self.torque_left(machine, energy),
+                );
                 may = left.select_lt(zero, one, may);
             }
         }

@@ -2,7 +2,7 @@
 //!
 //! Source of δ, H, k_p: paper 1, equations (13)–(15).
 
-use crate::drive::cycle::{Machine, REFERENCE, Step, Turn};
+use crate::drive::cycle::{Machine, REFERENCE, Row, Step, Turn};
 use crate::drive::law::Given;
 use crate::drive::layout::Layout;
 use crate::kernel::branch::OnBranch;
@@ -35,19 +35,27 @@ impl<R: Real> Machine<'_, R> {
     #[inline(always)]
     pub fn torques(&self, step: &Step<R>, given: &[Given<R>], stage: usize) -> [R; 3] {
         let (row, own) = (&step.rows[stage], self.given_at(given, stage));
+        if own.is_empty() || !self.keeps_branch {
+            return self.torques_at(row, own, step.X[stage]);
+        }
+        let [torque, geared, drag] = self.torques_at(row, &[], step.X[stage]);
+        let u = OnBranch { value: step.X[stage], at: step.X[REFERENCE] };
+        let known = self.given_at(given, REFERENCE);
+        [torque, geared, drag + self.laws_on_branch(own, known, (u * 2.0).sqrt()).value]
+    }
+
+    /// The same of a row at u, with laws as they are there.
+    #[inline(always)]
+    pub fn torques_at(&self, row: &Row<R>, given: &[Given<R>], u: R) -> [R; 3] {
         let (drive, tables) = (&self.plan.drive, &self.plan.tables);
-        let omega = (step.X[stage] * 2.0).sqrt();
+        let omega = (u * 2.0).sqrt();
         let torque = drive.motor_torque(tables, self.q, omega);
         let mut drag = row.viscous.mul_add(omega, row.load);
         if !drive.speed_loads.is_empty() {
             drag = drag + drive.speed_load(tables, omega);
         }
-        if !own.is_empty() && self.keeps_branch {
-            let u = OnBranch { value: step.X[stage], at: step.X[REFERENCE] };
-            let known = self.given_at(given, REFERENCE);
-            drag = drag + self.laws_on_branch(own, known, (u * 2.0).sqrt()).value;
-        } else if !own.is_empty() {
-            drag = drag + self.laws(own, omega);
+        if !given.is_empty() {
+            drag = drag + self.laws(given, omega);
         }
         [torque, drive.geared_torque(self.q, torque), drag]
     }

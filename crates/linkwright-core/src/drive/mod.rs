@@ -13,6 +13,7 @@
 //! | [`cycle`] | steady motion on one mesh, in any lanes |
 //! | [`mesh`], [`check`] | steps of one machine's turn; the error in each, measured |
 //! | [`events`] | kinks and jumps at angles that depend on the motion |
+//! | [`between`] | the solution inside the steps as series |
 //! | [`reading`], [`measures`], [`extremes`] | curves; work and torque of a revolution; its extremes |
 //! | [`levels`] | whether a machine may have other periodic motions than one that is known |
 //! | [`march`] | all motions over one revolution, from the fastest down: which repeat, and whether any does |
@@ -24,6 +25,7 @@
 //! | [`motions`] | motions of many machines over the crank angle |
 
 pub mod batch;
+pub mod between;
 pub mod check;
 pub mod cycle;
 pub mod events;

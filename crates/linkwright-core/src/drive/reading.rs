@@ -1,9 +1,10 @@
 //! The solution between the steps of a revolution: state of the machine at any angle, and curves over the revolution.
 //!
-//! From the start of the step that an angle lies in, a step of its own leads to the angle
-//! ([`Machine::advance`]): what is read has the order of the method, is stiffly stable like it, and is what
-//! [`crate::drive::check`] compares.
+//! Where there are series ([`crate::drive::between`]) they are read. Elsewhere, from the start of the step that an angle
+//! lies in, a step of its own leads to the angle ([`Machine::advance`]): what is read has the order of the method, is
+//! stiffly stable like it, and is what [`crate::drive::check`] compares.
 
+use crate::drive::between::Between;
 use crate::drive::cycle::{Machine, Step, stages_of_part};
 use crate::drive::law::Given;
 use crate::drive::structure::Plan;
@@ -11,6 +12,7 @@ use crate::kernel::call::poll;
 use crate::kernel::lanes::{Job, in_lanes};
 use crate::kernel::radau::{N, S, through};
 use crate::kernel::real::Real;
+use crate::kernel::series::{TERMS, value as on_series};
 use crate::linkage::motion::Motion;
 
 /// The solution at the start of a step.
@@ -69,6 +71,25 @@ impl<R: Real> Machine<'_, R> {
     }
 }
 
+impl<R: Real> Machine<'_, R> {
+    /// The machine at an angle of its motion and u there.
+    #[inline(always)]
+    fn state_of(&self, phi: R, u: R, m: &mut Motion<R>) -> State<R> {
+        let mut given = Vec::new();
+        let row = self.row(phi, m, &mut given);
+        let epsilon = self.acceleration(&row, &given, u).value;
+        let [motor_torque, drive_torque, load_torque] = self.torques_at(&row, &given, u);
+        State {
+            omega: (u * 2.0).sqrt(),
+            epsilon,
+            motor_torque,
+            drive_torque,
+            load_torque,
+            J: row.inverse.recip(),
+        }
+    }
+}
+
 /// Curves over the revolution at given angles (from 0 to 2π): each list as long as `phi`.
 #[derive(Clone, Debug, Default)]
 pub struct Curves {
@@ -89,6 +110,8 @@ pub struct ReadCurves<'a> {
     pub q: &'a [f64],
     /// The solution.
     pub marks: &'a [Mark],
+    /// What lies between as series, where there are any.
+    pub between: Option<&'a [Between<f64>]>,
     /// The angles \[rad\], in [0, 2π].
     pub phi: &'a [f64],
 }
@@ -102,35 +125,22 @@ impl Job for ReadCurves<'_> {
         let machine = Machine::new(self.plan, &q).keeping_branch(self.plan.may_jump());
         let mut m = Motion::new(&self.plan.mechanism, &q);
         let mut curves = Curves::default();
-        let n = R::LANES;
-        let mut from: [Vec<f64>; 5 + S] = std::array::from_fn(|_| vec![0.0; n]);
-        let mut lanes = vec![0.0; n];
+        let mut lanes = vec![0.0; R::LANES];
         let mut k = 0;
-        for phis in self.phi.chunks(n) {
+        for phis in self.phi.chunks(R::LANES) {
             poll();
-            for lane in 0..n {
+            let mut places = Vec::with_capacity(R::LANES);
+            for lane in 0..R::LANES {
                 let phi = phis[lane.min(phis.len() - 1)];
                 k = self.mark_before(phi, k);
-                let mark = &self.marks[k];
-                let values = [mark.phi, mark.u, phi - mark.phi, mark.t, mark.h];
-                for (list, value) in from.iter_mut().zip(values.into_iter().chain(mark.X)) {
-                    list[lane] = value;
-                }
+                places.push((k, phi));
             }
-            let [phi, u, h, start, whole] = std::array::from_fn(|i| R::load(&from[i]));
-            let mut samples = [u; N];
-            for i in 0..S {
-                samples[i + 1] = R::load(&from[5 + i]);
-            }
-            let X = stages_of_part(&through(&samples), R::splat(0.0), h / whole);
-            let there = machine.advance_near(phi, u, h, X, &mut m);
-            let dt = there.0.duration();
-            let state = R::outline(
-                #[inline(always)]
-                || machine.state_at_end(&there),
-            );
+            let (time, state) = match self.between {
+                Some(series) => self.on_series(series, &machine, &places, &mut m),
+                None => self.by_steps(&machine, &places, &mut m),
+            };
             let row = [
-                (&mut curves.time, start + dt),
+                (&mut curves.time, time),
                 (&mut curves.omega, state.omega),
                 (&mut curves.epsilon, state.epsilon),
                 (&mut curves.motor_torque, state.motor_torque),
@@ -152,6 +162,72 @@ impl ReadCurves<'_> {
     #[inline(never)]
     pub fn curves(self) -> Curves {
         in_lanes(self)
+    }
+
+    /// Time and state at angles, each behind its mark, by the series.
+    #[inline(always)]
+    fn on_series<R: Real>(
+        &self,
+        series: &[Between<f64>],
+        machine: &Machine<'_, R>,
+        places: &[(usize, f64)],
+        m: &mut Motion<R>,
+    ) -> (R, State<R>) {
+        let mut numbers = vec![0.0; (3 + 2 * TERMS) * R::LANES];
+        for (lane, &(k, phi)) in places.iter().enumerate() {
+            let (mark, series) = (&self.marks[k], &series[k]);
+            numbers[lane] = phi;
+            numbers[R::LANES + lane] = (phi - mark.phi) / mark.h;
+            numbers[2 * R::LANES + lane] = mark.t;
+            for i in 0..TERMS {
+                numbers[(3 + i) * R::LANES + lane] = series.u[i];
+                numbers[(3 + TERMS + i) * R::LANES + lane] = series.t[i];
+            }
+        }
+        R::outline(
+            #[inline(always)]
+            || {
+                let load = |number: usize| R::load(&numbers[number * R::LANES..]);
+                let (phi, share, start) = (load(0), load(1), load(2));
+                let (mut u, mut t) = ([phi; TERMS], [phi; TERMS]);
+                for i in 0..TERMS {
+                    (u[i], t[i]) = (load(3 + i), load(3 + TERMS + i));
+                }
+                let state = machine.state_of(phi, on_series(&u, share), m);
+                (start + on_series(&t, share), state)
+            },
+        )
+    }
+
+    /// The same by a step from each mark.
+    #[inline(always)]
+    fn by_steps<R: Real>(
+        &self,
+        machine: &Machine<'_, R>,
+        places: &[(usize, f64)],
+        m: &mut Motion<R>,
+    ) -> (R, State<R>) {
+        let mut from: [Vec<f64>; 5 + S] = std::array::from_fn(|_| vec![0.0; R::LANES]);
+        for (lane, &(k, phi)) in places.iter().enumerate() {
+            let mark = &self.marks[k];
+            let values = [mark.phi, mark.u, phi - mark.phi, mark.t, mark.h];
+            for (list, value) in from.iter_mut().zip(values.into_iter().chain(mark.X)) {
+                list[lane] = value;
+            }
+        }
+        let [phi, u, h, start, whole] = std::array::from_fn(|i| R::load(&from[i]));
+        let mut samples = [u; N];
+        for i in 0..S {
+            samples[i + 1] = R::load(&from[5 + i]);
+        }
+        let X = stages_of_part(&through(&samples), R::splat(0.0), h / whole);
+        let there = machine.advance_near(phi, u, h, X, m);
+        let time = start + there.0.duration();
+        let state = R::outline(
+            #[inline(always)]
+            || machine.state_at_end(&there),
+        );
+        (time, state)
     }
 
     /// Index of the last mark not after φ, looked for from a likely one on.

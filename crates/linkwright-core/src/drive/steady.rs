@@ -11,6 +11,7 @@
 //! repeat, or shows that none does. The fastest is the answer: it draws in every faster start. The others are
 //! reported.
 
+use crate::drive::between::Between;
 use crate::drive::cycle::{Machine, Turn, divide};
 use crate::drive::events::{Events, Passage};
 use crate::drive::extremes::{Extreme, Extremes};
@@ -52,6 +53,8 @@ const USABLE: f64 = 1e-5;
 pub struct Steady {
     /// The solution at the starts of the steps.
     pub marks: Vec<Mark>,
+    /// What lies between the starts of steps as series, where these are as exact as the steps.
+    pub between: Option<Vec<Between<f64>>>,
     /// Where the motion passes kinks that depend on it: ends of steps.
     pub passages: Vec<Passage>,
     /// Derivative of the return map.
@@ -325,13 +328,16 @@ impl Job for Search<'_> {
                 if multiplier.is_nan() || (multiplier >= 1.0 && !self.any) {
                     return Err(Failure { reached, ..Failure::new(Status::NoSteadyMotion) });
                 }
+                let (accuracy, scale) = (self.accuracy.max(reached), turn.acceleration_scale());
+                let (between, off) = turn.between(&machine, accuracy, scale, &mut m).unzip();
                 return Ok(Steady {
                     marks: turn.marks(),
+                    between: between.as_ref().map(|series| turn.in_a_row(series)),
                     passages,
                     multiplier,
-                    extremes: turn.extremes(&machine, &mut m).first_lane(),
+                    extremes: turn.extremes(&machine, between.as_deref(), &mut m).first_lane(),
                     totals: turn.totals(&machine).first_lane(),
-                    reached,
+                    reached: off.map_or(reached, |off| reached.max(off)),
                     sweeps,
                     may_have: Rivals {
                         faster: first_lane(turn.may_have_faster(&machine)) > 0.5,

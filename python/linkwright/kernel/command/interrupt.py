@@ -7,14 +7,18 @@ are left as they should be.
 
 from __future__ import annotations
 
+# What `signal` is made of, in the interpreter itself; `signal` imports enumerations and collections first.
+import _signal as signal  # type: ignore[import-not-found]
 import os
-import signal
 import sys
-from types import FrameType, TracebackType
-from typing import TYPE_CHECKING, NoReturn
 
+# As in `typing`. Whoever interrupts a start before this file is run gets Python's own traceback, so nothing
+# large is imported until then.
+TYPE_CHECKING = False
 if TYPE_CHECKING:
     from sys import UnraisableHookArgs
+    from types import FrameType, TracebackType
+    from typing import NoReturn
 
 # What a shell reports for a program that was interrupted.
 EXIT_CODE = 130

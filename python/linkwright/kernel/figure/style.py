@@ -159,9 +159,15 @@ def zero_line(axes: Axes) -> None:
 
 
 def roomy(axes: Axes, *values: Floats, share: float = 0.12) -> None:
-    """Limits in y that hold values with room around them, also where they are all the same."""
-    low = min(float(np.min(value)) for value in values)
-    high = max(float(np.max(value)) for value in values)
+    """Limits in y that hold values with room around them, also where they are all the same.
+
+    What has no value, as the acceleration of a machine that does not start, is left out.
+    """
+    known = np.concatenate([np.ravel(value) for value in values])
+    known = known[np.isfinite(known)]
+    if not known.size:
+        return
+    low, high = float(known.min()), float(known.max())
     # A constant gets a tenth of itself to both sides, so that rounding does not fill the picture.
     span = high - low if high - low > 1e-6 * max(abs(low), abs(high)) else 0.2 * (abs(high) or 1.0)
     middle = 0.5 * (low + high)

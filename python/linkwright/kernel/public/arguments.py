@@ -8,6 +8,7 @@ a complex number, a text or a list of lists of different length is refused with 
 | `float` | a finite number; an infinite one where that is the default |
 | `int` | a whole number; some have limits by their name |
 | `bool`, `str` | true or false; a text |
+| a name of `Literal[…]` or `Callable[…]` in the module of the function | one of these words; a function |
 | `ArrayLike` | numbers, one or an array of them |
 | `Column` | a number, or a list of them |
 | `Floats`, `Sequence[float]` | a list of finite numbers |
@@ -26,7 +27,7 @@ import numbers
 import operator
 import os
 from collections.abc import Callable, Mapping
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple, get_args, get_origin
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -53,6 +54,8 @@ RANGES: dict[str, Range] = {
     "fine": Range(1, 1_000_000),
     "per_turn": Range(16, 1_000_000),
     "order": Range(0, 100_000),
+    # What every generator of random numbers takes.
+    "seed": Range(0, 2**32 - 1),
 }
 
 # How much of a wrong value is shown.
@@ -139,7 +142,9 @@ def checks_of(function: Callable[..., Any]) -> dict[str, Check]:
     """
     parameters = inspect.signature(function).parameters.values()
     checks = {
-        parameter.name: _check(str(parameter.annotation), parameter.default) for parameter in parameters
+        parameter.name: _check(str(parameter.annotation), parameter.default)
+        or _choice(str(parameter.annotation), function.__globals__)
+        for parameter in parameters
     }
     return {name: check for name, check in checks.items() if check is not None}
 
@@ -169,6 +174,39 @@ def _check(annotation: str, default: Any) -> Check | None:
     return checked
 
 
+def _choice(annotation: str, known: Mapping[str, Any]) -> Check | None:
+    """The check of an annotation that stands for some words or a function, or for them and None; None if it
+    does not.
+    """
+    first, *others = annotation.split(" | ")
+    if others not in ([], ["None"]):
+        return None
+    if first.startswith("Callable[") or get_origin(known.get(first)) is Callable:
+        return _function(is_optional=bool(others))
+    if get_origin(known.get(first)) is not Literal:
+        return None
+    words: tuple[Any, ...] = get_args(known[first])
+
+    def check(name: str, value: Any) -> Any:
+        is_none = value is None and bool(others)
+        if not is_none and not (isinstance(value, str) and value in words):
+            raise _wrong(name, value, "one of " + ", ".join(f'"{word}"' for word in words))
+        return value
+
+    return check
+
+
+def _function(*, is_optional: bool) -> Check:
+    """Checks that something can be called."""
+
+    def check(name: str, value: Any) -> Any:
+        if not callable(value) and not (value is None and is_optional):
+            raise _wrong(name, value, "a function")
+        return value
+
+    return check
+
+
 def _any_number(name: str, value: Any) -> float:
     return number(name, value, infinite=True)
 
@@ -192,6 +230,13 @@ def _two(name: str, value: Any) -> tuple[float, float]:
     if len(pair) != 2:
         raise ShapeError(f"{name}: found {len(pair)} numbers, expected two")
     return float(pair[0]), float(pair[1])
+
+
+def _two_whole(name: str, value: Any) -> tuple[int, int]:
+    pair = _several(name, value, "two whole numbers")
+    if len(pair) != 2:
+        raise _wrong(name, value, "two whole numbers")
+    return integer(name, pair[0]), integer(name, pair[1])
 
 
 def _three(name: str, value: Any) -> Any:
@@ -341,11 +386,12 @@ _CHECKS: dict[str, Check] = {
     "Mapping[str, MeasuredResponse]": _mapping,
     "Sequence[str]": _texts,
     "Sequence[float | str]": _numbers_or_texts,
-    "Sequence[CatalogueMotor]": _motors,
     "Iterable[str]": _texts,
+    "Sequence[CatalogueMotor]": _motors,
     "ArrayLike": _one_or_more,
     "tuple[ArrayLike, ArrayLike, ArrayLike]": _three,
     "tuple[float, float]": _two,
+    "tuple[int, int]": _two_whole,
     "Column": _column,
     "Floats": rows,
     "Complexes": _complexes,

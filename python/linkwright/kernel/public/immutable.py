@@ -104,7 +104,7 @@ def _inside(value: Any) -> Any:
 def _fields(result: Any) -> None:
     """The fields of a frozen dataclass, once."""
     for name in _names(type(result)):
-        value = getattr(result, name, None)
+        value: Any = getattr(result, name, None)
         kind = type(value)
         if kind in _PLAIN:
             continue
