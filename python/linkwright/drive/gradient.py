@@ -79,7 +79,7 @@ def steady_tangents(machine: Machine, values: Floats, accuracy: float = 1e-11) -
     tangents: dict[str, Any] = {
         name: Tangent(getattr(state, name), getattr(gradient, name)) for name in COLUMNS
     }
-    for name in _NUMBERS:
+    for name in COLUMNS:
         if name.startswith("energy"):
             # The core's works are those of a cycle.
             tangents[name] = Tangent(getattr(state, name), getattr(gradient, name) / state.turns)
