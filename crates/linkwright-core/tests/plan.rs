@@ -169,14 +169,14 @@ fn formulas_are_sorted_by_their_degree() {
     assert_eq!(plan.laws.len(), 1, "the square of a speed");
 }
 
-/// Loads over two and over three turns repeat together after six; a formula counts if it knows the angle.
+/// Loads over two and over three revolutions repeat together after six; a formula counts if it knows the angle.
 #[test]
 fn loads_repeat_together() {
     let mut b = started();
     let table = b.table(Table::new(&[0.0, 1.0], &[0.0, 1.0]).expect("a table"));
     let none = PlanError::Missing { what: "turn", value: 0, made: 1000 };
     assert_eq!(b.load(Load::TorqueAngle { table, turns: 0 }), Err(none));
-    b.load(Load::TorqueAngle { table, turns: 2 }).expect("two turns");
+    b.load(Load::TorqueAngle { table, turns: 2 }).expect("two revolutions");
     let carrier = Carrier::Link { link: 0 };
     for (variable, turns) in [(Variable::Phi, 3), (Variable::Psi, 5)] {
         let formula =

@@ -42,6 +42,9 @@ _STAGES = ((1.0, 0.1, 1.0), (0.1, 0.35, 1.0), (0.1, 1.0, 0.2))
 # decides.
 _SAME = 0.01
 _ALIKE = 1e-3
+# Transmission angles [rad], and shares of the coupler, this near are those of one linkage or of its cognates:
+# refined numbers agree to about the square of this.
+_SAME_ANGLE = 1e-6
 
 # Errors over the size of the path that are rounding.
 _ROUNDING = 1e-12
@@ -137,7 +140,8 @@ def path_generator(task: PathTask, *, track: Track | None = None) -> PathGenerat
     -------
     PathGenerator
         The linkage of the minimum error; where several have it, the one with the largest minimum transmission
-        angle. The same for the same task.
+        angle, and of cognates the one whose coupler point is nearest for its coupler. The same for the same
+        task.
 
     Raises
     ------
@@ -157,7 +161,7 @@ def path_generator(task: PathTask, *, track: Track | None = None) -> PathGenerat
     exact = max(task.accuracy, _ROUNDING)
     found_by = int((kept & (errors <= max((1 + _SAME) * least, exact))).sum())
     alike = np.flatnonzero(kept & (errors <= max((1 + _ALIKE) * least, exact)))
-    best = alike[np.argmax(_transmission(model, rows.take(alike)))]
+    best = alike[_preferred(model, rows.take(alike))]
     effort = _Effort(found_by, evaluated, evaluated / (perf_counter() - began), search.known_history())
     return _result(model, rows.take(np.array([best])), effort)
 
@@ -214,6 +218,19 @@ class _Effort:
     evaluated: int
     rate: float
     history: Floats
+
+
+def _preferred(model: PathModel, rows: Linkages) -> int:
+    """Which of linkages of one error is taken: the largest minimum transmission angle decides.
+
+    Roberts's cognates draw the same path with the same angles. Of them, the one with the smallest outreach of
+    its coupler point is chosen, since clearance of the joints moves the point by that share.
+    """
+    angle, lengths = _transmission(model, rows), shape(rows.p[:, :3], rows.is_double)[0]
+    s, z, _ = (number[:, 0] for number in model.pose(rows.p))
+    outreach = np.abs(z) / (np.abs(s) * lengths[:, 1])
+    outreach = np.where(angle >= angle.max() - _SAME_ANGLE, outreach, np.inf)
+    return int(np.flatnonzero(outreach <= outreach.min() + _SAME_ANGLE)[0])
 
 
 def _transmission(model: PathModel, rows: Linkages) -> Floats:

@@ -649,7 +649,7 @@ impl<R: Real> Turn<R> {
     }
 }
 
-/// Ends of equal steps, `n` a turn at least, from break to break.
+/// Ends of equal steps, `n` a revolution at least, from break to break.
 pub fn divide(breaks: &[f64], n: usize) -> Vec<f64> {
     let longest = std::f64::consts::TAU / n as f64;
     let mut edges = vec![0.0];

@@ -45,7 +45,7 @@ const SHORT: f64 = 0.1;
 /// A point rests where its path speed p′ falls below this share of p″.
 const AT_REST: f64 = 1e-6;
 
-/// Angles of a turn at which zeros are looked for. Two zeros between neighbours are found where the cubic through
+/// Angles of a revolution at which zeros are looked for. Two zeros between neighbours are found where the cubic through
 /// values and slopes dips towards zero.
 const SCAN: usize = 48;
 

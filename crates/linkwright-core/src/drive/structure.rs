@@ -41,7 +41,7 @@ pub struct Plan {
     pub laws: Vec<Law>,
     /// How many parameters the plan refers to.
     pub n_parameters: usize,
-    /// Turns of the crank after which all loads repeat.
+    /// Revolutions of the crank after which all loads repeat.
     pub turns: u32,
 }
 

@@ -66,13 +66,13 @@ impl Plan {
         !self.0.laws.is_empty()
     }
 
-    /// Turns of the crank after which all loads repeat.
+    /// Revolutions of the crank after which all loads repeat.
     #[getter]
     fn turns(&self) -> u32 {
         self.0.turns
     }
 
-    /// The same over at least so many turns, as many as loads and these have in common.
+    /// The same over at least so many revolutions, as many as loads and these have in common.
     fn over_turns(&self, turns: u32) -> PyResult<Plan> {
         self.0.over_turns(turns).map(Plan).map_err(plan_error)
     }
