@@ -39,18 +39,15 @@ def application() -> Commands:
 def main() -> None:
     """Run the command line, for the console script."""
     with Interrupts() as interrupts:
-        from linkwright.app.lean_start import import_schemas, leave_out, share_methods
+        from linkwright.app.lean_start import leave_out
 
         leave_out()
-        share_methods()
         # Names may hold letters that the terminal has not; they are no reason to fail.
         if isinstance(sys.stdout, TextIOWrapper):
             sys.stdout.reconfigure(errors="backslashreplace")
         # A start makes some 100 000 objects that all stay; looking among them for rubbish takes time.
         gc.set_threshold(200_000)
         commands = application()
-        if not {"--help", "-h", "--version"} & set(sys.argv) and sys.argv[1:]:
-            import_schemas()
         # The command that is asked for is imported while an interrupt still ends the program on the spot.
         commands.get_command(None, *sys.argv[1:2] or [""])
         interrupts.raise_from_now_on()
