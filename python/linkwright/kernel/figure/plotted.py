@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,8 +15,9 @@ from linkwright.kernel.quantities import DeclaredQuantity, quantities_of
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-# Height of each axis [inch].
+# Height of each axis [inch], and letters that it has room for along it.
 _HEIGHT = 1.9
+_LETTERS = 22
 
 
 @styled
@@ -60,7 +62,9 @@ def _figure(result: Any, over: DeclaredQuantity, chosen: list[DeclaredQuantity])
         for curve, colour in zip(curves, LINES * len(curves), strict=False):
             axis.plot(x, getattr(result, curve.name), color=colour, label=curve.word)
         word = curves[0].word if len(curves) == 1 else ""
-        axis.set_ylabel(f"{word} [{own}]".strip() if own else word)
+        # Long words stand in several lines, so that they do not run into those of the next axis.
+        words = fill(word, _LETTERS)
+        axis.set_ylabel(f"{words}\n[{own}]".strip() if own else words)
         if len(curves) > 1:
             legend_above(axis)
     axes[-1].set_xlabel(f"{over.word} [{unit}]" if unit else over.word)
