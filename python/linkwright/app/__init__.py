@@ -8,7 +8,6 @@ time.
 | `application` | All commands, one a file |
 | `commands/` | Commands that are of no single subject |
 | `curves` | Curves of a study by name: those of all its results, and of its motion over the cycle |
-| `lean_start` | What a process that runs one command leaves out when it starts |
 | `quantities` | What quantities there are: of a result, and of a whole study |
 | `report/` | The report of a study: page, tables, figures, moving sketch, assumptions |
 | `soundness` | What a machine can be seen to be unable to do without solving for its motion |
@@ -18,8 +17,10 @@ time.
 from __future__ import annotations
 
 import gc
+import os
 import sys
 from io import TextIOWrapper
+from types import ModuleType
 
 from linkwright.kernel.command.interrupt import Interrupts
 
@@ -36,12 +37,31 @@ def application() -> Commands:
     return application()
 
 
+def _leave_out() -> None:
+    """Leave out plugins of pydantic and threads of linear algebra, before either is imported.
+
+    The command line alone does so: a program that imports the package keeps its own settings.
+    """
+    # Looking for plugins of pydantic among all installed packages costs more than reading a machine file.
+    # The module that would look for them imports what reads metadata of packages, and mails.
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
+    sys.modules.setdefault("pydantic.plugin._loader", _without_plugins())
+    # Threads of linear algebra start with NumPy and wait busily. The matrices of a machine are small; what is
+    # large has threads of its own in the core.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+
+def _without_plugins() -> ModuleType:
+    """In place of the module of pydantic that looks for plugins: there are none."""
+    module = ModuleType("pydantic.plugin._loader")
+    module.get_plugins = tuple  # type: ignore[attr-defined]
+    return module
+
+
 def main() -> None:
     """Run the command line, for the console script."""
     with Interrupts() as interrupts:
-        from linkwright.app.lean_start import leave_out
-
-        leave_out()
+        _leave_out()
         # Names may hold letters that the terminal has not; they are no reason to fail.
         if isinstance(sys.stdout, TextIOWrapper):
             sys.stdout.reconfigure(errors="backslashreplace")

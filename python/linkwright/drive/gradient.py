@@ -76,13 +76,11 @@ def steady_tangents(machine: Machine, values: Floats, accuracy: float = 1e-11) -
     compiled = over_whole_cycle(compile_machine(machine))
     angles = np.array([state.speed_min_angle, state.speed_max_angle])
     gradient = solution.gradient(values, angles)
+    # The core's works are those of a cycle.
+    times = {name: state.turns if name.startswith("energy") else 1 for name in COLUMNS}
     tangents: dict[str, Any] = {
-        name: Tangent(getattr(state, name), getattr(gradient, name)) for name in COLUMNS
+        name: Tangent(getattr(state, name), getattr(gradient, name) / turns) for name, turns in times.items()
     }
-    for name in COLUMNS:
-        if name.startswith("energy"):
-            # The core's works are those of a cycle.
-            tangents[name] = Tangent(getattr(state, name), getattr(gradient, name) / state.turns)
     ratio = Tangent(compiled.gear_factors[0], values[compiled.ratio_slot])
     tangents |= _of_motor(compiled, state, gradient.curves, ratio)
     return SteadyTangents(replace(state, **tangents), _ties(compiled, state, solution))
