@@ -134,7 +134,7 @@ struct Path<R> {
 
 /// What a search over cams compares of their contacts.
 #[derive(Clone, Copy, Debug)]
-pub struct Compared<R> {
+pub struct ContactMeasure<R> {
     /// d·n and d×n, times a positive factor.
     pub lead: Vec2<R>,
     /// A fraction that grows with the bend: κ|κ| of a roller, ρ of a flat face. `under` is not negative.
@@ -196,25 +196,25 @@ impl<R: Real> Cam<R> {
 
     /// The same as a search compares it, without a root or a quotient.
     #[inline(always)]
-    pub fn compared(&self, s: [R; 3]) -> Compared<R> {
+    pub fn measure(&self, s: [R; 3]) -> ContactMeasure<R> {
         let path = match self.kind {
             Kind::TranslatingRoller => self.translating_path(s),
             Kind::OscillatingRoller => self.oscillating_path(s),
             Kind::TranslatingFlat | Kind::OscillatingFlat => {
                 let Contact { lead, bend, .. } = self.contact(s);
-                return Compared { lead, over: bend, under: R::splat(1.0) };
+                return ContactMeasure { lead, over: bend, under: R::splat(1.0) };
             }
         };
         let turning = path.w.cross(path.a) * -self.sense;
         let square = path.w.dot(path.w);
-        Compared {
+        ContactMeasure {
             lead: self.lead(&path, path.w.left() * R::splat(self.sense)),
             over: turning * turning.abs(),
             under: square * square * square,
         }
     }
 
-    /// The bend that a fraction of [`Compared`] stands for.
+    /// The bend that a fraction of [`ContactMeasure`] stands for.
     #[inline(always)]
     pub fn bend_of(&self, over: R, under: R) -> R {
         let quotient = over / under;

@@ -57,7 +57,7 @@ impl Job for Chunk<'_> {
         let mut row = vec![0.0; R::LANES];
         for at in (0..n).step_by(R::LANES) {
             poll();
-            let found = R::outline(
+            let found = R::out_of_line(
                 #[inline(always)]
                 || self.lanes::<R>(self.first + at),
             );
@@ -88,7 +88,7 @@ impl Chunk<'_> {
         let (mut over, mut under) = (zero, one);
         let (mut most, mut least) = ((-one, zero), (one, zero));
         for s in self.lifts {
-            let contact = cam.compared([lift * s[0], lift * s[1], lift * s[2]]);
+            let contact = cam.measure([lift * s[0], lift * s[1], lift * s[2]]);
             let (y, x) = (contact.lead.y.abs(), contact.lead.x.max(zero));
             let (known, found) = (over * x, y * under);
             over = known.select_lt(found, y, over);

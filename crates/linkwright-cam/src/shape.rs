@@ -211,7 +211,7 @@ impl Job for Sampling<'_> {
             let end = at + shape.piece[at..].partition_point(|&each| each == number as u32);
             // What a bundle writes beyond its piece, the next piece writes over.
             for first in (at..end).step_by(R::LANES) {
-                let rows = R::outline(
+                let rows = R::out_of_line(
                     #[inline(always)]
                     || cam.row(piece, R::load(&shape.phi[first..])),
                 );

@@ -199,10 +199,10 @@ fn a_harmonic_law_makes_an_eccentric_circle() {
         harmonics: vec![[TAU, -e, 0.0]],
     }])
     .expect("a whole revolution");
-    let plain =
+    let unchanged =
         Dimensions { base_radius: r0, roller_radius: 0.0, offset: 0.0, distance: 0.0, arm: 0.0, tilt: 0.0 };
     for sense in [1.0, -1.0] {
-        let shape: Shape = Cam::new(Kind::TranslatingFlat, sense, 1.0, plain).shape(&law, 360);
+        let shape: Shape = Cam::new(Kind::TranslatingFlat, sense, 1.0, unchanged).shape(&law, 360);
         for i in 0..shape.phi.len() {
             let away = (shape.rows[4][i] + e).hypot(shape.rows[5][i]);
             assert!((away - r0 - e).abs() < 2e-17, "{away} at {}", shape.phi[i]);
@@ -213,18 +213,18 @@ fn a_harmonic_law_makes_an_eccentric_circle() {
 
 /// Columns for many cams of a kind, with one that cannot be.
 fn columns(kind: Kind, n: usize) -> Vec<Vec<f64>> {
-    let plain = size(kind);
+    let unchanged = size(kind);
     let vary = |x: f64, by: f64| (0..n).map(|i| x * (1.0 + by * (i as f64 * 0.7).sin())).collect::<Vec<_>>();
-    let mut base = vary(plain.base_radius, 0.3);
+    let mut base = vary(unchanged.base_radius, 0.3);
     // Out of reach of the arm, inside the offset: no place, and so no number.
     base[3] = f64::NAN;
     vec![
         base,
-        vary(plain.roller_radius, 0.5),
-        vary(plain.offset, 1.0),
-        vec![plain.distance],
-        vary(plain.arm, 0.05),
-        vec![plain.tilt],
+        vary(unchanged.roller_radius, 0.5),
+        vary(unchanged.offset, 1.0),
+        vec![unchanged.distance],
+        vary(unchanged.arm, 0.05),
+        vec![unchanged.tilt],
         vary(1.0, 0.4),
     ]
 }

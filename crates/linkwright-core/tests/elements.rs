@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Builder, Built};
+use common::{Builder, SampleMachine};
 use linkwright_core::drive::batch::Rows;
 use linkwright_core::drive::motions::{motions, third};
 use linkwright_core::drive::motor::Motor;
@@ -14,18 +14,18 @@ use linkwright_core::linkage::motion::Motion;
 use linkwright_core::linkage::trace::follow;
 use std::f64::consts::TAU;
 
-fn place(built: &Built, phi: f64) -> Motion<f64> {
+fn place(built: &SampleMachine, phi: f64) -> Motion<f64> {
     let mut motion = Motion::new(&built.plan.mechanism, &built.q);
     built.plan.mechanism.place::<f64, 2>(&built.q, Angle::new(phi), &mut motion);
     motion
 }
 
-fn finish(b: Builder) -> Built {
+fn finish(b: Builder) -> SampleMachine {
     b.finish(Motor::Off, [1.0; 5])
 }
 
 /// A crank-rocker with one element of every kind that hangs on moving links.
-fn everything() -> Built {
+fn everything() -> SampleMachine {
     let mut b = Builder::new();
     let (pin, crank) = b.crank(0.1, 0.2);
     let pivot = b.fixed(0.4, 0.05);
@@ -49,7 +49,7 @@ fn everything() -> Built {
 const TRIAD: [f64; 4] = [0.4, 0.3, 0.41, 0.5];
 
 /// A joint plate held by three bars: a triad that no dyads make, driven from a crank.
-fn triad() -> (Built, usize) {
+fn triad() -> (SampleMachine, usize) {
     let mut b = Builder::new();
     let (pin, _) = b.crank(0.05, 0.0);
     let first = b.fixed(0.75, 0.0);
@@ -65,7 +65,7 @@ fn triad() -> (Built, usize) {
 }
 
 /// First and second derivatives of all that moves against central differences of order 4.
-fn check_derivatives(built: &Built, phi: f64, tolerance: f64) {
+fn check_derivatives(built: &SampleMachine, phi: f64, tolerance: f64) {
     // Truncation h⁴ and rounding ε/h balance near h = 1e-3 at about 1e-12, over lengths below one.
     let h = 1e-3;
     let m: Vec<_> = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|k| place(built, phi + k * h)).into();

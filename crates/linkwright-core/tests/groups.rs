@@ -2,13 +2,13 @@
 
 mod common;
 
-use common::{Builder, Built};
+use common::{Builder, SampleMachine};
 use linkwright_core::drive::motor::Motor;
 use linkwright_core::kernel::plane::Angle;
 use linkwright_core::linkage::motion::Motion;
 use std::f64::consts::PI;
 
-fn place(built: &Built, phi: f64) -> Motion<f64> {
+fn place(built: &SampleMachine, phi: f64) -> Motion<f64> {
     let mut motion = Motion::new(&built.plan.mechanism, &built.q);
     built.plan.mechanism.place::<f64, 2>(&built.q, Angle::new(phi), &mut motion);
     motion

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Builder, Built, Random, mixed};
+use common::{Builder, Random, SampleMachine, mixed};
 use linkwright_core::drive::batch::Rows;
 use linkwright_core::drive::motions::motions;
 use linkwright_core::drive::motor::Motor;
@@ -11,7 +11,7 @@ use linkwright_core::linkage::chain::Chain;
 use linkwright_core::linkage::motion::Channel;
 use linkwright_core::linkage::motion::Motion;
 
-fn place(built: &Built, phi: f64) -> Motion<f64> {
+fn place(built: &SampleMachine, phi: f64) -> Motion<f64> {
     let mut motion = Motion::new(&built.plan.mechanism, &built.q);
     built.plan.mechanism.place::<f64, 2>(&built.q, Angle::new(phi), &mut motion);
     motion
@@ -181,7 +181,7 @@ fn lanes_are_the_scalar() {
     let mut out = vec![0.0; n * 13 * phi.len()];
     motions(&built.plan, &rows, &phi, &channels, &mut out);
     for row in 0..n {
-        let one = Built { plan: built.plan.clone(), q: rows.row(row) };
+        let one = SampleMachine { plan: built.plan.clone(), q: rows.row(row) };
         for (i, &phi_i) in phi.iter().enumerate() {
             let m = place(&one, phi_i);
             let (p, l, s) = (m.points[4], m.links[2], m.slides[0]);

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Builder, Built, Random, mixed, two_carts};
+use common::{Builder, Random, SampleMachine, mixed, two_carts};
 use linkwright_core::drive::batch::{QUANTITIES, Rows, row_of_steady, steady_rows};
 use linkwright_core::drive::cycle::Machine;
 use linkwright_core::drive::loads::Load;
@@ -276,7 +276,7 @@ fn dry_force_on_a_joint_is_a_torque_on_its_rocker() {
         let (torque, inverse_speed) = (b.number(20.0), b.number(1.0 / 100.0));
         b.finish(Motor::Line { torque, inverse_speed }, [5.0, 1.0, 1.0, 0.5, 20.0])
     };
-    let period = |built: &Built| {
+    let period = |built: &SampleMachine| {
         let found = steady(&built.plan, &built.q, 1e-10).expect("steady motion");
         (found.totals.period, found.marks.len())
     };
@@ -432,7 +432,7 @@ fn inertia_scales_with_the_square_of_length() {
         b.rod(link, pin, 0.7 * k, 6.0);
         b.finish(Motor::Off, [1.0, 1.0, 1.0, 0.0, 1.0])
     };
-    let J = |built: &Built| {
+    let J = |built: &SampleMachine| {
         let machine = Machine::new(&built.plan, &built.q);
         machine.state(0.7, 1.0, &mut Motion::new(&built.plan.mechanism, &built.q)).J
     };

@@ -5,7 +5,7 @@
 
 mod common;
 
-use common::{Builder, Built, Random};
+use common::{Builder, Random, SampleMachine};
 use linkwright_core::drive::batch::{QUANTITIES, Rows, row_of_steady, steady_rows};
 use linkwright_core::drive::between::Between;
 use linkwright_core::drive::loads::Load;
@@ -27,7 +27,7 @@ const PARTS: usize = 3;
 
 /// A slider-crank with dry friction and weight whose drive has the given steepness ∂ε/∂u \[1/rad\] on
 /// average.
-fn drive(random: &mut Random, steepness: f64) -> Built {
+fn drive(random: &mut Random, steepness: f64) -> SampleMachine {
     let mut b = Builder::new();
     let r = random.between(0.05, 0.3);
     let (pin, crank) = b.crank(r, random.between(-3.0, 3.0));
@@ -77,13 +77,13 @@ fn angles(found: &Steady) -> (Vec<f64>, Vec<f64>) {
 }
 
 /// Checks all laws of a solution, read as it is and by steps alone; gives its worst violation as a share of what is allowed.
-fn violation(built: &Built, found: &Steady) -> f64 {
+fn violation(built: &SampleMachine, found: &Steady) -> f64 {
     let by_steps = violation_of(built, found, None);
     found.between.as_deref().map_or(by_steps, |series| by_steps.max(violation_of(built, found, Some(series))))
 }
 
-fn violation_of(built: &Built, found: &Steady, between: Option<&[Between<f64>]>) -> f64 {
-    let Built { plan, q } = built;
+fn violation_of(built: &SampleMachine, found: &Steady, between: Option<&[Between<f64>]>) -> f64 {
+    let SampleMachine { plan, q } = built;
     let (ends, nodes) = angles(found);
     let read = |phi: &[f64]| in_lanes(ReadCurves { plan, q, marks: &found.marks, between, phi });
     let (at_ends, at_nodes) = (read(&ends), read(&nodes));

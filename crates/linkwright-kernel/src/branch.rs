@@ -138,8 +138,8 @@ impl<R: Real, N: Lift<R>> Real for OnBranch<N, R> {
         self.value.max_lane()
     }
     #[inline(always)]
-    fn outline<T>(f: impl FnOnce() -> T) -> T {
-        N::outline(f)
+    fn out_of_line<T>(f: impl FnOnce() -> T) -> T {
+        N::out_of_line(f)
     }
 }
 

@@ -20,7 +20,7 @@ use std::time::{Duration, Instant};
 pub type Reason = Box<dyn Any + Send>;
 
 /// Asks whoever made a call whether it is still wanted.
-pub type Look = fn() -> Option<Reason>;
+pub type Inquiry = fn() -> Option<Reason>;
 
 /// Why a call has no result.
 pub enum Failure {
@@ -34,7 +34,7 @@ pub enum Failure {
 const PERIOD: Duration = Duration::from_millis(50);
 
 /// What unwinds the threads of a call that is no longer wanted.
-struct Stopped;
+struct Cancellation;
 
 #[derive(Default)]
 struct Call {
@@ -46,7 +46,7 @@ struct Call {
 /// How the thread that made a call looks, and when it does so next.
 #[derive(Clone, Copy)]
 struct Lookout {
-    look: Look,
+    look: Inquiry,
     due: Instant,
 }
 
@@ -59,10 +59,10 @@ thread_local! {
 ///
 /// # Errors
 /// [`Failure`] where it was stopped or panicked.
-pub fn run<T>(look: Look, work: impl FnOnce() -> T) -> Result<T, Failure> {
+pub fn run<T>(look: Inquiry, work: impl FnOnce() -> T) -> Result<T, Failure> {
     let call = Arc::new(Call::default());
     let lookout = Lookout { look, due: Instant::now() + PERIOD };
-    let _here = Here::enter(Some(call.clone()), Some(lookout));
+    let _here = CallGuard::enter(Some(call.clone()), Some(lookout));
     catch_unwind(AssertUnwindSafe(work)).map_err(|payload| call.failure(payload.as_ref()))
 }
 
@@ -70,7 +70,7 @@ pub fn run<T>(look: Look, work: impl FnOnce() -> T) -> Result<T, Failure> {
 pub fn poll() {
     let is_over = CALL.with_borrow(|call| call.as_ref().is_some_and(|c| c.is_over.load(Ordering::Relaxed)));
     if is_over || look() {
-        resume_unwind(Box::new(Stopped));
+        resume_unwind(Box::new(Cancellation));
     }
 }
 
@@ -110,7 +110,7 @@ fn message(payload: &(dyn Any + Send)) -> &str {
 impl Call {
     fn failure(&self, payload: &(dyn Any + Send)) -> Failure {
         let reason = self.reason.lock().unwrap_or_else(PoisonError::into_inner).take();
-        match reason.filter(|_| payload.is::<Stopped>()) {
+        match reason.filter(|_| payload.is::<Cancellation>()) {
             Some(reason) => Failure::Stopped(reason),
             None => {
                 let kept = self.panic.lock().unwrap_or_else(PoisonError::into_inner).take();
@@ -121,17 +121,17 @@ impl Call {
 }
 
 /// This thread at work for a call; what it did before comes back at the end.
-struct Here {
+struct CallGuard {
     before: (Option<Arc<Call>>, Option<Lookout>),
 }
 
-impl Here {
+impl CallGuard {
     fn enter(call: Option<Arc<Call>>, lookout: Option<Lookout>) -> Self {
-        Here { before: (CALL.replace(call), LOOKOUT.replace(lookout)) }
+        CallGuard { before: (CALL.replace(call), LOOKOUT.replace(lookout)) }
     }
 }
 
-impl Drop for Here {
+impl Drop for CallGuard {
     fn drop(&mut self) {
         CALL.set(self.before.0.take());
         LOOKOUT.set(self.before.1);
@@ -144,7 +144,7 @@ pub struct Crew(Option<Arc<Call>>);
 impl Crew {
     /// A task of the call, in whichever thread.
     pub fn task<T>(&self, work: impl FnOnce() -> T) -> T {
-        let _here = Here::enter(self.0.clone(), None);
+        let _here = CallGuard::enter(self.0.clone(), None);
         poll();
         work()
     }
@@ -170,7 +170,7 @@ pub fn in_threads<T: Send>(work: impl FnOnce(&Crew) -> T + Send) -> T {
     // The work may be done before it has noticed that it is over.
     poll();
     // What unwinds in the pool unwinds here too.
-    result.unwrap_or_else(|| resume_unwind(Box::new(Stopped)))
+    result.unwrap_or_else(|| resume_unwind(Box::new(Cancellation)))
 }
 
 /// Looks now and then until the work is done or no longer wanted.

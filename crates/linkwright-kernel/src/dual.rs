@@ -170,8 +170,8 @@ impl<R: Real> Real for Dual<R> {
         self.value.max_lane()
     }
     #[inline(always)]
-    fn outline<T>(f: impl FnOnce() -> T) -> T {
-        R::outline(f)
+    fn out_of_line<T>(f: impl FnOnce() -> T) -> T {
+        R::out_of_line(f)
     }
 }
 

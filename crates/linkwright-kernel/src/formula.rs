@@ -247,7 +247,7 @@ impl Formula {
     /// Its value.
     #[inline(always)]
     pub fn value<R: Real, N: Lift<R>>(&self, q: &[R], inputs: &Inputs<N>) -> N {
-        N::outline(
+        N::out_of_line(
             #[inline(always)]
             || {
                 let mut stack = [N::splat(0.0); DEPTH];
@@ -260,7 +260,7 @@ impl Formula {
     /// The argument of a switch.
     #[inline(always)]
     pub fn switch<R: Real, N: Lift<R>>(&self, at: usize, q: &[R], inputs: &Inputs<N>) -> N {
-        N::outline(
+        N::out_of_line(
             #[inline(always)]
             || {
                 let mut stack = [N::splat(0.0); DEPTH];

@@ -4,7 +4,7 @@
 //! equations of the functions, coefficient by coefficient. One evaluation of a kernel with jets of the crank
 //! angle gives every derivative by it: the third for the jerk, many for the motion through a change point.
 //!
-//! Every operation is a function of its own (`R::outline`): a kernel in jets is long, and written out it would be
+//! Every operation is a function of its own (`R::out_of_line`): a kernel in jets is long, and written out it would be
 //! too long to optimise.
 //!
 //! Source: e.g. Griewank and Walther, *Evaluating Derivatives*, 2nd ed., chapter 13, table 13.2.
@@ -70,7 +70,7 @@ impl<R: Real, const N: usize> Add for Jet<R, N> {
     type Output = Self;
     #[inline(always)]
     fn add(self, o: Self) -> Self {
-        R::outline(
+        R::out_of_line(
             #[inline(always)]
             || {
                 let mut c = self.c;
@@ -86,7 +86,7 @@ impl<R: Real, const N: usize> Sub for Jet<R, N> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, o: Self) -> Self {
-        R::outline(
+        R::out_of_line(
             #[inline(always)]
             || {
                 let mut c = self.c;
@@ -102,7 +102,7 @@ impl<R: Real, const N: usize> Mul for Jet<R, N> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, o: Self) -> Self {
-        R::outline(
+        R::out_of_line(
             #[inline(always)]
             || {
                 let mut c = self.c;
@@ -118,7 +118,7 @@ impl<R: Real, const N: usize> Div for Jet<R, N> {
     type Output = Self;
     #[inline(always)]
     fn div(self, o: Self) -> Self {
-        R::outline(
+        R::out_of_line(
             #[inline(always)]
             || {
                 let inverse = o.c[0].recip();
@@ -195,7 +195,7 @@ impl<R: Real, const N: usize> Real for Jet<R, N> {
     /// r² = x: 2 r₀ r_k = x_k − Σ r_i r_{k−i}.
     #[inline(always)]
     fn sqrt(self) -> Self {
-        R::outline(
+        R::out_of_line(
             #[inline(always)]
             || {
                 let mut c = self.c;
@@ -215,7 +215,7 @@ impl<R: Real, const N: usize> Real for Jet<R, N> {
     /// s′ = x′ c, c′ = −x′ s.
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
-        R::outline(
+        R::out_of_line(
             #[inline(always)]
             || {
                 let (sin, cos) = self.c[0].sin_cos();
@@ -237,7 +237,7 @@ impl<R: Real, const N: usize> Real for Jet<R, N> {
     /// y′ = x′ y.
     #[inline(always)]
     fn exp(self) -> Self {
-        R::outline(
+        R::out_of_line(
             #[inline(always)]
             || {
                 let mut y = Self::constant(self.c[0].exp());
@@ -255,7 +255,7 @@ impl<R: Real, const N: usize> Real for Jet<R, N> {
     /// x y′ = x′.
     #[inline(always)]
     fn ln(self) -> Self {
-        R::outline(
+        R::out_of_line(
             #[inline(always)]
             || {
                 let inverse = self.c[0].recip();
@@ -274,7 +274,7 @@ impl<R: Real, const N: usize> Real for Jet<R, N> {
     /// (1 + x²) y′ = x′.
     #[inline(always)]
     fn atan(self) -> Self {
-        R::outline(
+        R::out_of_line(
             #[inline(always)]
             || {
                 let w = self * self + 1.0;
@@ -313,7 +313,7 @@ impl<R: Real, const N: usize> Real for Jet<R, N> {
     /// f(x₀ + δ) = Σ f_j δʲ, and the series of its k-th coefficient likewise, with binomials.
     #[inline(always)]
     fn taylor(self, f: &impl Fn(f64, &mut [f64]), to: &mut [Self]) {
-        R::outline(
+        R::out_of_line(
             #[inline(always)]
             || {
                 let mut all = [R::splat(0.0); COEFFICIENTS];
@@ -335,8 +335,8 @@ impl<R: Real, const N: usize> Real for Jet<R, N> {
         self.c[0].max_lane()
     }
     #[inline(always)]
-    fn outline<T>(f: impl FnOnce() -> T) -> T {
-        R::outline(f)
+    fn out_of_line<T>(f: impl FnOnce() -> T) -> T {
+        R::out_of_line(f)
     }
 }
 

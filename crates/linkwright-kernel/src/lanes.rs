@@ -289,7 +289,7 @@ impl<S: Simd> Real for V<S> {
         simd.first_true_m64s(simd.less_than_f64s(self.0, limit.0)) < S::F64_LANES
     }
     #[inline(always)]
-    fn outline<T>(f: impl FnOnce() -> T) -> T {
+    fn out_of_line<T>(f: impl FnOnce() -> T) -> T {
         struct Call<F>(F);
         impl<T, F: FnOnce() -> T> WithSimd for Call<F> {
             type Output = T;
@@ -426,8 +426,8 @@ impl<R: Real> Real for Pair<R> {
         self.0.any_below(limit.0) || self.1.any_below(limit.1)
     }
     #[inline(always)]
-    fn outline<T>(f: impl FnOnce() -> T) -> T {
-        R::outline(f)
+    fn out_of_line<T>(f: impl FnOnce() -> T) -> T {
+        R::out_of_line(f)
     }
 }
 

@@ -176,12 +176,12 @@ mod tests {
     fn duals_and_jets_carry_the_next_derivatives() {
         let lift = to_and_fro();
         for phi in [0.3, 2.9, 4.0] {
-            let plain = lift.at::<f64, 6>(phi);
+            let jets = lift.at::<f64, 6>(phi);
             let [s, s1, s2]: [Dual<f64>; 3] = lift.at(Dual { value: phi, d: 2.0 });
-            assert_eq!([s.d, s1.d, s2.d], [plain[1], plain[2], plain[3]].map(|x| 2.0 * x), "duals at {phi}");
+            assert_eq!([s.d, s1.d, s2.d], [jets[1], jets[2], jets[3]].map(|x| 2.0 * x), "duals at {phi}");
             // φ(t) = φ + t + t²: s″(t) = s″ + s‴ t + (s⁗/2 + s‴) t² + …
             let [_, _, s2]: [Jet<f64, 3>; 3] = lift.at(Jet { c: [phi, 1.0, 1.0] });
-            let wanted = [plain[2], plain[3], 0.5 * plain[4] + plain[3]];
+            let wanted = [jets[2], jets[3], 0.5 * jets[4] + jets[3]];
             for (a, b) in s2.c.iter().zip(wanted) {
                 assert!((a - b).abs() < 1e-13 * b.abs().max(1.0), "jets at {phi}: {a} for {b}");
             }

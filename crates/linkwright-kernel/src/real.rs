@@ -61,7 +61,7 @@ pub trait Real:
     }
     /// Runs `f` as a function of its own, compiled for the same instruction set. Cuts kernels at their
     /// natural joints: one body of many thousand instructions would no longer be optimised well.
-    fn outline<T>(f: impl FnOnce() -> T) -> T;
+    fn out_of_line<T>(f: impl FnOnce() -> T) -> T;
 
     /// The larger of the two, lane by lane.
     #[inline(always)]
@@ -194,7 +194,7 @@ impl Real for f64 {
         self
     }
     #[inline(never)]
-    fn outline<T>(f: impl FnOnce() -> T) -> T {
+    fn out_of_line<T>(f: impl FnOnce() -> T) -> T {
         #[inline(never)]
         fn call<T>(f: impl FnOnce() -> T) -> T {
             f()

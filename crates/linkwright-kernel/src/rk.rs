@@ -223,7 +223,7 @@ impl<Y: State> Stages<Y> {
 
     /// All numbers of the state, which start from `y`, at a share of the step, after [`Stages::fill`].
     pub fn components(&self, share: f64, y: &[f64], to: &mut [f64]) {
-        in_single_lanes(Read {
+        in_single_lanes(DenseOutput {
             rows: self.polynomial.each_ref().map(AsRef::as_ref),
             share,
             y,
@@ -257,7 +257,7 @@ impl<Y: State> Stages<Y> {
             let [slopes, error, _] = &mut self.sums;
             let rows = self.polynomial.each_ref().map(AsRef::as_ref);
             let (y, to, slopes) = (y.as_ref(), self.stage.as_mut(), slopes.as_mut());
-            in_single_lanes(Read { rows, share, y, to, slopes: Some(&mut *slopes) });
+            in_single_lanes(DenseOutput { rows, share, y, to, slopes: Some(&mut *slopes) });
             f(t + share * h, &self.stage, error);
             for (error, slope) in error.as_mut().iter_mut().zip(slopes.iter()) {
                 *error = ERROR_OF_DEFECT * (*slope - h * *error);
@@ -389,7 +389,7 @@ fn sum_block<R: Real, const N: usize>(
 
 /// Numbers of a state at a share of a step, and h times their rates; as [`Stages::component`] and [`Stages::slope`] have
 /// them, the numbers side by side.
-struct Read<'a> {
+struct DenseOutput<'a> {
     rows: [&'a [f64]; 7],
     share: f64,
     y: &'a [f64],
@@ -397,12 +397,12 @@ struct Read<'a> {
     slopes: Option<&'a mut [f64]>,
 }
 
-impl Job for Read<'_> {
+impl Job for DenseOutput<'_> {
     type Output = ();
 
     #[inline(always)]
     fn run<R: Real>(self) {
-        let Read { rows, share, y, to, mut slopes } = self;
+        let DenseOutput { rows, share, y, to, mut slopes } = self;
         let n = to.len();
         let rows = rows.map(|row| &row[..n]);
         let factors: [f64; 7] = std::array::from_fn(|i| if i % 2 == 0 { share } else { 1.0 - share });
@@ -546,13 +546,13 @@ mod tests {
         let found = factors(&powers);
         for k in 0..=10 {
             let z = f64::from(k) / 10.0;
-            let plain: f64 = powers.iter().enumerate().map(|(p, a)| a * z.powi(p as i32)).sum();
+            let by_powers: f64 = powers.iter().enumerate().map(|(p, a)| a * z.powi(p as i32)).sum();
             let term = |(i, factor): (usize, &f64)| {
                 factor * z.powi(i as i32 / 2 + 1) * (1.0 - z).powi((i as i32 + 1) / 2)
             };
             let sum: f64 = found.iter().enumerate().map(term).sum();
             // A few roundings of numbers of size one.
-            assert!((sum - plain).abs() < 1e-14, "at {z}: {sum} for {plain}");
+            assert!((sum - by_powers).abs() < 1e-14, "at {z}: {sum} for {by_powers}");
         }
     }
 }

@@ -1,11 +1,11 @@
 //! A call ends when it is no longer wanted, and a panic in it becomes a failure with message and place.
 
-use linkwright_kernel::call::{Failure, Look, in_threads, keep_panic, poll, run};
+use linkwright_kernel::call::{Failure, Inquiry, in_threads, keep_panic, poll, run};
 use rayon::prelude::*;
 use std::time::{Duration, Instant};
 
-const WANTED: Look = || None;
-const UNWANTED: Look = || Some(Box::new("enough"));
+const WANTED: Inquiry = || None;
+const UNWANTED: Inquiry = || Some(Box::new("enough"));
 
 /// Longest that a stopped call may take: ten times what it takes on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(10);
@@ -48,7 +48,7 @@ fn a_call_that_is_no_longer_wanted_ends_with_the_reason() {
 #[test]
 fn a_call_within_a_look_leaves_the_outer_one_alone() {
     // A signal handler may compute something.
-    const NESTED: Look = || {
+    const NESTED: Inquiry = || {
         let inner = run(WANTED, || divided(|i| 2 * i));
         assert_eq!(inner.ok(), Some(4032), "the inner call");
         Some(Box::new("enough"))

@@ -67,7 +67,7 @@ pub(crate) struct SteadyMotion {
 impl SteadyMotion {
     fn of(py: Python<'_>, plan: Py<Plan>, q: &[f64], found: Steady, curves: Curves) -> PyResult<Self> {
         let (extremes, totals) = (&found.extremes, &found.totals);
-        let other = |each: &linkwright_core::drive::steady::Other| OtherMotion {
+        let other = |each: &linkwright_core::drive::steady::OtherMotion| OtherMotion {
             speed_min: each.speed_min,
             speed_max: each.speed_max,
             period: each.period,
@@ -204,7 +204,7 @@ pub(crate) struct NoSteadyMotion {
 
 /// Either of them.
 #[derive(IntoPyObject)]
-pub(crate) enum Solved {
+pub(crate) enum SteadyOutcome {
     Motion(SteadyMotion),
     None(NoSteadyMotion),
 }
@@ -216,7 +216,7 @@ pub(crate) fn steady_state(
     q: Floats<'_>,
     accuracy: f64,
     phi: Floats<'_>,
-) -> PyResult<Solved> {
+) -> PyResult<SteadyOutcome> {
     let known = plan.unbind();
     let (q, phi) = (known.get().parameters(&q)?, phi.as_slice()?);
     let plan = &known.get().0;
@@ -229,8 +229,10 @@ pub(crate) fn steady_state(
         Ok::<_, Failure>((found, curves))
     })?;
     Ok(match solved {
-        Ok((found, curves)) => Solved::Motion(SteadyMotion::of(py, known.clone_ref(py), q, found, curves)?),
-        Err(Failure { status, phi, omega, reached }) => Solved::None(NoSteadyMotion {
+        Ok((found, curves)) => {
+            SteadyOutcome::Motion(SteadyMotion::of(py, known.clone_ref(py), q, found, curves)?)
+        }
+        Err(Failure { status, phi, omega, reached }) => SteadyOutcome::None(NoSteadyMotion {
             status: status.into(),
             crank_angle: phi,
             speed: omega,

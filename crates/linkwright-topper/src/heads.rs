@@ -119,7 +119,7 @@ impl Job for Chunk<'_> {
         let mut uncut = Uncut::default();
         for at in (0..n).step_by(R::LANES) {
             poll();
-            let found = R::outline(
+            let found = R::out_of_line(
                 #[inline(always)]
                 || self.lanes::<R>(self.first + at),
             );
@@ -135,12 +135,12 @@ impl Job for Chunk<'_> {
             uncut.clear();
             for lane in (0..R::LANES.min(n - at)).filter(|&lane| edge.half < of(0, lane)) {
                 let head = self.work.head(self.first + at + lane);
-                R::outline(
+                R::out_of_line(
                     #[inline(always)]
                     || uncut.add::<R>(edge, lane, &head, [of(4, lane), of(5, lane)], of(1, lane)),
                 );
             }
-            R::outline(
+            R::out_of_line(
                 #[inline(always)]
                 || {
                     uncut.areas::<R>(edge, |lane, area| {

@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 
 /// What a head needs.
 #[derive(Clone, Copy, Debug)]
-pub struct Needed<R> {
+pub struct EdgeRequirement<R> {
     /// Half of the length.
     pub half: R,
     /// When the edge crosses the chord whose end is the last to be reached.
@@ -59,7 +59,7 @@ pub fn needed<R: Real>(
     window: [R; 2],
     turns: std::ops::RangeInclusive<i32>,
     stations: &Stations,
-) -> Needed<R> {
+) -> EdgeRequirement<R> {
     let zero = R::splat(0.0);
     let mut tops = [Top { height: R::splat(f64::NEG_INFINITY), at: window[0], reach: zero }; 2];
     let mut found = [(R::splat(f64::NEG_INFINITY), window[0]); 2];
@@ -98,7 +98,7 @@ pub fn needed<R: Real>(
     let top = higher(tops[0], tops[1]);
     let top_side = tops[0].height.select_lt(tops[1].height, R::splat(1.0), R::splat(-1.0));
     let climbed = climbed(knife, head, top, -top_side);
-    Needed {
+    EdgeRequirement {
         half: sampled.0.max(climbed.0),
         at: sampled.0.select_lt(climbed.0, climbed.1, sampled.1),
         side: sampled.0.select_lt(climbed.0, top_side, side),

@@ -12,7 +12,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 /// The uncut parts of a head, and the length it requires.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Left {
+pub struct UncutParts {
     /// Half of the length that would leave nothing.
     pub half: f64,
     /// The point that is reached last, along n and e.
@@ -43,7 +43,7 @@ struct Branch {
 }
 
 /// Head and edge: with no edge, what it needs alone.
-pub fn cover(knife: &Knife, head: &Head<f64>, half: Option<f64>, stations: &Stations) -> Left {
+pub fn cover(knife: &Knife, head: &Head<f64>, half: Option<f64>, stations: &Stations) -> UncutParts {
     let branches = branches(knife, head, stations);
     let r = head.radius;
     let mut levels: Vec<f64> =
@@ -156,7 +156,7 @@ impl Chord {
 }
 
 /// The chord that needs most: the highest of all panels, and of those that come near it, is climbed.
-fn most(spans: &[[f64; 2]], panels: usize, r: f64, chord: &impl Fn([f64; 2], f64) -> Chord) -> Left {
+fn most(spans: &[[f64; 2]], panels: usize, r: f64, chord: &impl Fn([f64; 2], f64) -> Chord) -> UncutParts {
     let step = PI / panels as f64;
     let mut looked = Vec::with_capacity(spans.len());
     for &span in spans {
@@ -165,7 +165,7 @@ fn most(spans: &[[f64; 2]], panels: usize, r: f64, chord: &impl Fn([f64; 2], f64
         looked.extend(found.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(need, u)| (need, u, span)));
     }
     let highest = looked.iter().map(|each| each.0).fold(f64::NEG_INFINITY, f64::max);
-    let mut left = Left { half: f64::NEG_INFINITY, ..Left::default() };
+    let mut left = UncutParts { half: f64::NEG_INFINITY, ..UncutParts::default() };
     for (_, start, span) in looked.into_iter().filter(|each| each.0 > highest - NEAR * r) {
         let ends = [(start - step).max(-FRAC_PI_2), (start + step).min(FRAC_PI_2)];
         let found = chord(span, golden(ends, |u| chord(span, u).needs().0));

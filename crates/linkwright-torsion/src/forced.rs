@@ -61,14 +61,15 @@ pub fn forced(train: &Train, damping: &Damping<'_>, orders: &[f64], torques: &mu
     }
     if torques.len() <= TASK {
         // Waking threads would take longer than doing it.
-        in_lanes(Forced { train, damping, orders, torques });
+        in_lanes(ResponseJob { train, damping, orders, torques });
         return true;
     }
     let at_once = (TASK / block).max(1);
     in_threads(|crew| {
         let tasks = torques.par_chunks_mut(at_once * block).zip(orders.par_chunks(at_once));
-        tasks
-            .for_each(|(torques, orders)| crew.task(|| in_lanes(Forced { train, damping, orders, torques })));
+        tasks.for_each(|(torques, orders)| {
+            crew.task(|| in_lanes(ResponseJob { train, damping, orders, torques }))
+        });
     });
     true
 }
@@ -78,10 +79,10 @@ const TASK: usize = 65_536;
 
 /// The same in plain numbers, which lanes are measured against.
 pub fn forced_scalar(train: &Train, damping: &Damping<'_>, orders: &[f64], torques: &mut [Complex]) {
-    scalar(Forced { train, damping, orders, torques });
+    scalar(ResponseJob { train, damping, orders, torques });
 }
 
-struct Forced<'a> {
+struct ResponseJob<'a> {
     train: &'a Train,
     damping: &'a Damping<'a>,
     orders: &'a [f64],
@@ -136,12 +137,12 @@ struct Step<R> {
     M: Z<R>,
 }
 
-impl Job for Forced<'_> {
+impl Job for ResponseJob<'_> {
     type Output = ();
 
     #[inline(always)]
     fn run<R: Real>(self) {
-        let Forced { train, damping, orders, torques } = self;
+        let ResponseJob { train, damping, orders, torques } = self;
         let (n, speeds) = (train.len(), damping.speeds.len());
         let zero = R::splat(0.0);
         let mut parts = vec![Part { k: zero, loss: zero, c: zero, ground: zero }; n];
@@ -160,7 +161,7 @@ impl Job for Forced<'_> {
             let speed: R = lanes(damping.speeds, first, &mut buffer);
             for (block, &order) in torques.chunks_exact_mut(n * speeds).zip(orders) {
                 poll();
-                R::outline(
+                R::out_of_line(
                     #[inline(always)]
                     || {
                         for (step, row) in steps.iter_mut().zip(block.chunks_exact(speeds)) {

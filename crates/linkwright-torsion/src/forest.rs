@@ -38,12 +38,13 @@ impl Forest {
             return Forest::Wrong;
         }
         let net = Net::new(inertia.len(), ends, stiffness);
-        let mut found = Found { place: vec![NOWHERE; inertia.len()], joined: vec![false; ends.len()] };
+        let mut traversal =
+            Traversal { place: vec![NOWHERE; inertia.len()], joined: vec![false; ends.len()] };
         let mut parts = Vec::with_capacity(1);
         for start in 0..inertia.len() {
-            if found.place[start] == NOWHERE {
+            if traversal.place[start] == NOWHERE {
                 let root = net.end_of(start);
-                match found.grow(&net, root, inertia) {
+                match traversal.grow(&net, root, inertia) {
                     Some(part) => parts.push(part),
                     None => return Forest::Loops,
                 }
@@ -129,14 +130,14 @@ fn joins(ends: &[[i32; 2]], stiffness: &[f64]) -> impl Iterator<Item = (usize, [
 }
 
 /// What has been reached.
-struct Found {
+struct Traversal {
     /// Place of each disc in its part.
     place: Vec<usize>,
     /// Whether a shaft has been passed.
     joined: Vec<bool>,
 }
 
-impl Found {
+impl Traversal {
     /// All that is connected with a disc; `None` if shafts close a loop.
     fn grow(&mut self, net: &Net<'_>, root: usize, inertia: &[f64]) -> Option<Part> {
         let n = inertia.len();
@@ -193,9 +194,9 @@ mod tests {
 
     #[test]
     fn a_chain_in_any_order_is_a_chain() {
-        let found = parts(&[1.0, 2.0, 3.0, 4.0], &[[2, 0], [1, 3], [3, 2]], &[20.0, 13.0, 32.0]);
-        assert_eq!(found.len(), 1, "one part");
-        let (train, discs) = (&found[0].train, &found[0].discs);
+        let forest = parts(&[1.0, 2.0, 3.0, 4.0], &[[2, 0], [1, 3], [3, 2]], &[20.0, 13.0, 32.0]);
+        assert_eq!(forest.len(), 1, "one part");
+        let (train, discs) = (&forest[0].train, &forest[0].discs);
         assert_eq!(*discs, [1, 3, 2, 0], "from one end to the other");
         assert_eq!(train.parent, [0, 0, 1, 2], "each hangs on the one before");
         assert_eq!(train.stiffness[1..], [13.0, 32.0, 20.0], "by its shaft");
@@ -205,18 +206,18 @@ mod tests {
     #[test]
     fn shafts_in_parallel_and_to_the_ground_add_up() {
         let ends = [[0, 1], [1, 0], [-1, 1], [1, -1], [0, 0], [0, 1]];
-        let found = parts(&[1.0, 1.0], &ends, &[1.0, 2.0, 4.0, 8.0, 16.0, 32.0]);
-        let train = &found[0].train;
+        let forest = parts(&[1.0, 1.0], &ends, &[1.0, 2.0, 4.0, 8.0, 16.0, 32.0]);
+        let train = &forest[0].train;
         assert_eq!(train.stiffness[1], 35.0, "between both");
         assert_eq!(train.ground.iter().sum::<f64>(), 12.0, "to the ground");
     }
 
     #[test]
     fn without_stiffness_it_falls_apart() {
-        let found = parts(&[1.0, 2.0, 3.0], &[[0, 1], [1, 2]], &[5.0, 0.0]);
-        let inertia: Vec<&[f64]> = found.iter().map(|part| &part.train.inertia[..]).collect();
+        let forest = parts(&[1.0, 2.0, 3.0], &[[0, 1], [1, 2]], &[5.0, 0.0]);
+        let inertia: Vec<&[f64]> = forest.iter().map(|part| &part.train.inertia[..]).collect();
         assert_eq!(inertia, [&[2.0, 1.0][..], &[3.0]], "the ring is alone");
-        assert!(found.iter().all(|part| part.train.is_free()), "both turn as they like");
+        assert!(forest.iter().all(|part| part.train.is_free()), "both turn as they like");
     }
 
     #[test]

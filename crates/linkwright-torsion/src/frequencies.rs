@@ -37,7 +37,7 @@ const CLOSINGS: usize = 2000;
 
 /// What a search found.
 #[derive(Clone, Debug)]
-pub struct Found {
+pub struct Spectrum {
     /// All λ, increasing; that of a free train as a whole is zero exactly.
     pub squares: Vec<f64>,
     /// How often all lanes were swept.
@@ -45,19 +45,19 @@ pub struct Found {
 }
 
 /// Finds all λ.
-pub fn find(holzer: &Holzer) -> Found {
-    in_lanes(All { holzer })
+pub fn find(holzer: &Holzer) -> Spectrum {
+    in_lanes(FrequencyJob { holzer })
 }
 
-struct All<'a> {
+struct FrequencyJob<'a> {
     holzer: &'a Holzer,
 }
 
-impl Job for All<'_> {
-    type Output = Found;
+impl Job for FrequencyJob<'_> {
+    type Output = Spectrum;
 
     #[inline(always)]
-    fn run<R: Real>(self) -> Found {
+    fn run<R: Real>(self) -> Spectrum {
         let n = self.holzer.positive();
         let width = n.next_multiple_of(R::LANES);
         let (side, values) = (self.holzer.room::<R>(), vec![0.0; width]);
@@ -72,7 +72,7 @@ impl Job for All<'_> {
         if self.holzer.is_free {
             squares.insert(0, 0.0);
         }
-        Found { squares, sweeps: search.sweeps }
+        Spectrum { squares, sweeps: search.sweeps }
     }
 }
 
@@ -97,7 +97,7 @@ impl<R: Real> Search<'_, R> {
         for first in (0..self.width).step_by(R::LANES) {
             poll();
             let lambda = R::load(&places[first..]);
-            let found = R::outline(
+            let found = R::out_of_line(
                 #[inline(always)]
                 || self.holzer.sweep::<R, SLOPE>(lambda, &mut self.side),
             );
@@ -183,7 +183,7 @@ impl<R: Real> Search<'_, R> {
             self.sweep::<true>(&ring);
             for first in (0..self.width).step_by(R::LANES) {
                 let slope = R::load(&self.values[first..]);
-                let (next, gap) = R::outline(
+                let (next, gap) = R::out_of_line(
                     #[inline(always)]
                     || self.step(slope, &ring[first..]),
                 );
@@ -315,8 +315,8 @@ mod tests {
     fn lanes_are_plain_numbers() {
         for train in trees::trees() {
             let holzer = Holzer::new(&train);
-            let (lanes, plain) = (find(&holzer).squares, scalar(All { holzer: &holzer }).squares);
-            for (a, b) in lanes.iter().zip(&plain) {
+            let (lanes, scalars) = (find(&holzer).squares, scalar(FrequencyJob { holzer: &holzer }).squares);
+            for (a, b) in lanes.iter().zip(&scalars) {
                 assert!((a - b).abs() <= 2e-14 * a, "{a} and {b} of {train:?}");
             }
         }

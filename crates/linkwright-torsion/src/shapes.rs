@@ -55,7 +55,7 @@ impl Job for Shapes<'_> {
     fn run<R: Real>(self) -> bool {
         let Shapes { train, lambda, to } = self;
         let modes = lambda.len();
-        let mut twisted = Twisted::<R>::new(train);
+        let mut twisted = TwistedSweep::<R>::new(train);
         // The first mode of a free train is known: it rotates as a rigid body.
         let known = usize::from(train.is_free());
         if train.is_free() {
@@ -68,9 +68,9 @@ impl Job for Shapes<'_> {
             poll();
             let n = R::LANES.min(modes - first);
             neighbours(lambda, first, R::LANES, &mut padded);
-            let (found, straight) = R::outline(
+            let (found, straight) = R::out_of_line(
                 #[inline(always)]
-                || twisted.settle(&padded),
+                || twisted.refine(&padded),
             );
             found.store(&mut buffer);
             lambda[first..first + n].copy_from_slice(&buffer[..n]);
@@ -113,13 +113,13 @@ struct Sweep<R> {
 }
 
 /// Room for the shapes of as many modes as there are lanes.
-struct Twisted<'a, R> {
+struct TwistedSweep<'a, R> {
     train: &'a Train,
     sweeps: Vec<Sweep<R>>,
 }
 
 /// Where a shape begins.
-struct Best<R> {
+struct TwistStart<R> {
     disc: R,
     /// γ there, and its size over J.
     rest: R,
@@ -128,16 +128,16 @@ struct Best<R> {
     inertia: R,
 }
 
-impl<'a, R: Real> Twisted<'a, R> {
+impl<'a, R: Real> TwistedSweep<'a, R> {
     fn new(train: &'a Train) -> Self {
         let zero = R::splat(0.0);
         let sweep = Sweep { answer: zero, later: zero, down: zero, up: zero, shape: zero };
-        Twisted { train, sweeps: vec![sweep; train.len()] }
+        TwistedSweep { train, sweeps: vec![sweep; train.len()] }
     }
 
     /// Shapes and improved λ; also by what angle a shape may be off. Given are λ with their neighbours.
     #[inline(always)]
-    fn settle(&mut self, padded: &[f64]) -> (R, R) {
+    fn refine(&mut self, padded: &[f64]) -> (R, R) {
         let mut lambda = R::load(&padded[1..]);
         let gap = (lambda - R::load(padded)).min(R::load(&padded[2..]) - lambda);
         let mut angle = R::splat(0.0);
@@ -178,12 +178,12 @@ impl<'a, R: Real> Twisted<'a, R> {
 
     /// y of every disc, in place of x, and where both fit best.
     #[inline(always)]
-    fn sweep_down(&mut self) -> Best<R> {
+    fn sweep_down(&mut self) -> TwistStart<R> {
         let Train { parent, inertia, stiffness, .. } = self.train;
         let zero = R::splat(0.0);
         let rest = self.sweeps[0].answer;
         let J = inertia[0];
-        let mut best = Best { disc: zero, rest, size: rest.abs() * (1.0 / J), inertia: R::splat(J) };
+        let mut best = TwistStart { disc: zero, rest, size: rest.abs() * (1.0 / J), inertia: R::splat(J) };
         // What the rest answers at the first disc: nothing.
         self.sweeps[0].answer = zero;
         for c in 1..parent.len() {
@@ -198,7 +198,7 @@ impl<'a, R: Real> Twisted<'a, R> {
             self.sweeps[c] = Sweep { answer: y, up, ..self.sweeps[c] };
             let rest = x + y;
             let size = rest.abs() * (1.0 / J);
-            best = Best {
+            best = TwistStart {
                 disc: size.select_lt(best.size, R::splat(c as f64), best.disc),
                 rest: size.select_lt(best.size, rest, best.rest),
                 inertia: size.select_lt(best.size, R::splat(J), best.inertia),
@@ -210,7 +210,7 @@ impl<'a, R: Real> Twisted<'a, R> {
 
     /// Shapes from the best disc outwards, with Σ J θ² = 1 and the largest positive. Σ J θ² where the best has one.
     #[inline(always)]
-    fn spread(&mut self, best: &Best<R>) -> R {
+    fn spread(&mut self, best: &TwistStart<R>) -> R {
         let Train { parent, inertia, .. } = self.train;
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
         for (c, sweep) in self.sweeps.iter_mut().enumerate() {

@@ -47,7 +47,7 @@ pub fn extremes(coefficients: &[Complex], waves: usize) -> Vec<Extremes> {
     let table = turns(4 * quarter, quarter, harmonics);
     let part = |task: usize| {
         let range = task * TASK..((task + 1) * TASK).min(waves);
-        in_lanes(Sampled { coefficients, waves, range, quarter, table: &table })
+        in_lanes(WaveJob { coefficients, waves, range, quarter, table: &table })
     };
     let found: Vec<Vec<Extremes>> = in_threads(|crew| {
         (0..waves.div_ceil(TASK)).into_par_iter().map(|task| crew.task(|| part(task))).collect()
@@ -58,7 +58,7 @@ pub fn extremes(coefficients: &[Complex], waves: usize) -> Vec<Extremes> {
 /// Waves a task: some half a millisecond of work.
 const TASK: usize = 64;
 
-struct Sampled<'a> {
+struct WaveJob<'a> {
     coefficients: &'a [Complex],
     waves: usize,
     range: Range<usize>,
@@ -66,12 +66,12 @@ struct Sampled<'a> {
     table: &'a [[[f64; 2]; BLOCK]],
 }
 
-impl Job for Sampled<'_> {
+impl Job for WaveJob<'_> {
     type Output = Vec<Extremes>;
 
     #[inline(always)]
     fn run<R: Real>(self) -> Vec<Extremes> {
-        let Sampled { coefficients, waves, range, quarter, table } = self;
+        let WaveJob { coefficients, waves, range, quarter, table } = self;
         let (harmonics, places) = (coefficients.len() / waves, 4 * quarter);
         let zero = R::splat(0.0);
         // Even and odd harmonics in turn: an odd number of them has one of zero at its end.
@@ -86,7 +86,7 @@ impl Job for Sampled<'_> {
         let end = range.end;
         for first in range.step_by(R::LANES) {
             poll();
-            R::outline(
+            R::out_of_line(
                 #[inline(always)]
                 || {
                     for (c, row) in c.iter_mut().zip(coefficients.chunks_exact(waves)) {
@@ -107,7 +107,7 @@ impl Job for Sampled<'_> {
             );
             for lane in 0..R::LANES.min(end - first) {
                 wave.set((0..harmonics).map(|h| coefficients[h * waves + first + lane]));
-                found.push(R::outline(
+                found.push(R::out_of_line(
                     #[inline(always)]
                     || wave_extremes(&wave, &mut tops[lane], places, thirds[lane]),
                 ));
@@ -317,12 +317,12 @@ impl Wave {
 #[inline(always)]
 fn evaluate(wave: &Wave, at: f64) -> [f64; 3] {
     let (s1, c1) = at.sin_cos();
-    let further = |(s, c): (f64, f64)| (s * c1 + c * s1, c * c1 - s * s1);
+    let next = |(s, c): (f64, f64)| (s * c1 + c * s1, c * c1 - s * s1);
     let (mut s, mut c) = ([0.0; ABREAST], [1.0; ABREAST]);
     for k in 1..ABREAST {
-        (s[k], c[k]) = further((s[k - 1], c[k - 1]));
+        (s[k], c[k]) = next((s[k - 1], c[k - 1]));
     }
-    let (s4, c4) = further((s[ABREAST - 1], c[ABREAST - 1]));
+    let (s4, c4) = next((s[ABREAST - 1], c[ABREAST - 1]));
     let [mut value, mut slope, mut bend] = [[0.0; ABREAST]; 3];
     for (row, h) in wave.rows.iter().zip(0..) {
         let [re, im] = row;

@@ -9,7 +9,7 @@ use crate::drive::cycle::{Machine, Turn, divide};
 use crate::drive::extremes::Extremes;
 use crate::drive::layout::{Layout, unbundle};
 use crate::drive::measures::Totals;
-use crate::drive::passing::Passing;
+use crate::drive::passing::MeshedRow;
 use crate::drive::steady::{Steady, steady};
 use crate::drive::structure::Plan;
 use crate::kernel::call::{in_threads, poll};
@@ -157,11 +157,11 @@ impl Job for Chunk<'_> {
                 sweeps += lanes.solve(bundle, &mut self, &mut passing);
             }
             // Lanes with about as many steps side by side.
-            passing.sort_by_key(|row: &Passing| (row.edges.len(), row.row));
+            passing.sort_by_key(|row: &MeshedRow| (row.edges.len(), row.row));
             bundles.clear();
             let mut rest = passing.drain(..).peekable();
             while rest.peek().is_some() {
-                let passing: Vec<Passing> = rest.by_ref().take(R::LANES).collect();
+                let passing: Vec<MeshedRow> = rest.by_ref().take(R::LANES).collect();
                 bundles.push(Bundle { rows: passing.iter().map(|row| row.row).collect(), passing });
             }
         }
@@ -173,7 +173,7 @@ impl Job for Chunk<'_> {
 struct Bundle {
     rows: Vec<usize>,
     /// Their meshes where they pass kinks of the drive, else empty.
-    passing: Vec<Passing>,
+    passing: Vec<MeshedRow>,
 }
 
 /// What bundles of rows are solved with.
@@ -199,18 +199,18 @@ impl<'a, R: Real> Lanes<'a, R> {
 
     /// Solves a bundle; returns the turns swept. Rows that are found to pass kinks of the drive are added to the list.
     #[inline(always)]
-    fn solve(&mut self, bundle: &Bundle, chunk: &mut Chunk<'_>, passing: &mut Vec<Passing>) -> u64 {
+    fn solve(&mut self, bundle: &Bundle, chunk: &mut Chunk<'_>, passing: &mut Vec<MeshedRow>) -> u64 {
         let Bundle { rows, passing: meshes } = bundle;
         let numbers: Vec<usize> = rows.iter().map(|row| chunk.first + row).collect();
         self.rows.lanes(&numbers, &mut self.q);
         self.m.ground(&self.plan.mechanism, &self.q);
         let (machine, m) = (Machine::new(self.plan, &self.q), &mut self.m);
         let mesh_of = |lane: usize| &meshes[lane.min(meshes.len() - 1)];
-        let meshes: Vec<&Passing> =
+        let meshes: Vec<&MeshedRow> =
             if meshes.is_empty() { Vec::new() } else { (0..R::LANES).map(mesh_of).collect() };
         let mut breaks = Vec::new();
         if meshes.is_empty() {
-            breaks = R::outline(
+            breaks = R::out_of_line(
                 #[inline(always)]
                 || machine.breaks(m),
             );
@@ -221,13 +221,13 @@ impl<'a, R: Real> Lanes<'a, R> {
             meshes.iter().map(|mesh| mesh.edges.clone()).collect()
         };
         let (coarse, turn) = (&mut self.coarse, &mut self.turn);
-        R::outline(
+        R::out_of_line(
             #[inline(always)]
             || coarse.tabulate_machines(&machine, &edges, m),
         );
         coarse.limit = CONVERGED[0];
         if meshes.is_empty() {
-            R::outline(
+            R::out_of_line(
                 #[inline(always)]
                 || coarse.start_from_balance(&machine),
             );
@@ -236,7 +236,7 @@ impl<'a, R: Real> Lanes<'a, R> {
         }
         let mut displaced = R::splat(0.0);
         for _ in 0..=PLACEMENTS {
-            R::outline(
+            R::out_of_line(
                 #[inline(always)]
                 || coarse.solve(&machine),
             );
@@ -260,36 +260,36 @@ impl<'a, R: Real> Lanes<'a, R> {
         if !is_free.contains(&true) {
             return u64::from(coarse.sweeps) * n;
         }
-        R::outline(
+        R::out_of_line(
             #[inline(always)]
             || coarse.halve_into(turn, &machine, m),
         );
         turn.limit = CONVERGED[1];
-        R::outline(
+        R::out_of_line(
             #[inline(always)]
             || turn.solve(&machine),
         );
         for k in (1..coarse.steps.len()).filter(|&k| meshes.iter().any(|mesh| mesh.is_kink(k))) {
             // The end of a step is that of the second of its halves.
             let step = &turn.steps[2 * k - 1];
-            let side = machine.growth_on_side(step, turn.given_of(&machine, 2 * k - 1)) / step.growth;
+            let side = machine.growth_on_side(step, turn.geometry_of(&machine, 2 * k - 1)) / step.growth;
             let is_kink: Vec<f64> = meshes.iter().map(|mesh| f64::from(u8::from(mesh.is_kink(k)))).collect();
             let factor = R::load(&is_kink).select_lt(R::splat(0.5), R::splat(1.0), side);
             turn.multiplier = turn.multiplier * factor;
         }
-        let extremes = R::outline(
+        let extremes = R::out_of_line(
             #[inline(always)]
             || turn.extremes(&machine, None, m),
         );
-        let totals = R::outline(
+        let totals = R::out_of_line(
             #[inline(always)]
             || turn.totals(&machine),
         );
-        let error = R::outline(
+        let error = R::out_of_line(
             #[inline(always)]
             || turn.error_against(coarse, &machine, m),
         );
-        let may_have_faster = R::outline(
+        let may_have_faster = R::out_of_line(
             #[inline(always)]
             || coarse.may_have_faster(&machine),
         );
@@ -340,7 +340,7 @@ fn hand_over<R: Real>(
     turn: &Turn<R>,
     breaks: &[Vec<f64>],
     rows: &[usize],
-    passing: &mut Vec<Passing>,
+    passing: &mut Vec<MeshedRow>,
     mut kinks_of: impl FnMut(usize) -> Vec<f64>,
 ) -> Vec<bool> {
     let (mut low, mut high) = (R::splat(f64::INFINITY), R::splat(0.0));
@@ -360,7 +360,7 @@ fn hand_over<R: Real>(
                 pieces = turn.pieces_of_lanes();
             }
             let solution = std::mem::take(&mut pieces[lane]);
-            passing.push(Passing::new(row, solution, &breaks[lane], &speeds, STEPS));
+            passing.push(MeshedRow::new(row, solution, &breaks[lane], &speeds, STEPS));
             is_free[lane] = false;
         }
     }
@@ -428,14 +428,14 @@ pub fn reductions(plan: &Plan, q: &[f64], phi: &[f64], out: &mut [f64]) {
 /// Torque of all laws at each angle and each of some speeds. `out` is (speeds, angles).
 pub fn law_torques(plan: &Plan, q: &[f64], phi: &[f64], omega: &[f64], out: &mut [f64]) {
     let mut m = Motion::new(&plan.mechanism, q);
-    let mut given = Vec::new();
+    let mut geometry = Vec::new();
     for (i, &phi_i) in phi.iter().enumerate() {
         poll();
         plan.mechanism.place::<f64, 1>(q, Angle::new(phi_i), &mut m);
-        given.clear();
-        plan.give(q, phi_i, &m, &mut given);
+        geometry.clear();
+        plan.add_geometry(q, phi_i, &m, &mut geometry);
         for (k, &omega_k) in omega.iter().enumerate() {
-            out[k * phi.len() + i] = plan.law_torque::<f64, f64, f64>(q, &given, omega_k, f64::NAN);
+            out[k * phi.len() + i] = plan.law_torque::<f64, f64, f64>(q, &geometry, omega_k, f64::NAN);
         }
     }
 }

@@ -46,7 +46,7 @@ impl<R: Real> Turn<R> {
         }
         let (mut all, mut worst) = (Vec::with_capacity(self.steps.len()), 0.0_f64);
         for k in 0..self.steps.len() {
-            let (series, error) = R::outline(
+            let (series, error) = R::out_of_line(
                 #[inline(always)]
                 || self.between_of(machine, k, accuracy, scale, m),
             );
@@ -73,16 +73,16 @@ impl<R: Real> Turn<R> {
         let step = &self.steps[k];
         let zero = R::splat(0.0);
         let (mut x, mut f, mut d) = ([step.u; G], [zero; G], [zero; G]);
-        let (mut rows, mut given) = ([step.rows[0]; G], Vec::new());
+        let (mut rows, mut geometry) = ([step.rows[0]; G], Vec::new());
         let quintic = step.quintic();
         for i in 0..G {
-            rows[i] = machine.row(step.h.mul_add(R::splat(SHARES[i]), step.phi), m, &mut given);
+            rows[i] = machine.row(step.h.mul_add(R::splat(SHARES[i]), step.phi), m, &mut geometry);
             x[i] = on_quintic(&quintic, R::splat(SHARES[i]));
         }
         let mut squared = zero;
         for _ in 0..CORRECTIONS {
             for i in 0..G {
-                let epsilon = machine.acceleration(&rows[i], machine.given_at(&given, i), x[i]);
+                let epsilon = machine.acceleration(&rows[i], machine.geometry_at(&geometry, i), x[i]);
                 (f[i], d[i]) = (epsilon.value, epsilon.d);
             }
             let delta = newton(step.u, step.h, &f, &d, &x);

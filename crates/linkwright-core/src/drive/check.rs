@@ -108,7 +108,7 @@ impl<R: Real> Turn<R> {
         let zero = R::splat(0.0);
         let (mut sizes, mut least) = ([zero; INTEGRALS], [zero; INTEGRALS]);
         for (k, step) in self.steps.iter().enumerate() {
-            let parts = machine.integrals(step, self.given_of(machine, k));
+            let parts = machine.integrals(step, self.geometry_of(machine, k));
             let torque = step.u * (2.0 * EVEN) / step.rows[S - 1].inverse;
             let (at_motor, work) = (torque / machine.q[machine.plan.drive.ratio], torque * step.h);
             let (impulse, heat) = (at_motor * parts[0], at_motor.squared() * parts[0]);
@@ -126,7 +126,7 @@ impl<R: Real> Turn<R> {
         let zero = R::splat(0.0);
         let mut sums = [zero; INTEGRALS];
         for (k, step) in self.steps.iter().enumerate() {
-            let parts = machine.integrals(step, self.given_of(machine, k));
+            let parts = machine.integrals(step, self.geometry_of(machine, k));
             let torque = step.steepness() * step.u * (2.0 * ROUNDING) / step.rows[S - 1].inverse;
             let (at_motor, work) = (torque / machine.q[machine.plan.drive.ratio], torque * step.h);
             let (impulse, heat) = (at_motor * parts[0], at_motor * parts[4].abs() * 2.0);
@@ -162,7 +162,7 @@ impl<R: Real> Turn<R> {
         let step = &self.steps[k];
         let zero = R::splat(0.0);
         let steepness = step.steepness();
-        let whole = machine.integrals(step, self.given_of(machine, k));
+        let whole = machine.integrals(step, self.geometry_of(machine, k));
         let mut d =
             Differences { defect: zero, error: zero, halvings: zero, relative: zero, integrals: whole };
         let (mut whole, mut x, mut share) = (*step, step.h, 1.0);
@@ -172,18 +172,20 @@ impl<R: Real> Turn<R> {
             share *= 0.5;
             let (at, zero) = (R::splat(share), R::splat(0.0));
             let X = stages_of_part(&quintic, zero, at);
-            let (first, given) = machine.advance_near(step.phi, step.u, x, X, m);
+            let (first, geometry) = machine.advance_near(step.phi, step.u, x, X, m);
             let X = stages_of_part(&quintic, at, at);
-            let (second, given_second) = machine.advance_near(step.phi + x, first.end(), x, X, m);
+            let (second, geometry_second) = machine.advance_near(step.phi + x, first.end(), x, X, m);
             if level == 0 {
                 d.defect = second.end() - whole.end();
                 if machine.keeps_branch {
                     let of_speed = (step.u * (2.0 * limits.accuracy)).max(step.u * (4.0 * ROUNDING));
-                    let off = machine.off_branch(&first, &given) + machine.off_branch(&second, &given_second);
+                    let off =
+                        machine.off_branch(&first, &geometry) + machine.off_branch(&second, &geometry_second);
                     d.error = d.error.max(off / of_speed);
                     d.relative = d.relative.max(off / step.u * 0.5);
                 }
-                let halves = [machine.integrals(&first, &given), machine.integrals(&second, &given_second)];
+                let halves =
+                    [machine.integrals(&first, &geometry), machine.integrals(&second, &geometry_second)];
                 for i in 0..INTEGRALS {
                     d.integrals[i] = (halves[0][i] + halves[1][i] - d.integrals[i]).abs();
                 }

@@ -12,7 +12,7 @@
 //! leaves the Newton step of the return map, and the product of the steps' growth is that map's
 //! derivative: the multiplier of a small disturbance over one revolution (stable when below 1 in size).
 
-use crate::drive::law::Given;
+use crate::drive::law::LawGeometry;
 use crate::drive::layout::{Layout, bundle};
 use crate::drive::structure::Plan;
 use crate::kernel::branch::OnBranch;
@@ -63,7 +63,7 @@ pub struct Turn<R> {
     /// The steps from φ = 0 to 2π.
     pub steps: Vec<Step<R>>,
     /// What the laws need to know at the stages, law by law, stage by stage, step by step.
-    pub given: Vec<Given<R>>,
+    pub geometry: Vec<LawGeometry<R>>,
     /// What the lanes hold.
     pub layout: Layout,
     /// Derivative of the return map.
@@ -129,12 +129,12 @@ impl<'a, R: Real> Machine<'a, R> {
 
     /// ε, and its derivative by u.
     #[inline(always)]
-    pub fn acceleration(&self, row: &Row<R>, given: &[Given<R>], u: R) -> Dual<R> {
+    pub fn acceleration(&self, row: &Row<R>, geometry: &[LawGeometry<R>], u: R) -> Dual<R> {
         let free = self.drive_acceleration(row, Dual::variable(u));
-        if given.is_empty() {
+        if geometry.is_empty() {
             return free;
         }
-        let taken = self.laws(given, (Dual::variable(u) * 2.0).sqrt());
+        let taken = self.laws(geometry, (Dual::variable(u) * 2.0).sqrt());
         free - taken * Dual::constant(row.inverse)
     }
 
@@ -143,37 +143,37 @@ impl<'a, R: Real> Machine<'a, R> {
     pub fn acceleration_on_branch(
         &self,
         row: &Row<R>,
-        given: &[Given<R>],
+        geometry: &[LawGeometry<R>],
         u: R,
-        (known, at): (&[Given<R>], R),
+        (known, at): (&[LawGeometry<R>], R),
     ) -> Dual<R> {
         let free = self.drive_acceleration(row, Dual::variable(u));
-        if given.is_empty() {
+        if geometry.is_empty() {
             return free;
         }
         let u = OnBranch { value: Dual::variable(u), at };
-        let taken = self.laws_on_branch(given, known, (u * 2.0).sqrt()).value;
+        let taken = self.laws_on_branch(geometry, known, (u * 2.0).sqrt()).value;
         free - taken * Dual::constant(row.inverse)
     }
 
     /// Load torque of all laws at a stage; no time counts, since no turn differs from another.
     #[inline(always)]
-    pub fn laws<N: Lift<R>>(&self, given: &[Given<R>], omega: N) -> N {
-        N::outline(
+    pub fn laws<N: Lift<R>>(&self, geometry: &[LawGeometry<R>], omega: N) -> N {
+        N::out_of_line(
             #[inline(always)]
-            || self.plan.law_torque::<R, R, N>(self.q, given, omega, N::splat(f64::NAN)),
+            || self.plan.law_torque::<R, R, N>(self.q, geometry, omega, N::splat(f64::NAN)),
         )
     }
 
     /// The same on the branch of a reference, where the laws know what is `known`.
     #[inline(always)]
-    pub fn laws_on_branch<N>(&self, given: &[Given<R>], known: &[Given<R>], omega: N) -> N
+    pub fn laws_on_branch<N>(&self, geometry: &[LawGeometry<R>], known: &[LawGeometry<R>], omega: N) -> N
     where
         N: Lift<R> + Lift<OnBranch<R, R>>,
     {
-        let both: Vec<Given<OnBranch<R, R>>> =
-            given.iter().zip(known).map(|(given, known)| given.on_branch_of(known)).collect();
-        N::outline(
+        let both: Vec<LawGeometry<OnBranch<R, R>>> =
+            geometry.iter().zip(known).map(|(geometry, known)| geometry.on_branch_of(known)).collect();
+        N::out_of_line(
             #[inline(always)]
             || self.plan.law_torque::<R, OnBranch<R, R>, N>(self.q, &both, omega, N::splat(f64::NAN)),
         )
@@ -181,19 +181,19 @@ impl<'a, R: Real> Machine<'a, R> {
 
     /// What the laws need to know at one stage of several.
     #[inline(always)]
-    pub fn given_at<'g>(&self, given: &'g [Given<R>], stage: usize) -> &'g [Given<R>] {
+    pub fn geometry_at<'g>(&self, geometry: &'g [LawGeometry<R>], stage: usize) -> &'g [LawGeometry<R>] {
         let n = self.plan.laws.len();
-        &given[stage * n..(stage + 1) * n]
+        &geometry[stage * n..(stage + 1) * n]
     }
 
     /// ε at the stages of a step, and its derivatives.
     #[inline(always)]
-    fn accelerations(&self, rows: &[Row<R>; S], given: &[Given<R>], X: &[R; S]) -> ([R; S], [R; S]) {
+    fn accelerations(&self, rows: &[Row<R>; S], geometry: &[LawGeometry<R>], X: &[R; S]) -> ([R; S], [R; S]) {
         let (mut f, mut d) = (*X, *X);
         if self.keeps_branch {
-            let reference = (self.given_at(given, REFERENCE), X[REFERENCE]);
+            let reference = (self.geometry_at(geometry, REFERENCE), X[REFERENCE]);
             for i in 0..S {
-                let own = self.given_at(given, i);
+                let own = self.geometry_at(geometry, i);
                 let epsilon = self.acceleration_on_branch(&rows[i], own, X[i], reference);
                 (f[i], d[i]) = (epsilon.value, epsilon.d);
             }
@@ -203,9 +203,9 @@ impl<'a, R: Real> Machine<'a, R> {
             let free = self.drive_acceleration(&rows[i], Dual::variable(X[i]));
             (f[i], d[i]) = (free.value, free.d);
         }
-        if !given.is_empty() {
+        if !geometry.is_empty() {
             for i in 0..S {
-                let taken = self.laws(self.given_at(given, i), (Dual::variable(X[i]) * 2.0).sqrt());
+                let taken = self.laws(self.geometry_at(geometry, i), (Dual::variable(X[i]) * 2.0).sqrt());
                 (f[i], d[i]) = (f[i] - taken.value * rows[i].inverse, d[i] - taken.d * rows[i].inverse);
             }
         }
@@ -214,17 +214,24 @@ impl<'a, R: Real> Machine<'a, R> {
 
     /// A step with a given solution, and what its laws need to know.
     #[inline(always)]
-    pub fn step_of(&self, phi: R, h: R, u: R, X: [R; S], m: &mut Motion<R>) -> (Step<R>, Vec<Given<R>>) {
-        let mut given = Vec::new();
-        let rows = self.rows(phi, h, m, &mut given);
-        (Step { X, ..Step::at_rest(phi, h, rows, u) }, given)
+    pub fn step_of(
+        &self,
+        phi: R,
+        h: R,
+        u: R,
+        X: [R; S],
+        m: &mut Motion<R>,
+    ) -> (Step<R>, Vec<LawGeometry<R>>) {
+        let mut geometry = Vec::new();
+        let rows = self.rows(phi, h, m, &mut geometry);
+        (Step { X, ..Step::at_rest(phi, h, rows, u) }, geometry)
     }
 
     /// Growth of a step that ends on a kink of the drive, with the slope that the drive's torque has on its side of the
     /// kink; the step's own has the slope that rounding chose. The torque itself is the same on either side.
     #[inline(always)]
-    pub fn growth_on_side(&self, step: &Step<R>, given: &[Given<R>]) -> R {
-        let (f, mut d) = self.accelerations(&step.rows, given, &step.X);
+    pub fn growth_on_side(&self, step: &Step<R>, geometry: &[LawGeometry<R>]) -> R {
+        let (f, mut d) = self.accelerations(&step.rows, geometry, &step.X);
         let u = OnBranch { value: Dual::variable(step.X[S - 1]), at: step.X[REFERENCE] };
         let row = &step.rows[S - 1];
         d[S - 1] =
@@ -235,24 +242,24 @@ impl<'a, R: Real> Machine<'a, R> {
     /// Where the stages of a step lie on another branch than the one that the step keeps to: the most that this makes of
     /// u at its end. The last stage lies on the kink itself.
     #[inline(always)]
-    pub fn off_branch(&self, step: &Step<R>, given: &[Given<R>]) -> R {
+    pub fn off_branch(&self, step: &Step<R>, geometry: &[LawGeometry<R>]) -> R {
         let mut sum = R::splat(0.0);
         for i in 0..S - 1 {
-            let own = self.acceleration(&step.rows[i], self.given_at(given, i), step.X[i]).value;
+            let own = self.acceleration(&step.rows[i], self.geometry_at(geometry, i), step.X[i]).value;
             sum = (own - step.K[i]).abs().mul_add(step.h * B[i], sum);
         }
         sum
     }
 
-    /// The reduced machine at a crank angle; what its laws need to know there is added to `given`.
+    /// The reduced machine at a crank angle; what its laws need to know there is added to `geometry`.
     #[inline(always)]
-    pub fn row(&self, phi: R, m: &mut Motion<R>, given: &mut Vec<Given<R>>) -> Row<R> {
-        R::outline(
+    pub fn row(&self, phi: R, m: &mut Motion<R>, geometry: &mut Vec<LawGeometry<R>>) -> Row<R> {
+        R::out_of_line(
             #[inline(always)]
             || {
                 let r = self.plan.reduce::<R, 2>(self.q, Angle::new(phi), 1.0, m);
                 if !self.plan.laws.is_empty() {
-                    self.plan.give(self.q, phi, m, given);
+                    self.plan.add_geometry(self.q, phi, m, geometry);
                 }
                 let inverse = r.J.recip();
                 Row { inverse, drift: r.J_d1 * inverse, load: r.load + r.dry, viscous: r.viscous }
@@ -262,10 +269,10 @@ impl<'a, R: Real> Machine<'a, R> {
 
     /// The stages of a step.
     #[inline(always)]
-    fn rows(&self, phi: R, h: R, m: &mut Motion<R>, given: &mut Vec<Given<R>>) -> [Row<R>; S] {
+    fn rows(&self, phi: R, h: R, m: &mut Motion<R>, geometry: &mut Vec<LawGeometry<R>>) -> [Row<R>; S] {
         let mut rows = [Row { inverse: h, drift: h, load: h, viscous: h }; S];
         for i in 0..S {
-            rows[i] = self.row(h.mul_add(R::splat(C[i]), phi), m, given);
+            rows[i] = self.row(h.mul_add(R::splat(C[i]), phi), m, geometry);
         }
         rows
     }
@@ -273,13 +280,20 @@ impl<'a, R: Real> Machine<'a, R> {
     /// A step of its own from (`phi`, `u`) on by `h`, and what its laws needed. This is how the solution is
     /// read between the steps of the revolution. Lanes that do not converge are NaN.
     #[inline(always)]
-    pub fn advance(&self, phi: R, u: R, h: R, m: &mut Motion<R>) -> (Step<R>, Vec<Given<R>>) {
+    pub fn advance(&self, phi: R, u: R, h: R, m: &mut Motion<R>) -> (Step<R>, Vec<LawGeometry<R>>) {
         self.advance_near(phi, u, h, [u; S], m)
     }
 
     /// The same with stages to start from.
     #[inline(always)]
-    pub fn advance_near(&self, phi: R, u: R, h: R, X: [R; S], m: &mut Motion<R>) -> (Step<R>, Vec<Given<R>>) {
+    pub fn advance_near(
+        &self,
+        phi: R,
+        u: R,
+        h: R,
+        X: [R; S],
+        m: &mut Motion<R>,
+    ) -> (Step<R>, Vec<LawGeometry<R>>) {
         self.advance_within(CONVERGED, phi, u, h, X, m)
     }
 
@@ -293,22 +307,22 @@ impl<'a, R: Real> Machine<'a, R> {
         h: R,
         X: [R; S],
         m: &mut Motion<R>,
-    ) -> (Step<R>, Vec<Given<R>>) {
-        let mut given = Vec::new();
-        let rows = self.rows(phi, h, m, &mut given);
-        let step = R::outline(
+    ) -> (Step<R>, Vec<LawGeometry<R>>) {
+        let mut geometry = Vec::new();
+        let rows = self.rows(phi, h, m, &mut geometry);
+        let step = R::out_of_line(
             #[inline(always)]
-            || self.solve_step(Step { X, ..Step::at_rest(phi, h, rows, u) }, &given, limit),
+            || self.solve_step(Step { X, ..Step::at_rest(phi, h, rows, u) }, &geometry, limit),
         );
-        (step, given)
+        (step, geometry)
     }
 
     /// Newton for the stages of a step from its given start.
     #[inline(always)]
-    fn solve_step(&self, mut step: Step<R>, given: &[Given<R>], limit: f64) -> Step<R> {
+    fn solve_step(&self, mut step: Step<R>, geometry: &[LawGeometry<R>], limit: f64) -> Step<R> {
         let mut worst = R::splat(f64::INFINITY);
         for _ in 0..STEP_SWEEPS {
-            let newton = self.step_newton(&mut step, given, worst, limit);
+            let newton = self.step_newton(&mut step, geometry, worst, limit);
             let correction = step.take(&newton, R::splat(0.0), worst, limit);
             worst = worst.select_lt(R::splat(limit), worst, correction);
             if worst.max_lane() < limit {
@@ -327,12 +341,12 @@ impl<'a, R: Real> Machine<'a, R> {
     fn step_newton(
         &self,
         step: &mut Step<R>,
-        given: &[Given<R>],
+        geometry: &[LawGeometry<R>],
         correction: R,
         limit: f64,
     ) -> StageNewton<R> {
         let limit = R::splat(limit);
-        let (f, d) = self.accelerations(&step.rows, given, &step.X);
+        let (f, d) = self.accelerations(&step.rows, geometry, &step.X);
         let newton = stage_newton(step.u, step.h, &f, &d, &step.X);
         for i in 0..S {
             step.K[i] = correction.select_lt(limit, step.K[i], f[i]);
@@ -355,7 +369,7 @@ impl<'a, R: Real> Machine<'a, R> {
             let mut net = self.plan.drive.torque(&self.plan.tables, self.q, w)
                 - Dual::constant(load)
                 - Dual::constant(viscous) * w;
-            if !turn.given.is_empty() {
+            if !turn.geometry.is_empty() {
                 net = net - turn.mean_laws(self, w);
             }
             let next = omega - net.value / net.d;
@@ -504,7 +518,7 @@ impl<R: Real> Turn<R> {
     pub fn empty(layout: Layout) -> Self {
         Turn {
             steps: Vec::new(),
-            given: Vec::new(),
+            geometry: Vec::new(),
             layout,
             multiplier: R::splat(0.0),
             sweeps: 0,
@@ -528,7 +542,7 @@ impl<R: Real> Turn<R> {
         let zero = R::splat(0.0);
         let row = Row { inverse: zero, drift: zero, load: zero, viscous: zero };
         self.steps.clear();
-        self.given.clear();
+        self.geometry.clear();
         for &(phi, h) in steps {
             self.steps.push(Step::at_rest(phi, h, [row; S], zero));
             self.take_rows(machine, self.steps.len() - 1, m);
@@ -541,15 +555,15 @@ impl<R: Real> Turn<R> {
     pub fn take_rows(&mut self, machine: &Machine<'_, R>, k: usize, m: &mut Motion<R>) {
         let step = &mut self.steps[k];
         for i in 0..S {
-            step.rows[i] = machine.row(step.h.mul_add(R::splat(C[i]), step.phi), m, &mut self.given);
+            step.rows[i] = machine.row(step.h.mul_add(R::splat(C[i]), step.phi), m, &mut self.geometry);
         }
     }
 
     /// What the laws need to know at the stages of a step.
     #[inline(always)]
-    pub fn given_of(&self, machine: &Machine<'_, R>, k: usize) -> &[Given<R>] {
+    pub fn geometry_of(&self, machine: &Machine<'_, R>, k: usize) -> &[LawGeometry<R>] {
         let n = S * machine.plan.laws.len();
-        &self.given[k * n..(k + 1) * n]
+        &self.geometry[k * n..(k + 1) * n]
     }
 
     /// Starts every step from one constant speed that balances the mean load.
@@ -580,9 +594,9 @@ impl<R: Real> Turn<R> {
     fn mean_laws(&self, machine: &Machine<'_, R>, omega: Dual<R>) -> Dual<R> {
         let mut sum = Dual::constant(R::splat(0.0));
         for (k, step) in self.steps.iter().enumerate() {
-            let given = self.given_of(machine, k);
+            let geometry = self.geometry_of(machine, k);
             for i in 0..S {
-                let torque = machine.laws(machine.given_at(given, i), omega);
+                let torque = machine.laws(machine.geometry_at(geometry, i), omega);
                 sum = torque * Dual::constant(step.h * (B[i] / machine.plan.cycle())) + sum;
             }
         }
@@ -596,7 +610,7 @@ impl<R: Real> Turn<R> {
         let mut work = Vec::with_capacity(self.steps.len());
         while self.sweeps < SWEEPS_MAX {
             poll();
-            R::outline(
+            R::out_of_line(
                 #[inline(always)]
                 || self.sweep(machine, &mut work),
             );
@@ -614,8 +628,8 @@ impl<R: Real> Turn<R> {
         let mut starts = Vec::with_capacity(self.steps.len());
         let laws = S * machine.plan.laws.len();
         for (k, step) in self.steps.iter_mut().enumerate() {
-            let given = &self.given[k * laws..(k + 1) * laws];
-            work.push(machine.step_newton(step, given, self.correction, self.limit));
+            let geometry = &self.geometry[k * laws..(k + 1) * laws];
+            work.push(machine.step_newton(step, geometry, self.correction, self.limit));
             starts.push(step.u);
         }
         let ends = self.layout.ends(&starts);

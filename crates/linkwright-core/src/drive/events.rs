@@ -6,7 +6,7 @@
 //! the step ([`crate::kernel::branch`]).
 
 use crate::drive::cycle::Machine;
-use crate::drive::law::Moving;
+use crate::drive::law::SpeedKink;
 use crate::drive::mesh::{Piece, crossing};
 use crate::drive::structure::Plan;
 use crate::kernel::radau::S;
@@ -19,8 +19,8 @@ const ON_KINK: f64 = 1e-10;
 
 /// A kink this close to the end of a step, as a share of the step, lies at the end: what is left of it
 /// changes the solution by the square of that. Where a law may jump it changes the solution in proportion.
-const SETTLED: f64 = 1e-6;
-const SETTLED_JUMP: f64 = 1e-10;
+const KINK_SHARE: f64 = 1e-6;
+const KINK_SHARE_JUMP: f64 = 1e-10;
 
 /// Angles \[rad\] to both sides of a jump at which the machine is looked at: far from where rounding hides the jump, near
 /// enough that what extrapolation to it leaves is of the order of their product.
@@ -38,7 +38,7 @@ pub enum Event {
     /// A speed of the crank: the number of a kink of the drive.
     Speed(usize),
     /// A kink of a law.
-    Law(Moving),
+    Law(SpeedKink),
 }
 
 /// Newton steps to the zero of an event: g is nearly linear in u.
@@ -70,8 +70,8 @@ pub struct Passage {
 
 impl Plan {
     /// How close to its kinks the ends of steps have to be, as a share of the step.
-    pub fn settled(&self) -> f64 {
-        if self.may_jump() { SETTLED_JUMP } else { SETTLED }
+    pub fn kink_share(&self) -> f64 {
+        if self.may_jump() { KINK_SHARE_JUMP } else { KINK_SHARE }
     }
 }
 
@@ -81,7 +81,7 @@ pub struct Events<'a, R> {
     /// Speeds of the crank at which the drive has kinks \[rad/s\].
     speeds: Vec<R>,
     /// Kinks of laws.
-    laws: Vec<Moving>,
+    laws: Vec<SpeedKink>,
 }
 
 impl<'a, R: Real> Events<'a, R> {
@@ -89,7 +89,7 @@ impl<'a, R: Real> Events<'a, R> {
     #[inline(always)]
     pub fn new(machine: Machine<'a, R>) -> Self {
         let speeds = machine.plan.drive.speed_kinks(&machine.plan.tables, machine.q);
-        Events { machine, speeds, laws: machine.plan.moving_kinks() }
+        Events { machine, speeds, laws: machine.plan.speed_kinks() }
     }
 
     /// All of them.
@@ -104,9 +104,9 @@ impl<'a, R: Real> Events<'a, R> {
         match event {
             Event::Speed(nth) => omega - self.speeds[nth],
             Event::Law(kink) => {
-                let mut given = Vec::new();
-                self.machine.row(phi, m, &mut given);
-                self.machine.plan.moving_value(self.machine.q, kink, &given, omega)
+                let mut geometry = Vec::new();
+                self.machine.row(phi, m, &mut geometry);
+                self.machine.plan.speed_kink_value(self.machine.q, kink, &geometry, omega)
             }
         }
     }
@@ -233,9 +233,9 @@ impl Events<'_, f64> {
     /// What the torques beside the zero of an event do with a motion that is on it.
     pub fn pull(&self, event: Event, phi: f64, u: f64, m: &mut Motion<f64>) -> Pull {
         let [by_phi, by_u] = self.slopes(event, phi, u, m);
-        let mut given = Vec::new();
-        let row = self.machine.row(phi, m, &mut given);
-        let epsilon = |share: f64| self.machine.acceleration(&row, &given, u * (1.0 + share)).value;
+        let mut geometry = Vec::new();
+        let row = self.machine.row(phi, m, &mut geometry);
+        let epsilon = |share: f64| self.machine.acceleration(&row, &geometry, u * (1.0 + share)).value;
         // How fast u leaves the zero on either side of it.
         let [below, above] = [-ASIDE, ASIDE].map(|x| 2.0 * epsilon(x) - epsilon(2.0 * x) + by_phi / by_u);
         if below > 0.0 && above < 0.0 && below - above > NO_JUMP * u {
@@ -249,17 +249,17 @@ impl Events<'_, f64> {
 
     /// Growth of a step that ends on a kink of the drive.
     pub fn growth_on_side(&self, piece: &Piece, m: &mut Motion<f64>) -> f64 {
-        let (step, given) = self.machine.step_of(piece.phi, piece.h, piece.u, piece.X, m);
-        self.machine.growth_on_side(&step, &given)
+        let (step, geometry) = self.machine.step_of(piece.phi, piece.h, piece.u, piece.X, m);
+        self.machine.growth_on_side(&step, &geometry)
     }
 
     /// ε before and behind an angle, from both sides.
     fn sides(&self, phi: f64, u: f64, m: &mut Motion<f64>) -> [f64; 2] {
-        let mut given = Vec::new();
+        let mut geometry = Vec::new();
         let mut epsilon = |phi: f64, u: f64, m: &mut Motion<f64>| {
-            given.clear();
-            let row = self.machine.row(phi, m, &mut given);
-            self.machine.acceleration(&row, &given, u).value
+            geometry.clear();
+            let row = self.machine.row(phi, m, &mut geometry);
+            self.machine.acceleration(&row, &geometry, u).value
         };
         let there = epsilon(phi, u, m);
         [-BESIDE, BESIDE].map(|x| {

@@ -126,12 +126,12 @@ impl<R: Real> Turn<R> {
         between: Option<&[Between<R>]>,
         m: &mut Motion<R>,
     ) -> Extremes<R> {
-        let samples = R::outline(
+        let samples = R::out_of_line(
             #[inline(always)]
             || self.samples(machine, m),
         );
         let numbers = self.numbers(&samples, between);
-        let hints = R::outline(
+        let hints = R::out_of_line(
             #[inline(always)]
             || hints(&samples),
         );
@@ -162,16 +162,16 @@ impl<R: Real> Turn<R> {
     #[inline(always)]
     fn samples(&self, machine: &Machine<'_, R>, m: &mut Motion<R>) -> Vec<Samples<R>> {
         let mut samples = Vec::with_capacity(self.steps.len());
-        let mut given = Vec::with_capacity(machine.plan.laws.len());
+        let mut geometry = Vec::with_capacity(machine.plan.laws.len());
         for (k, step) in self.steps.iter().enumerate() {
-            given.clear();
-            let row = machine.row(step.phi, m, &mut given);
+            geometry.clear();
+            let row = machine.row(step.phi, m, &mut geometry);
             let (mut u, mut epsilon) = ([step.u; N], [step.u; N]);
             epsilon[0] = if machine.keeps_branch {
-                let known = machine.given_at(self.given_of(machine, k), REFERENCE);
-                machine.acceleration_on_branch(&row, &given, step.u, (known, step.X[REFERENCE])).value
+                let known = machine.geometry_at(self.geometry_of(machine, k), REFERENCE);
+                machine.acceleration_on_branch(&row, &geometry, step.u, (known, step.X[REFERENCE])).value
             } else {
-                machine.acceleration(&row, &given, step.u).value
+                machine.acceleration(&row, &geometry, step.u).value
             };
             u[1..].copy_from_slice(&step.X);
             epsilon[1..].copy_from_slice(&step.K);
@@ -229,7 +229,7 @@ impl<R: Real> Turn<R> {
             }
             // u has one derivative more than its derivative: its quintic's peak is good enough.
             let asides = if QUANTITIES[quantity].is_speed { &ASIDE[..0] } else { &ASIDE[..1] };
-            let found = R::outline(
+            let found = R::out_of_line(
                 #[inline(always)]
                 || Promise::<R>::of_picks(&picks, numbers, false).read_around(machine, self.limit, asides, m),
             );
@@ -285,7 +285,7 @@ impl<R: Real> Turn<R> {
             }
         }
         for picks in picks.chunks(R::LANES) {
-            let found = R::outline(
+            let found = R::out_of_line(
                 #[inline(always)]
                 || {
                     let promise = Promise::<R>::of_picks(picks, numbers, has_series);
@@ -382,9 +382,9 @@ impl<R: Real> Promise<R> {
     fn read(&self, machine: &Machine<'_, R>, limit: f64, at: R, m: &mut Motion<R>) -> Extreme<R> {
         if let Some(series) = &self.series {
             let (u, phi) = (on_series(series, at), at.mul_add(self.h, self.phi));
-            let mut given = Vec::new();
-            let row = machine.row(phi, m, &mut given);
-            let epsilon = machine.acceleration(&row, &given, u).value;
+            let mut geometry = Vec::new();
+            let row = machine.row(phi, m, &mut geometry);
+            let epsilon = machine.acceleration(&row, &geometry, u).value;
             return Extreme { value: self.is_speed.select_lt(R::splat(0.5), epsilon, u) * self.sign, phi };
         }
         let X = stages_of_part(&self.quintic, R::splat(0.0), at);

@@ -94,7 +94,7 @@ impl Job for Gradient<'_> {
                 q.push(Dual { value: R::splat(value), d: R::load(&lanes) });
             }
             let mut m = Motion::new(&self.plan.mechanism, &q);
-            let moved = Moved::new(
+            let dual = DualRevolution::new(
                 Machine::new(self.plan, &q).keeping_branch(self.plan.may_jump()),
                 self.steady,
                 &mut m,
@@ -103,11 +103,11 @@ impl Job for Gradient<'_> {
                 x.d.store(&mut lanes);
                 list[row * n + first..][..width].copy_from_slice(&lanes[..width]);
             };
-            for (row, number) in moved.numbers(&mut m).into_iter().enumerate() {
+            for (row, number) in dual.numbers(&mut m).into_iter().enumerate() {
                 put(&mut numbers, row, number);
             }
             for (at, &phi) in self.phi.iter().enumerate() {
-                for (curve, value) in moved.curves_at(phi, &mut m).into_iter().enumerate() {
+                for (curve, value) in dual.curves_at(phi, &mut m).into_iter().enumerate() {
                     put(&mut curves, curve * self.phi.len() + at, value);
                 }
             }
@@ -117,7 +117,7 @@ impl Job for Gradient<'_> {
 }
 
 /// The solved revolution in dual numbers.
-struct Moved<'a, R: Real> {
+struct DualRevolution<'a, R: Real> {
     machine: Machine<'a, Dual<R>>,
     steady: &'a Steady,
     turn: Turn<Dual<R>>,
@@ -125,21 +125,21 @@ struct Moved<'a, R: Real> {
     edges: Vec<Dual<R>>,
 }
 
-impl<'a, R: Real> Moved<'a, R> {
+impl<'a, R: Real> DualRevolution<'a, R> {
     #[inline(always)]
     fn new(machine: Machine<'a, Dual<R>>, steady: &'a Steady, m: &mut Motion<Dual<R>>) -> Self {
         let marks = &steady.marks;
         let ends: Vec<f64> = marks.iter().map(|mark| mark.phi).chain([machine.plan.cycle()]).collect();
-        let edges = R::outline(
+        let edges = R::out_of_line(
             #[inline(always)]
             || machine.moving(&ends, m),
         );
-        let mut moved = Moved { machine, steady, turn: Turn::empty(Layout::Machines), edges };
-        moved.differentiate(m);
+        let mut dual = DualRevolution { machine, steady, turn: Turn::empty(Layout::Machines), edges };
+        dual.differentiate(m);
         if !steady.passages.is_empty() {
-            moved.move_passages(m);
+            dual.move_passages(m);
         }
-        moved
+        dual
     }
 
     /// The solution on the steps between the edges, with its derivatives.
@@ -156,7 +156,7 @@ impl<'a, R: Real> Moved<'a, R> {
         // The first sweep gives the derivative of the solution, the second that of its growth.
         for _ in 0..2 {
             self.turn.correction = Dual::splat(f64::INFINITY);
-            R::outline(
+            R::out_of_line(
                 #[inline(always)]
                 || self.turn.sweep(&self.machine, &mut work),
             );
@@ -188,8 +188,8 @@ impl<'a, R: Real> Moved<'a, R> {
             self.differentiate(m);
             for &k in &ends {
                 let step = &self.turn.steps[k];
-                let given = self.turn.given_of(&self.machine, k);
-                factors = factors * self.machine.growth_on_side(step, given) / step.growth;
+                let geometry = self.turn.geometry_of(&self.machine, k);
+                factors = factors * self.machine.growth_on_side(step, geometry) / step.growth;
             }
             self.turn.multiplier = self.turn.multiplier * factors;
             if most <= 0.0 {
@@ -206,10 +206,10 @@ impl<'a, R: Real> Moved<'a, R> {
     /// Acceleration at the start of a step, on its branch.
     #[inline(always)]
     fn start_of(&self, k: usize, m: &mut Motion<Dual<R>>) -> Dual<R> {
-        let (mut given, step) = (Vec::new(), &self.turn.steps[k]);
-        let row = self.machine.row(step.phi, m, &mut given);
-        let known = self.machine.given_at(self.turn.given_of(&self.machine, k), REFERENCE);
-        self.machine.acceleration_on_branch(&row, &given, step.u, (known, step.X[REFERENCE])).value
+        let (mut geometry, step) = (Vec::new(), &self.turn.steps[k]);
+        let row = self.machine.row(step.phi, m, &mut geometry);
+        let known = self.machine.geometry_at(self.turn.geometry_of(&self.machine, k), REFERENCE);
+        self.machine.acceleration_on_branch(&row, &geometry, step.u, (known, step.X[REFERENCE])).value
     }
 
     /// The numbers of the revolution.

@@ -215,7 +215,7 @@ impl<R: Real> Machine<'_, R> {
         let mut lanes: Vec<Vec<f64>> = vec![vec![0.0]; R::LANES];
         let watches = self.plan.watches();
         if !watches.is_empty() {
-            let scan = R::outline(
+            let scan = R::out_of_line(
                 #[inline(always)]
                 || self.scan(&watches, m),
             );
@@ -305,13 +305,13 @@ impl<R: Real> Machine<'_, R> {
         for nth in 0..dips.iter().map(Vec::len).max().unwrap_or(0) {
             self.split(watch, nth, &dips, &mut pairs, m);
         }
-        self.roots(watch, &brackets, lanes, m);
-        self.roots(watch, &pairs, lanes, m);
+        self.add_zeros(watch, &brackets, lanes, m);
+        self.add_zeros(watch, &pairs, lanes, m);
     }
 
     /// Adds the zeros in the brackets of each lane to its list.
     #[inline(always)]
-    fn roots(&self, watch: Watch, brackets: &[Vec<Bracket>], lanes: &mut [Vec<f64>], m: &mut Motion<R>) {
+    fn add_zeros(&self, watch: Watch, brackets: &[Vec<Bracket>], lanes: &mut [Vec<f64>], m: &mut Motion<R>) {
         let [mut low, mut high, mut guess, mut sign] =
             [const { Vec::new() }; 4].map(|_: Vec<f64>| vec![0.0; R::LANES]);
         for nth in 0..brackets.iter().map(Vec::len).max().unwrap_or(0) {
@@ -321,7 +321,7 @@ impl<R: Real> Machine<'_, R> {
                     (guess[lane], sign[lane]) = (bracket.guess, bracket.sign);
                 }
             }
-            let root = R::outline(
+            let root = R::out_of_line(
                 #[inline(always)]
                 || self.polish(watch, [R::load(&low), R::load(&high), R::load(&sign)], R::load(&guess), m),
             );

@@ -5,7 +5,7 @@
 //!
 //! What does not depend on the size of the crank's speed is part of the reduction, and so is what is in
 //! proportion to it. Everything else is a [`Law`]: at each stage of a solver the little that it needs is kept
-//! ([`Given`]), and it is evaluated with the speed of that moment.
+//! ([`LawGeometry`]), and it is evaluated with the speed of that moment.
 
 use crate::drive::loads::{Carrier, FormulaLoad, Law};
 use crate::drive::structure::Plan;
@@ -19,7 +19,7 @@ use std::f64::consts::TAU;
 
 /// What a law needs to know of the machine at one crank angle.
 #[derive(Clone, Copy, Debug)]
-pub struct Given<R> {
+pub struct LawGeometry<R> {
     /// Crank angle within the cycle.
     phi: R,
     p: Vec2<R>,
@@ -35,26 +35,26 @@ pub struct Given<R> {
 
 /// A place where a law has a kink or a jump that depends on the speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Moving {
+pub struct SpeedKink {
     law: usize,
-    at: Place,
+    at: KinkPlace,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Place {
+enum KinkPlace {
     /// In front of this instruction of the formula.
     Switch(usize),
     /// Where the speed passes this knot.
     Knot(f64),
 }
 
-impl<R: Real> Given<R> {
+impl<R: Real> LawGeometry<R> {
     /// With what it is at a reference: the law then keeps to the branch that it has there.
     #[inline(always)]
-    pub fn on_branch_of(&self, reference: &Self) -> Given<OnBranch<R, R>> {
+    pub fn on_branch_of(&self, reference: &Self) -> LawGeometry<OnBranch<R, R>> {
         let on = |value: R, at: R| OnBranch { value, at };
         let both = |v: Vec2<R>, at: Vec2<R>| Vec2 { x: on(v.x, at.x), y: on(v.y, at.y) };
-        Given {
+        LawGeometry {
             phi: on(self.phi, reference.phi),
             p: both(self.p, reference.p),
             d1: both(self.d1, reference.d1),
@@ -69,7 +69,7 @@ impl<R: Real> Given<R> {
     #[inline(always)]
     fn nothing() -> Self {
         let zero = R::splat(0.0);
-        Given {
+        LawGeometry {
             phi: zero,
             p: Vec2::zero(),
             d1: Vec2::zero(),
@@ -113,29 +113,29 @@ fn within_cycle<R: Real>(phi: R, turns: u32) -> R {
 impl FormulaLoad {
     /// The machine at one angle, as the formula needs it.
     #[inline(always)]
-    fn given<R: Real>(&self, formula: &Formula, q: &[R], phi: R, m: &Motion<R>) -> Given<R> {
-        let mut given = Given::nothing();
+    fn geometry<R: Real>(&self, formula: &Formula, q: &[R], phi: R, m: &Motion<R>) -> LawGeometry<R> {
+        let mut geometry = LawGeometry::nothing();
         if formula.reads(Variable::Phi) {
-            given.phi = within_cycle(phi, self.turns);
+            geometry.phi = within_cycle(phi, self.turns);
         }
         match self.carrier {
             Carrier::Slide { slide, point } => {
                 let slide = &m.slides[slide];
-                (given.s, given.path, given.g) = (slide.s, slide.d1, slide.d1);
-                (given.p, given.d1) = (m.points[point].p, m.points[point].d1);
+                (geometry.s, geometry.path, geometry.g) = (slide.s, slide.d1, slide.d1);
+                (geometry.p, geometry.d1) = (m.points[point].p, m.points[point].d1);
             }
-            Carrier::Point { point, cos, sin } => given.on_point(point, Vec2::new(q[cos], q[sin]), m),
+            Carrier::Point { point, cos, sin } => geometry.on_point(point, Vec2::new(q[cos], q[sin]), m),
             Carrier::Along { point, link, cos, sin } => {
                 let e = m.links[link].e;
-                given.on_point(point, (e * q[cos]).plus(e.left(), q[sin]), m);
-                given.on_link(link, formula, m);
+                geometry.on_point(point, (e * q[cos]).plus(e.left(), q[sin]), m);
+                geometry.on_link(link, formula, m);
             }
             Carrier::Link { link } => {
-                given.on_link(link, formula, m);
-                given.g = given.psi_d1;
+                geometry.on_link(link, formula, m);
+                geometry.g = geometry.psi_d1;
             }
         }
-        given
+        geometry
     }
 
     /// Derivatives by φ of what the formula needs, for the zeros of its switches; at speed 1.
@@ -147,7 +147,7 @@ impl FormulaLoad {
                 value: if formula.reads(Variable::Phi) { within_cycle(phi, self.turns) } else { phi },
                 d: one,
             },
-            ..Given::<Dual<R>>::nothing().inputs(Dual::constant(one), Dual::constant(one))
+            ..LawGeometry::<Dual<R>>::nothing().inputs(Dual::constant(one), Dual::constant(one))
         };
         match self.carrier {
             Carrier::Slide { slide, point } => {
@@ -162,7 +162,7 @@ impl FormulaLoad {
     }
 }
 
-impl<R: Real> Given<R> {
+impl<R: Real> LawGeometry<R> {
     #[inline(always)]
     fn on_point(&mut self, point: usize, direction: Vec2<R>, m: &Motion<R>) {
         let place = &m.points[point];
@@ -226,20 +226,22 @@ impl Plan {
         m: &Motion<R>,
     ) -> R {
         let formula = &self.formulas[load.formula];
-        let given = load.given(formula, q, phi, m);
+        let geometry = load.geometry(formula, q, phi, m);
         let sense = R::splat(sense);
-        -(formula.value(q, &given.inputs(sense, R::splat(f64::NAN))) * given.g)
+        -(formula.value(q, &geometry.inputs(sense, R::splat(f64::NAN))) * geometry.g)
     }
 
     /// Adds what each law needs to know at an angle at which the mechanism has been placed.
     #[inline(always)]
-    pub fn give<R: Real>(&self, q: &[R], phi: R, m: &Motion<R>, to: &mut Vec<Given<R>>) {
+    pub fn add_geometry<R: Real>(&self, q: &[R], phi: R, m: &Motion<R>, to: &mut Vec<LawGeometry<R>>) {
         for law in &self.laws {
-            to.push(R::outline(
+            to.push(R::out_of_line(
                 #[inline(always)]
                 || match *law {
-                    Law::Formula(ref load) => load.given(&self.formulas[load.formula], q, phi, m),
-                    Law::Damper { from, to, .. } => Given { g: stretch(m, from, to).1, ..Given::nothing() },
+                    Law::Formula(ref load) => load.geometry(&self.formulas[load.formula], q, phi, m),
+                    Law::Damper { from, to, .. } => {
+                        LawGeometry { g: stretch(m, from, to).1, ..LawGeometry::nothing() }
+                    }
                 },
             ));
         }
@@ -247,18 +249,18 @@ impl Plan {
 
     /// Torque of all laws that resists \[N m\] at crank speed ω and time t.
     #[inline(always)]
-    pub fn law_torque<R, G, N>(&self, q: &[R], given: &[Given<G>], omega: N, time: N) -> N
+    pub fn law_torque<R, G, N>(&self, q: &[R], geometry: &[LawGeometry<G>], omega: N, time: N) -> N
     where
         R: Real,
         G: Real,
         N: Lift<R> + Lift<G>,
     {
         let mut sum = N::splat(0.0);
-        for (law, given) in self.laws.iter().zip(given) {
-            let g: N = Lift::<G>::lift(given.g);
+        for (law, geometry) in self.laws.iter().zip(geometry) {
+            let g: N = Lift::<G>::lift(geometry.g);
             sum = match *law {
                 Law::Formula(load) => {
-                    let inputs = given.inputs(omega, time);
+                    let inputs = geometry.inputs(omega, time);
                     sum - self.formulas[load.formula].value::<R, N>(q, &inputs) * g
                 }
                 Law::Damper { table, .. } => {
@@ -280,22 +282,22 @@ impl Plan {
 
     /// Whether some law has kinks, or jumps, whose angle depends on the speed.
     pub fn may_jump(&self) -> bool {
-        !self.moving_kinks().is_empty()
+        !self.speed_kinks().is_empty()
     }
 
     /// Kinks of laws whose angle depends on the speed.
-    pub fn moving_kinks(&self) -> Vec<Moving> {
+    pub fn speed_kinks(&self) -> Vec<SpeedKink> {
         let mut found = Vec::new();
         for (law, each) in self.laws.iter().enumerate() {
             match *each {
                 Law::Formula(load) => {
                     let switches = self.formulas[load.formula].switches.iter();
                     let moving = switches.filter(|s| s.degree == Degree::Mixed);
-                    found.extend(moving.map(|s| Moving { law, at: Place::Switch(s.at) }));
+                    found.extend(moving.map(|s| SpeedKink { law, at: KinkPlace::Switch(s.at) }));
                 }
                 Law::Damper { table, .. } => {
                     let knots = self.tables[table].knots().iter().filter(|&&knot| knot != 0.0);
-                    found.extend(knots.map(|&knot| Moving { law, at: Place::Knot(knot) }));
+                    found.extend(knots.map(|&knot| SpeedKink { law, at: KinkPlace::Knot(knot) }));
                 }
             }
         }
@@ -304,14 +306,20 @@ impl Plan {
 
     /// The quantity whose zero is a moving kink.
     #[inline(always)]
-    pub fn moving_value<R: Real>(&self, q: &[R], kink: Moving, given: &[Given<R>], omega: R) -> R {
-        let given = &given[kink.law];
+    pub fn speed_kink_value<R: Real>(
+        &self,
+        q: &[R],
+        kink: SpeedKink,
+        geometry: &[LawGeometry<R>],
+        omega: R,
+    ) -> R {
+        let geometry = &geometry[kink.law];
         match (kink.at, self.laws[kink.law]) {
-            (Place::Switch(at), Law::Formula(load)) => {
-                self.formulas[load.formula].switch(at, q, &given.inputs(omega, R::splat(f64::NAN)))
+            (KinkPlace::Switch(at), Law::Formula(load)) => {
+                self.formulas[load.formula].switch(at, q, &geometry.inputs(omega, R::splat(f64::NAN)))
             }
-            (Place::Knot(knot), _) => given.g * omega - knot,
-            (Place::Switch(_), Law::Damper { .. }) => R::splat(f64::NAN),
+            (KinkPlace::Knot(knot), _) => geometry.g * omega - knot,
+            (KinkPlace::Switch(_), Law::Damper { .. }) => R::splat(f64::NAN),
         }
     }
 

@@ -62,7 +62,7 @@ impl<R: Real> Turn<R> {
         let mut may = zero;
         for level in 0..levels {
             let energy = top * 0.5_f64.powi(level as i32);
-            let left = R::outline(
+            let left = R::out_of_line(
                 #[inline(always)]
                 || self.torque_left(machine, energy),
             );
@@ -85,7 +85,7 @@ impl<R: Real> Turn<R> {
             let near = 0.5_f64.powi(level as i32);
             for share in [near, 1.0 - near] {
                 let energy = bottom.energy * -share;
-                let left = R::outline(
+                let left = R::out_of_line(
                     #[inline(always)]
                     || self.torque_left(machine, energy),
                 );
@@ -122,15 +122,15 @@ impl<R: Real> Turn<R> {
         let zero = R::splat(0.0);
         let (mut left, mut parts) = (zero, zero);
         for (k, step) in self.steps.iter().enumerate() {
-            let given = self.given_of(machine, k);
+            let geometry = self.geometry_of(machine, k);
             for i in 0..S {
                 let row = &step.rows[i];
                 let u = level.mul_add(row.inverse, step.X[i]);
                 let omega = (u * 2.0).sqrt();
                 let torque = machine.plan.drive.torque(&machine.plan.tables, machine.q, omega);
                 let mut drag = row.viscous.mul_add(omega, row.load);
-                if !given.is_empty() {
-                    drag = drag + machine.laws(machine.given_at(given, i), omega);
+                if !geometry.is_empty() {
+                    drag = drag + machine.laws(machine.geometry_at(geometry, i), omega);
                 }
                 let dphi = step.h * B[i];
                 left = (torque - drag).mul_add(dphi, left);

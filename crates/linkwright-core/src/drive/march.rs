@@ -98,7 +98,7 @@ pub struct Sliding {
 
 /// A motion that repeats, to about seven digits.
 #[derive(Clone, Debug)]
-pub struct Repeated {
+pub struct PeriodicMotion {
     /// Its steps.
     pub pieces: Vec<Piece>,
     /// Derivative of the end of the revolution by its start.
@@ -107,7 +107,7 @@ pub struct Repeated {
     pub slides: Option<Sliding>,
 }
 
-impl Repeated {
+impl PeriodicMotion {
     /// u at φ = 0.
     pub fn u(&self) -> f64 {
         self.pieces[0].u
@@ -130,7 +130,7 @@ pub enum NoMotion {
 
 /// Which motions are looked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Which {
+pub enum MotionChoice {
     /// The fastest one.
     Fastest,
     /// All, down to a hundredth of the working speed.
@@ -146,7 +146,7 @@ struct March<'a> {
     events: Events<'a, f64>,
     turns: usize,
     /// Motions that repeat, from the fastest down.
-    found: Vec<Repeated>,
+    found: Vec<PeriodicMotion>,
 }
 
 /// Motions that repeat, to about seven digits, from the fastest down; at least one.
@@ -156,8 +156,8 @@ struct March<'a> {
 pub fn repeating(
     machine: &Machine<'_, f64>,
     breaks: &[f64],
-    which: Which,
-) -> Result<Vec<Repeated>, NoMotion> {
+    which: MotionChoice,
+) -> Result<Vec<PeriodicMotion>, NoMotion> {
     let m = Motion::new(&machine.plan.mechanism, machine.q);
     let working = 0.5 * machine.q[machine.plan.drive.speed_start].powi(2);
     let mut march = March {
@@ -220,10 +220,10 @@ impl Revolution {
 
 impl March<'_> {
     /// Goes down from a start that is too fast, until the machine comes to rest.
-    fn walk(&mut self, working: f64, which: Which) -> Result<(), NoMotion> {
+    fn walk(&mut self, working: f64, which: MotionChoice) -> Result<(), NoMotion> {
         let mut high = self.fast_start(9.0 * working)?;
         loop {
-            if which == Which::Fastest && self.found.iter().any(|motion| motion.slides.is_none()) {
+            if which == MotionChoice::Fastest && self.found.iter().any(|motion| motion.slides.is_none()) {
                 return Ok(());
             }
             let next = high.next_below();
@@ -287,7 +287,7 @@ impl March<'_> {
             nearest = high;
         }
         let Revolution { pieces, growth, slides, .. } = nearest;
-        self.found.push(Repeated { pieces, growth, slides });
+        self.found.push(PeriodicMotion { pieces, growth, slides });
         Ok(())
     }
 

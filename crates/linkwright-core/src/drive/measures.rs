@@ -3,7 +3,7 @@
 //! Source of δ, H, k_p: paper 1, equations (13)–(15).
 
 use crate::drive::cycle::{Machine, REFERENCE, Row, Step, Turn};
-use crate::drive::law::Given;
+use crate::drive::law::LawGeometry;
 use crate::drive::layout::Layout;
 use crate::kernel::branch::OnBranch;
 use crate::kernel::radau::{B, S};
@@ -33,20 +33,20 @@ pub const INTEGRALS: usize = 6;
 impl<R: Real> Machine<'_, R> {
     /// Torque of the motor at its shaft, the same at the crank, and load torque, at a stage \[N m\].
     #[inline(always)]
-    pub fn torques(&self, step: &Step<R>, given: &[Given<R>], stage: usize) -> [R; 3] {
-        let (row, own) = (&step.rows[stage], self.given_at(given, stage));
+    pub fn torques(&self, step: &Step<R>, geometry: &[LawGeometry<R>], stage: usize) -> [R; 3] {
+        let (row, own) = (&step.rows[stage], self.geometry_at(geometry, stage));
         if own.is_empty() || !self.keeps_branch {
             return self.torques_at(row, own, step.X[stage]);
         }
         let [torque, geared, drag] = self.torques_at(row, &[], step.X[stage]);
         let u = OnBranch { value: step.X[stage], at: step.X[REFERENCE] };
-        let known = self.given_at(given, REFERENCE);
+        let known = self.geometry_at(geometry, REFERENCE);
         [torque, geared, drag + self.laws_on_branch(own, known, (u * 2.0).sqrt()).value]
     }
 
     /// The same of a row at u, with laws as they are there.
     #[inline(always)]
-    pub fn torques_at(&self, row: &Row<R>, given: &[Given<R>], u: R) -> [R; 3] {
+    pub fn torques_at(&self, row: &Row<R>, geometry: &[LawGeometry<R>], u: R) -> [R; 3] {
         let (drive, tables) = (&self.plan.drive, &self.plan.tables);
         let omega = (u * 2.0).sqrt();
         let torque = drive.motor_torque(tables, self.q, omega);
@@ -54,22 +54,22 @@ impl<R: Real> Machine<'_, R> {
         if !drive.speed_loads.is_empty() {
             drag = drag + drive.speed_load(tables, omega);
         }
-        if !given.is_empty() {
-            drag = drag + self.laws(given, omega);
+        if !geometry.is_empty() {
+            drag = drag + self.laws(geometry, omega);
         }
         [torque, drive.geared_torque(self.q, torque), drag]
     }
 
     /// The integrals over one step.
     #[inline(always)]
-    pub fn integrals(&self, step: &Step<R>, given: &[Given<R>]) -> [R; INTEGRALS] {
+    pub fn integrals(&self, step: &Step<R>, geometry: &[LawGeometry<R>]) -> [R; INTEGRALS] {
         let q = self.q;
         let mut sums = [R::splat(0.0); INTEGRALS];
         for i in 0..S {
             let dphi = step.h * B[i];
             let omega = (step.X[i] * 2.0).sqrt();
             let dt = dphi / omega;
-            let [torque, geared, drag] = self.torques(step, given, i);
+            let [torque, geared, drag] = self.torques(step, geometry, i);
             sums[0] = sums[0] + dt;
             sums[1] = (torque * q[self.plan.drive.ratio]).mul_add(dphi, sums[1]);
             sums[2] = geared.mul_add(dphi, sums[2]);
@@ -102,7 +102,7 @@ impl<R: Real> Turn<R> {
     pub fn totals(&self, machine: &Machine<'_, R>) -> Totals<R> {
         let mut sums = [R::splat(0.0); INTEGRALS];
         for (k, step) in self.steps.iter().enumerate() {
-            let parts = machine.integrals(step, self.given_of(machine, k));
+            let parts = machine.integrals(step, self.geometry_of(machine, k));
             for i in 0..INTEGRALS {
                 sums[i] = sums[i] + parts[i];
             }

@@ -115,14 +115,14 @@ impl Mesh {
     }
 
     /// The mesh with the given kinks as ends of steps, each in place of the end at which it was found
-    /// before; none where all lie at ends already, to the share `settled` of a step.
-    pub fn with_crossings(&self, found: &[f64], breaks: &[f64], settled: f64) -> Option<Mesh> {
+    /// before; none where all lie at ends already, to the share `kink_share` of a step.
+    pub fn with_crossings(&self, found: &[f64], breaks: &[f64], kink_share: f64) -> Option<Mesh> {
         let (mut added, mut moved) = (Vec::new(), Vec::new());
         for &phi in found {
             let after = self.edges.partition_point(|&edge| edge <= phi);
             let (low, high) = (self.edges[after - 1], self.edges[after]);
             let (h, away) = (high - low, (phi - low).min(high - phi));
-            if away > settled * h.max(SHORTEST) {
+            if away > kink_share * h.max(SHORTEST) {
                 added.push(phi);
                 let is_old = |edge: &f64| self.crossings.contains(edge) && !breaks.contains(edge);
                 let is_near = |edge: &f64| (edge - phi).abs() < SAME_KINK * h.max(SHORTEST);

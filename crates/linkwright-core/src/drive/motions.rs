@@ -24,16 +24,16 @@ pub fn motions(plan: &Plan, rows: &Rows<'_>, phi: &[f64], channels: &[Channel], 
     if n == 0 || width == 0 {
         return;
     }
-    let asked = Asked { plan, rows, channels, chains: &chains(plan, channels) };
+    let request = MotionRequest { plan, rows, channels, chains: &chains(plan, channels) };
     if rows.n == 1 {
-        motion_of_one(&asked, phi, out);
+        motion_of_one(&request, phi, out);
         return;
     }
     let angles = Angles::of(phi);
     let at_once = (TASK / (width * n)).max(1);
     let task = |(k, out): (usize, &mut [f64])| {
         let lists = out.chunks_exact_mut(width * n).map(|row| row.chunks_exact_mut(n).collect());
-        in_lanes(MotionJob { asked, first: k * at_once, angles: &angles, out: lists.collect() });
+        in_lanes(MotionJob { request, first: k * at_once, angles: &angles, out: lists.collect() });
     };
     if rows.n <= at_once {
         task((0, out));
@@ -46,7 +46,7 @@ pub fn motions(plan: &Plan, rows: &Rows<'_>, phi: &[f64], channels: &[Channel], 
 }
 
 /// One machine: each task takes a piece of the angles.
-fn motion_of_one(asked: &Asked<'_>, phi: &[f64], out: &mut [f64]) {
+fn motion_of_one(request: &MotionRequest<'_>, phi: &[f64], out: &mut [f64]) {
     let n = phi.len();
     let piece = (TASK * n / out.len()).max(1).next_multiple_of(64);
     let mut pieces: Vec<Vec<&mut [f64]>> = (0..n.div_ceil(piece)).map(|_| Vec::new()).collect();
@@ -58,7 +58,7 @@ fn motion_of_one(asked: &Asked<'_>, phi: &[f64], out: &mut [f64]) {
     }
     let task = |(k, out): (usize, Vec<&mut [f64]>)| {
         let angles = Angles::of(&phi[k * piece..(k * piece + out[0].len())]);
-        in_lanes(MotionJob { asked: *asked, first: 0, angles: &angles, out: vec![out] });
+        in_lanes(MotionJob { request: *request, first: 0, angles: &angles, out: vec![out] });
     };
     if pieces.len() == 1 {
         // Waking threads would take longer than doing it.
@@ -80,7 +80,7 @@ fn chains(plan: &Plan, channels: &[Channel]) -> Vec<Chain> {
 
 /// What is asked of which machines.
 #[derive(Clone, Copy)]
-struct Asked<'a> {
+struct MotionRequest<'a> {
     plan: &'a Plan,
     rows: &'a Rows<'a>,
     channels: &'a [Channel],
@@ -128,7 +128,7 @@ impl Job for SinCos<'_> {
 
 /// Rows from `first` on at some angles; `out` holds one list a number for every row.
 struct MotionJob<'a, 'b> {
-    asked: Asked<'a>,
+    request: MotionRequest<'a>,
     first: usize,
     angles: &'a Angles<'a>,
     out: Vec<Vec<&'b mut [f64]>>,
@@ -139,13 +139,13 @@ impl Job for MotionJob<'_, '_> {
 
     #[inline(always)]
     fn run<R: Real>(self) {
-        if self.asked.chains.is_empty() {
-            R::outline(
+        if self.request.chains.is_empty() {
+            R::out_of_line(
                 #[inline(always)]
                 || self.place_all::<R>(),
             );
         } else {
-            R::outline(
+            R::out_of_line(
                 #[inline(always)]
                 || self.follow_chains::<R>(),
             );
@@ -157,7 +157,7 @@ impl MotionJob<'_, '_> {
     /// Along the chains to what is asked for, and nothing else.
     #[inline(always)]
     fn follow_chains<R: Real>(self) {
-        let MotionJob { asked: Asked { rows, channels, chains, .. }, first, angles, out } = self;
+        let MotionJob { request: MotionRequest { rows, channels, chains, .. }, first, angles, out } = self;
         let (sin, cos) = (&angles.sin, &angles.cos);
         let whole = sin.len() / R::LANES * R::LANES;
         // The angles that do not fill all lanes, filled up with the last.
@@ -194,7 +194,7 @@ impl MotionJob<'_, '_> {
     /// Everything that moves, and of it what is asked for.
     #[inline(always)]
     fn place_all<R: Real>(self) {
-        let MotionJob { asked: Asked { plan, rows, channels, .. }, first, angles, out } = self;
+        let MotionJob { request: MotionRequest { plan, rows, channels, .. }, first, angles, out } = self;
         let Angles { phi, sin, cos } = angles;
         let n = phi.len();
         let mut row = rows.base.to_vec();
@@ -230,7 +230,7 @@ impl MotionJob<'_, '_> {
 #[inline(always)]
 fn store<R: Real>(m: &Motion<R>, channels: &[Channel], at: usize, out: &mut [&mut [f64]]) {
     let mut lists = out.iter_mut();
-    let mut put = Put { lists: &mut lists, at };
+    let mut put = Writer { lists: &mut lists, at };
     for channel in channels {
         match *channel {
             Channel::Point(i) => {
@@ -260,12 +260,12 @@ fn store<R: Real>(m: &Motion<R>, channels: &[Channel], at: usize, out: &mut [&mu
 }
 
 /// Writes one number after the other, each to the next list.
-struct Put<'a, 'b, 'c> {
+struct Writer<'a, 'b, 'c> {
     lists: &'a mut std::slice::IterMut<'b, &'c mut [f64]>,
     at: usize,
 }
 
-impl Put<'_, '_, '_> {
+impl Writer<'_, '_, '_> {
     #[inline(always)]
     fn next<R: Real>(&mut self, value: R) {
         // There are as many lists as the channels have numbers.

@@ -22,7 +22,7 @@ const SETTLED: f64 = 1e-7;
 const ROOM: f64 = 0.4;
 
 /// A row of a batch with the mesh on which its kinks are ends of steps.
-pub(super) struct Passing {
+pub(super) struct MeshedRow {
     /// Number of the row.
     pub row: usize,
     /// Ends of its steps \[rad\].
@@ -33,7 +33,7 @@ pub(super) struct Passing {
     pieces: Vec<Piece>,
 }
 
-impl Passing {
+impl MeshedRow {
     /// A row from its solution on a mesh without kinks; `breaks` are the ends of the smooth pieces of its revolution.
     pub(super) fn new(row: usize, pieces: Vec<Piece>, breaks: &[f64], speeds: &[f64], n: usize) -> Self {
         let mut passages: Vec<(f64, f64)> = Vec::new();
@@ -50,7 +50,7 @@ impl Passing {
         let edges = divide(&ends, n);
         let kink = |edge: &f64| passages.iter().find(|(phi, _)| phi == edge).map_or(0.0, |&(_, u)| u);
         let kinks = edges.iter().map(kink).collect();
-        Passing { row, edges, kinks, pieces }
+        MeshedRow { row, edges, kinks, pieces }
     }
 
     /// Whether this end of a step lies on a kink.
@@ -109,7 +109,7 @@ impl<R: Real> Turn<R> {
 
     /// Starts every lane from the solution that it has on other steps.
     #[inline(always)]
-    pub(super) fn start_from_lanes(&mut self, rows: &[&Passing]) {
+    pub(super) fn start_from_lanes(&mut self, rows: &[&MeshedRow]) {
         let n = self.steps.len();
         let mut values = vec![0.0; n * N * R::LANES];
         let phi = unbundle(&self.steps.iter().map(|step| step.phi).collect::<Vec<_>>());
@@ -145,7 +145,7 @@ impl<R: Real> Turn<R> {
     pub(super) fn move_to_kinks(
         &mut self,
         machine: &Machine<'_, R>,
-        rows: &[&Passing],
+        rows: &[&MeshedRow],
         m: &mut Motion<R>,
     ) -> R {
         let (zero, n) = (R::splat(0.0), self.steps.len());
@@ -164,7 +164,7 @@ impl<R: Real> Turn<R> {
             most = most.max(moves[k].abs());
         }
         if most.max_lane() > 0.0 {
-            self.given.clear();
+            self.geometry.clear();
             for k in 0..n {
                 let step = &mut self.steps[k];
                 step.phi = step.phi + moves[k];

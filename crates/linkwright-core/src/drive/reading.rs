@@ -6,7 +6,7 @@
 
 use crate::drive::between::Between;
 use crate::drive::cycle::{Machine, Step, stages_of_part};
-use crate::drive::law::Given;
+use crate::drive::law::LawGeometry;
 use crate::drive::structure::Plan;
 use crate::kernel::call::poll;
 use crate::kernel::lanes::{Job, in_lanes};
@@ -56,10 +56,10 @@ impl<R: Real> Machine<'_, R> {
 
     /// The machine at the end of a step.
     #[inline(always)]
-    pub fn state_at_end(&self, (step, given): &(Step<R>, Vec<Given<R>>)) -> State<R> {
+    pub fn state_at_end(&self, (step, geometry): &(Step<R>, Vec<LawGeometry<R>>)) -> State<R> {
         let row = &step.rows[S - 1];
         let omega = (step.end() * 2.0).sqrt();
-        let [motor_torque, drive_torque, load_torque] = self.torques(step, given, S - 1);
+        let [motor_torque, drive_torque, load_torque] = self.torques(step, geometry, S - 1);
         State {
             omega,
             epsilon: step.K[S - 1],
@@ -75,10 +75,10 @@ impl<R: Real> Machine<'_, R> {
     /// The machine at an angle of its motion and u there.
     #[inline(always)]
     fn state_of(&self, phi: R, u: R, m: &mut Motion<R>) -> State<R> {
-        let mut given = Vec::new();
-        let row = self.row(phi, m, &mut given);
-        let epsilon = self.acceleration(&row, &given, u).value;
-        let [motor_torque, drive_torque, load_torque] = self.torques_at(&row, &given, u);
+        let mut geometry = Vec::new();
+        let row = self.row(phi, m, &mut geometry);
+        let epsilon = self.acceleration(&row, &geometry, u).value;
+        let [motor_torque, drive_torque, load_torque] = self.torques_at(&row, &geometry, u);
         State {
             omega: (u * 2.0).sqrt(),
             epsilon,
@@ -184,7 +184,7 @@ impl ReadCurves<'_> {
                 numbers[(3 + TERMS + i) * R::LANES + lane] = series.t[i];
             }
         }
-        R::outline(
+        R::out_of_line(
             #[inline(always)]
             || {
                 let load = |number: usize| R::load(&numbers[number * R::LANES..]);
@@ -223,7 +223,7 @@ impl ReadCurves<'_> {
         let X = stages_of_part(&through(&samples), R::splat(0.0), h / whole);
         let there = machine.advance_near(phi, u, h, X, m);
         let time = start + there.0.duration();
-        let state = R::outline(
+        let state = R::out_of_line(
             #[inline(always)]
             || machine.state_at_end(&there),
         );

@@ -58,7 +58,7 @@ impl Plan {
             self.add_load(load, q, angle, sense, m, &mut r);
         }
         if !self.force_elements.is_empty() {
-            let (load, viscous) = R::outline(
+            let (load, viscous) = R::out_of_line(
                 #[inline(always)]
                 || self.force_element_torques(q, angle.phi, sense, m),
             );

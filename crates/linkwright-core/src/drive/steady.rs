@@ -16,7 +16,7 @@ use crate::drive::cycle::{Machine, Turn, divide};
 use crate::drive::events::{Events, Passage};
 use crate::drive::extremes::{Extreme, Extremes};
 use crate::drive::layout::unbundle;
-use crate::drive::march::{NoMotion, Repeated, Sliding, Which, repeating};
+use crate::drive::march::{MotionChoice, NoMotion, PeriodicMotion, Sliding, repeating};
 use crate::drive::measures::Totals;
 use crate::drive::mesh::{Mesh, Piece};
 use crate::drive::reading::Mark;
@@ -70,7 +70,7 @@ pub struct Steady {
     /// Whether there may be faster, and slower, motions that repeat.
     pub may_have: Rivals,
     /// Those that there are, from the fastest down.
-    pub others: Vec<Other>,
+    pub others: Vec<OtherMotion>,
 }
 
 /// Whether other motions may repeat.
@@ -84,7 +84,7 @@ pub struct Rivals {
 
 /// Another motion of the machine that repeats.
 #[derive(Clone, Copy, Debug)]
-pub struct Other {
+pub struct OtherMotion {
     /// Minimum speed of the crank \[rad/s\].
     pub speed_min: f64,
     /// Maximum speed of the crank \[rad/s\].
@@ -138,7 +138,7 @@ const TOLD: f64 = 1e-7;
 /// [`Status::DoesNotClose`], [`Status::NoSteadyMotion`], or [`Status::Inaccurate`] when the finest mesh
 /// does not suffice.
 pub fn steady(plan: &Plan, q: &[f64], accuracy: f64) -> Result<Steady, Failure> {
-    fastest_and(Which::Fastest, plan, q, accuracy)
+    fastest_and(MotionChoice::Fastest, plan, q, accuracy)
 }
 
 /// The same, with all others that repeat.
@@ -146,10 +146,10 @@ pub fn steady(plan: &Plan, q: &[f64], accuracy: f64) -> Result<Steady, Failure> 
 /// # Errors
 /// As [`steady`].
 pub fn steady_with_others(plan: &Plan, q: &[f64], accuracy: f64) -> Result<Steady, Failure> {
-    fastest_and(Which::All, plan, q, accuracy)
+    fastest_and(MotionChoice::All, plan, q, accuracy)
 }
 
-fn fastest_and(which: Which, plan: &Plan, q: &[f64], accuracy: f64) -> Result<Steady, Failure> {
+fn fastest_and(which: MotionChoice, plan: &Plan, q: &[f64], accuracy: f64) -> Result<Steady, Failure> {
     let machine = Machine::new(plan, q).keeping_branch(plan.may_jump());
     let breaks = machine.breaks(&mut Motion::new(&plan.mechanism, q)).swap_remove(0);
     // With order 9 a mesh this much finer is good for the accuracy where 24 steps are for 1e-8.
@@ -164,7 +164,7 @@ fn fastest_and(which: Which, plan: &Plan, q: &[f64], accuracy: f64) -> Result<St
     };
     if let Some(found) = &stable {
         let Rivals { faster, slower } = found.may_have;
-        if !faster && (!slower || which == Which::Fastest) {
+        if !faster && (!slower || which == MotionChoice::Fastest) {
             return stable.ok_or(Failure::new(Status::Inaccurate));
         }
     }
@@ -177,11 +177,16 @@ fn fastest_and(which: Which, plan: &Plan, q: &[f64], accuracy: f64) -> Result<St
 
 /// The fastest of the motions that repeat from which the machine does not depart, with the others; `known` is
 /// one that is solved already.
-fn fastest_of(search: &Search<'_>, motions: &[Repeated], known: Option<Steady>) -> Result<Steady, Failure> {
-    let (mut answer, mut others, mut failed): (Option<Steady>, Vec<Other>, _) = (None, Vec::new(), None);
+fn fastest_of(
+    search: &Search<'_>,
+    motions: &[PeriodicMotion],
+    known: Option<Steady>,
+) -> Result<Steady, Failure> {
+    let (mut answer, mut others, mut failed): (Option<Steady>, Vec<OtherMotion>, _) =
+        (None, Vec::new(), None);
     for motion in motions {
         if let Some(Sliding { phi, omega }) = motion.slides {
-            others.push(Other::from(motion));
+            others.push(OtherMotion::from(motion));
             failed = failed.or(Some(Failure { phi, omega, ..Failure::new(Status::Slides) }));
             continue;
         }
@@ -192,9 +197,9 @@ fn fastest_of(search: &Search<'_>, motions: &[Repeated], known: Option<Steady>) 
         };
         match solved {
             Ok(found) if answer.is_none() && found.multiplier < 1.0 => answer = Some(found),
-            Ok(found) => others.push(Other::from(&found)),
+            Ok(found) => others.push(OtherMotion::from(&found)),
             Err(failure) => {
-                others.push(Other::from(motion));
+                others.push(OtherMotion::from(motion));
                 failed = failed.or(Some(failure));
             }
         }
@@ -210,9 +215,9 @@ fn fastest_of(search: &Search<'_>, motions: &[Repeated], known: Option<Steady>) 
     }
 }
 
-impl From<&Steady> for Other {
+impl From<&Steady> for OtherMotion {
     fn from(found: &Steady) -> Self {
-        Other {
+        OtherMotion {
             speed_min: found.extremes.speed_min.value,
             speed_max: found.extremes.speed_max.value,
             period: found.totals.period,
@@ -221,12 +226,12 @@ impl From<&Steady> for Other {
     }
 }
 
-impl From<&Repeated> for Other {
+impl From<&PeriodicMotion> for OtherMotion {
     /// From the marched turn, to its stages.
-    fn from(motion: &Repeated) -> Self {
+    fn from(motion: &PeriodicMotion) -> Self {
         let stages = || motion.pieces.iter().flat_map(|piece| piece.X);
         let speed = |u: f64| (2.0 * u).sqrt();
-        Other {
+        OtherMotion {
             speed_min: speed(stages().fold(f64::INFINITY, f64::min)),
             speed_max: speed(stages().fold(0.0, f64::max)),
             period: motion.pieces.iter().map(Piece::duration).sum(),
@@ -251,7 +256,7 @@ struct Search<'a> {
 
 impl Search<'_> {
     /// The search from a marched revolution on: for the answer, or for another motion, which is only reported.
-    fn from(&self, motion: &Repeated, told: bool) -> Self {
+    fn from(&self, motion: &PeriodicMotion, told: bool) -> Self {
         let mut edges: Vec<f64> = motion.pieces.iter().map(|piece| piece.phi).collect();
         edges.push(self.plan.cycle());
         let accuracy = if told { self.accuracy.max(TOLD) } else { self.accuracy };
@@ -272,7 +277,7 @@ impl Job for Search<'_> {
     fn run<R: Real>(self) -> Self::Output {
         let q: Vec<R> = self.q.iter().map(|&x| R::splat(x)).collect();
         // A law that jumps within a step would leave its stages no solution.
-        let (settled, may_jump) = (self.plan.settled(), self.plan.may_jump());
+        let (kink_share, may_jump) = (self.plan.kink_share(), self.plan.may_jump());
         let mut plain_motion = Motion::new(&self.plan.mechanism, self.q);
         let mut m = Motion::new(&self.plan.mechanism, &q);
         let (mut mesh, mut start, mut sweeps, mut reached) = (self.mesh, self.start, 0, f64::NAN);
@@ -298,7 +303,7 @@ impl Job for Search<'_> {
             let pieces = turn.pieces();
             if placements < PLACEMENTS_MAX || may_jump {
                 let crossings = events.crossings(&pieces, &mut plain_motion);
-                if let Some(next) = mesh.with_crossings(&crossings, self.breaks, settled) {
+                if let Some(next) = mesh.with_crossings(&crossings, self.breaks, kink_share) {
                     if placements > JUMP_PLACEMENTS_MAX {
                         break;
                     }

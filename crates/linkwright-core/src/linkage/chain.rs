@@ -58,7 +58,7 @@ pub struct Chain {
 }
 
 /// What is computed at the end.
-enum Found<R> {
+enum EndMotion<R> {
     Point(Place<R>),
     Link(Heading<R>),
     Slide(Slide<R>),
@@ -110,9 +110,9 @@ impl Chain {
                 pin = point(self.lead[k].part, &lead[k], angle, &pin);
             }
             match end(self.end.part, last, angle, &pin) {
-                Found::Point(Place { p, d1, d2 }) => put([p.x, p.y, d1.x, d1.y, d2.x, d2.y], at, out),
-                Found::Link(Heading { e, d1, d2 }) => put([e.x, e.y, d1, d2], at, out),
-                Found::Slide(Slide { s, d1, d2 }) => put([s, d1, d2], at, out),
+                EndMotion::Point(Place { p, d1, d2 }) => put([p.x, p.y, d1.x, d1.y, d2.x, d2.y], at, out),
+                EndMotion::Link(Heading { e, d1, d2 }) => put([e.x, e.y, d1, d2], at, out),
+                EndMotion::Slide(Slide { s, d1, d2 }) => put([s, d1, d2], at, out),
             }
             at += R::LANES;
         }
@@ -130,14 +130,14 @@ fn put<R: Real, const K: usize>(values: [R; K], at: usize, out: &mut [&mut [f64]
 
 /// What is taken at the end of a chain.
 #[inline(always)]
-fn end<R: Real>(part: Part, q: &Numbers, angle: Angle<R>, pin: &Place<R>) -> Found<R> {
+fn end<R: Real>(part: Part, q: &Numbers, angle: Angle<R>, pin: &Place<R>) -> EndMotion<R> {
     match part {
-        Part::Crank => Found::Link(turned(q, angle).1),
-        Part::Coupler => Found::Link(bars(q, pin).coupler),
-        Part::Rocker => Found::Link(bars(q, pin).rocker),
-        Part::Rod => Found::Link(rod(q, pin).link),
-        Part::Along => Found::Slide(rod(q, pin).slide),
-        point_of => Found::Point(point(point_of, q, angle, pin)),
+        Part::Crank => EndMotion::Link(turned(q, angle).1),
+        Part::Coupler => EndMotion::Link(bars(q, pin).coupler),
+        Part::Rocker => EndMotion::Link(bars(q, pin).rocker),
+        Part::Rod => EndMotion::Link(rod(q, pin).link),
+        Part::Along => EndMotion::Slide(rod(q, pin).slide),
+        point_of => EndMotion::Point(point(point_of, q, angle, pin)),
     }
 }
 

@@ -73,7 +73,7 @@ pub struct Group {
     pub repeats: bool,
 }
 
-// Pieces that are used more than once are functions of their own (`R::outline`).
+// Pieces that are used more than once are functions of their own (`R::out_of_line`).
 
 /// Newton rounds at most: from the table some three are needed; more when the lengths of a row of a batch
 /// differ from those that the table was made for.
@@ -168,7 +168,7 @@ impl Group {
     /// Derivatives at the position found, bars, and the closure measure.
     #[inline(always)]
     fn finish<R: Real, const ORDER: u8>(&self, q: &[R], m: &mut Motion<R>, system: &mut System<R>) {
-        R::outline(
+        R::out_of_line(
             #[inline(always)]
             || {
                 self.carry::<R, 0>(q, m);
@@ -293,7 +293,7 @@ impl Group {
     /// Both factors of a condition with two derivatives, and its value.
     #[inline(always)]
     fn factors<R: Real>(&self, condition: &Condition, q: &[R], m: &Motion<R>) -> Factors<R> {
-        R::outline(
+        R::out_of_line(
             #[inline(always)]
             || match *condition {
                 Condition::Distance { from, to, length } => {
@@ -327,7 +327,7 @@ impl Group {
     /// The Jacobian: for each condition its gradient by the points it depends on, carried to the unknowns.
     #[inline(always)]
     fn linearise<R: Real>(&self, q: &[R], m: &Motion<R>, system: &mut System<R>) {
-        R::outline(
+        R::out_of_line(
             #[inline(always)]
             || {
                 system.clear();
@@ -364,7 +364,7 @@ impl Group {
     /// Adds a gradient by a point to the row; a carried point keeps it for [`Group::hand_on`].
     #[inline(always)]
     fn spread<R: Real>(&self, point: usize, gradient: Vec2<R>, row: usize, system: &mut System<R>) {
-        R::outline(
+        R::out_of_line(
             #[inline(always)]
             || {
                 if let Some(k) = self.unknowns.iter().position(|&unknown| unknown == point) {
@@ -441,7 +441,7 @@ impl<R: Real> System<R> {
 
     #[inline(always)]
     fn factorise(&mut self) {
-        R::outline(
+        R::out_of_line(
             #[inline(always)]
             || {
                 let n = self.n;
@@ -469,7 +469,7 @@ impl<R: Real> System<R> {
     /// Turns `rhs` into the solution.
     #[inline(always)]
     fn solve(&mut self) {
-        R::outline(
+        R::out_of_line(
             #[inline(always)]
             || {
                 let n = self.n;

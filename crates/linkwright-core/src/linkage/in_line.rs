@@ -126,7 +126,7 @@ struct Meeting {
 
 /// The radicand of a dyad over the revolution.
 struct OverTheTurn<'a> {
-    look: &'a Look<'a>,
+    probe: &'a DyadProbe<'a>,
     g: &'a mut [f64],
 }
 
@@ -136,28 +136,28 @@ impl Job for OverTheTurn<'_> {
     #[inline(always)]
     fn run<R: Real>(self) {
         let n = self.g.len();
-        let q: Vec<R> = self.look.q.iter().map(|&x| R::splat(x)).collect();
-        let mut m = Motion::new(self.look.mechanism, &q);
+        let q: Vec<R> = self.probe.q.iter().map(|&x| R::splat(x)).collect();
+        let mut m = Motion::new(self.probe.mechanism, &q);
         // Both numbers of angles are multiples of any number of lanes.
         for (block, g) in self.g.chunks_exact_mut(R::LANES).enumerate() {
             let angle = |i: usize| TAU * (block * R::LANES + i) as f64 / n as f64;
             let phi: Vec<f64> = (0..R::LANES).map(angle).collect();
             let at = Angle::new(R::load(&phi));
-            self.look.mechanism.place_first::<R, 1>(self.look.element, &q, at, &mut m);
-            self.look.dyad.radicand(&q, &m)[0].store(g);
+            self.probe.mechanism.place_first::<R, 1>(self.probe.element, &q, at, &mut m);
+            self.probe.dyad.radicand(&q, &m)[0].store(g);
         }
     }
 }
 
 /// One dyad of a machine.
-struct Look<'a> {
+struct DyadProbe<'a> {
     mechanism: &'a Mechanism,
     element: usize,
     q: &'a [f64],
     dyad: Dyad,
 }
 
-impl Look<'_> {
+impl DyadProbe<'_> {
     /// The mechanism before the dyad, at a crank angle.
     fn before<R: Real>(&self, q: &[R], phi: R) -> Motion<R> {
         let mut m = Motion::new(self.mechanism, q);
@@ -175,7 +175,7 @@ impl Look<'_> {
     /// The radicand at angles spread evenly over the revolution.
     fn over_the_turn(&self, n: usize) -> Vec<f64> {
         let mut g = vec![0.0; n];
-        in_lanes(OverTheTurn { look: self, g: &mut g });
+        in_lanes(OverTheTurn { probe: self, g: &mut g });
         g
     }
 
@@ -291,11 +291,11 @@ pub fn in_line(mechanism: &Mechanism, element: usize, q: &[f64]) -> Vec<InLine> 
     let Some(dyad) = Dyad::of(mechanism, element) else {
         return Vec::new();
     };
-    let look = Look { mechanism, element, q, dyad };
-    if look.is_ample() {
+    let probe = DyadProbe { mechanism, element, q, dyad };
+    if probe.is_ample() {
         return Vec::new();
     }
-    let mut found: Vec<InLine> = look.lowest().into_iter().filter_map(|near| look.near(near)).collect();
+    let mut found: Vec<InLine> = probe.lowest().into_iter().filter_map(|near| probe.near(near)).collect();
     found.sort_by(|a, b| a.phi.total_cmp(&b.phi));
     // Two angles of the grid beside one minimum; the first and the last may meet across the revolution.
     found.dedup_by(|a, b| a.phi - b.phi < SAME);

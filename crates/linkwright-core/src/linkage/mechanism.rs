@@ -129,7 +129,7 @@ impl Mechanism {
                     m.points[point].set(place.p, place.d1, place.d2);
                 }
                 // A function of their own keeps the loop over the common elements small.
-                _ => R::outline(
+                _ => R::out_of_line(
                     #[inline(always)]
                     || element.place_rarer::<R, ORDER>(q, angle, m),
                 ),

@@ -17,7 +17,7 @@ use linkwright_core::linkage::trace::{Path, follow};
 use linkwright_core::plan::builder as plan;
 
 /// A plan and the numbers that go with it.
-pub struct Built {
+pub struct SampleMachine {
     pub plan: Plan,
     pub q: Vec<f64>,
 }
@@ -296,7 +296,7 @@ impl Builder {
     }
 
     /// Gives a group the motion that was followed.
-    pub fn give_path(built: &mut Built, element: usize, path: &Path) {
+    pub fn give_path(built: &mut SampleMachine, element: usize, path: &Path) {
         let Element::Group(group) = &mut built.plan.mechanism.elements[element] else {
             panic!("element {element} is no group");
         };
@@ -306,7 +306,7 @@ impl Builder {
 
     /// Turns a rocker into one with the change points that it has; its side is that at small positive crank angles.
     /// Gives how many there are.
-    pub fn give_change_points(built: &mut Built, element: usize) -> usize {
+    pub fn give_change_points(built: &mut SampleMachine, element: usize) -> usize {
         let Element::Rocker(rocker) = built.plan.mechanism.elements[element] else {
             panic!("element {element} is no rocker");
         };
@@ -354,11 +354,11 @@ impl Builder {
     }
 
     /// `factors`: ratio, forward, reverse, inertia on the crank, starting speed.
-    pub fn finish(mut self, motor: Motor, factors: [f64; 5]) -> Built {
+    pub fn finish(mut self, motor: Motor, factors: [f64; 5]) -> SampleMachine {
         let [ratio, forward, reverse, inertia, speed_start] = factors.map(|x| self.number(x));
         let drive = Drive { motor, ratio, forward, reverse, inertia, speed_start, speed_loads: vec![] };
         let plan = self.plan.into_plan(drive).expect("a sound drive");
-        Built { plan, q: self.q }
+        SampleMachine { plan, q: self.q }
     }
 
     /// Motor of paper 1 with its start, by the catalogue curve.
@@ -377,7 +377,7 @@ impl Builder {
 }
 
 /// The two-cart drive of paper 1 with the given phase of the second crank and reverse factor.
-pub fn two_carts(phase: f64, reverse: f64) -> Built {
+pub fn two_carts(phase: f64, reverse: f64) -> SampleMachine {
     let mut b = Builder::new();
     for phase in [0.0, phase] {
         let (pin, _) = b.crank(0.2, phase);
@@ -406,7 +406,7 @@ impl Random {
 }
 
 /// A machine with an inclined, offset slider, a crank-rocker with a coupler point, and all kinds of bodies.
-pub fn mixed(random: &mut Random) -> Built {
+pub fn mixed(random: &mut Random) -> SampleMachine {
     let mut b = Builder::new();
     let (pin, crank) = b.crank(random.between(0.08, 0.12), random.between(-3.0, 3.0));
     let [slider, rod, slide] = b.slider(

@@ -14,7 +14,7 @@
 //! transformation, error estimate and choice of steps these are.
 
 use super::explicit::{SAYS_NOTHING, fitting};
-use super::matrix::{Complex, Factored};
+use super::matrix::{Complex, LuFactors};
 use super::rates::Rates;
 use super::stepper::{Scale, Stepper};
 
@@ -69,8 +69,8 @@ pub struct Implicit {
     end: Vec<f64>,
     by_angle: Vec<f64>,
     by_speed: Vec<f64>,
-    real: Factored<f64>,
-    pair: Factored<Complex>,
+    real: LuFactors<f64>,
+    pair: LuFactors<Complex>,
     /// What the stages are beyond the start, derivatives there, and the same in the eigenvectors' terms.
     beyond: [Vec<f64>; 3],
     slopes: [Vec<f64>; 3],
@@ -88,7 +88,7 @@ pub struct Implicit {
 }
 
 /// How Newton's corrections of a step ended.
-enum Solved {
+enum NewtonOutcome {
     /// After so many corrections.
     After(usize),
     /// Not.
@@ -107,8 +107,8 @@ impl Implicit {
             end: list(),
             by_angle: vec![0.0; n * n],
             by_speed: vec![0.0; n * n],
-            real: Factored::new(n),
-            pair: Factored::new(n),
+            real: LuFactors::new(n),
+            pair: LuFactors::new(n),
             beyond: three(),
             slopes: three(),
             parts: three(),
@@ -198,7 +198,7 @@ impl Implicit {
     }
 
     /// Newton's corrections.
-    fn correct(&mut self, rates: &mut Rates<'_>, at: (f64, &[f64]), h: f64, scale: &Scale) -> Solved {
+    fn correct(&mut self, rates: &mut Rates<'_>, at: (f64, &[f64]), h: f64, scale: &Scale) -> NewtonOutcome {
         let (t, state) = at;
         // What Newton leaves must not disturb the estimate of the error (Hairer and Wanner, IV.8).
         let enough = (10.0 * f64::EPSILON / scale.accuracy).max(scale.accuracy.sqrt().min(0.03));
@@ -208,12 +208,12 @@ impl Implicit {
             self.evaluate(rates, t, state, h);
             let size = self.correction(rates, h, state, scale);
             if !size.is_finite() {
-                return Solved::Diverged;
+                return NewtonOutcome::Diverged;
             }
             let rate = before.map(|before| size / before);
             let left = (CORRECTIONS - nth) as i32;
             if rate.is_some_and(|r| r >= 1.0 || r.powi(left) / (1.0 - r) * size > enough) {
-                return Solved::Diverged;
+                return NewtonOutcome::Diverged;
             }
             for (part, side) in self.parts.iter_mut().zip(&self.sides) {
                 part.iter_mut().zip(side).for_each(|(x, dx)| *x += dx);
@@ -221,11 +221,11 @@ impl Implicit {
             transform(&FROM, &self.parts, &mut self.beyond);
             shrinking = rate.or(shrinking);
             if size == 0.0 || shrinking.is_some_and(|r| r / (1.0 - r) * size < enough) {
-                return Solved::After(nth + 1);
+                return NewtonOutcome::After(nth + 1);
             }
             before = Some(size);
         }
-        Solved::Diverged
+        NewtonOutcome::Diverged
     }
 
     /// Derivatives at the stages.
@@ -282,12 +282,12 @@ impl Implicit {
 
     /// Factor for the next length, from this error and the one before (Gustafsson).
     fn factor_of(&self, h: f64, error: f64) -> f64 {
-        let plain = error.powf(-0.25);
+        let elementary = error.powf(-0.25);
         match self.before {
             Some((h_before, error_before)) if error > 0.0 => {
-                plain * (h / h_before * (error_before / error).powf(0.25)).min(1.0)
+                elementary * (h / h_before * (error_before / error).powf(0.25)).min(1.0)
             }
-            _ => plain,
+            _ => elementary,
         }
     }
 }
@@ -317,7 +317,7 @@ impl Stepper for Implicit {
             let h = fitting(self.h, longest);
             self.factor(h);
             self.guess(h);
-            let Solved::After(corrections) = self.correct(rates, (t, state), h, scale) else {
+            let NewtonOutcome::After(corrections) = self.correct(rates, (t, state), h, scale) else {
                 self.h = 0.5 * h;
                 wasted = true;
                 self.rejected += 1;

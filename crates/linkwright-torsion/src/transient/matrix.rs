@@ -83,16 +83,16 @@ impl Div for Complex {
 
 /// A square matrix, taken apart into two triangles.
 #[derive(Clone, Debug)]
-pub struct Factored<T> {
+pub struct LuFactors<T> {
     n: usize,
     rows: Vec<T>,
     pivots: Vec<usize>,
 }
 
-impl<T: Number> Factored<T> {
+impl<T: Number> LuFactors<T> {
     /// Room for n equations.
     pub fn new(n: usize) -> Self {
-        Factored { n, rows: vec![T::default(); n * n], pivots: vec![0; n] }
+        LuFactors { n, rows: vec![T::default(); n * n], pivots: vec![0; n] }
     }
 
     /// Takes apart the matrix whose entries are given by row and column.
@@ -158,7 +158,7 @@ mod tests {
         let wanted: Vec<T> = (0..n).map(|i| T::real(i as f64 - 1.5)).collect();
         let product = |i: usize| (0..n).fold(T::default(), |sum, j| sum + entry(i, j) * wanted[j]);
         let mut b: Vec<T> = (0..n).map(product).collect();
-        let mut matrix = Factored::new(n);
+        let mut matrix = LuFactors::new(n);
         matrix.factor(entry);
         matrix.solve(&mut b);
         for (found, wanted) in b.iter().zip(&wanted) {

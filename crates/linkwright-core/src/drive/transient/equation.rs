@@ -1,7 +1,7 @@
 //! The equation of motion of the crank, and the balance of torques at standstill.
 
 use crate::drive::cycle::Machine;
-use crate::drive::law::Given;
+use crate::drive::law::LawGeometry;
 use crate::kernel::dual::Dual;
 use crate::kernel::plane::Angle;
 use crate::kernel::real::Lift;
@@ -17,7 +17,7 @@ pub(super) const AT_REST: f64 = 1e-11;
 pub struct Equation<'a> {
     pub machine: Machine<'a, f64>,
     pub motion: Motion<f64>,
-    pub given: Vec<Given<f64>>,
+    pub geometry: Vec<LawGeometry<f64>>,
     pub speed_scale: f64,
     pub evaluations: usize,
 }
@@ -57,9 +57,9 @@ impl Equation<'_> {
     #[inline(never)]
     fn laws<N: Lift<f64>>(&mut self, t: N, phi: f64, omega: N) -> N {
         let Machine { plan, q, .. } = self.machine;
-        self.given.clear();
-        plan.give(q, phi, &self.motion, &mut self.given);
-        plan.law_torque::<f64, f64, N>(q, &self.given, omega, t)
+        self.geometry.clear();
+        plan.add_geometry(q, phi, &self.motion, &mut self.geometry);
+        plan.law_torque::<f64, f64, N>(q, &self.geometry, omega, t)
     }
 
     /// Drive's and needed torque at standstill, and which way the machine goes from there: +1, 0 or −1. Laws

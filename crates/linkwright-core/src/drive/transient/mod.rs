@@ -121,7 +121,7 @@ pub fn follow(plan: &Plan, q: &[f64], start: &Start) -> Trajectory {
     let mut motion = Motion::new(&plan.mechanism, q);
     let kinks = machine.breaks(&mut motion).swap_remove(0);
     let speed_scale = q[plan.drive.speed_start].max(start.omega);
-    let mut follower = Equation { machine, motion, given: Vec::new(), speed_scale, evaluations: 0 };
+    let mut follower = Equation { machine, motion, geometry: Vec::new(), speed_scale, evaluations: 0 };
     let mut path = Path::new(plan, q, start, kinks);
     path.run(&mut follower);
     path.finish(&mut follower)
@@ -140,7 +140,7 @@ struct Path {
 }
 
 /// A step that was accepted, in one piece or two, and whether it ended at standstill.
-struct Accepted {
+struct AcceptedStep {
     pieces: Vec<Piece>,
     /// Length to try next.
     next: f64,
@@ -287,7 +287,7 @@ impl Path {
         from: (f64, &Y, &Y),
         longest: f64,
         is_stiff: bool,
-    ) -> Result<Accepted, End> {
+    ) -> Result<AcceptedStep, End> {
         let (t, y, _) = from;
         if is_stiff {
             self.step_by(&mut StiffAttempt::new(follower, (t, y), self.accuracy), from, longest)
@@ -302,7 +302,7 @@ impl Path {
         attempt: &mut impl Attempts,
         (t, y, k0): (f64, &Y, &Y),
         mut longest: f64,
-    ) -> Result<Accepted, End> {
+    ) -> Result<AcceptedStep, End> {
         let target = self.next_angle(y[0]);
         let rest = self.last_time - t;
         let landing = time_to(target - y[0], y[1], k0[1]);
@@ -343,7 +343,7 @@ impl Path {
             // A step cut short by an event says nothing about the length that the next may have.
             let grown = tried * next_factor_of(trial.error.max(on_the_way), order).min(growth_max);
             let next = if tried < longest { grown.max(longest) } else { grown };
-            return Ok(Accepted { pieces, next, at_rest: event.is_some() && end[1] == 0.0 });
+            return Ok(AcceptedStep { pieces, next, at_rest: event.is_some() && end[1] == 0.0 });
         }
         Err(reason)
     }

@@ -35,7 +35,7 @@ const ROUNDING_OF_RATE: f64 = 1e-14;
 
 /// A step that was solved.
 #[derive(Clone, Copy, Debug)]
-struct Solved {
+struct StiffStep {
     h: f64,
     from: Y,
     /// Speeds at its stages, less that at its start.
@@ -46,7 +46,7 @@ struct Solved {
     steepness: f64,
 }
 
-impl Solved {
+impl StiffStep {
     /// Quintic of what the speed has risen by, over the share of the step.
     fn quintic(&self) -> [f64; N] {
         let mut values = [0.0; N];
@@ -82,7 +82,7 @@ pub struct StiffAttempt<'a, 'm> {
     from: (f64, Y),
     accuracy: f64,
     aside: f64,
-    halves: Option<[Solved; 2]>,
+    halves: Option<[StiffStep; 2]>,
     end: Y,
     error: f64,
 }
@@ -95,7 +95,7 @@ impl<'a, 'm> StiffAttempt<'a, 'm> {
     }
 
     /// A step in two halves and its error over what it may be; or the error of one that cannot be solved.
-    fn measured(&mut self, h: f64) -> Result<([Solved; 2], f64), f64> {
+    fn measured(&mut self, h: f64) -> Result<([StiffStep; 2], f64), f64> {
         let (t, y) = self.from;
         let whole = self.solve(t, y, h, [0.0; S])?;
         let halves = self.in_halves(&whole)?;
@@ -104,7 +104,7 @@ impl<'a, 'm> StiffAttempt<'a, 'm> {
     }
 
     /// The step in two halves, from the stages of the whole.
-    fn in_halves(&mut self, whole: &Solved) -> Result<[Solved; 2], f64> {
+    fn in_halves(&mut self, whole: &StiffStep) -> Result<[StiffStep; 2], f64> {
         let (t, y) = self.from;
         let (quintic, half) = (whole.quintic(), 0.5 * whole.h);
         let guess = |from: f64, base: f64| C.map(|c| value(&quintic, from + 0.5 * c) - base);
@@ -115,7 +115,7 @@ impl<'a, 'm> StiffAttempt<'a, 'm> {
     }
 
     /// Newton for the stages of a step, from a guess of what the speed rises by.
-    fn solve(&mut self, t: f64, from: Y, h: f64, guess: [f64; S]) -> Result<Solved, f64> {
+    fn solve(&mut self, t: f64, from: Y, h: f64, guess: [f64; S]) -> Result<StiffStep, f64> {
         let [phi, omega] = from;
         let mut rise = guess;
         let mut last = f64::INFINITY;
@@ -141,7 +141,7 @@ impl<'a, 'm> StiffAttempt<'a, 'm> {
                 worst <= ROUNDING * size || (worst >= 0.5 * last && worst <= 1e3 * ROUNDING * size);
             if is_rounding {
                 let rate = slopes[S - 1].mul_add(correction[S - 1], rates[S - 1]);
-                return Ok(Solved { h, from, rise, rate, steepness: slopes[S - 1] });
+                return Ok(StiffStep { h, from, rise, rate, steepness: slopes[S - 1] });
             }
             last = worst;
         }
@@ -149,7 +149,7 @@ impl<'a, 'm> StiffAttempt<'a, 'm> {
     }
 
     /// What the halves err, by what the whole differs from them at their stages, over what they may.
-    fn difference(&self, whole: &Solved, halves: &[Solved; 2]) -> f64 {
+    fn difference(&self, whole: &StiffStep, halves: &[StiffStep; 2]) -> f64 {
         let quintic = whole.quintic();
         let mut worst = 0.0;
         let mut add = |error: f64, tolerance: f64, size: f64| {
@@ -192,7 +192,7 @@ impl Attempts for StiffAttempt<'_, '_> {
 
     fn speeds(&self) -> Vec<(f64, f64)> {
         let mut passed = 0.0;
-        let end = |half: &Solved| {
+        let end = |half: &StiffStep| {
             passed += half.h;
             (passed, half.end()[1])
         };
@@ -206,7 +206,7 @@ impl Attempts for StiffAttempt<'_, '_> {
     }
 
     fn pieces(&self) -> Vec<Piece> {
-        let mut pieces: Vec<Piece> = self.halves.iter().flatten().map(Solved::piece).collect();
+        let mut pieces: Vec<Piece> = self.halves.iter().flatten().map(StiffStep::piece).collect();
         if let Some(last) = pieces.last_mut() {
             last.y = self.end;
         }
