@@ -77,7 +77,14 @@ def test_every_unit_of_a_text_is_part_of_its_number() -> None:
 
 @pytest.mark.parametrize(
     "words",
-    ["run roller_two_carts", "cam roller_cam", "run topper", "torsion v8_diesel", "run flywheel_four_stroke"],
+    [
+        "run roller_two_carts",
+        "run press_with_flywheel --zero top --units rpm",
+        "cam roller_cam",
+        "run topper",
+        "torsion v8_diesel",
+        "run flywheel_four_stroke",
+    ],
 )
 def test_a_report_has_no_english_left(words: str) -> None:
     content = _content(words.split(), "linkwright run machine.toml")

@@ -84,6 +84,8 @@ EDGES = {
     ("kinetostatics", "drive"),
     ("kinetostatics", "drive.model"),
     ("kinetostatics.commands", "drive"),
+    # Crank angles are counted from a dead centre of the linkage.
+    ("kinetostatics.commands", "linkages"),
     # A drive moves a linkage against its loads; its shafts are those of torsion.
     ("drive", "linkages"),
     ("drive.commands", "linkages"),

@@ -17,7 +17,7 @@ from linkwright.cam.law_factors import LawFactors, law_factors
 from linkwright.cam.laws.catalogue import BOUNDS, LAWS
 from linkwright.cam.profile.least_sizes import LeastSizes
 from linkwright.cam.profile.profile import CamProfile
-from linkwright.kernel.page.numbers import degrees, measured, number, quantity
+from linkwright.kernel.page.numbers import crank_angle, degrees, measured, number, quantity
 from linkwright.kernel.page.table import Row, Table
 
 # Laws that sections are compared with: the usual ones, from the gentlest velocity on.
@@ -170,7 +170,7 @@ def joint_table(profile: CamProfile) -> Table:
 def force_table(loaded: LoadedCam) -> Table:
     """Forces on a cam."""
     rows: list[Row] = [
-        (f"{word} contact force", symbol, measured(force, "N"), f"at φ = {degrees(angle)}")
+        (f"{word} contact force", symbol, measured(force, "N"), crank_angle(angle, "at φ = "))
         for word, symbol, force, angle in (
             ("maximum", "N_max", loaded.force_max, loaded.force_max_angle),
             ("minimum", "N_min", loaded.force_min, loaded.force_min_angle),
@@ -179,10 +179,10 @@ def force_table(loaded: LoadedCam) -> Table:
     if loaded.side_changes:
         rows.append(("contact-side reversals per revolution", "", str(loaded.side_changes), ""))
     if loaded.speed_lost is not None and loaded.speed_lost_angle is not None:
-        at = f"at φ = {degrees(loaded.speed_lost_angle)}"
+        at = crank_angle(loaded.speed_lost_angle, "at φ = ")
         rows.append(("speed at which contact is lost", "ω_off", measured(loaded.speed_lost, "rad/s"), at))
     if loaded.pressure_max is not None and loaded.pressure_max_angle is not None:
-        at = f"at φ = {degrees(loaded.pressure_max_angle)}"
+        at = crank_angle(loaded.pressure_max_angle, "at φ = ")
         rows.append(
             ("maximum contact pressure", "p_max", measured(loaded.pressure_max, "Pa", usual="MPa"), at)
         )

@@ -19,9 +19,9 @@ if TYPE_CHECKING:
 
     from linkwright.drive.motion_events import MotionEvent, MotionExtreme
     from linkwright.drive.transient import Transient
+    from linkwright.kernel.page.angle_zero import Zero
     from linkwright.kernel.page.table import Table
     from linkwright.linkages.motion import Motion
-    from linkwright.linkages.zero import Zero
     from linkwright.machine.machine import Machine
 
 FromAngle = Annotated[
@@ -108,8 +108,9 @@ def transient(
     exact extremes of speed and acceleration.
     """
     from linkwright.drive.transient import transient as follow
+    from linkwright.kernel.page.angle_zero import Zero
     from linkwright.kernel.units import ANGLE, SPEED, TIME
-    from linkwright.linkages.zero import Zero, zero_angle
+    from linkwright.linkages.zero import zero_angle
     from linkwright.machine.read import read
 
     folder = output_folder(out, force=force)
@@ -157,11 +158,11 @@ def _answer(of: _MotionReport) -> Answer:
 def _head(of: _MotionReport) -> str:
     """How far the angles are from those of the file; the methods of a motion that took implicit steps."""
     from linkwright.drive.tables_in_time import methods_sentence
-    from linkwright.kernel.page.numbers import degrees
+    from linkwright.kernel.page.numbers import zero_words
 
     lines = []
     if of.zero.words:
-        lines.append(f"Crank angles from the {of.zero.words}, φ = {degrees(of.zero.angle)} in the file")
+        lines.append(zero_words(of.zero))
     if of.motion.implicit.any():
         lines.append(f"Integrated in {methods_sentence(of.motion)}")
     return "\n".join(lines)

@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 
 from linkwright.drive.motion_events import MotionEvent, MotionExtreme
 from linkwright.drive.transient import End, Transient
+from linkwright.kernel.page.angle_zero import Zero
 from linkwright.kernel.page.numbers import degrees, number, quantity
 from linkwright.kernel.page.table import Row, Table
 from linkwright.linkages.motion import Motion
-from linkwright.linkages.zero import Zero
 
 # What rounding leaves of zero, over the largest value of a column.
 _ROUNDING = 1e-12

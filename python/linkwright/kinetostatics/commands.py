@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from linkwright.drive.crank_speed import speed_words, speeds_of
 from linkwright.kernel.command.answer import Answer, hand_over
-from linkwright.kernel.command.common import File, Json, Outside, Sets, named_entries, option_value
+from linkwright.kernel.command.common import File, Json, Outside, Sets, ZeroAt, named_entries, option_value
 from linkwright.kernel.command.out import Force, out_option, output_folder
 from linkwright.kernel.command.parameter import Option
 from linkwright.kernel.errors import InputError
 
 if TYPE_CHECKING:
+    from linkwright.kernel.page.angle_zero import Zero
     from linkwright.kernel.page.table import Table
     from linkwright.kinetostatics.balancing import Balance
     from linkwright.kinetostatics.friction import Friction
@@ -74,6 +75,7 @@ def forces(
     allow_outside: Outside = False,
     speed: Speed = None,
     angles: Span = None,
+    zero: ZeroAt = None,
     case: Cases = None,
     friction: Frictions = None,
     pressure_angle: Angle = "20 deg",
@@ -96,14 +98,33 @@ def forces(
 
     cases, machine = _cases(read_with, case or [], friction or [], _motion(speed, angles, pressure_angle))
     speeds = {name: speeds_of(result.speed, machine, speed) for name, result in cases.items()}
-    hand_over(_answer(machine, cases, speeds), json=json, curves=curves, folder=folder)
+    counted = _zero(machine, zero, cases)
+    hand_over(_answer(machine, cases, speeds, counted), json=json, curves=curves, folder=folder)
 
 
-def _answer(machine: Machine, cases: dict[str, Forces], speeds: dict[str, dict[str, Any]]) -> Answer:
+def _zero(machine: Machine, where: str | None, cases: dict[str, Forces]) -> Zero:
+    """From where crank angles are counted, over the cycle of the forces."""
+    from math import pi
+
+    from linkwright.kernel.page.angle_zero import Zero
+    from linkwright.linkages.zero import zero_angle
+
+    if where is None:
+        return Zero()
+    zero = zero_angle(machine, where)
+    span = max(float(result.crank_angle[-1] - result.crank_angle[0]) for result in cases.values())
+    turns = round(span / (2 * pi))
+    return zero._replace(cycle=2 * pi * turns) if zero.cycle else zero
+
+
+def _answer(
+    machine: Machine, cases: dict[str, Forces], speeds: dict[str, dict[str, Any]], zero: Zero
+) -> Answer:
     """What was found, case by case."""
     return Answer(
         machine=machine.name,
         units=machine.units,
+        zero=zero,
         results=partial(_results, cases, speeds),
         findings=[
             _named(name, finding, cases) for name, result in cases.items() for finding in result.findings

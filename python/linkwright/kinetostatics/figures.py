@@ -22,6 +22,7 @@ from linkwright.kernel.figure.style import (
     turn_axis,
     zero_line,
 )
+from linkwright.kernel.page.angle_zero import zero_shown
 from linkwright.kernel.page.numbers import quantity
 from linkwright.kinetostatics.result import Forces
 
@@ -69,7 +70,8 @@ def hodograph_figure(forces: Forces) -> Figure:
 def _vectors(axes: Axes, forces: Forces, force: np.ndarray, colour: str, label: str) -> None:
     """The path of a vector's end, with a mark where the crank angle is zero."""
     axes.plot(force[:, 0], force[:, 1], color=colour, label=label)
-    start = int(np.argmin(np.abs(forces.crank_angle)))
+    zero = zero_shown()
+    start = int(np.argmin([abs(zero.counted(float(angle))) for angle in forces.crank_angle]))
     axes.plot(force[start, 0], force[start, 1], "o", color=colour, markersize=4)
     axes.plot(0, 0, "+", color=SOFT, markersize=8)
     axes.set_aspect("equal", adjustable="datalim")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from linkwright.kernel.page.numbers import degrees, measured, number
+from linkwright.kernel.page.numbers import crank_angle, degrees, measured, number
 from linkwright.kernel.page.table import Row, Table
 from linkwright.kernel.quantities import declared, shown
 from linkwright.kinetostatics.balancing import Balance
@@ -34,7 +34,7 @@ def _row(extent: Extent, forces: Forces, scale: float) -> Row:
     peak, rms, mean = (
         measured(value, extent.unit, scale) for value in (extent.peak, extent.rms, extent.mean)
     )
-    return word, symbol, peak, degrees(extent.peak_angle), rms, mean
+    return word, symbol, peak, crank_angle(extent.peak_angle), rms, mean
 
 
 def _scales(extents: Iterable[Extent]) -> dict[str, float]:

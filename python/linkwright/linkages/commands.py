@@ -20,10 +20,10 @@ from linkwright.kernel.errors import InputError, require_within
 from linkwright.kernel.limits import ROWS_OUT
 
 if TYPE_CHECKING:
+    from linkwright.kernel.page.angle_zero import Zero
     from linkwright.linkages.law import Law
     from linkwright.linkages.motion import Motion
     from linkwright.linkages.pose import Pose
-    from linkwright.linkages.zero import Zero
     from linkwright.machine.machine import Machine
 
 At = Annotated[
@@ -84,7 +84,8 @@ def motion(
 
     One pose with --at, under a law of time with --law, else a revolution of the crank at constant speed.
     """
-    from linkwright.linkages.zero import Zero, zero_angle
+    from linkwright.kernel.page.angle_zero import Zero
+    from linkwright.linkages.zero import zero_angle
     from linkwright.machine.read import read
 
     if steps < 1:
@@ -213,8 +214,8 @@ def _turn(machine: Machine, speed: CrankSpeed, zero: Zero, steps: int, *, json: 
 
 def _under_law(machine: Machine, law: str, duration: str, steps: int, *, json: bool, csv: bool) -> str:
     """The motion under a law of the crank."""
+    from linkwright.kernel.page.angle_zero import Zero
     from linkwright.kernel.units import TIME
-    from linkwright.linkages.zero import Zero
 
     driver, start, end = _law(law), 0.0, option_value("--duration", duration, TIME)
     if hasattr(driver, "times"):

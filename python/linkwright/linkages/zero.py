@@ -6,11 +6,10 @@ swings; the inner one is the other. The top is the extreme position that is high
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 
 from linkwright.kernel.errors import InputError, cut
+from linkwright.kernel.page.angle_zero import Zero
 from linkwright.kernel.public import public
 from linkwright.linkages.closure import Closure, in_cycle
 from linkwright.linkages.cycle import ElementMotion, Linkage, linkage
@@ -22,21 +21,6 @@ from linkwright.machine.program.compiled import compile_machine
 _LIMIT = 1e-6
 
 ENDS = ("outer", "inner", "top", "bottom")
-
-
-class Zero(NamedTuple):
-    """A crank angle from which others are counted.
-
-    Attributes
-    ----------
-    angle : float
-        Within one period of the mechanism, if it repeats [rad].
-    words : str
-        Such as ``"inner dead centre of ram"``; empty where angles are those of the file.
-    """
-
-    angle: float = 0.0
-    words: str = ""
 
 
 @public
@@ -54,7 +38,7 @@ def zero_angle(machine: Machine, where: str) -> Zero:
     Returns
     -------
     Zero
-        Crank angle [rad] and words.
+        Crank angle [rad], words, and the cycle after which the mechanism repeats [rad].
 
     Raises
     ------
@@ -73,7 +57,9 @@ def zero_angle(machine: Machine, where: str) -> Zero:
         said = end
     angle = float(output.high_angle if end == "outer" else output.low_angle)
     _require_dead_centre(cycle.closure, angle, f"the {said} end of {output.output}")
-    return Zero(in_cycle(cycle.closure, angle), f"{said} dead centre of {output.output}")
+    turns = cycle.closure.turns if cycle.closure.turns_fully else None
+    words = f"{said} dead centre of {output.output}"
+    return Zero(in_cycle(cycle.closure, angle), words, 2 * np.pi * (turns or 0))
 
 
 def _require_dead_centre(closed: Closure, angle: float, what: str) -> None:

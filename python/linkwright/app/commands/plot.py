@@ -72,7 +72,8 @@ def plot(
     """
     from linkwright.app.curves import chosen, curves_figure, curves_of, from_zero
     from linkwright.app.study import study
-    from linkwright.linkages.zero import Zero, zero_angle
+    from linkwright.kernel.page.angle_zero import Zero
+    from linkwright.linkages.zero import zero_angle
     from linkwright.machine.read import read
 
     machine = read(file, set or [], allow_outside=allow_outside)

@@ -7,12 +7,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from linkwright.kernel.command.answer import Answer, hand_over
-from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
+from linkwright.kernel.command.common import File, Json, Outside, Sets, ZeroAt, option_value
 from linkwright.kernel.command.out import Force, command_line, out_option, output_folder
 from linkwright.kernel.command.parameter import Option
 
 if TYPE_CHECKING:
     from linkwright.app.study import Study
+    from linkwright.kernel.page.angle_zero import Zero
     from linkwright.kernel.page.content import Content
     from linkwright.kernel.page.table import Table
 
@@ -30,6 +31,7 @@ def run(
     file: File,
     set: Sets = None,
     allow_outside: Outside = False,
+    zero: ZeroAt = None,
     json: Json = False,
     curves: Curves = False,
     out: Folder = None,
@@ -50,7 +52,7 @@ def run(
     steps = step if method == "baranov" else None
     with nullcontext() if json else progress("computing"):
         study = _studied(file, set or [], accuracy, steps, allow_outside=allow_outside)
-    hand_over(_answer(study), json=json, curves=curves, folder=folder)
+    hand_over(_answer(study, _zero(study, zero)), json=json, curves=curves, folder=folder)
 
 
 def _studied(file: Path, sets: list[str], accuracy: float, step: str | None, *, allow_outside: bool) -> Study:
@@ -63,11 +65,26 @@ def _studied(file: Path, sets: list[str], accuracy: float, step: str | None, *, 
     return study(read(file, sets, allow_outside=allow_outside), accuracy=accuracy, step=angle)
 
 
-def _answer(study: Study) -> Answer:
+def _zero(study: Study, where: str | None) -> Zero:
+    """From where crank angles are counted, over the cycle of the steady motion."""
+    from math import pi
+
+    from linkwright.kernel.page.angle_zero import Zero
+    from linkwright.linkages.zero import zero_angle
+
+    if where is None:
+        return Zero()
+    zero, motion = zero_angle(study.machine, where), study.motion
+    turns = round(float(motion.crank_angle[-1] - motion.crank_angle[0]) / (2 * pi)) if motion else 0
+    return zero._replace(cycle=2 * pi * turns) if zero.cycle and turns else zero
+
+
+def _answer(study: Study, zero: Zero) -> Answer:
     """All that was found, and the files of a study."""
     return Answer(
         machine=study.machine.name,
         units=study.machine.units,
+        zero=zero,
         results=lambda curves: {k: result.to_dict(curves=curves) for k, result in study.results().items()},
         findings=study.findings,
         warnings=study.warnings,

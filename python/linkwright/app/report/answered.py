@@ -8,11 +8,12 @@ from dataclasses import replace
 from io import StringIO
 from typing import NamedTuple
 
-from linkwright.kernel.command.answer import Answer
+from linkwright.kernel.command.answer import Answer, shown_head
 from linkwright.kernel.command.common import named_entries
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.figure.style import CaptionedFigure
 from linkwright.kernel.page.content import Content, Part
+from linkwright.kernel.page.sentences import sentences
 from linkwright.kernel.page.table import Row, Table
 
 
@@ -43,9 +44,9 @@ def answered(answer: Answer, command: str) -> Content:
         raise InputError("there is nothing to report: this command gives neither tables nor figures")
     return Content(
         title=answer.machine or "Linkwright",
-        lead=answer.head(),
-        findings=answer.findings,
-        warnings=answer.warnings,
+        lead=shown_head(answer),
+        findings=sentences(answer.findings),
+        warnings=sentences(answer.warnings),
         printed=printed,
         parts=[Part("Results", tables, figures)] if tables or figures else [],
         command=command,

@@ -15,11 +15,13 @@ from linkwright.app.report.tables import DETAIL_TABLES, MOTION_TABLES, tables
 from linkwright.app.study import Study
 from linkwright.drive.model.motor import InductionMotor
 from linkwright.kernel.files.output import write_file
+from linkwright.kernel.page.angle_zero import zero_shown
 from linkwright.kernel.page.content import Content, Few, Heading, Part
 from linkwright.kernel.page.formulas import PAPER_1, Formula, formulas
 from linkwright.kernel.page.html import html
-from linkwright.kernel.page.numbers import degrees, number, parted
+from linkwright.kernel.page.numbers import degrees, number, parted, zero_words
 from linkwright.kernel.page.out_units import with_units_of
+from linkwright.kernel.page.sentences import sentences
 from linkwright.kernel.public import public
 from linkwright.machine.table import grouped, machine_parts
 from linkwright.machine.write import dumps
@@ -97,10 +99,10 @@ def _content(study: Study, command: str) -> Content:
     scenes = {"topper": knife_scene(study), "mechanism": scene(study)}
     return Content(
         title=machine.name,
-        lead=machine.description or "",
+        lead="\n".join(filter(None, (machine.description, zero_words(zero_shown())))),
         source=machine.source or "",
-        findings=study.findings,
-        warnings=study.warnings,
+        findings=sentences(study.findings),
+        warnings=sentences(study.warnings),
         headline=[Few(*line) for line in _headline(study)],
         scenes={name: scene for name, scene in scenes.items() if scene is not None},
         sketch=_sketch(study) if scenes["mechanism"] is not None else None,

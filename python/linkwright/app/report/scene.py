@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from linkwright.app.study import Study
 from linkwright.drive.steady_state import SteadyState
 from linkwright.kernel.errors import AssemblyError
+from linkwright.kernel.page.angle_zero import zero_shown
 from linkwright.kernel.page.out_units import reader
 from linkwright.linkages.closure import Closure, closure
 from linkwright.linkages.kinematics import Kinematics, kinematics
@@ -65,6 +66,8 @@ def scene(study: Study) -> Scene | None:
         "headings": {name: _rounded(angle, _FINENESS) for name, angle in moving["headings"].items()},
         # Unit of the speed that is printed, and its size.
         "speed_unit": reader().shown("rad/s"),
+        # Crank angle from which the printed one counts.
+        "angle_zero": zero_shown().angle,
         **{key: moving[key] for key in ("parts", "box", "swings", "true_speed")},
     }
 

@@ -18,6 +18,7 @@ import click
 from linkwright.kernel.command.out import put, write_folder
 from linkwright.kernel.command.parameter import UNITS
 from linkwright.kernel.errors import InputError, InternalError
+from linkwright.kernel.page.angle_zero import Zero, counting
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -28,6 +29,9 @@ if TYPE_CHECKING:
     from linkwright.kernel.files.output import OutputFolder
     from linkwright.kernel.page.content import Content
     from linkwright.kernel.page.table import Table
+
+
+_FILE_ZERO = Zero()
 
 
 def _nothing(curves: bool) -> Mapping[str, Any]:
@@ -67,6 +71,8 @@ class Answer:
         Name of a file → words beside it where the files are listed.
     units : description or None
         The table ``[units]`` of the machine file.
+    zero : Zero
+        From where crank angles are counted for people; JSON counts as the file does.
     """
 
     machine: str | None
@@ -85,6 +91,7 @@ class Answer:
     report: Callable[[], Content] | None = None
     remarks: Mapping[str, str] = field(default_factory=dict)
     units: BaseModel | None = None
+    zero: Zero = _FILE_ZERO
 
 
 # Who takes the answer of a command instead of the terminal: a report.
@@ -111,7 +118,7 @@ def is_taken(answer: Answer) -> bool:
     take = _TAKER.get()
     if take is None:
         return False
-    with as_wanted(answer.units):
+    with as_wanted(answer.units), counting(answer.zero):
         take(answer)
     return True
 
@@ -128,6 +135,7 @@ def json_text(answer: Answer, *, curves: bool = False) -> str:
         "results": answer.results(curves),
         "findings": list(answer.findings),
         "warnings": [*answer.findings, *answer.warnings],
+        **({"angle_zero": answer.zero.angle, "zero": answer.zero.words} if answer.zero.words else {}),
         **answer.extra,
     }
     return dumps(finite(fields), allow_nan=False, ensure_ascii=False) + "\n"
@@ -144,14 +152,23 @@ def as_wanted(table: BaseModel | None) -> AbstractContextManager[None]:
     return reading((asked or OutUnits()).over(OutUnits.of_table(table)))
 
 
+def shown_head(answer: Answer) -> str:
+    """The head of an answer, and from where its crank angles are counted."""
+    from linkwright.kernel.page.numbers import zero_words
+
+    return "\n".join(filter(None, (answer.head(), zero_words(answer.zero))))
+
+
 def print_answer(answer: Answer) -> None:
     """Print an answer for people: tables, findings in red, warnings in yellow."""
     if answer.show is not None:
         answer.show()
         return
     from linkwright.kernel.command.console import print_tables
+    from linkwright.kernel.page.sentences import sentences
 
-    print_tables(answer.head(), answer.tables(), answer.findings, answer.warnings)
+    findings, warnings = sentences(answer.findings), sentences(answer.warnings)
+    print_tables(shown_head(answer), answer.tables(), findings, warnings)
     if tail := answer.tail():
         click.echo("\n" + tail, nl=False)
 
@@ -165,7 +182,7 @@ def write(answer: Answer, folder: OutputFolder, *, quiet: bool) -> None:
     contents: dict[str, str | bytes] = {}
     if answer.results_file:
         contents[answer.results_file] = json_text(answer, curves=True)
-    with as_wanted(answer.units):
+    with as_wanted(answer.units), counting(answer.zero):
         contents |= answer.files()
         write_folder(folder, contents, answer.figures(), quiet=quiet, remarks=answer.remarks)
 
@@ -203,7 +220,7 @@ def hand_over(
             "files of an answer", f"{out} is wanted, and the answer has no machine to write there"
         )
     if not json:
-        with as_wanted(answer.units):
+        with as_wanted(answer.units), counting(answer.zero):
             print_answer(answer)
     if folder is not None:
         write(answer, folder, quiet=json)

@@ -2,6 +2,7 @@
 
 | module | |
 | --- | --- |
+| `from_zero` | Axes over the crank angle, from the dead centre that the reader wants |
 | `in_language` | Figures with their words in another language |
 | `in_units` | Axes in the units that the reader wants |
 | `plotted` | The curves of a result as a figure |

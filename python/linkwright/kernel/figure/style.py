@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, ParamSpec, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.kernel.page.angle_zero import zero_shown
 from linkwright.kernel.page.out_units import reader
 
 if TYPE_CHECKING:
@@ -95,16 +96,23 @@ def styled(draw: Callable[P, R]) -> Callable[P, R]:
             # A letter that no font has is drawn as a box.
             warnings.filterwarnings("ignore", message="Glyph .* missing from font")
             drawing = draw(*args, **kwargs)
-            if reader().chosen:
-                from matplotlib.figure import Figure
-
-                from linkwright.kernel.figure.in_units import in_units_of_reader
-
-                if isinstance(drawing, Figure):
-                    in_units_of_reader(drawing)
+            if reader().chosen or zero_shown().words:
+                _for_reader(drawing)
             return drawing
 
     return drawn
+
+
+def _for_reader(drawing: object) -> None:
+    """Count crank angles of a figure from the zero, and mark its axes in the units, that the reader wants."""
+    from matplotlib.figure import Figure
+
+    from linkwright.kernel.figure.from_zero import from_zero_of_reader
+    from linkwright.kernel.figure.in_units import in_units_of_reader
+
+    if isinstance(drawing, Figure):
+        from_zero_of_reader(drawing)
+        in_units_of_reader(drawing)
 
 
 def panels(rows: int, *, height: float, columns: int = 1, shared: bool = True) -> tuple[Figure, list[Axes]]:

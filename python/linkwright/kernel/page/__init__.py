@@ -2,6 +2,7 @@
 
 | module | |
 | --- | --- |
+| `angle_zero` | Crank angles as they are shown, from the file's zero or a dead centre |
 | `content` | What a report says, before it is a page or a PDF |
 | `formulas` | Formulas of the measures, with their sources |
 | `glossary` | The field's words: terms, definitions, sources, and the words that they replace |
@@ -10,6 +11,7 @@
 | `notebook` | Results and machines as a notebook shows them |
 | `numbers` | Numbers as text, and cells that know their number |
 | `out_units` | Units in which numbers are shown |
+| `sentences` | Findings and warnings in the units, and with the crank angles, of the reader |
 | `table` | A table of text, the rows that attributes of results make, and tables and curves as CSV |
 | `typeset` | A report as PDF, by Typst |
 """

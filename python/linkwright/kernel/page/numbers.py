@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import sys
 
+from linkwright.kernel.page.angle_zero import Zero, zero_shown
 from linkwright.kernel.page.out_units import reader
 
 # Share of what it belongs to below which a number is rounding: sums of some ten thousand doubles.
@@ -125,12 +126,21 @@ def measured(
 
 
 def crank_angle(angle: float | None, before: str = "") -> str:
-    """A crank angle [rad] within a revolution, from 0° on; a full revolution is 0°."""
+    """A crank angle [rad] within a revolution, from 0° on; a full revolution is 0°. It is counted from the
+    dead centre that the reader wants.
+    """
     if angle is None or not math.isfinite(angle):
         return "–"
-    text = degrees(angle)
+    text = degrees(zero_shown().counted(angle))
     number_text = "0°" if text == "360°" else text
     return _marked(before + number_text, angle, "rad", 5, before, is_crank_angle=True)
+
+
+def zero_words(zero: Zero) -> str:
+    """From where crank angles are counted, in a line; empty where it is the zero of the file."""
+    if not zero.words:
+        return ""
+    return f"Crank angles from the {zero.words}, φ = {degrees(zero.angle)} in the file"
 
 
 def _marked(

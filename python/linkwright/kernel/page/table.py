@@ -21,6 +21,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.kernel.page.angle_zero import counted_columns
 from linkwright.kernel.page.numbers import measured
 from linkwright.kernel.page.out_units import shown_columns
 from linkwright.kernel.quantities import Label, in_table, shown
@@ -111,11 +112,12 @@ def curves_csv(result: Result) -> str:
 
 
 def columns_csv(columns: Mapping[str, Floats]) -> str:
-    """Columns as CSV in the units that the reader wants: head with the unit → values, (n,).
+    """Columns as CSV in the units, and from the zero of crank angles, that the reader wants: head with the
+    unit → values, (n,).
 
     Numbers read back exactly; NaN is an empty cell.
     """
-    shown = shown_columns(columns)
+    shown = shown_columns(counted_columns(columns))
     rows = zip(*(column.tolist() for column in shown.values()), strict=True)
     return csv_text(list(shown), rows)
 

@@ -246,7 +246,8 @@
   }
   function draw(k) {
     for (const move of movers) move(k);
-    const degrees = (between(scene.angles, k) * 180 / Math.PI) % 360;
+    const counted = (between(scene.angles, k) - scene.angle_zero) * 180 / Math.PI;
+    const degrees = scene.angle_zero ? (counted % 360 + 360) % 360 : counted % 360;
     const [unit, size] = scene.speed_unit;
     const speed = between(scene.speeds, k) / size;
     const words = `φ = ${degrees.toFixed(0).padStart(3, "\u2007")}°`;
