@@ -13,15 +13,16 @@ from numpy.typing import NDArray
 __all__ = [
     "FORMAT",
     "Bar",
+    "BarPoint",
     "Body",
     "Cam",
     "CamCrossings",
     "CamDimensions",
     "CamExtreme",
+    "CamOffset",
     "CamPasses",
     "CamSearch",
     "CamShape",
-    "Carried",
     "ChangePoint",
     "Channel",
     "Condition",
@@ -29,15 +30,18 @@ __all__ = [
     "Drive",
     "Element",
     "Extremes",
-    "Fixed",
     "Formula",
+    "GroundPoint",
     "GroupPath",
+    "Harmonic",
     "InLine",
     "Line",
     "Load",
     "MotionInTime",
     "MotionLaw",
     "Motor",
+    "MotorTorques",
+    "NetTorques",
     "NoSteadyMotion",
     "OtherMotion",
     "Periodic",
@@ -53,6 +57,8 @@ __all__ = [
     "SteadySolution",
     "Sum",
     "Table",
+    "Term",
+    "ThirdDerivatives",
     "TopperCover",
     "TopperKnife",
     "TorqueLaw",
@@ -104,8 +110,17 @@ class Formula:
     def __new__(cls, instructions: Sequence[tuple[str, int | str | None]]) -> Formula: ...
 
 @final
+class Harmonic:
+    """a cos ku + b sin ku; frequency k [rad over the piece]."""
+
+    def __new__(cls, *, frequency: float, cosine: float, sine: float) -> Harmonic: ...
+    frequency: Final[float]
+    cosine: Final[float]
+    sine: Final[float]
+
+@final
 class Piece:
-    """One piece of a motion law [rad]: Σ cᵢ uⁱ + Σ (a cos ku + b sin ku), u = (φ − start)/length."""
+    """One piece of a motion law [rad]: Σ cᵢ uⁱ + harmonics, u = (φ − start)/length."""
 
     def __new__(
         cls,
@@ -113,12 +128,12 @@ class Piece:
         start: float,
         length: float,
         polynomial: Sequence[float],
-        harmonics: Sequence[Sequence[float]],
+        harmonics: Sequence[Harmonic],
     ) -> Piece: ...
     start: Final[float]
     length: Final[float]
     polynomial: Final[list[float]]
-    harmonics: Final[list[list[float]]]
+    harmonics: Final[list[Harmonic]]
 
 @final
 class MotionLaw:
@@ -138,12 +153,20 @@ class Line:
     offset: Final[int]
 
 @final
-class Sum:
-    """A constant and terms: slides, or the crank angle where there is none, with their factors."""
+class Term:
+    """A slide, or the crank angle where there is none, times a factor."""
 
-    def __new__(cls, *, start: int, terms: Sequence[tuple[int | None, int]]) -> Sum: ...
+    def __new__(cls, *, slide: int | None, factor: int) -> Term: ...
+    slide: Final[int | None]
+    factor: Final[int]
+
+@final
+class Sum:
+    """A constant and terms."""
+
+    def __new__(cls, *, start: int, terms: Sequence[Term]) -> Sum: ...
     start: Final[int]
-    terms: Final[Sequence[tuple[int | None, int]]]
+    terms: Final[Sequence[Term]]
 
 @final
 class Bar:
@@ -156,10 +179,10 @@ class Bar:
     inverse_length: Final[int]
 
 @final
-class Carried:
+class BarPoint:
     """A point fixed to a bar of a group, `along` and `across` in lengths of the bar."""
 
-    def __new__(cls, *, point: int, start: int, end: int, along: int, across: int) -> Carried: ...
+    def __new__(cls, *, point: int, start: int, end: int, along: int, across: int) -> BarPoint: ...
     point: Final[int]
     start: Final[int]
     end: Final[int]
@@ -211,14 +234,22 @@ class ChangePoint:
     first: Final[int]
     has_arms: Final[bool]
     @property
-    def place(self) -> tuple[int, int, int]:
-        """Slots of cos φ, sin φ, and of the reach [rad], negative where a machine does not have it."""
+    def cos(self) -> int:
+        """Slot of cos φ."""
+
+    @property
+    def sin(self) -> int:
+        """Slot of sin φ."""
+
+    @property
+    def reach(self) -> int:
+        """Slot of the reach [rad], negative where a machine does not have the change point."""
 
 @final
-class Fixed:
+class GroundPoint:
     """A point of the ground."""
 
-    def __new__(cls, *, point: int, x: int, y: int) -> Fixed: ...
+    def __new__(cls, *, point: int, x: int, y: int) -> GroundPoint: ...
     point: Final[int]
     x: Final[int]
     y: Final[int]
@@ -471,7 +502,7 @@ class Element:
         __match_args__: Final = (
             "dyad",
             "unknowns",
-            "carried",
+            "bar_points",
             "bars",
             "conditions",
             "starts",
@@ -484,7 +515,7 @@ class Element:
             *,
             dyad: int,
             unknowns: Sequence[int],
-            carried: Sequence[Carried],
+            bar_points: Sequence[BarPoint],
             bars: Sequence[Bar],
             conditions: Sequence[Condition],
             starts: Sequence[Table],
@@ -493,7 +524,7 @@ class Element:
         ) -> Element.Group: ...
         dyad: Final[int]
         unknowns: Final[Sequence[int]]
-        carried: Final[Sequence[Carried]]
+        bar_points: Final[Sequence[BarPoint]]
         bars: Final[Sequence[Bar]]
         conditions: Final[Sequence[Condition]]
         starts: Final[Sequence[Table]]
@@ -947,7 +978,7 @@ class Plan:
         cls,
         *,
         parameters: int,
-        ground: Sequence[Fixed],
+        ground: Sequence[GroundPoint],
         elements: Sequence[Element],
         bodies: Sequence[Body],
         loads: Sequence[Load],
@@ -1111,9 +1142,9 @@ class SteadyRows:
 class MotionInTime:
     """Motion in time at the ends of the steps [s, rad, rad/s, rad/s²].
 
-    How it ended by name, torques of drive and load there [N m], evaluations; of each step seven factors of
-    the angle and seven of the speed, (steps, 2, 7) (`Stages::component` in `kernel/rk.rs`), and whether it
-    is by the implicit method (steps,).
+    How it ended by name, torques of drive and load there [N m], evaluations; of each step the factors of
+    angle and speed, (steps, 7) each (`Stages::component` in `kernel/rk.rs`), and whether it is by the
+    implicit method (steps,).
     """
 
     end: Final[str]
@@ -1121,7 +1152,8 @@ class MotionInTime:
     crank_angle: Final[_Floats]
     speed: Final[_Floats]
     acceleration: Final[_Floats]
-    between: Final[_Floats]
+    angle_factors: Final[_Floats]
+    speed_factors: Final[_Floats]
     implicit: Final[NDArray[np.bool_]]
     torque_drive_end: Final[float]
     torque_load_end: Final[float]
@@ -1132,8 +1164,8 @@ class InLine:
     """Where the links of a dyad come into line.
 
     Machine, crank angle [rad], length to spare [m], numbers of the change point (none where it is undecided)
-    and of its arms (none unless the pin passes near its pivot), and whether the arm with S > 0, S < 0 after
-    it has no digits left.
+    and of its arms (none unless the pin passes near its pivot), and whether the arm with S > 0 (positive) or
+    S < 0 (negative) after it has no digits left.
     """
 
     row: Final[int]
@@ -1141,14 +1173,16 @@ class InLine:
     spare: Final[float]
     series: Final[list[float]]
     arms: Final[list[float]]
-    lost: Final[tuple[bool, bool]]
+    lost_positive: Final[bool]
+    lost_negative: Final[bool]
 
 @final
 class GroupPath:
-    """Motion of a group: crank angles [rad], x and y of each joint there [m], turns of a period."""
+    """Motion of a group: crank angles [rad], places there [m], a list a joint, turns of a period."""
 
     crank_angle: Final[_Floats]
-    places: Final[list[list[float]]]
+    x: Final[list[list[float]]]
+    y: Final[list[list[float]]]
     turns: Final[int | None]
 
 def steady_state(plan: Plan, q: _Floats, accuracy: float, phi: _Floats) -> SteadyMotion | NoSteadyMotion:
@@ -1196,10 +1230,26 @@ def motions(
     what: Sequence[Channel],
     out: _Floats,
 ) -> None:
-    """Motions of n machines at the angles `phi` into `out`, flat (n, numbers, angles)."""
+    """Motions of n machines at the angles `phi` into `out` (n, numbers, angles)."""
 
-def third(plan: Plan, q: _Floats, phi: _Floats, what: Sequence[Channel]) -> _Floats:
-    """Third transfer functions at the angles `phi`: two rows for a point, one for a link or slide."""
+@final
+class ThirdDerivatives:
+    """Third derivatives by the crank angle of points (points, 2, angles), of links and of slides."""
+
+    points: Final[_Floats]
+    links: Final[_Floats]
+    slides: Final[_Floats]
+
+def third(
+    plan: Plan,
+    q: _Floats,
+    phi: _Floats,
+    *,
+    points: Sequence[int],
+    links: Sequence[int],
+    slides: Sequence[int],
+) -> ThirdDerivatives:
+    """Third derivatives at the angles `phi`."""
 
 def in_line(plan: Plan, q: _Floats, slots: _Ints, values: _Floats, element: int) -> list[InLine]:
     """Where the links of a dyad come into line over the revolution, in each machine."""
@@ -1230,8 +1280,15 @@ def reductions(plan: Plan, q: _Floats, phi: _Floats) -> Reductions:
 def law_torques(plan: Plan, q: _Floats, phi: _Floats, omega: _Floats) -> _Floats:
     """Load torque of the laws at angles and speeds (speeds, angles)."""
 
-def motor_torques(plan: Plan, q: _Floats, omega: _Floats) -> tuple[_Floats, _Floats]:
-    """Motor torque at its shaft and at the crank, at crank speeds."""
+@final
+class MotorTorques:
+    """Torque of the motor at its shaft and at the crank, (n,) each [N m]."""
+
+    motor: Final[_Floats]
+    crank: Final[_Floats]
+
+def motor_torques(plan: Plan, q: _Floats, omega: _Floats) -> MotorTorques:
+    """Torque of the motor at crank speeds."""
 
 def transient(
     plan: Plan,
@@ -1300,6 +1357,14 @@ class CamShape:
     passes: Final[list[CamPasses]]
 
 @final
+class CamOffset:
+    """x, y of a curve beside the pitch curve [m] and two derivatives [m/rad, m/rad²], (2, n) each."""
+
+    place: Final[_Floats]
+    d1: Final[_Floats]
+    d2: Final[_Floats]
+
+@final
 class CamSearch:
     """Largest tan γ, infinite where the follower locks, minimum soundness, extremes of the bend; (cams,)."""
 
@@ -1325,8 +1390,8 @@ class Cam:
     def rows(self, size: CamDimensions, phi: _Floats, before: bool) -> dict[str, _Floats]:
         """The rows of `CamShape` at angles."""
 
-    def curve(self, size: CamDimensions, phi: _Floats, before: bool, away: float) -> _Floats:
-        """x, y and their first and second derivatives of a curve beside the pitch curve, at angles (6, n)."""
+    def curve(self, size: CamDimensions, phi: _Floats, before: bool, away: float) -> CamOffset:
+        """A curve beside the pitch curve, at angles (n,)."""
 
     def search(
         self,
@@ -1634,6 +1699,13 @@ class TorsionMotion:
     loss_masses: Final[_Floats]
 
 @final
+class NetTorques:
+    """Sum of torques on each mass [N m], and its inertia [kg m²], (rows, masses) each."""
+
+    torque: Final[_Floats]
+    inertia: Final[_Floats]
+
+@final
 class TorsionSystem:
     """A train in motion. IndexError: a mass that is spoken of is not there; ValueError: there is none."""
 
@@ -1659,5 +1731,5 @@ class TorsionSystem:
     ) -> TorsionMotion:
         """The motion from angles and speeds of the masses, sampled at times."""
 
-    def net_torques(self, t: float, angle: _Floats, speed: _Floats) -> tuple[_Floats, _Floats]:
+    def net_torques(self, t: float, angle: _Floats, speed: _Floats) -> NetTorques:
         """Sum of torques on each mass and its inertia at rows of angles (rows, masses)."""

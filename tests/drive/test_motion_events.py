@@ -63,7 +63,7 @@ def test_an_extreme_of_the_acceleration_satisfies_the_equation_of_motion(press) 
         assert angle == pytest.approx(each.crank_angle, abs=1e-12)
         if each.quantity == "acceleration":
             at = compiled.reductions(np.array([angle % (2 * np.pi)]))
-            drive = compiled.motor_torques([speed])[1]
+            drive = compiled.motor_torques([speed]).crank
             resisting = at.load + at.dry + at.viscous * speed + 0.5 * at.inertia_slope * speed**2
             wanted = float(((drive - resisting) / at.inertia)[0])
             # The polynomial between the steps is as exact as these, 1e-8 of the speed in steps of 10 ms.
@@ -91,7 +91,7 @@ def test_a_jump_of_the_acceleration() -> None:
     for each in jumps:
         beside = np.array([each.crank_angle - 1e-6, each.crank_angle + 1e-6]) % (2 * np.pi)
         at = compiled.reductions(beside)
-        drive = compiled.motor_torques([each.speed])[1][0]
+        drive = compiled.motor_torques([each.speed]).crank[0]
         resisting = at.load + at.dry + at.viscous * each.speed + 0.5 * at.inertia_slope * each.speed**2
         wanted = (drive - resisting) / at.inertia
         found = (each.acceleration_before, each.acceleration_after)

@@ -80,7 +80,7 @@ def _slope(compiled: CompiledMachine, phi: float, state: Floats) -> list[float]:
     """dE/dφ, and 1/ω for the time."""
     at = compiled.reductions(np.array([phi]))
     omega = float(np.sqrt(2.0 * max(state[0], 1e-300) / at.inertia[0]))
-    _, torque = compiled.motor_torques(omega)
+    torque = compiled.motor_torques(omega).crank
     resisting = float(at.load[0] + at.dry[0] + at.viscous[0] * omega) + float(
         compiled.speed_load(np.array([omega]))[0]
     )

@@ -94,8 +94,10 @@ def _changed(value: Any, random: Generator) -> Any:
             words, operands = _some(WORDS, random), _some(OPERANDS, random)
             return _core.Formula(list(zip(words, operands, strict=False)))
         case _core.MotionLaw():
-            numbers = [_some(NUMBERS, random) for _ in range(2)]
-            piece = _core.Piece(start=0.0, length=2 * np.pi, polynomial=numbers[0], harmonics=[numbers[1]])
+            numbers = _some(NUMBERS, random)
+            cosine, sine = (NUMBERS[k] for k in random.integers(len(NUMBERS), size=2))
+            wave = _core.Harmonic(frequency=1.0, cosine=cosine, sine=sine)
+            piece = _core.Piece(start=0.0, length=2 * np.pi, polynomial=numbers, harmonics=[wave])
             return _core.MotionLaw([piece])
     return _changed_part(value, random)
 
@@ -120,7 +122,9 @@ def _changed_list(values: list[Any], random: Generator) -> list[Any]:
 def _changed_part(part: Any, random: Generator) -> Any:
     """A part of the plan made anew by name, one of its fields changed."""
     names = [name for name, each in vars(type(part)).items() if inspect.isgetsetdescriptor(each)]
-    fields = {name: getattr(part, name) for name in names if name != "place"}
+    if isinstance(part, _core.ChangePoint):
+        names = ["first", "has_arms"]
+    fields = {name: getattr(part, name) for name in names}
     name = list(fields)[random.integers(len(fields))]
     return type(part)(**fields | {name: _changed(fields[name], random)})
 

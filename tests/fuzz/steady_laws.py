@@ -63,7 +63,7 @@ def rounding(steady: SteadyState, compiled: CompiledMachine) -> float:
         Its machine.
     """
     share = 1e-6
-    here, aside = (compiled.motor_torques(steady.speed * factor)[1] for factor in (1.0, 1.0 + share))
+    here, aside = (compiled.motor_torques(steady.speed * factor).crank for factor in (1.0, 1.0 + share))
     steep = np.abs(aside - here).max() / share
     return float(_ROUNDING_OF_SPEED * steep + 1e-15 * (steady.inertia_reduced * steady.speed**2).max())
 
@@ -93,7 +93,7 @@ def _balance(machine: Machine, steady: SteadyState) -> float:
     omega = steady.speed
 
     def torque(omega: Floats) -> Floats:
-        drive = compiled.motor_torques(omega)[1]
+        drive = compiled.motor_torques(omega).crank
         laws = _diagonal(compiled, steady.crank_angle, omega) if compiled.has_laws else 0.0
         return drive - at.load - at.dry - at.viscous * omega - compiled.speed_load(omega) - laws
 

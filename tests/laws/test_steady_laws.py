@@ -109,7 +109,7 @@ def test_a_motor_whose_inertia_was_left_out() -> None:
     # Without inertia the load torque, F |s'|/(i η) at its peak, decides the slip.
     compiled = compile_machine(machine)
     torque = float(steady.torque_load.max()) / (9.8 * 0.9)
-    slow = brentq(lambda w: compiled.motor_torques(w)[0][0] - torque, 10.0, 10.68)
+    slow = brentq(lambda w: compiled.motor_torques(w).motor[0] - torque, 10.0, 10.68)
     assert steady.speed_min == pytest.approx(slow, rel=1e-3)
     assert not violations(machine, steady, AGREES)
 

@@ -15,7 +15,6 @@ import linkwright as lw
 from linkwright.kernel.errors import AssemblyError
 from linkwright.linkages.dyads import dyads_of
 from linkwright.machine.program.compiled import compile_machine
-from linkwright.machine.program.core import Channel
 
 # Nothing here is to be computed with what is not finite.
 pytestmark = pytest.mark.filterwarnings("error::RuntimeWarning")
@@ -233,11 +232,8 @@ def test_what_is_nearly_a_change_point_is_right_or_refused() -> None:
             # The side that is off leaves another pair of sides equal: a kite's own change point is passed.
             continue
         at = np.array([c + s * 10.0 ** rng.uniform(-12, 0) for c in (0, np.pi) for s in (1, -1)])
-        out = np.empty((1, 6, 4))
-        compiled.motions(at, [Channel.Point(compiled.points["R"])], out.reshape(-1))
-        found = np.concatenate([out[0], compiled.third(at, [Channel.Point(compiled.points["R"])])]).reshape(
-            4, 2, 4
-        )
+        point = compiled.points["R"]
+        found = np.array([*compiled.point_motion(point, at), compiled.third(at, points=[point]).points[0]])
         for k, phi in enumerate(at):
             exact = exact_motion(lengths, 1, float(phi))
             if exact is None:
@@ -401,11 +397,10 @@ def test_rows_of_a_batch_are_the_single_machines() -> None:
             assert row == 4
             assert np.isnan(joint.position[row]).all()
             continue
-        out = np.empty((1, 6, len(at)))
-        compiled.motions(at, [Channel.Point(compiled.points["R"])], out.reshape(-1))
+        alone = compiled.point_motion(compiled.points["R"], at)
         # The row without change points is computed with those of the others out of reach.
-        np.testing.assert_allclose(joint.position[row], out[0, :2].T, atol=1e-13)
-        np.testing.assert_allclose(joint.d2[row], out[0, 4:].T, atol=1e-11)
+        np.testing.assert_allclose(joint.position[row], alone.place.T, atol=1e-13)
+        np.testing.assert_allclose(joint.d2[row], alone.d2.T, atol=1e-11)
         if row != 6:
             np.testing.assert_allclose(rocker.d1[row], 1.0, atol=2e-12)
 

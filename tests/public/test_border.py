@@ -79,7 +79,7 @@ def test_parts_keep_their_values() -> None:
 def plan(*elements: _core.Element, parameters: int = 6) -> _core.Plan:
     """A fixed point 0 and some elements."""
     drive = _core.Drive(motor=None, ratio=0, forward=0, reverse=0, inertia=0, speed_start=0)
-    ground = [_core.Fixed(point=0, x=0, y=0)]
+    ground = [_core.GroundPoint(point=0, x=0, y=0)]
     return _core.Plan(
         parameters=parameters, ground=ground, elements=list(elements), bodies=[], loads=[], drive=drive
     )

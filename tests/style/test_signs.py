@@ -78,9 +78,9 @@ def test_gear_efficiency_acts_by_direction() -> None:
     text = MACHINE.format(load='{ kind = "gravity" }', slider="") + drive
     gearbox = "[drive.gearbox]\nratio = 10\nefficiency = 0.8\n"
     for more, factor in (("", 1 / 0.8), ('reverse = "same"', 0.8), ("reverse = 0.5", 0.5)):
-        at_motor, at_crank = compile_machine(lw.loads(text + gearbox + more)).motor_torques([5.0, 12.0])
-        assert at_motor == pytest.approx([5.0, -2.0])
-        assert at_crank == pytest.approx([5.0 * 10 * 0.8, -2.0 * 10 * factor])
+        torques = compile_machine(lw.loads(text + gearbox + more)).motor_torques([5.0, 12.0])
+        assert torques.motor == pytest.approx([5.0, -2.0])
+        assert torques.crank == pytest.approx([5.0 * 10 * 0.8, -2.0 * 10 * factor])
 
 
 TOPPER = """

@@ -126,7 +126,7 @@ def test_motor_curve_is_the_characteristic(
     text = 'format = 1\nname = "m"\n[mechanism.cranks]\nA = { radius = "1 m" }\n'
     machine = lw.loads(text).with_entries({"drive": Drive(motor=motor)})
     speeds = np.linspace(1.0, 300.0, 1499)
-    wanted = compile_machine(machine).motor_torques(speeds)[0]
+    wanted = compile_machine(machine).motor_torques(speeds).motor
     curve = motor_curve(motor)
     found = cubic(curve, speeds)
     # The points are dense enough for 1e-5 of the greatest torque beside kinks, 1e-6 elsewhere.

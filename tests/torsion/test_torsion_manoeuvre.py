@@ -352,7 +352,7 @@ harmonics = [{ order = 1, torque = 8 }, { order = 2.7182818, torque = 5, phase =
     assert machine.train is not None
     train = moving_train(machine.train, manoeuvre(duration=1.0, speed=120.0, balanced=False))
     phi = np.linspace(0.0, 25.0, 101)
-    torque = train.net_torques(0.0, np.column_stack([phi, phi]), np.full(2, 120.0))[0]
+    torque = train.net_torques(0.0, np.column_stack([phi, phi]), np.full(2, 120.0)).torque
     engine = (
         1.44 * 30 * np.cos(0.5 * phi + 0.3) + 8 * np.cos(phi) + 5 * np.cos(2.7182818 * phi + np.radians(40))
     )

@@ -248,7 +248,7 @@ def test_two_phase_short_circuit_from_flux_linkages() -> None:
 def over_time(torques: Sequence[TrainTorque], t: Floats) -> Floats:
     """Torque on the second of two discs over time, as the core has it."""
     train = chain([1.0, 1.0], [1.0], torques=torques)
-    return np.array([train.net_torques(at, np.zeros((1, 2)), np.zeros(2))[0][0, 1] for at in t.tolist()])
+    return np.array([train.net_torques(at, np.zeros((1, 2)), np.zeros(2)).torque[0, 1] for at in t.tolist()])
 
 
 def test_short_circuit_decays_and_is_cleared() -> None:

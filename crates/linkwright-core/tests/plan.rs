@@ -10,7 +10,7 @@ use linkwright_core::linkage::dyads::Rocker;
 use linkwright_core::linkage::folding::{ChangePoint, Folding};
 use linkwright_core::linkage::group::{Condition, Group};
 use linkwright_core::linkage::guided::Line;
-use linkwright_core::linkage::mechanism::{Element, Fixed};
+use linkwright_core::linkage::mechanism::{Element, GroundPoint};
 use linkwright_core::plan::builder::{Builder, FRAME};
 
 const DRIVE: Drive = Drive {
@@ -48,7 +48,7 @@ fn rocker(joint: usize, links: [usize; 2], pin: usize, pivot: usize) -> Rocker {
 fn started() -> Builder {
     let mut b = Builder::new(4);
     for point in [0, 1] {
-        b.fixed(Fixed { point, x: 0, y: 0 }).expect("the next point");
+        b.fixed(GroundPoint { point, x: 0, y: 0 }).expect("the next point");
     }
     b.element(crank(2, 0, 0)).expect("a crank on a fixed point");
     b
@@ -103,7 +103,7 @@ fn lists_have_their_length() {
     let knot = Table::new(&[0.0], &[0.0]).expect("one knot");
     let group = Group {
         unknowns: vec![3],
-        carried: Vec::new(),
+        bar_points: Vec::new(),
         bars: Vec::new(),
         conditions: vec![Condition::Distance { from: 2, to: 3, length: 0 }; 2],
         gap: 0,

@@ -5,14 +5,14 @@ use linkwright_core::cam::search::{Cams, RESULTS, search};
 use linkwright_core::cam::shape::{self, NAMES, Quantity, ROWS};
 use linkwright_core::cam::{Cam as CoreCam, Dimensions, Kind};
 use linkwright_core::kernel::motion_law::MotionLaw;
-use numpy::PyArray1;
+use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::Floats;
 use crate::arrays::{by_column, column};
-use crate::guard::{filled, guarded, require_room};
-use crate::{Floats, Table};
+use crate::guard::{guarded, require_room};
 
 /// A law and the kind of cam that follows it.
 #[pyclass(frozen, module = "linkwright._core")]
@@ -81,6 +81,14 @@ pub(crate) struct CamShape {
     least: Py<PyDict>,
     /// For each level asked for.
     passes: Vec<Py<CamPasses>>,
+}
+
+/// A curve beside the pitch curve with two derivatives by the cam angle.
+#[pyclass(frozen, get_all, module = "linkwright._core")]
+pub(crate) struct CamOffset {
+    place: Py<PyArray2<f64>>,
+    d1: Py<PyArray2<f64>>,
+    d2: Py<PyArray2<f64>>,
 }
 
 /// Many cams, an array over them each.
@@ -185,18 +193,25 @@ impl Cam {
         rows_by_name(py, (0..ROWS).map(|k| &rows[k * phi.len()..(k + 1) * phi.len()]))
     }
 
-    /// Place, first and second derivative of a curve beside the pitch curve, seen from the cam.
-    fn curve<'py>(
+    /// A curve beside the pitch curve, seen from the cam.
+    fn curve(
         &self,
-        py: Python<'py>,
+        py: Python<'_>,
         size: &CamDimensions,
         phi: Floats<'_>,
         before: bool,
         away: f64,
-    ) -> PyResult<Table<'py>> {
+    ) -> PyResult<CamOffset> {
         let cam = CoreCam::new(self.kind, self.sense, self.side, size.core());
-        let phi = phi.as_slice()?;
-        filled(py, "profile of a cam", [6, phi.len()], |to| cam.curves(&self.law, phi, before, away, to))
+        let (phi, analysis) = (phi.as_slice()?, "profile of a cam");
+        let n = phi.len();
+        require_room(analysis, [6, n])?;
+        let mut place = vec![0.0; 6 * n];
+        guarded(py, analysis, || cam.curves(&self.law, phi, before, away, &mut place))?;
+        let mut d1 = place.split_off(2 * n);
+        let d2 = d1.split_off(2 * n);
+        let of = |rows: Vec<f64>| -> PyResult<_> { Ok(column(py, rows).reshape([2, n])?.unbind()) };
+        Ok(CamOffset { place: of(place)?, d1: of(d1)?, d2: of(d2)? })
     }
 
     /// Results of many cams; each column has one entry or one a cam.

@@ -6,7 +6,7 @@ use linkwright_core::drive::kinks as core_kinks;
 use linkwright_core::drive::reading::{Curves, ReadCurves};
 use linkwright_core::drive::steady::{Failure, Steady, steady_with_others};
 use linkwright_core::drive::transient::{End, Start, follow};
-use numpy::{PyArray1, PyArray3, PyArrayDyn, PyArrayMethods, PyReadonlyArray2};
+use numpy::{PyArray1, PyArray2, PyArrayDyn, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 
@@ -342,7 +342,8 @@ pub(crate) struct MotionInTime {
     crank_angle: Array,
     speed: Array,
     acceleration: Array,
-    between: Py<PyArray3<f64>>,
+    angle_factors: Py<PyArray2<f64>>,
+    speed_factors: Py<PyArray2<f64>>,
     implicit: Py<PyArray1<bool>>,
     torque_drive_end: f64,
     torque_load_end: f64,
@@ -378,14 +379,19 @@ pub(crate) fn transient(
     let start = Start { phi, omega, duration, turns, accuracy };
     let path = guarded(py, "motion in time", || follow(&plan.0, q, &start))?;
     let steps = path.between.len();
-    let between = column(py, path.between.into_flattened().into_flattened()).reshape([steps, 2, 7])?;
+    let factors = |which: usize| -> PyResult<_> {
+        let rows = path.between.iter().flat_map(|step| step[which]).collect();
+        Ok(column(py, rows).reshape([steps, 7])?.unbind())
+    };
+    let (angle_factors, speed_factors) = (factors(0)?, factors(1)?);
     Ok(MotionInTime {
         end: name_of(path.end),
         time: kept(py, path.t),
         crank_angle: kept(py, path.phi),
         speed: kept(py, path.omega),
         acceleration: kept(py, path.epsilon),
-        between: between.unbind(),
+        angle_factors,
+        speed_factors,
         implicit: PyArray1::from_vec(py, path.implicit).unbind(),
         torque_drive_end: path.drive_torque,
         torque_load_end: path.load_torque,
@@ -433,13 +439,20 @@ pub(crate) fn law_torques<'py>(
     filled(py, "torques of the laws", shape, |to| batch::law_torques(&plan.0, q, phi, omega, to))
 }
 
+/// Torque of the motor at its shaft and at the crank.
+#[pyclass(frozen, get_all, module = "linkwright._core")]
+pub(crate) struct MotorTorques {
+    motor: Array,
+    crank: Array,
+}
+
 #[pyfunction]
-pub(crate) fn motor_torques<'py>(
-    py: Python<'py>,
+pub(crate) fn motor_torques(
+    py: Python<'_>,
     plan: &Plan,
     q: Floats<'_>,
     omega: Floats<'_>,
-) -> PyResult<(Curve<'py>, Curve<'py>)> {
+) -> PyResult<MotorTorques> {
     let q = plan.parameters(&q)?;
     let omega = omega.as_slice()?;
     let (motor, crank) = guarded(py, "torques of the motor", || {
@@ -448,7 +461,7 @@ pub(crate) fn motor_torques<'py>(
         let crank = motor.iter().map(|&torque| plan.0.drive.geared_torque(q, torque)).collect();
         (motor, crank)
     })?;
-    Ok((column(py, motor), column(py, crank)))
+    Ok(MotorTorques { motor: kept(py, motor), crank: kept(py, crank) })
 }
 
 #[pyfunction]

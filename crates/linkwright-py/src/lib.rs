@@ -40,29 +40,32 @@ mod _core {
     #[pymodule_export]
     use super::builder::drive::{Drive, Motor, Span};
     #[pymodule_export]
-    use super::builder::elements::{Element, Fixed};
+    use super::builder::elements::{Element, GroundPoint};
     #[pymodule_export]
     use super::builder::loads::{Body, Load};
     #[pymodule_export]
-    use super::builder::numbers::{Formula, Knots, MotionLaw, Piece};
+    use super::builder::numbers::{Formula, Harmonic, Knots, MotionLaw, Piece};
     #[pymodule_export]
-    use super::builder::parts::{Bar, Carried, ChangePoint, Condition, Line, Sum};
+    use super::builder::parts::{Bar, BarPoint, ChangePoint, Condition, Line, Sum, Term};
     #[pymodule_export]
     use super::builder::train::{
         Curve, Periodic, TorqueLaw, TorqueShape, TorsionLink, TorsionMass, TorsionRotor, TorsionTorque,
     };
     #[pymodule_export]
     use super::cam::{
-        Cam, CamCrossings, CamDimensions, CamExtreme, CamPasses, CamSearch, CamShape, cam_crossings,
+        Cam, CamCrossings, CamDimensions, CamExtreme, CamOffset, CamPasses, CamSearch, CamShape,
+        cam_crossings,
     };
     #[pymodule_export]
     use super::drive::{
-        MotionInTime, NoSteadyMotion, OtherMotion, Reductions, SteadyCurves, SteadyGradient, SteadyMotion,
-        SteadyRows, SteadySolution, kinks, law_torques, motor_torques, reductions, steady_rows, steady_state,
-        transient,
+        MotionInTime, MotorTorques, NoSteadyMotion, OtherMotion, Reductions, SteadyCurves, SteadyGradient,
+        SteadyMotion, SteadyRows, SteadySolution, kinks, law_torques, motor_torques, reductions, steady_rows,
+        steady_state, transient,
     };
     #[pymodule_export]
-    use super::linkage::{Channel, GroupPath, InLine, follow_group, gaps, in_line, motions, third};
+    use super::linkage::{
+        Channel, GroupPath, InLine, ThirdDerivatives, follow_group, gaps, in_line, motions, third,
+    };
     #[pymodule_export]
     use super::status::Status;
     #[pymodule_export]
@@ -70,5 +73,5 @@ mod _core {
     #[pymodule_export]
     use super::torsion::{Extremes, TorsionModes, torsion_forced, torsion_modes, torsion_waves};
     #[pymodule_export]
-    use super::torsion_transient::{TorsionMotion, TorsionSystem};
+    use super::torsion_transient::{NetTorques, TorsionMotion, TorsionSystem};
 }

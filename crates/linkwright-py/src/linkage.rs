@@ -4,13 +4,15 @@ use linkwright_core::drive::batch::{self, Rows};
 use linkwright_core::drive::motions as over_angles;
 use linkwright_core::linkage::motion;
 use linkwright_core::linkage::trace;
-use numpy::{PyArray1, PyReadonlyArray2, PyReadwriteArray1};
+use numpy::{
+    PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2, PyReadwriteArray3, PyUntypedArrayMethods,
+};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::arrays::{as_indices, below, column};
 use crate::builder::Plan;
-use crate::guard::{filled, guarded};
+use crate::guard::{filled, guarded, require_room};
 use crate::{Floats, Ints, Table};
 
 /// What moves: a point, a link or a slide, by its index.
@@ -47,33 +49,56 @@ pub(crate) fn motions(
     values: PyReadonlyArray2<'_, f64>,
     phi: Floats<'_>,
     what: Vec<Channel>,
-    mut out: PyReadwriteArray1<'_, f64>,
+    mut out: PyReadwriteArray3<'_, f64>,
 ) -> PyResult<()> {
     let n = values.as_array().ncols();
     let slots = as_indices(slots.as_slice()?, plan.0.n_parameters)?;
     let rows = Rows { base: plan.parameters(&q)?, slots: &slots, values: values.as_slice()?, n };
     let channels = channels(&what, plan)?;
-    let (phi, out) = (phi.as_slice()?, out.as_slice_mut()?);
-    let size = n * phi.len() * channels.iter().map(|c| c.width()).sum::<usize>();
-    if out.len() != size {
-        return Err(PyValueError::new_err(format!("out holds {} numbers, {size} are needed", out.len())));
+    let phi = phi.as_slice()?;
+    let shape = [n, channels.iter().map(|c| c.width()).sum(), phi.len()];
+    if out.shape() != shape {
+        return Err(PyValueError::new_err(format!("out has shape {:?}, {shape:?} is needed", out.shape())));
     }
+    let out = out.as_slice_mut()?;
     guarded(py, "motions", || over_angles::motions(&plan.0, &rows, phi, &channels, out))
 }
 
+/// Third derivatives by the crank angle of points, links and slides.
+#[pyclass(frozen, get_all, module = "linkwright._core")]
+pub(crate) struct ThirdDerivatives {
+    points: Py<PyArray3<f64>>,
+    links: Py<PyArray2<f64>>,
+    slides: Py<PyArray2<f64>>,
+}
+
 #[pyfunction]
-pub(crate) fn third<'py>(
-    py: Python<'py>,
+#[pyo3(signature = (plan, q, phi, *, points, links, slides))]
+pub(crate) fn third(
+    py: Python<'_>,
     plan: &Plan,
     q: Floats<'_>,
     phi: Floats<'_>,
-    what: Vec<Channel>,
-) -> PyResult<Table<'py>> {
+    points: Vec<usize>,
+    links: Vec<usize>,
+    slides: Vec<usize>,
+) -> PyResult<ThirdDerivatives> {
     let (q, phi) = (plan.parameters(&q)?, phi.as_slice()?);
-    let channels = channels(&what, plan)?;
-    let width = channels.iter().map(|c| c.third_width()).sum();
-    filled(py, "third derivatives", [width, phi.len()], |to| {
-        over_angles::third(&plan.0, q, phi, &channels, to)
+    let n = [points.len(), links.len(), slides.len(), phi.len()];
+    let point = points.into_iter().map(|index| Channel::Point { index });
+    let link = links.into_iter().map(|index| Channel::Link { index });
+    let slide = slides.into_iter().map(|index| Channel::Slide { index });
+    let channels = channels(&point.chain(link).chain(slide).collect::<Vec<_>>(), plan)?;
+    let analysis = "third derivatives";
+    require_room(analysis, [2 * n[0] + n[1] + n[2], n[3]])?;
+    let mut points = vec![0.0; (2 * n[0] + n[1] + n[2]) * n[3]];
+    guarded(py, analysis, || over_angles::third(&plan.0, q, phi, &channels, &mut points))?;
+    let mut links = points.split_off(2 * n[0] * n[3]);
+    let slides = links.split_off(n[1] * n[3]);
+    Ok(ThirdDerivatives {
+        points: column(py, points).reshape([n[0], 2, n[3]])?.unbind(),
+        links: column(py, links).reshape([n[1], n[3]])?.unbind(),
+        slides: column(py, slides).reshape([n[2], n[3]])?.unbind(),
     })
 }
 
@@ -97,7 +122,8 @@ pub(crate) struct InLine {
     spare: f64,
     series: Vec<f64>,
     arms: Vec<f64>,
-    lost: (bool, bool),
+    lost_positive: bool,
+    lost_negative: bool,
 }
 
 #[pyfunction]
@@ -120,7 +146,8 @@ pub(crate) fn in_line(
         spare: at.spare,
         series: at.series,
         arms: at.arms,
-        lost: at.lost.into(),
+        lost_positive: at.lost[0],
+        lost_negative: at.lost[1],
     };
     Ok(found.into_iter().map(told).collect())
 }
@@ -129,7 +156,8 @@ pub(crate) fn in_line(
 #[pyclass(frozen, get_all, module = "linkwright._core")]
 pub(crate) struct GroupPath {
     crank_angle: Py<PyArray1<f64>>,
-    places: Vec<Vec<f64>>,
+    x: Vec<Vec<f64>>,
+    y: Vec<Vec<f64>>,
     turns: Option<u32>,
 }
 
@@ -148,7 +176,8 @@ pub(crate) fn follow_group(
     let found = guarded(py, "assembly of a group", || trace::follow(mechanism, element, q, phi, near))?;
     Ok(found.map(|path| GroupPath {
         crank_angle: column(py, path.phi).unbind(),
-        places: path.places,
+        x: path.places.iter().step_by(2).cloned().collect(),
+        y: path.places.into_iter().skip(1).step_by(2).collect(),
         turns: path.turns,
     }))
 }

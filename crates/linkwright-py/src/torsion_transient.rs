@@ -8,12 +8,12 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
+use crate::Floats;
 use crate::arrays::column;
 use crate::builder::train::{TorsionLink, TorsionMass, TorsionRotor, TorsionTorque, system};
 use crate::errors::plan_error;
 use crate::guard::{guarded, require_room, zeros};
 use crate::torsion::Extremes;
-use crate::{Floats, Table};
 
 /// The motion of a train in time.
 #[pyclass(frozen, get_all, module = "linkwright._core")]
@@ -39,6 +39,13 @@ pub(crate) struct TorsionMotion {
     work: Py<PyArray1<f64>>,
     loss_links: Py<PyArray1<f64>>,
     loss_masses: Py<PyArray1<f64>>,
+}
+
+/// Net torque and inertia of each mass.
+#[pyclass(frozen, get_all, module = "linkwright._core")]
+pub(crate) struct NetTorques {
+    torque: Py<PyArray2<f64>>,
+    inertia: Py<PyArray2<f64>>,
 }
 
 /// Rows of samples as a table.
@@ -166,13 +173,13 @@ impl TorsionSystem {
         })
     }
 
-    fn net_torques<'py>(
+    fn net_torques(
         &self,
-        py: Python<'py>,
+        py: Python<'_>,
         t: f64,
         angle: PyReadonlyArray2<'_, f64>,
         speed: Floats<'_>,
-    ) -> PyResult<(Table<'py>, Table<'py>)> {
+    ) -> PyResult<NetTorques> {
         let (n, speed) = (self.0.len(), speed.as_slice()?);
         let rows = angle.as_array().nrows();
         self.fits("angle", angle.as_array().ncols(), n)?;
@@ -194,6 +201,6 @@ impl TorsionSystem {
                 }
             })?;
         }
-        Ok((net, inertia))
+        Ok(NetTorques { torque: net.unbind(), inertia: inertia.unbind() })
     }
 }

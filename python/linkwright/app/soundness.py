@@ -127,7 +127,7 @@ def _require_drive(machine: Machine, compiled: CompiledMachine) -> None:
     if drive is None or isinstance(drive.motor, ConstantSpeedMotor):
         return
     speeds = np.linspace(0.0, 1.5 * compiled.speed_guess, _SPEEDS)
-    torque = compiled.motor_torques(speeds)[0]
+    torque = compiled.motor_torques(speeds).motor
     if not torque.max() > 0:
         raise StartError(
             f"the motor gives no driving torque at any speed up to {speeds[-1]:.4g} rad/s of the crank; give "

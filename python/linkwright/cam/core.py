@@ -20,6 +20,7 @@ from linkwright.machine.program.numbers import core_law
 
 Floats = NDArray[np.float64]
 
+CamOffset = _core.CamOffset
 CamSearch = _core.CamSearch
 
 
@@ -108,9 +109,9 @@ class CamKernel:
         """All rows at cam angles from the start of the programme; at a joint after it, or ``before``."""
         return self.core.rows(self.size, _floats(angle), before)
 
-    def curve(self, angle: ArrayLike, away: float, *, before: bool = False) -> Floats:
-        """Place and two derivatives [m, m/rad, m/rad²] of a curve ``away`` from the pitch one, (3, 2, n)."""
-        return self.core.curve(self.size, _floats(angle), before, away).reshape(3, 2, -1)
+    def curve(self, angle: ArrayLike, away: float, *, before: bool = False) -> _core.CamOffset:
+        """A curve ``away`` from the pitch one [m] at cam angles; see `_core.CamOffset`."""
+        return self.core.curve(self.size, _floats(angle), before, away)
 
     def search(self, sizes: Sizes, lift: ArrayLike, per_turn: int) -> _core.CamSearch:
         """Largest tan γ, minimum soundness, maximum and minimum bend of many cams.

@@ -112,7 +112,7 @@ def _start_by_kloss(machine: Machine, drive: Drive) -> Iterator[str]:
     motor = drive.motor
     if not isinstance(motor, InductionMotor) or motor.torque_start is not None:
         return
-    torque = compile_machine(machine).motor_torques(0.0)[0][0]
+    torque = compile_machine(machine).motor_torques(0.0).motor[0]
     yield (
         f"The motor has no torque_start: by Kloss's formula it gives only {torque:.4g} N m at standstill, "
         f"{100 * torque / motor.torque_breakdown:.0f} % of its breakdown torque; real motors give more, so "

@@ -66,7 +66,7 @@ def characteristic(
     load = load + compiled.speed_load(crank) + mean_laws(compiled, crank)
     return Characteristic(
         speed=speed,
-        torque=compiled.motor_torques(crank)[0],
+        torque=compiled.motor_torques(crank).motor,
         torque_load=compiled.motor_torque_for(load),
         ratio=ratio,
         **_points(drive.motor),

@@ -96,7 +96,7 @@ def _of_motor(
     One that lies between, at the breakdown or pull-up speed, is left out.
     """
     speeds = np.array([state.speed_min, state.speed_max])
-    torques = compiled.motor_torques(speeds)[0]
+    torques = compiled.motor_torques(speeds).motor
     tangents: dict[str, Tangent] = {}
     for at in range(2):
         torque = Tangent(torques[at], curves.torque_motor[at])

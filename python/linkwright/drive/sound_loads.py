@@ -11,7 +11,6 @@ from linkwright.kinetostatics.model.loads.force import FormulaLoad, Load
 from linkwright.linkages.closure import require_full_turn, turn_angles
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
-from linkwright.machine.program.core import Channel
 
 Floats = NDArray[np.float64]
 
@@ -73,7 +72,7 @@ def is_held(compiled: CompiledMachine, angle: float, speed: float) -> bool:
     loads = compiled.law_torques(phi, omega)[:, 0]
     at = compiled.reductions(phi)
     resisting = at.load + at.dry + at.viscous * omega + compiled.speed_load(omega) + loads
-    net = compiled.motor_torques(omega)[1] - resisting - 0.5 * at.inertia_slope * omega**2
+    net = compiled.motor_torques(omega).crank - resisting - 0.5 * at.inertia_slope * omega**2
     jumps = abs(loads[1] - loads[0]) > _JUMPS * np.abs(loads).sum()
     return bool(compiled.has_laws and jumps and net[0] > 0.0 > net[1])
 
@@ -150,7 +149,6 @@ def _require_half_turns(name: str, load: TorsionalSpring, compiled: CompiledMach
 
 def _angle(compiled: CompiledMachine, link: str, phi: Floats) -> Floats:
     """Angle of a link without jumps [rad]."""
-    out = np.empty((1, 4, len(phi)))
-    compiled.motions(np.ascontiguousarray(phi), [Channel.Link(compiled.links[link])], out.reshape(-1))
-    angle: Floats = np.unwrap(np.arctan2(out[0, 1], out[0, 0]))
+    cos, sin = compiled.link_motion(compiled.links[link], np.ascontiguousarray(phi)).direction
+    angle: Floats = np.unwrap(np.arctan2(sin, cos))
     return angle

@@ -321,7 +321,7 @@ def _motor_extremes(
     ends = [mark for mark in marks if low <= mark <= high]
 
     def torque(omega: Floats) -> Floats:
-        return compiled.motor_torques(omega)[0]
+        return compiled.motor_torques(omega).motor
 
     def downwards(omega: Floats) -> Floats:
         return -torque(omega)
@@ -500,7 +500,7 @@ def _runs_away(compiled: CompiledMachine, speed: float) -> str:
     """That the machine gains speed without end."""
     load, viscous = mean_over_turn(compiled)
     omega = np.array([speed])
-    drive = float(compiled.motor_torques(omega)[1][0])
+    drive = float(compiled.motor_torques(omega).crank[0])
     needed = float((load + viscous * omega + compiled.speed_load(omega) + mean_laws(compiled, omega))[0])
     return (
         f"no steady motion: at {speed:.4g} rad/s the driving torque still exceeds the mean load torque "
@@ -513,7 +513,7 @@ def _what_lacks(compiled: CompiledMachine) -> str:
     """Why the machine comes to rest: the drive against the mean load."""
     load, viscous = mean_over_turn(compiled)
     omega = np.linspace(0.0, 1.5 * compiled.speed_guess, _SPEEDS + 1)[1:]
-    drive = compiled.motor_torques(omega)[1]
+    drive = compiled.motor_torques(omega).crank
     resisting = load + viscous * omega + compiled.speed_load(omega) + mean_laws(compiled, omega)
     best = int(np.argmax(drive - resisting))
     if drive[best] < resisting[best]:

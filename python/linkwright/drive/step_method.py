@@ -126,7 +126,7 @@ def step_method(machine: Machine, *, step: float = np.radians(1.0)) -> StepMotio
     still = at.load + at.dry
 
     def torque(k: int, omega: float) -> float:
-        drive = float(compiled.motor_torques(omega)[1][0])
+        drive = float(compiled.motor_torques(omega).crank[0])
         laws = compiled.law_torques(phi[k], omega)[0, 0] if compiled.has_laws else 0.0
         resisting = float(still[k] + at.viscous[k] * omega) + float(compiled.speed_load(omega))
         return drive - resisting - float(laws)

@@ -285,6 +285,6 @@ def transient(
         torque_drive_end=motion.torque_drive_end,
         torque_load_end=motion.torque_load_end,
         evaluations=motion.evaluations,
-        between=StepPolynomials(motion.between),
+        between=StepPolynomials(np.stack((motion.angle_factors, motion.speed_factors), axis=1)),
         implicit=motion.implicit,
     )

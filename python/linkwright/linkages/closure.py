@@ -31,7 +31,7 @@ from linkwright.linkages.obstacle import change_point, describe
 from linkwright.linkages.period import turns_to_repeat
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
-from linkwright.machine.program.core import Channel, Element
+from linkwright.machine.program.core import Element
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -355,11 +355,8 @@ def _passes(compiled: CompiledMachine, at: float) -> bool:
     pivot turns about at once.
     """
     angles = at + np.array([-_BESIDE, 0.0, _BESIDE])
-    out = np.empty((1, 4 * len(compiled.links), 3))
-    compiled.first().motions(
-        angles, [Channel.Link(index) for index in compiled.links.values()], out.reshape(-1)
-    )
-    numbers = out.reshape(-1, 4, 3)[:, :3].reshape(-1, 3)
+    links = [compiled.link_motion(link, angles) for link in compiled.links.values()]
+    numbers = np.array([row for link in links for row in (*link.direction, link.d1)]).reshape(-1, 3)
     jumps = np.ptp(numbers, axis=1)
     return bool((jumps <= _JUMP * (1 + np.abs(numbers).max(axis=1))).all())
 

@@ -19,13 +19,12 @@ from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.linkages.closure import closure_error, closure_of
-from linkwright.linkages.dyads import evaluate
 from linkwright.linkages.period import turns_to_repeat
 from linkwright.linkages.straight_portion import straightest
 from linkwright.linkages.sweep import Cycle
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
-from linkwright.machine.program.core import Channel
+from linkwright.machine.program.motion import PointRows
 
 Floats = NDArray[np.float64]
 
@@ -149,20 +148,20 @@ class _Path:
 
     def __init__(self, compiled: CompiledMachine, index: int, cycle: Cycle) -> None:
         self.compiled, self.index, self.cycle = compiled, index, cycle
-        self.table = self.at(cycle.angles)
-        self.place = self.table[:2].T
+        self.motion = self.at(cycle.angles)
+        self.place = self.motion.place.T
 
-    def at(self, angles: Floats) -> Floats:
-        """x, y, x′, y′, x″, y″ at crank angles."""
-        return evaluate(self.compiled, [Channel.Point(self.index)], angles)[0]
+    def at(self, angles: Floats) -> PointRows:
+        """Motion of the point at crank angles."""
+        return self.compiled.point_motion(self.index, angles)
 
     def result(self, point: str, straight: float) -> CouplerCurve:
-        x, y, x1, y1, x2, y2 = self.table
+        (x, y), (x1, y1), (x2, y2) = self.motion
         speed = np.hypot(x1, y1)
         with np.errstate(divide="ignore", invalid="ignore"):
             curvature = (x1 * y2 - y1 * x2) / speed**3
         (x_min, x_max), (y_min, y_max) = self._extent(0), self._extent(1)
-        start, end, chord, error = straightest(self.at, self.cycle, straight)
+        start, end, chord, error = straightest(lambda angles: self.at(angles).place.T, self.cycle, straight)
         return CouplerCurve(
             crank_angle=self.cycle.angles,
             x=x,
@@ -185,14 +184,14 @@ class _Path:
 
     def stands(self) -> bool:
         """Whether the point moves by rounding alone: then its path is noise, full of crossings."""
-        every = [Channel.Point(index) for index in self.compiled.points.values()]
-        places = evaluate(self.compiled, every, self.cycle.angles[:1])
-        size = max(float(np.abs(place[:2]).max()) for place in places)
+        start = self.cycle.angles[:1]
+        places = [self.compiled.point_motion(index, start).place for index in self.compiled.points.values()]
+        size = max(float(np.abs(place).max()) for place in places)
         return bool(np.ptp(self.place, axis=0).max() <= _ROUNDING * size)
 
     def standing(self, point: str) -> CouplerCurve:
         """What is known of a point that stands still: where it is."""
-        (x, y), start = self.table[:2], float(self.cycle.angles[0])
+        (x, y), start = self.motion.place, float(self.cycle.angles[0])
         return CouplerCurve(
             crank_angle=self.cycle.angles,
             x=x,
@@ -219,19 +218,18 @@ class _Path:
         ends = np.union1d(self.cycle.angles, self._stops())
         low, high = ends[:-1, None], ends[1:, None]
         at = 0.5 * (low + high) + 0.5 * (high - low) * nodes
-        table = self.at(at.ravel())
-        speed = np.hypot(table[2], table[3]).reshape(at.shape)
+        speed = np.hypot(*self.at(at.ravel()).d1).reshape(at.shape)
         return float((speed @ weights @ (0.5 * (high - low)[:, 0])).item())
 
     def _extent(self, axis: int) -> tuple[float, float]:
         """Minimum and maximum x or y."""
-        _, column = brackets(self.table[2 + axis][None])
+        _, column = brackets(self.motion.d1[axis][None])
         angles = self.cycle.angles
         at = angles[[0, -1]]
         if len(column):
-            near, _ = zeros(lambda phi: self.at(phi)[2 + axis], angles[column], angles[column + 1])
+            near, _ = zeros(lambda phi: self.at(phi).d1[axis], angles[column], angles[column + 1])
             at = np.concatenate([at, near])
-        values = self.at(at)[axis]
+        values = self.at(at).place[axis]
         return float(values.min()), float(values.max())
 
     # -- double points and cusps -------------------------------------------------------------------------
@@ -251,38 +249,38 @@ class _Path:
 
     def _double_point(self, angles: Floats, size: float) -> DoublePoint | None:
         for _ in range(_ROUNDS):
-            table = self.at(angles)
-            off = table[:2, 0] - table[:2, 1]
-            jacobian = np.array([table[2:4, 0], -table[2:4, 1]]).T
-            if not np.isfinite(table).all() or abs(np.linalg.det(jacobian)) <= 1e-14 * size**2:
+            motion = self.at(angles)
+            off = motion.place[:, 0] - motion.place[:, 1]
+            jacobian = motion.d1 * (1.0, -1.0)
+            if not np.isfinite(motion).all() or abs(np.linalg.det(jacobian)) <= 1e-14 * size**2:
                 return None
             step = np.linalg.solve(jacobian, -off)
             angles = angles + np.clip(step, -0.1, 0.1)
             if np.abs(step).max() < 1e-13:
                 break
-        table = self.at(angles)
+        place = self.at(angles).place
         apart = abs((angles[0] - angles[1] + np.pi) % (2 * np.pi) - np.pi)
-        if np.hypot(*(table[:2, 0] - table[:2, 1])) > 1e-12 * size or apart < 1e-4:
+        if np.hypot(*(place[:, 0] - place[:, 1])) > 1e-12 * size or apart < 1e-4:
             return None
         low, high = sorted(float(angle) % (2 * np.pi) for angle in angles)
-        return DoublePoint(float(table[0, 0]), float(table[1, 0]), low, high)
+        return DoublePoint(float(place[0, 0]), float(place[1, 0]), low, high)
 
     def _cusps(self) -> list[Cusp]:
         at = self._stops()
         return [
             Cusp(float(x), float(y), self.cycle.named(phi))
-            for x, y, phi in zip(*self.at(at)[:2], at, strict=True)
+            for x, y, phi in zip(*self.at(at).place, at, strict=True)
         ]
 
     def _stops(self) -> Floats:
         """Crank angles at which the point stands still: minima of its speed that are zero."""
-        speed = np.hypot(self.table[2], self.table[3])
+        speed = np.hypot(*self.motion.d1)
         inner = np.flatnonzero((speed[1:-1] <= speed[:-2]) & (speed[1:-1] < speed[2:])) + 1
         inner = inner[speed[inner] < 0.1 * speed.max()]
         if not len(inner):
             return np.empty(0)
         angles = self.cycle.angles
-        at, least = minima(lambda phi: np.hypot(*self.at(phi)[2:4]), angles[inner - 1], angles[inner + 1])
+        at, least = minima(lambda phi: np.hypot(*self.at(phi).d1), angles[inner - 1], angles[inner + 1])
         stops: Floats = at[least <= _STANDS * speed.max()]
         return stops
 

@@ -18,7 +18,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import accumulate, pairwise
 from typing import Literal
 
 import numpy as np
@@ -26,10 +25,9 @@ from numpy.typing import NDArray
 
 from linkwright.machine.program.compiled import CompiledMachine
 from linkwright.machine.program.core import Channel, Element, Line
+from linkwright.machine.program.motion import LinkRows, Rows, SlideRows
 
 Floats = NDArray[np.float64]
-# Numbers that the core gives for a point, a link and a slide.
-_WIDTHS = {Channel.Point: 6, Channel.Link: 4, Channel.Slide: 3}
 
 # What closes, and the dyad that it is.
 Closing = (
@@ -87,19 +85,9 @@ def _change_points(compiled: CompiledMachine, element: Closing) -> tuple[float, 
     if not isinstance(element, Element.Rocker | Element.GuidedRod):
         return ()
     q = compiled.parameters
-    slots = [point.place for point in element.change_points]
     # One that only other machines of a batch have is out of reach.
-    angles = [np.arctan2(q[sin], q[cos]) for cos, sin, reach in slots if q[reach] > 0]
+    angles = [np.arctan2(q[at.sin], q[at.cos]) for at in element.change_points if q[at.reach] > 0]
     return tuple(sorted(float(angle) % (2 * np.pi) for angle in angles))
-
-
-def evaluate(compiled: CompiledMachine, channels: Sequence[Channel], angles: Floats) -> list[Floats]:
-    """Numbers of points, links and slides of the first machine, (6, 4 or 3, n) each."""
-    widths = [_WIDTHS[type(channel)] for channel in channels]
-    out = np.empty((sum(widths), len(angles)))
-    compiled.motions(angles, channels, out.reshape(-1))
-    ends = list(accumulate(widths, initial=0))
-    return [out[start:end] for start, end in pairwise(ends)]
 
 
 def transmission_channels(compiled: CompiledMachine, dyad: Dyad) -> list[Channel]:
@@ -118,16 +106,18 @@ def transmission_channels(compiled: CompiledMachine, dyad: Dyad) -> list[Channel
     return []
 
 
-def transmission(compiled: CompiledMachine, dyad: Dyad, values: list[Floats]) -> tuple[Floats, Floats]:
+def transmission(compiled: CompiledMachine, dyad: Dyad, values: Sequence[Rows]) -> tuple[Floats, Floats]:
     """Transmission angle, and a smooth function with the sign changes of its derivative, up to the sign.
 
-    `values` (4, n) and (3, n): what the core gave for `transmission_channels`. Returns: mu: (n,) 0 to π
+    `values`: motion of `transmission_channels`. Returns: mu: (n,) 0 to π
     [rad]; slope: (n,) or (1,) ±dμ/dφ, for a dyad RPR ±ds/dφ of its slot; NaN at a limit of crank rotation.
     """
     if isinstance(dyad.element, Element.SlottedLever):
-        offset = compiled.parameters[dyad.element.offset]
-        return np.arctan2(np.abs(values[0][0]), offset), values[0][1] * float(offset != 0)
-    (e, e1), (f, f1) = _directions(compiled, dyad, list(values))
+        (slot,), offset = values, compiled.parameters[dyad.element.offset]
+        assert isinstance(slot, SlideRows)
+        return np.arctan2(np.abs(slot.position), offset), slot.d1 * float(offset != 0)
+    links = [link for link in values if isinstance(link, LinkRows)]
+    (e, e1), (f, f1) = _directions(compiled, dyad, links)
     cross, dot = e[0] * f[1] - e[1] * f[0], e[0] * f[0] + e[1] * f[1]
     # At a limit of crank rotation both rates are infinite, and their difference is no number.
     with np.errstate(invalid="ignore"):
@@ -135,19 +125,19 @@ def transmission(compiled: CompiledMachine, dyad: Dyad, values: list[Floats]) ->
     return np.arctan2(np.abs(cross), dot), slope
 
 
-def _directions(compiled: CompiledMachine, dyad: Dyad, values: list[Floats]) -> list[tuple[Floats, Floats]]:
+def _directions(compiled: CompiledMachine, dyad: Dyad, links: list[LinkRows]) -> list[tuple[Floats, Floats]]:
     """The two directions between which μ lies, with the rates of their angles."""
     q = compiled.parameters
     match dyad.element:
         case Element.SliderRod(cos=cos, sin=sin):
-            return [(values[0][:2], values[0][2]), (np.array([[-q[sin]], [q[cos]]]), np.zeros(1))]
+            return [(links[0].direction, links[0].d1), (np.array([[-q[sin]], [q[cos]]]), np.zeros(1))]
         case Element.GuidedRod(line=line):
-            rod = values.pop(0)
-            along, rate = _guide(compiled, line, values)
-            return [(rod[:2], rod[2]), (np.stack([-along[1], along[0]]), rate)]
+            rod = links.pop(0)
+            along, rate = _guide(compiled, line, links)
+            return [(rod.direction, rod.d1), (np.stack([-along[1], along[0]]), rate)]
         case Element.Crossing(lines=lines):
-            return [_guide(compiled, line, values) for line in lines]
-    return [(value[:2], value[2]) for value in values]
+            return [_guide(compiled, line, links) for line in lines]
+    return [(link.direction, link.d1) for link in links]
 
 
 def _carrier(line: Line) -> list[Channel]:
@@ -155,11 +145,11 @@ def _carrier(line: Line) -> list[Channel]:
     return [] if line.link is None else [Channel.Link(line.link)]
 
 
-def _guide(compiled: CompiledMachine, line: Line, values: list[Floats]) -> tuple[Floats, Floats]:
+def _guide(compiled: CompiledMachine, line: Line, links: list[LinkRows]) -> tuple[Floats, Floats]:
     """Direction of a guide and the rate of its angle; takes its link from what was found."""
     cos, sin = (compiled.parameters[slot] for slot in (line.cos, line.sin))
     if line.link is None:
         return np.array([[cos], [sin]]), np.zeros(1)
-    carrier = values.pop(0)
-    x, y = carrier[:2]
-    return np.stack([x * cos - y * sin, x * sin + y * cos]), carrier[2]
+    carrier = links.pop(0)
+    x, y = carrier.direction
+    return np.stack([x * cos - y * sin, x * sin + y * cos]), carrier.d1

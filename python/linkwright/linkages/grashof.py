@@ -12,9 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.linkages.dyads import dyads_of, evaluate
+from linkwright.linkages.dyads import dyads_of
 from linkwright.machine.program.compiled import CompiledMachine
-from linkwright.machine.program.core import Channel, Element
+from linkwright.machine.program.core import Element
 
 Floats = NDArray[np.float64]
 
@@ -164,14 +164,14 @@ def _carried(element: Element, centres: dict[int, int], grounds: dict[int, Float
             return [(point, origin)]
         case Element.RigidPoint(point=point, link=link) if link in centres:
             return [(point, centres[link])]
-        case Element.Group(carried=carried):
-            return [(name.point, name.start) for name in carried if name.start in grounds]
+        case Element.Group(bar_points=fixed):
+            return [(point.point, point.start) for point in fixed if point.start in grounds]
     return []
 
 
 def _distance(compiled: CompiledMachine, point: int, centre: Floats) -> float:
     """Distance of a point from a fixed one that it turns about, at an angle where the mechanism closes."""
-    places = evaluate(compiled, [Channel.Point(point)], np.linspace(0.1, 6.2, 24))[0][:2]
+    places = compiled.point_motion(point, np.linspace(0.1, 6.2, 24)).place
     distances = np.hypot(*(places - centre[:, None]))
     known = distances[np.isfinite(distances)]
     return float(known[0]) if len(known) else 0.0

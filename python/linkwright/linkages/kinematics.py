@@ -20,15 +20,13 @@ from linkwright.linkages.closure import has_levers, require_closed, require_fini
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import Channel
+from linkwright.machine.program.motion import WIDTHS
 
 Floats = NDArray[np.float64]
 
-# What the core gives for a point, a link and a slide: how many numbers at each angle.
+# What the core takes for a point, a link and a slide, and how many numbers it gives at each angle.
 _CHANNELS = {"points": Channel.Point, "links": Channel.Link, "slides": Channel.Slide}
-_WIDTHS = {"points": 6, "links": 4, "slides": 3}
-
-# Numbers of the third derivative.
-_THIRD = {"points": 2, "links": 1, "slides": 1}
+_WIDTHS = {part: WIDTHS[channel] for part, channel in _CHANNELS.items()}
 
 
 @dataclass(frozen=True)
@@ -136,14 +134,14 @@ def with_third(compiled: CompiledMachine, kinematics: Kinematics, what: list[tup
     if len(compiled.slots):
         raise ShapeError("third derivatives are for one machine, and entries vary from machine to machine")
     known = {"points": compiled.points, "links": compiled.links, "slides": compiled.slides}
-    table = compiled.third(kinematics.angles, [_CHANNELS[part](known[part][name]) for part, name in what])
-    parts: dict[str, dict[str, Any]] = {part: {} for part in _WIDTHS}
-    at = 0
-    for part, name in what:
-        rows = table[at : at + _THIRD[part]]
-        at += _THIRD[part]
-        d3 = np.stack((rows[0], rows[1]), axis=-1) if part == "points" else rows[0]
-        parts[part][name] = replace(getattr(kinematics, part)[name], d3=d3)
+    asked = {part: [name for kind, name in what if kind == part] for part in known}
+    indices = {part: [known[part][name] for name in names] for part, names in asked.items()}
+    third = compiled.third(kinematics.angles, **indices)
+    rows = {"points": third.points.swapaxes(1, 2), "links": third.links, "slides": third.slides}
+    parts: dict[str, dict[str, Any]] = {part: {} for part in known}
+    for part, names in asked.items():
+        for name, d3 in zip(names, rows[part], strict=True):
+            parts[part][name] = replace(getattr(kinematics, part)[name], d3=d3)
     return Kinematics(kinematics.angles, **parts)
 
 
@@ -256,7 +254,7 @@ def motion_arrays(
         expected = f"a contiguous array of floats of shape {shape} that may be written to"
         raise ShapeError(f"out: found {shown(out)}, expected {expected}")
     channels = [_CHANNELS[part](known[part][name]) for part, name in what]
-    compiled.motions(angles, channels, out.reshape(-1))
+    compiled.motions(angles, channels, out)
     return out
 
 

@@ -62,13 +62,9 @@ def _places(compiled: CompiledMachine, angles: Floats) -> Floats:
     """Points over the mechanism's size, and directions of links, (numbers, n); zero where nothing closes."""
     what: list[Channel] = [Channel.Point(index) for index in compiled.points.values()]
     what += [Channel.Link(index) for index in compiled.links.values()]
-    n_points = len(compiled.points)
-    out = np.empty((1, 6 * n_points + 4 * len(compiled.links), len(angles)))
-    compiled.first().motions(angles, what, out.reshape(-1))
-    points = out[0, : 6 * n_points].reshape(n_points, 6, -1)[:, :2].reshape(2 * n_points, -1)
-    links = (
-        out[0, 6 * n_points :].reshape(len(compiled.links), 4, len(angles))[:, :2].reshape(-1, len(angles))
-    )
+    # Of a point its place, of a link its direction.
+    rows = np.concatenate([np.empty((0, len(angles))), *(rows[0] for rows in compiled.motion(what, angles))])
+    points, links = np.split(rows, [2 * len(compiled.points)])
     points = np.where(np.isfinite(points), points, 0.0)
     size = np.abs(points).max(initial=0.0)
     places: Floats = np.nan_to_num(np.concatenate([points / (size or 1.0), links]))

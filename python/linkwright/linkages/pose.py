@@ -17,7 +17,7 @@ from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record
 from linkwright.kernel.units import ANGLE, ANGULAR_ACCELERATION, SPEED, Quantity
 from linkwright.linkages.closure import has_levers, require_closed, require_finite_rates, turn_angles
-from linkwright.linkages.dyads import dyads_of, evaluate, transmission, transmission_channels
+from linkwright.linkages.dyads import dyads_of, transmission, transmission_channels
 from linkwright.linkages.kinematics import everything, kinematics_of, motion_arrays
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
@@ -122,7 +122,7 @@ def pose(machine: Machine, crank_angle: float, *, speed: float = 1.0, accelerati
     for dyad in dyads_of(compiled):
         if dyad.kind != "group":
             channels = transmission_channels(compiled, dyad)
-            mu[dyad.name] = float(transmission(compiled, dyad, evaluate(compiled, channels, at))[0][0])
+            mu[dyad.name] = float(transmission(compiled, dyad, compiled.motion(channels, at))[0][0])
     return Pose(
         crank_angle=float(crank_angle),
         speed=float(speed),

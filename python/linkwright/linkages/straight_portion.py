@@ -26,14 +26,14 @@ def straightest(at: Places, cycle: Cycle, straight: float) -> tuple[float, float
 
     All portions between every few samples are looked at, then those whose ends are moved by less.
 
-    `at`: gives x and y, and more, (6, n), at crank angles (n,); `straight`: maximum distance from the chord
+    `at`: gives places (n, 2) at crank angles (n,); `straight`: maximum distance from the chord
     over its length. Returns: crank angles at its ends [rad], its chord and the maximum distance from that
     [m].
     """
     n = len(cycle.angles) - 1
     stride = max(1, n // _PORTIONS)
     # Two revolutions of a closed path, so that a portion may pass the first sample.
-    place = at(cycle.angles)[:2].T
+    place = at(cycle.angles)
     path = np.concatenate([place[:-1], place]) if cycle.repeats else place
     chord, start, end = max(_longest(path, n, stride, straight), _longest(path, 2 * stride, 1, straight))
     if cycle.repeats and start <= stride:
@@ -66,7 +66,7 @@ def _confirmed(at: Places, low: float, high: float, straight: float) -> tuple[fl
 
 
 def _between(at: Places, low: float, high: float) -> Floats:
-    return at(np.linspace(low, high, _CLOSELY))[:2].T
+    return at(np.linspace(low, high, _CLOSELY))
 
 
 Portion = tuple[float, int, int]

@@ -14,13 +14,13 @@ from linkwright.linkages.closure import Closure
 from linkwright.linkages.dyads import (
     Dyad,
     dyads_of,
-    evaluate,
     transmission,
     transmission_channels,
 )
 from linkwright.linkages.model.mechanism import Mechanism
 from linkwright.machine.program.compiled import CompiledMachine
 from linkwright.machine.program.core import Channel, Element
+from linkwright.machine.program.motion import LinkRows, PointRows
 
 Floats = NDArray[np.float64]
 
@@ -123,20 +123,20 @@ class LinkageSweep:
 
     def _at(self, angles: Floats) -> tuple[Floats, Floats, Floats]:
         """μ, positions, and what changes sign at extremes: dμ/dφ, then d1, then d2 of the outputs."""
-        values = evaluate(self.compiled, self._channels, angles)
+        values = self.compiled.motion(self._channels, angles)
         pairs = [
             transmission(self.compiled, dyad, values[self._ends[k] : self._ends[k + 1]])
             for k, dyad in enumerate(self.dyads)
         ]
         rest = values[self._ends[-1] :]
-        links = [output.kind == "swing" for output in self.outputs]
         n, dyads, outputs = len(angles), len(pairs), len(rest)
         mu, place, slopes = np.empty((dyads, n)), np.empty((outputs, n)), np.empty((dyads + 2 * outputs, n))
         for k, (angle, slope) in enumerate(pairs):
             mu[k], slopes[k] = angle, slope
-        for k, (f, link) in enumerate(zip(rest, links, strict=True)):
-            place[k] = np.arctan2(f[1], f[0]) if link else f[0]
-            slopes[dyads + k], slopes[dyads + outputs + k] = (f[2], f[3]) if link else (f[1], f[2])
+        for k, rows in enumerate(rest):
+            assert not isinstance(rows, PointRows)
+            place[k] = np.arctan2(*rows.direction[::-1]) if isinstance(rows, LinkRows) else rows.position
+            slopes[dyads + k], slopes[dyads + outputs + k] = rows.d1, rows.d2
         return mu, place, slopes
 
     def _locate(self, slopes: Floats) -> list[Floats]:

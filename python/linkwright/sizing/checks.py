@@ -281,7 +281,7 @@ def _start_checks(machine: Machine, by_kloss: bool, torque: float | None = None)
     """Torque of the drive at standstill, or by a motor torque, against the load at the start and at worst."""
     compiled = compile_machine(machine)
     if torque is None:
-        drive = float(compiled.motor_torques(0.0)[1][0])
+        drive = float(compiled.motor_torques(0.0).crank[0])
     else:
         ratio, forward, _ = compiled.gear_factors
         drive = torque * ratio * forward

@@ -157,7 +157,7 @@ class RecordModel:
         """What can be measured of a drive, by crank angle and speed, (n,) each."""
         table = {"angle": angle, "speed": speed, "motor_speed": speed * compiled.gear_factors[0]}
         if {"torque", "current"} & set(self.record.channels):
-            table["torque"] = compiled.motor_torques(speed)[0]
+            table["torque"] = compiled.motor_torques(speed).motor
         return table
 
     def _steady(self, machine: Machine) -> dict[str, Floats]:

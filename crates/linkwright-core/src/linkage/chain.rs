@@ -8,7 +8,7 @@
 //! machine in rows of fixed length.
 
 use super::dyads::{Bars, Rocker, Rocking, Rod, SliderRod, Sliding, rocking, sliding};
-use super::mechanism::{Element, Fixed, Mechanism, crank};
+use super::mechanism::{Element, GroundPoint, Mechanism, crank};
 use super::motion::{Channel, on_link};
 use crate::kernel::plane::{Angle, Heading, Place, Slide, Vec2};
 use crate::kernel::real::Real;
@@ -209,12 +209,12 @@ fn found(mechanism: &Mechanism, target: Channel) -> Option<(Stage, Option<usize>
 }
 
 /// The point of the ground with an index.
-fn at_rest(mechanism: &Mechanism, point: usize) -> Option<&Fixed> {
+fn at_rest(mechanism: &Mechanism, point: usize) -> Option<&GroundPoint> {
     mechanism.ground.iter().find(|fixed| fixed.point == point)
 }
 
 /// Slots in a row of fixed length; places that are not used repeat one that is.
-fn row(ground: &Fixed, own: &[Slot]) -> Slots {
+fn row(ground: &GroundPoint, own: &[Slot]) -> Slots {
     let mut slots = [ground.x; NUMBERS];
     slots[1] = ground.y;
     slots[2..2 + own.len()].copy_from_slice(own);

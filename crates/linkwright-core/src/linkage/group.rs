@@ -28,7 +28,7 @@ use std::f64::consts::TAU;
 
 /// A point fixed to a bar of the group: `along`, `across` in lengths of the bar.
 #[derive(Clone, Copy, Debug)]
-pub struct Carried {
+pub struct BarPoint {
     pub point: usize,
     pub from: usize,
     pub to: usize,
@@ -61,7 +61,7 @@ pub enum Condition {
 #[derive(Clone, Debug)]
 pub struct Group {
     pub unknowns: Vec<usize>,
-    pub carried: Vec<Carried>,
+    pub bar_points: Vec<BarPoint>,
     pub bars: Vec<Bar>,
     pub conditions: Vec<Condition>,
     pub gap: usize,
@@ -123,8 +123,8 @@ impl Group {
         let zero = R::splat(0.0);
         let mask = m.gaps[self.gap].select_lt(zero, R::splat(f64::NAN), zero);
         let mask = Vec2::new(mask, mask);
-        let carried = self.carried.iter().map(|each| each.point);
-        for point in self.unknowns.iter().copied().chain(carried) {
+        let bar_points = self.bar_points.iter().map(|each| each.point);
+        for point in self.unknowns.iter().copied().chain(bar_points) {
             let place = &mut m.points[point];
             (place.p, place.d1, place.d2) = (place.p + mask, place.d1 + mask, place.d2 + mask);
         }
@@ -138,7 +138,7 @@ impl Group {
     #[inline(always)]
     pub(super) fn solve<R: Real, const ORDER: u8>(&self, q: &[R], m: &mut Motion<R>) {
         let n = self.size();
-        let mut system = System::new(n, self.carried.len());
+        let mut system = System::new(n, self.bar_points.len());
         let mut rounds_left = R::ROUNDS;
         for _ in 0..ROUNDS_MAX {
             self.carry::<R, 0>(q, m);
@@ -256,7 +256,7 @@ impl Group {
     /// Places the points carried by bars.
     #[inline(always)]
     fn carry<R: Real, const ORDER: u8>(&self, q: &[R], m: &mut Motion<R>) {
-        for each in &self.carried {
+        for each in &self.bar_points {
             let (from, to) = (&m.points[each.from], &m.points[each.to]);
             let (along, across) = (q[each.along], q[each.across]);
             let p = combine(from.p, to.p, along, across);
@@ -369,7 +369,7 @@ impl Group {
             || {
                 if let Some(k) = self.unknowns.iter().position(|&unknown| unknown == point) {
                     system.add(row, 2 * k, gradient);
-                } else if let Some(c) = self.carried.iter().position(|each| each.point == point) {
+                } else if let Some(c) = self.bar_points.iter().position(|each| each.point == point) {
                     system.kept[c] = system.kept[c] + gradient;
                 }
             },
@@ -380,7 +380,7 @@ impl Group {
     /// points that come before it. K ↦ (α + iβ) B turns back to g ↦ (α − iβ) g.
     #[inline(always)]
     fn hand_on<R: Real>(&self, row: usize, q: &[R], system: &mut System<R>) {
-        for (c, each) in self.carried.iter().enumerate().rev() {
+        for (c, each) in self.bar_points.iter().enumerate().rev() {
             let gradient = system.kept[c];
             system.kept[c] = Vec2::zero();
             let to_end = (gradient * q[each.along]).plus(gradient.left(), -q[each.across]);

@@ -15,7 +15,7 @@ use crate::kernel::slot::Slot;
 
 /// A point of the ground.
 #[derive(Clone, Copy, Debug)]
-pub struct Fixed {
+pub struct GroundPoint {
     pub point: usize,
     pub x: Slot,
     pub y: Slot,
@@ -62,7 +62,7 @@ pub enum Element {
 /// Points of the ground, the elements in build order, and how many points, links, slides and dyads they make.
 #[derive(Clone, Debug, Default)]
 pub struct Mechanism {
-    pub ground: Vec<Fixed>,
+    pub ground: Vec<GroundPoint>,
     pub elements: Vec<Element>,
     pub n_points: usize,
     pub n_links: usize,

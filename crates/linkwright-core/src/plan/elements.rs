@@ -8,7 +8,7 @@ use crate::linkage::dyads::Rocker;
 use crate::linkage::folding::{ChangePoint, TERMS};
 use crate::linkage::group::{Bar, Condition, Group};
 use crate::linkage::guided::{GuidedRod, Line};
-use crate::linkage::mechanism::{Element, Fixed};
+use crate::linkage::mechanism::{Element, GroundPoint};
 
 /// What an element is called in messages.
 fn name(element: &Element) -> &'static str {
@@ -60,7 +60,7 @@ impl Builder {
     ///
     /// # Errors
     /// It is not the next point, or a parameter does not exist.
-    pub fn fixed(&mut self, fixed: Fixed) -> Result<(), PlanError> {
+    pub fn fixed(&mut self, fixed: GroundPoint) -> Result<(), PlanError> {
         self.slots(&[fixed.x, fixed.y])?;
         self.makes(&[fixed.point], &[], &[], &[])?;
         self.mechanism.ground.push(fixed);
@@ -209,7 +209,7 @@ impl Builder {
         length("conditions of a group", e.conditions.len(), 2 * e.unknowns.len())?;
         self.slots(&[e.inverse_turns])?;
         self.makes(&e.unknowns, &[], &[], &[e.gap])?;
-        for each in &e.carried {
+        for each in &e.bar_points {
             self.slots(&[each.along, each.across])?;
             self.points(&[each.from, each.to])?;
             self.makes(&[each.point], &[], &[], &[])?;

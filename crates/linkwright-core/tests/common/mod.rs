@@ -9,10 +9,10 @@ use linkwright_core::kernel::table::Table;
 use linkwright_core::linkage::coupled::{AngleOf, Law, Runner, Source, Sum, Turn};
 use linkwright_core::linkage::dyads::{Rocker, SliderRod};
 use linkwright_core::linkage::folding::{ChangePoint, Folding};
-use linkwright_core::linkage::group::{Bar, Carried, Condition, Group};
+use linkwright_core::linkage::group::{Bar, BarPoint, Condition, Group};
 use linkwright_core::linkage::guided::{Crossing, GuidedRod, Line, SlottedLever};
 use linkwright_core::linkage::in_line::in_line;
-use linkwright_core::linkage::mechanism::{Element, Fixed};
+use linkwright_core::linkage::mechanism::{Element, GroundPoint};
 use linkwright_core::linkage::trace::{Path, follow};
 use linkwright_core::plan::builder as plan;
 
@@ -67,7 +67,7 @@ impl Builder {
 
     pub fn fixed(&mut self, x: f64, y: f64) -> usize {
         let (point, x, y) = (self.point(), self.number(x), self.number(y));
-        self.plan.fixed(Fixed { point, x, y }).expect("a sound point");
+        self.plan.fixed(GroundPoint { point, x, y }).expect("a sound point");
         point
     }
 
@@ -233,7 +233,7 @@ impl Builder {
         let (along, across) = (self.number(corner.0 / plate), self.number(corner.1 / plate));
         let group = Group {
             unknowns: vec![p, q],
-            carried: vec![Carried { point: k, from: p, to: q, along, across }],
+            bar_points: vec![BarPoint { point: k, from: p, to: q, along, across }],
             bars,
             conditions,
             gap: self.gap(),
@@ -265,7 +265,7 @@ impl Builder {
             .collect();
         let mut group = Group {
             unknowns: unknowns.to_vec(),
-            carried: vec![],
+            bar_points: vec![],
             bars: links,
             conditions,
             gap,

@@ -11,28 +11,28 @@ use linkwright_core::linkage::mechanism::{self, Element as CoreElement};
 use pyo3::prelude::*;
 
 use super::numbers::{Formula, Knots, MotionLaw};
-use super::parts::{Bar, Carried, ChangePoint, Condition, Line, Sum};
+use super::parts::{Bar, BarPoint, ChangePoint, Condition, Line, Sum};
 
 /// A point of the ground.
 #[pyclass(frozen, get_all, module = "linkwright._core")]
-pub(crate) struct Fixed {
+pub(crate) struct GroundPoint {
     point: usize,
     x: usize,
     y: usize,
 }
 
 #[pymethods]
-impl Fixed {
+impl GroundPoint {
     #[new]
     #[pyo3(signature = (*, point, x, y))]
     fn new(point: usize, x: usize, y: usize) -> Self {
-        Fixed { point, x, y }
+        GroundPoint { point, x, y }
     }
 }
 
-impl Fixed {
-    pub(super) fn core(&self) -> mechanism::Fixed {
-        mechanism::Fixed { point: self.point, x: self.x, y: self.y }
+impl GroundPoint {
+    pub(super) fn core(&self) -> mechanism::GroundPoint {
+        mechanism::GroundPoint { point: self.point, x: self.x, y: self.y }
     }
 }
 
@@ -105,11 +105,11 @@ pub(crate) enum Element {
     Runner { point: usize, slide: usize, line: Line, place: Sum },
     #[pyo3(constructor = (*, link, slide, winding, centre))]
     AngleOf { link: usize, slide: usize, winding: usize, centre: usize },
-    #[pyo3(constructor = (*, dyad, unknowns, carried, bars, conditions, starts, inverse_turns, repeats))]
+    #[pyo3(constructor = (*, dyad, unknowns, bar_points, bars, conditions, starts, inverse_turns, repeats))]
     Group {
         dyad: usize,
         unknowns: Vec<usize>,
-        carried: Vec<Carried>,
+        bar_points: Vec<BarPoint>,
         bars: Vec<Bar>,
         conditions: Vec<Condition>,
         starts: Vec<Knots>,
@@ -222,7 +222,7 @@ impl Element {
             Element::Group {
                 dyad: gap,
                 ref unknowns,
-                ref carried,
+                ref bar_points,
                 ref bars,
                 ref conditions,
                 ref starts,
@@ -230,7 +230,7 @@ impl Element {
                 repeats,
             } => CoreElement::Group(Group {
                 unknowns: unknowns.clone(),
-                carried: carried.iter().copied().map(Carried::core).collect(),
+                bar_points: bar_points.iter().copied().map(BarPoint::core).collect(),
                 bars: bars.iter().copied().map(Bar::core).collect(),
                 conditions: conditions.iter().copied().map(Condition::core).collect(),
                 gap,

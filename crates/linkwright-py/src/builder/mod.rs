@@ -17,7 +17,7 @@ pub(crate) mod parts;
 pub(crate) mod train;
 
 use drive::Drive;
-use elements::{Element, Fixed};
+use elements::{Element, GroundPoint};
 use linkwright_core::drive::structure::Plan as CorePlan;
 use linkwright_core::plan::builder::Builder;
 use loads::{Body, Load};
@@ -37,7 +37,7 @@ impl Plan {
     #[pyo3(signature = (*, parameters, ground, elements, bodies, loads, drive))]
     fn new(
         parameters: usize,
-        ground: Vec<PyRef<'_, Fixed>>,
+        ground: Vec<PyRef<'_, GroundPoint>>,
         elements: Vec<PyRef<'_, Element>>,
         bodies: Vec<PyRef<'_, Body>>,
         loads: Vec<PyRef<'_, Load>>,

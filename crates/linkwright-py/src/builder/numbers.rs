@@ -61,6 +61,24 @@ impl Formula {
     }
 }
 
+/// a cos ku + b sin ku.
+#[pyclass(frozen, from_py_object, get_all, module = "linkwright._core")]
+#[derive(Clone, Copy)]
+pub(crate) struct Harmonic {
+    frequency: f64,
+    cosine: f64,
+    sine: f64,
+}
+
+#[pymethods]
+impl Harmonic {
+    #[new]
+    #[pyo3(signature = (*, frequency, cosine, sine))]
+    fn new(frequency: f64, cosine: f64, sine: f64) -> Self {
+        Harmonic { frequency, cosine, sine }
+    }
+}
+
 /// One piece of a motion law.
 #[pyclass(frozen, from_py_object, get_all, module = "linkwright._core")]
 #[derive(Clone)]
@@ -68,14 +86,14 @@ pub(crate) struct Piece {
     start: f64,
     length: f64,
     polynomial: Vec<f64>,
-    harmonics: Vec<[f64; 3]>,
+    harmonics: Vec<Harmonic>,
 }
 
 #[pymethods]
 impl Piece {
     #[new]
     #[pyo3(signature = (*, start, length, polynomial, harmonics))]
-    fn new(start: f64, length: f64, polynomial: Vec<f64>, harmonics: Vec<[f64; 3]>) -> Self {
+    fn new(start: f64, length: f64, polynomial: Vec<f64>, harmonics: Vec<Harmonic>) -> Self {
         Piece { start, length, polynomial, harmonics }
     }
 }
@@ -93,7 +111,7 @@ impl MotionLaw {
             start,
             length,
             polynomial,
-            harmonics,
+            harmonics: harmonics.iter().map(|wave| [wave.frequency, wave.cosine, wave.sine]).collect(),
         };
         let law = CoreLaw::new(pieces.into_iter().map(piece).collect());
         law.map(MotionLaw).ok_or_else(|| plan_error(PlanError::MotionLaw))

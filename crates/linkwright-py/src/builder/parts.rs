@@ -34,27 +34,43 @@ impl Line {
     }
 }
 
-/// A constant and terms, each a slide, or the crank angle, with its factor.
+/// A slide, or the crank angle where there is none, times a factor.
+#[pyclass(frozen, from_py_object, get_all, module = "linkwright._core")]
+#[derive(Clone, Copy)]
+pub(crate) struct Term {
+    slide: Option<usize>,
+    factor: usize,
+}
+
+#[pymethods]
+impl Term {
+    #[new]
+    #[pyo3(signature = (*, slide, factor))]
+    fn new(slide: Option<usize>, factor: usize) -> Self {
+        Term { slide, factor }
+    }
+}
+
+/// A constant and terms.
 #[pyclass(frozen, from_py_object, get_all, module = "linkwright._core")]
 #[derive(Clone)]
 pub(crate) struct Sum {
     start: usize,
-    terms: Vec<(Option<usize>, usize)>,
+    terms: Vec<Term>,
 }
 
 #[pymethods]
 impl Sum {
     #[new]
     #[pyo3(signature = (*, start, terms))]
-    fn new(start: usize, terms: Vec<(Option<usize>, usize)>) -> Self {
+    fn new(start: usize, terms: Vec<Term>) -> Self {
         Sum { start, terms }
     }
 }
 
 impl Sum {
     pub(crate) fn core(&self) -> CoreSum {
-        let term =
-            |&(slide, factor): &(Option<usize>, usize)| (slide.map_or(Source::Drive, Source::Slide), factor);
+        let term = |&Term { slide, factor }: &Term| (slide.map_or(Source::Drive, Source::Slide), factor);
         CoreSum { start: self.start, terms: self.terms.iter().map(term).collect() }
     }
 }
@@ -88,7 +104,7 @@ impl Bar {
 /// A point fixed to a bar of a group.
 #[pyclass(frozen, from_py_object, get_all, module = "linkwright._core")]
 #[derive(Clone, Copy)]
-pub(crate) struct Carried {
+pub(crate) struct BarPoint {
     point: usize,
     start: usize,
     end: usize,
@@ -97,18 +113,18 @@ pub(crate) struct Carried {
 }
 
 #[pymethods]
-impl Carried {
+impl BarPoint {
     #[new]
     #[pyo3(signature = (*, point, start, end, along, across))]
     fn new(point: usize, start: usize, end: usize, along: usize, across: usize) -> Self {
-        Carried { point, start, end, along, across }
+        BarPoint { point, start, end, along, across }
     }
 }
 
-impl Carried {
-    pub(crate) fn core(self) -> group::Carried {
-        let Carried { point, start: from, end: to, along, across } = self;
-        group::Carried { point, from, to, along, across }
+impl BarPoint {
+    pub(crate) fn core(self) -> group::BarPoint {
+        let BarPoint { point, start: from, end: to, along, across } = self;
+        group::BarPoint { point, from, to, along, across }
     }
 }
 
@@ -159,11 +175,19 @@ impl ChangePoint {
         ChangePoint { first, has_arms }
     }
 
-    /// Slots of cos φ, sin φ and of the reach, which is negative where a machine does not have it.
     #[getter]
-    fn place(&self) -> (usize, usize, usize) {
-        let at = self.core();
-        (at.cos, at.sin, at.reach)
+    fn cos(&self) -> usize {
+        self.core().cos
+    }
+
+    #[getter]
+    fn sin(&self) -> usize {
+        self.core().sin
+    }
+
+    #[getter]
+    fn reach(&self) -> usize {
+        self.core().reach
     }
 }
 

@@ -35,7 +35,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.cam.core import CamKernel, Extreme, cam_kernel
+from linkwright.cam.core import CamKernel, CamOffset, Extreme, cam_kernel
 from linkwright.cam.laws.motion_law import MotionLaw, Side, combined
 from linkwright.cam.model.cam import Cam
 from linkwright.cam.model.follower import Sizes, sizes, start_of, to_arm_pivot
@@ -72,19 +72,18 @@ class CamCurve:
 
     def points(self, phi: Floats, side: Side = "after") -> Floats:
         """Places. ``phi`` (n,): cam angles from the start of the programme [rad] → [m], (n, 2)."""
-        return self._of(0, phi, side)
+        return self._at(phi, side).place.T
 
     def tangents(self, phi: Floats, side: Side = "after") -> Floats:
         """First derivatives by the cam angle. ``phi`` (n,): cam angles [rad] → [m/rad], (n, 2)."""
-        return self._of(1, phi, side)
+        return self._at(phi, side).d1.T
 
     def seconds(self, phi: Floats, side: Side = "after") -> Floats:
         """Second derivatives by the cam angle. ``phi`` (n,): cam angles [rad] → [m/rad²], (n, 2)."""
-        return self._of(2, phi, side)
+        return self._at(phi, side).d2.T
 
-    def _of(self, order: int, phi: Floats, side: Side) -> Floats:
-        curve: Floats = self.contact.kernel.curve(phi, self.away, before=side == "before")[order].T
-        return curve
+    def _at(self, phi: Floats, side: Side) -> CamOffset:
+        return self.contact.kernel.curve(phi, self.away, before=side == "before")
 
 
 class Touch(NamedTuple):

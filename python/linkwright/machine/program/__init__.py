@@ -10,6 +10,7 @@
 | `initial_assembly` | What must be known of the motion before the first revolution |
 | `loads` | Bodies and loads |
 | `mechanism` | Program of a whole mechanism: fixed points, then elements in build order |
+| `motion` | Motion of points, links and slides of one machine, by name |
 | `numbers` | Parameters, tables, formulas, motion laws |
 | `places` | Indices of points, links, slides and dyads by name; guides and sums |
 """

@@ -67,7 +67,8 @@ def undecided(points: list[_core.InLine], sign: float) -> _core.InLine | None:
         # The sign of the root after the point; an odd number of points brings the other in the next
         # revolution.
         after = sign * np.prod(np.sin((point.crank_angle - np.delete(angles, k)) / 2))
-        lost = any(point.lost) if len(points) % 2 else point.lost[0 if after > 0 else 1]
+        goes_positive, goes_negative = (True, True) if len(points) % 2 else (after > 0, after <= 0)
+        lost = (goes_positive and point.lost_positive) or (goes_negative and point.lost_negative)
         if lost:
             return point
     return None

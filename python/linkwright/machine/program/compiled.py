@@ -23,6 +23,7 @@ from linkwright.machine.program.drive_line import drive_of
 from linkwright.machine.program.initial_assembly import InitialAssembly
 from linkwright.machine.program.loads import Loads, bodies_of
 from linkwright.machine.program.mechanism import MechanismProgram
+from linkwright.machine.program.motion import LinkRows, PointRows, Rows, link_motion, motion, point_motion
 
 Floats = NDArray[np.float64]
 
@@ -125,7 +126,7 @@ class CompiledMachine:
         Whether loads depend on both angle and speed in their own way, or on time.
     resisting : _core.Plan
         The structure without its conservative loads, whose work over a closed cycle is zero.
-    ground : tuple of _core.Fixed
+    ground : tuple of _core.GroundPoint
         Points at rest.
     elements : tuple of _core.Element
         The core's program in build order: indices of what each makes and hangs on, slots of its numbers.
@@ -149,7 +150,7 @@ class CompiledMachine:
     speed_tables: tuple[tuple[Sequence[float], Sequence[float]], ...]
     has_laws: bool
     resisting: _core.Plan
-    ground: tuple[_core.Fixed, ...] = ()
+    ground: tuple[_core.GroundPoint, ...] = ()
     elements: tuple[_core.Element, ...] = ()
     kept: dict[str, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
 
@@ -192,9 +193,28 @@ class CompiledMachine:
         """Radicand of each dyad at crank angles, (dyads, n); negative where it does not close."""
         return _core.gaps(self.plan, self.parameters, angles)
 
-    def third(self, angles: Floats, channels: Sequence[_core.Channel]) -> Floats:
-        """Third transfer functions of the first row at crank angles, (numbers, n); see `_core.third`."""
-        return _core.third(self.plan, self.parameters, angles, channels)
+    def motion(self, channels: Sequence[_core.Channel], angles: Floats) -> list[Rows]:
+        """Motion of the first row at crank angles [rad]: a point, link or slide each."""
+        return motion(self.plan, self.parameters, channels, angles)
+
+    def point_motion(self, point: int, angles: Floats) -> PointRows:
+        """Motion of a point of the first row at crank angles [rad]."""
+        return point_motion(self.plan, self.parameters, point, angles)
+
+    def link_motion(self, link: int, angles: Floats) -> LinkRows:
+        """Motion of a link of the first row at crank angles [rad]."""
+        return link_motion(self.plan, self.parameters, link, angles)
+
+    def third(
+        self,
+        angles: Floats,
+        *,
+        points: Sequence[int] = (),
+        links: Sequence[int] = (),
+        slides: Sequence[int] = (),
+    ) -> _core.ThirdDerivatives:
+        """Third derivatives of the first row at crank angles; see `_core.third`."""
+        return _core.third(self.plan, self.parameters, angles, points=points, links=links, slides=slides)
 
     def without_conservative(self) -> CompiledMachine:
         """The machine without loads that have a potential: gravity, springs, forces fixed in the frame."""
@@ -213,7 +233,7 @@ class CompiledMachine:
         phi, omega = (np.atleast_1d(np.asarray(x, dtype=np.float64)) for x in (angles, speeds))
         return _core.law_torques(self.plan, self.one, np.ascontiguousarray(phi), omega)
 
-    def motor_torques(self, speeds: ArrayLike) -> tuple[Floats, Floats]:
+    def motor_torques(self, speeds: ArrayLike) -> _core.MotorTorques:
         """Torque at the motor's shaft and at the crank [N m] at crank speeds [rad/s]."""
         at = np.atleast_1d(np.asarray(speeds, dtype=np.float64))
         return _core.motor_torques(self.plan, self.one, at)

@@ -24,6 +24,7 @@ from linkwright.kernel.errors import AssemblyError
 from linkwright.kernel.numerics.tangent import primal
 from linkwright.machine.program.change_points import folding, in_line, stored, undecided, undecided_error
 from linkwright.machine.program.mechanism import MechanismProgram
+from linkwright.machine.program.motion import link_motion, motion, point_motion
 from linkwright.machine.program.numbers import table
 from linkwright.machine.program.places import Continuous, Foldable, Pending, PendingGroup, Side
 
@@ -153,26 +154,20 @@ class InitialAssembly:
 
     def _law(self, slide: int, angles: Floats) -> Floats:
         """Value and slope of a law, (2, n)."""
-        return self._motion(_core.Channel.Slide(slide), 3, angles)[:2]
+        (law,) = motion(self.plan, self.parameters, [_core.Channel.Slide(slide)], angles)
+        return np.stack(law[:2])
 
     def _changed(self, plan: _core.Plan) -> None:
         """Goes on with another plan."""
         self.plan = plan
 
-    def _point(self, point: int, angles: Floats) -> Floats:
-        """Numbers of a point, (6, n)."""
-        return self._motion(_core.Channel.Point(point), 6, angles)
+    def _place(self, point: int, angles: Floats) -> Floats:
+        """Place of a point, (2, n)."""
+        return point_motion(self.plan, self.parameters, point, angles).place
 
-    def _link(self, link: int, angles: Floats) -> Floats:
-        """Numbers of a link, (4, n)."""
-        return self._motion(_core.Channel.Link(link), 4, angles)
-
-    def _motion(self, channel: _core.Channel, width: int, angles: Floats) -> Floats:
-        """Numbers of a point, link or slide at crank angles, (width, n)."""
-        out = np.empty((width, len(angles)))
-        none = np.empty(0, dtype=np.int32)
-        _core.motions(self.plan, self.parameters, none, np.empty((0, 1)), angles, [channel], out.reshape(-1))
-        return out
+    def _direction(self, link: int, angles: Floats) -> Floats:
+        """Cosine and sine of a link's angle, (2, n)."""
+        return link_motion(self.plan, self.parameters, link, angles).direction
 
     # -- sides -------------------------------------------------------------------------------------------
 
@@ -180,15 +175,15 @@ class InitialAssembly:
         """Left of the line from pin to pivot, or ahead along the guide."""
         at = np.array([self.assembled_at])
         joint = self.program.mechanism.joints[pending.joint]
-        x, y = self._point(pending.pin, at)[:2, 0]
+        x, y = self._place(pending.pin, at)[:, 0]
         to = np.array([_first(joint.x) - x, _first(joint.y) - y])
         if pending.pivot is not None:
-            u, v = self._point(pending.pivot, at)[:2, 0] - (x, y)
+            u, v = self._place(pending.pivot, at)[:, 0] - (x, y)
             side = (u * to[1] - v * to[0]) / max(np.hypot(u, v), 1e-300)
         else:
             assert pending.guide is not None
             link, angle = pending.guide
-            cos, sin = (1.0, 0.0) if link is None else self._link(link, at)[:2, 0]
+            cos, sin = (1.0, 0.0) if link is None else self._direction(link, at)[:, 0]
             direction = np.array(
                 [cos * np.cos(angle) - sin * np.sin(angle), sin * np.cos(angle) + cos * np.sin(angle)]
             )
@@ -208,7 +203,7 @@ class InitialAssembly:
     def _continuous(self, angle: Continuous) -> None:
         """Turns a revolution of the crank, and the middle of the swing about them."""
         angles = np.linspace(0.0, 2 * np.pi, _LOOK + 1)
-        cos, sin, *_ = self._link(angle.link, angles)
+        cos, sin = self._direction(angle.link, angles)
         closes = np.isfinite(cos)
         if not closes.any():
             return
@@ -314,10 +309,10 @@ class InitialAssembly:
         self.program.elements[pending.element] = _core.Element.Group(
             dyad=group.dyad,
             unknowns=group.unknowns,
-            carried=group.carried,
+            bar_points=group.bar_points,
             bars=group.bars,
             conditions=group.conditions,
-            starts=[table(knots, place) for place in path.places],
+            starts=[table(knots, place) for joint in zip(path.x, path.y, strict=True) for place in joint],
             inverse_turns=group.inverse_turns,
             repeats=turns is not None,
         )
@@ -335,7 +330,7 @@ class InitialAssembly:
 
     def _check_fit(self, name: str, start: int, end: int, length: float) -> None:
         angles = np.linspace(0.0, 2 * np.pi, _LOOK + 1)
-        u = self._point(end, angles)[:2] - self._point(start, angles)[:2]
+        u = self._place(end, angles) - self._place(start, angles)
         off = np.abs(np.hypot(*u) - length)
         off = np.where(np.isfinite(off), off, 0.0)
         worst = int(off.argmax())

@@ -88,7 +88,7 @@ class MechanismProgram(Elements):
             _core.Element.Group(
                 dyad=self._dyad(" and ".join(step.names)),
                 unknowns=unknowns,
-                carried=[self._carried_point(name) for name in carried],
+                bar_points=[self._carried_point(name) for name in carried],
                 bars=[self._placed_bar(name, self.mechanism.bars[name]) for name in bars],
                 conditions=[self._condition(name) for name in step.conditions],
                 starts=[table((0.0,), (float(np.ravel(primal(value))[0]),)) for value in places],
@@ -118,10 +118,10 @@ class MechanismProgram(Elements):
                 need(guide.through)
         return carried
 
-    def _carried_point(self, name: str) -> _core.Carried:
+    def _carried_point(self, name: str) -> _core.BarPoint:
         part = self.mechanism.rigid_points[name]
         bar = self.mechanism.bars[part.link]
-        return _core.Carried(
+        return _core.BarPoint(
             point=self.points[name],
             start=self.points[bar.start],
             end=self.points[bar.end],

@@ -20,7 +20,10 @@ def core_law(law: MotionLaw) -> _core.MotionLaw:
     """A motion law as the core has it."""
     pieces = [
         _core.Piece(
-            start=low, length=high - low, polynomial=list(piece.polynomial), harmonics=list(piece.harmonics)
+            start=low,
+            length=high - low,
+            polynomial=list(piece.polynomial),
+            harmonics=[_core.Harmonic(**wave._asdict()) for wave in piece.harmonics],
         )
         for (low, high), piece in zip(pairwise(law.breaks), law.pieces, strict=True)
     ]

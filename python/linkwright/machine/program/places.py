@@ -79,7 +79,7 @@ class Places(Numbers):
         self.links: dict[str, int] = {}
         self.slides: dict[str, int] = {}
         self.dyads: list[str] = []
-        self.ground: list[_core.Fixed] = []
+        self.ground: list[_core.GroundPoint] = []
         self.elements: list[_core.Element] = []
         self.pending: list[Pending] = []
         # Start point of each link, the origin being known even where an element bears its name.
@@ -109,7 +109,7 @@ class Places(Numbers):
 
     def _fixed(self, name: str, x: Any, y: Any) -> int:
         point = self._point(name)
-        self.ground.append(_core.Fixed(point=point, x=self.slot(x), y=self.slot(y)))
+        self.ground.append(_core.GroundPoint(point=point, x=self.slot(x), y=self.slot(y)))
         return point
 
     # -- guides ------------------------------------------------------------------------------------------
@@ -135,7 +135,10 @@ class Places(Numbers):
     def _sum(self, start: Any, terms: list[tuple[int | None, Any]]) -> _core.Sum:
         """A constant and its terms: slides, or the crank angle where there is none, with their factors."""
         constant = self.slot(start)
-        return _core.Sum(start=constant, terms=[(source, self.slot(factor)) for source, factor in terms])
+        return _core.Sum(
+            start=constant,
+            terms=[_core.Term(slide=slide, factor=self.slot(factor)) for slide, factor in terms],
+        )
 
     def _runner(self, name: str, line: GuideLine, start: Any, terms: list[tuple[int | None, Any]]) -> None:
         self.elements.append(

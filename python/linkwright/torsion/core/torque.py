@@ -152,5 +152,5 @@ def motor_curve(motor: InductionMotor | DcMotor | TableMotor | ConstantTorqueMot
         drive=Drive(motor=motor),
         mechanism=Mechanism(cranks={"A": Crank(radius=1.0)}),
     )
-    torque = compile_machine(bare).motor_torques(speeds)[0]
+    torque = compile_machine(bare).motor_torques(speeds).motor
     return smooth(speeds, torque, np.gradient(torque, speeds, edge_order=2), beyond="held")

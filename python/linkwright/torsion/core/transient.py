@@ -174,7 +174,7 @@ class MovingTrain:
         """The train as the core takes it."""
         return core_system(self)
 
-    def net_torques(self, time: float, angle: ArrayLike, speed: ArrayLike) -> tuple[Floats, Floats]:
+    def net_torques(self, time: float, angle: ArrayLike, speed: ArrayLike) -> _core.NetTorques:
         """Sum of all torques on each mass, and its inertia, (rows, masses).
 
         Torques, less ½ J′ω² [N m], and inertias [kg m²]. `time`: [s]; `angle`: (rows, masses) [rad]; `speed`:

@@ -49,9 +49,8 @@ def mean_torques(train: MovingTrain, speed: float, angle: float = 0.0) -> Floats
     """
     turns = angle + 4 * np.pi * np.arange(_MEAN_ANGLES) / _MEAN_ANGLES
     n = train.masses
-    mean: Floats = train.net_torques(BEFORE, np.repeat(turns[:, None], n, axis=1), np.full(n, speed))[0].mean(
-        0
-    )
+    net = train.net_torques(BEFORE, np.repeat(turns[:, None], n, axis=1), np.full(n, speed))
+    mean: Floats = net.torque.mean(axis=0)
     return mean
 
 
@@ -200,9 +199,8 @@ def loaded_angles(train: MovingTrain, angle: Floats, speed: Floats) -> Floats:
     steepest = train.lead**2 * (train.stiffness + _steepest(train))
     allowed = _TWIST_ROUNDING * steepest.max(initial=0.0)
     for _ in range(_STEPS):
-        torque, inertia = (
-            torque.mean(axis=0) for torque in train.net_torques(BEFORE, q + turns[:, None], speed)
-        )
+        net = train.net_torques(BEFORE, q + turns[:, None], speed)
+        torque, inertia = net.torque.mean(axis=0), net.inertia.mean(axis=0)
         left = torque - inertia * (torque.sum() / inertia.sum()) if is_free else torque
         # What only a fluid holds follows without twist.
         stiffness = _stiffness(train, q, speed)
@@ -228,7 +226,7 @@ def _stiffness(train: MovingTrain, angle: Floats, speed: Floats) -> Floats:
     n = len(angle)
     # Both sides of the angle, so that bends of curves cancel.
     rows = np.concatenate([angle + _STEP * np.eye(n), angle - _STEP * np.eye(n)])
-    ahead, back = np.split(train.net_torques(BEFORE, rows, speed)[0], 2)
+    ahead, back = np.split(train.net_torques(BEFORE, rows, speed).torque, 2)
     matrix: Floats = (back - ahead).T / (2 * _STEP)
     # Torques over the angle of a disc have no part in what its shafts do.
     least = train.lead**2 * _FLOOR * _steepest(train)

@@ -155,7 +155,7 @@ def station_damping(machine: Machine, speed: ArrayLike) -> dict[str, Floats]:
     motor = None if machine.drive is None else machine.drive.motor
     if machine.drive is not None and motor is not None and not isinstance(motor, ConstantSpeedMotor):
         driven = compile_machine(machine)
-        slope = _slope(lambda at: driven.motor_torques(at)[1], omega)
+        slope = _slope(lambda at: driven.motor_torques(at).crank, omega)
         damping[MOTOR] = -slope / machine.drive.gearbox.ratio**2
     return {station: c.reshape(np.shape(speed)) for station, c in damping.items()}
 
