@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -31,8 +32,14 @@ from linkwright.torsion.study import TorsionStudy
 from linkwright.torsion.tables.limits import measured_words, words
 from linkwright.torsion.tables.torsion import service_place
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 # Star diagrams in a figure.
 _STARS = 8
+
+# Shafts in the figure of a manoeuvre with ice.
+_SHOWN = 4
 
 # Share of its highest speed below which a disc stands as good as still.
 _TURNING = 0.02
@@ -47,13 +54,16 @@ def torsion_figures(study: TorsionStudy) -> Iterator[CaptionedFigure]:
     if study.forced is not None:
         yield from _forced(study, study.forced)
     if study.transient is not None:
-        yield from _manoeuvre(study.transient)
+        yield from _manoeuvre(study, study.transient)
 
 
-def _manoeuvre(moved: TorsionTransient) -> Iterator[CaptionedFigure]:
+def _manoeuvre(study: TorsionStudy, moved: TorsionTransient) -> Iterator[CaptionedFigure]:
     """Speeds and torques over time, and what orders they hold."""
     caption = "Speeds of discs and torques of the shafts with the largest amplitudes; extremes are marked."
-    yield CaptionedFigure("transient", "Manoeuvre", caption, transient_figure(moved))
+    marks = [(one.start, "ice") for one in moved.ice]
+    marks += [(one.end, "") for one in moved.ice if one.end is not None]
+    caption += " Dotted: the first impact of ice, and the end of the last." if marks else ""
+    yield CaptionedFigure("transient", "Manoeuvre", caption, _moving(study, moved, marks))
     # Orders are found by revolutions: while the first disc stands there are none.
     turning = moved.speed[0] > _TURNING * moved.speed[0].max()
     first = int(np.argmax(turning))
@@ -69,6 +79,18 @@ def _manoeuvre(moved: TorsionTransient) -> Iterator[CaptionedFigure]:
     caption = f"Torque in {moved.shafts[shaft]}, order by order as the speed changes [N m]."
     figure = waterfall_figure(orders, quantity="torque [N m]")
     yield CaptionedFigure("waterfall", "Waterfall of the manoeuvre", caption, figure)
+
+
+def _moving(study: TorsionStudy, moved: TorsionTransient, marks: Sequence[tuple[float, str]]) -> Figure:
+    """The shafts that swing most; with ice, that of the propeller before them, and the propeller's speed."""
+    train, hit = study.machine.train, {one.on for one in moved.ice}
+    if train is None or not hit:
+        return transient_figure(moved, marks=marks)
+    beside = [name for name, shaft in train.shafts.items() if hit & set(shaft.between)]
+    swing = moved.torque_max - moved.torque_min
+    others = [moved.shafts[s] for s in np.argsort(-swing, kind="stable")]
+    shown = list(dict.fromkeys([*beside, *others]))[:_SHOWN]
+    return transient_figure(moved, shafts=shown, discs=[moved.discs[0], *sorted(hit)], marks=marks)
 
 
 def _forced(study: TorsionStudy, forced: ForcedVibration) -> Iterator[CaptionedFigure]:

@@ -2,8 +2,10 @@
 
 | module | |
 | --- | --- |
+| `ice_impacts` | Ice at a propeller: pulses over its angle |
 | `moving_drive` | A driveline that moves in time |
 | `moving_train` | A train of a machine file, with its engine, made ready to move in time |
+| `stage_torque` | Torque in the gear stages over time |
 | `steady_start` | A running train starts as in steady running: mean torques balance, shafts carry them |
 | `transient` | Motion of a train in time |
 | `waterfall` | Amplitudes over speed and order |

@@ -31,8 +31,10 @@ from linkwright.torsion.core.torque import (
 )
 from linkwright.torsion.core.train import ReferredTrain, refer
 from linkwright.torsion.core.transient import MovingTrain, VariableInertia, moving, variable_inertia, viscous
+from linkwright.torsion.in_time.ice_impacts import IceStarts, ice_torque
 from linkwright.torsion.model.engine.engine import ReciprocatingEngine, firing_angles
 from linkwright.torsion.model.engine.engine_motion import reduced_throw
+from linkwright.torsion.model.ice_impacts import IceImpacts
 from linkwright.torsion.model.train import Train
 from linkwright.torsion.model.train_torques import Harmonic, InstalledEngine, LoadHarmonic, TrainLoad
 from linkwright.torsion.model.train_transient import (
@@ -61,8 +63,11 @@ _COUNTS = 0.05
 _TURNS_MAX = 8
 
 
-def moving_train(train: Train, manoeuvre: TrainTransient) -> MovingTrain:
-    """A train ready for a manoeuvre. With all torques; its notes say what was assumed."""
+def moving_train(train: Train, manoeuvre: TrainTransient, ice: IceStarts | None = None) -> MovingTrain:
+    """A train ready for a manoeuvre. With all torques; its notes say what was assumed.
+
+    `ice`: where ice begins; other ice is left out.
+    """
     expanded, referred = whole_train(train), refer(train)
     _require_fit(train, manoeuvre, tuple(expanded.discs))
     place = {name: k for k, name in enumerate(expanded.discs)}
@@ -86,7 +91,7 @@ def moving_train(train: Train, manoeuvre: TrainTransient) -> MovingTrain:
         torques=[
             *_engines(train, manoeuvre, referred),
             *_outside(expanded, manoeuvre, place),
-            *_events(manoeuvre, place),
+            *_events(manoeuvre, place, ice or {}),
         ],
         modal_damping=replace(referred, ratios=ratios).modal_damping if ratios.any() else None,
         notes=notes,
@@ -242,7 +247,7 @@ def _shapes(
     ]
 
 
-def _events(manoeuvre: TrainTransient, place: dict[str, int]) -> Iterator[TrainTorque]:
+def _events(manoeuvre: TrainTransient, place: dict[str, int], ice: IceStarts) -> Iterator[TrainTorque]:
     """Torques that events bring in."""
     for n, event in enumerate(manoeuvre.events, start=1):
         name = f"{event.kind}_{n}"
@@ -256,6 +261,8 @@ def _events(manoeuvre: TrainTransient, place: dict[str, int]) -> Iterator[TrainT
             case SpeedCourse():
                 lead = GovernorTorque(event.gain, straight(event.times, event.speed))
                 yield TrainTorque(name, place[event.on], 1.0, lead)
+            case IceImpacts() if n - 1 in ice:
+                yield ice_torque(name, place[event.on], event, ice[n - 1])
             case ShortCircuit():
                 yield from short_circuit(
                     name,

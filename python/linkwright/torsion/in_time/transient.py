@@ -15,7 +15,7 @@ angle.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from typing import Annotated, Any, Literal
 
 import numpy as np
@@ -28,11 +28,24 @@ from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.transient import MovingTrain, TrainMotion
+from linkwright.torsion.in_time.ice_impacts import (
+    IceMilling,
+    IceStart,
+    IceStarts,
+    ice_events,
+    ice_notes,
+    is_outrun,
+    milled,
+    turns_needed,
+)
 from linkwright.torsion.in_time.moving_drive import moving_drive
 from linkwright.torsion.in_time.moving_train import moving_train
+from linkwright.torsion.in_time.stage_torque import stage_torques
 from linkwright.torsion.in_time.steady_start import balanced_start, loaded_angles
 from linkwright.torsion.limits.peak_judgement import PeakJudgement, judged
+from linkwright.torsion.model.train import Train
 from linkwright.torsion.model.train_transient import TrainTransient
+from linkwright.torsion.model.whole_train import whole_train
 
 Floats = NDArray[np.float64]
 
@@ -40,6 +53,9 @@ Floats = NDArray[np.float64]
 # kilohertz.
 _SAMPLES = 4000
 _SAMPLE_TIME = 5e-4
+
+# Time that a motion is followed at least to find its first angle [s].
+_INSTANT = 1e-3
 
 # Time in which a running train swings in before its manoeuvre [s]: modes of some hundred hertz with a
 # damping of one per cent are down to a thousandth.
@@ -151,8 +167,21 @@ class TorsionTransient(Result):
         str, About("What was changed so that mean torques balance at the start; empty where nothing was.")
     ] = ""
     judgements: Annotated[
-        tuple[PeakJudgement, ...], About("Limits of shafts and couplings against the largest torques.")
+        tuple[PeakJudgement, ...],
+        About("Limits of shafts, couplings and gear stages against the largest torques."),
     ] = ()
+    stages: Annotated[tuple[str, ...], About("Gear stages.")] = ()
+    stage_torque: Annotated[
+        Floats,
+        Label(
+            "torque of each gear stage",
+            "M",
+            "N m",
+            "At its first disc, positive if that drives; NaN where rigid stages close a loop.",
+            shape="(stages, n)",
+        ),
+    ] = field(default_factory=lambda: np.zeros((0, 0)))
+    ice: Annotated[tuple[IceMilling, ...], About("Ice that the propeller met.")] = ()
 
     @property
     def findings(self) -> list[str]:
@@ -163,6 +192,11 @@ class TorsionTransient(Result):
         """Extremes by name of shaft and disc; with ``curves`` also the samples."""
         results = super().to_dict(curves=curves) | {"work": self.work, "loss": self.loss}
         results["judgements"] = [judgement.to_dict() for judgement in self.judgements]
+        results["stages"] = {
+            name: {"torque_max": float(row.max()), "torque_min": float(row.min())}
+            for name, row in zip(self.stages, self.stage_torque, strict=True)
+        }
+        results["ice"] = [asdict(one) for one in self.ice]
         for names, kind in ((self.shafts, "torque"), (self.discs, "speed")):
             for end in ("max", "max_time", "min", "min_time"):
                 values = getattr(self, f"{kind}_{end}")
@@ -203,12 +237,61 @@ def torsion_transient(machine: Machine, manoeuvre: TrainTransient | None = None)
         raise InputError(f"{machine.name} has no manoeuvre: {remedy}")
     if machine.train is None:
         train, manoeuvre = moving_drive(machine, manoeuvre)
-        speed, balance = manoeuvre.speed, ""
+        moved = _followed(train, manoeuvre, manoeuvre.speed)
     else:
-        train, speed, balance = balanced_start(
-            moving_train(machine.train, manoeuvre), machine.train, manoeuvre
+        moved = _train_moved(machine.train, manoeuvre)
+    return replace(moved, judgements=judged(machine, moved))
+
+
+def _train_moved(train: Train, manoeuvre: TrainTransient) -> TorsionTransient:
+    """The motion of a train: up to each ice first, since its pulses follow the angle of the propeller."""
+    starts: dict[int, IceStart] = {}
+    listed = ice_events(manoeuvre)
+    for n, event in listed:
+        before = _moved_with(train, manoeuvre, starts, max(event.time, _INSTANT))
+        at, disc = int(np.abs(before.time - event.time).argmin()), before.discs.index(event.on)
+        speed = float(before.speed[disc, at])
+        turns = turns_needed(event, speed, manoeuvre.duration - event.time)
+        starts[n] = IceStart(float(before.angle[disc, at]), turns)
+    while True:
+        moved = _moved_with(train, manoeuvre, starts, manoeuvre.duration)
+        outrun = [
+            n
+            for n, event in listed
+            if is_outrun(event, starts[n], moved.angle[moved.discs.index(event.on), moved.time >= event.time])
+        ]
+        if not outrun:
+            break
+        starts |= {n: starts[n]._replace(turns=2 * starts[n].turns) for n in outrun}
+    ice = tuple(
+        milled(
+            event,
+            starts[n],
+            moved.time,
+            *(curve[moved.discs.index(event.on)] for curve in (moved.angle, moved.speed)),
         )
-    moved = follow_train(
+        for n, event in listed
+    )
+    return replace(moved, ice=ice, notes=(*moved.notes, *ice_notes(ice)))
+
+
+def _moved_with(train: Train, manoeuvre: TrainTransient, ice: IceStarts, duration: float) -> TorsionTransient:
+    """The motion for some time with the ice that is known."""
+    moving, speed, balance = balanced_start(moving_train(train, manoeuvre, ice), train, manoeuvre)
+    moved = _followed(moving, manoeuvre.model_copy(update={"duration": duration}), speed)
+    if duration < manoeuvre.duration or not train.gears:
+        return replace(moved, balance=balance)
+    gears, first = whole_train(train).gears, np.unique(moving.mass, return_index=True)[1]
+    n = moving.speed[first, None]
+    torque = stage_torques(
+        moving, gears, moved.time, moved.angle[first] / n, moved.speed[first] / n, moved.torque
+    )
+    return replace(moved, balance=balance, stages=tuple(gears), stage_torque=torque)
+
+
+def _followed(train: MovingTrain, manoeuvre: TrainTransient, speed: float) -> TorsionTransient:
+    """The motion as the manoeuvre asks for it. `speed`: at the start [rad/s]."""
+    return follow_train(
         train,
         duration=manoeuvre.duration,
         speed=speed,
@@ -220,7 +303,6 @@ def torsion_transient(machine: Machine, manoeuvre: TrainTransient | None = None)
         method=manoeuvre.method,
         steps_max=manoeuvre.steps_max,
     )
-    return replace(moved, balance=balance, judgements=judged(machine, moved))
 
 
 def follow_train(

@@ -6,6 +6,7 @@
 | coupling | torque, vibratory torque, heat | its own entries |
 | damper | heat | `heat_permitted` |
 | gear stage | drop of the torque below its mean | the mean: beyond it teeth part |
+| gear stage | torque | its `torque_permitted` |
 
 Found over permitted is known at some speeds and can be asked for at any other; many are asked for at once.
 """
@@ -71,7 +72,8 @@ def criteria(
     listed += _heats(machine.train, response)
     if not at.train.gears:
         return listed
-    return [*listed, *_contacts(meshed(at, response) if meshes is None else meshes)]
+    meshes = meshed(at, response) if meshes is None else meshes
+    return [*listed, *_contacts(meshes), *_stage_torques(at.train, meshes)]
 
 
 def _stresses(stress: ShaftStress, shafts: dict[str, Shaft]) -> Iterator[Criterion]:
@@ -121,6 +123,17 @@ def _contacts(gears: MeshTorque) -> Iterator[Criterion]:
             # A stage of a loop has no torque that statics knows.
             mean = np.where(np.isnan(gears.drop[g]), np.nan, mean)
             yield Criterion(name, CONTACT, TORQUE, gears.drop[g], mean)
+
+
+def _stage_torques(train: Train, gears: MeshTorque) -> Iterator[Criterion]:
+    """Of gear stages with a permitted torque."""
+    for g, name in enumerate(gears.stages):
+        permitted = train.gears[name].torque_permitted
+        if permitted is not None:
+            size = np.maximum(np.abs(gears.greatest[g]), np.abs(gears.least[g]))
+            # A stage of a loop has no torque that statics knows.
+            limit = np.where(np.isnan(gears.greatest[g]), np.nan, permitted)
+            yield Criterion(name, "torque", TORQUE, size, limit)
 
 
 # Rows of curves at any speeds, (rows, speeds).

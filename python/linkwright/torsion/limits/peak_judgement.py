@@ -2,13 +2,13 @@ r"""Whether shafts and couplings bear a manoeuvre: largest torques and stresses 
 
 | limit | against |
 | --- | --- |
-| `torque_permitted` | largest torque either way |
+| `torque_permitted` | largest torque either way, of shafts, couplings and gear stages |
 | `stress_greatest` | its stress |
 | vibratory stress in transient passage | half the peak-to-peak stress within two revolutions of disc 1 |
 
 Limits of continuous operation, vibratory torques and heat among them, are those of steady running and not
-judged here. Largest torques are exact between the samples; those within two revolutions are read from the
-samples.
+judged here. Largest torques of shafts and couplings are exact between the samples; those of gear stages and
+those within two revolutions are read from the samples.
 """
 
 from __future__ import annotations
@@ -84,8 +84,22 @@ class PeakJudgement:
 
 
 def judged(machine: Machine, moved: TorsionTransient) -> tuple[PeakJudgement, ...]:
-    """Limits of a train against a manoeuvre. Shafts, then couplings; empty where nothing is limited."""
-    return (*_torques(machine, moved), *_stresses(machine, moved))
+    """Limits of a train against a manoeuvre.
+
+    Shafts, couplings, then gear stages; empty where nothing is limited.
+    """
+    return (*_torques(machine, moved), *_stresses(machine, moved), *_stages(machine, moved))
+
+
+def _stages(machine: Machine, moved: TorsionTransient) -> Iterator[PeakJudgement]:
+    """Largest torques of gear stages."""
+    gears = {} if machine.train is None else machine.train.gears
+    for name, row in zip(moved.stages, moved.stage_torque, strict=True):
+        permitted = gears[name].torque_permitted
+        if permitted is not None and np.isfinite(row).all():
+            worst = int(np.abs(row).argmax())
+            torque, time = float(abs(row[worst])), float(moved.time[worst])
+            yield PeakJudgement(name, "torque", TORQUE, torque, permitted, time)
 
 
 def _torques(machine: Machine, moved: TorsionTransient) -> Iterator[PeakJudgement]:

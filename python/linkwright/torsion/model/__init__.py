@@ -5,6 +5,7 @@
 | `coupling` | Elastic couplings, and torsional dampers |
 | `drive_train` | Gearbox, coupling, flywheel, brake; a driveline whose shafts twist, as a train |
 | `engine/` | Reciprocating engines: descriptions of their parts, and what follows from them in closed form |
+| `ice_impacts` | Ice impacts on a propeller, by ice classes |
 | `measured_response` | A measured response over the speed |
 | `permitted_stress` | Vibratory stress permitted by IACS UR M68 and by the Korean Register |
 | `shaft_flexibility` | Closed forms for the twist of cones and of steps |

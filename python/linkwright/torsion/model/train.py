@@ -40,7 +40,14 @@ from linkwright.torsion.model.measured_response import MeasuredResponse
 from linkwright.torsion.model.shaft_limit import ShaftLimit
 from linkwright.torsion.model.shaft_row import fillet_faults, flexibilities, place
 from linkwright.torsion.model.shaft_section import Density, Modulus, ShaftSection
-from linkwright.torsion.model.train_base import GROUND, Damping, LossFactor, PositiveSpeed, PositiveStiffness
+from linkwright.torsion.model.train_base import (
+    GROUND,
+    Damping,
+    LossFactor,
+    PositiveSpeed,
+    PositiveStiffness,
+    PositiveTorque,
+)
 from linkwright.torsion.model.train_torques import (
     Excitation,
     InstalledEngine,
@@ -246,6 +253,9 @@ class TrainGear(CheckedDescription):
         0.0, description="Of an elastic mesh, as torque at the first disc per its speed."
     )
     loss_factor: LossFactor = Field(0.0, description="Hysteresis of an elastic mesh.")
+    torque_permitted: PositiveTorque | None = Field(
+        None, description="Maximum torque at the first disc, in steady running and in manoeuvres."
+    )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         if (self.ratio is None) == (self.teeth is None):

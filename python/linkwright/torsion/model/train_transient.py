@@ -9,6 +9,7 @@
 | `torque`, `torque_course` | a torque on a disc, constant or over time |
 | `speed_course` | a governor or test bench leads the speed of a disc |
 | `short_circuit` | the terminals of a generator are short-circuited |
+| `ice_impacts` | the blades of a propeller mill ice |
 """
 
 from __future__ import annotations
@@ -45,6 +46,7 @@ from linkwright.kernel.units import (
     not_negative,
     positive,
 )
+from linkwright.torsion.model.ice_impacts import IceImpacts
 from linkwright.torsion.model.train_base import PositiveSpeed, PositiveTorque
 
 if TYPE_CHECKING:
@@ -157,7 +159,15 @@ class ShortCircuit(_TimedEvent):
 
 
 AnyTrainEvent = Annotated[
-    LoadStep | MotorSwitch | FuelSwitch | Misfire | TorqueStep | TorqueCourse | SpeedCourse | ShortCircuit,
+    LoadStep
+    | MotorSwitch
+    | FuelSwitch
+    | Misfire
+    | TorqueStep
+    | TorqueCourse
+    | SpeedCourse
+    | ShortCircuit
+    | IceImpacts,
     Field(discriminator="kind"),
 ]
 

@@ -38,6 +38,7 @@ from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.train import HELD
+from linkwright.torsion.model.train import TrainGear
 from linkwright.torsion.modes.free import lead_speeds
 from linkwright.torsion.response.excited_train import ExcitedTrain, excited_train
 from linkwright.torsion.response.forced import TorsionResponse, shaft_flow, torsion_response
@@ -251,7 +252,7 @@ def _stage_torques(at: ExcitedTrain, outside: Complexes | Floats, shafts: Comple
         net[:, second] += flow[:, s]
     torques = np.empty((len(outside), len(gears), outside.shape[-1]), complex)
     rigid = [name for name, gear in gears.items() if gear.stiffness is None]
-    passed = _passed(at, rigid, net[:, :-1])
+    passed = passed_on(referred.discs, gears, rigid, net[:, :-1])
     for g, name in enumerate(gears):
         first_speed = referred.speed[referred.discs.index(gears[name].between[0])]
         if name in rigid:
@@ -261,15 +262,20 @@ def _stage_torques(at: ExcitedTrain, outside: Complexes | Floats, shafts: Comple
     return torques
 
 
-def _passed(at: ExcitedTrain, rigid: list[str], net: Complexes) -> Complexes:
-    """What rigid stages pass on from what is left over at each disc; NaN in loops."""
-    joins = np.zeros((len(at.referred.discs), len(rigid)))
+def passed_on(
+    discs: tuple[str, ...], gears: dict[str, TrainGear], rigid: list[str], net: Complexes | Floats
+) -> Complexes:
+    """What rigid stages pass on from what is left over at each disc; NaN in loops.
+
+    (…, rigid, n) from (…, discs, n), referred to the first disc [N m].
+    """
+    joins = np.zeros((len(discs), len(rigid)))
     for g, name in enumerate(rigid):
-        first, second = at.train.gears[name].between
-        joins[at.referred.discs.index(first), g] += 1.0
-        joins[at.referred.discs.index(second), g] -= 1.0
+        first, second = gears[name].between
+        joins[discs.index(first), g] += 1.0
+        joins[discs.index(second), g] -= 1.0
     inverse = np.linalg.pinv(joins)
-    passed: Complexes = np.einsum("gd,odw->ogw", inverse, net)
+    passed = np.asarray(np.einsum("gd,odw->ogw", inverse, net), complex)
     known = np.abs(np.diag(inverse @ joins) - 1.0) < _OPEN
     passed[:, ~known] = np.nan
     return passed

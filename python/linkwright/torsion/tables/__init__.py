@@ -5,6 +5,7 @@
 | `engine` | Tables of an engine, of its cylinders, of a damper for its train |
 | `gears` | Gear stages: torque, application factor, tooth contact |
 | `limits` | Limits in normal firing, with a misfire, in the manoeuvre |
+| `manoeuvre` | A manoeuvre: ice, torques of shafts and gear stages |
 | `orders` | Every order over the speed, and the curves of a manoeuvre |
 | `system` | Masses and stiffnesses |
 | `torsion` | Tables of the torsional vibration of a train |

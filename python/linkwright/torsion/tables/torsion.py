@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from linkwright.kernel.page.numbers import number, quantity
 from linkwright.kernel.page.table import Row, Table
-from linkwright.torsion.in_time.transient import TorsionTransient
 from linkwright.torsion.limits.critical_response import CriticalResponse
 from linkwright.torsion.modes.campbell import CampbellDiagram
 from linkwright.torsion.modes.damped import DampedVibration
@@ -30,6 +29,7 @@ from linkwright.torsion.tables.limits import (
     per_minute,
     rpm,
 )
+from linkwright.torsion.tables.manoeuvre import manoeuvre_tables
 from linkwright.torsion.tables.orders import excitation_tables, star_table
 from linkwright.torsion.tables.system import system_tables
 
@@ -96,7 +96,7 @@ def forced_tables(study: TorsionStudy) -> Iterator[Table]:
         yield _shafts(study, study.forced)
         yield _discs(study, study.forced)
     if study.transient is not None:
-        yield _manoeuvre(study.transient)
+        yield from manoeuvre_tables(study.transient)
 
 
 def detail_tables(study: TorsionStudy) -> Iterator[Table]:
@@ -117,21 +117,6 @@ def _severest(
     severity = [point.resonance_amplitude or 0.0 for point in diagram.critical]
     kept = sorted(np.argsort(severity, kind="stable")[::-1][:_CRITICAL].tolist())
     return tuple(responses[n] for n in kept)
-
-
-def _manoeuvre(moved: TorsionTransient) -> Table:
-    """Extremes of the torques in a manoeuvre, and when they come."""
-    columns = (moved.torque_max, moved.torque_max_time, moved.torque_min, moved.torque_min_time)
-    units = ("N m", "s") * 2
-    rows: list[Row] = [
-        (name, "", *(quantity(*column, digits=4) for column in zip(values, units, strict=True)))
-        for name, values in zip(
-            moved.shafts, zip(*(column.tolist() for column in columns), strict=True), strict=True
-        )
-    ]
-    heads = ("shaft", "", "maximum", "at", "minimum", "at")
-    title = f"Manoeuvre of {quantity(float(moved.time[-1]), 's', 4)}: torques of the shafts"
-    return Table("manoeuvre", title, heads, rows)
 
 
 def _damped(study: TorsionStudy, damped: DampedVibration) -> Table:

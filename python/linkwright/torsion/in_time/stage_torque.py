@@ -1,0 +1,99 @@
+r"""Torque in the gear stages of a train that moves in time, at the samples of its motion.
+
+What a rigid stage carries follows from the discs that it joins, each referred to the first disc,
+
+.. math:: f_d = n_d\,(M_d - J_d \ddot\theta_d - c_d \dot\theta_d) + \sum_s \pm n_s T_s, \qquad
+    \sum_g B_{dg}\, n_g T_g = f_d
+
+as in `linkwright.torsion.response.mesh_torque`, with the accelerations of the motion. What is left over at a
+mass is that of given damping ratios, which act by inertia. An elastic mesh carries the torque of its twist.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.torsion.core.transient import MovingTrain
+from linkwright.torsion.model.train import TrainGear
+from linkwright.torsion.response.mesh_torque import passed_on
+
+Floats = NDArray[np.float64]
+
+
+def stage_torques(
+    train: MovingTrain,
+    gears: dict[str, TrainGear],
+    time: Floats,
+    angle: Floats,
+    speed: Floats,
+    torque: Floats,
+) -> Floats:
+    """Torque of each stage at its first disc, (stages, n) [N m]; NaN where statics does not tell it.
+
+    `time`: (n,) [s]; `angle`, `speed`: (masses, n), at the speed of the first disc [rad, rad/s]; `torque`:
+    (shafts, n) [N m].
+    """
+    rigid = [name for name, gear in gears.items() if gear.stiffness is None]
+    left = _left_over(train, _joined(train, gears, rigid), time, angle, speed, torque) if rigid else None
+    # Discs whose inertia changes share none by its mean.
+    open_masses = {int(train.mass[rotor.on]) for rotor in train.inertias}
+    rows = []
+    for name, gear in gears.items():
+        first = train.discs.index(gear.between[0])
+        if left is None or name not in rigid:
+            rows.append(torque[train.shafts.index(name)])
+            continue
+        passed = passed_on(train.discs, gears, rigid, left[None])[0].real
+        known = int(train.mass[first]) not in open_masses
+        rows.append(passed[rigid.index(name)] / train.speed[first] if known else np.full(len(time), np.nan))
+    return np.array(rows).reshape(len(gears), len(time))
+
+
+def _joined(train: MovingTrain, gears: dict[str, TrainGear], rigid: list[str]) -> list[int]:
+    """Discs of all masses in which there is a rigid stage."""
+    masses = {int(train.mass[train.discs.index(end)]) for name in rigid for end in gears[name].between}
+    return [disc for disc, mass in enumerate(train.mass.tolist()) if mass in masses]
+
+
+def _left_over(
+    train: MovingTrain, joined: list[int], time: Floats, angle: Floats, speed: Floats, torque: Floats
+) -> Floats:
+    """What rigid stages have to pass on at each disc, referred to the first, (discs, n) [N m]."""
+    n = train.speed[:, None]
+    # The ground is a last disc.
+    net = np.zeros((len(train.discs) + 1, len(time)))
+    for s, (first, second) in enumerate(train.tip.tolist()):
+        flow = train.lead[s] * torque[s]
+        net[first] -= flow
+        net[second] += flow
+    net = net[:-1]
+    whole = (train.mean_inertia[:, None] * n**2 * speed[train.mass]).sum(axis=0)
+    together = whole / (train.mean_inertia[:, None] * n**2).sum()
+    swing = train.swing_damping[:, None] * (speed[train.mass] - together)
+    net -= n**2 * (train.damping[:, None] * speed[train.mass] + swing)
+    loaded = {disc: own for disc in joined if (own := tuple(one for one in train.torques if one.on == disc))}
+    bare = _net(replace(train, torques=()), time, angle, speed) if loaded else net
+    for disc, own in loaded.items():
+        alone = _net(replace(train, torques=own), time, angle, speed)
+        net[disc] += (alone - bare)[train.mass[disc]]
+    return _shared(train, joined, net)
+
+
+def _shared(train: MovingTrain, joined: list[int], net: Floats) -> Floats:
+    """Less the inertia torque, the sum of all others on a mass, by inertia."""
+    shared = np.zeros_like(net)
+    weight = train.speed**2 * train.mean_inertia
+    for mass in {int(train.mass[disc]) for disc in joined}:
+        discs = [disc for disc in joined if train.mass[disc] == mass]
+        whole = net[discs].sum(axis=0)
+        shared[discs] = net[discs] - whole * (weight[discs] / weight[discs].sum())[:, None]
+    return shared
+
+
+def _net(train: MovingTrain, time: Floats, angle: Floats, speed: Floats) -> Floats:
+    """Net torque on each mass, instant by instant, (masses, n) [N m]."""
+    instants = zip(time.tolist(), angle.T, speed.T, strict=True)
+    return np.array([train.net_torques(t, at[None], turning)[0][0] for t, at, turning in instants]).T
