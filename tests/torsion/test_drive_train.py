@@ -353,3 +353,18 @@ def test_stiffness_changes_no_steady_motion() -> None:
     rigid = lw.steady_state(machine(MOTOR, BOX))
     elastic = lw.steady_state(machine(MOTOR, BOX, SHAFT, CRANKSHAFT))
     assert elastic.unevenness == rigid.unevenness
+
+
+def test_thirds_of_a_load_over_three_revolutions() -> None:
+    """A torque that repeats after three revolutions excites thirds, in the forced vibration as well."""
+    load = (
+        '[loads]\nmill = { kind = "formula", on = "A", torque = "-80-30*cos(phi/3)", cycle = "1080 deg" }\n'
+    )
+    text = CART.replace("[loads]", load.rstrip("\n"))
+    found = lw.mechanism_harmonics(lw.loads(text), 9.0, [1 / 3, 2 / 3])
+    bare = lw.mechanism_harmonics(lw.loads(CART), 9.0, [1])
+    assert found == pytest.approx([-30, 0], abs=1e-9)
+    assert lw.mechanism_harmonics(lw.loads(text), 9.0, [1]) == pytest.approx(bare, abs=1e-8)
+    forced = lw.forced_vibration(lw.loads(text + "".join((MOTOR, BOX, SHAFT)).format(ratio=9.8)))
+    # Orders of the results are those of the motor.
+    assert np.abs(forced.orders * 9.8 - 1 / 3).min() < 1e-9

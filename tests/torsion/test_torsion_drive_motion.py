@@ -115,3 +115,32 @@ def test_gear_losses_by_direction() -> None:
     assert curve.x.tolist() == [0.0, 10.0, 15.0, 20.0]
     assert curve.y.tolist() == [4.0, 1.0, 0.0, -4.0]
     assert (curve.after[1], curve.before[2], curve.after[2]) == pytest.approx((-0.2, -0.2, -0.8))
+
+
+GAS = """
+[loads.gas]
+kind = "force_angle"
+on = "cart"
+cycle = "720 deg"
+angle = "0, 40, 90, 200, 360, 540, 660, 720 deg"
+force = "-9, -5, -2, 0.4, 0, -0.3, -3, -9 kN"
+[loads.brake]
+kind = "viscous"
+on = "A"
+damping_torsional = 60
+"""
+
+
+def test_loads_over_two_revolutions_move_as_the_rigid_drive() -> None:
+    text = CART + "[loads]\n" + GAS
+    rigid = lw.transient(lw.loads(text), duration=2.0, accuracy=1e-10)
+    elastic = torsion_transient(
+        lw.loads(text + SHAFT.format(k=4e6, c=300.0)), manoeuvre(duration=2.0, sample_time=1e-3)
+    )
+    crank = elastic.discs.index("crank")
+    angle, speed = rigid.at(elastic.time)
+    # More than a cycle, so that both revolutions of it count.
+    assert angle[-1] > 5 * np.pi
+    # The corners of the table are rounded over a few tenths of a degree, the shaft gives way a bit.
+    np.testing.assert_allclose(elastic.angle[crank], angle, atol=3e-3)
+    np.testing.assert_allclose(elastic.speed[crank], speed, atol=3e-3 * speed.max())

@@ -51,17 +51,21 @@ class VariableInertia:
 
 
 def variable_inertia(
-    on: int, inertia: ArrayLike, slope: ArrayLike | None = None, phase: float = 0.0
+    on: int,
+    inertia: ArrayLike,
+    slope: ArrayLike | None = None,
+    phase: float = 0.0,
+    period: float = 2 * np.pi,
 ) -> VariableInertia:
-    """An inertia from even samples over one revolution.
+    """An inertia from even samples over one revolution, or over the period after which it repeats.
 
     By the trigonometric polynomial through the samples. `inertia`: (samples,) [kg m²]; `slope`: (samples,)
-    [kg m²/rad]; `phase`: [rad].
+    [kg m²/rad]; `phase`, `period`: [rad].
     """
     J = np.asarray(inertia, dtype=float)
     if not len(J) or not (np.isfinite(J).all() and (J > 0).all()):
         raise InputError("inertia over the revolution: expected finite numbers above zero")
-    table = smooth(J)
+    table = smooth(J, period)
     if slope is not None:
         given = np.asarray(slope, dtype=float)
         if given.shape != J.shape:

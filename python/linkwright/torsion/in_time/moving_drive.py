@@ -33,7 +33,7 @@ from linkwright.torsion.response.drive_line import drive_line, mean_inertia, mec
 
 Floats = NDArray[np.float64]
 
-# Samples of the crank's turn: kinks at dead centres are rounded over a few tenths of a degree.
+# Samples of a revolution of the crank: kinks at dead centres are rounded over a few tenths of a degree.
 _SAMPLES = 2048
 
 # Speeds between which laws are straight over the speed, up to twice that without load.
@@ -65,12 +65,6 @@ def moving_drive(machine: Machine, manoeuvre: TrainTransient) -> tuple[MovingTra
     given = manoeuvre.model_copy(update={"balanced": False, "motors": motors})
     moving = moving_train(train, given)
     compiled = mechanism_alone(machine)
-    if compiled.turns > 1:
-        raise InputError(
-            f"{machine.name}: loads or mechanism repeat after {compiled.turns} revolutions; motion in time "
-            "of a torsionally flexible driveline covers one: leave the stiffness out, or compute the forced "
-            "vibration"
-        )
     crank = moving.discs.index(CRANK)
     own = np.array(moving.inertia)
     # The rest is what turns with the crank beside the mechanism; of nothing, rounding is left.
@@ -89,14 +83,14 @@ def moving_drive(machine: Machine, manoeuvre: TrainTransient) -> tuple[MovingTra
 
 
 def _inertia(compiled: CompiledMachine, crank: int) -> VariableInertia:
-    """Reduced inertia over the revolution of the crank."""
-    at = compiled.reductions(_turn())
-    return variable_inertia(crank, at.inertia, at.inertia_slope)
+    """Reduced inertia over the cycle of the crank."""
+    at = compiled.reductions(_cycle(compiled))
+    return variable_inertia(crank, at.inertia, at.inertia_slope, period=compiled.cycle)
 
 
 def _resistance(compiled: CompiledMachine, crank: int, guess: float) -> Iterator[TrainTorque]:
     """What the loads of the mechanism ask of the crank."""
-    phi = _turn()
+    phi = _cycle(compiled)
     at = compiled.reductions(phi)
     parts = (
         ("load", at.load, None),
@@ -105,7 +99,7 @@ def _resistance(compiled: CompiledMachine, crank: int, guess: float) -> Iterator
     )
     for name, torque, law in parts:
         if torque.any():
-            yield TrainTorque(name, crank, -1.0, law, spline(torque))
+            yield TrainTorque(name, crank, -1.0, law, spline(torque, compiled.cycle))
     for speeds, torques in compiled.speed_tables:
         yield TrainTorque("speed", crank, -1.0, OverSpeed(_through_rest(speeds, torques, guess)))
     if compiled.has_laws:
@@ -120,7 +114,7 @@ def _laws(compiled: CompiledMachine, phi: Floats, crank: int, guess: float) -> I
     for n, torque in enumerate(compiled.law_torques(phi, asked)):
         if torque.any():
             hat = straight(speeds, np.eye(_SPEEDS)[n])
-            yield TrainTorque("law", crank, -1.0, OverSpeed(hat), spline(torque))
+            yield TrainTorque("law", crank, -1.0, OverSpeed(hat), spline(torque, compiled.cycle))
 
 
 def _through_rest(speeds: object, torque: object, guess: float) -> Curve:
@@ -162,6 +156,8 @@ def _lossy(curve: Curve, forward: float, reverse: float) -> Curve:
     )
 
 
-def _turn() -> Floats:
-    angles: Floats = 2 * np.pi * np.arange(_SAMPLES) / _SAMPLES
+def _cycle(compiled: CompiledMachine) -> Floats:
+    """Even angles of the crank over all revolutions after which mechanism and loads repeat [rad]."""
+    samples = _SAMPLES * compiled.turns
+    angles: Floats = compiled.cycle * np.arange(samples) / samples
     return angles

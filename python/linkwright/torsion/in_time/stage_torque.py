@@ -70,8 +70,8 @@ def _left_over(
         net[first] -= flow
         net[second] += flow
     net = net[:-1]
-    whole = (train.mean_inertia[:, None] * n**2 * speed[train.mass]).sum(axis=0)
-    together = whole / (train.mean_inertia[:, None] * n**2).sum()
+    momentum = (train.mean_inertia[:, None] * n**2 * speed[train.mass]).sum(axis=0)
+    together = momentum / (train.mean_inertia[:, None] * n**2).sum()
     swing = train.swing_damping[:, None] * (speed[train.mass] - together)
     net -= n**2 * (train.damping[:, None] * speed[train.mass] + swing)
     loaded = {disc: own for disc in joined if (own := tuple(one for one in train.torques if one.on == disc))}
@@ -88,8 +88,8 @@ def _shared(train: MovingTrain, joined: list[int], net: Floats) -> Floats:
     weight = train.speed**2 * train.mean_inertia
     for mass in {int(train.mass[disc]) for disc in joined}:
         discs = [disc for disc in joined if train.mass[disc] == mass]
-        whole = net[discs].sum(axis=0)
-        shared[discs] = net[discs] - whole * (weight[discs] / weight[discs].sum())[:, None]
+        total = net[discs].sum(axis=0)
+        shared[discs] = net[discs] - total * (weight[discs] / weight[discs].sum())[:, None]
     return shared
 
 

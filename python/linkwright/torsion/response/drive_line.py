@@ -97,8 +97,8 @@ def mechanism_harmonics(machine: Machine, speed: ArrayLike, orders: ArrayLike) -
     speed : array_like, shape () or (speeds,)
         Of the crank [rad/s].
     orders : array_like, shape (n,)
-        Per revolution of the crank, multiples of ½. Halves of a revolution are in a motion that repeats
-        after two: in one that repeats after every revolution their harmonics are zero.
+        Per revolution of the crank, multiples of ½, or of 1/n for a motion that repeats after n revolutions.
+        In one that repeats after every revolution the harmonics of halves are zero.
 
     Returns
     -------
@@ -108,7 +108,7 @@ def mechanism_harmonics(machine: Machine, speed: ArrayLike, orders: ArrayLike) -
     Raises
     ------
     InputError
-        An order is negative or no multiple of ½, or a speed is not positive.
+        An order is negative or no such multiple, or a speed is not positive.
     AssemblyError
         The mechanism does not close all round, or does not repeat after 24 revolutions or fewer.
 
@@ -117,9 +117,9 @@ def mechanism_harmonics(machine: Machine, speed: ArrayLike, orders: ArrayLike) -
     The torque is a series between the dead centres of its frictions, and its harmonics are integrals of that
     series, so that no sample is lost to a jump.
     """
-    nu, omega = _orders(orders), _positive(speed)
-    compiled = mechanism_alone(machine)
-    size = np.where(nu == 0, 1.0, 2.0) * (nu * compiled.turns == np.round(nu * compiled.turns))
+    omega, compiled = _positive(speed), mechanism_alone(machine)
+    nu = _orders(orders, compiled.turns)
+    size = np.where(nu == 0, 1.0, 2.0) * _is_whole(nu * compiled.turns)
     M: Complex = -size[:, None] * _resistance_harmonics(compiled, nu, omega)
     M[nu == 0] -= compiled.speed_load(omega)
     return M[:, 0] if np.ndim(speed) == 0 else M
@@ -197,12 +197,20 @@ def _slope(torque: Callable[[Floats], Floats], omega: Floats) -> Floats:
     return slope
 
 
-def _orders(orders: ArrayLike) -> Floats:
-    """Orders that are multiples of a half."""
+def _orders(orders: ArrayLike, turns: int) -> Floats:
+    """Orders that are multiples of a half, or of one over the revolutions of a cycle."""
     nu = np.atleast_1d(np.asarray(orders, dtype=np.float64))
-    if nu.ndim != 1 or not np.isfinite(nu).all() or (nu < 0).any() or (2 * nu != np.round(2 * nu)).any():
-        raise InputError(f"orders: found {nu.tolist()}, expected multiples of 0.5 of 0 or more")
+    sound = nu.ndim == 1 and bool(np.isfinite(nu).all() and (nu >= 0).all())
+    if not sound or not (_is_whole(2 * nu) | _is_whole(turns * nu)).all():
+        also = "" if turns <= 2 else f" or of 1/{turns}"
+        raise InputError(f"orders: found {nu.tolist()}, expected multiples of 0.5{also}, of 0 or more")
     return nu
+
+
+def _is_whole(values: Floats) -> NDArray[np.bool_]:
+    """Which numbers are whole but for rounding."""
+    whole: NDArray[np.bool_] = np.abs(values - np.round(values)) <= _WHOLE * np.maximum(values, 1.0)
+    return whole
 
 
 def _positive(speed: ArrayLike) -> Floats:
@@ -217,6 +225,9 @@ def _positive(speed: ArrayLike) -> Floats:
 _ORDERS = 24
 _NEGLIGIBLE = 1e-12
 
+# Share by which rounding takes a fraction such as 1/3 off a whole number.
+_WHOLE = 1e-12
+
 
 def mechanism_sources(
     machine: Machine, turning: Floats, place: dict[str, int], speeds: Floats
@@ -228,7 +239,8 @@ def mechanism_sources(
     over that of the first; `speeds`: (speeds,) [rad/s].
     """
     n = turning[place[CRANK]]
-    of_crank = np.arange(0.0, _ORDERS + 0.5, 0.5 if mechanism_alone(machine).turns % 2 == 0 else 1.0)
+    turns = mechanism_alone(machine).turns
+    of_crank = np.arange(_ORDERS * turns + 1) / turns
     M = mechanism_harmonics(machine, n * speeds, of_crank)
     size = np.abs(M).max(axis=1)
     kept = (of_crank > 0) & (size > _NEGLIGIBLE * size.max())
