@@ -96,4 +96,4 @@ def _shared(train: MovingTrain, joined: list[int], net: Floats) -> Floats:
 def _net(train: MovingTrain, time: Floats, angle: Floats, speed: Floats) -> Floats:
     """Net torque on each mass, instant by instant, (masses, n) [N m]."""
     instants = zip(time.tolist(), angle.T, speed.T, strict=True)
-    return np.array([train.net_torques(t, at[None], turning)[0][0] for t, at, turning in instants]).T
+    return np.array([train.net_torques(t, at[None], turning).torque[0] for t, at, turning in instants]).T

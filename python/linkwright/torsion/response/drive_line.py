@@ -209,8 +209,8 @@ def _orders(orders: ArrayLike, turns: int) -> Floats:
 
 def _is_whole(values: Floats) -> NDArray[np.bool_]:
     """Which numbers are whole but for rounding."""
-    whole: NDArray[np.bool_] = np.abs(values - np.round(values)) <= _WHOLE * np.maximum(values, 1.0)
-    return whole
+    is_whole: NDArray[np.bool_] = np.abs(values - np.round(values)) <= _WHOLE * np.maximum(values, 1.0)
+    return is_whole
 
 
 def _positive(speed: ArrayLike) -> Floats:
