@@ -372,8 +372,17 @@ def _entries(motor: CatalogueMotor) -> dict[str, Any]:
 def _tables(motors: list[CatalogueMotor]) -> list[Table]:
     from linkwright.kernel.page.table import Table
 
-    heads = ("type", "", "poles", "power", "speed", "torque", "breakdown", "start", "inertia", "series")
-    return [Table("motors", "Motors of the catalogue", heads, [_row(motor) for motor in motors])]
+    heads = ("type", "", "power", "speed", "torque", "breakdown", "start", "inertia")
+    poles = dict.fromkeys(motor.poles for motor in motors)
+    return [
+        Table(
+            f"motors_{n}",
+            f"Motors of the catalogue with {n} poles",
+            heads,
+            [_row(motor) for motor in motors if motor.poles == n],
+        )
+        for n in poles
+    ]
 
 
 def _row(motor: CatalogueMotor) -> Row:
@@ -393,11 +402,9 @@ def _row(motor: CatalogueMotor) -> Row:
     return (
         motor.type,
         "",
-        str(motor.poles),
         quantity(motor.power_rated, "W", 3, usual="kW"),
         quantity(motor.speed_rated, "rad/s", 4, usual="rpm"),
-        measured(motor.torque_rated, "N m"),
+        measured(motor.torque_rated, "N m", digits=4),
         *over,
-        quantity(entries["inertia"], "kg m²", 3, before=mark),
-        motor.series,
+        quantity(entries["inertia"], "kg m²", 2 if mark else 3, before=mark),
     )

@@ -251,7 +251,7 @@ def _frequencies(free: FreeVibration) -> Table:
         )
         for k, f in enumerate(free.natural_frequencies.tolist())
     ]
-    heads = ("dominant strain energy; kinetic energy", "", "Hz", "1/min", "nodes", "at")
+    heads = ("dominant strain energy; kinetic energy", "", "Hz", "cycles/min", "nodes", "at")
     return Table("natural_frequencies", "Natural frequencies", heads, rows)
 
 
