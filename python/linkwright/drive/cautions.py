@@ -43,6 +43,7 @@ def cautions(machine: Machine, reduced: Reduction, steady: SteadyState | None) -
         return (*sentences, "The machine has no motor: steady motion and run-up are not computed.")
     sentences += _without_run_up(drive)
     sentences += _start_by_kloss(machine, drive)
+    sentences += _start_by_line(drive)
     sentences += _without_rotor(drive)
     sentences += _least_breakdown(drive)
     if steady is not None:
@@ -52,17 +53,25 @@ def cautions(machine: Machine, reduced: Reduction, steady: SteadyState | None) -
 
 
 def _without_rotor(drive: Drive) -> Iterator[str]:
-    """A type of the catalogue without the inertia of its rotor."""
+    """A motor without the inertia of its rotor."""
     motor = drive.motor
-    if not isinstance(motor, InductionMotor) or not motor.catalogue or motor.inertia:
+    assert motor is not None
+    if motor.inertia or "inertia" in motor.model_fields_set or isinstance(motor, ConstantSpeedMotor):
         return
-    if "inertia" in motor.model_fields_set or motor.torque_rated is None:
-        return
-    estimate = estimated_inertia(float(motor.torque_rated))
-    yield (
-        f"The catalogue gives no rotor inertia for {motor.catalogue}, and zero is used; similarity with "
-        f"{KNOWN} gives an estimate of {estimate:.3g} kg m²: give drive.motor.inertia."
-    )
+    if isinstance(motor, InductionMotor) and motor.torque_rated is not None:
+        estimate = estimated_inertia(float(motor.torque_rated))
+        source = (
+            f"The catalogue gives no rotor inertia for {motor.catalogue}" if motor.catalogue else _NO_ROTOR
+        )
+        yield (
+            f"{source}, and zero is used; similarity with {KNOWN} gives an estimate of {estimate:.3g} kg m²: "
+            "give drive.motor.inertia."
+        )
+    elif motor.torque_rated is not None:
+        yield f"{_NO_ROTOR}, and zero is used: give drive.motor.inertia."
+
+
+_NO_ROTOR = "The file gives no rotor inertia for the motor"
 
 
 def _least_breakdown(drive: Drive) -> Iterator[str]:
@@ -118,6 +127,26 @@ def _start_by_kloss(machine: Machine, drive: Drive) -> Iterator[str]:
         f"{100 * torque / motor.torque_breakdown:.0f} % of its breakdown torque; real motors give more, so "
         "the computed run-up is conservative."
     )
+
+
+# Share of its rated torque from which a start by the straight characteristic is worth a sentence: controllers
+# allow currents of twice the rated one or less.
+_START_SHARE = 2.0
+
+
+def _start_by_line(drive: Drive) -> Iterator[str]:
+    """The straight characteristic of a DC motor at standstill, which no controller allows."""
+    motor = drive.motor
+    if not isinstance(motor, DcMotor) or motor.torque_max is not None or motor.torque_rated is None:
+        return
+    assert motor.torque_stall is not None
+    share = motor.torque_stall / motor.torque_rated
+    if share > _START_SHARE:
+        yield (
+            f"By its straight characteristic the DC motor gives {motor.torque_stall:.4g} N m at standstill, "
+            f"{share:.3g} times its rated torque; its controller limits the current, so the run-up takes "
+            "longer: give drive.motor.torque_max."
+        )
 
 
 def _cycle(steady: SteadyState) -> Iterator[str]:

@@ -209,24 +209,20 @@ def motion_checks(machine: Machine, known: CatalogueMotor | None = None) -> Moto
         return _servo_checks(machine, known)
     assert isinstance(motor, InductionMotor | DcMotor)
     by_kloss = isinstance(motor, InductionMotor) and motor.torque_start is None
-    # The current of a DC motor is limited, to that of its maximum torque.
-    most = known.torque_max if known is not None and known.kind == "dc" else None
-    starts = _start_checks(machine, by_kloss, most)
+    starts = _start_checks(machine, by_kloss)
     try:
         steady = steady_state(machine, n=_ANGLES)
     except FindingError as error:
         lost = tuple(Check(name, None, None, "", False, note=str(error)) for name in DECISIVE["all"][3:])
         return MotorChecks((starts[0], lost[0], starts[1], *lost[2:]))
     up, check = _run_up_check(machine, steady, by_kloss)
-    return MotorChecks((starts[0], check, starts[1], *torque_checks(motor, steady, known)), steady, up)
+    return MotorChecks((starts[0], check, starts[1], *torque_checks(motor, steady)), steady, up)
 
 
-def torque_checks(
-    motor: InductionMotor | DcMotor, steady: SteadyState, known: CatalogueMotor | None = None
-) -> tuple[Check, Check]:
+def torque_checks(motor: InductionMotor | DcMotor, steady: SteadyState) -> tuple[Check, Check]:
     """Check the torque of steady motion against the rated and the breakdown or maximum torque."""
     if isinstance(motor, DcMotor):
-        return _torque_limits(steady, motor.torque_rated, known.torque_max if known else None)
+        return _torque_limits(steady, motor.torque_rated, motor.torque_max)
     peak = max(steady.torque_motor_max, -steady.torque_motor_min)
     rms = _at_most("torque_rms", steady.torque_motor_rms, motor.torque_rated, "no rated torque")
     limit = PEAK_SHARE * motor.torque_breakdown if motor.torque_breakdown else None

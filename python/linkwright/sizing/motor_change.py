@@ -47,7 +47,7 @@ def _motor_table(known: CatalogueMotor, ratio: float, speed: float | None) -> di
 # Entries of a machine file that describe a motor of one's own, by its kind.
 _ENTRIES = {
     "induction": ("speed_synchronous", "speed_rated", "torque_rated", "torque_breakdown", "torque_start"),
-    "dc": ("speed_no_load", "speed_rated", "torque_rated", "torque_stall"),
+    "dc": ("speed_no_load", "speed_rated", "torque_rated", "torque_stall", "torque_max"),
 }
 
 

@@ -129,8 +129,10 @@ def _motor(drive: Drive) -> Iterator[str]:
     match drive.motor:
         case InductionMotor() as motor:
             yield from _induction(motor)
-        case DcMotor():
+        case DcMotor() as motor:
             yield "The motor torque falls linearly from standstill to the no-load speed."
+            if motor.torque_max is not None:
+                yield f"The limit of the current holds it within ±{quantity(motor.torque_max, 'N m')}."
         case TableMotor():
             yield "The motor torque is linear between the given speeds and constant outside them."
         case ConstantTorqueMotor():

@@ -295,13 +295,35 @@ def _less(key: str, value: float, word: str, limit: float) -> InitErrorDetails:
 
 
 class DcMotor(Motor):
-    """Direct-current motor with constant excitation: M = M_stall (1 − ω/ω_0)."""
+    """Direct-current motor with constant excitation: M = M_stall (1 − ω/ω_0).
+
+    Within ± the maximum torque that the limit of its current allows.
+    """
 
     kind: Literal["dc"]
     speed_no_load: PositiveSpeed = Field(description="Speed of zero torque.")
     torque_stall: PositiveTorque | None = Field(
         None, description="Torque at standstill. Default: from the rated point."
     )
+    torque_max: PositiveTorque | None = Field(
+        None,
+        description="Maximum torque, by the limit of the current, driving or braking. Default: no limit.",
+    )
+
+    @property
+    def speed_marks(self) -> tuple[float, ...]:
+        """The speeds at which the limit of the torque begins [rad/s]."""
+        return () if self.torque_max is None else tuple(speed for speed, _ in self.limited())
+
+    def limited(self) -> tuple[tuple[float, float], ...]:
+        """Ends of the straight part of a characteristic with a limit: speeds [rad/s] and torques [N m]."""
+        assert self.torque_max is not None
+        assert self.torque_stall is not None
+        share = self.torque_max / self.torque_stall
+        end = (self.speed_no_load * (1 + share), -self.torque_max)
+        if np.all(share < 1):
+            return (self.speed_no_load * (1 - share), self.torque_max), end
+        return (0.0, self.torque_stall), end
 
     @classmethod
     def _completed(cls, given: Values) -> Values:
@@ -323,6 +345,10 @@ class DcMotor(Motor):
             yield fault(
                 "torque_stall", expected="the stall torque, or the rated speed and the rated torque or power"
             )
+        most, rated = self.torque_max, self.torque_rated
+        if most is not None and rated is not None and most < rated:
+            expected = f"at least the rated torque, {rated:.6g} N m"
+            yield fault("torque_max", found=f"{most:.6g} N m", expected=expected)
 
 
 class TableMotor(Motor):

@@ -43,7 +43,7 @@ _ENTRIES: dict[str, Kind] = {
     "speed_max": SPEED,
 }
 
-# Those that size a motor and are no entries of a machine file.
+# Those that size a motor; the maximum torque of a DC motor alone is an entry of a machine file too.
 _SIZING = ("torque_max", "speed_max")
 
 KINDS = ("induction", "dc", "servo")
@@ -72,10 +72,10 @@ def with_motor_of_file(tables: dict[str, Any], folder: Path, *, allow_outside: b
     require_below(path, folder, name, _KEY, allow_outside=allow_outside)
     rows = _Rows(path)
     row = rows.entries(rows.known(wanted))
-    for key, value in row.items():
-        if key not in _SIZING:
-            motor.setdefault(key, value)
     kind = rows.kind(str(wanted), row)
+    for key, value in row.items():
+        if key not in _SIZING or (kind == "dc" and key == "torque_max"):
+            motor.setdefault(key, value)
     motor.setdefault("kind", "constant_speed" if kind == "servo" else kind)
 
 

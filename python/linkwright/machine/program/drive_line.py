@@ -5,6 +5,8 @@ from __future__ import annotations
 from itertools import pairwise
 from typing import Any
 
+import numpy as np
+
 from linkwright import _core
 from linkwright.drive.model.drive import Drive
 from linkwright.drive.model.motor import (
@@ -14,9 +16,11 @@ from linkwright.drive.model.motor import (
     InductionMotor,
     TableMotor,
 )
+from linkwright.kernel.errors import ShapeError
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.loads import table_of
 from linkwright.machine.program.mechanism import MechanismProgram
+from linkwright.machine.program.numbers import table
 
 # Crank speed from which steady motion is sought when nothing in the machine suggests one [rad/s].
 _SPEED_UNKNOWN = 10.0
@@ -44,6 +48,8 @@ def _motor(machine: Machine, program: MechanismProgram, motor: Any) -> _core.Mot
     match motor:
         case ConstantTorqueMotor():
             return _core.Motor.Constant(torque=program.slot(motor.torque))
+        case DcMotor(torque_max=most) if most is not None:
+            return _core.Motor.Table(table=_limited(motor))
         case DcMotor(torque_stall=stall, speed_no_load=no_load):
             return _core.Motor.Line(torque=program.slot(stall), inverse_speed=program.slot(1.0 / no_load))
         case InductionMotor():
@@ -52,6 +58,17 @@ def _motor(machine: Machine, program: MechanismProgram, motor: Any) -> _core.Mot
             return _core.Motor.Table(table=table_of(machine, motor.speed, motor.torque))
     # No motor, or one of constant speed: nothing that answers to the load.
     return None
+
+
+def _limited(motor: DcMotor) -> _core.Table:
+    """A straight characteristic between its ends, constant beyond them. Raises ShapeError: they vary."""
+    speeds, torques = zip(*motor.limited(), strict=True)
+    if any(np.ndim(value) for value in (*speeds, *torques)):
+        raise ShapeError(
+            "drive.motor: a characteristic with torque_max cannot vary from machine to machine in a batch; "
+            "compute machines with others one by one"
+        )
+    return table(speeds, torques)
 
 
 def _induction(program: MechanismProgram, motor: Any) -> _core.Motor:

@@ -138,6 +138,9 @@ def motor_curve(motor: InductionMotor | DcMotor | TableMotor | ConstantTorqueMot
     match motor:
         case ConstantTorqueMotor():
             return straight([0.0], [motor.torque])
+        case DcMotor(torque_max=most) if most is not None:
+            speeds, torques = zip(*motor.limited(), strict=True)
+            return straight(speeds, torques)
         case DcMotor(speed_no_load=no_load, torque_stall=stall):
             assert stall is not None
             return straight([0.0, no_load], [stall, 0.0], beyond="straight")
