@@ -139,8 +139,8 @@ def motor_curve(motor: InductionMotor | DcMotor | TableMotor | ConstantTorqueMot
         case ConstantTorqueMotor():
             return straight([0.0], [motor.torque])
         case DcMotor(torque_max=most) if most is not None:
-            speeds, torques = zip(*motor.limited(), strict=True)
-            return straight(speeds, torques)
+            ends = motor.limited()
+            return straight([speed for speed, _ in ends], [torque for _, torque in ends])
         case DcMotor(speed_no_load=no_load, torque_stall=stall):
             assert stall is not None
             return straight([0.0, no_load], [stall, 0.0], beyond="straight")
