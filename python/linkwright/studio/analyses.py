@@ -26,6 +26,7 @@ from linkwright.drive.study import has_motor
 from linkwright.kernel.errors import LinkwrightError
 from linkwright.kernel.figure.style import CaptionedFigure
 from linkwright.kernel.findings import Findings
+from linkwright.kernel.page.language import ENGLISH, Language
 from linkwright.kernel.result import Result
 from linkwright.kinetostatics.forces import forces
 from linkwright.kinetostatics.motion import Motion
@@ -180,11 +181,11 @@ def _forces(machine: Machine, steady: SteadyState, every: int) -> Any:
     )
 
 
-def beside(machine: Machine, lane: str) -> Answers:
+def beside(machine: Machine, lane: str, to: Language = ENGLISH) -> Answers:
     """What runs beside, in the lane ``"study"`` or ``"torsion"``: results with the figures that are more than
-    curves.
+    curves, in a language.
     """
-    return _LANES[lane](machine)
+    return _LANES[lane](machine, to)
 
 
 def lanes(machine: Machine) -> list[str]:
@@ -192,13 +193,13 @@ def lanes(machine: Machine) -> list[str]:
     return [*([] if machine.is_train_alone else ["study"]), *(["torsion"] if has_train(machine) else [])]
 
 
-def _study(machine: Machine) -> Answers:
+def _study(machine: Machine, to: Language) -> Answers:
     from linkwright.app.report.figures import figures
 
     results = study(machine)
     known = [shown(name, result) for name, result in _new_results(results)]
     drawn = [figure for figure in figures(results) if figure.name not in _CURVES]
-    return Answers(known, results.findings, results.warnings, figures=tuple(map(_svg, drawn)))
+    return Answers(known, results.findings, results.warnings, figures=tuple(_svg(one, to) for one in drawn))
 
 
 # Figures of the report that plots of the studio show in more detail.
@@ -211,24 +212,25 @@ def _new_results(results: Study) -> Iterator[tuple[str, Result]]:
     yield from ((name, result) for name, result in results.results().items() if name not in known)
 
 
-def _torsion(machine: Machine) -> Answers:
+def _torsion(machine: Machine, to: Language) -> Answers:
     from linkwright.torsion.figures.captions import torsion_figures
     from linkwright.torsion.study import torsion_study
 
     results = torsion_study(machine)
     parts = {field.name: getattr(results, field.name) for field in fields(results)}
     known = [shown(name, part) for name, part in parts.items() if isinstance(part, Result)]
-    return Answers(known, figures=tuple(map(_svg, torsion_figures(results))))
+    return Answers(known, figures=tuple(_svg(one, to) for one in torsion_figures(results)))
 
 
-def _svg(drawn: CaptionedFigure) -> dict[str, str]:
+def _svg(drawn: CaptionedFigure, to: Language) -> dict[str, str]:
+    from linkwright.kernel.figure.in_language import translated_figure
     from linkwright.kernel.figure.svg import svg
 
-    text = svg(drawn.figure, transparent=True)
+    text = svg(drawn.figure if to is ENGLISH else translated_figure(drawn.figure, to), transparent=True)
     return {"name": drawn.name, "title": drawn.title, "caption": drawn.caption, "svg": text}
 
 
-_LANES: dict[str, Callable[[Machine], Answers]] = {"study": _study, "torsion": _torsion}
+_LANES: dict[str, Callable[[Machine, Language], Answers]] = {"study": _study, "torsion": _torsion}
 
 
 def failed(error: LinkwrightError) -> Answers:

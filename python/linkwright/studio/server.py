@@ -27,13 +27,16 @@ from urllib.parse import parse_qs
 
 import uvicorn
 from starlette.applications import Starlette
-from starlette.responses import FileResponse
+from starlette.requests import Request
+from starlette.responses import FileResponse, JSONResponse, Response
 from starlette.routing import Mount, Route, WebSocketRoute
 from starlette.staticfiles import StaticFiles
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
+from linkwright.kernel.errors import InputError
 from linkwright.kernel.limits import FILE_BYTES
 from linkwright.studio.files import Folder
+from linkwright.studio.language import page_texts
 from linkwright.studio.session import Session
 from linkwright.studio.wire import WireError
 
@@ -219,6 +222,7 @@ class Studio:
         self.tabs = 0
         routes = [
             Route("/", _page),
+            Route("/texts/{code}.json", _texts),
             WebSocketRoute("/socket", self._tab),
             Mount("/", StaticFiles(directory=STATIC)),
         ]
@@ -262,6 +266,13 @@ class Studio:
 
 async def _page(request: object) -> FileResponse:
     return FileResponse(STATIC / "index.html")
+
+
+async def _texts(request: Request) -> Response:
+    try:
+        return JSONResponse(page_texts(request.path_params["code"]))
+    except InputError:
+        return Response(status_code=404)
 
 
 async def _converse(page: WebSocket, session: Session) -> None:

@@ -18,7 +18,7 @@ from anyio import to_thread
 
 from linkwright.kernel.description.place import split
 from linkwright.kernel.description.schema_walk import annotation_at, mark_of
-from linkwright.kernel.errors import LinkwrightError, MachineError, Problem
+from linkwright.kernel.errors import InputError, LinkwrightError, MachineError, Problem
 from linkwright.kernel.units import Quantity
 from linkwright.machine.address import get, replace
 from linkwright.machine.machine import Machine
@@ -30,6 +30,7 @@ from linkwright.studio.document import changed
 from linkwright.studio.drag import drag
 from linkwright.studio.drawing import thumbnail
 from linkwright.studio.files import Folder, base, gallery, opened
+from linkwright.studio.language import in_words, spoken
 from linkwright.studio.wire import WireError, packed, unpacked
 from linkwright.studio.worker import Worker
 
@@ -56,7 +57,7 @@ class Session:
 
     def __init__(self, folder: Folder, send: Callable[[bytes], Any]) -> None:
         self.folder, self.send = folder, send
-        self.text, self.place, self.name = "", "", ""
+        self.text, self.place, self.name, self.language = "", "", "", "en"
         # The last text that was sound, with its path and its machine.
         self.sound: tuple[str, str, Machine] | None = None
         self.newest: tuple[int, Body] | None = None
@@ -89,6 +90,8 @@ class Session:
         elif body["ask"] == "search":
             self.search = (number, body)
             self.sought.set()
+        elif body["ask"] == "language":
+            self._speak(str(body.get("code", "")))
         elif body["ask"] == "end search":
             asyncio.ensure_future(self.searcher.end())  # noqa: RUF006 (as of what is stopped)
         elif body["ask"] == "stop":
@@ -98,6 +101,18 @@ class Session:
                 self.others.put_nowait((number, body))
             except asyncio.QueueFull:
                 raise WireError("too many requests at once") from None
+
+    def _speak(self, code: str) -> None:
+        """Answer in a language from now on."""
+        try:
+            spoken(code)
+        except InputError as error:
+            raise WireError(str(error)) from None
+        self.language = code
+
+    def _packed(self, number: int, body: Body) -> bytes:
+        """A message in the language of the tab."""
+        return packed(number, in_words(body, self.language))
 
     # -- the newest machine ----------------------------------------------------------------------------------
 
@@ -144,7 +159,7 @@ class Session:
             answer |= self._around(machine)
         answer["seconds"] = time.perf_counter() - begun
         due = (number, self.text, lanes(machine)) if machine is not None and not held else None
-        return packed(number, answer), due
+        return self._packed(number, answer), due
 
     def _machine(self, entries: dict[str, Any]) -> Machine:
         """The machine of the text with other entries.
@@ -216,7 +231,7 @@ class Session:
             await self.send(packed(number, {"of": "stopped", "lane": lane}))
             return
         self.running = lane
-        job = {"number": number, "lane": lane, "text": text, "path": path}
+        job = {"number": number, "lane": lane, "text": text, "path": path, "language": self.language}
         task = asyncio.create_task(self.worker.run(job))
         stale = 0.0
         while not task.done():
@@ -251,7 +266,8 @@ class Session:
                 continue
             (number, body), self.search = self.search, None
             path = base(self.folder, self.place, self.name)
-            job = {"number": number, "lane": "search", "text": self.text, "path": path, "search": body}
+            job = {"number": number, "lane": "search", "text": self.text, "path": path}
+            job |= {"search": body, "language": self.language}
             is_ended = True
             async for message in self.searcher.messages(job):
                 await self.send(message)
@@ -267,9 +283,9 @@ class Session:
             number, body = await self.others.get()
             try:
                 answer = await to_thread.run_sync(self._asked, body)
-                message = packed(number, answer)
+                message = self._packed(number, answer)
             except LinkwrightError as error:
-                message = packed(number, {"of": "refused", "words": str(error)})
+                message = self._packed(number, {"of": "refused", "words": str(error)})
             except Exception as error:
                 message = _internal(number, error)
             await self.send(message)

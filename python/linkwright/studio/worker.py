@@ -28,34 +28,35 @@ def main() -> None:
     from linkwright.kernel.errors import LinkwrightError
     from linkwright.machine.read import loads
     from linkwright.studio.analyses import beside, failed
+    from linkwright.studio.language import in_words, spoken
     from linkwright.studio.wire import packed
 
     # The page has nothing of what a library might print.
     out = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
 
-    def send(number: int, answer: dict[str, Any], *, is_last: bool) -> None:
-        body = packed(number, answer)
+    def send(number: int, code: str, answer: dict[str, Any], *, is_last: bool) -> None:
+        body = packed(number, in_words(answer, code))
         out.write(_HEAD.pack(len(body), is_last) + body)
         out.flush()
 
     for line in sys.stdin.buffer:
         job = json.loads(line)
-        number, lane = job["number"], job["lane"]
+        number, lane, code = job["number"], job["lane"], job["language"]
         try:
             machine = loads(job["text"], path=job["path"])
             if lane == "search":
                 from linkwright.studio.search import search
 
-                answer = search(machine, job["search"], partial(send, number, is_last=False))
+                answer = search(machine, job["search"], partial(send, number, code, is_last=False))
             else:
-                answer = {"of": "beside", "lane": lane, **beside(machine, lane).body()}
+                answer = {"of": "beside", "lane": lane, **beside(machine, lane, spoken(code)).body()}
         except LinkwrightError as error:
             if lane == "search":
                 answer = {"of": "search", "ended": True, "words": str(error)}
             else:
                 answer = {"of": "beside", "lane": lane, **failed(error).body()}
-        send(number, answer, is_last=True)
+        send(number, code, answer, is_last=True)
 
 
 class Worker:
@@ -72,7 +73,7 @@ class Worker:
         Parameters
         ----------
         job : dict
-            ``number``, ``lane``, ``text`` and ``path``.
+            ``number``, ``lane``, ``text``, ``path`` and ``language``.
         """
         last = None
         async for message in self.messages(job):

@@ -116,7 +116,8 @@ class Language:
     @cached_property
     def _unit(self) -> re.Pattern[str]:
         """A unit: parts of it with powers, between strokes and spaces."""
-        part = rf"(?:{'|'.join(sorted(map(re.escape, self.units), key=len, reverse=True))})[²³⁴]?"
+        names = sorted(map(re.escape, self.units.keys() - {"per"}), key=len, reverse=True)
+        part = rf"(?:{'|'.join(names)})[²³⁴]?"
         return re.compile(rf"(?:1/)?{part}(?:[ /·]{part})*(?: per {part}(?:[ /·]{part})*)?(?![\w²³⁴/])")
 
     @cached_property

@@ -1,6 +1,7 @@
 // What a user does, and what becomes of the answers.
 import { batch, effect, signal } from "./vendor/signals-core.mjs";
 import { history } from "./history.js";
+import { speak } from "./language.js";
 import * as state from "./state.js";
 import { connect } from "./socket.js";
 import { between, placeOf } from "./timeline.js";
@@ -19,6 +20,7 @@ export const measured = /** @type {{ redrawn: number[] }} */ ({ redrawn: [] });
 const link = connect({
   answer: (number, body) => batch(() => HEAR[body.of]?.(body)),
   state(connected) {
+    if (connected) tongue();
     if (connected && !state.connected.value && state.text.value) {
       compute({ text: state.text.value });
     }
@@ -159,6 +161,19 @@ effect(() => {
   link.ask({ ask: "slopes", response }).then((body) => {
     if (body.of === "slopes" && response === state.goal.value && now === turn.value) state.slopes.value = body;
   });
+});
+
+/** What the server says from now on is in the language of the page. */
+const tongue = () => link.send({ ask: "language", code: state.language.value });
+
+let spoken = state.language.value;
+effect(() => {
+  const code = state.language.value;
+  speak(code);
+  if (code === spoken) return;
+  spoken = code;
+  tongue();
+  if (state.text.peek()) compute({ text: state.text.peek() });
 });
 
 /** The pose before the gesture. */

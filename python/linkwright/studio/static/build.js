@@ -3,7 +3,7 @@
 import { html } from "./html.js";
 import { settle } from "./actions.js";
 import * as state from "./state.js";
-import { number } from "./units.js";
+import { written } from "./units.js";
 
 /** @param {string} head @param {Set<string>} names */
 function fresh(head, names) {
@@ -18,7 +18,7 @@ function named(address) {
 }
 
 /** @param {number} length */
-const metres = (length) => `${number(length, 2).replace("−", "-")} m`;
+const metres = (length) => `${written(length, 2).replace("−", "-")} m`;
 
 /** What each kind adds: address and entries; null where there is nothing to build it on. @returns {[string, [string, object] | null, string][]} */
 function kinds() {

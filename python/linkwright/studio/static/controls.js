@@ -5,9 +5,10 @@ import { useComputed } from "./vendor/signals.mjs";
 import { hold, letBack, settle } from "./actions.js";
 import { Icon } from "./icons.js";
 import { Build, Remove, isElement } from "./build.js";
+import { said } from "./language.js";
 import { effect } from "./slopes.js";
 import * as state from "./state.js";
-import { number, shownUnit, typed } from "./units.js";
+import { number, read, shownUnit, typed } from "./units.js";
 
 /** @typedef {import("./types.js").Entry} Entry @typedef {import("./types.js").Group} Group */
 
@@ -28,7 +29,8 @@ export function endsOf({ address, si, unit, bounds = {} }) {
 
 /** @param {{ entry: Entry }} props */
 function Quantity({ entry }) {
-  const { address, unit = "", key } = entry;
+  const { address, unit = "" } = entry;
+  const key = said(entry.key.replaceAll("_", " "));
   const { unit: word, factor } = shownUnit(unit, state.units.value);
   const pulled = useComputed(() => state.live.value[address]).value;
   const si = typeof pulled === "number" ? pulled : entry.si;
@@ -46,7 +48,7 @@ function Quantity({ entry }) {
   }
   /** @param {0 | 1} which */
   const end = (which) => (/** @type {any} */ { target }) => {
-    const value = Number(target.value.replaceAll("−", "-")) * factor;
+    const value = read(target.value) * factor;
     const next = /** @type {[number, number]} */ ([low, high]);
     next[which] = value;
     if (Number.isFinite(value) && next[0] < next[1]) state.ends.value = { ...state.ends.value, [address]: next };
@@ -54,7 +56,7 @@ function Quantity({ entry }) {
   const places = /** @param {number} value */ (value) => number(value / factor, 4).replaceAll("−", "-");
   return html`
     <div class="field">
-      <input id=${id} class="number" inputmode="decimal" autocomplete="off" spellcheck=${false} value=${draft ?? shown} aria-label="${key}, ${word || "number"}" data-address=${address}
+      <input id=${id} class="number" inputmode="decimal" autocomplete="off" spellcheck=${false} value=${draft ?? shown} aria-label="${key}, ${word || said("number")}" data-address=${address}
         onInput=${(/** @type {any} */ { target }) => setDraft(target.value)}
         onChange=${(/** @type {any} */ { target }) => commit(target)}
         onKeyDown=${(/** @type {any} */ { key: pressed, target }) => {
@@ -106,8 +108,8 @@ function Other({ entry }) {
     return html`<textarea id=${id} aria-label=${key} rows="3" value=${written} onChange=${(/** @type {any} */ { target }) => settle({ [address]: target.value })}></textarea>`;
   }
   if (holds === "text" || holds === "count") {
-    const read = (/** @type {string} */ value) => (holds === "count" && Number.isInteger(Number(value)) ? Number(value) : value);
-    return html`<input id=${id} aria-label=${key} value=${written} onChange=${(/** @type {any} */ { target }) => settle({ [address]: read(target.value) })} />`;
+    const counted = (/** @type {string} */ value) => (holds === "count" && Number.isInteger(Number(value)) ? Number(value) : value);
+    return html`<input id=${id} aria-label=${key} value=${written} onChange=${(/** @type {any} */ { target }) => settle({ [address]: counted(target.value) })} />`;
   }
   return html`<code class="data" title="Edit lists in the text of the file">${shortened(typeof written === "string" ? written : JSON.stringify(written))}</code>`;
 }
@@ -176,7 +178,7 @@ function Part({ group, draggable, deep }) {
   const wrong = state.problems.value.some(({ key }) => key === group.address || key.startsWith(`${group.address}.`));
   return html`
     <details class="part deep${deep}" open=${deep < open || wrong}>
-      <summary title=${group.about}>${group.key.replaceAll("_", " ")}${wrong ? html` <span class="badge">!</span>` : null}</summary>${isElement(group.address) ? html`<${Remove} address=${group.address} word=${group.key} />` : null}
+      <summary title=${group.about}>${isElement(group.address) ? html`<span translate="no">${group.key}</span>` : group.key.replaceAll("_", " ")}${wrong ? html` <span class="badge">!</span>` : null}</summary>${isElement(group.address) ? html`<${Remove} address=${group.address} word=${group.key} />` : null}
       <${Problems} address=${group.address} />
       <${Inside} group=${group} draggable=${draggable} deep=${deep} />
     </details>`;

@@ -8,7 +8,7 @@ import { Heat } from "./heat.js";
 import { Sign } from "./numbers.js";
 import { effect, entryAt, named, ranked } from "./slopes.js";
 import * as state from "./state.js";
-import { number, shownUnit } from "./units.js";
+import { number, read, shownUnit } from "./units.js";
 
 /** Entries that are listed first. */
 const FIRST = 8;
@@ -52,7 +52,7 @@ function Pull({ now }) {
     <div class="line"><span><${Sign} symbol=${now.symbol} /></span>
       <input class="number" aria-label="Wanted value" inputmode="decimal" value=${number(now.value / factor, 6).replaceAll("−", "-")}
         onChange=${(/** @type {any} */ { target }) => {
-          const value = Number(target.value.replaceAll("−", "-").replace(",", "."));
+          const value = read(target.value);
           if (Number.isFinite(value)) to(value * factor, free, false);
         }} /> <small>${unit}</small></div>
     <input type="range" id="pull" step="any" min=${low} max=${high} value=${now.value} aria-label="Pull the result" aria-valuetext="${number(now.value / factor, 4)} ${unit}"

@@ -5,6 +5,7 @@ import { save } from "./actions.js";
 import { folded } from "./folded.js";
 import { Gallery } from "./gallery.js";
 import { Icon } from "./icons.js";
+import { unitSaid } from "./language.js";
 import * as state from "./state.js";
 import { SETS, UNITS, chosen } from "./units.js";
 
@@ -14,7 +15,7 @@ function Units() {
     <div class="sets" role="group" aria-label="Sets of units">${SETS.map((word, n) => html`<button key=${word} onClick=${() => (state.units.value = chosen(n))}>${word}</button>`)}</div>
     <div class="units">${Object.entries(UNITS).map(([si, { word, units }]) => html`
       <label key=${si}>${word}<select value=${choice[si]} onChange=${(/** @type {any} */ { target }) => (state.units.value = { ...choice, [si]: target.value })}>
-        ${Object.keys(units).map((unit) => html`<option key=${unit} value=${unit} selected=${unit === choice[si]}>${unit}</option>`)}
+        ${Object.keys(units).map((unit) => html`<option key=${unit} value=${unit} selected=${unit === choice[si]}>${unitSaid(unit)}</option>`)}
       </select></label>`)}</div>
     <p class="about">The file keeps the units that it is written in. A number with a unit of its own, such as <code>8.5 in</code>, can be typed into every field.</p>`;
 }
@@ -38,7 +39,7 @@ function SaveAs() {
 function Copy({ words, label }) {
   const [done, setDone] = useState(false);
   return html`
-    <div class="copy"><h3>${label}</h3><pre tabindex="0">${words}</pre>
+    <div class="copy"><h3>${label}</h3><pre tabindex="0" translate="no">${words}</pre>
       <button onClick=${async () => {
         await navigator.clipboard.writeText(words);
         setDone(true);

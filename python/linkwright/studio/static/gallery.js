@@ -80,7 +80,7 @@ function Card({ listed: { place, name, title } }) {
   return html`
     <button class="card ${state_}" onClick=${() => open(place, name)} data-open="${place}/${name}">
       <canvas ref=${canvas} aria-hidden="true"></canvas>
-      <b>${title}</b><small>${name}</small>
+      <b translate="no">${title}</b><small translate="no">${name}</small>
     </button>`;
 }
 

@@ -2,6 +2,7 @@
 import { html } from "./html.js";
 import { redo, save, undo } from "./actions.js";
 import { Icon } from "./icons.js";
+import { LANGUAGES } from "./language.js";
 import * as state from "./state.js";
 
 const LOOKS = /** @type {Record<string, [string, string]>} */ ({ "": ["system", "Look of the system"], light: ["light", "Light"], dark: ["dark", "Dark"] });
@@ -20,8 +21,8 @@ export function Header() {
   return html`
     <header class="bar">
       <img src="icon.svg" alt="" width="28" height="28" />
-      <div class="title"><h1>${state.machine.value || "Linkwright studio"}</h1>
-        <small>${name || "unnamed"}${place && place !== "folder" ? `, from the ${place}` : ""}${state.unsaved.value ? html` <span class="unsaved" title="There are changes that are not saved">● unsaved</span>` : null}</small></div>
+      <div class="title"><h1 translate="no">${state.machine.value || "Linkwright studio"}</h1>
+        <small>${name ? html`<span translate="no">${name}</span>` : "unnamed"}${place && place !== "folder" ? html`<span>${`, from the ${place}`}</span>` : null}${state.unsaved.value ? html` <span class="unsaved" title="There are changes that are not saved">● unsaved</span>` : null}</small></div>
       <nav aria-label="File">
         <button onClick=${() => (state.dialog.value = "gallery")}>Machines</button>
         <button onClick=${saveNow} title="Save (Ctrl+S)">Save</button>
@@ -32,6 +33,8 @@ export function Header() {
         <span class="gap"></span>
         <button onClick=${() => (state.dialog.value = "units")}>Units</button>
         <button onClick=${() => (state.dialog.value = "elsewhere")} title="Command line, Python, link">Copy</button>
+        <select class="quiet" aria-label="Language" translate="no" value=${state.language.value} onChange=${(/** @type {any} */ { target }) => (state.language.value = target.value)}>
+          ${Object.entries(LANGUAGES).map(([code, word]) => html`<option key=${code} value=${code} lang=${code} translate="no" selected=${code === state.language.value}>${word}</option>`)}</select>
         <button class="icon" onClick=${() => (state.look.value = next)} aria-label="Look: ${about}" title=${about}><${Icon} name=${mark} /></button>
       </nav>
     </header>`;

@@ -1,5 +1,18 @@
-// Templates without a compiler.
+// Templates without a compiler. Texts of an element, and what it is called, appear in the language of the page, unless it says `translate="no"`.
 import htm from "./vendor/htm.mjs";
 import { h } from "./vendor/preact.mjs";
+import { said } from "./language.js";
 
-export const html = htm.bind(h);
+/** Attributes that are read or heard. */
+const SAID = ["title", "aria-label", "aria-valuetext", "placeholder"];
+
+/** @this {any} @param {any} type @param {any} props @param {any[]} children */
+function element(type, props, ...children) {
+  // Another language draws anew what never changes otherwise (htm, "Caching").
+  this[0] = 3;
+  if (typeof type !== "string" || props?.translate === "no") return h(type, props, ...children);
+  const called = props && Object.fromEntries(SAID.flatMap((name) => (typeof props[name] === "string" ? [[name, said(props[name])]] : [])));
+  return h(type, { ...props, ...called }, ...children.map((child) => (typeof child === "string" ? said(child) : child)));
+}
+
+export const html = htm.bind(/** @type {typeof h} */ (/** @type {unknown} */ (element)));

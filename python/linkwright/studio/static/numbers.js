@@ -1,6 +1,7 @@
 // Scalars of all results, the few that one looks for first at the head.
 import { html } from "./html.js";
 import { useState } from "./vendor/hooks.mjs";
+import { said } from "./language.js";
 import * as state from "./state.js";
 import { number, shownUnit } from "./units.js";
 
@@ -33,7 +34,7 @@ export function Head() {
   const of = new Map(state.results.value.flatMap(({ name, scalars }) => scalars.map((each) => /** @type {const} */ ([each, name]))));
   return html`<dl class="head" aria-label="Main results">${shown.map((each) => {
     const { unit, factor } = shownUnit(each.unit, state.units.value);
-    return html`<div key=${each.name} data-name=${each.name}><dt>${/^(time|revolutions)$/.test(each.word) ? `${titled(of.get(each) ?? "")}: ${each.word}` : each.word}</dt><dd><b data-value=${each.value}>${number(each.value / factor, 4)}</b> <small>${unit || "–"}</small></dd></div>`;
+    return html`<div key=${each.name} data-name=${each.name}><dt>${/^(time|revolutions)$/.test(each.name) ? `${said(titled(of.get(each) ?? ""))}: ${each.word}` : each.word}</dt><dd><b data-value=${each.value}>${number(each.value / factor, 4)}</b> <small>${unit || "–"}</small></dd></div>`;
   })}</dl>`;
 }
 

@@ -84,7 +84,7 @@ export function Plots() {
   return html`
     ${points.length ? html`
       <label class="watch">Curves of a point <select value=${state.watched.value} onChange=${(/** @type {any} */ { target }) => (state.watched.value = target.value)}>
-        <option value="">none</option>${points.map((name) => html`<option key=${name} value=${name} selected=${name === state.watched.value}>${name}</option>`)}
+        <option value="">none</option>${points.map((name) => html`<option key=${name} translate="no" value=${name} selected=${name === state.watched.value}>${name}</option>`)}
       </select></label>` : null}
     <div class="panels">
       ${shown.map(({ plot, of }) => html`<${Panel} key=${plot.key} plot=${plot} of=${of} />`)}

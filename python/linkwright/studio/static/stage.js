@@ -10,6 +10,7 @@ import { paintMoving, paintStill } from "./painter.js";
 import * as state from "./state.js";
 import { colours } from "./theme.js";
 import { between, onward, pairAt, placeOf, watchable } from "./timeline.js";
+import { decimal } from "./language.js";
 import { number, shownUnit } from "./units.js";
 
 /** Part of the drawing's size that an arrow key moves a joint by. */
@@ -107,7 +108,7 @@ function run(holder, canvas) {
     const words = document.getElementById("instant");
     if (words) {
       const degrees = (between(scene.angles, k) * 180) / Math.PI;
-      words.textContent = `φ ${degrees.toFixed(1).padStart(6, "\u2007")}°  ${scene.true_speed ? `ω ${number(between(scene.speeds, k) / factor, 4)} ${unit}` : ""}`;
+      words.textContent = `φ ${decimal(degrees.toFixed(1)).padStart(6, "\u2007")}°  ${scene.true_speed ? `ω ${number(between(scene.speeds, k) / factor, 4)} ${unit}` : ""}`;
     }
   }
 

@@ -1,4 +1,5 @@
 // Units of the page: SI comes in, the user's choice is shown, everywhere at once.
+import { decimal, point, unitSaid } from "./language.js";
 
 const TURN = 2 * Math.PI;
 const DEGREE = Math.PI / 180;
@@ -42,14 +43,20 @@ export function shownUnit(si, choice) {
   const known = printed(si);
   const unit = choice[known];
   const factor = unit === undefined ? undefined : UNITS[known]?.units[unit];
-  return factor === undefined ? { unit: known, factor: 1 } : { unit, factor };
+  return factor === undefined ? { unit: unitSaid(known), factor: 1 } : { unit: unitSaid(unit), factor };
 }
 
 /**
- * A number as it is read: so many significant digits, no exponent where none is needed.
+ * A number as it is read: so many significant digits, no exponent where none is needed, the decimal sign of the language.
  * @param {number} value @param {number} [digits]
  */
-export function number(value, digits = 5) {
+export const number = (value, digits = 5) => decimal(written(value, digits));
+
+/**
+ * A number as files have it, but for the sign.
+ * @param {number} value @param {number} [digits]
+ */
+export function written(value, digits = 5) {
   if (!Number.isFinite(value)) return "–";
   if (value === 0) return "0";
   const size = Math.abs(value);
@@ -59,7 +66,10 @@ export function number(value, digits = 5) {
   return (plain.includes(".") ? plain.replace(/\.?0+$/, "") : plain).replace("-", "−");
 }
 
-const WRITTEN = /^([+-−]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-−]?\d+)?)\s*(.*)$/;
+const WRITTEN = /^([-+−]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+−]?\d+)?)\s*(.*)$/;
+
+/** A number in a field, or NaN. @param {string} text */
+export const read = (text) => Number(point(text.replaceAll("−", "-")));
 
 /**
  * What was typed into a field: a number in the unit that is shown, or a text with a unit of its own, which the file then has.
@@ -67,7 +77,7 @@ const WRITTEN = /^([+-−]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-−]?\d+)?)\s*(.*)$/;
  * @returns {number | string | null} SI number, text, or null for nothing
  */
 export function typed(text, factor) {
-  const match = WRITTEN.exec(text.trim());
+  const match = WRITTEN.exec(point(text.trim()));
   if (!match) return text.trim() || null;
   if (match[2]) return `${match[1].replaceAll("−", "-")} ${match[2]}`;
   return Number(match[1].replaceAll("−", "-")) * factor;

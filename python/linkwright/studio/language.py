@@ -1,0 +1,72 @@
+"""The studio in another language than English: what the server says, and the texts of the page.
+
+A catalogue, ``texts_CODE.toml``, adds texts to that of reports (`linkwright.kernel.page.language`): ``page``
+for those that the page draws itself, ``file`` for the declarations of entries.
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Mapping
+from dataclasses import replace
+from functools import cache, lru_cache
+from pathlib import Path
+from typing import Any
+
+from linkwright.kernel.page.language import ENGLISH, Language, language
+
+# What a message says in sentences or words; everything else is read by the page, or is the user's own.
+_TEXTS = frozenset(
+    (
+        *("about", "caption", "expected", "findings", "found", "mend", "obstacle", "reason", "remedy"),
+        *("tie", "title", "warnings", "word", "words"),
+    )
+)
+
+# What stands in quotes, and a letter of no language in its place while the rest is translated.
+_QUOTED = re.compile('"[^"]*"')
+_MARK = "\ue000"
+
+
+@cache
+def spoken(code: str) -> Language:
+    """The language of a tab; an `InputError` if there is no catalogue for it."""
+    of = language(code, "language")
+    if of is ENGLISH:
+        return of
+    return replace(of, texts={**of.texts, **_catalogue(code)["file"]})
+
+
+@cache
+def page_texts(code: str) -> dict[str, Any]:
+    """What the page needs to draw itself in a language: ``code``, ``texts``, ``units`` and ``decimal``."""
+    of = language(code, "language")
+    return {"code": code, "texts": _catalogue(code)["page"], "units": of.units, "decimal": of.decimal}
+
+
+def _catalogue(code: str) -> dict[str, dict[str, str]]:
+    return tomllib.loads(Path(__file__).with_name(f"texts_{code}.toml").read_text(encoding="utf-8"))
+
+
+def in_words(body: Any, code: str, key: str = "") -> Any:
+    """A message with its texts in a language."""
+    if code == "en":
+        return body
+    if isinstance(body, Mapping):
+        return {name: in_words(value, code, name) for name, value in body.items()}
+    if isinstance(body, list | tuple):
+        return [in_words(value, code, key) for value in body]
+    return _said(body, code) if isinstance(body, str) and key in _TEXTS else body
+
+
+@lru_cache(4096)
+def _said(text: str, code: str) -> str:
+    """A text; of a list each part by itself where the whole is not known. What is quoted stays as files have it."""
+    to = spoken(code)
+    quoted = _QUOTED.findall(text)
+    bare = _QUOTED.sub(_MARK, text)
+    words = to(bare)
+    words = words if words != bare else ", ".join(map(to, bare.split(", ")))
+    parts = iter(quoted)
+    return re.sub(_MARK, lambda _: next(parts), words)
