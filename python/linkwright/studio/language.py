@@ -62,7 +62,7 @@ def in_words(body: Any, code: str, key: str = "") -> Any:
 
 @lru_cache(4096)
 def _said(text: str, code: str) -> str:
-    """A text; of a list each part by itself where the whole is not known. What is quoted stays as files have it."""
+    """A text; of an unknown list each part by itself. What is quoted stays as files have it."""
     to = spoken(code)
     quoted = _QUOTED.findall(text)
     bare = _QUOTED.sub(_MARK, text)
