@@ -1,4 +1,9 @@
-"""Flywheels of a textbook: R. S. Khurmi, J. K. Gupta, Theory of Machines, 2005, chapter 16."""
+"""Flywheels of textbooks.
+
+R. S. Khurmi, J. K. Gupta, Theory of Machines, 2005, chapter 16; and, numbers from memory, S. S. Rattan,
+Theory of Machines, chapter 13; R. L. Norton, Design of Machinery, 11.11; J. E. Shigley, C. R. Mischke,
+Mechanical Engineering Design, example 16-6.
+"""
 
 from __future__ import annotations
 
@@ -114,3 +119,86 @@ def test_example_16_8() -> None:
     assert found.flywheel_inertia == pytest.approx(3121, abs=3.0)
     # At 45° the excess is 9500 N m.
     assert 9500 / found.flywheel_inertia == pytest.approx(3.044, abs=0.003)
+
+
+# Torque of a four-stroke engine of one cylinder each 15° [lbf in].
+SHIGLEY = (
+    *(0, 2800, 2090, 2430, 2160, 1840, 1590, 1210, 1066, 803, 532, 184, 0, -107, -206, -280, -323, -310),
+    *(-242, -126, -8, 89, 125, 85, 0, -85, -125, -89, 8, 126, 242, 310, 323, 280, 206, 107, 0, -107, -206),
+    *(-292, -355, -371, -362, -312, -272, -274, -548, -760, 0),
+)
+
+
+def test_shigley_16_6() -> None:
+    """At 250 rpm, C_s = 0.1: 268 lbf in, 3531 lbf in, 51.5 lbf s² in, 27.5 and 24.9 rad/s are printed."""
+    pound_inch = 4.4482216152605 * 0.0254
+    found = diagram(
+        speed="250 rpm",
+        cycle="720 deg",
+        unevenness=0.1,
+        driver={
+            "kind": "table",
+            "angle": [math.radians(15 * k) for k in range(49)],
+            "torque": [f"{torque} in lb" for torque in SHIGLEY],
+        },
+    )
+    # Sum of the ordinates, trapezoids: 3363 lbf in over 4π.
+    assert found.torque_mean == pytest.approx(sum(SHIGLEY) / 48 * pound_inch, rel=1e-12)
+    assert found.torque_mean / pound_inch == pytest.approx(268, abs=0.5)
+    # The book integrates from one ordinate to another, here from crossing to crossing: 1.5 % more.
+    assert found.energy_fluctuation / pound_inch == pytest.approx(3531, rel=0.02)
+    assert found.flywheel_inertia / pound_inch == pytest.approx(51.5, rel=0.02)
+    assert found.speed_max == pytest.approx(27.5, abs=0.05)
+    assert found.speed_min == pytest.approx(24.9, abs=0.05)
+
+
+def test_norton_four_bar() -> None:
+    """Areas that are read to five digits and add up to 1.54 lbf in: 261.05 lbf in, 2.088 lbf s² in."""
+    found = diagram(
+        speed="50 rad/s", unevenness=0.05, areas=[200.73, -261.05, 153.88, -92.02], area_scale="1 in lb"
+    )
+    pound_inch = 4.4482216152605 * 0.0254
+    assert found.energy_fluctuation / pound_inch == pytest.approx(261.05, abs=0.005)
+    assert found.flywheel_inertia / pound_inch == pytest.approx(2.088, abs=0.0005)
+    assert found.accuracy == pytest.approx(1.54 / 261.05, rel=1e-6)
+    assert "0.174 J are left, 0.59 %" in found.warnings[0]
+
+
+def test_rattan_torque_over_three_revolutions() -> None:
+    """800 N m rising to 3000 N m in half a revolution, constant, falling, constant: 109.08 kW at 500 rpm."""
+    found = diagram(
+        speed="500 rpm",
+        cycle="3 rev",
+        inertia=375.0,
+        load={
+            "kind": "table",
+            "angle": "0, 0.5, 1.5, 2.5, 3 rev",
+            "torque": "800, 3000, 3000, 800, 800 N m",
+        },
+    )
+    assert found.torque_mean == pytest.approx(6250 / 3, rel=1e-12)
+    assert found.power_mean == pytest.approx(109.08e3, abs=10)
+    # The trapezium above the mean: 916.7 N m high, one revolution wide above, wider below by its slopes.
+    high = 3000 - 6250 / 3
+    width = 2 * math.pi * (1 + 0.5 * high / 2200 / 2 + high / 2200 / 2)
+    assert found.energy_fluctuation == pytest.approx(high * width, rel=1e-12)
+
+
+def test_rattan_punching_machine() -> None:
+    """Six holes of 40 mm a minute in 35 mm, 8 N m/mm², stroke 95 mm, 20 m/s, 3 %: 3.519 kW and 2392 kg."""
+    work, share = 8.0 * math.pi * 40 * 35, 35 / 190
+    speed = 2 * math.pi * 6 / 60
+    found = diagram(
+        speed="6 rpm",
+        unevenness="3 %",
+        radius_of_gyration=20 / speed,
+        load={
+            "kind": "table",
+            "between": "steps",
+            "angle": [0.0, 2 * math.pi * share],
+            "torque": [work / (2 * math.pi * share), 0.0],
+        },
+    )
+    assert found.power_mean == pytest.approx(3519, abs=0.5)
+    assert found.energy_fluctuation == pytest.approx(work * (1 - share), rel=1e-12)
+    assert found.flywheel_mass == pytest.approx(2392, abs=0.5)

@@ -196,7 +196,7 @@ def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = Non
     findings = Findings()
     diagram = _diagram(machine, findings)
     if machine.is_diagram_alone:
-        return Study(machine, turning_moment=diagram, findings=findings.findings)
+        return Study(machine, turning_moment=diagram, findings=findings.findings, warnings=findings.warnings)
     cut = _cut(machine, findings)
     if machine.is_topper_alone:
         return _topped(Study(machine, turning_moment=diagram, findings=findings.findings), cut)
@@ -222,7 +222,10 @@ def _diagram(machine: Machine, findings: Findings) -> TurningMomentDiagram | Non
         return None
     from linkwright.turning.diagram import turning_moment
 
-    return findings.of(turning_moment, machine)
+    diagram = findings.of(turning_moment, machine)
+    if diagram is not None:
+        findings.warn(diagram.warnings)
+    return diagram
 
 
 def _cut(machine: Machine, findings: Findings) -> TopperStudy | None:

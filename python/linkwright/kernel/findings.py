@@ -7,6 +7,7 @@ be left out by whoever asks for the result.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
@@ -76,5 +77,10 @@ def _of(
 
 
 def sentence(text: str) -> str:
-    """The text with a capital and a full stop."""
-    return f"{text[:1].upper()}{text[1:]}".rstrip(".") + "."
+    """The text with a capital, unless it begins with an entry of the file, and a full stop."""
+    start = text if _ENTRY.match(text) else f"{text[:1].upper()}{text[1:]}"
+    return start.rstrip(".") + "."
+
+
+# An entry of a machine file, such as ``turning_moment.areas``.
+_ENTRY = re.compile(r"[a-z]+(?:_[a-z]+|\.\w+)+:")

@@ -72,6 +72,9 @@ def _rows(diagram: TurningMomentDiagram, table: str, *, without: Collection[str]
     """The rows of a table; of an extreme, with the angle where it is."""
     angles = {name: getattr(diagram, f"{name}_angle", None) for name in in_table(type(diagram), table)}
     places = {name: f"at φ = {degrees(angle)}" for name, angle in angles.items() if angle is not None}
+    if diagram.torque_driver_max == diagram.torque_driver_min:
+        # A constant torque has its extremes everywhere.
+        places = {name: place for name, place in places.items() if not name.startswith("torque_driver")}
     return known_rows(diagram, table, places, without=without)
 
 
