@@ -20,5 +20,6 @@ No mechanics is computed here: the studio asks the rooms of the subjects, and th
 | `controls` | Controls of all entries, from the descriptions |
 | `document` | The text of the file: changes that keep comments |
 | `files` | Files below the folder, library, templates |
+| `language` | Texts of the page and messages of the server in another language |
 | `static/` | The page: plain modules, styles, vendored libraries |
 """
