@@ -62,7 +62,7 @@ class Row:
 
     @property
     def paced(self) -> float | None:
-        """The product's number at the pace that times and rates are aimed at for; None for ratios."""
+        """The product's number at the processor speed that times and rates are aimed at; None for ratios."""
         if self.pace is None or self.product is None or self.target is None or self.aim == "ratio":
             return None
         slower = self.pace / PACE
@@ -70,7 +70,7 @@ class Row:
 
     @property
     def is_met(self) -> bool | None:
-        """Whether the target is met, at its pace; None without target or without measurement."""
+        """Whether the target is met, at its processor speed; None without target or without measurement."""
         return self._is_within(1.0)
 
     @property
@@ -93,7 +93,7 @@ def faster(
 
 
 def seconds(acts: Sequence[Act], *, repeats: int, shortest: float = 0.02) -> list[float]:
-    """Least time of each act, all taking turns so that a busy machine disturbs them alike.
+    """Minimum time of each act, all taking turns so that a busy machine disturbs them alike.
 
     Parameters
     ----------

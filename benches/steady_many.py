@@ -1,4 +1,4 @@
-"""How many machines, and how many of their turns, does a batch of steady states go through in a second?"""
+"""How many machines, and how many of their revolutions, does a batch of steady states go through in a second?"""
 
 from __future__ import annotations
 
@@ -55,14 +55,14 @@ def measured(
     assert solved == len(batch.status), f"{len(batch.status) - solved} machines without a result"
     time = seconds([lambda: lw.steady_states(machine, entries)], repeats=3 if quick else 5)[0]
     n = len(batch.status)
-    note = f"{n} machines, {batch.turns_swept / n:.1f} turns each; {words}"
+    note = f"{n} machines, {batch.turns_swept / n:.1f} revolutions each; {words}"
     case = "steady states, batch"
     rate = Row(case, "k machines/s", 1e-3 * n / time, target=target, aim="at least", note=note)
     return [rate, *by_hand(batch.turns_swept / time), against_scipy(entries, batch, n / time, note)]
 
 
 def by_hand(turns: float) -> list[Row]:
-    """Turns a second beside those of a kernel that knows one slider-crank and goes from turn to turn."""
+    """Revolutions per second beside those of a kernel that knows one slider-crank and solves one after the other."""
     if not kernels.is_here():
         return []
     one = np.array([3.0, 8.0, 0.12, 20.0, 0.12, 0.45, 0.35, 260.0 / 15**2, 0.15, 1.0, 2500.0 / 15**2])
@@ -73,11 +73,11 @@ def by_hand(turns: float) -> list[Row]:
     assert off < 1e-6, f"the kernel by hand differs by {off:g} from itself with shorter steps"
     time = seconds([lambda: kernels.drives(numbers, steps, revolutions)], repeats=3)[0]
     theirs = numbers.shape[1] * revolutions / time
-    note = f"sweeps of the product over a turn; by hand {steps} steps of order 4 a turn, each {off:.0e} exact"
+    note = f"sweeps of the product over a revolution; by hand {steps} steps of order 4, each {off:.0e} exact"
     return [
         Row(
-            "steady states, turns of a batch",
-            "M turns/s",
+            "steady states, revolutions of a batch",
+            "M revolutions/s",
             turns / 1e6,
             "slider-crank by hand, all threads",
             theirs / 1e6,

@@ -10,7 +10,7 @@ import linkwright as lw
 # Relative: SciPy runs at rtol 1e-8; accelerations come from its dense output on a grid.
 SPEEDS_AGREE, ACCELERATIONS_AGREE = 2e-7, 1e-5
 
-# Crank speeds from which SciPy goes turn by turn [rad/s]: near the answer, and nearly at rest.
+# Crank speeds from which SciPy goes revolution by revolution [rad/s]: near the answer, and nearly at rest.
 STARTS = {"SciPy from a good guess": 10.2, "SciPy from 0.1 rad/s": 0.1}
 
 
@@ -28,7 +28,7 @@ def rows(quick: bool) -> list[Row]:
         acts = (lambda: lw.steady_state(machine), lambda speed=speed: two_carts.steady(drive, speed))
         times = seconds(acts, repeats=5 if quick else 21)
         turns = two_carts.steady(drive, speed).turns
-        note = f"product to 1e-9, SciPy DOP853 to 1e-8, {turns} turns"
+        note = f"product to 1e-9, SciPy DOP853 to 1e-8, {turns} revolutions"
         target = 250 if name == "SciPy from a good guess" else None
         found.append(faster("steady state, one machine", times[0], name, times[1], target=target, note=note))
     own = Row(

@@ -51,7 +51,7 @@ def contact(s: Any, s1: Any, s2: Any, base: Any, roller: Any, offset: Any) -> tu
 
 
 def search(law: tuple[Any, Any, Any], base: Any, roller: float, offset: Any, at_once: int = 2000) -> Any:
-    """Largest tangent of the pressure angle, and greatest bend, of many cams, some at a time."""
+    """Largest tangent of the pressure angle, and maximum curvature, of many cams, some at a time."""
     found = np.empty((len(base), 2))
     for first in range(0, len(base), at_once):
         part = slice(first, first + at_once)

@@ -8,7 +8,7 @@ import numpy as np
 
 from peers.four_bar import ACROSS, ALONG, CRANK, FRAME, ROCKER
 
-# Steps of a turn.
+# Steps per revolution.
 STEPS = 360
 
 
@@ -43,5 +43,5 @@ def linkage(coupler: float) -> Any:
 
 
 def motion(made: Any) -> tuple[Any, Any, Any]:
-    """Positions, velocities and accelerations of all joints over one turn, (steps, joints, 2) each."""
+    """Positions, velocities and accelerations of all joints over one revolution, (steps, joints, 2) each."""
     return made.step_fast_with_kinematics(STEPS)

@@ -34,7 +34,7 @@ class Drive:
 
 @dataclass(frozen=True)
 class Cycle:
-    """One turn of steady motion."""
+    """One revolution of steady motion."""
 
     speed_min: float
     speed_max: float
@@ -44,7 +44,7 @@ class Cycle:
 
 
 def reduced(phi: float, drive: Drive) -> tuple[float, float]:
-    """J [kg m²] and resisting torque [N m] at a crank angle."""
+    """J [kg m²] and load torque [N m] at a crank angle."""
     J, M = J_DRIVE, 0.0
     for mass, angle in ((drive.mass_1, phi), (drive.mass_2, phi + drive.phase)):
         sa, ca = sin(angle), cos(angle)
@@ -71,7 +71,7 @@ def motor(omega: float) -> float:
 
 
 def turn(drive: Drive, energy: float, rtol: float) -> Any:
-    """One turn from an energy [J]: energy and time over the crank angle."""
+    """One revolution from an energy [J]: energy and time over the crank angle."""
     from scipy.integrate import solve_ivp
 
     def slope(phi: float, y: Any) -> tuple[float, float]:
@@ -86,7 +86,7 @@ def turn(drive: Drive, energy: float, rtol: float) -> Any:
 
 
 def steady(drive: Drive, speed: float, rtol: float = 1e-8) -> Cycle:
-    """Turn by turn from a speed at φ = 0 until the cycle repeats, then its extremes."""
+    """Revolution by revolution from a speed at φ = 0 until the cycle repeats, then its extremes."""
     energy = 0.5 * reduced(0.0, drive)[0] * speed * speed
     turns = 0
     while True:
@@ -99,7 +99,7 @@ def steady(drive: Drive, speed: float, rtol: float = 1e-8) -> Cycle:
 
 
 def measured(drive: Drive, found: Any, turns: int) -> Cycle:
-    """Extremes of a turn from its dense output, on a grid of a quarter degree."""
+    """Extremes of a revolution from its dense output, on a grid of a quarter degree."""
     phi = np.linspace(0.0, 2 * pi, 1441)
     E = found.sol(phi)[0]
     J, J_d1, M = reduced_arrays(phi, drive)
@@ -111,7 +111,7 @@ def measured(drive: Drive, found: Any, turns: int) -> Cycle:
 
 
 def reduced_arrays(phi: Any, drive: Drive) -> tuple[Any, Any, Any]:
-    """J, dJ/dφ and resisting torque at many angles."""
+    """J, dJ/dφ and load torque at many angles."""
     J, J_d1, M = np.full_like(phi, J_DRIVE), np.zeros_like(phi), np.zeros_like(phi)
     for mass, angle in ((drive.mass_1, phi), (drive.mass_2, phi + drive.phase)):
         sa, ca = np.sin(angle), np.cos(angle)

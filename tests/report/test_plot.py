@@ -10,10 +10,9 @@ import pytest
 from linkwright.app.report.figures import figures
 from linkwright.app.study import Study, study
 from linkwright.drive.characteristic import characteristic
-from linkwright.drive.figures import compare_figure, motor_figure, reduction_figure, run_up_figure
+from linkwright.drive.figures import motor_figure, reduction_figure, run_up_figure
 from linkwright.kernel.figure.svg import svg
-from linkwright.kernel.files.library import template
-from linkwright.machine.read import loads, read
+from linkwright.machine.read import read
 
 TWO_CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"
 
@@ -73,13 +72,3 @@ def test_style_of_the_user_does_not_matter() -> None:
     usual = svg(reduction_figure(reduced))
     with rc_context({"font.size": 30, "axes.grid": False, "svg.fonttype": "none"}):
         assert svg(reduction_figure(reduced)) == usual
-
-
-def test_compared_machines_have_a_line_each() -> None:
-    other = study(loads(template("press"))).steady_state
-    steady = two_carts().steady_state
-    assert steady is not None
-    assert other is not None
-    speed, acceleration = compare_figure({"carts": steady, "press": other}).axes
-    assert [line.get_label() for line in speed.lines] == ["carts", "press"]
-    assert len(acceleration.lines) >= 2

@@ -132,6 +132,8 @@ def of_data(source: str) -> Iterator[str]:
 KINDS = {
     "pages": (of_page, ["*.md", "docs/**/*.md", "examples/**/*.md", "benches/*.md"]),
     "package": (of_python, ["python/**/*.py", "python/**/*.pyi", "docs/*.py", "examples/**/*.py"]),
+    "benches": (of_python, ["benches/**/*.py"]),
+    "notebooks": (of_data, ["docs/**/*.ipynb"]),
     "templates": (of_template, ["python/**/*.html"]),
     "scripts": (of_script, ["python/**/*.js"]),
     "core": (of_rust, ["crates/**/*.rs"]),
@@ -245,19 +247,22 @@ def test_local_names_say_what_they_are() -> None:
     assert not wrong, "\n".join(wrong)
 
 
+# No participles, and no words that would fit anything; these nouns end like a participle.
+_NO_NOUN = re.compile(r"(?:[a-z](?:ed|wn|ven|lt)|^(?:Fixed|Found|Left|Best|Other|Which|Here|All))$")
+_NOUNS = ("Speed", "Result", "RunDown")
+
+
 def test_types_are_nouns() -> None:
-    # No participles; these nouns end like one.
-    nouns = ("Speed", "Result", "RunDown")
-    ending = r"[a-z](?:ed|wn|ven|lt)$"
-    texts = (
-        (path, path.read_text(encoding="utf-8")) for path in (ROOT / "python").glob("linkwright/**/*.py")
-    )
+    kinds = {
+        "python/linkwright/**/*.py*": r"^ *class +(\w+)",
+        "crates/**/*.rs": r"\b(?:struct|enum|trait) +(\w+)",
+    }
     wrong = [
-        f"{path.relative_to(ROOT)}:{node.lineno}: {node.name}"
-        for path, text in sorted(texts)
-        if any(re.search(ending, name) for name in re.findall(r"\bclass\s+(\w+)", text))
-        for node in ast.walk(ast.parse(text))
-        if isinstance(node, ast.ClassDef) and re.search(ending, node.name)
-        if not node.name.endswith(nouns)
+        f"{path.relative_to(ROOT)}: {name}"
+        for places, pattern in kinds.items()
+        for path in sorted(ROOT.glob(places))
+        if path.suffix != ".pyc"
+        for name in re.findall(pattern, path.read_text(encoding="utf-8"), re.MULTILINE)
+        if _NO_NOUN.search(name) and not name.endswith(_NOUNS)
     ]
     assert not wrong, "\n".join(wrong)

@@ -216,7 +216,7 @@ def test_figure() -> None:
         6, 0.05, {"e": {"on": "d1", "harmonics": waves}}, run={"speed_min": 15.0, "speed_max": 150.0}
     )
     found = lw.campbell(machine)
-    axes = campbell_figure(found, running=(60.0, 110.0)).axes[0]
+    axes = campbell_figure(found).axes[0]
     assert len(axes.lines) == len(found.orders) + 5
     (points,) = axes.collections
     sizes = points.get_sizes()

@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 from scipy.linalg import eigh
 from scipy.special import ellipk
 
-from linkwright.kernel.core.curve import Curve, backlash, odd, smooth, straight
+from linkwright.kernel.core.curve import Curve, odd, smooth, straight
 from linkwright.kernel.core.periodic_table import waves
 from linkwright.kernel.errors import ConvergenceError, InputError, ShapeError
 from linkwright.torsion.core.torque import DecayingTorque, GovernorTorque, Power, TrainTorque, short_circuit
@@ -195,6 +195,14 @@ def test_stiffening_coupling_as_duffing(amplitude: float) -> None:
     wanted = amplitude * np.tile([1.0, 0.0, -1.0, 0.0], 10)
     assert twist[:40] == pytest.approx(wanted, abs=1e-7 * amplitude)
     assert found.torque_max[0] == pytest.approx(alpha * amplitude + beta * amplitude**3, rel=1e-9)
+
+
+def backlash(gap: float, stiffness: float) -> Curve:
+    """Torque over twist: none within a gap [rad] from side to side, outside it a stiffness [N m/rad]."""
+    half = 0.5 * gap
+    return straight(
+        [-1.0 - half, -half, half, 1.0 + half], [-stiffness, 0.0, 0.0, stiffness], beyond="straight"
+    )
 
 
 def test_backlash_lengthens_the_period() -> None:

@@ -102,7 +102,7 @@ def test_sound_train_keeps_all_its_limits() -> None:
         ("ring", "heat"),
         ("stage", "drop of torque below its mean"),
     }
-    assert all(each.is_ok and each.words.endswith("within limit") for each in found.judgements)
+    assert all(each.state == "ok" and each.words.endswith("within limit") for each in found.judgements)
 
 
 @pytest.mark.parametrize(
@@ -119,7 +119,7 @@ def test_sound_train_keeps_all_its_limits() -> None:
 def test_one_limit_exceeded(key: str, value: str, part: str, what: str) -> None:
     found = verdict(machine(**{key: value}))
     assert found.state == "exceeds"
-    over = [each for each in found.judgements if not each.is_ok]
+    over = [each for each in found.judgements if each.state != "ok"]
     assert [(each.part, each.what) for each in over] == [(part, what)]
     assert found.words[0] == over[0].words
     assert over[0].found > over[0].permitted

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,7 +17,6 @@ from linkwright.kernel.figure.style import (
     DRIVE,
     INERTIA,
     INK,
-    LINES,
     LOAD,
     MATH,
     MOTOR,
@@ -28,7 +27,6 @@ from linkwright.kernel.figure.style import (
     CaptionedFigure,
     legend_above,
     level,
-    named,
     panels,
     roomy,
     styled,
@@ -137,32 +135,6 @@ def time_figure(steady: SteadyState) -> Figure:
     count = "two" if steady.turns == 1 else _TURNS * steady.turns
     torque.set_xlabel(f"time t [s], {count} revolutions")
     torque.set_xlim(0, _TURNS * steady.period)
-    return figure
-
-
-# Where the colours begin again, the lines look different.
-_DASHES = ("-", "--", "-.", ":")
-
-
-@styled
-def compare_figure(motions: Mapping[str, SteadyState]) -> Figure:
-    """Draw the speed over its mean, and the acceleration, of several machines.
-
-    `motions`: name of the machine → its steady motion. Returns: two panels, one above the other; speeds as
-    shares of each machine's mean over time.
-    """
-    figure, (speed, acceleration) = panels(2, height=4.6)
-    for n, (name, steady) in enumerate(motions.items()):
-        colour, dash = LINES[n % len(LINES)], _DASHES[n // len(LINES) % len(_DASHES)]
-        degrees = np.degrees(steady.crank_angle)
-        speed.plot(degrees, steady.speed / steady.speed_mean_time, dash, color=colour, label=named(name))
-        acceleration.plot(degrees, steady.acceleration, dash, color=colour)
-    speed.set_ylabel("speed over its mean\n[–]")
-    acceleration.set_ylabel("acceleration ε\n[rad/s²]")
-    zero_line(acceleration)
-    legend_above(speed)
-    turn_axis(speed, degrees, label=False)
-    turn_axis(acceleration, degrees)
     return figure
 
 

@@ -30,6 +30,9 @@ Floats = NDArray[np.float64]
 # Angles at which rivals of an extreme are looked for. A peak between two of the even ones is missed by
 # (2π/1440)² of the curve at most; where the motor is steep, the motion bends sharply beside a kink.
 _LOOK = 1440
+
+# Relative accuracy of the steady motion whose derivatives are taken.
+_ACCURACY = 1e-11
 _BESIDE = np.geomspace(1e-9, 3e-3, 14)
 
 # How far a rival may seem to stay below the extreme before it is read more closely, as a share of the range:
@@ -64,14 +67,14 @@ class SteadyTangents:
     ties: dict[str, str]
 
 
-def steady_tangents(machine: Machine, values: Floats, accuracy: float = 1e-11) -> SteadyTangents:
+def steady_tangents(machine: Machine, values: Floats) -> SteadyTangents:
     """Steady motion along directions of the program's numbers, `values` (parameters, directions).
 
     Raises what `steady_state` raises, and InputError where the motor keeps its speed.
     """
     if machine.drive is not None and isinstance(machine.drive.motor, ConstantSpeedMotor):
         raise InputError("a motor of constant speed has the same speed whatever the machine is")
-    state, solution = solved_state(machine, accuracy, _LOOK)
+    state, solution = solved_state(machine, _ACCURACY, _LOOK)
     assert solution is not None
     compiled = over_whole_cycle(compile_machine(machine))
     angles = np.array([state.speed_min_angle, state.speed_max_angle])

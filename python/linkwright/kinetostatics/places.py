@@ -53,11 +53,6 @@ class Scene:
         # Any length of the mechanism's size makes forces and moments comparable.
         self.size = float(np.mean(lengths)) if lengths else 1.0
 
-    @property
-    def n_members(self) -> int:
-        """How many members move."""
-        return len(self.index) - 1
-
     def carrier(self, point: str) -> str:
         """The member that carries a point."""
         return self.structure.carriers[point]

@@ -33,7 +33,7 @@ from linkwright.topping.required_length import (
     length_published,
 )
 from linkwright.topping.roots import head_diameter
-from linkwright.topping.verdict import PAPER, WAYS, Claim, Stroke, bands_of, lengths_over
+from linkwright.topping.verdict import PAPER, WAYS, Stroke, bands_of, lengths_over
 from linkwright.topping.worst_head import worst_head
 
 Floats = NDArray[np.float64]
@@ -182,8 +182,8 @@ class VerdictChart(Result):
     ]
 
 
-def verdict_chart(described: Topper, stroke: Stroke | None = None, claim: Claim = PAPER) -> VerdictChart:
-    """Chart a claim about a machine."""
+def verdict_chart(described: Topper, stroke: Stroke | None = None) -> VerdictChart:
+    """Chart the published claim about a machine."""
     root, delta = described.root_diameter, described.offset
     band = float(head_diameter(root, described.cut_height)) + 2 * delta
     ways = [way for way in WAYS if stroke or way != "every_phase"]
@@ -196,11 +196,11 @@ def verdict_chart(described: Topper, stroke: Stroke | None = None, claim: Claim 
         angles,
         heights,
         offsets,
-        claim.lengths,
+        PAPER.lengths,
         abs(alpha),
         band,
         described.cut_height,
         delta,
-        {way: bands_of(claim, way, angles, 2 * delta / band, stroke) for way in ways},
-        {way: lengths_over(claim, way, alpha, d, offsets[:, None], stroke)[1] for way in ways},
+        {way: bands_of(PAPER, way, angles, 2 * delta / band, stroke) for way in ways},
+        {way: lengths_over(PAPER, way, alpha, d, offsets[:, None], stroke)[1] for way in ways},
     )

@@ -194,6 +194,9 @@ Ends = Literal["dwell", "turn"]
 # Share of a derivative's own size below which a jump is rounding of the law's coefficients.
 _ROUNDING = 1e-9
 
+# Highest order of a derivative that is looked at: a cam for a vibrating follower needs four.
+_ORDERS = 6
+
 
 def steps(law: MotionLaw, order: int, ends: Ends) -> Floats:
     """By how much a derivative jumps at each break, (pieces + 1,)."""
@@ -213,12 +216,12 @@ def size(law: MotionLaw, order: int) -> float:
     return max(heights)
 
 
-def continuity(law: MotionLaw, ends: Ends, most: int = 6) -> int:
-    """The highest order up to which the law and all its derivatives have no jump."""
-    for order in range(most + 1):
+def continuity(law: MotionLaw, ends: Ends) -> int:
+    """The highest order, up to 6, up to which the law and all its derivatives have no jump."""
+    for order in range(_ORDERS + 1):
         if steps(law, order, ends).any():
             return order - 1
-    return most
+    return _ORDERS
 
 
 def without_steps(law: MotionLaw, ends: Ends) -> None:

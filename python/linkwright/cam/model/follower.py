@@ -51,19 +51,19 @@ class OscillatingFollower(Crank):
         return self.cam
 
 
-def sizes(cam: Cam, points: Mapping[str, FixedPoint], origin: str = "O") -> Sizes:
+def sizes(cam: Cam, points: Mapping[str, FixedPoint]) -> Sizes:
     """Dimensions of a cam with its follower."""
     distance: Any = 0.0
     if cam.is_oscillating:
-        dx, dy = to_arm_pivot(cam, points, origin)
+        dx, dy = to_arm_pivot(cam, points)
         distance = np.hypot(dx, dy)
     arm = 0.0 if cam.arm_length is None else cam.arm_length
     return Sizes(cam.base, cam.radius_of_roller, cam.offset, distance, arm, cam.face_tilt)
 
 
-def to_arm_pivot(cam: Cam, points: Mapping[str, FixedPoint], origin: str = "O") -> tuple[Any, Any]:
+def to_arm_pivot(cam: Cam, points: Mapping[str, FixedPoint]) -> tuple[Any, Any]:
     """From the cam's centre to the follower's pivot, (rows,) [m]."""
-    centre, pivot = points.get(cam.pivot or origin), points[cam.arm_pivot or ""]
+    centre, pivot = points.get(cam.pivot or "O"), points[cam.arm_pivot or ""]
     x, y = (0.0, 0.0) if centre is None else (centre.x, centre.y)
     return pivot.x - x, pivot.y - y
 
@@ -82,19 +82,16 @@ def start_of(cam: Cam, size: Sizes) -> Any:
         return size.base_radius / np.cos(size.tilt)
 
 
-def follower_of(cam: Cam, points: Mapping[str, FixedPoint], origin: str = "O") -> LinearDriver | Crank:
-    """The driver that a cam is in the mechanism, unchecked: its numbers may be arrays.
-
-    `origin`: name of the point of a cam without a pivot.
-    """
-    size = sizes(cam, points, origin)
+def follower_of(cam: Cam, points: Mapping[str, FixedPoint]) -> LinearDriver | Crank:
+    """The driver that a cam is in the mechanism, unchecked: its numbers may be arrays."""
+    size = sizes(cam, points)
     start = start_of(cam, size)
     if not cam.is_oscillating:
         guide = Guide.model_construct(through=cam.pivot, on=None, angle=cam.direction, offset=cam.offset)
         return TranslatingFollower.model_construct(
             guide=guide, start=start, per_turn=None, law=None, constants={}, cam=cam
         )
-    dx, dy = to_arm_pivot(cam, points, origin)
+    dx, dy = to_arm_pivot(cam, points)
     turn = -1.0 if cam.side == "left" else 1.0
     phase = np.arctan2(dy, dx) + np.pi + turn * start
     radius = size.distance if cam.arm_length is None else cam.arm_length

@@ -189,24 +189,22 @@ def stretch(section: MotionSection, family: Family) -> Section:
 _SAME = 1e-9
 
 
-def section_faults(
-    sections: Sequence[MotionSection], expected: Family = "lift", key: str = "sections"
-) -> Iterator[InitErrorDetails]:
+def section_faults(sections: Sequence[MotionSection], expected: Family) -> Iterator[InitErrorDetails]:
     """What is wrong with the sections of a programme."""
     if not sections:
-        yield fault(key, found="an empty list", expected="at least one section")
+        yield fault("sections", found="an empty list", expected="at least one section")
         return
     faults = [
         wrong_entry
         for i, section in enumerate(sections)
         for wrong_entry in (
-            *_family_faults(section, expected, (key, i)),
-            *_own_faults(section, expected, (key, i)),
+            *_family_faults(section, expected, ("sections", i)),
+            *_own_faults(section, expected, ("sections", i)),
         )
     ]
-    faults += _turn_faults(sections, key)
-    faults = faults or list(_lift_faults(sections, expected, key))
-    yield from faults or _law_faults(sections, expected, key)
+    faults += _turn_faults(sections)
+    faults = faults or list(_lift_faults(sections, expected))
+    yield from faults or _law_faults(sections, expected)
 
 
 def _family_faults(
@@ -255,7 +253,7 @@ def _ends_other_than(
             yield fault(*place, key_of(name, family), found=value, expected=expected)
 
 
-def _turn_faults(sections: Sequence[MotionSection], key: str) -> Iterator[InitErrorDetails]:
+def _turn_faults(sections: Sequence[MotionSection]) -> Iterator[InitErrorDetails]:
     """Angles that do not add to a revolution."""
     turn = math.fsum(section.angle for section in sections)
     over = turn - TURN
@@ -266,16 +264,16 @@ def _turn_faults(sections: Sequence[MotionSection], key: str) -> Iterator[InitEr
     if sections[longest].angle <= over:
         longest = max(range(len(sections)), key=lambda i: sections[i].angle)
     new = sections[longest].angle - over
-    few = f'{_degrees(over)} too much: {key}.{longest}.angle = "{_degrees(new)}" closes the revolution'
+    few = f'{_degrees(over)} too much: sections.{longest}.angle = "{_degrees(new)}" closes the revolution'
     many = f"{_degrees(over)} too much: more than any one section has; shorten all to {TURN / turn:.6g} of it"
-    short = f'{_degrees(-over)} missing: {key}.{longest}.angle = "{_degrees(new)}" closes the revolution'
+    short = f'{_degrees(-over)} missing: sections.{longest}.angle = "{_degrees(new)}" closes the revolution'
     remedy = short if over < 0 else few if new > 0 else many
     found = f"angles that add to {_degrees(turn)}"
     problem = wrong(found, "angles that add to 360 deg", remedy)
-    yield InitErrorDetails(type=problem, loc=(key,), input=found)
+    yield InitErrorDetails(type=problem, loc=("sections",), input=found)
 
 
-def _lift_faults(sections: Sequence[MotionSection], family: Family, key: str) -> Iterator[InitErrorDetails]:
+def _lift_faults(sections: Sequence[MotionSection], family: Family) -> Iterator[InitErrorDetails]:
     """Lifts that do not come back to zero."""
     lifts = [section.change(family) or 0.0 for section in sections]
     over, largest = math.fsum(lifts), max(map(abs, lifts))
@@ -284,13 +282,13 @@ def _lift_faults(sections: Sequence[MotionSection], family: Family, key: str) ->
     # The last section that moves brings the follower home.
     last = max(i for i, lift in enumerate(lifts) if lift)
     noun = "swings" if family == "swing" else "lifts"
-    remedy = f'{key}.{last}.{family} = "{_size(lifts[last] - over, family)}" brings the follower back'
+    remedy = f'sections.{last}.{family} = "{_size(lifts[last] - over, family)}" brings the follower back'
     found = f"{noun} that add to {_size(over, family)}"
     problem = wrong(found, f"{noun} that add to 0", remedy)
-    yield InitErrorDetails(type=problem, loc=(key,), input=found)
+    yield InitErrorDetails(type=problem, loc=("sections",), input=found)
 
 
-def _law_faults(sections: Sequence[MotionSection], family: Family, key: str) -> Iterator[InitErrorDetails]:
+def _law_faults(sections: Sequence[MotionSection], family: Family) -> Iterator[InitErrorDetails]:
     """Laws that cannot do what their section asks."""
     stretches = [stretch(section, family) for section in sections]
     for i, (section, task) in enumerate(zip(stretches, boundaries(stretches), strict=True)):
@@ -300,7 +298,7 @@ def _law_faults(sections: Sequence[MotionSection], family: Family, key: str) -> 
             problem = error.problem
             below = (part for part in problem.key.split(".") if part)
             words = wrong(problem.found, problem.expected, problem.remedy)
-            yield InitErrorDetails(type=words, loc=(key, i, "law", *below), input=problem.found)
+            yield InitErrorDetails(type=words, loc=("sections", i, "law", *below), input=problem.found)
 
 
 def _degrees(angle: float) -> str:

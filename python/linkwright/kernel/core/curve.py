@@ -68,14 +68,6 @@ def odd(x: ArrayLike, y: ArrayLike, slope: ArrayLike) -> Curve:
     )
 
 
-def backlash(gap: float, stiffness: float) -> Curve:
-    """Torque over twist: none within a gap [rad] from side to side, outside it a stiffness [N m/rad]."""
-    half = 0.5 * gap
-    return straight(
-        [-1.0 - half, -half, half, 1.0 + half], [-stiffness, 0.0, 0.0, stiffness], beyond="straight"
-    )
-
-
 def switched(changes: Iterable[tuple[float, float, float]], start: float = 1.0) -> Curve:
     """A factor over time that changes now and then: straight lines and steps.
 

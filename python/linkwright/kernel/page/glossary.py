@@ -73,7 +73,7 @@ def allowed() -> tuple[str, ...]:
     return tuple(_data()["allowed"]["phrases"])
 
 
-def matching(word: str, language: str = "en") -> tuple[Term, ...]:
+def matching(word: str) -> tuple[Term, ...]:
     """Terms in which a word occurs, in upper or lower case: in the term, its names, its symbol, words it
     replaces.
     """
@@ -88,4 +88,4 @@ def matching(word: str, language: str = "en") -> tuple[Term, ...]:
             or any(re.fullmatch(retired, word, re.IGNORECASE) for retired in term.retired)
         )
 
-    return tuple(term for term in glossary(language) if meant(term))
+    return tuple(term for term in glossary("en") if meant(term))

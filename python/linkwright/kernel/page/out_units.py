@@ -102,10 +102,6 @@ class OutUnits:
         rest = (unit for unit in other.chosen if not any(own.measures(unit) for own in self.chosen))
         return OutUnits((*self.chosen, *rest))
 
-    def with_degrees(self) -> OutUnits:
-        """The same with angles in degrees, unless another unit of angles is wanted."""
-        return self.over(OutUnits.of("deg"))
-
     def shown(self, unit: str, usual: str = "") -> tuple[str, float]:
         """The unit in which a quantity is shown, and by what its value is divided.
 

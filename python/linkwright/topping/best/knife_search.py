@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from linkwright.topping.best.knife_trial import Trial, Trials
 from linkwright.topping.coverage import Watch
-from linkwright.topping.model.topper import MemberKnife, Topper
+from linkwright.topping.model.topper import MemberKnife
 
 Floats = NDArray[np.float64]
 
@@ -32,10 +32,6 @@ _ALL = {"shortest": _ONCE + _ROUNDS * _CLOSE**2, "fastest": _ONCE + (_SPEEDS + _
 _SLOWEST = 0.01
 
 
-def _is_moved(topper: Topper) -> bool:
-    return isinstance(topper.motion, MemberKnife)
-
-
 class KnifeGrid:
     """Knives within bounds, of which the shortest or the fastest is sought.
 
@@ -49,7 +45,7 @@ class KnifeGrid:
         limits = trials.topper.limits
         self._slicing = limits.slicing_min
         # A mechanism turns: its knife does not rest.
-        slowest = _SLOWEST * limits.knife_speed_max if _is_moved(trials.topper) else 0.0
+        slowest = _SLOWEST * limits.knife_speed_max if isinstance(trials.topper.motion, MemberKnife) else 0.0
         self.low = np.array([limits.angle_min, max(limits.knife_speed_min, slowest)])
         self.high = np.array([limits.angle_max, limits.knife_speed_max])
         self.speeds = (limits.forward_speed_min, limits.forward_speed_max)

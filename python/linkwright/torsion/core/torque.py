@@ -92,10 +92,6 @@ class TrainTorque:
     phase: float = 0.0
     weight: Curve | None = None  # factor over time; None for 1
 
-    def weighted(self, weight: Curve) -> TrainTorque:
-        """The same torque with a factor over time."""
-        return replace(self, weight=weight)
-
 
 def short_circuit(
     name: str,

@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.figure.style import (
-    GRID,
     INK,
     LINES,
     ORANGE,
@@ -133,11 +132,11 @@ _APART = 0.035
 
 
 @styled
-def campbell_figure(diagram: CampbellDiagram, running: tuple[float, float] | None = None) -> Figure:
+def campbell_figure(diagram: CampbellDiagram) -> Figure:
     """Draw natural frequencies, the rays of the orders, and critical speeds.
 
     Points are as large as their mode swings: at resonance where damping is known, else if the torque acted
-    slowly; without torques all are alike. `running`: [rad/s].
+    slowly; without torques all are alike.
     """
     from matplotlib.figure import Figure
 
@@ -146,10 +145,6 @@ def campbell_figure(diagram: CampbellDiagram, running: tuple[float, float] | Non
     speeds = diagram.speeds * _RPM
     axes.set_xlim(speeds[0], speeds[-1])
     axes.set_ylim(0, _top(diagram))
-    if running is not None:
-        axes.axvspan(
-            *(speed * _RPM for speed in running), color=GRID, alpha=0.5, linewidth=0, label="running"
-        )
     _rays(axes, diagram)
     moving = [row for row in diagram.frequencies if row.max() > 0]
     for nth, row in enumerate(moving):

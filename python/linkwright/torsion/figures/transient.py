@@ -8,10 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.kernel.description.base import suggestion
-from linkwright.kernel.errors import InputError
 from linkwright.kernel.figure.style import INK, LINES, SOFT, legend_above, panels, styled, zero_line
-from linkwright.kernel.page.numbers import quantity
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -35,37 +32,15 @@ _DECADES = 3.0
 
 
 @styled
-def transient_figure(
-    motion: TorsionTransient,
-    *,
-    shafts: Sequence[str] | None = None,
-    discs: Sequence[str] | None = None,
-    marks: Sequence[tuple[float, str]] = (),
-) -> Figure:
-    """Draw the speeds of discs and the torques in shafts over time.
-
-    `marks`: times [s] with words, such as those of events.
-    """
-    shown = _known(shafts, motion.shafts, "shafts") if shafts is not None else _loaded(motion)
-    turning = _known(discs, motion.discs, "discs") if discs is not None else [0, len(motion.discs) - 1]
+def transient_figure(motion: TorsionTransient) -> Figure:
+    """Draw the speeds of the first and the last disc, and the torques in the shafts that swing most."""
+    shown, turning = _loaded(motion), [0, len(motion.discs) - 1]
     figure, axes = panels(1 + len(shown), height=1.9 + 1.35 * len(shown))
     for disc, colour in zip(dict.fromkeys(turning), LINES, strict=False):
         _curve(axes[0], motion.time, _RPM * motion.speed[disc], colour, motion.discs[disc])
     axes[0].set_ylabel("speed [rpm]")
     for panel, shaft, colour in zip(axes[1:], shown, (*LINES, INK), strict=False):
         _shaft(panel, motion, shaft, colour)
-    for panel in axes:
-        for time, _ in marks:
-            panel.axvline(time, color=INK, linewidth=0.9, linestyle=":")
-    for time, word in marks:
-        axes[0].annotate(
-            word,
-            (time, 1),
-            xycoords=("data", "axes fraction"),
-            xytext=(3, -9),
-            textcoords="offset points",
-            fontsize=8,
-        )
     legend_above(axes[0])
     axes[-1].set_xlim(float(motion.time[0]), float(motion.time[-1]))
     axes[-1].set_xlabel("time t [s]")
@@ -73,13 +48,8 @@ def transient_figure(
 
 
 @styled
-def waterfall_figure(
-    waterfall: Waterfall, *, quantity: str = "amplitude", frequencies: Sequence[float] = ()
-) -> Figure:
-    """Draw amplitudes over speed and order.
-
-    Orders across, speeds up; where the speed comes and goes, time up. `frequencies`: [Hz].
-    """
+def waterfall_figure(waterfall: Waterfall, *, quantity: str = "amplitude") -> Figure:
+    """Draw amplitudes over order and speed, or over time where the speed comes and goes."""
     from matplotlib.colors import LogNorm
 
     figure, (axes,) = panels(1, height=4.4)
@@ -97,11 +67,6 @@ def waterfall_figure(
         rasterized=True,
     )
     figure.colorbar(shade, ax=axes, label=quantity, pad=0.02)
-    crossed = [f for f in frequencies if (2 * np.pi * f / waterfall.speed).min() <= waterfall.orders[-1]]
-    for frequency, colour in zip(crossed, LINES, strict=False):
-        _line_of(axes, waterfall, frequency, up, colour)
-    if crossed:
-        legend_above(axes)
     step = float(waterfall.orders[0])
     axes.set_xlim(0.5 * step, float(waterfall.orders[-1]) + 0.5 * step)
     axes.set_ylim(float(up.min()), float(up.max()))
@@ -122,17 +87,6 @@ def orders_figure(waterfall: Waterfall, orders: Sequence[float], *, quantity: st
     axes.set_ylabel(quantity)
     legend_above(axes)
     return figure
-
-
-def _known(wanted: Sequence[str], names: Sequence[str], word: str) -> list[int]:
-    """Places of names."""
-    for name in wanted:
-        if name not in names:
-            remedy = suggestion(name, names)
-            raise InputError(
-                f'{word}: found "{name}", expected one of the train' + (f"; {remedy}" if remedy else "")
-            )
-    return [names.index(name) for name in wanted]
 
 
 def _loaded(motion: TorsionTransient) -> list[int]:
@@ -175,9 +129,3 @@ def _shaft(axes: Axes, motion: TorsionTransient, shaft: int, colour: str) -> Non
         color=SOFT,
     )
     zero_line(axes)
-
-
-def _line_of(axes: Axes, waterfall: Waterfall, frequency: float, up: Floats, colour: str) -> None:
-    """Where an order has a frequency: ν = 2πf/ω."""
-    orders = 2 * np.pi * frequency / waterfall.speed
-    axes.plot(orders, up, color=colour, linewidth=1.1, linestyle="--", label=quantity(frequency, "Hz", 4))

@@ -71,11 +71,6 @@ class Judgement:
     reason: str = ""
 
     @property
-    def is_ok(self) -> bool:
-        """Whether the limit is kept at all speeds."""
-        return self.state == "ok"
-
-    @property
     def words(self) -> str:
         """The judgement as a sentence."""
         text = f"{self.part}: {self.what} {_shown(self.found, self.kind)} at {_rpm(self.speed)}"

@@ -166,11 +166,6 @@ class CyclePressure:
         """Absolute pressure, shape (n, m) [Pa]."""
         return self.firing @ self.traces
 
-    @cached_property
-    def pressure_motored(self) -> Array:
-        """The same without combustion, shape (n, m) [Pa]."""
-        return self.motored @ self.traces
-
     def at(self, angle: Array) -> tuple[Array, Array]:
         """Pressure at any crank angles, by the monotone cubic through the points.
 

@@ -66,29 +66,12 @@ def pendulum_length(period: float, gravity: float = FREE_FALL) -> float:
     return gravity * (period / (2.0 * math.pi)) ** 2
 
 
-def inertia_about_edge(mass: float, edge: float, length: float) -> float:
-    """Moment of inertia about the knife edge, (13).
-
-    J_e = m b A [kg m²]. `mass`: [kg]; `edge`: b, from the centre of mass to the edge [m]; `length`: A of the
-    pendulum [m].
-    """
-    return mass * edge * length
-
-
 def inertia_about_centre(mass: float, edge: float, length: float) -> float:
     """Moment of inertia about the centre of mass, (14).
 
     J_S = m b (A − b) [kg m²]; negative if no body swings like that.
     """
     return mass * edge * (length - edge)
-
-
-def inertia_about_axis(mass: float, edge: float, length: float, axis: float) -> float:
-    """Moment of inertia about an axis below the edge, such as that of the small end, (15).
-
-    J_w = m (A b − 2 b c + c²) [kg m²]. `axis`: [m].
-    """
-    return mass * (length * edge - 2.0 * edge * axis + axis**2)
 
 
 def two_point_centre(length_big_end: float, length_small_end: float, distance: float) -> float:
