@@ -1,4 +1,4 @@
-"""How many machines, and how many of their revolutions, does a batch of steady states go through in a second?"""
+"""How many machines, and revolutions of them, does a batch of steady states go through in a second?"""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def measured(
 
 
 def by_hand(turns: float) -> list[Row]:
-    """Revolutions per second beside those of a kernel that knows one slider-crank and solves one after the other."""
+    """Revolutions per second beside those of a kernel that knows one slider-crank."""
     if not kernels.is_here():
         return []
     one = np.array([3.0, 8.0, 0.12, 20.0, 0.12, 0.45, 0.35, 260.0 / 15**2, 0.15, 1.0, 2500.0 / 15**2])

@@ -52,7 +52,7 @@ def four_bar_over(phi: Any, out: Any, threads: int = THREADS) -> Any:
 
 
 def pace() -> float:
-    """Nanoseconds that a thread of this processor takes for a position of the four-bar, the minimum of many."""
+    """Minimum time of a thread of this processor for a position of the four-bar [ns], of many."""
     phi = np.linspace(0, 2 * np.pi, N_PACE)
     out = np.empty((8, N_PACE))
     times = []

@@ -193,8 +193,10 @@ def test_a_wrong_path_is_found() -> None:
     assert not leads_somewhere("cam/nowhere.py")
 
 
-def test_worked_example_is_the_code() -> None:
+def test_worked_examples_are_the_code() -> None:
     text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
-    (example,) = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
-    source = (ROOT / "python" / "linkwright" / "drive" / "steady_state.py").read_text(encoding="utf-8")
-    assert " ".join(example.split()) in " ".join(source.split())
+    examples = re.findall(r"```python\n\s*# (\S+\.py)\n(.*?)```", text, re.DOTALL)
+    assert len(examples) == text.count("```python") == 3
+    for place, example in examples:
+        source = (ROOT / "python" / "linkwright" / place).read_text(encoding="utf-8")
+        assert " ".join(example.split()) in " ".join(source.split()), place

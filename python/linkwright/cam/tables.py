@@ -18,7 +18,7 @@ from linkwright.cam.laws.catalogue import BOUNDS, LAWS
 from linkwright.cam.profile.least_sizes import LeastSizes
 from linkwright.cam.profile.profile import CamProfile
 from linkwright.kernel.page.numbers import crank_angle, degrees, measured, number, quantity
-from linkwright.kernel.page.table import Row, Table
+from linkwright.kernel.page.table import Row, Table, known_rows
 
 # Laws that sections are compared with: the usual ones, from the gentlest velocity on.
 _COMPARED = (
@@ -83,7 +83,7 @@ def _mm(value: float | None) -> str:
 
 
 def _size_rows(profile: CamProfile) -> Iterator[Row]:
-    """Circles, pressure angle, curvature, diameter, width of a face."""
+    """Circles, pressure angle, curvature, and what is declared with this table: diameter, width of a face."""
     yield "base circle", "r_0", _mm(profile.base_radius), ""
     if profile.prime_radius > profile.base_radius:
         yield "prime circle", "r_p", _mm(profile.prime_radius), ""
@@ -97,12 +97,7 @@ def _size_rows(profile: CamProfile) -> Iterator[Row]:
             if extreme is not None:
                 where = f"at {degrees(extreme.angle % (2 * math.pi))}"
                 yield f"minimum {word} radius{which}", "ρ_min", _mm(extreme.value), where
-    if profile.diameter_min is not None:
-        yield "minimum diameter", "d_min", _mm(profile.diameter_min), ""
-        yield "maximum diameter", "d_max", _mm(profile.diameter_max), ""
-    if profile.face_min is not None:
-        yield "contact on the face, from", "", _mm(profile.face_min), ""
-        yield "to", "", _mm(profile.face_max), ""
+    yield from known_rows(profile, "cam", length="mm")
 
 
 def size_table(sizes: LeastSizes) -> Table:

@@ -190,19 +190,21 @@ class CamProfile(Result):
     diameter_min: Annotated[
         float | None,
         Label(
-            "minimum distance of two followers on opposite sides",
-            "",
+            "minimum diameter",
+            "d_min",
             "m",
-            "That touch one cam; None for other closures.",
+            "Of two followers on opposite sides that touch one cam; None for other closures.",
+            table="cam",
         ),
     ]
     diameter_max: Annotated[
         float | None,
         Label(
-            "maximum distance of two followers on opposite sides",
-            "",
+            "maximum diameter",
+            "d_max",
             "m",
-            "That touch one cam; None for other closures.",
+            "Of two followers on opposite sides that touch one cam; None for other closures.",
+            table="cam",
         ),
     ]
     face_min: Annotated[
@@ -212,6 +214,7 @@ class CamProfile(Result):
             "",
             "m",
             "To the left of its stem or along the arm; None for rollers.",
+            table="cam",
         ),
     ]
     face_max: Annotated[
@@ -221,6 +224,7 @@ class CamProfile(Result):
             "",
             "m",
             "To the left of its stem or along the arm; None for rollers.",
+            table="cam",
         ),
     ]
     speed: Annotated[float | None, Label("design speed of the cam", "ω", "rad/s")]

@@ -42,10 +42,11 @@ class Table(NamedTuple):
     rows: list[Row]
 
 
-def row(result: Result, name: str, at: str = "") -> Row:
-    """Word, symbol, value with its unit (of an angle, degrees), and where it is."""
+def row(result: Result, name: str, at: str = "", *, length: str = "") -> Row:
+    """Word, symbol, value with its unit (`length` of a length, degrees of an angle), and where it is."""
     mark, value = shown(type(result), name), getattr(result, name)
-    return mark.word, mark.symbol, measured(value, mark.unit, _scale(result, mark)), at
+    usual = length if mark.unit == "m" else ""
+    return mark.word, mark.symbol, measured(value, mark.unit, _scale(result, mark), usual=usual), at
 
 
 def _scale(result: Result, mark: Label) -> float:
@@ -61,22 +62,33 @@ def rows_of(result: Result, *names: str) -> list[Row]:
 
 
 def rows_in(
-    result: Result, table: str, beside: Mapping[str, str] | None = None, *, without: Collection[str] = ()
+    result: Result,
+    table: str,
+    beside: Mapping[str, str] | None = None,
+    *,
+    without: Collection[str] = (),
+    length: str = "",
 ) -> list[Row]:
     """Rows for the attributes of a result that are declared with a table.
 
-    `beside`: what the last column says, by attribute; `without`: attributes that this result has no use for.
+    `beside`: what the last column says, by attribute; `without`: attributes that this result has no use for;
+    `length`: usual unit of lengths.
     """
     names = (name for name in in_table(type(result), table) if name not in without)
-    return [row(result, name, (beside or {}).get(name, "")) for name in names]
+    return [row(result, name, (beside or {}).get(name, ""), length=length) for name in names]
 
 
 def known_rows(
-    result: Result, table: str, beside: Mapping[str, str] | None = None, *, without: Collection[str] = ()
+    result: Result,
+    table: str,
+    beside: Mapping[str, str] | None = None,
+    *,
+    without: Collection[str] = (),
+    length: str = "",
 ) -> list[Row]:
     """`rows_in`, without attributes that are None."""
     unknown = [name for name in in_table(type(result), table) if getattr(result, name) is None]
-    return rows_in(result, table, beside, without=[*unknown, *without])
+    return rows_in(result, table, beside, without=[*unknown, *without], length=length)
 
 
 # Also in the wide forms of East Asian writing, which some spreadsheets take for the same.

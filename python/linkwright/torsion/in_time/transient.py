@@ -24,7 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright.kernel.errors import ConvergenceError, InputError
 from linkwright.kernel.limits import SAMPLES
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import About, Label
+from linkwright.kernel.quantities import About, Label, declared
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.transient import MovingTrain, TrainMotion
@@ -197,10 +197,10 @@ class TorsionTransient(Result):
             for name, row in zip(self.stages, self.stage_torque, strict=True)
         }
         results["ice"] = [asdict(one) for one in self.ice]
-        for names, kind in ((self.shafts, "torque"), (self.discs, "speed")):
-            for end in ("max", "max_time", "min", "min_time"):
-                values = getattr(self, f"{kind}_{end}")
-                results[f"{kind}_{end}"] = dict(zip(names, values.tolist(), strict=True))
+        names = {"(shafts,)": self.shafts, "(discs,)": self.discs}
+        for name, (_, mark) in declared(type(self)).items():
+            if isinstance(mark, Label) and mark.shape in names:
+                results[name] = dict(zip(names[mark.shape], getattr(self, name).tolist(), strict=True))
         return results
 
 
