@@ -200,7 +200,7 @@ def test_fastest(file: str) -> None:
         (("--over", "edge_length=0:0.2:3"), "found edge_length 0 m, expected more than 0"),
         (("--over", "edge_length=0.1:0.2:3", "--over", "edge_length=0.1:0.2:3"), "same name twice"),
         (("--seed", "-1"), "found -1"),
-        (("--level", "1"), "found 1, expected a ratio between 0 and 1"),
+        (("--level", "1"), "--level: found 1, expected at least 0.001"),
         (("--set", "topper.field.rows=501"), "at most one for each of 500 roots"),
     ],
 )

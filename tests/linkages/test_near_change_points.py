@@ -468,3 +468,19 @@ def test_coupler_curve_of_a_rhombus() -> None:
     """The joint of the parallelogram runs on a circle about the pivot."""
     found = lw.coupler_curve(four_bar((1.0,) * 4), "R")
     np.testing.assert_allclose(found.length, 2 * np.pi, atol=1e-9)
+
+
+def test_rates_without_limit_are_no_numbers() -> None:
+    """The rod stands across its guide at 0°: the slider turns back there at infinite speed of transfer."""
+    text = (
+        'format = 1\nname = "At its limit"\n[drive]\nspeed = 1.0\n[mechanism.cranks.A]\nradius = 1.0\n'
+        '[mechanism.sliders.s]\ncrank = "A"\nrod = 0.5\noffset = 0.5\n'
+    )
+    found = lw.motions(lw.loads(text), [0.0, 0.1, -0.1], points=["A"], slides=["s"])[0]
+    assert not np.isinf(found).any()
+    assert np.isfinite(found[:6]).all()
+    # The place is known at the limit, beyond it nothing is.
+    assert found[6, 0] == pytest.approx(1.0)
+    assert np.isnan(found[7:, 0]).all()
+    assert np.isfinite(found[:, 1]).all()
+    assert np.isnan(found[6:, 2]).all()

@@ -72,3 +72,14 @@ def test_the_command(tmp_path: Path) -> None:
     told = json.loads(result.stdout)["results"]["allocation"]
     assert told["share_within"] >= 0.9
     assert set(told["tolerances"]) == {"r", "l"}
+
+
+@pytest.mark.parametrize(
+    ("wanted", "rows"), [(1e-300, 200), (0.004, 200), (0.9999, 1000), (1 - 1e-16, 10_000)]
+)
+def test_a_yield_finer_than_the_rows_tell(tmp_path: Path, wanted: float, rows: int) -> None:
+    with pytest.raises(InputError, match=rf"wanted .*, the shares that {rows} rows tell"):
+        lw.allocate(chain(tmp_path), wanted, rows=rows)
+    # As many as the message asks for would do.
+    with pytest.raises(InputError, match="at least 10000 rows"):
+        lw.allocate(chain(tmp_path), 0.9999, rows=9_999)

@@ -91,7 +91,7 @@ def transient(
     from_angle: FromAngle = "0",
     from_speed: FromSpeed = "0",
     duration: Duration = None,
-    revolutions: Revolutions = None,
+    turns: Revolutions = None,
     no_motor: NoMotor = False,
     brake: WithBrake = False,
     zero: ZeroAt = None,
@@ -115,15 +115,15 @@ def transient(
 
     folder = output_folder(out, force=force)
     require_within(ROWS_OUT, steps, "--steps", "take fewer")
-    if revolutions is not None and not revolutions > 0:
-        raise InputError(f"--revolutions: found {revolutions:g}, expected more than 0")
+    if turns is not None and not turns > 0:
+        raise InputError(f"--revolutions: found {turns:g}, expected more than 0")
     machine = read(file, set or [], allow_outside=allow_outside)
     counted = zero_angle(machine, zero) if zero is not None else Zero()
     until: dict[str, float] = {}
     if duration is not None:
         until["duration"] = option_value("--duration", duration, TIME)
-    if revolutions is not None or not until:
-        until["turns"] = revolutions or _REVOLUTIONS
+    if turns is not None or not until:
+        until["turns"] = turns or _REVOLUTIONS
     motion = follow(
         machine,
         angle=option_value("--from-angle", from_angle, ANGLE) + counted.angle,

@@ -218,7 +218,8 @@ def motions(
     Returns
     -------
     ndarray, shape (rows, numbers, n)
-        In the order asked for, points first; NaN where a machine does not close.
+        In the order asked for, points first; NaN where a machine does not close, and rates where they grow
+        without limit, at a limit of crank rotation.
 
     Raises
     ------
@@ -230,7 +231,13 @@ def motions(
     compiled = compile_machine(machine)
     asked: Mapping[str, Iterable[str]] = {"points": points, "links": links, "slides": slides}
     what = [(part, name) for part, names in asked.items() for name in names]
-    return motion_arrays(compiled, checked_angles(angles), what, out)
+    found = motion_arrays(compiled, checked_angles(angles), what, out)
+    # A sum is quick, and finite where all numbers are.
+    with np.errstate(invalid="ignore", over="ignore"):
+        is_finite = np.isfinite(found.sum())
+    if not is_finite:
+        found[np.isinf(found)] = np.nan
+    return found
 
 
 def motion_arrays(

@@ -44,7 +44,7 @@ def sensitivity(
     file: File,
     set: Sets = None,
     allow_outside: Outside = False,
-    of: Of = None,
+    responses: Of = None,
     by: By = None,
     json: Json = False,
     out: Out = None,
@@ -62,8 +62,8 @@ def sensitivity(
 
     folder = output_folder(out, force=force)
     machine = read(file, set or (), allow_outside=allow_outside)
-    derivatives = gradient(machine, of, by)
-    shown = derivatives if of else _few(derivatives)
+    derivatives = gradient(machine, responses, by)
+    shown = derivatives if responses else _few(derivatives)
     hand_over(
         Answer(
             machine=machine.name,

@@ -17,7 +17,7 @@ from dataclasses import dataclass, field
 from linkwright.drive.gradient import steady_tangents
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.steady_state import SteadyState
-from linkwright.kernel.errors import InputError
+from linkwright.kernel.errors import InputError, cut
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.kernel.quantities import Label, declared, shown
 from linkwright.machine.machine import Machine
@@ -157,5 +157,6 @@ def analysis_of(response: str) -> str:
     """
     name = response.partition(".")[0]
     if name not in SOURCES:
-        raise InputError(f'no response "{response}" with a derivative: expected one of {", ".join(SOURCES)}')
+        expected = f"one with a derivative, of {', '.join(SOURCES)}"
+        raise InputError(f'responses: found "{cut(response)}", expected {expected}')
     return name

@@ -82,7 +82,7 @@ def size(
     file: File,
     set: Sets = None,
     allow_outside: Outside = False,
-    power_reserve: Reserve = 1.1,
+    reserve: Reserve = 1.1,
     unevenness: Unevenness = 0.05,
     by: By = "all",
     free_ratio: FreeRatio = False,
@@ -106,7 +106,7 @@ def size(
     machine = read(file, set or (), allow_outside=allow_outside)
     motor = choose_motor(
         machine,
-        reserve=power_reserve,
+        reserve=reserve,
         by=by,
         free_ratio=free_ratio,
         unevenness=unevenness if together else None,

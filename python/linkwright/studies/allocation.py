@@ -19,6 +19,7 @@ References
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from typing import Annotated, Any
 
@@ -45,6 +46,9 @@ _FACTOR = 100.0
 
 # Deviations to the nearest limit that are tried, and halvings of that range: to 1e-3 of a deviation.
 _FEWEST, _MOST, _HALVINGS = 0.05, 8.0, 13
+
+# Machines drawn at random, at most.
+_ROWS_MOST = 10_000_000
 
 # Steps of differences as a share of a standard deviation.
 _STEP = 1e-2
@@ -83,7 +87,7 @@ def allocate(
     plan : StudyPlan
         A study with constraints; variables with a ``tolerance`` and a ``cost`` are allocated, others stay.
     wanted : float
-        Share of machines within all limits, between 0 and 1.
+        Share of machines within all limits, at least one machine of the rows within and one beyond them.
     power : float
         k of the cost :math:`c f^{-k}`, 0.1 to 10.
     rows : int
@@ -105,8 +109,15 @@ def allocate(
     """
     if not 0 < wanted < 1:
         raise InputError(f"wanted {wanted}: expected a number between 0 and 1, such as 0.99")
-    if not 0.1 <= power <= 10 or not 100 <= rows <= 10_000_000:
+    if not 0.1 <= power <= 10 or not 100 <= rows <= _ROWS_MOST:
         raise InputError(f"power {power}, rows {rows}: expected 0.1 to 10, and 100 to 10 000 000 rows")
+    # One machine of the rows, with room for rounding.
+    finest = (1 - 1e-9) / rows
+    if not finest <= wanted <= 1 - finest:
+        many = math.ceil(min((1 - 1e-9) / min(wanted, 1 - wanted), 1e300))
+        remedy = f"; give at least {many} rows" if many <= _ROWS_MOST else ""
+        expected = f"{1 / rows:g} to {1 - 1 / rows:.10g}, the shares that {rows} rows tell"
+        raise InputError(f"wanted {wanted:.15g}: expected {expected}{remedy}")
     problem = _Problem(plan, power)
     shares = sampling.random(len(plan.axes), seed, 0, rows)
 

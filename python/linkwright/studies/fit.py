@@ -144,8 +144,6 @@ def fit(plan: StudyPlan, record: MeasuredRecord, *, level: float = 0.95) -> Fit:
     Correlated residuals give a warning: then the machine lacks something, or the record was filtered, and
     intervals are too narrow.
     """
-    if not 0 < level < 1:
-        raise InputError(f"level {level}: expected a number between 0 and 1, such as 0.95")
     model, starts = begun(plan, record)
     if record.size <= len(model.numbers):
         raise InputError(

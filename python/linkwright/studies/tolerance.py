@@ -127,8 +127,6 @@ def tolerance(
         raise InputError(
             f"rows {rows}, indices {indices}: expected 2 to 10 000 000 rows, to 1 000 000 blocks"
         )
-    if not 0 < level < 1:
-        raise InputError(f"level {level}: expected a number between 0 and 1, such as 0.95")
     listed = [axis.name for axis in plan.axes if axis.choices]
     if listed:
         raise InputError(

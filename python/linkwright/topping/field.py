@@ -26,10 +26,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.public import public
-from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-from linkwright.kernel.units import INSIDE_ONE, RATIO, Quantity
 from linkwright.machine.machine import Machine
 from linkwright.topping.coverage import COARSE, Pass, Watch, pass_over
 from linkwright.topping.edge import Edge, edges_of, require_topper
@@ -211,7 +209,6 @@ def topper_field(
         The edge runs over heads and back again and again, and hardly goes on.
     """
     topper = require_topper(machine)
-    in_range(level=(level, Quantity(RATIO, INSIDE_ONE)))
     roots = draw_roots(topper, seed)
     edges = edges_of(machine, topper)
     passed = pass_over(edges, roots, length=topper.edge_length, fine=fine, watch=watch)

@@ -18,10 +18,9 @@ from linkwright.kernel.errors import FindingError, InputError, require_within
 from linkwright.kernel.limits import FIELD_VARIANTS
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import array
-from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-from linkwright.kernel.units import ANGLE, INSIDE_ONE, LENGTH, RATIO, VELOCITY, Kind, Quantity, worded
+from linkwright.kernel.units import ANGLE, LENGTH, VELOCITY, Kind, worded
 from linkwright.machine.machine import Machine
 from linkwright.topping.coverage import COARSE, Watch, pass_over
 from linkwright.topping.edge import Edge, edges_of, require_topper
@@ -173,7 +172,6 @@ def sweep_field(
     axes = {name: _axis(name, values) for name, values in over.items()}
     shape = tuple(len(axis) for axis in axes.values())
     _require(shape)
-    in_range(level=(level, Quantity(RATIO, INSIDE_ONE)))
     grid = np.meshgrid(*axes.values(), indexing="ij")
     columns = {name: values.ravel() for name, values in zip(axes, grid, strict=True)}
     roots, n = draw_roots(topper, seed), int(np.prod(shape))

@@ -101,8 +101,13 @@ def read_motors(path: str | os.PathLike[str]) -> tuple[CatalogueMotor, ...]:
         The file cannot be read, has a wrong head or number, or a type lacks what its kind needs; with its
         line.
     """
-    rows = _Rows(Path(path))
-    return tuple(rows.motor(type) for type in rows.types)
+    try:
+        rows = _Rows(Path(path))
+        return tuple(rows.motor(type) for type in rows.types)
+    except MachineFileError as error:
+        # No machine file names this one.
+        problems = [replace(each, key=each.key.replace(_KEY, "catalogue")) for each in error.problems]
+        raise MachineFileError(problems) from None
 
 
 class _Rows:

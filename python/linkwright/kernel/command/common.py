@@ -11,6 +11,8 @@
 
 from __future__ import annotations
 
+import math
+import re
 from collections.abc import Callable
 from functools import wraps
 from pathlib import Path
@@ -80,7 +82,7 @@ def reports_errors(
                     return None
                 if kwargs.get("json"):
                     click.echo(json_text(stopped), nl=False)
-            click.echo(printable(str(error)), err=True)
+            click.echo(printable(_by_options(error)), err=True)
             raise click.exceptions.Exit(error.exit_code) from None
         except BrokenPipeError:
             # Whoever read the output has enough.
@@ -92,6 +94,24 @@ def reports_errors(
             raise click.exceptions.Exit(EXIT_CODE) from None
 
     return run
+
+
+# What a message about arguments begins with: their names, each perhaps with its number, up to a colon or the
+# end of the line. That of a file begins with its place: a name, a colon and a line.
+_ARGUMENTS = re.compile(r"\w+(?: [-+.e\d]+)?(?:, \w+(?: [-+.e\d]+)?)*(?=:(?!\d)|\n)")
+
+
+def _by_options(error: LinkwrightError) -> str:
+    """The message of an error; arguments of the Python function by the options that they were given as."""
+    context = click.get_current_context(silent=True)
+    head = _ARGUMENTS.match(str(error))
+    if not isinstance(error, InputError) or context is None or head is None:
+        return str(error)
+    options = {
+        option.name: option.opts[0] for option in context.command.params if isinstance(option, click.Option)
+    }
+    named = re.sub(r"[^\W\d]\w*", lambda word: options.get(word[0], word[0]), head[0])
+    return named + str(error)[head.end() :]
 
 
 def named_entries(option: str, text: str, example: str) -> tuple[str, list[str]]:
@@ -115,6 +135,8 @@ def option_value(option: str, text: str, kind: Kind) -> float:
     # On a command line people mean degrees as often as radians; zero is the same in both.
     choices = {ANGLE.dimension: ("deg", "rad"), SPEED.dimension: ("rpm", "rad/s")}
     units = choices.get(kind.dimension)
+    if _is_number(text) and not math.isfinite(float(text)):
+        raise InputError(f"{option}: found {cut(text)}, expected a finite number with its unit")
     if units and _is_number(text) and float(text) != 0:
         text = cut(text)
         one, other = (f'"{text} {unit}"' for unit in units)

@@ -12,6 +12,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from enum import Enum
 from inspect import Parameter, cleandoc, signature
@@ -20,6 +21,8 @@ from types import NoneType
 from typing import Annotated, Any, Literal, NamedTuple, get_args, get_origin, get_type_hints
 
 import click
+
+from linkwright.kernel.errors import cut
 
 # The largest whole number up to which every one is a float.
 _WHOLE_MAX = 2**53
@@ -170,7 +173,23 @@ def _converter(kind: Any, low: int | None) -> Any:
         return click.Choice(kind)
     if kind is Path:
         return click.Path(path_type=Path)
+    if kind is float:
+        return _Real()
     return _Whole(low) if kind is int else kind
+
+
+class _Real(click.types.FloatParamType):
+    """A finite number."""
+
+    # In the sentence of click on a word that is none.
+    name = "number"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """The number of a word."""
+        number = super().convert(value, param, ctx)
+        if not math.isfinite(number):
+            self.fail(f"found {cut(str(value))}, expected a finite number", param, ctx)
+        return number
 
 
 class _Whole(click.IntRange):

@@ -56,6 +56,8 @@ RANGES: dict[str, Range] = {
     "order": Range(0, 100_000),
     # What every generator of random numbers takes.
     "seed": Range(0, 2**32 - 1),
+    # Confidence level: nearer to 0 or 1 an interval has no width, or no end, in rounding.
+    "level": Range(1e-3, 1 - 1e-9),
 }
 
 # How much of a wrong value is shown.

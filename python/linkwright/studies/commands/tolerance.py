@@ -41,8 +41,8 @@ def tolerance(
     rows: RowCount = 10_000,
     seed: Seed = 0,
     indices: Blocks = 0,
-    allocate: Wanted = None,
-    cost_power: Power = 1.0,
+    wanted: Wanted = None,
+    power: Power = 1.0,
     json: Json = False,
 ) -> None:
     """How results scatter with the tolerances of a machine, what contributes, and the yield within limits.
@@ -54,8 +54,8 @@ def tolerance(
     from linkwright.studies.tolerance import tolerance as compute
 
     plan = read_study(file, set or [], allow_outside=allow_outside)
-    if allocate is not None:
-        _hand_over_allocation(plan, allocate, cost_power, rows, seed, json=json)
+    if wanted is not None:
+        _hand_over_allocation(plan, wanted, power, rows, seed, json=json)
         return
     scatter = compute(plan, rows, seed=seed, indices=indices)
     failed = (

@@ -118,10 +118,15 @@ class TrainRun(CheckedDescription):
 
     @property
     def speeds(self) -> Floats:
-        """All speeds, (n,) [rad/s]; even, but that of service stands in the place of the nearest."""
+        """All speeds, (n,) [rad/s]: even, with both ends of the range; that of service is in the place of the
+        nearest between them, or with two points beside them.
+        """
         even = np.linspace(self.speed_min, self.speed_max, self.points)
-        if self.speed_min < self.service < self.speed_max:
-            even[np.abs(even - self.service).argmin()] = self.service
+        if not self.speed_min < self.service < self.speed_max:
+            return even
+        if self.points == 2:
+            return np.insert(even, 1, self.service)
+        even[1 + np.abs(even[1:-1] - self.service).argmin()] = self.service
         return even
 
     @property

@@ -27,7 +27,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.description.base import suggestion
-from linkwright.kernel.errors import FindingError, InputError, UnitError
+from linkwright.kernel.errors import FindingError, InputError, UnitError, cut
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
@@ -177,10 +177,13 @@ def holzer_frequency(asked: float | str, free: FreeVibration) -> float:
         return float(free.natural_frequencies[mode])
     try:
         is_speed = _OF_SPEED.search(text) is not None
-        return parse(text, SPEED) / (2 * math.pi) if is_speed else _hertz(text)
+        frequency = parse(text, SPEED) / (2 * math.pi) if is_speed else _hertz(text)
     except UnitError:
+        frequency = math.nan
+    if not math.isfinite(frequency):
         expected = 'a frequency such as 45 (in Hz), "20 rad/s", "300 rpm" or f_1'
-        raise InputError(f'holzer: found "{text}", expected {expected}') from None
+        raise InputError(f'holzer: found "{cut(text)}", expected {expected}')
+    return frequency
 
 
 # Radians and revolutions are no cycles per second, though both are numbers per time.
