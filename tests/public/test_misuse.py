@@ -19,7 +19,7 @@ from numpy.exceptions import ComplexWarning
 
 import linkwright as lw
 from linkwright.cam.laws.motion_law import MotionLaw
-from linkwright.kernel.errors import InputError, LinkwrightError, MachineError
+from linkwright.kernel.errors import InputError, LinkwrightError, MachineError, SteadyStateError
 from linkwright.kernel.public.arguments import checks_of
 from linkwright.machine.write import dumps as lw_dumps
 from linkwright.topping.verdict import PAPER
@@ -381,8 +381,73 @@ def test_words_functions_and_pairs_are_checked(call: Callable[[], Any], words: s
         call()
 
 
+@contextlib.contextmanager
+def _strict() -> Iterator[None]:
+    """Warnings are errors."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        yield
+
+
 @cache
 def _study() -> Any:
     variables = {"ratio": {"address": "drive.gearbox.ratio", "range": [9.0, 10.0], "steps": 2}}
     tables = {"variables": variables, "responses": {"delta": "steady_state.unevenness"}}
     return lw.new_study(_machine("roller_one_cart"), {**tables, "goals": {"delta": "minimise"}})
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (lambda: lw.evaluate(_study(), {"ratio": 1.0}), r"^variables\[ratio\]: found"),
+        (lambda: lw.evaluate(_study(), {"ratio": {"b": 1}}), r"^variables\[ratio\]: found"),
+        (lambda: lw.evaluate(_study(), {"other": [9.5]}), "^variables: found other, .* of the study: ratio$"),
+        (lambda: lw.evaluate(_study(), {"ratio": [np.nan]}), r"^variables\[ratio\]: found nan"),
+        (
+            lambda: lw.load_cases(_machine("roller_one_cart"), {"a": 1.0}),
+            r"^cases\[a\]: found 1.0, .* names$",
+        ),
+        (
+            lambda: lw.mechanism_harmonics(_machine("roller_one_cart"), 1e308, [1.0]),
+            r"^speed: found 1e\+308",
+        ),
+        (
+            lambda: lw.mechanism_harmonics(_machine("roller_one_cart"), 1.0, [1e308]),
+            r"^orders: found 1e\+308",
+        ),
+        (
+            lambda: lw.mechanism_harmonics(_machine("roller_one_cart"), np.zeros(10**6), [1.0]),
+            "^speed: found 0 at index 0, .{0,80}$",
+        ),
+        (
+            lambda: lw.loaded_cam(_machine("roller_one_cart"), _profile(), 1.0),
+            '^profile: found that of cam "cart", expected one of the machine: none$',
+        ),
+        (
+            lambda: lw.motion(_machine("roller_one_cart"), (TURN, TURN), [-1e308, 1e308]),
+            r"^times: found -?1e\+308",
+        ),
+        (lambda: lw.read("\ud800.toml"), "^path: found .* name of a file$"),
+        (lambda: lw.write(_machine("roller_one_cart"), "\ud800.toml"), "^path: found .* name of a file$"),
+    ],
+)
+def test_what_is_inside_of_mappings_and_lists_is_named(call: Callable[[], Any], words: str) -> None:
+    with _strict(), pytest.raises(InputError, match=words):
+        call()
+
+
+def test_a_table_of_another_library_is_no_law() -> None:
+    """It has something by the name `at` that is no function."""
+
+    class Frame:
+        at = 3
+
+    with pytest.raises(LinkwrightError):
+        lw.motion(_machine("roller_one_cart"), Frame(), [0.0, 1.0])
+
+
+def test_no_inertia_in_a_dwell_is_said_without_a_warning() -> None:
+    """The follower of this valve has inertia, its shaft none: in the dwell nothing is there to be turned."""
+    valve = lw.read("examples/cam_oscillating_valve/machine.toml")
+    with _strict(), pytest.raises(SteadyStateError, match="reduced inertia is zero"):
+        lw.constant_energy(valve)

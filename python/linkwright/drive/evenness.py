@@ -115,6 +115,8 @@ def _exactly(compiled: CompiledMachine) -> float:
 
     def acceleration(phi: Floats) -> Floats:
         at = compiled.reductions(phi)
+        if not (at.inertia > 0).all():
+            raise SteadyStateError(NO_INERTIA)
         ratio: Floats = (at.inertia_slope / at.inertia**2)[None]
         return ratio
 

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from linkwright.kernel.errors import ShapeError
 from linkwright.kernel.numerics.taylor import Taylor
-from linkwright.kernel.public.arguments import rows
+from linkwright.kernel.public.arguments import rows, shown
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.units import ANGLE, TIME, Quantity
 
@@ -211,7 +211,7 @@ def as_law(law: Law | Callable[[Any], Any] | Sequence[ArrayLike]) -> Law:
 
     `law` (n,): see the classes of this module. Raises ShapeError: it is none of these.
     """
-    if hasattr(law, "at"):
+    if callable(getattr(law, "at", None)):
         return law
     if callable(law):
         return FunctionLaw(law)
@@ -221,7 +221,7 @@ def as_law(law: Law | Callable[[Any], Any] | Sequence[ArrayLike]) -> Law:
         and len(law) == 2
     ):
         return TableLaw(rows("law: times", law[0]), rows("law: angles", law[1]))
-    raise ShapeError(f"a law, a function of time or a pair of times and angles is needed, found {law!r}")
+    raise ShapeError(f"a law, a function of time or a pair of times and angles is needed, found {shown(law)}")
 
 
 def _polynomial(coefficients: Sequence[float], x: Floats) -> Floats:

@@ -21,7 +21,7 @@ from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record, Result
-from linkwright.kernel.units import ANGLE, ANGULAR_ACCELERATION, SPEED, Quantity
+from linkwright.kernel.units import ANGLE, ANGULAR_ACCELERATION, SPEED, TIME, Quantity
 from linkwright.linkages.closure import closure_of, require_closed
 from linkwright.linkages.kinematics import checked_angles, everything, kinematics_of
 from linkwright.linkages.law import Law, as_law
@@ -127,6 +127,7 @@ def motion(
         Times or law are not usable, or the law goes beyond the range of angles, speeds or accelerations.
     """
     t = checked_angles(times)
+    in_range(times=(t, Quantity(TIME)))
     if len(t) == 0 or (np.diff(t) <= 0).any():
         raise ShapeError("times must increase, and there must be at least one")
     driver = as_law(law)

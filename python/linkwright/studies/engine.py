@@ -19,6 +19,7 @@ from linkwright.kernel.description.formula import NUMBERS
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.numerics.formula_value import value
 from linkwright.kernel.public import public
+from linkwright.kernel.public.arguments import rows as rows_of_numbers
 from linkwright.linkages.kinematics import motions
 from linkwright.machine.address import get, replace
 from linkwright.machine.machine import Machine
@@ -85,9 +86,14 @@ def evaluate(plan: StudyPlan, variables: Mapping[str, Floats]) -> Rows:
     -------
     Rows
         One a machine, in their order.
+
+    Raises
+    ------
+    InputError
+        The variables are not those of the study, or no lists of finite numbers of one length.
     """
-    n = len(next(iter(variables.values())))
-    columns = {name: np.asarray(column, dtype=float) for name, column in variables.items()}
+    columns = _columns(plan, variables)
+    n = len(next(iter(columns.values())))
     rows = Rows(columns, np.zeros(n, np.uint8), np.zeros(n, np.int32), [""])
     _add_formulas(rows, plan.derived, IMPOSSIBLE)
     for asked in plan.asked:
@@ -102,6 +108,23 @@ def evaluate(plan: StudyPlan, variables: Mapping[str, Floats]) -> Rows:
         columns[name][failed] = np.nan
     rows.columns = {name: columns[name] for name in plan.columns}
     return rows
+
+
+def _columns(plan: StudyPlan, variables: Mapping[str, Floats]) -> dict[str, Floats]:
+    """Values of the variables of a study by name, lists of one length. Raises InputError: they are not."""
+    wanted = [axis.name for axis in plan.axes]
+    if sorted(variables) != sorted(wanted):
+        expected = f"those of the study: {', '.join(wanted)}"
+        raise InputError(f"variables: found {', '.join(variables) or 'none'}, expected {expected}")
+    columns: dict[str, Floats] = {}
+    for name in variables:
+        columns[name] = np.array(rows_of_numbers(f"variables[{name}]", variables[name]))
+        lengths = {len(column) for column in columns.values()}
+        if len(lengths) > 1:
+            raise InputError(
+                f"variables[{name}]: found {len(columns[name])} values, others have another number"
+            )
+    return columns
 
 
 def _entries(plan: StudyPlan, columns: Mapping[str, Floats]) -> dict[str, Floats]:

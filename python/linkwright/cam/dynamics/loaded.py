@@ -33,7 +33,7 @@ from linkwright.cam.dynamics.hertz import LineContact, Material, line_contact
 from linkwright.cam.dynamics.lift_off import speed_of_loss
 from linkwright.cam.profile.profile import CamProfile, Flank
 from linkwright.drive.steady_state import steady_state
-from linkwright.kernel.errors import FindingError
+from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
@@ -136,11 +136,14 @@ def loaded_cam(machine: Machine, profile: CamProfile, speed: float | None = None
     Raises
     ------
     InputError
-        Nothing says at which speed the machine runs, or the speed is none.
+        Nothing says at which speed the machine runs, the speed is none, or the profile is of another machine.
     FindingError
         The machine has no motion.
     """
     in_range(speed=(speed, positive(SPEED)))
+    if profile.name not in machine.mechanism.cams:
+        known = ", ".join(machine.mechanism.cams) or "none"
+        raise InputError(f'profile: found that of cam "{profile.name}", expected one of the machine: {known}')
     cam = profile.cam
     pressed = partial(_pressed, machine, speed)
     angles = _angles(profile)

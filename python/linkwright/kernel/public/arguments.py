@@ -259,6 +259,13 @@ def _mapping(name: str, value: Any) -> Any:
     return value
 
 
+def _mappings(name: str, value: Any) -> Any:
+    """Tables by name."""
+    for key, table in _mapping(name, value).items():
+        _mapping(f"{name}[{key}]", table)
+    return value
+
+
 def _named_or(other: Check) -> Check:
     """Something by name, or what stands for all names."""
     return lambda name, value: (_mapping if isinstance(value, Mapping) else other)(name, value)
@@ -278,7 +285,12 @@ def _text(name: str, value: Any) -> str:
 
 def _path(name: str, value: Any) -> Any:
     """The name of a file; whether there is one the function sees."""
-    if not isinstance(value, str | os.PathLike) or "\0" in str(value):
+    try:
+        # Bytes of a name that are no text have substitutes; other halves of characters stand for none.
+        is_name = b"\0" not in os.fsencode(value)
+    except (TypeError, UnicodeEncodeError):
+        is_name = False
+    if not is_name or isinstance(value, bytes):
         raise _wrong(name, value, "the name of a file")
     return value
 
@@ -380,7 +392,7 @@ _CHECKS: dict[str, Check] = {
     "Overrides": _overrides,
     "Mapping[str, Any]": _mapping,
     "Mapping[str, ArrayLike]": _mapping,
-    "Mapping[str, Mapping[str, Any]]": _mapping,
+    "Mapping[str, Mapping[str, Any]]": _mappings,
     "Mapping[str, Floats]": _mapping,
     "Mapping[str, float]": _mapping,
     "Mapping[str, str]": _mapping,

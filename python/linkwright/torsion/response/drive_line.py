@@ -33,6 +33,9 @@ from linkwright.drive.steady_state import steady_state
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.public import public
+from linkwright.kernel.public.arguments import RANGES
+from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.units import SPEED, positive
 from linkwright.linkages.closure import over_whole_cycle, require_full_turn
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
@@ -200,10 +203,14 @@ def _slope(torque: Callable[[Floats], Floats], omega: Floats) -> Floats:
 def _orders(orders: ArrayLike, turns: int) -> Floats:
     """Orders that are multiples of a half, or of one over the revolutions of a cycle."""
     nu = np.atleast_1d(np.asarray(orders, dtype=np.float64))
-    sound = nu.ndim == 1 and bool(np.isfinite(nu).all() and (nu >= 0).all())
-    if not sound or not (_is_whole(2 * nu) | _is_whole(turns * nu)).all():
+    if nu.ndim != 1:
+        raise InputError(f"orders: found an array of shape {nu.shape}, expected a list of orders")
+    is_order = (nu >= 0) & (nu <= RANGES["order"].greatest)
+    is_order[is_order] = _is_whole(2 * nu[is_order]) | _is_whole(turns * nu[is_order])
+    if not is_order.all():
         also = "" if turns <= 2 else f" or of 1/{turns}"
-        raise InputError(f"orders: found {nu.tolist()}, expected multiples of 0.5{also}, of 0 or more")
+        expected = f"multiples of 0.5{also}, from 0 to {RANGES['order'].greatest:g}"
+        raise InputError(f"orders: found {nu[~is_order][0]:g}, expected {expected}")
     return nu
 
 
@@ -216,8 +223,9 @@ def _is_whole(values: Floats) -> NDArray[np.bool_]:
 def _positive(speed: ArrayLike) -> Floats:
     """Speeds at which a machine turns."""
     omega = np.atleast_1d(np.asarray(speed, dtype=np.float64))
-    if omega.ndim != 1 or not (np.isfinite(omega) & (omega > 0)).all():
-        raise InputError(f"speed: found {omega.tolist()} rad/s, expected numbers greater than 0")
+    if omega.ndim != 1:
+        raise InputError(f"speed: found an array of shape {omega.shape}, expected a list of speeds")
+    in_range(speed=(omega, positive(SPEED)))
     return omega
 
 
