@@ -85,3 +85,90 @@ def test_little_is_imported_before_it_listens() -> None:
     assert "linkwright.app" in told.stdout.split()
     large = {"collections", "dataclasses", "enum", "functools", "inspect", "re", "signal", "typing"}
     assert not large & set(told.stdout.split())
+
+
+# A grid that takes minutes.
+GRID = """
+machine = "roller_one_cart"
+[variables.ratio]
+address = "drive.gearbox.ratio"
+range = [9.0, 10.0]
+steps = 1000
+[variables.mass]
+address = "bodies.cart1.mass"
+range = ["900 kg", "1100 kg"]
+steps = 1000
+[responses]
+delta = "steady_state.unevenness"
+"""
+
+
+def _sweep(folder: Path) -> tuple[subprocess.Popen[str], set[int]]:
+    """A sweep by two processes that has begun to write, and those processes."""
+    (folder / "study.toml").write_text(GRID)
+    command = [sys.executable, "-m", "linkwright", "sweep", "study.toml", "--out", "rows", "--workers", "2"]
+    program = subprocess.Popen(
+        command,
+        cwd=folder,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+    )
+    until = time.monotonic() + PATIENCE
+    while not list(folder.glob("rows/*.parquet")):
+        assert program.poll() is None, program.communicate()
+        assert time.monotonic() < until
+        time.sleep(0.05)
+    workers = {pid for pid in _session(program.pid) if pid != program.pid}
+    assert len(workers) >= 2
+    return program, workers
+
+
+def _session(leader: int) -> set[int]:
+    """Living processes of a session."""
+    living = set()
+    for place in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            state, _, _, session = place.read_text().rpartition(")")[2].split()[:4]
+        except OSError:
+            continue
+        if int(session) == leader and state != "Z":
+            living.add(int(place.parent.name))
+    return living
+
+
+def _all_end(leader: int, seconds: float) -> bool:
+    """Whether all processes of a session end in time; they are ended otherwise."""
+    until = time.monotonic() + seconds
+    while _session(leader) and time.monotonic() < until:
+        time.sleep(0.05)
+    left = _session(leader)
+    for pid in left:
+        os.kill(pid, signal.SIGKILL)
+    return not left
+
+
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs the processes of Linux")
+def test_a_sweep_by_several_processes(tmp_path: Path) -> None:
+    program, _ = _sweep(tmp_path)
+    # As a terminal does: to all processes of the group.
+    os.killpg(program.pid, signal.SIGINT)
+    start = time.monotonic()
+    _, told = program.communicate(timeout=PATIENCE)
+    assert program.returncode == 130
+    assert "Traceback" not in told
+    assert time.monotonic() - start < 5.0
+    assert _all_end(program.pid, 10.0)
+
+
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs the processes of Linux")
+def test_a_sweep_that_is_killed_leaves_no_process(tmp_path: Path) -> None:
+    program, _ = _sweep(tmp_path)
+    program.kill()
+    program.communicate(timeout=PATIENCE)
+    assert _all_end(program.pid, 10.0)
+    # What is written is whole, and the same command goes on from there.
+    for path in (tmp_path / "rows").glob("*.parquet"):
+        assert path.read_bytes()[-4:] == b"PAR1"

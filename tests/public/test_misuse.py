@@ -292,8 +292,12 @@ def test_results_stay_as_they_are_and_can_be_pickled(name: str) -> None:
     if name == "loads":
         call = {**call, "text": lw_dumps(_machine("roller_one_cart"))}
     result = function(**call)
-    assert type(pickle.loads(pickle.dumps(result))) is type(result)
-    copy.deepcopy(result)
+    again = pickle.loads(pickle.dumps(result))
+    assert type(again) is type(result)
+    if not isinstance(result, np.ndarray | dict):
+        assert result == again == copy.deepcopy(result)
+        # What a terminal shows when the name of a result is typed.
+        assert len(repr(result)) < 20_000
     if dataclasses.is_dataclass(result):
         assert not list(_open_parts(result, name))
 
@@ -311,6 +315,19 @@ def test_a_study_of_a_cam_can_be_pickled() -> None:
     study = lw.study(_machine("roller_cam"))
     again = pickle.loads(pickle.dumps(study))
     assert again.to_dict() == study.to_dict()
+    assert again == study
+    assert len(repr(study)) < 20_000
+
+
+def test_results_that_differ_in_one_number_of_an_array_are_not_equal() -> None:
+    first = lw.reduction(_machine("roller_one_cart"), n=8)
+    other = pickle.loads(pickle.dumps(first))
+    assert first == other
+    curve = np.array(other.inertia_reduced)
+    curve[3] += 1.0
+    assert first != dataclasses.replace(other, inertia_reduced=curve)
+    assert first != lw.reduction(_machine("roller_one_cart"), n=9)
+    assert first != 3
 
 
 # Annotations of arguments that their function looks at itself: one of several unlike things.

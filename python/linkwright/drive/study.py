@@ -23,6 +23,7 @@ from linkwright.drive.steady_state import SteadyState, steady_state
 from linkwright.drive.step_method import StepMotion, step_method
 from linkwright.drive.transient import Transient, transient
 from linkwright.kernel.findings import Findings
+from linkwright.kernel.result import PlainRecord
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 
@@ -35,7 +36,7 @@ _ATTEMPT_ACCURACY = 1e-6
 
 
 @dataclass(frozen=True)
-class DriveStudy:
+class DriveStudy(PlainRecord):
     """What is known of a machine's drive; None where there is nothing.
 
     Attributes

@@ -6,7 +6,7 @@ import inspect
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import fields
+from dataclasses import Field, fields, is_dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -46,13 +46,80 @@ class _Docstring:
 _SECTION = re.compile(r"^\w[\w ]*\n-{3,}$", re.MULTILINE)
 
 
-class Record:
+class PlainRecord:
+    """Base of frozen dataclasses that are equal if all their entries are, arrays number by number.
+
+    They show themselves by their entries, what is long by its size.
+    """
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        """Compare and show as all of them do: `dataclass` leaves what a class itself has."""
+        super().__init_subclass__(**options)
+        for name in ("__eq__", "__repr__"):
+            if name not in vars(cls):
+                setattr(cls, name, vars(PlainRecord)[name])
+
+    def __eq__(self, other: object) -> bool:
+        """Whether all entries are equal; numbers that are none equal each other."""
+        if type(other) is not type(self):
+            return NotImplemented
+        return _equal_entries(self, other)
+
+    def __repr__(self) -> str:
+        """The class with its entries."""
+        names = [entry.name for entry in _fields(self) if entry.repr]
+        entries = (f"{name}={_in_short(getattr(self, name))}" for name in names)
+        return f"{type(self).__name__}({', '.join(entries)})"
+
+
+class Record(PlainRecord):
     """Base of dataclasses whose attributes are declared where they stand (`linkwright.kernel.quantities`)."""
 
     def __init_subclass__(cls, **options: Any) -> None:
         """Let the docstring tell the declared attributes."""
         super().__init_subclass__(**options)
         cls.__doc__ = _Docstring(vars(cls).get("__doc__") or "")  # type: ignore[assignment]
+
+
+def _fields(record: Any) -> tuple[Field[Any], ...]:
+    return fields(record)
+
+
+def _equal_entries(one: Any, other: Any) -> bool:
+    """Whether two dataclasses of one type have equal entries."""
+    names = [entry.name for entry in _fields(one) if entry.compare]
+    return all(_equal(getattr(one, name), getattr(other, name)) for name in names)
+
+
+def _equal(one: Any, other: Any) -> bool:
+    """Whether two entries of records are equal, arrays inside of tables as well."""
+    if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
+        kinds = np.asarray(one).dtype.kind + np.asarray(other).dtype.kind
+        return bool(np.array_equal(one, other, equal_nan=set(kinds) <= set("fc")))
+    if isinstance(one, Mapping) and isinstance(other, Mapping):
+        return one.keys() == other.keys() and all(_equal(entry, other[key]) for key, entry in one.items())
+    if isinstance(one, tuple | list) and type(one) is type(other):
+        return len(one) == len(other) and all(map(_equal, one, other))
+    if isinstance(one, float) and isinstance(other, float):
+        return one == other or (math.isnan(one) and math.isnan(other))
+    if is_dataclass(one) and type(one) is type(other):
+        return one is other or _equal_entries(one, other)
+    return bool(one == other)
+
+
+# Numbers of an array, entries of a table and letters that are shown.
+_SHOWN_NUMBERS, _SHOWN_ENTRIES, _SHOWN_LETTERS = 12, 8, 300
+
+
+def _in_short(entry: Any) -> str:
+    """An entry of a record; of what is long its kind and size."""
+    if isinstance(entry, np.ndarray):
+        return repr(entry) if entry.size <= _SHOWN_NUMBERS else f"<{entry.dtype} {entry.shape}>"
+    kind = type(entry).__name__
+    if isinstance(entry, Mapping | tuple | list) and len(entry) > _SHOWN_ENTRIES:
+        return f"<{kind} of {len(entry)}>"
+    text = repr(entry)
+    return text if len(text) <= _SHOWN_LETTERS else f"<{kind}>"
 
 
 class Result(Record):

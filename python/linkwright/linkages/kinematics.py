@@ -231,13 +231,13 @@ def motions(
     compiled = compile_machine(machine)
     asked: Mapping[str, Iterable[str]] = {"points": points, "links": links, "slides": slides}
     what = [(part, name) for part, names in asked.items() for name in names]
-    found = motion_arrays(compiled, checked_angles(angles), what, out)
+    result = motion_arrays(compiled, checked_angles(angles), what, out)
     # A sum is quick, and finite where all numbers are.
     with np.errstate(invalid="ignore", over="ignore"):
-        is_finite = np.isfinite(found.sum())
+        is_finite = np.isfinite(result.sum())
     if not is_finite:
-        found[np.isinf(found)] = np.nan
-    return found
+        result[np.isinf(result)] = np.nan
+    return result
 
 
 def motion_arrays(

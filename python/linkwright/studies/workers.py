@@ -21,8 +21,9 @@ from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from functools import lru_cache
-from multiprocessing import active_children, get_context
+from multiprocessing import active_children, get_context, parent_process
 from pathlib import Path
+from threading import Thread
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -92,6 +93,7 @@ def _round(ready: StudyPlan, folder: SweepFolder, numbers: list[int], workers: i
 def _begin(path: Path, manifest: dict[str, Any], listed: Floats | None, workers: int) -> None:
     """What a process does first: the study from its description, and its share of the processors."""
     global _own
+    _end_with_parent()
     # Read by the core when it starts its threads, which is after this.
     os.environ.setdefault("RAYON_NUM_THREADS", str(max(1, (os.cpu_count() or 1) // workers)))
     known = plan_of(manifest)
@@ -99,6 +101,18 @@ def _begin(path: Path, manifest: dict[str, Any], listed: Floats | None, workers:
         (known if listed is None else plan(known.machine, known.study, listed)),
         SweepFolder(path, manifest),
     )
+
+
+def _end_with_parent() -> None:
+    """End this process if the one that started it is killed: no other file would come."""
+    parent = parent_process()
+
+    def watch() -> None:
+        if parent is not None:
+            parent.join()
+            os._exit(1)
+
+    Thread(target=watch, daemon=True).start()
 
 
 def _compute(number: int) -> None:

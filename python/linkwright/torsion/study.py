@@ -11,7 +11,7 @@ import numpy as np
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.result import Result
+from linkwright.kernel.result import PlainRecord, Result
 from linkwright.kernel.units import FREQUENCY, not_negative
 from linkwright.machine.machine import Machine
 from linkwright.torsion.in_time.transient import TorsionTransient, torsion_transient
@@ -49,7 +49,7 @@ _NEAR = 0.8
 
 
 @dataclass(frozen=True)
-class TorsionStudy:
+class TorsionStudy(PlainRecord):
     """Torsional vibration of a machine, as far as it has any.
 
     Attributes

@@ -21,6 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright.kernel.errors import InputError, ShapeError
 from linkwright.kernel.public import public, public_type
 from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.result import PlainRecord
 from linkwright.kernel.units import (
     ANGLE,
     ANGULAR_ACCELERATION,
@@ -51,7 +52,7 @@ def alike(**values: ArrayLike) -> dict[str, Floats]:
 
 @public_type
 @dataclass(frozen=True)
-class FollowerLoad:
+class FollowerLoad(PlainRecord):
     """Inertia, closing spring, damper and load of a follower, in the unit of its lift.
 
     Attributes
@@ -96,7 +97,7 @@ _COURSE = {
 
 
 @dataclass(frozen=True)
-class CamCourse:
+class CamCourse(PlainRecord):
     """The geometry of a cam drive over the cam angle, as far as forces need it.
 
     Attributes

@@ -106,7 +106,9 @@ def read_motors(path: str | os.PathLike[str]) -> tuple[CatalogueMotor, ...]:
         return tuple(rows.motor(type) for type in rows.types)
     except MachineFileError as error:
         # No machine file names this one.
-        problems = [replace(each, key=each.key.replace(_KEY, "catalogue")) for each in error.problems]
+        problems = [
+            replace(problem, key=problem.key.replace(_KEY, "catalogue")) for problem in error.problems
+        ]
         raise MachineFileError(problems) from None
 
 

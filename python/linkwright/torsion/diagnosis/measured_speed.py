@@ -21,6 +21,7 @@ from linkwright.kernel.errors import InputError, ShapeError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import Column
 from linkwright.kernel.public.in_range import in_range
+from linkwright.kernel.result import PlainRecord
 from linkwright.kernel.units import COUNT, SPEED, Quantity, positive
 
 Floats = NDArray[np.float64]
@@ -31,7 +32,7 @@ _EQUAL = 1e-9
 
 
 @dataclass(frozen=True)
-class MeasuredSpeed:
+class MeasuredSpeed(PlainRecord):
     """Harmonics of the speed of a disc.
 
     Attributes

@@ -175,14 +175,15 @@ def holzer_frequency(asked: float | str, free: FreeVibration) -> float:
         if mode > last:
             raise InputError(f'holzer: found "{text}", expected a natural frequency, f_0 to f_{last}')
         return float(free.natural_frequencies[mode])
+    expected = 'a frequency such as 45 (in Hz), "20 rad/s", "300 rpm" or f_1'
+    wrong = InputError(f'holzer: found "{cut(text)}", expected {expected}')
     try:
         is_speed = _OF_SPEED.search(text) is not None
         frequency = parse(text, SPEED) / (2 * math.pi) if is_speed else _hertz(text)
     except UnitError:
-        frequency = math.nan
+        raise wrong from None
     if not math.isfinite(frequency):
-        expected = 'a frequency such as 45 (in Hz), "20 rad/s", "300 rpm" or f_1'
-        raise InputError(f'holzer: found "{cut(text)}", expected {expected}')
+        raise wrong
     return frequency
 
 
