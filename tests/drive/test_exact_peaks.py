@@ -83,3 +83,55 @@ def test_curves_between_the_steps_are_as_exact_as_asked_for(accuracy: float) -> 
         assert np.abs(curve - exact).max() <= accuracy * np.abs(exact).max(), name
     for name in ("speed_min", "speed_max", "acceleration_min", "acceleration_max"):
         assert getattr(rough, name) == pytest.approx(getattr(fine, name), rel=accuracy), name
+
+
+def test_acceleration_has_its_peak_in_a_corner_inside_a_step() -> None:
+    """A gearbox changes sides where the drive's torque changes its sign; ends of steps lie only near that angle.
+
+    The peak is known: at the corner the drive has no torque and the crank turns at the synchronous speed, so
+    that the acceleration is that of the load alone.
+    """
+    made = lw.loads("""
+    format = 1
+    name = "four-bar that changes sides"
+    [drive.gearbox]
+    efficiency = 0.7276598009585635
+    [drive.motor]
+    kind = "induction"
+    speed_synchronous = 9.39170163521806
+    speed_rated = 9.286536091361187
+    torque_rated = 279.373679027012
+    torque_breakdown = 743.9453755119408
+    inertia = 0.0010111628965230272
+    [mechanism.points.P]
+    x = -0.19673419009151977
+    y = -0.38008325321589914
+    [mechanism.cranks.A]
+    radius = 0.15573199856832115
+    phase = -0.9403747811199694
+    [mechanism.rockers.Q]
+    crank = "A"
+    pivot = "P"
+    coupler = 0.7716212124685026
+    rocker = 0.5727702341787579
+    [mechanism.sliders.S]
+    crank = "A"
+    rod = 2.700674243639759
+    offset = 0.015573199856832115
+    angle = -0.3400730892290833
+    [bodies]
+    A = { mass = 12.961105756919633, inertia = 0.0035527302460160383, along = 0.15573199856832115 }
+    rocker = { on = "Q.rocker", mass = 70.4436596383489 }
+    [loads]
+    push = { kind = "force", on = "S", force = 65.35034170880719, direction = -1.881982087933023 }
+    """)
+    speed = made.drive.motor.speed_synchronous  # type: ignore[union-attr]
+    for accuracy in (1e-9, 1e-11):
+        found = lw.steady_state(made, accuracy=accuracy)
+        near = found.acceleration_max_angle + np.linspace(-1e-6, 1e-6, 2001)
+        at = compile_machine(made).reductions(near)
+        rolling = -(at.load + 0.5 * at.inertia_slope * speed**2) / at.inertia
+        curve = lw.steady_state(made, accuracy=accuracy, angles=near)
+        order = np.argsort(curve.speed)
+        corner = np.interp(speed, curve.speed[order], near[order])
+        assert found.acceleration_max == pytest.approx(np.interp(corner, near, rolling), rel=3 * accuracy)

@@ -121,6 +121,16 @@ def test_the_implicit_method_goes_on_until_disturbances_have_died(accuracy: floa
     assert found.steps < 100
 
 
+@pytest.mark.parametrize("stall", [1e4, 1e6])
+def test_a_motion_ends_at_any_time(stall: float) -> None:
+    """The halves of implicit steps add up to the duration but for rounding, which is not time left."""
+    machine = flywheel(stall)
+    for duration in np.linspace(0.1, 0.5, 25):
+        motion = lw.transient(machine, speed=10.0, duration=float(duration))
+        assert motion.time[-1] == duration
+        assert motion.steps < 400
+
+
 def test_json_and_report_tell_the_methods() -> None:
     machine = lw.replace(lw.read(MACHINES / "roller_one_cart.toml"), {"drive.gearbox.ratio": 98000})
     result = lw.run_up(machine)

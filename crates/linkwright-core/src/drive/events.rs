@@ -154,7 +154,30 @@ impl Events<'_, f64> {
 
     /// Angles inside steps at which the solution passes a kink of the drive or of a law, in order.
     pub fn crossings(&self, pieces: &[Piece], m: &mut Motion<f64>) -> Vec<f64> {
-        let mut crossings = Vec::new();
+        let passed = self.passed_inside(pieces, ON_KINK, m);
+        let mut crossings: Vec<f64> = passed.into_iter().map(|(k, h)| pieces[k].phi + h).collect();
+        let cycle = self.machine.plan.cycle();
+        crossings.retain(|phi| *phi > 0.0 && *phi < cycle);
+        crossings.sort_by(f64::total_cmp);
+        crossings.dedup();
+        crossings
+    }
+
+    /// Crank angle and acceleration where the solution passes a kink inside a step, however near to its end: the curve of
+    /// the acceleration has a corner there.
+    pub fn corners(&self, pieces: &[Piece], m: &mut Motion<f64>) -> Vec<(f64, f64)> {
+        let passed = self.passed_inside(pieces, 0.0, m);
+        let corner = |(k, h): (usize, f64)| {
+            let piece = &pieces[k];
+            (piece.phi + h, self.machine.advance(piece.phi, piece.u, h, m).0.K[S - 1])
+        };
+        passed.into_iter().map(corner).collect()
+    }
+
+    /// Steps that pass a kink, with its distance from their starts. A kink within the share `near` of the speed, or of the
+    /// law's quantity, at an end of a step lies at that end.
+    fn passed_inside(&self, pieces: &[Piece], near: f64, m: &mut Motion<f64>) -> Vec<(usize, f64)> {
+        let mut passed = Vec::new();
         let stages = || pieces.iter().flat_map(|piece| piece.X);
         let (low, high) = stages().fold((f64::INFINITY, 0.0_f64), |(low, high), u| (low.min(u), high.max(u)));
         // With room for what lies between the stages.
@@ -165,19 +188,15 @@ impl Events<'_, f64> {
         for event in self.all().filter(may_be_passed) {
             let values: Vec<f64> =
                 pieces.iter().map(|piece| self.value(event, piece.phi, piece.u, m)).collect();
-            let near = ON_KINK * self.size(event, &values);
+            let near = near * self.size(event, &values);
             for (k, piece) in pieces.iter().enumerate() {
                 let (left, right) = (values[k], values[(k + 1) % values.len()]);
                 if left * right < 0.0 && left.abs() > near && right.abs() > near {
-                    crossings.push(piece.phi + self.place(event, piece, [left, right], m));
+                    passed.push((k, self.place(event, piece, [left, right], m)));
                 }
             }
         }
-        let cycle = self.machine.plan.cycle();
-        crossings.retain(|phi| *phi > 0.0 && *phi < cycle);
-        crossings.sort_by(f64::total_cmp);
-        crossings.dedup();
-        crossings
+        passed
     }
 
     /// Where a step passes a kink of a law first, as a length from its start; none where it passes none.

@@ -40,6 +40,21 @@ pub struct Extremes<R> {
     pub acceleration_max: Extreme<R>,
 }
 
+impl Extremes<f64> {
+    /// With the accelerations at corners of their curve, which may lie inside steps.
+    pub fn with_corners(mut self, corners: &[(f64, f64)]) -> Self {
+        for &(phi, epsilon) in corners {
+            if epsilon > self.acceleration_max.value {
+                self.acceleration_max = Extreme { value: epsilon, phi };
+            }
+            if epsilon < self.acceleration_min.value {
+                self.acceleration_min = Extreme { value: epsilon, phi };
+            }
+        }
+        self
+    }
+}
+
 /// By how much the estimate of a step's peak may err, as a share of the range: steps that promise less than
 /// the best by more than this are passed over. Parabolas through samples a quarter of a step apart err
 /// by about 1e-3 of what the quantity changes in the step, itself a fraction of the range.

@@ -251,9 +251,12 @@ impl<'a, R: Real> DualRevolution<'a, R> {
         let ends = |k: usize| self.edges[k].value.max_lane();
         let k = self.steady.marks.partition_point(|mark| mark.phi < phi - AT_END).max(1) - 1;
         let aside = ASIDE * (ends(k + 1) - ends(k));
-        if phi - ends(k) < 2.0 * aside || ends(k + 1) - phi < 2.0 * aside {
-            // A corner is where it is.
-            return there;
+        for edge in [ends(k), ends(k + 1)] {
+            if (phi - edge).abs() < 2.0 * aside {
+                // A corner is where it is, and moves with the end of the step that stands for it.
+                let is_corner = (phi - edge).abs() < 1e-3 * aside;
+                return if is_corner { epsilon(edge, m) } else { there };
+            }
         }
         let [left, right] = [phi - aside, phi + aside].map(|phi| epsilon(phi, m));
         let slope = (right - left) * (0.5 / aside);

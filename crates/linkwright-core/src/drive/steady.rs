@@ -334,13 +334,18 @@ impl Job for Search<'_> {
                     return Err(Failure { reached, ..Failure::new(Status::NoSteadyMotion) });
                 }
                 let (accuracy, scale) = (self.accuracy.max(reached), turn.acceleration_scale());
+                // Ends of steps lie beside kinks of the speed by up to a millionth of a step; with jumps they lie on them.
+                let corners = if may_jump { Vec::new() } else { events.corners(&pieces, &mut plain_motion) };
                 let (between, off) = turn.between(&machine, accuracy, scale, &mut m).unzip();
                 return Ok(Steady {
                     marks: turn.marks(),
                     between: between.as_ref().map(|series| turn.in_a_row(series)),
                     passages,
                     multiplier,
-                    extremes: turn.extremes(&machine, between.as_deref(), &mut m).first_lane(),
+                    extremes: turn
+                        .extremes(&machine, between.as_deref(), &mut m)
+                        .first_lane()
+                        .with_corners(&corners),
                     totals: turn.totals(&machine).first_lane(),
                     reached: off.map_or(reached, |off| reached.max(off)),
                     sweeps,

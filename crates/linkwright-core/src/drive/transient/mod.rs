@@ -105,6 +105,9 @@ const STEPS_MAX: usize = 400_000;
 /// How close a landing on the last angle must be \[rad\].
 const LANDING: f64 = 1e-13;
 
+/// Share of the duration by which the sum of the steps may fall short of it: the rounding of the last sums.
+const ROUNDING_OF_TIME: f64 = 4.0 * f64::EPSILON;
+
 /// How close a landing on a kink must be, for an accuracy ε: this times √ε \[rad\]. Passing a kink by δ errs
 /// by δ² times its change of slope, a millionth of ε.
 const NEAR: f64 = 1e-3;
@@ -247,6 +250,10 @@ impl Path {
         let (mut t, path) = (self.now().0, &mut self.trajectory);
         for (k, piece) in pieces.iter().enumerate() {
             t += piece.h;
+            let left = self.last_time - t;
+            if left.is_finite() && left.abs() <= ROUNDING_OF_TIME * self.last_time {
+                t = self.last_time;
+            }
             path.t.push(t);
             path.phi.push(piece.y[0]);
             path.omega.push(piece.y[1]);
