@@ -269,6 +269,26 @@ def test_ways_in_parallel_share_the_mean_torque_by_stiffness() -> None:
     np.testing.assert_allclose(found.mean_torques[:, 0], [25.0, 75.0], rtol=1e-12)
 
 
+def test_loads_on_one_disc_pulsate_by_their_own_torques() -> None:
+    """The share of each counts its own mean torque: both together are the sum of each alone."""
+    loads = {
+        "pump": {"torque": 900.0, "speed": 100.0, "harmonics": [{"order": 7.0, "share": 0.05}]},
+        "fan": {"torque": 200.0, "speed": 90.0, "exponent": 0, "harmonics": [{"order": 3.0, "share": 0.1}]},
+    }
+    found = excited_train(
+        machine(
+            discs={"a": {"inertia": 2.0}, "b": {"inertia": 3.0}},
+            shafts={"s": {"between": ["a", "b"], "stiffness": 4e4}},
+            loads={name: {"on": "b", **load} for name, load in loads.items()},
+        )
+    ).torques
+    assert found.orders.tolist() == [3.0, 7.0]
+    assert np.abs(found.harmonics[0, 1]) == pytest.approx(np.full(23, 0.1 * 200.0), rel=1e-14)
+    assert np.abs(found.harmonics[1, 1]) == pytest.approx(
+        0.05 * 900.0 * (found.speeds / 100.0) ** 2, rel=1e-14
+    )
+
+
 def test_coupling_stiffens_with_its_mean_torque() -> None:
     coupling = geared().train.couplings["c"]  # type: ignore[union-attr]
     x, y, slopes = coupling.curve()

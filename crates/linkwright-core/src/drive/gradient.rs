@@ -33,6 +33,10 @@ pub const CURVES: usize = 7;
 const PASSAGES_MAX: usize = 60;
 const MOVED: f64 = 1e-11;
 
+/// The same where moves have stopped shrinking: rounding, which a steep drive enlarges. Against the move, and against the
+/// largest change of u by the parameter.
+const ROUNDING: f64 = 1e-8;
+
 /// Share of a step to both sides of a peak of the acceleration at which it is read for its slope and bend.
 const ASIDE: f64 = 1e-3;
 
@@ -87,6 +91,8 @@ impl Job for Gradient<'_> {
         for first in (0..n).step_by(R::LANES) {
             poll();
             let width = R::LANES.min(n - first);
+            // Lanes without a direction have no derivatives.
+            lanes.fill(0.0);
             let mut q = Vec::with_capacity(self.q.len());
             for (i, &value) in self.q.iter().enumerate() {
                 let row = i * n + first;
@@ -170,8 +176,13 @@ impl<'a, R: Real> DualRevolution<'a, R> {
     #[inline(always)]
     fn move_passages(&mut self, m: &mut Motion<Dual<R>>) {
         let events = Events::new(self.machine);
+        let never = R::splat(f64::INFINITY);
+        // In each lane, by how much moves are above rounding, and the largest of the round before.
+        let (mut unsettled, mut last) = (never, never);
         for _ in 0..PASSAGES_MAX {
-            let (mut most, mut factors, mut ends) = (0.0_f64, Dual::splat(1.0), Vec::new());
+            let (mut most, mut excess, mut noise) = (R::splat(0.0), R::splat(0.0), R::splat(0.0));
+            let (mut factors, mut ends) = (Dual::splat(1.0), Vec::new());
+            let change = self.turn.steps.iter().fold(R::splat(0.0), |most, step| most.max(step.u.d.abs()));
             for passage in &self.steady.passages {
                 let marks = &self.steady.marks;
                 let k = marks.partition_point(|mark| mark.phi < passage.phi - AT_END).max(1);
@@ -180,7 +191,10 @@ impl<'a, R: Real> DualRevolution<'a, R> {
                 let (before, behind) = (self.turn.steps[k - 1].K[S - 1], self.start_of(k, m));
                 let along = slopes[0] + slopes[1] * before;
                 let left = events.value(passage.event, phi, step.u, m).d / along.value;
-                most = most.max((left.abs() - phi.d.abs() * MOVED).max_lane());
+                most = most.max(left.abs());
+                excess = excess.max(left.abs() - phi.d.abs() * MOVED);
+                let of_change = left.abs() * before.value.abs() - change * ROUNDING;
+                noise = noise.max(of_change.min(left.abs() - phi.d.abs() * ROUNDING));
                 self.edges[k].d = phi.d - left;
                 factors = factors * events.saltation(slopes, before, behind);
                 ends.push(k - 1);
@@ -192,14 +206,19 @@ impl<'a, R: Real> DualRevolution<'a, R> {
                 factors = factors * self.machine.growth_on_side(step, geometry) / step.growth;
             }
             self.turn.multiplier = self.turn.multiplier * factors;
-            if most <= 0.0 {
+            // Moves that shrink no more are rounding, if they are small.
+            let stands = (last * 0.5).select_lt(most, noise, never);
+            unsettled = R::splat(0.0).select_lt(excess, stands, excess);
+            last = most;
+            if unsettled.max_lane() <= 0.0 {
                 return;
             }
         }
         // Nothing is known of derivatives that do not settle.
-        self.turn.multiplier.d = R::splat(f64::NAN);
+        let nothing = R::splat(0.0).select_lt(unsettled, R::splat(f64::NAN), R::splat(0.0));
+        self.turn.multiplier.d = self.turn.multiplier.d + nothing;
         for step in &mut self.turn.steps {
-            step.u.d = R::splat(f64::NAN);
+            step.u.d = step.u.d + nothing;
         }
     }
 

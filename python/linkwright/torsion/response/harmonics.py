@@ -97,7 +97,7 @@ def torques_of(
         elif not has_engine:
             for on, share in train.shares.items():
                 mean[place[on]] += share * (needed - drive) / turning[place[on]]
-    every += _load_harmonics(train, place, turning, resistance)
+    every += _load_harmonics(train, place, turning, speeds, factor)
     orders = _orders(torque.orders for torque in every)
     harmonics = np.zeros((len(orders), len(place), len(speeds)), complex)
     for torque in every:
@@ -131,15 +131,18 @@ def _loads(train: Train, place: dict[str, int], turning: Floats, speeds: Floats)
     return resistance, damping
 
 
-def _load_harmonics(train: Train, place: dict[str, int], turning: Floats, resistance: Floats) -> list[Source]:
-    """Pulsation of the loads: shares of what they resist."""
+def _load_harmonics(
+    train: Train, place: dict[str, int], turning: Floats, speeds: Floats, factor: Floats
+) -> list[Source]:
+    """Pulsation of the loads: of each its shares of what it resists, times the factor of all loads."""
     sources = []
     for load in train.loads.values():
         if load.harmonics:
             disc = place[load.on]
+            resistance = [load.resistance(turning[disc] * speed) for speed in speeds.tolist()]
             size = np.array([-wave.share * np.exp(1j * wave.phase) for wave in load.harmonics])
             orders = turning[disc] * np.array([wave.order for wave in load.harmonics])
-            sources.append(Source(disc, orders, size[:, None] * resistance[disc]))
+            sources.append(Source(disc, orders, size[:, None] * (factor * resistance)))
     return sources
 
 
