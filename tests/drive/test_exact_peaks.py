@@ -86,7 +86,7 @@ def test_curves_between_the_steps_are_as_exact_as_asked_for(accuracy: float) -> 
 
 
 def test_acceleration_has_its_peak_in_a_corner_inside_a_step() -> None:
-    """A gearbox changes sides where the drive's torque changes its sign; ends of steps lie only near that angle.
+    """A gearbox changes sides where the drive's torque changes its sign; ends of steps only lie near it.
 
     The peak is known: at the corner the drive has no torque and the crank turns at the synchronous speed, so
     that the acceleration is that of the load alone.
