@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import re
 from dataclasses import dataclass, fields, is_dataclass
 from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
@@ -18,8 +19,9 @@ from linkwright.drive.steady_state import SteadyState
 from linkwright.drive.tables import drive_tables
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.page.table import curves_csv
-from linkwright.kernel.quantities import About, Label, declared, in_table
+from linkwright.kernel.quantities import About, Label, declared, in_table, quantities_of
 from linkwright.kernel.result import Result
+from linkwright.studio.language import in_words
 from linkwright.torsion.study import TorsionStudy
 
 REGISTRY = pint.UnitRegistry()
@@ -159,3 +161,11 @@ def test_a_unit_may_depend_on_the_machine() -> None:
 def test_what_is_no_result_is_refused() -> None:
     with pytest.raises(InputError, match="expected a result, its class, or a study"):
         lw.quantities(3)
+
+
+def test_words_have_a_translation() -> None:
+    """The studio shows all of them in each of its languages."""
+    words = {quantity.word for result in RESULTS for quantity in quantities_of(result)}
+    said = {word: in_words(word, "uk", "word") for word in words}
+    # Names of laws and formulas remain; a word of four small letters is English.
+    assert not [word for word, text in said.items() if re.search(r"\b[a-z]{4,}\b", text)]

@@ -1,0 +1,67 @@
+"""The studio in another language: nothing that it says is left in English."""
+
+import re
+import tomllib
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from linkwright.studio.controls import controls
+from linkwright.studio.language import in_words, page_texts
+from linkwright.studio.wire import WireError
+
+ROOT = Path(__file__).parents[2]
+MACHINES = sorted([*ROOT.glob("machines/*.toml"), *ROOT.glob("examples/*/machine.toml")])
+
+# What stands as files have it: words in quotes, names of tables and entries; and the words of choices.
+KEPT = re.compile(r'"[^"]*"|`[^`]*`|\[[\w.]+\]|[A-Za-z_]*_\w+|\b(?:true|false|alloy|carbon|other)\b')
+
+
+def english(text: str) -> list[str]:
+    """English words of a text; units, symbols and functions are shorter."""
+    return re.findall(r"\b[a-z]{4,}\b", KEPT.sub(" ", text))
+
+
+def texts(group: dict[str, Any]) -> Iterator[str]:
+    """What the controls of a file say."""
+    for entry in (group, *group.get("entries", ()), *group.get("missing", ())):
+        yield from (entry[key] for key in ("about", "expected") if entry.get(key))
+    for inner in group["groups"]:
+        yield from texts(inner)
+
+
+@pytest.mark.parametrize("path", MACHINES, ids=lambda path: path.parent.name + "." + path.stem)
+def test_controls_are_translated(path: Path) -> None:
+    said = {text: in_words(text, "uk", "about") for text in texts(controls(tomllib.loads(path.read_text())))}
+    assert not {text: words for text, words in said.items() if english(words)}
+
+
+def test_what_is_quoted_stays_as_files_have_it() -> None:
+    text = 'an angle greater than 0, such as "30 deg" or a number in radians'
+    assert in_words(text, "uk", "expected") == 'кут, більше 0, наприклад "30 deg", або число в радіанах'
+
+
+def test_only_texts_are_translated() -> None:
+    body = {"of": "machine", "results": [{"name": "steady_state", "word": "crank angle", "unit": "rad"}]}
+    said = in_words(body, "uk")
+    assert said["results"] == [{"name": "steady_state", "word": "кут кривошипа", "unit": "rad"}]
+    assert said["of"] == "machine"
+
+
+def test_the_page_has_its_units_and_decimal_sign() -> None:
+    texts = page_texts("uk")
+    assert (texts["decimal"], texts["units"]["N"], texts["texts"]["Save"]) == (",", "Н", "Зберегти")
+
+
+def test_an_unknown_language_ends_the_socket() -> None:
+    from linkwright.studio.files import Folder
+    from linkwright.studio.session import Session
+    from linkwright.studio.wire import packed
+
+    session = Session(Folder.of(ROOT), lambda _: None)
+    session.take(packed(1, {"ask": "language", "code": "uk"}))
+    assert session.language == "uk"
+    with pytest.raises(WireError):
+        session.take(packed(2, {"ask": "language", "code": "../uk"}))
