@@ -1,4 +1,4 @@
-"""How much do the pins of a press bear, and what does their friction take?"""
+"""What are the joint reactions of a press, and what power does their friction take?"""
 
 from pathlib import Path
 

@@ -1,6 +1,6 @@
 """Which flywheel does a four-stroke engine need, and how much of it do two cylinders save?
 
-The torque is a half wave of sine for each stroke, so that all is known in closed form: a half wave of height
+The torque is a half sine wave for each stroke, so that all results have a closed form: a half wave of height
 a has the area 2a, and the shaft is fastest and slowest where the torque of the expansion passes the mean.
 A rim of cast iron may have a hoop stress of 4 MPa: that gives its radius, and with the inertia its mass.
 """

@@ -1,4 +1,4 @@
-"""What do the blades of a propeller that mills ice ask of its shaft, gear and coupling?
+"""How do the impacts of ice on a propeller load its shaft, gear and coupling?
 
 Three cases of the rules for polar ships: one block of ice for 90° or 135° of a blade, or two for 45°.
 """

@@ -9,8 +9,8 @@ from typing import Any
 import jsonschema
 import pytest
 
+from linkwright.app.commands.schema import machine_schema as schema
 from linkwright.kernel.files.library import template, templates
-from linkwright.machine.schema import schema
 
 MACHINES = sorted((Path(__file__).parents[2] / "machines").glob("*.toml"))
 TEXTS = {path.stem: path.read_text(encoding="utf-8") for path in MACHINES} | {

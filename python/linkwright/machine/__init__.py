@@ -8,7 +8,6 @@
 | `overrides` | Overrides |
 | `program/` | From a machine's description to the program of the core |
 | `read` | Read a machine file |
-| `schema` | JSON Schema of a machine file, for editors that complete and check while one writes |
 | `table` | The entries of a machine as rows of words, each number with its unit |
 | `whole_mechanism` | The whole mechanism of a machine |
 | `write` | Write a machine as a TOML file |
