@@ -64,8 +64,8 @@ def in_words(body: Any, code: str, key: str = "") -> Any:
 def _said(text: str, code: str) -> str:
     """A text; of an unknown list each part by itself. What is quoted stays as files have it."""
     to = spoken(code)
-    if (whole := to.template(text)) != text:
-        return whole
+    if (translated := to.template(text)) != text:
+        return translated
     quoted = _QUOTED.findall(text)
     bare = _QUOTED.sub(_MARK, text)
     words = to(bare)
