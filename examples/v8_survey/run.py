@@ -37,15 +37,13 @@ def figure(machine: lw.Machine):
     """Q over the radius of the fillets, with what the rule asks for."""
     from linkwright.kernel.figure.style import INK, LINES, legend_above, panels, styled
 
-    found = {radius: crankshaft(machine, radius) for radius in RADII}
-
     @styled
     def drawn():
         drawing, (axes,) = panels(1, height=3.0)
+        found, radii = [crankshaft(machine, radius) for radius in RADII], [1e3 * radius for radius in RADII]
         for place, colour in zip(("crank_pin_fillet", "journal_fillet"), LINES, strict=False):
-            values = [found[radius][place] for radius in RADII]
-            label = place.replace("_", " ")
-            axes.plot([1e3 * radius for radius in RADII], values, "o-", color=colour, label=label)
+            values = [one[place] for one in found]
+            axes.plot(radii, values, "o-", color=colour, label=place.replace("_", " "))
         axes.axhline(1.15, linestyle="--", color=INK, label="required")
         axes.set(xlabel="radius of the fillets [mm]", ylabel="acceptability factor Q", ylim=(0, None))
         legend_above(axes)
