@@ -11,6 +11,7 @@ from linkwright.kernel.page.formulas import Formula
 from linkwright.kernel.page.html import html
 from linkwright.kernel.page.numbers import number, parted
 from linkwright.kernel.page.out_units import with_units_of
+from linkwright.kernel.page.sentences import sentence, sentences
 from linkwright.kernel.page.table import Table
 from linkwright.machine.table import grouped, machine_parts
 from linkwright.machine.write import dumps
@@ -18,6 +19,7 @@ from linkwright.torsion.figures.captions import torsion_figures
 from linkwright.torsion.model.train import Train
 from linkwright.torsion.response.survey import TorquePeaks
 from linkwright.torsion.study import TorsionStudy
+from linkwright.torsion.tables.manoeuvre import manoeuvre_tables
 from linkwright.torsion.tables.torsion import (
     detail_tables,
     forced_tables,
@@ -51,12 +53,12 @@ def _content(study: TorsionStudy, command: str) -> Content:
         lead=study.machine.description or "",
         source=study.machine.source or "",
         notes=[
-            (title, text)
-            for title, text in (("Operation", study.operation), ("Scaled loads", study.balance))
+            (title, sentence(text))
+            for title, text in (("Operation", study.operation), ("Balance of mean torques", study.balance))
             if text
         ],
-        findings=study.findings,
-        warnings=study.warnings,
+        findings=sentences(study.findings),
+        warnings=sentences(study.warnings),
         headline=[Few(*line) for line in _headline(study)],
         parts=list(_parts(study)),
         formulas=list(_formulas(study)),
@@ -83,7 +85,10 @@ def _parts(study: TorsionStudy) -> Iterator[Part]:
     yield from part(
         "Natural frequencies and critical speeds", free_tables(study), "mode_shapes", "campbell", "stars"
     )
+    moving = () if study.transient is None else manoeuvre_tables(study.transient)
+    manoeuvre = list(part("Manoeuvre", iter(moving), "transient", "waterfall"))
     yield from part("Forced vibration", forced_tables(study), "")
+    yield from manoeuvre
     yield from part("Excitation and mode shapes", detail_tables(study))
     details = (table for one in study.critical_holzer for table in holzer_tables(one))
     yield from part("Holzer's tables of the modes in the speed range", details)

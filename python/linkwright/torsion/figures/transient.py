@@ -32,15 +32,37 @@ _DECADES = 3.0
 
 
 @styled
-def transient_figure(motion: TorsionTransient) -> Figure:
-    """Draw the speeds of the first and the last disc, and the torques in the shafts that swing most."""
-    shown, turning = _loaded(motion), [0, len(motion.discs) - 1]
+def transient_figure(
+    motion: TorsionTransient,
+    *,
+    shafts: Sequence[str] = (),
+    discs: Sequence[str] = (),
+    marks: Sequence[tuple[float, str]] = (),
+) -> Figure:
+    """Draw the speeds of discs and the torques in shafts over time.
+
+    `shafts`: by default those that swing most; `discs`: by default the first and the last; `marks`: times [s]
+    with words, such as those of events.
+    """
+    shown = [motion.shafts.index(name) for name in shafts] or _loaded(motion)
+    turning = [motion.discs.index(name) for name in discs] or [0, len(motion.discs) - 1]
     figure, axes = panels(1 + len(shown), height=1.9 + 1.35 * len(shown))
     for disc, colour in zip(dict.fromkeys(turning), LINES, strict=False):
         _curve(axes[0], motion.time, _RPM * motion.speed[disc], colour, motion.discs[disc])
     axes[0].set_ylabel("speed [rpm]")
     for panel, shaft, colour in zip(axes[1:], shown, (*LINES, INK), strict=False):
         _shaft(panel, motion, shaft, colour)
+    for time, word in marks:
+        for panel in axes:
+            panel.axvline(time, color=INK, linewidth=0.9, linestyle=":")
+        axes[0].annotate(
+            word,
+            (time, 1),
+            xycoords=("data", "axes fraction"),
+            xytext=(3, -9),
+            textcoords="offset points",
+            fontsize=8,
+        )
     legend_above(axes[0])
     axes[-1].set_xlim(float(motion.time[0]), float(motion.time[-1]))
     axes[-1].set_xlabel("time t [s]")
@@ -66,7 +88,8 @@ def waterfall_figure(waterfall: Waterfall, *, quantity: str = "amplitude") -> Fi
         shading="nearest",
         rasterized=True,
     )
-    figure.colorbar(shade, ax=axes, label=quantity, pad=0.02)
+    # Powers of ten as numbers: a PDF shows the marks of mathematics as they are written.
+    figure.colorbar(shade, ax=axes, label=quantity, pad=0.02, format=lambda value, _: f"{value:g}")
     step = float(waterfall.orders[0])
     axes.set_xlim(0.5 * step, float(waterfall.orders[-1]) + 0.5 * step)
     axes.set_ylim(float(up.min()), float(up.max()))

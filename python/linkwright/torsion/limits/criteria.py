@@ -136,6 +136,15 @@ def _stage_torques(train: Train, gears: MeshTorque) -> Iterator[Criterion]:
             yield Criterion(name, "torque", TORQUE, size, limit)
 
 
+def shown_quantity(value: float, kind: Kind) -> str:
+    """A quantity for people: stresses in MPa, all else SI, four digits."""
+    if np.isinf(value):
+        return "unbounded (undamped resonance)"
+    scale, unit = (1e6, "MPa") if kind is PRESSURE else (1.0, kind.unit)
+    # Digits beyond the fourth are zeros, not a power of ten.
+    return f"{float(f'{value / scale:.4g}'):.15g} {unit}"
+
+
 # Rows of curves at any speeds, (rows, speeds).
 Curves = Callable[[Floats], Floats]
 

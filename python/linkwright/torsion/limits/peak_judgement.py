@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from linkwright.kernel.units import PRESSURE, TORQUE, Kind
 from linkwright.machine.machine import Machine
-from linkwright.torsion.limits.criteria import PASSING_STRESS
+from linkwright.torsion.limits.criteria import PASSING_STRESS, shown_quantity
 from linkwright.torsion.modes.free import train_of
 from linkwright.torsion.response.stress import service_speed, stressed
 
@@ -68,12 +68,11 @@ class PeakJudgement:
     @property
     def words(self) -> str:
         """The judgement as a sentence."""
-        scale, unit = (1e6, "MPa") if self.kind is PRESSURE else (1.0, self.kind.unit)
-        reached, permitted = self.found / scale, self.permitted / scale
+        reached, permitted = (shown_quantity(value, self.kind) for value in (self.found, self.permitted))
         verdict = "within limit" if self.is_kept else "limit exceeded"
         return (
-            f"{self.part}: {self.what} {reached:.4g} {unit} in the manoeuvre at {self.time:.4g} s, permitted "
-            f"{permitted:.4g} {unit}: {verdict}"
+            f"{self.part}: {self.what} {reached} in the manoeuvre at {self.time:.4g} s, permitted "
+            f"{permitted}: {verdict}"
         )
 
     def to_dict(self) -> dict[str, Any]:

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from linkwright.kernel.quantities import About
 from linkwright.kernel.result import Result
-from linkwright.kernel.units import PRESSURE, Kind
+from linkwright.kernel.units import Kind
 from linkwright.machine.machine import Machine
 from linkwright.torsion.limits.barred_range import BarredRange, surveyed_ranges
 from linkwright.torsion.limits.criteria import (
@@ -26,6 +26,7 @@ from linkwright.torsion.limits.criteria import (
     VIBRATORY_STRESS,
     Criterion,
     Exceedance,
+    shown_quantity,
 )
 from linkwright.torsion.response.survey import Survey, survey
 
@@ -73,8 +74,8 @@ class Judgement:
     @property
     def words(self) -> str:
         """The judgement as a sentence."""
-        text = f"{self.part}: {self.what} {_shown(self.found, self.kind)} at {_rpm(self.speed)}"
-        text += f", permitted {_shown(self.permitted, self.kind)}"
+        text = f"{self.part}: {self.what} {shown_quantity(self.found, self.kind)} at {_rpm(self.speed)}"
+        text += f", permitted {shown_quantity(self.permitted, self.kind)}"
         listed = ", ".join(f"{_rpm(low)} to {_rpm(high)}" for low, high in self.ranges)
         if self.state == "ok":
             return f"{text}: within limit"
@@ -207,15 +208,6 @@ def _notes(seen: Survey) -> Iterator[str]:
 def _lists(ranges: tuple[tuple[float, float], ...]) -> list[list[float]]:
     """Ranges for JSON."""
     return [list(span) for span in ranges]
-
-
-def _shown(value: float, kind: Kind) -> str:
-    """A quantity for people: stresses in MPa, all else SI, four digits."""
-    if math.isinf(value):
-        return "unbounded (undamped resonance)"
-    if kind is PRESSURE:
-        return f"{value / 1e6:.4g} MPa"
-    return f"{value:.4g} {kind.unit}"
 
 
 def _rpm(speed: float) -> str:

@@ -54,6 +54,8 @@ def study_tables(study: TorsionStudy) -> Iterator[Table]:
     yield from system_part(study)
     yield from free_tables(study)
     yield from forced_tables(study)
+    if study.transient is not None:
+        yield from manoeuvre_tables(study.transient)
     yield from detail_tables(study)
 
 
@@ -91,12 +93,10 @@ def free_tables(study: TorsionStudy) -> Iterator[Table]:
 
 
 def forced_tables(study: TorsionStudy) -> Iterator[Table]:
-    """Torques of the shafts, speed fluctuation, the manoeuvre."""
+    """Torques of the shafts, speed fluctuation."""
     if study.forced is not None:
         yield _shafts(study, study.forced)
         yield _discs(study, study.forced)
-    if study.transient is not None:
-        yield from manoeuvre_tables(study.transient)
 
 
 def detail_tables(study: TorsionStudy) -> Iterator[Table]:
