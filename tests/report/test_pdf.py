@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from pathlib import Path
 
@@ -11,7 +12,7 @@ import linkwright as lw
 from linkwright.app.report.page import content
 from linkwright.app.study import study
 from linkwright.kernel.page.formulas import Formula, typst
-from linkwright.kernel.page.typeset import document, pdf
+from linkwright.kernel.page.typeset import _STYLE, document, pdf
 
 MACHINES = Path(__file__).parents[2] / "machines"
 
@@ -69,3 +70,15 @@ def test_sections_that_are_left_out_are_not_there(two_carts: lw.Machine) -> None
 )
 def test_formulas_in_the_notation_of_typst(formula: str, written: str) -> None:
     assert typst(Formula("", formula, "").text) == written
+
+
+@pytest.mark.parametrize(("height", "millimetres"), [(400, 215.0), (100, 170.0)])
+def test_a_picture_fits_on_its_page(height: int, millimetres: float) -> None:
+    """A picture has the width of the text, 170 mm; one that would be longer than a page is made smaller."""
+    typst = pytest.importorskip("typst")
+    style = _STYLE.format(title='""', foot="", language='"en"')
+    asked = '#layout(page => [#metadata(measure(..page, picture("a.svg")).height.mm()) <height>])'
+    drawn = f'<svg xmlns="http://www.w3.org/2000/svg" width="100" height="{height}"></svg>'
+    files = {"main.typ": (style + asked).encode(), "a.svg": drawn.encode()}
+    (found,) = json.loads(typst.query(files, "<height>", field="value"))
+    assert found == pytest.approx(millimetres, abs=0.01)

@@ -13,8 +13,8 @@ from linkwright.kernel.page.formulas import Formula, typst
 from linkwright.kernel.page.html import INDEX
 from linkwright.kernel.page.table import Table
 
-# A table of more columns is set in smaller letters, one of many more on a page that lies.
-_WIDE, _BROAD = 6, 10
+# A table of more columns is set on a page that lies.
+_BROAD = 10
 
 
 def pdf(content: Content) -> bytes:
@@ -139,22 +139,18 @@ def _box(title: str, texts: Sequence[str], colour: str) -> str:
 
 
 def _table(table: Table) -> str:
-    """A table whose head is repeated on each page; many columns are set smaller, or across."""
-    wide, n = len(table.heads) > _WIDE, len(table.heads)
-    columns = "(" + ", ".join(["auto" if wide else "1.6fr", *(["auto"] * (n - 1))]) + ",)"
+    """A table whose head is repeated on each page; one that is too wide is set smaller, or across."""
+    n = len(table.heads)
     heads = ", ".join(f"note[{_text(head, indices=True)}]" for head in table.heads)
     cells = ", ".join(
         f"[{_text(cell, indices=place == 1)}]" for row in table.rows for place, cell in enumerate(row)
     )
-    set_ = (
-        f"#data({columns}, size: {7 if wide else 9}pt, [{_text(table.title)}], "
-        f"table.header({heads}), {cells})"
-    )
+    set_ = f"#data({n}, [{_text(table.title)}], table.header({heads}), {cells})"
     return f"#page(flipped: true)[{set_}]" if n > _BROAD else set_
 
 
 def _figure(captioned: CaptionedFigure) -> str:
-    picture = f'#image("{_place(captioned)}", width: 100%)'
+    picture = f'#picture("{_place(captioned)}")'
     return (
         f"#block(breakable: false)[== {_text(captioned.title)}\n{picture}\n#note[{_text(captioned.caption)}]]"
     )
@@ -249,10 +245,19 @@ _STYLE = """#set document(title: {title}, date: none)
 #let few(word, value, unit) = block(width: 100%, fill: rgb("#f4f6f8"), inset: 7pt, radius: 3pt)[
   #note(word) \\ #text(14pt, value) #note(unit)
 ]
-#let data(columns, size: 9pt, title, ..cells) = [
-  #set text(size)
-  #block(above: 1.2em, below: 0.5em, sticky: true, strong(title))
-  #table(columns: columns, stroke: none, inset: (x: 0pt, y: 3pt), column-gutter: 9pt,
-    table.hline(stroke: 0.4pt + soft), ..cells, table.hline(stroke: 0.4pt + soft))
-]
+#let data(n, title, ..cells) = layout(page => {{
+  let set_in(letters, first) = {{
+    set text(letters)
+    table(columns: (first,) + (auto,) * (n - 1), stroke: none, inset: (x: 0pt, y: 3pt), column-gutter: 9pt,
+      table.hline(stroke: 0.4pt + soft), ..cells, table.hline(stroke: 0.4pt + soft))
+  }}
+  let fits(letters) = measure(set_in(letters, 38mm)).width <= page.width
+  let letters = if fits(9pt) {{ 9pt }} else if fits(8pt) {{ 8pt }} else {{ 7pt }}
+  block(above: 1.2em, below: 0.5em, sticky: true, text(letters, strong(title)))
+  set_in(letters, if fits(letters) {{ 1.6fr }} else {{ auto }})
+}})
+#let picture(place) = layout(page => {{
+  let tall = measure(image(place, width: page.width)).height
+  if tall > 215mm {{ align(center, image(place, height: 215mm)) }} else {{ image(place, width: page.width) }}
+}})
 """
