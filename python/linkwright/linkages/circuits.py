@@ -93,9 +93,7 @@ def circuits(machine: Machine) -> tuple[Circuit, ...]:
 
 
 def _slots(compiled: CompiledMachine, machine: Machine) -> dict[str, int]:
-    """Slot of the sign of each dyad that has two assemblies. Raises InputError: they cannot be exchanged, or
-    are too many.
-    """
+    """Slot of the sign of each dyad with two assemblies; InputError if they cannot be exchanged."""
     if any(_is_tied(element) for element in compiled.elements):
         raise InputError(
             f"{machine.name}: circuits are found for linkages of cranks and dyads; this one has "

@@ -237,10 +237,7 @@ def _torque_limits(steady: SteadyState, rated: float | None, most: float | None)
 
 
 def _servo_checks(machine: Machine, known: CatalogueMotor) -> MotorChecks:
-    """A servo motor: torques at the design speed, which it keeps, and the inertia that it controls.
-
-    It accelerates as its controller lets it, so that there is no run-up to compute.
-    """
+    """A servo motor: torques at the speed that its controller keeps, and the inertia that it controls."""
     assert machine.drive is not None
     try:
         steady = steady_state(machine, n=_ANGLES)

@@ -272,9 +272,7 @@ def prices(plan: StudyPlan, goal: str, sign: float, share: Floats, near: float) 
 
 
 class _ActiveLimit(NamedTuple):
-    """An active limit: words, response or variable, value [SI], outward slope by the shares, a unit of it
-    there.
-    """
+    """Words, response or variable, value [SI], outward slope by the shares, unit of an active limit."""
 
     what: str
     of: str

@@ -57,10 +57,7 @@ def _bound(kind: str, context: dict[str, Any]) -> str:
 
 
 def _place(location: Iterable[str | int], model: type[BaseModel], data: object) -> tuple[str, ...]:
-    """The keys from the top down, without pydantic's own marks between them.
-
-    Where a table has a `kind`, pydantic puts that kind into the place of an error.
-    """
+    """The keys from the top down, without the marks and kinds that pydantic puts between them."""
     place: list[str] = []
     node, tagged = data, False
     for part in (str(part) for part in location if part != "[key]"):

@@ -61,10 +61,7 @@ def png(figure: Figure) -> bytes:
 
 
 def _place(figure: Figure, canvas: Callable[[Figure], object]) -> None:
-    """Place the axes of a figure, once, as the letters of a canvas need it.
-
-    A figure that still has a layout engine is gone through twice whenever it is written.
-    """
+    """Place the axes once; a figure that keeps a layout engine is laid out twice whenever it is written."""
     engine = figure.get_layout_engine()
     if engine is not None:
         canvas(figure)

@@ -60,9 +60,7 @@ def _in_units(match: re.Match[str]) -> str:
 
 
 def _place(text: str, value: float, factor: float) -> int:
-    """Power of ten of the last digit that is known of a value in another unit: the last one of the text was
-    rounded.
-    """
+    """Power of ten of the last known digit of a value in another unit."""
     head, _, power = text.replace("·10", "e").translate(_LOWERED).partition("e")
     last = 10.0 ** (int(power or 0) - len(head.partition(".")[2])) / abs(factor)
     first = floor(log10(abs(value))) if value else 0

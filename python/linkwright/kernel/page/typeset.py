@@ -45,10 +45,7 @@ def _compiler() -> Any:
 
 
 def _compiled(compiler: Any, files: dict[str, bytes], failure: str) -> bytes:
-    """What Typst makes of files; its error is an `InputError` that begins with `failure`.
-
-    Letters are those that Typst brings, so that the file is the same on every machine.
-    """
+    """What Typst makes of files with the letters that it brings; its error begins with `failure`."""
     try:
         made: bytes = compiler.compile(files, ignore_system_fonts=True, timestamp=0)
     except (compiler.TypstError, RuntimeError) as error:

@@ -177,9 +177,7 @@ def _check(annotation: str, default: Any) -> Check | None:
 
 
 def _choice(annotation: str, known: Mapping[str, Any]) -> Check | None:
-    """The check of an annotation that stands for some words or a function, or for them and None; None if it
-    does not.
-    """
+    """The check of an annotation of some words or a function, or of them and None; else None."""
     first, *others = annotation.split(" | ")
     if others not in ([], ["None"]):
         return None

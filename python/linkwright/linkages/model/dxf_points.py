@@ -68,9 +68,7 @@ def _points(path: Path, unit: Any) -> dict[str, list[float]]:
 
 
 def _read(path: Path) -> tuple[list[tuple[str, tuple[float, float]]], int]:
-    """Layers with their places, and the code of the unit; of a damaged file ezdxf raises whatever error
-    comes of reading on.
-    """
+    """Layers with their places, and the code of the unit; ezdxf raises any error for a damaged file."""
     from ezdxf.filemanagement import readfile
 
     try:

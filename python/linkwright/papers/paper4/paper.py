@@ -84,9 +84,7 @@ def _extremes(given: dict[str, float], k_1: float, top: float) -> tuple[float, f
 
 
 def _newton(gaps: Callable[[Floats], Floats], x: Floats) -> Floats:
-    """Root of smooth equations, the Jacobian by central differences. Raises ConvergenceError: there is no
-    root near the start.
-    """
+    """Root of smooth equations near the start, the Jacobian by central differences."""
     step = 1e-6
     for _ in range(_STEPS):
         columns = [(gaps(x + at) - gaps(x - at)) / (2 * step) for at in step * np.eye(len(x))]

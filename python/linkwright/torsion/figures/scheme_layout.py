@@ -139,10 +139,7 @@ class _RowSearch:
             yield edge.other
 
     def _in_row(self, at: str, edge: _Edge) -> int:
-        """A shaft to the side that its ends ask for, or to the one that is free, or in a new line.
-
-        A third gear of a disc goes to a free side as well.
-        """
+        """A shaft, or third gear of a disc, to the side of its ends, to a free one, or in a new line."""
         side = 1 if edge.part.first == at else -1
         start, line = self.x[at], self.line_of[at]
         if self.free[at]:

@@ -226,9 +226,7 @@ def _torque_tangents(
 def _torques(
     machine: Machine, discs: list[str], turning: Floats, orders: Floats, speeds: Floats
 ) -> Sequence[Any]:
-    """Torques of file and loads: at each speed cosines and −sines of each order, means, dampings, each on
-    all discs.
-    """
+    """Of file and loads at each speed: cosines and −sines of each order, means, dampings, on all discs."""
     train = machine.train
     assert train is not None
     table = np.zeros((len(speeds), 2 * len(orders) + 2, len(discs)), dtype=object)

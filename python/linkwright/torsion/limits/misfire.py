@@ -177,10 +177,7 @@ def _counts(criterion: Criterion) -> bool:
 
 
 def _looked_at(seen: Survey, at: ExcitedTrain) -> tuple[list[Criterion], list[MeshTorque], Floats]:
-    """The limits that count of another train at the speeds of a survey, in its order.
-
-    With its gear stages, and the vibratory torques of its shafts (shafts, n) [N m].
-    """
+    """The limits that count of another train at the speeds of a survey, with its vibratory torques [N m]."""
     parts, gears, torques = [], [], []
     for part in replace(seen, at=at).parts(seen.speeds):
         response = torsion_response(part)

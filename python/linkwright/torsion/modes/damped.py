@@ -251,10 +251,7 @@ def _cut(referred: ReferredTrain, count: int) -> ReferredTrain:
 
 
 def _exact(referred: ReferredTrain, start: complex, shape: Complexes) -> complex:
-    """Eigenvalue of a train with distributed inertia from that of its pieces with inertia at their ends.
-
-    Newton on D(s) q = 0. Where it leaves the neighbourhood the start stays.
-    """
+    """Eigenvalue with distributed inertia, by Newton on D(s) q = 0 from that of its pieces."""
     s, q = start, shape
     if s.imag == 0:
         return start

@@ -199,10 +199,7 @@ def meshed(at: ExcitedTrain, response: TorsionResponse) -> MeshTorque:
 
 
 def _rods(at: ExcitedTrain, J: Floats, theta: Complexes) -> tuple[Complexes, Complexes]:
-    """Inertia of the discs, and torque of the shafts between them, where inertia of shafts is distributed.
-
-    (orders, discs, speeds) [kg m²] and (orders, shafts, speeds) [N m].
-    """
+    """Inertia of discs [kg m²] and shaft torque [N m] with distributed inertia, (orders, …, speeds)."""
     referred, there = at.referred, at.distributed
     assert there is not None
     inertia = np.repeat(J[None].astype(complex), len(theta), axis=0) + np.zeros_like(theta)
