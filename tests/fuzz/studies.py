@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import chdir
 from pathlib import Path
 
 from commands import call
@@ -253,4 +254,6 @@ def options(random: Generator) -> None:
             if option == "--out" or given.endswith(".csv"):
                 given = str(here / given.replace("/", "_").replace("\0", "")[:300])
             arguments += [option, given]
-        call(arguments, {"machine.toml": text, "arguments": repr(arguments)})
+        # Where no place is given, pictures and reports go into the present folder.
+        with chdir(here):
+            call(arguments, {"machine.toml": text, "arguments": repr(arguments)})
