@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import drive_laws
+import features
 import numpy as np
 import plans
 import random_parts
@@ -49,6 +50,9 @@ KINDS: dict[str, Kind] = {
     "study": Kind(studies.study, 12, 6),
     "record": Kind(studies.record, 4, 2),
     "options": Kind(studies.options, 30, 6),
+    "motors": Kind(features.motors, 20, 2),
+    "lift": Kind(features.lift, 20, 2),
+    "written": Kind(features.written, 6, 4),
     "topper": Kind(random_parts.topper, 2, 1),
 }
 
