@@ -119,7 +119,10 @@ def test_folder_has_files(press: Path, tmp_path: Path) -> None:
     code, _ = run("forces", press, "--speed", "10 rad/s", "--out", tmp_path / "found")
     assert code == 0
     names = {path.name for path in (tmp_path / "found").glob("[!.]*")}
-    assert names == {"results.json", "forces.csv", "forces.svg", "hodograph.svg", "polar.svg"}
+    assert names == {
+        *("results.json", "forces.csv"),
+        *(f"{name}.{kind}" for name in ("forces", "hodograph", "polar") for kind in ("svg", "png")),
+    }
     head, *rows = (tmp_path / "found" / "forces.csv").read_text(encoding="utf-8").splitlines()
     assert len(rows) == 361
     assert "A_x [N]" in head

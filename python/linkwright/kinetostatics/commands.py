@@ -15,6 +15,8 @@ from linkwright.kernel.command.parameter import Option
 from linkwright.kernel.errors import InputError
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from linkwright.kernel.page.angle_zero import Zero
     from linkwright.kernel.page.table import Table
     from linkwright.kinetostatics.balancing import Balance
@@ -42,7 +44,9 @@ Span = Annotated[
     ),
 ]
 Curves = Annotated[bool, Option("--curves", help="With --json: include curves.")]
-Folder = Annotated[Path | None, out_option("Write results.json, forces.csv and figures as SVG there.")]
+Folder = Annotated[
+    Path | None, out_option("Write results.json, forces.csv and figures as SVG and PNG there.")
+]
 Cases = Annotated[
     list[str] | None,
     Option(
@@ -132,6 +136,7 @@ def _answer(
         head=partial(_head, speeds),
         tables=partial(_tables, cases),
         files=partial(_files, cases),
+        figures=partial(_figures, cases),
     )
 
 
@@ -243,26 +248,27 @@ def _results(
 
 
 def _files(cases: dict[str, Forces]) -> dict[str, str]:
-    """Curves and figures by name."""
-    from linkwright.kernel.figure.svg import svg
+    """Curves by name."""
     from linkwright.kernel.page.table import curves_csv
-    from linkwright.kinetostatics.figures import (
-        cases_figure,
-        forces_figure,
-        hodograph_figure,
-        polar_figure,
-    )
 
-    texts = {}
-    for number, result in enumerate(cases.values(), start=1):
-        end = "" if len(cases) == 1 else f"_{number}"
-        texts[f"forces{end}.csv"] = curves_csv(result)
-        texts[f"forces{end}.svg"] = svg(forces_figure(result))
-        texts[f"hodograph{end}.svg"] = svg(hodograph_figure(result))
-        texts[f"polar{end}.svg"] = svg(polar_figure(result))
-    if len(cases) > 1:
-        texts["load_cases.svg"] = svg(cases_figure(cases))
-    return texts
+    return {f"forces{end}.csv": curves_csv(result) for end, result in _numbered(cases)}
+
+
+def _figures(cases: dict[str, Forces]) -> dict[str, Figure]:
+    """Figures by name."""
+    from linkwright.kinetostatics.figures import cases_figure, forces_figure, hodograph_figure, polar_figure
+
+    drawn = {}
+    for end, result in _numbered(cases):
+        drawn[f"forces{end}"] = forces_figure(result)
+        drawn[f"hodograph{end}"] = hodograph_figure(result)
+        drawn[f"polar{end}"] = polar_figure(result)
+    return drawn if len(cases) == 1 else {"load_cases": cases_figure(cases), **drawn}
+
+
+def _numbered(cases: dict[str, Forces]) -> list[tuple[str, Forces]]:
+    """End of the names of files of each case; empty where there is one."""
+    return [("" if len(cases) == 1 else f"_{n}", result) for n, result in enumerate(cases.values(), start=1)]
 
 
 Links = Annotated[

@@ -180,8 +180,66 @@ def _answer(machine: Machine, motor: MotorChoice, flywheel: FlywheelChoice | Non
         findings=[] if chosen else [motor.reason],
         warnings=_warnings(motor, flywheel),
         show=partial(_print, machine, motor, flywheel),
+        head=partial(_lead, motor, flywheel),
+        tables=partial(_report_tables, motor),
         machine_file=partial(_file_text, fitted, chosen) if fitted and chosen else None,
     )
+
+
+def _lead(motor: MotorChoice, flywheel: FlywheelChoice | None) -> str:
+    """What is needed and what was chosen, for a report."""
+    from linkwright.kernel.page.numbers import quantity
+
+    need = motor.required
+    power, speed = quantity(need.power, "W", 4, usual="kW"), quantity(need.speed, "rad/s", 4)
+    lines = [f"Required power {power} at {speed}", *([motor.reason] if motor.chosen else [])]
+    return "\n".join([*lines, *([_flywheel_words(flywheel).plain.replace("\n ", ";")] if flywheel else [])])
+
+
+def _report_tables(motor: MotorChoice) -> list[Table]:
+    """The checks of the motors, and the motors considered, for a report."""
+    from linkwright.kernel.page.numbers import measured, quantity
+    from linkwright.kernel.page.table import Table
+
+    tables = (
+        [_report_checks("checks_present", "The motor in the file", motor.present)] if motor.present else []
+    )
+    if chosen := motor.chosen:
+        title = f"{chosen.type} at ratio {chosen.ratio:.4g}"
+        tables.append(_report_checks("checks_chosen", title, chosen.checks))
+    rows = [
+        (
+            candidate.type,
+            "",
+            quantity(candidate.known.power_rated, "W", 4, usual="kW"),
+            f"{candidate.ratio:.4g}",
+            measured(candidate.inertia, "kg m²", digits=3, before="~" if candidate.inertia_estimated else ""),
+            str(_verdict(candidate, motor)),
+        )
+        for candidate in _shown(motor)
+    ]
+    heads = ("type", "", "power", "ratio", "inertia, ~ estimated", "verdict")
+    return [*tables, Table("motors_considered", "Motors considered", heads, rows)]
+
+
+def _report_checks(name: str, title: str, checks: Sequence[Check]) -> Table:
+    """A row for each check."""
+    from linkwright.kernel.page.numbers import measured
+    from linkwright.kernel.page.table import Table
+
+    words = {True: "passes", False: "fails", None: "not known"}
+    rows = [
+        (
+            check.name.replace("_", " "),
+            "",
+            measured(check.value, check.unit, digits=4),
+            measured(check.limit, check.unit, digits=4, before="≤ " if check.at_most else "≥ "),
+            words[check.passed],
+            check.note,
+        )
+        for check in checks
+    ]
+    return Table(name, title, ("check", "", "found", "limit", "verdict", "remark"), rows)
 
 
 def _warnings(motor: MotorChoice, flywheel: FlywheelChoice | None) -> list[str]:

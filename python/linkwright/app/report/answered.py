@@ -39,12 +39,12 @@ def answered(answer: Answer, command: str) -> Content:
         return replace(answer.report(), command=command)
     tables = list(answer.tables())
     figures = [CaptionedFigure(name, _title(name), "", figure) for name, figure in answer.figures().items()]
-    printed = _printed(answer.show) if answer.show is not None else ""
+    printed = _printed(answer.show) if answer.show is not None and not tables else ""
     if not (tables or figures or printed or answer.findings):
         raise InputError("there is nothing to report: this command gives neither tables nor figures")
     return Content(
         title=answer.machine or "Linkwright",
-        lead=shown_head(answer),
+        lead=". ".join(line.strip().rstrip(".") for line in shown_head(answer).split("\n")),
         findings=sentences(answer.findings),
         warnings=sentences(answer.warnings),
         printed=printed,
