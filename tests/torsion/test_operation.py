@@ -81,6 +81,9 @@ def test_sentences(study: TorsionStudy) -> None:
     (low, high) = (speed / RPM for speed in row.ranges[0])
     words = f"Continuous operation is not permitted at {low:.5g} to {high:.5g} rpm: limits are exceeded"
     assert exceeded.operation.startswith(words)
+    # The barred range stands beside, without a word that the other speeds are permitted.
+    assert "is permitted" not in exceeded.operation
+    assert "Barred speed range, to be passed quickly: " in exceeded.operation
     tables = {table.name: table for table in study_tables(barred)}
     assert tables["barred"].rows[0][0] == "line"
     assert tables["barred"].rows[0][-1] == "quick passage"

@@ -32,7 +32,9 @@ def _normal(speeds: tuple[float, float], verdict: Verdict) -> Iterator[str]:
         places = _listed(low_high for row in exceeded for low_high in row.ranges)
         yield f"Continuous operation is not permitted at {places}: limits are exceeded ({parts})."
     barred = together(one for one in verdict.barred if one.may_be_barred and one.is_passable)
-    if barred:
+    if barred and exceeded:
+        yield f"Barred speed range, to be passed quickly: {_listed(barred)}."
+    elif barred:
         yield (
             f"Continuous operation is permitted from {span} but for the barred speed range "
             f"{_listed(barred)}, to be passed quickly."
