@@ -211,7 +211,7 @@ def as_law(law: Law | Callable[[Any], Any] | Sequence[ArrayLike]) -> Law:
 
     `law` (n,): see the classes of this module. Raises ShapeError: it is none of these.
     """
-    if callable(getattr(law, "at", None)):
+    if hasattr(law, "at") and callable(law.at):
         return law
     if callable(law):
         return FunctionLaw(law)
