@@ -9,10 +9,10 @@ import pytest
 import linkwright as lw
 
 # Torsional Vibrations of a Conic Shaft with Opposite Tapers Carrying Arbitrary Concentrated Elements,
-# Mathematical Problems in Engineering 2013, 491062, table 2: exact natural frequencies [rad/s] of a conic shaft
-# of constant length and larger diameter. The uniform shaft, free at both ends, has 5000.0416, which gives the
+# Mathematical Problems in Engineering 2013, 491062, table 2: exact natural frequencies [rad/s] of a conic
+# shaft of constant length and larger diameter. The uniform shaft, free at both ends, has 5000.0416: the
 # speed of torsional waves over the length. The dimensions themselves were not at hand: smaller over larger
-# diameter is taken as 1 - 40 times the printed taper ratio, with which Bessel functions give the printed digits.
+# diameter is taken as 1 - 40 times the printed taper ratio, with which Bessel functions give what is printed.
 UNIFORM = 5000.0416
 FREE = {
     0.02: (7384.4129, 11854.5424, 16427.4469),
