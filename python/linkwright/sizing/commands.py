@@ -207,7 +207,7 @@ def _report_tables(motor: MotorChoice) -> list[Table]:
     if chosen := motor.chosen:
         title = f"{chosen.type} at ratio {chosen.ratio:.4g}"
         tables.append(_report_checks("checks_chosen", title, chosen.checks))
-    rows = [
+    rows: list[Row] = [
         (
             candidate.type,
             "",
@@ -228,7 +228,7 @@ def _report_checks(name: str, title: str, checks: Sequence[Check]) -> Table:
     from linkwright.kernel.page.table import Table
 
     words = {True: "passes", False: "fails", None: "not known"}
-    rows = [
+    rows: list[Row] = [
         (
             check.name.replace("_", " "),
             "",
