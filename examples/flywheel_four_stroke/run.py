@@ -38,7 +38,14 @@ def study(machine: lw.Machine) -> dict[str, float]:
         "rim_mass": one.rim_mass,
         "rim_thickness": one.rim_thickness,
         "fastest_deg": float(np.degrees(one.speed_max_angle)),
+        "share_of_the_expansion": _share(machine, "turning_moment.driver.constants.expansion"),
+        "share_of_the_speed": _share(machine, "turning_moment.speed"),
     }
+
+
+def _share(machine: lw.Machine, address: str) -> float:
+    """By how many per cent the flywheel grows for 1 % more of an entry."""
+    return float(lw.gradient(machine, ["turning_moment.flywheel_inertia"], [address]).elasticities[0, 0])
 
 
 def figure(machine: lw.Machine):

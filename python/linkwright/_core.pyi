@@ -70,13 +70,16 @@ __all__ = [
     "TorsionRotor",
     "TorsionSystem",
     "TorsionTorque",
+    "accelerations_along",
     "cam_crossings",
     "follow_group",
     "gaps",
     "in_line",
     "kinks",
+    "kinks_along",
     "law_torques",
     "motions",
+    "motions_along",
     "motor_torques",
     "reductions",
     "steady_rows",
@@ -1232,6 +1235,19 @@ def motions(
 ) -> None:
     """Motions of n machines at the angles `phi` into `out` (n, numbers, angles)."""
 
+def motions_along(
+    plan: Plan, q: _Floats, directions: _Floats, phi: _Floats, what: Sequence[Channel]
+) -> _Floats:
+    """Derivatives of motions by directions (parameters, n) at fixed angles, (numbers, angles × n)."""
+
+def accelerations_along(
+    plan: Plan, q: _Floats, directions: _Floats, t: _Floats, phi: _Floats, omega: _Floats
+) -> _Floats:
+    """Derivatives of the acceleration by directions (parameters, n), angle and speed, (states, n + 2)."""
+
+def kinks_along(plan: Plan, q: _Floats, directions: _Floats, phi: _Floats) -> _Floats:
+    """Derivatives of crank angles by directions (parameters, n), where they are kinks, (angles, n)."""
+
 @final
 class ThirdDerivatives:
     """Third derivatives by the crank angle of points (points, 2, angles), of links and of slides."""
@@ -1389,6 +1405,18 @@ class Cam:
 
     def rows(self, size: CamDimensions, phi: _Floats, before: bool) -> dict[str, _Floats]:
         """The rows of `CamShape` at angles."""
+
+    def rows_along(
+        self,
+        size: CamDimensions,
+        phi: _Floats,
+        before: bool,
+        size_d: _Floats,
+        lift_d: _Floats,
+        phi_d: _Floats,
+    ) -> dict[str, _Floats]:
+        """Derivatives of the rows at angles, flat (angles, n): by directions of dimensions (6, n), of the lift
+        and its first three derivatives (4, angles, n) and of the angles (angles, n), flat each."""
 
     def curve(self, size: CamDimensions, phi: _Floats, before: bool, away: float) -> CamOffset:
         """A curve beside the pitch curve, at angles (n,)."""

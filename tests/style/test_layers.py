@@ -118,6 +118,8 @@ EDGES = {
     ("sensitivity", "drive"),
     ("sensitivity", "drive.model"),
     ("sensitivity", "torsion.gradient"),
+    ("sensitivity", "kinetostatics"),
+    ("sensitivity", "turning"),
     ("sizing.commands", "drive.model"),
 }
 

@@ -6,6 +6,7 @@
 //! | [`shape`] | a whole revolution: arrays, extremes, undercut, inflections |
 //! | [`crossing`] | where a profile crosses itself |
 //! | [`search`] | many cams of one law |
+//! | [`along`] | derivatives of all rows by dimensions, lift and angle |
 //!
 //! The cam turns about the origin by σφ, σ = ±1. A translating follower moves along x, at the distance `offset` to the
 //! left of the origin; an oscillating one turns about (`distance`, 0), its arm to the left (side = +1) or
@@ -28,6 +29,7 @@
 // Fields of enum variants and of plain records are named as in the equations beside them.
 #![allow(missing_docs)]
 
+pub mod along;
 pub mod crossing;
 pub mod search;
 pub mod shape;

@@ -163,7 +163,12 @@ impl<R: Real> Cam<R> {
     /// All rows at angles of a piece.
     #[inline(always)]
     pub fn row(&self, piece: &Piece, phi: R) -> [R; ROWS] {
-        let [s, s1, s2, s3] = piece.at(phi);
+        self.row_of(piece.at(phi), phi)
+    }
+
+    /// The same where lift and its first three derivatives are known.
+    #[inline(always)]
+    pub fn row_of(&self, [s, s1, s2, s3]: [R; 4], phi: R) -> [R; ROWS] {
         let contact = self.contact([s, s1, s2]);
         let [pitch, normal] = self.from_cam([contact.pitch, contact.normal], phi);
         let gamma = contact.lead.y.atan2(contact.lead.x);

@@ -1,5 +1,6 @@
 //! Cams at the border.
 
+use linkwright_core::cam::along::CamAlong;
 use linkwright_core::cam::crossing::{Crossing, crossings};
 use linkwright_core::cam::search::{Cams, RESULTS, search};
 use linkwright_core::cam::shape::{self, NAMES, Quantity, ROWS};
@@ -191,6 +192,35 @@ impl Cam {
         let mut rows = vec![0.0; ROWS * phi.len()];
         guarded(py, "cam", || cam.rows(&self.law, phi, before, &mut rows))?;
         rows_by_name(py, (0..ROWS).map(|k| &rows[k * phi.len()..(k + 1) * phi.len()]))
+    }
+
+    /// Derivatives of all rows at cam angles by directions of dimensions (6, n), of the lift and its first three
+    /// derivatives (4, angles, n) and of the angles (angles, n); flat (rows, angles, n).
+    #[allow(clippy::too_many_arguments)]
+    fn rows_along(
+        &self,
+        py: Python<'_>,
+        size: &CamDimensions,
+        phi: Floats<'_>,
+        before: bool,
+        size_d: Floats<'_>,
+        lift_d: Floats<'_>,
+        phi_d: Floats<'_>,
+    ) -> PyResult<Py<PyDict>> {
+        let (phi, size_d) = (phi.as_slice()?, size_d.as_slice()?);
+        let (lift_d, phi_d) = (lift_d.as_slice()?, phi_d.as_slice()?);
+        let n = size_d.len() / 6;
+        let each = phi.len() * n;
+        if size_d.len() != 6 * n || lift_d.len() != 4 * each || phi_d.len() != each {
+            return Err(PyValueError::new_err("directions of another number of angles or dimensions"));
+        }
+        let &Cam { ref law, kind, sense, side } = self;
+        let of =
+            CamAlong { kind, sense, side, size: size.core(), law, phi, before, n, size_d, lift_d, phi_d };
+        require_room("derivatives of a cam", [ROWS, each])?;
+        let mut rows = vec![0.0; ROWS * each];
+        guarded(py, "derivatives of a cam", || of.rows(&mut rows))?;
+        rows_by_name(py, rows.chunks_exact(each.max(1)))
     }
 
     /// A curve beside the pitch curve, seen from the cam.

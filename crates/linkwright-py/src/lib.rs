@@ -59,12 +59,13 @@ mod _core {
     #[pymodule_export]
     use super::drive::{
         MotionInTime, MotorTorques, NoSteadyMotion, OtherMotion, Reductions, SteadyCurves, SteadyGradient,
-        SteadyMotion, SteadyRows, SteadySolution, kinks, law_torques, motor_torques, reductions, steady_rows,
-        steady_state, transient,
+        SteadyMotion, SteadyRows, SteadySolution, accelerations_along, kinks, kinks_along, law_torques,
+        motor_torques, reductions, steady_rows, steady_state, transient,
     };
     #[pymodule_export]
     use super::linkage::{
-        Channel, GroupPath, InLine, ThirdDerivatives, follow_group, gaps, in_line, motions, third,
+        Channel, GroupPath, InLine, ThirdDerivatives, follow_group, gaps, in_line, motions, motions_along,
+        third,
     };
     #[pymodule_export]
     use super::status::Status;

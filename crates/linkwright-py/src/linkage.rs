@@ -1,5 +1,6 @@
 //! Motions of points, links and slides, and what has to be known of a mechanism beforehand: calls and results.
 
+use linkwright_core::drive::along::{Directions, motions_along as core_motions_along};
 use linkwright_core::drive::batch::{self, Rows};
 use linkwright_core::drive::motions as over_angles;
 use linkwright_core::linkage::motion;
@@ -7,7 +8,7 @@ use linkwright_core::linkage::trace;
 use numpy::{
     PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2, PyReadwriteArray3, PyUntypedArrayMethods,
 };
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 
 use crate::arrays::{as_indices, below, column};
@@ -99,6 +100,39 @@ pub(crate) fn third(
         points: column(py, points).reshape([n[0], 2, n[3]])?.unbind(),
         links: column(py, links).reshape([n[1], n[3]])?.unbind(),
         slides: column(py, slides).reshape([n[2], n[3]])?.unbind(),
+    })
+}
+
+/// Directions (parameters, n) of a machine's numbers.
+pub(crate) fn directions<'a>(
+    plan: &'a Plan,
+    q: &'a [f64],
+    values: &'a PyReadonlyArray2<'_, f64>,
+) -> PyResult<Directions<'a>> {
+    let [rows, n] = [values.as_array().nrows(), values.as_array().ncols()];
+    if rows == q.len() {
+        Ok(Directions { plan: &plan.0, q, values: values.as_slice()?, n })
+    } else {
+        let text = format!("directions of {rows} numbers, {} parameters", q.len());
+        Err(PyIndexError::new_err(text))
+    }
+}
+
+#[pyfunction]
+pub(crate) fn motions_along<'py>(
+    py: Python<'py>,
+    plan: &Plan,
+    q: Floats<'_>,
+    values: PyReadonlyArray2<'_, f64>,
+    phi: Floats<'_>,
+    what: Vec<Channel>,
+) -> PyResult<Table<'py>> {
+    let (q, phi) = (plan.parameters(&q)?, phi.as_slice()?);
+    let of = directions(plan, q, &values)?;
+    let channels = channels(&what, plan)?;
+    let width: usize = channels.iter().map(|c| c.width()).sum();
+    filled(py, "derivatives of motions", [width, phi.len() * of.n], |to| {
+        core_motions_along(of, phi, &channels, to)
     })
 }
 

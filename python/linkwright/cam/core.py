@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright import _core
 from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.cam.model.follower import Sizes
+from linkwright.kernel.numerics.tangent_array import TangentArray, lifted, primal, variables_of
 from linkwright.machine.program.numbers import core_law
 
 Floats = NDArray[np.float64]
@@ -83,7 +84,7 @@ class CamKernel:
             side=1.0 if self.is_left else -1.0,
         )
         object.__setattr__(self, "core", core)
-        size = {name: float(value) for name, value in self.sizes._asdict().items()}
+        size = {name: float(primal(value)) for name, value in self.sizes._asdict().items()}
         object.__setattr__(self, "size", _core.CamDimensions(**size))
 
     def __reduce__(self) -> tuple[type[CamKernel], tuple[Any, ...]]:
@@ -106,8 +107,23 @@ class CamKernel:
         return Shape(shape.angle, shape.piece, shape.rows, greatest, least, passes)
 
     def rows(self, angle: ArrayLike, *, before: bool = False) -> dict[str, Floats]:
-        """All rows at cam angles from the start of the programme; at a joint after it, or ``before``."""
-        return self.core.rows(self.size, _floats(angle), before)
+        """All rows at cam angles from the start of the programme; at a joint after it, or ``before``.
+
+        With derivatives where dimensions or angles have some.
+        """
+        rows = self.core.rows(self.size, _floats(primal(angle)), before)
+        return rows if variables_of((*self.sizes, angle)) is None else self._along(rows, angle, before)
+
+    def _along(self, rows: dict[str, Floats], angle: Any, before: bool) -> dict[str, Any]:
+        """Rows with derivatives."""
+        n = variables_of((*self.sizes, angle)) or 0
+        sizes = np.stack([lifted(size, n).d for size in self.sizes])
+        angles = lifted(angle, n).reshape(-1)
+        still = np.zeros(4 * angles.size * n)
+        along = self.core.rows_along(
+            self.size, _floats(angles.value), before, sizes.ravel(), still, np.ravel(angles.d)
+        )
+        return {name: TangentArray(row, along[name].reshape(-1, n)) for name, row in rows.items()}
 
     def curve(self, angle: ArrayLike, away: float, *, before: bool = False) -> _core.CamOffset:
         """A curve ``away`` from the pitch one [m] at cam angles; see `_core.CamOffset`."""

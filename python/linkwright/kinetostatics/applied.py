@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from linkwright.kernel.description.formula import NUMBERS, parse
 from linkwright.kernel.errors import FindingError
 from linkwright.kernel.numerics.formula_value import value
+from linkwright.kernel.numerics.tangent_array import primal
 from linkwright.kinetostatics.model.loads.between import (
     Damper,
     GasSpring,
@@ -58,7 +59,7 @@ def formula_wrenches(scene: Scene, load: FormulaLoad) -> Wrenches:
         return Wrenches(scene).couple(load.on, force)
     if load.direction is None and load.along is None:
         return Wrenches(scene).along_slide(load.on, force)
-    direction = unit(scene.angle(load.along) + (load.direction or 0.0))
+    direction = unit(scene.angle(load.along) + (0.0 if load.direction is None else load.direction))
     return Wrenches(scene).at_point(load.on, force[:, None] * direction)
 
 
@@ -67,7 +68,8 @@ def _names(scene: Scene, load: FormulaLoad) -> dict[str, Any]:
     motion = scene.motion
     names: dict[str, Any] = {
         **NUMBERS,
-        "phi": motion.crank_angle % load.cycle,
+        # Whole revolutions, which do not vary.
+        "phi": motion.crank_angle % primal(load.cycle),
         "omega": motion.speed,
         "t": motion.time,
     }
@@ -135,7 +137,7 @@ def applied(scene: Scene, load: Any) -> AppliedLoad:
 
 def together(scene: Scene, sources: Iterable[AppliedLoad]) -> AppliedLoad:
     """The sum of several loads."""
-    applied = AppliedLoad(Wrenches(scene), np.zeros(scene.n))
+    applied = AppliedLoad(Wrenches(scene), scene.zeros(scene.n))
     for source in sources:
         applied.wrenches.values += source.wrenches.values
         applied.resisting += source.resisting
@@ -178,11 +180,11 @@ def _force(scene: Scene, load: ConstantForce) -> Wrenches:
 
 
 def _torque(scene: Scene, load: ConstantTorque) -> Wrenches:
-    return Wrenches(scene).couple(load.on, np.full(scene.n, load.torque))
+    return Wrenches(scene).couple(load.on, load.torque * np.ones(scene.n))
 
 
 def _weight(scene: Scene, load: Gravity) -> Wrenches:
-    fall = load.acceleration * np.array([np.cos(load.direction), np.sin(load.direction)])
+    fall = load.acceleration * np.stack([np.cos(load.direction), np.sin(load.direction)])
     wrenches = Wrenches(scene)
     for mass in masses(scene):
         wrenches.force(mass.member, np.broadcast_to(mass.mass * fall, (scene.n, 2)), mass.centre)
@@ -205,7 +207,7 @@ def _spring(scene: Scene, load: Spring) -> Wrenches:
     if load.length is not None and load.force is not None:
         x, y = load.length, load.force
         return along_line(scene, load.between, lambda length, _: np.interp(length, x, y))
-    k, free = load.stiffness or 0.0, load.free_length or 0.0
+    k, free = (0.0 if x is None else x for x in (load.stiffness, load.free_length))
     return along_line(scene, load.between, lambda length, _: load.preload + k * (length - free))
 
 
@@ -213,7 +215,8 @@ def _damper(scene: Scene, load: Damper) -> Wrenches:
     if load.velocity is not None and load.force is not None:
         x, y = load.velocity, load.force
         return along_line(scene, load.between, lambda _, parting: np.interp(parting, x, y))
-    return along_line(scene, load.between, lambda _, parting: (load.damping or 0.0) * parting)
+    c = 0.0 if load.damping is None else load.damping
+    return along_line(scene, load.between, lambda _, parting: c * parting)
 
 
 def _gas(scene: Scene, load: GasSpring) -> Wrenches:
@@ -269,7 +272,7 @@ def _over_swing(scene: Scene, load: TorqueSwing) -> Wrenches:
 
 
 def _over_angle(scene: Scene, load: OverCrankAngle, values: Sequence[float]) -> Floats:
-    at: Floats = np.interp(scene.motion.crank_angle, *load.points(values), period=load.cycle)
+    at: Floats = np.interp(scene.motion.crank_angle, *load.points(values), period=primal(load.cycle))
     return at
 
 

@@ -64,7 +64,7 @@ def pushes(scene: Scene, follower: Follower, name: str) -> tuple[Push, Push | No
     as negative; None if there is none.
     """
     cam, points = follower.cam, scene.mechanism.fixed_points()
-    centre = np.array(centre_of(cam, points))
+    centre = np.stack(centre_of(cam, points))
     sense = turned_by(cam, np.ones(1))
     made = []
     for contact, sign in zip(contacts(cam, points, name), (1.0, -1.0), strict=False):

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from functools import reduce
 from itertools import pairwise
+from operator import add
 
 import numpy as np
 from numpy.typing import NDArray
@@ -70,7 +72,7 @@ class Collector:
         pairs = {m.name: self._pair(m, span, total) for m, span in spans if m.kind not in _DRIVES}
         drives = {m.name: total[:, span.start] for m, span in spans if m.kind in _DRIVES}
         motion = self.scene.motion
-        torque = np.sum([share.torque_drive for share in shares.values()], axis=0)
+        torque = reduce(add, [share.torque_drive for share in shares.values()])
         return Forces(
             crank_angle=motion.crank_angle,
             time=motion.time,
@@ -78,8 +80,8 @@ class Collector:
             acceleration=motion.acceleration,
             torque_drive=torque,
             **self._powers(torque, total),
-            shaking_moment=np.sum([share.shaking_moment for share in shares.values()], axis=0),
-            shaking_force=np.sum([share.shaking_force for share in shares.values()], axis=0),
+            shaking_moment=reduce(add, [share.shaking_moment for share in shares.values()]),
+            shaking_force=reduce(add, [share.shaking_force for share in shares.values()]),
             pairs=pairs,
             drives=drives,
             contributions=shares,
@@ -90,11 +92,11 @@ class Collector:
     def _passed(self, model: PairModel, span: slice, x: Floats, member: str) -> Floats:
         """What a pair does to a member for values (…, n, unknowns): force and moment, (…, n, 3)."""
         i = self.scene.index[member]
-        passed = np.zeros((*x.shape[:-1], 3))
+        passed: Floats = np.zeros((*x.shape[:-1], 3))
         for j, unknown in enumerate(model.unknowns):
-            passed += x[..., span.start + j, None] * unknown.values[:, i]
+            passed = passed + x[..., span.start + j, None] * unknown.values[:, i]
         if model.is_nonlinear and model.extra is not None:
-            passed += self._dry(span, x)[..., None] * model.extra.values[:, i]
+            passed = passed + self._dry(span, x)[..., None] * model.extra.values[:, i]
         return passed
 
     def _viscous(self, model: PairModel) -> Floats:
@@ -123,17 +125,17 @@ class Collector:
 
     def _contributions(self) -> dict[str, Contribution]:
         """The share of each source."""
-        x = np.ascontiguousarray(np.moveaxis(self.solution.x, -1, 0))
+        x = np.moveaxis(self.solution.x, -1, 0).copy()
         torque = np.stack([source.resisting for source in self.columns.values()])
         frame = np.stack([source.wrenches.values[:, -1] for source in self.columns.values()])
         reactions = {}
         for model, span in zip(self.models, self.spans, strict=True):
-            frame += self._passed(model, span, x, FRAME)
+            frame = frame + self._passed(model, span, x, FRAME)
             if model.kind in _DRIVES:
                 # The work of the drive on this member in a radian of the crank.
-                torque += x[..., span.start] * self.works[model.name]
+                torque = torque + x[..., span.start] * self.works[model.name]
                 if model.push is not None:
-                    torque += self._dry(span, x) * model.push.lever
+                    torque = torque + self._dry(span, x) * model.push.lever
                 continue
             at = reactions[model.name] = self._passed(model, span, x, model.second)
             if "friction" in self.columns:

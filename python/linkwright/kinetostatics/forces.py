@@ -25,7 +25,7 @@ from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.units import ANGLE, Bound, Quantity
 from linkwright.kinetostatics.applied import AppliedLoad, applied, together
 from linkwright.kinetostatics.collect import Collector
-from linkwright.kinetostatics.equilibrium import Equilibrium
+from linkwright.kinetostatics.equilibrium import Equilibrium, Solution
 from linkwright.kinetostatics.friction import Friction, checked
 from linkwright.kinetostatics.motion import Motion, motion_at
 from linkwright.kinetostatics.pairs import PairModel, pair_models, with_pulls
@@ -108,21 +108,40 @@ def forces(
     scene = Scene(
         machine, motion_at(machine, motion, speed=speed, acceleration=acceleration, angles=angles, n=n)
     )
-    models = pair_models(scene, checked(friction or {}, scene.structure.pairs), pressure_angle)
-    sources = _sources(scene, models)
+    models, sources = acting(scene, friction or {}, pressure_angle)
     columns = sources if contributions else {"": together(scene, sources.values())}
-    loads = np.stack([column.wrenches.values for column in columns.values()], axis=-1)
-    solution = Equilibrium(scene, models, loads).solve()
-    if with_pulls(scene, models, solution.x.sum(axis=-1)):
-        solution = Equilibrium(scene, models, loads).solve()
+    solution = _solved(scene, models, columns)
     result = Collector(scene, models, sources, columns, solution).forces()
     return result if contributions else replace(result, contributions={})
+
+
+def acting(
+    scene: Scene, friction: Mapping[str, Friction], pressure_angle: float = PRESSURE_ANGLE
+) -> tuple[list[PairModel], dict[str, AppliedLoad]]:
+    """Pairs and drives of a scene, and what acts on it."""
+    models = pair_models(scene, checked(friction, scene.structure.pairs), pressure_angle)
+    return models, _sources(scene, models)
+
+
+def equilibrium(scene: Scene, models: list[PairModel], columns: Mapping[str, AppliedLoad]) -> Equilibrium:
+    """The linear systems of pairs and drives under loads."""
+    return Equilibrium(
+        scene, models, np.stack([column.wrenches.values for column in columns.values()], axis=-1)
+    )
+
+
+def _solved(scene: Scene, models: list[PairModel], columns: Mapping[str, AppliedLoad]) -> Solution:
+    """The unknowns, with second contacts of cams where the first would have to pull."""
+    solution = equilibrium(scene, models, columns).solve()
+    if with_pulls(scene, models, solution.x.sum(axis=-1)):
+        solution = equilibrium(scene, models, columns).solve()
+    return solution
 
 
 def _sources(scene: Scene, models: list[PairModel]) -> dict[str, AppliedLoad]:
     """Inertia, viscous friction, and the loads."""
     motion, drive = scene.motion, scene.machine.drive or Drive()
-    at_shaft = float(drive_inertia(drive)) * motion.acceleration
+    at_shaft = drive_inertia(drive) * motion.acceleration
     sources = {"inertia": AppliedLoad(inertia_forces(scene), at_shaft)}
     if any(model.friction.viscous for model in models):
         slow = Wrenches(scene)

@@ -17,11 +17,12 @@ relation of their speeds, and the carrier takes what is left over.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.kernel.numerics.tangent_array import variables_of
 from linkwright.kinetostatics.friction import FRICTIONLESS, Friction
 from linkwright.kinetostatics.places import Scene, dot, left
 from linkwright.kinetostatics.wrench import Wrenches
@@ -38,6 +39,15 @@ _ROLLS = 1e-9
 
 # Relative speed, over the crank's times the size of the mechanism, below which a pair stands.
 _STANDS = 1e-12
+
+
+class Sliding(NamedTuple):
+    """Friction of a cam's contact: a checked number, which may carry derivatives."""
+
+    coefficient: Any
+    radius: float = 0.0
+    viscous: float = 0.0
+    length: float = 0.0
 
 
 @dataclass
@@ -76,33 +86,35 @@ class PairModel:
     extra: Wrenches | None
     rate: Floats
     sense: Floats
-    friction: Friction
+    friction: Friction | Sliding
     spread: float = 0.0
     push: Push | None = None
     pull: Push | None = None
 
     def slopes(self, x: Floats) -> Floats:
         """Derivatives of the extra force by the unknowns at their values x, (n, unknowns)."""
-        slopes = np.zeros_like(x)
         if self.kind in ("mesh", "rack"):
             return self.spread * np.sign(x)
         drag = -self.friction.coefficient * self.sense
         if self.kind == "pin":
             size = np.hypot(x[:, 0], x[:, 1])
             return (drag * self.friction.radius / np.where(size > 0, size, 1.0))[:, None] * x
+        slopes = [0.0 * drag] * x.shape[1]
         if self.kind == "guide" and self.friction.length:
             share = x[:, 1] / self.friction.length
             ends = np.sign(0.5 * x[:, 0] + share), np.sign(0.5 * x[:, 0] - share)
-            slopes[:, 0] = 0.5 * drag * (ends[0] + ends[1])
-            slopes[:, 1] = drag * (ends[0] - ends[1]) / self.friction.length
+            slopes = [0.5 * drag * (ends[0] + ends[1]), drag * (ends[0] - ends[1]) / self.friction.length]
         elif self.kind in ("guide", "slot", "contact"):
-            slopes[:, 0] = drag * np.sign(x[:, 0])
-        return slopes
+            slopes[0] = drag * np.sign(x[:, 0])
+        return np.stack(slopes, axis=1)
 
     @property
     def is_nonlinear(self) -> bool:
         """Whether the extra force depends on the unknowns."""
-        return self.extra is not None and (self.spread != 0 or self.friction.coefficient != 0)
+        mu = self.friction.coefficient
+        return self.extra is not None and (
+            self.spread != 0 or bool(mu != 0) or variables_of((mu,)) is not None
+        )
 
     @property
     def viscous(self) -> Floats:
@@ -217,7 +229,7 @@ def _cam_contact(scene: Scene, drive: Drive) -> PairModel:
     follower = follower_at(scene, drive.name)
     push, pull = pushes(scene, follower, drive.name)
     without_friction = _without_friction(scene, drive.name, "contact", drive.member, push.normal)
-    without_friction.friction = Friction(coefficient=follower.cam.sliding_friction)
+    without_friction.friction = Sliding(follower.cam.sliding_friction)
     without_friction.push, without_friction.pull = push, pull
     return _sliding(scene, without_friction, push)
 
@@ -326,7 +338,7 @@ def _rack(scene: Scene, pair: Pair, spread: float) -> PairModel:
     if np.abs(slip).max() < _ROLLS * scene.size:
         return _teeth(scene, pair, pitch, t, -np.sign(radius) * left(t), spread)
     guide = scene.structure.pairs[f"{pair.element}.guide"]
-    lever = np.full(scene.n, radius)
+    lever = radius * np.ones(scene.n)
     push = Wrenches(scene).on_guide(guide, t, np.zeros(scene.n)).couple(pair.first, -lever)
     if pair.guide.on is not None:
         push.couple(pair.guide.on, lever)

@@ -48,10 +48,14 @@ class Scene:
         self.kinematics = kinematics(machine, motion.crank_angle)
         self.n = len(motion.crank_angle)
         self.index = {name: i for i, name in enumerate((*self.structure.members, FRAME))}
-        self._still = np.zeros((self.n, 2))
+        self._still = self.zeros(self.n, 2)
         lengths = [link.length for link in self.links.values() if link.length]
         # Any length of the mechanism's size makes forces and moments comparable.
         self.size = float(np.mean(lengths)) if lengths else 1.0
+
+    def zeros(self, *shape: int) -> Floats:
+        """An array to be filled with what follows from the machine."""
+        return np.zeros(shape)
 
     def carrier(self, point: str) -> str:
         """The member that carries a point."""
@@ -82,7 +86,7 @@ class Scene:
     @cached_property
     def rates(self) -> Floats:
         """First derivatives of the members' places and angles, (n, members + 1, 3); zero for the frame."""
-        rates = np.zeros((self.n, len(self.index), 3))
+        rates = self.zeros(self.n, len(self.index), 3)
         for name, i in self.index.items():
             if name != FRAME:
                 rates[:, i, :2], rates[:, i, 2] = self.reference(name, 1), self.turning(name)

@@ -38,7 +38,7 @@ class Wrenches:
 
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
-        self.values: Floats = np.zeros((scene.n, len(scene.index), 3))
+        self.values = scene.zeros(scene.n, len(scene.index), 3)
 
     def force(self, member: str, force: Floats, place: Floats) -> Wrenches:
         """Add a force (n, 2) at a place (n, 2)."""
@@ -139,10 +139,10 @@ def masses(scene: Scene) -> Iterator[Mass]:
         on = body.on or name
         if on not in scene.links:
             places = [scene.point(on, order) for order in (0, 1, 2)]
-            yield Mass(name, scene.carrier(on), float(body.mass or 0.0), 0.0, *places)
+            yield Mass(name, scene.carrier(on), 0.0 if body.mass is None else body.mass, 0.0, *places)
             continue
         along, across, mass, inertia = link_body(body, scene.links[on].length)
-        yield Mass(name, on, float(mass), float(inertia), *_on_link(scene, on, along, across))
+        yield Mass(name, on, mass, inertia, *_on_link(scene, on, along, across))
 
 
 def _on_link(scene: Scene, link: str, along: float, across: float) -> tuple[Floats, Floats, Floats]:
@@ -160,7 +160,8 @@ def inertia_forces(scene: Scene) -> Wrenches:
     speed, acceleration = scene.motion.speed, scene.motion.acceleration
     for mass in masses(scene):
         wrenches.force(mass.member, -mass.mass * mass.acceleration(scene), mass.centre)
-        if mass.inertia:
+        # A zero that carries derivatives counts.
+        if not (isinstance(mass.inertia, float) and mass.inertia == 0.0):
             turning = scene.turning(mass.member, 2) * speed**2 + scene.turning(mass.member) * acceleration
             wrenches.couple(mass.member, -mass.inertia * turning)
     return wrenches

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright.kernel.errors import MachineError, Problem, ShapeError
+from linkwright.kernel.numerics.tangent_array import TangentArray
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import array, shown
 from linkwright.kernel.public.immutable import LazyTable
@@ -143,6 +144,41 @@ def with_third(compiled: CompiledMachine, kinematics: Kinematics, what: list[tup
         for name, d3 in zip(names, rows[part], strict=True):
             parts[part][name] = replace(getattr(kinematics, part)[name], d3=d3)
     return Kinematics(kinematics.angles, **parts)
+
+
+def kinematics_along(machine: Machine, motion: Kinematics, directions: Floats) -> Kinematics:
+    """A motion of a machine with its derivatives by directions of the program's numbers (parameters, k).
+
+    The attributes of points, links and slides are arrays of tangents, at fixed crank angles.
+    """
+    compiled = compile_machine(machine)
+    what = everything(compiled)
+    known = {"points": compiled.points, "links": compiled.links, "slides": compiled.slides}
+    channels = [_CHANNELS[part](known[part][name]) for part, name in what]
+    table = compiled.motions_along(directions, motion.angles, channels)
+    parts: dict[str, dict[str, Any]] = {part: {} for part in _WIDTHS}
+    at = 0
+    for part, name in what:
+        parts[part][name] = _along(part, getattr(motion, part)[name], table[at : at + _WIDTHS[part]])
+        at += _WIDTHS[part]
+    return Kinematics(motion.angles, **parts)
+
+
+def _along(part: str, motion: Any, rows: Floats) -> Any:
+    """A part's motion with derivatives, in the order of the core's rows."""
+    if part == "points":
+        d = [np.stack(rows[k : k + 2], axis=1) for k in (0, 2, 4)]
+        values = (motion.position, motion.d1, motion.d2)
+        return PointMotion(*map(TangentArray, values, d))
+    if part == "slides":
+        return SlideMotion(*map(TangentArray, (motion.position, motion.d1, motion.d2), rows))
+    # Of a unit vector e: dψ = e × de.
+    cos, sin = np.cos(motion.angle)[:, None], np.sin(motion.angle)[:, None]
+    return LinkMotion(
+        TangentArray(motion.angle, cos * rows[1] - sin * rows[0]),
+        TangentArray(motion.d1, rows[2]),
+        TangentArray(motion.d2, rows[3]),
+    )
 
 
 def checked_angles(angles: ArrayLike) -> Floats:

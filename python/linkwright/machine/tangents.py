@@ -16,11 +16,17 @@ from numpy.typing import NDArray
 
 from linkwright.kernel.errors import LinkwrightError
 from linkwright.kernel.numerics.tangent import Tangent
+from linkwright.kernel.numerics.tangent_array import TangentArray
 from linkwright.machine.address import exchanged, get, is_given
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import Translation, compile_machine
 
 Floats = NDArray[np.float64]
+
+# What tells that an entry is not followed.
+_FAILURES = (TypeError, AttributeError, ValueError, ArithmeticError, LinkwrightError)
+
+_WHOLE = "a cycle is a whole number of revolutions"
 
 
 def columns(
@@ -34,6 +40,9 @@ def columns(
     Entries that follow from others (the breakdown speed of a motor from its rated point) are varied one at a
     time, all others of the file held; given ones are varied together.
     """
+    whole = [name for name in names if name.endswith(".cycle")]
+    refused.update(dict.fromkeys(whole, _WHOLE))
+    names = [name for name in names if name not in refused]
     together = [name for name in names if is_given(machine, name)]
     groups = [together, *([name] for name in names if name not in set(together))]
     derivatives: dict[str, Floats] = {}
@@ -50,7 +59,7 @@ def _of_group(
 ) -> dict[str, Floats]:
     try:
         return _derived(machine, names, numbers)
-    except (TypeError, ValueError, ArithmeticError, LinkwrightError) as error:
+    except _FAILURES as error:
         if len(names) == 1:
             refused[names[0]] = _reason(names[0], error)
             return {}
@@ -95,6 +104,10 @@ class Directions:
     values: Floats
     refused: Mapping[str, str]
 
+    def __post_init__(self) -> None:
+        """Keep the values row by row, as the core reads them."""
+        object.__setattr__(self, "values", np.ascontiguousarray(self.values))
+
 
 _CHANGE_POINTS = (
     "the mechanism passes change points, which exist for these lengths alone; vary other entries, or lengths "
@@ -125,3 +138,61 @@ def directions(machine: Machine, variables: Sequence[str]) -> Directions:
 def _numbers(machine: Machine) -> Sequence[Any]:
     """The program's numbers."""
     return Translation(machine, motor=True, brake=False).program.parameters
+
+
+@dataclass(frozen=True)
+class Derivatives:
+    """Scalars of an analysis with their derivatives by `variables`.
+
+    `tangents`: by name, NaN by an entry that has none; `ties`: names that have a derivative on either side
+    only, or none by some entries, with the reason; `missing`: names that have none at all; `refused`: entries
+    that have none.
+    """
+
+    variables: tuple[str, ...]
+    tangents: Mapping[str, Tangent]
+    ties: Mapping[str, str]
+    missing: Mapping[str, str]
+    refused: Mapping[str, str]
+
+
+def followed(
+    machine: Machine, names: Sequence[str], work: Callable[[Machine], Any], refused: dict[str, str]
+) -> tuple[tuple[str, ...], Any]:
+    """What is worked out of a machine with tangents by some entries, and by which; others are `refused`.
+
+    Entries that `work` cannot follow, counts and searched numbers, are found one by one.
+    """
+    whole = [name for name in names if name.endswith(".cycle")]
+    refused.update(dict.fromkeys(whole, _WHOLE))
+    known = tuple(name for name in names if name not in refused)
+    try:
+        return known, work(seeded(machine, known))
+    except _FAILURES:
+        for name in known:
+            try:
+                work(seeded(machine, [name]))
+            except _FAILURES as error:
+                refused[name] = _reason(name, error)
+    known = tuple(name for name in known if name not in refused)
+    return known, work(seeded(machine, known))
+
+
+def seeded(machine: Machine, names: Sequence[str]) -> Machine:
+    """The machine with arrays of tangents by some of its entries, for what is worked out in arrays.
+
+    An entry that follows from others keeps its derivatives by these, beside that by itself with all entries
+    of the file held.
+    """
+    units = dict(zip(names, np.eye(len(names)), strict=True))
+    seeds: dict[str, Any] = {
+        name: TangentArray(float(get(machine, name)), unit) for name, unit in units.items()
+    }
+    following = [name for name in names if not is_given(machine, name)]
+    alone = [exchanged(machine, {name: seeds[name] for name in names if name not in set(following)})]
+    alone += [exchanged(machine, {name: seeds[name]}) for name in following]
+    for name in following:
+        entries = [get(one, name) for one in alone]
+        d = sum((x.d for x in entries if isinstance(x, TangentArray)), start=np.zeros(len(names)))
+        seeds[name] = TangentArray(seeds[name].value, d)
+    return exchanged(machine, seeds)

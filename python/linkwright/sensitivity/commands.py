@@ -70,7 +70,7 @@ def sensitivity(
             units=machine.units,
             results=lambda curves: derivatives.to_dict(),
             warnings=[
-                f"{name} has a derivative on either side only: {why}"
+                f"{name} has a derivative on either side only, or none: {why}"
                 for name, why in derivatives.ties.items()
             ],
             tables=lambda: list(gradient_tables(shown)),

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.description.base import suggestion
-from linkwright.kernel.errors import InputError
+from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About
 from linkwright.kernel.result import Result
@@ -39,9 +39,15 @@ class Gradient(Result):
     variable_units: Annotated[tuple[str, ...], About("SI unit of each variable.")]
     values: Annotated[Floats, About("Values of the responses, (n,) [SI].")]
     at: Annotated[Floats, About("Values of the variables, (m,) [SI].")]
-    derivatives: Annotated[Floats, About("Response over variable, (n, m) [SI].")]
+    derivatives: Annotated[
+        Floats, About("Response over variable, (n, m) [SI]; NaN where `ties` says that there is none.")
+    ]
     ties: Annotated[
-        dict[str, str], About("Responses that have a derivative on either side only, each with the reason.")
+        dict[str, str],
+        About(
+            "Responses that have a derivative on either side only, or none by some entries, each with the "
+            "reason."
+        ),
     ]
     refused: Annotated[dict[str, str], About("Entries that have no derivative, each with the reason.")]
 
@@ -53,7 +59,7 @@ class Gradient(Result):
         return np.where(np.isfinite(elasticities), elasticities, np.nan)
 
     def of(self, response: str) -> dict[str, float]:
-        """Derivatives of one response by address [SI]."""
+        """Derivatives of one response by address [SI]; NaN where there is none."""
         row = self.derivatives[self.responses.index(response)]
         return dict(zip(self.variables, row.tolist(), strict=True))
 
@@ -72,12 +78,16 @@ class Gradient(Result):
         )
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
-        """Derivatives and elasticities by response and address."""
+        """Derivatives and elasticities by response and address, as far as there are some."""
         pairs = (("sensitivity", self.derivatives), ("elasticity", self.elasticities))
         tables = {
             name: {
-                response: dict(zip(self.variables, row.tolist(), strict=True))
-                for response, row in zip(self.responses, table, strict=True)
+                response: {
+                    address: value
+                    for address, value, slope in zip(self.variables, row.tolist(), slopes, strict=True)
+                    if np.isfinite(slope)
+                }
+                for response, row, slopes in zip(self.responses, table, self.derivatives, strict=True)
             }
             for name, table in pairs
         }
@@ -98,7 +108,9 @@ def gradient(
     responses : sequence of str, optional
         Such as ``"steady_state.unevenness"``, ``"free_vibration.natural_frequencies.1"`` or, of all modes,
         ``"free_vibration.natural_frequencies"``; an analysis stands for its usual ones. Without them every
-        scalar of the steady motion, or where nothing gives a speed the natural frequencies of the train.
+        scalar of the steady motion, or where nothing gives a speed the natural frequencies of the train, or
+        the scalars of the turning-moment diagram.
+        ``"forces"`` stands for the largest driving torque, shaking force and reactions.
     variables : sequence of str, optional
         Addresses, such as ``"mechanism.cranks.A2.phase"``; without them every number of the machine.
 
@@ -119,7 +131,8 @@ def gradient(
     -----
     An entry that others follow from counts with them: the rated speed of a motor moves its breakdown speed.
     Those that follow are varied with all entries of the file held. At a tie of two extremes the derivative is
-    that of the extreme in the results, and ``ties`` says so.
+    that of the extreme in the results, and ``ties`` says so. Largest forces are those among the crank angles
+    of `forces`; where one lies on a kink that an entry moves, it has no derivative by this entry.
 
     Examples
     --------
@@ -164,7 +177,12 @@ def _named(of: Source, name: str) -> list[str]:
     """The responses that a name means."""
     if name in SOURCES:
         return list(of.usual)
+    without = chosen(of.missing, name)
+    if name in without:
+        raise FindingError(f"{name} has no derivative: {of.missing[name]}")
     named = chosen(of.tangents, name)
+    if without and not named:
+        raise FindingError(f"{without[0]} has no derivative: {of.missing[without[0]]}")
     if not named:
         raise InputError(f'no response "{name}" with a derivative: {suggestion(name, of.tangents)}')
     return named
@@ -173,7 +191,14 @@ def _named(of: Source, name: str) -> list[str]:
 def _row(of: Source, name: str, variables: Sequence[str]) -> Floats:
     """Derivatives of a response by some of the variables of its source."""
     by = dict(zip(of.variables, of.tangents[name].d, strict=True))
-    return np.array([by[variable] for variable in variables])
+    row = np.array([by[variable] for variable in variables])
+    if name not in of.ties and not np.isfinite(row).all():
+        lost = variables[int(np.argmin(np.isfinite(row)))]
+        raise FindingError(
+            f"{name}: its derivative by {lost} was not found: kinks of the motion move without end; leave "
+            "this entry out, or vary it in a sweep"
+        )
+    return row
 
 
 def _unit(machine: Machine, address: str) -> str:

@@ -7,6 +7,8 @@
 | ``free_vibration.mode_shapes.1.DISC`` | all modes (there too) |
 | ``forced_vibration.shaft_torque_vibratory.SHAFT`` | the adjoint (`linkwright.torsion.gradient.forced`) |
 | ``forced_vibration.shaft_torque_max.SHAFT`` | there too |
+| ``turning_moment.…`` | integrals of the torques' derivatives (`linkwright.turning.gradient`) |
+| ``forces.…``, ``forces.reaction_max.PAIR`` | the equilibrium (`linkwright.kinetostatics.gradient`) |
 """
 
 from __future__ import annotations
@@ -21,7 +23,7 @@ from linkwright.kernel.errors import InputError, cut
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.kernel.quantities import Label, declared, shown
 from linkwright.machine.machine import Machine
-from linkwright.machine.tangents import directions
+from linkwright.machine.tangents import Derivatives, directions
 
 
 @dataclass(frozen=True)
@@ -29,8 +31,8 @@ class Source:
     """Responses of an analysis with their derivatives by `variables`, those of the entries asked for that
     have some.
 
-    `words` and `units` by response; `ties` and `refused` with their reasons; `usual` are the responses that
-    are given if none is named.
+    `words` and `units` by response; `ties`, `refused` and `missing`, responses without derivatives, with
+    their reasons; `usual` are the responses that are given if none is named.
     """
 
     variables: tuple[str, ...]
@@ -40,6 +42,7 @@ class Source:
     ties: Mapping[str, str]
     refused: Mapping[str, str]
     usual: Sequence[str] = field(default=())
+    missing: Mapping[str, str] = field(default_factory=dict)
 
 
 def usual_analysis(machine: Machine) -> str:
@@ -49,6 +52,8 @@ def usual_analysis(machine: Machine) -> str:
         return "steady_state"
     if machine.train is not None or (machine.drive is not None and machine.drive.twists):
         return "free_vibration"
+    if machine.turning_moment is not None:
+        return "turning_moment"
     return "steady_state"
 
 
@@ -137,11 +142,56 @@ def _forced(machine: Machine, variables: Sequence[str]) -> Source:
     return Source(forced.variables, tangents, words, units, ties, forced.refused, list(tangents))
 
 
+def _forces(machine: Machine, variables: Sequence[str]) -> Source:
+    """Largest forces and torques in the motion of the machine."""
+    from linkwright.kinetostatics.gradient import force_tangents
+    from linkwright.kinetostatics.result import Forces
+
+    found = force_tangents(machine, variables)
+    pairs = [name for name in (*found.tangents, *found.missing) if name.startswith("reaction_max.")]
+    words = {name: f"maximum force of {name.partition('.')[2]}" for name in pairs}
+    return _of_scalars("forces", Forces, found, words, dict.fromkeys(pairs, "N"))
+
+
+def _turning(machine: Machine, variables: Sequence[str]) -> Source:
+    """Fluctuation of energy, flywheel and rim of a turning-moment diagram."""
+    from linkwright.turning.diagram import TurningMomentDiagram
+    from linkwright.turning.gradient import turning_tangents
+
+    return _of_scalars("turning_moment", TurningMomentDiagram, turning_tangents(machine, variables))
+
+
+def _of_scalars(
+    prefix: str,
+    kind: type,
+    found: Derivatives,
+    words: Mapping[str, str] | None = None,
+    units: Mapping[str, str] | None = None,
+) -> Source:
+    """Scalars of a result, called as they are declared, and others by `words` and `units`."""
+    marks = {name: shown(kind, name) for name in found.tangents if name not in (words or {})}
+    words = {name: f"{mark.word} {mark.symbol}".strip() for name, mark in marks.items()} | dict(words or {})
+    units = {name: mark.unit for name, mark in marks.items()} | dict(units or {})
+    listed = [f"{prefix}.{name}" for name in found.tangents]
+    return Source(
+        found.variables,
+        {f"{prefix}.{name}": value for name, value in found.tangents.items()},
+        {f"{prefix}.{name}": word for name, word in words.items()},
+        {f"{prefix}.{name}": unit for name, unit in units.items()},
+        {f"{prefix}.{name}": reason for name, reason in found.ties.items()},
+        found.refused,
+        listed,
+        {f"{prefix}.{name}": reason for name, reason in found.missing.items()},
+    )
+
+
 # Analysis → its results with derivatives.
 SOURCES: dict[str, Callable[[Machine, Sequence[str]], Source]] = {
     "steady_state": _steady,
     "free_vibration": _free,
     "forced_vibration": _forced,
+    "forces": _forces,
+    "turning_moment": _turning,
 }
 
 

@@ -20,9 +20,10 @@ def ranked(gradient: Gradient, response: str) -> list[int]:
     Entries that are zero follow, by the size of the derivative.
     """
     row = gradient.responses.index(response)
-    effect = np.abs(gradient.derivatives[row] * gradient.at)
-    order = sorted(range(len(effect)), key=lambda at: (-effect[at], -abs(gradient.derivatives[row, at])))
-    return [at for at in order if gradient.derivatives[row, at] != 0]
+    slopes = gradient.derivatives[row]
+    effect = np.abs(slopes * gradient.at)
+    known = np.flatnonzero(np.isfinite(slopes) & (slopes != 0)).tolist()
+    return sorted(known, key=lambda at: (-effect[at], -abs(slopes[at])))
 
 
 def gradient_tables(gradient: Gradient) -> Iterator[Table]:

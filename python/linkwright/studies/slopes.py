@@ -150,6 +150,9 @@ def _analysed(plan: StudyPlan, known: Mapping[str, Any]) -> tuple[dict[str, Tang
         tangent = own.tangents[name]
         by = zip(own.variables, tangent.d, strict=True)
         slope = sum((d * entries[place].d for place, d in by), start=np.zeros(len(plan.axes)))
+        if not np.isfinite(slope).all():
+            # On a kink that a variable moves there is no derivative by it.
+            continue
         tangents[asked.name] = Tangent(tangent.value, slope)
         if name in own.ties:
             ties[asked.name] = own.ties[name]

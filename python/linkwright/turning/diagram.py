@@ -20,7 +20,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Annotated, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,7 +47,7 @@ _BALANCED = 1e-4
 _READING = 1e-2
 
 # Rows of the curves of excess, driver and load.
-_EXCESS, _DRIVER, _LOAD = range(3)
+EXCESS, DRIVER, LOAD = range(3)
 
 
 def _nothing() -> Floats:
@@ -264,7 +264,7 @@ def _of_areas(described: TurningMoment) -> TurningMomentDiagram:
             "cycle; areas above and below the mean have to be equal"
         )
     change = float(np.ptp(np.append(after, 0.0)))
-    evened = _evened(described, change)
+    effect = evened(described, change)
     rows = tuple(
         {"start": None, "end": None, "energy": float(area), "energy_after": float(then)}
         for area, then in zip(areas, after, strict=True)
@@ -275,30 +275,30 @@ def _of_areas(described: TurningMoment) -> TurningMomentDiagram:
         energy_fluctuation=change,
         accuracy=float(abs(after[-1])) / change,
         areas=rows,
-        **evened._asdict(),
-        **_rim(described, evened)._asdict(),
+        **effect._asdict(),
+        **rim_of(described, effect)._asdict(),
     )
 
 
 def _of_curves(described: TurningMoment, n: int) -> TurningMomentDiagram:
     """From torques over the angle."""
     cycle = described.cycle
-    curves = _curves(described)
-    driver, load = curves.mean()[[_DRIVER, _LOAD]]
+    curves = fitted_curves(described)
+    driver, load = curves.mean()[[DRIVER, LOAD]]
     _require_balance(float(driver), float(load), curves, described)
-    energy = curves.excess(_EXCESS, _EXCESS, 0.0)
+    energy = curves.excess(EXCESS, EXCESS, 0.0)
     most, at_most = energy.extreme(+1)
     least, at_least = energy.extreme(-1)
     change = most - least
-    evened = _evened(described, change)
+    effect = evened(described, change)
     phi = np.linspace(0.0, cycle, n + 1)
     _, T, M = curves.at(phi)
     E = energy.at(phi)[0]
     work = float(driver) * cycle
-    highest, at_highest = curves.extreme(+1, _DRIVER)
-    lowest, at_lowest = curves.extreme(-1, _DRIVER)
+    highest, at_highest = curves.extreme(+1, DRIVER)
+    lowest, at_lowest = curves.extreme(-1, DRIVER)
     speeding, slowing = curves.extreme(+1)[0], curves.extreme(-1)[0]
-    J = evened.inertia
+    J = effect.inertia
     return TurningMomentDiagram(
         cycle=cycle,
         speed_mean=described.speed,
@@ -313,21 +313,21 @@ def _of_curves(described: TurningMoment, n: int) -> TurningMomentDiagram:
         torque_driver_min_angle=at_lowest,
         speed_max_angle=at_most,
         speed_min_angle=at_least,
-        **evened._asdict(),
-        **_rim(described, evened)._asdict(),
+        **effect._asdict(),
+        **rim_of(described, effect)._asdict(),
         acceleration_max=None if J is None else speeding / J,
         acceleration_min=None if J is None else slowing / J,
-        accuracy=float(curves.error[_EXCESS] / change) if change else 0.0,
+        accuracy=float(curves.error[EXCESS] / change) if change else 0.0,
         areas=_areas(curves, energy, cycle),
         crank_angle=phi,
         torque_driver=T,
         torque_load=M,
         energy=E,
-        speed=_speed(E - least, evened),
+        speed=_speed(E - least, effect),
     )
 
 
-def _curves(described: TurningMoment) -> TurnCurve:
+def fitted_curves(described: TurningMoment) -> TurnCurve:
     """Excess, driver and load over the cycle; what is left out is the mean of the other."""
     cycle, driver, load = described.cycle, described.driver, described.load
     kinks = [torque.kinks(cycle) for torque in (driver, load) if torque is not None]
@@ -353,7 +353,7 @@ def _excess(driver: Floats, load: Floats) -> tuple[Floats, ...]:
 
 
 def _require_balance(driver: float, load: float, curves: TurnCurve, described: TurningMoment) -> None:
-    size = float(curves.size[_DRIVER] + curves.size[_LOAD]) / described.cycle
+    size = float(curves.size[DRIVER] + curves.size[LOAD]) / described.cycle
     if abs(driver - load) > _BALANCED * size:
         raise FindingError(
             f"turning_moment: the mean torque of the driver is {driver:.6g} N m, that of the load "
@@ -362,7 +362,7 @@ def _require_balance(driver: float, load: float, curves: TurnCurve, described: T
         )
 
 
-def _evened(described: TurningMoment, change: float) -> _FlywheelEffect:
+def evened(described: TurningMoment, change: Any) -> _FlywheelEffect:
     """The flywheel that is asked for, or the speed fluctuation that the given inertia gives."""
     omega, wanted, own = described.speed, described.unevenness, described.inertia or 0.0
     flywheel = mass = None
@@ -384,16 +384,16 @@ def _evened(described: TurningMoment, change: float) -> _FlywheelEffect:
     return _FlywheelEffect(total, flywheel, mass, delta, omega * (1 - delta / 2), omega * (1 + delta / 2))
 
 
-def _rim(described: TurningMoment, evened: _FlywheelEffect) -> RimSize:
+def rim_of(described: TurningMoment, effect: _FlywheelEffect) -> RimSize:
     """The rim of the flywheel that is asked for, or else of the inertia that the shaft has."""
-    wanted = evened.flywheel_inertia
-    return rim_size(described.rim, described.speed, evened.inertia if wanted is None else wanted)
+    wanted = effect.flywheel_inertia
+    return rim_size(described.rim, described.speed, effect.inertia if wanted is None else wanted)
 
 
 def _areas(curves: TurnCurve, energy: TurnCurve, cycle: float) -> tuple[dict[str, float | None], ...]:
     """Areas between the crossings of driver and load, once round."""
-    at = curves.crossings(_EXCESS)
-    first, last = (float(curves.at(np.array([phi]))[_EXCESS, 0]) for phi in (0.0, cycle * (1 - 1e-12)))
+    at = curves.crossings(EXCESS)
+    first, last = (float(curves.at(np.array([phi]))[EXCESS, 0]) for phi in (0.0, cycle * (1 - 1e-12)))
     if first * last < 0:
         # It crosses where one cycle meets the next.
         at = np.append(0.0, at)

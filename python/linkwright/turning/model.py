@@ -31,6 +31,7 @@ from linkwright.kernel.description.cycle import ONE_TURN, CycleAngle, cycle_faul
 from linkwright.kernel.description.formula import NUMBERS, parse
 from linkwright.kernel.description.formula_faults import constant_faults, text_faults
 from linkwright.kernel.numerics.formula_value import value
+from linkwright.kernel.numerics.tangent_array import numbers
 from linkwright.kernel.units import (
     COUNT,
     DENSITY,
@@ -79,7 +80,7 @@ class ConstantShaftTorque(ShaftTorque):
     torque: Torque = Field(description="Torque.")
 
     def at(self, phi: Floats, cycle: float) -> Floats:
-        return np.full(len(phi), self.torque)
+        return self.torque * np.ones(len(phi))
 
 
 class FormulaShaftTorque(ShaftTorque):
@@ -99,8 +100,7 @@ class FormulaShaftTorque(ShaftTorque):
         # Where a formula has no value the fit says so, with the angle.
         with np.errstate(all="ignore"):
             values = value(parse(self.torque), {**NUMBERS, **self.constants, "phi": phi})
-        torque: Floats = np.broadcast_to(np.asarray(values, dtype=float), phi.shape)
-        return torque
+        return values * np.ones(phi.shape)
 
 
 class TableShaftTorque(ShaftTorque):
@@ -143,12 +143,13 @@ class TableShaftTorque(ShaftTorque):
         return corners
 
     def at(self, phi: Floats, cycle: float) -> Floats:
-        angle, torque = np.asarray(self.angle), np.asarray(self.torque)
+        angle, torque = numbers(self.angle), numbers(self.torque)
         if self._closes(cycle):
             angle, torque = angle[:-1], torque[:-1]
         from_first = np.mod(phi - angle[0], cycle)
         if self.between == "steps":
-            held: Floats = torque[np.searchsorted(angle - angle[0], from_first, side="right") - 1]
+            steps = np.searchsorted(np.asarray(angle - angle[0]), np.asarray(from_first), side="right")
+            held: Floats = torque[steps - 1]
             return held
         straight: Floats = np.interp(from_first, angle - angle[0], torque, period=cycle)
         return straight

@@ -16,7 +16,9 @@ References
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
+
+import numpy as np
 
 from linkwright.turning.model import FlywheelRim
 
@@ -33,7 +35,7 @@ class RimSize(NamedTuple):
     rim_thickness: float | None = None
 
 
-def rim_size(rim: FlywheelRim | None, speed: float, inertia: float | None) -> RimSize:
+def rim_size(rim: FlywheelRim | None, speed: Any, inertia: Any) -> RimSize:
     """A rim at its mean speed [rad/s], for the moment of inertia of its flywheel [kg m²]."""
     if rim is None:
         return RimSize()
@@ -41,7 +43,7 @@ def rim_size(rim: FlywheelRim | None, speed: float, inertia: float | None) -> Ri
         assert rim.radius is not None
         radius = rim.radius
     else:
-        radius = math.sqrt(rim.stress / rim.density) / speed
+        radius = np.sqrt(rim.stress / rim.density) / speed
     v = speed * radius
     moving = RimSize(radius, v, rim.density * v**2)
     if not inertia:
@@ -51,5 +53,5 @@ def rim_size(rim: FlywheelRim | None, speed: float, inertia: float | None) -> Ri
     sized = moving._replace(rim_mass=mass, rim_area=area)
     if rim.width_ratio is None:
         return sized
-    thickness = math.sqrt(area / rim.width_ratio)
+    thickness = np.sqrt(area / rim.width_ratio)
     return sized._replace(rim_width=rim.width_ratio * thickness, rim_thickness=thickness)

@@ -20,10 +20,12 @@
 //! | [`steady`] | steady motion of one machine to a wanted accuracy |
 //! | [`gradient`] | derivatives of steady motion by the numbers of the machine |
 //! | [`transient`] | motion in time from given angle and speed, with its events |
+//! | [`along`] | derivatives of motions and of the acceleration at given states |
 //! | `passing` | kinks of the drive as ends of steps of machines in lanes |
 //! | [`batch`] | steady motions of many machines: lanes and threads |
 //! | [`motions`] | motions of many machines over the crank angle |
 
+pub mod along;
 pub mod batch;
 pub mod between;
 pub mod check;

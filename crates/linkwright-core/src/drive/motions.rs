@@ -214,63 +214,58 @@ impl MotionJob<'_, '_> {
                 let angle =
                     Angle { phi: R::load(&phi[at..]), sin: R::load(&sin[at..]), cos: R::load(&cos[at..]) };
                 plan.mechanism.place::<R, 2>(&q, angle, &mut m);
-                store(&m, channels, at, &mut out);
+                store(&m, channels, at, &mut out, |x: R, to| x.store(to));
             }
             // The angles that do not fill all lanes.
             for at in whole..n {
                 let angle = Angle { phi: phi[at], sin: sin[at], cos: cos[at] };
                 plan.mechanism.place::<f64, 2>(&row, angle, &mut rest);
-                store(&rest, channels, at, &mut out);
+                store(&rest, channels, at, &mut out, |x, to| to[0] = x);
             }
         }
     }
 }
 
-/// Writes all channels at one angle (or one a lane), a number to each list.
+/// Writes all channels at one angle (or one a lane) by `write`, a number to each list.
 #[inline(always)]
-fn store<R: Real>(m: &Motion<R>, channels: &[Channel], at: usize, out: &mut [&mut [f64]]) {
+pub(super) fn store<R: Real>(
+    m: &Motion<R>,
+    channels: &[Channel],
+    at: usize,
+    out: &mut [&mut [f64]],
+    write: impl Fn(R, &mut [f64]),
+) {
     let mut lists = out.iter_mut();
-    let mut put = Writer { lists: &mut lists, at };
+    // There are as many lists as the channels have numbers.
+    let mut put = |value: R| {
+        if let Some(list) = lists.next() {
+            write(value, &mut list[at..]);
+        }
+    };
     for channel in channels {
         match *channel {
             Channel::Point(i) => {
                 let place = &m.points[i];
-                put.next(place.p.x);
-                put.next(place.p.y);
-                put.next(place.d1.x);
-                put.next(place.d1.y);
-                put.next(place.d2.x);
-                put.next(place.d2.y);
+                put(place.p.x);
+                put(place.p.y);
+                put(place.d1.x);
+                put(place.d1.y);
+                put(place.d2.x);
+                put(place.d2.y);
             }
             Channel::Link(i) => {
                 let link = &m.links[i];
-                put.next(link.e.x);
-                put.next(link.e.y);
-                put.next(link.d1);
-                put.next(link.d2);
+                put(link.e.x);
+                put(link.e.y);
+                put(link.d1);
+                put(link.d2);
             }
             Channel::Slide(i) => {
                 let slide = &m.slides[i];
-                put.next(slide.s);
-                put.next(slide.d1);
-                put.next(slide.d2);
+                put(slide.s);
+                put(slide.d1);
+                put(slide.d2);
             }
-        }
-    }
-}
-
-/// Writes one number after the other, each to the next list.
-struct Writer<'a, 'b, 'c> {
-    lists: &'a mut std::slice::IterMut<'b, &'c mut [f64]>,
-    at: usize,
-}
-
-impl Writer<'_, '_, '_> {
-    #[inline(always)]
-    fn next<R: Real>(&mut self, value: R) {
-        // There are as many lists as the channels have numbers.
-        if let Some(list) = self.lists.next() {
-            value.store(&mut list[self.at..]);
         }
     }
 }

@@ -30,7 +30,7 @@ References
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -54,7 +54,7 @@ class Contact:
     law: MotionLaw  # lift over the cam angle, minimum value zero [m or rad]
     sizes: Sizes
     kernel: CamKernel  # the same in the core
-    start: float  # place of the follower at zero lift: from the cam's centre [m], or angle of the arm [rad]
+    start: Any  # place of the follower at zero lift: from the cam's centre [m], or angle of the arm [rad]
     turned: float = 0.0  # angle of the contact's frame against that of the first [rad]
 
 
@@ -95,24 +95,24 @@ class Touch(NamedTuple):
 
 def touch(cam: Cam, contact: Contact, points: dict[str, FixedPoint], crank_angle: Floats) -> Touch:
     """Where a follower touches its cam at crank angles (n,) [rad]: places and normals."""
-    angle = np.asarray(crank_angle, dtype=float) - cam.phase
+    angle = crank_angle - cam.phase
     rows = contact.kernel.rows(np.mod(angle, 2 * np.pi))
     turned = frame_angle(cam, points) + contact.turned + turned_by(cam, angle)
-    pitch = np.array(centre_of(cam, points)) + _turned(rows["pitch_x"], rows["pitch_y"], turned)
+    pitch = np.stack(centre_of(cam, points)) + _turned(rows["pitch_x"], rows["pitch_y"], turned)
     return Touch(pitch, _turned(rows["normal_x"], rows["normal_y"], turned))
 
 
-def centre_of(cam: Cam, points: dict[str, FixedPoint]) -> tuple[float, float]:
+def centre_of(cam: Cam, points: dict[str, FixedPoint]) -> tuple[Any, Any]:
     """Place of the cam's centre, x and y [m]."""
     centre = points.get(cam.pivot or ORIGIN)
-    return (0.0, 0.0) if centre is None else (float(centre.x), float(centre.y))
+    return (0.0, 0.0) if centre is None else (centre.x, centre.y)
 
 
-def frame_angle(cam: Cam, points: dict[str, FixedPoint]) -> float:
+def frame_angle(cam: Cam, points: dict[str, FixedPoint]) -> Any:
     """Direction of the first contact's x axis on the ground [rad]."""
     if not cam.is_oscillating:
-        return float(cam.direction)
-    return float(np.arctan2(*to_arm_pivot(cam, points)[::-1]))
+        return cam.direction
+    return np.arctan2(*to_arm_pivot(cam, points)[::-1])
 
 
 def turned_by(cam: Cam, angle: Floats) -> Floats:
@@ -164,7 +164,7 @@ def _contact(
         opposite=cam.rotation == "opposite",
         left=left,
     )
-    return Contact(name, law, size, kernel, float(start_of(cam, size)), turned)
+    return Contact(name, law, size, kernel, start_of(cam, size), turned)
 
 
 def _conjugate(cam: Cam, first: Contact, name: str) -> Contact:

@@ -124,7 +124,7 @@ def breakdown_slip(slip_rated: Any, overload: Any, resistance_ratio: Any) -> Any
     s_n, lam, a = slip_rated, overload, resistance_ratio
     # Where no formula goes through the point, and beyond the range of floats, there is no slip.
     with np.errstate(all="ignore"):
-        square = 1 / np.asarray(s_n) + 2 * a - 2 * lam * a
+        square = np.divide(1.0, s_n) + 2 * a - 2 * lam * a
         slip = np.where(square > 0, (lam + np.sqrt(lam * lam - square * s_n)) / square, np.nan)
     return slip if slip.ndim else slip.item()
 

@@ -66,33 +66,41 @@ class Tangent:
     def __abs__(self) -> Tangent:
         return -self if self.value < 0 else self
 
-    def __add__(self, other: Any) -> Tangent:
+    def __add__(self, other: Any) -> Any:
+        if _is_array(other):
+            return NotImplemented
         if isinstance(other, Tangent):
             return Tangent(self.value + other.value, self.d + other.d)
         return Tangent(self.value + other, self.d)
 
     __radd__ = __add__
 
-    def __sub__(self, other: Any) -> Tangent:
+    def __sub__(self, other: Any) -> Any:
         return self.__add__(-other)
 
-    def __rsub__(self, other: Any) -> Tangent:
+    def __rsub__(self, other: Any) -> Any:
         return (-self).__add__(other)
 
-    def __mul__(self, other: Any) -> Tangent:
+    def __mul__(self, other: Any) -> Any:
+        if _is_array(other):
+            return NotImplemented
         if isinstance(other, Tangent):
             return Tangent(self.value * other.value, self.d * other.value + self.value * other.d)
         return Tangent(self.value * other, self.d * float(other))
 
     __rmul__ = __mul__
 
-    def __truediv__(self, other: Any) -> Tangent:
+    def __truediv__(self, other: Any) -> Any:
+        if _is_array(other):
+            return NotImplemented
         return self.__mul__(other.reciprocal() if isinstance(other, Tangent) else 1.0 / other)
 
     def __rtruediv__(self, other: Any) -> Tangent:
         return self.reciprocal().__mul__(other)
 
-    def __pow__(self, power: Any) -> Tangent:
+    def __pow__(self, power: Any) -> Any:
+        if _is_array(power):
+            return NotImplemented
         if isinstance(power, Tangent):
             return power.__mul__(self.log()).exp()
         return self._by(self.value**power, power * self.value ** (power - 1))
@@ -102,6 +110,11 @@ class Tangent:
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:
         """NumPy's functions of numbers; element by element where an array takes part."""
+        if any(
+            hasattr(value, "__array_function__") and not isinstance(value, np.ndarray) for value in inputs
+        ):
+            # Arrays of tangents know what to do.
+            return NotImplemented
         rule = _RULES.get(ufunc.__name__)
         if rule is None or method != "__call__" or options:
             raise TypeError(f"no derivative of numpy.{ufunc.__name__}")
@@ -158,6 +171,11 @@ class Tangent:
         return self._by(math.atan(self.value), 1.0 / (1.0 + self.value**2))
 
 
+def _is_array(x: Any) -> bool:
+    """Whether an array works out what it makes with a number."""
+    return hasattr(x, "__array_ufunc__") and not isinstance(x, Tangent | np.generic)
+
+
 def primal(x: Any) -> Any:
     """The number alone, where derivatives have no part: starting points, sides, windings."""
     return x.value if isinstance(x, Tangent) else x
@@ -201,6 +219,7 @@ _RULES: dict[str, Callable[..., Any]] = {
     "absolute": abs,
     "hypot": lambda x, y: (x * x + y * y) ** 0.5,
     "arctan2": _arctan2,
+    "remainder": lambda x, y: x - math.floor(primal(x) / primal(y)) * y,
     "deg2rad": lambda x: x * (math.pi / 180),
     "rad2deg": lambda x: x * (180 / math.pi),
     "radians": lambda x: x * (math.pi / 180),

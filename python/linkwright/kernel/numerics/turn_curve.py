@@ -103,6 +103,12 @@ class TurnCurve:
         at = first[np.argmin(angles[first])]
         return float(sign * values[at]), float(angles[at])
 
+    def extremes(self, sign: int, k: int, share: float) -> Floats:
+        """Crank angles that have the maximum (+1) or minimum (−1) but for a share of the peak, increasing."""
+        values, angles = self._candidates(sign, k)
+        near: Floats = np.unique(angles[values >= values.max() - share * self.peak[k]])
+        return near
+
     def excess(self, k: int, other: int, factor: float) -> TurnCurve:
         r"""The continuous quantity :math:`\int (f_k - \bar f_k)\,d\varphi + c f_o` with c the factor, from
         the first end.

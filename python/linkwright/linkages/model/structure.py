@@ -148,7 +148,8 @@ def slider_guide(mechanism: Mechanism, name: str) -> Guide:
     through = slider.through
     if through is None and slider.on is None and slider.crank in mechanism.cranks:
         through = mechanism.cranks[slider.crank].pivot
-    return Guide(through=through, on=slider.on, angle=slider.angle, offset=slider.offset)
+    # Checked numbers, which may carry derivatives.
+    return Guide(through=through, on=slider.on).with_entries({"angle": slider.angle, "offset": slider.offset})
 
 
 @dataclass(slots=True)
@@ -252,7 +253,7 @@ class _Builder:
         for name, lever in self.mechanism.slotted_levers.items():
             self._link(name, lever.pivot)
             self._pin(lever.pivot, name)
-            slot = Guide(on=name, through=lever.pivot, offset=lever.offset)
+            slot = Guide(on=name, through=lever.pivot).with_entries({"offset": lever.offset})
             self._slot(f"{name}.slot", name, lever.pin, slot)
 
     def _slot(self, name: str, member: str, pin: str, slot: Guide) -> None:
@@ -268,7 +269,12 @@ class _Builder:
         for name, yoke in self.mechanism.yokes.items():
             self._link(name, name)
             self._guide(f"{name}.guide", name, yoke.guide)
-            self._slot(f"{name}.slot", name, yoke.pin, Guide(on=name, through=name, angle=yoke.slot))
+            self._slot(
+                f"{name}.slot",
+                name,
+                yoke.pin,
+                Guide(on=name, through=name).with_entries({"angle": yoke.slot}),
+            )
 
     def _gears(self) -> None:
         for name, gear in self.mechanism.gears.items():
@@ -287,7 +293,7 @@ class _Builder:
         for name, cable in self.mechanism.cables.items():
             radius = cable.radius if cable.side == "left" else -cable.radius
             start = self.mechanism.links()[cable.link].start
-            line = Guide(through=start, angle=cable.angle, offset=radius)
+            line = Guide(through=start).with_entries({"angle": cable.angle, "offset": radius})
             self._block(name, line)
             self.others.append(Pair(f"{name}.cable", "cable", cable.link, name, name, line, name))
 

@@ -18,7 +18,7 @@ from linkwright.kinetostatics.model.loads.force import FormulaLoad
 from linkwright.kinetostatics.model.loads.table import TorqueSpeed
 from linkwright.machine.address import addresses
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.core import Element
+from linkwright.machine.program.core import Element, require
 from linkwright.machine.program.drive_line import drive_of
 from linkwright.machine.program.initial_assembly import InitialAssembly
 from linkwright.machine.program.loads import Loads, bodies_of
@@ -215,6 +215,19 @@ class CompiledMachine:
     ) -> _core.ThirdDerivatives:
         """Third derivatives of the first row at crank angles; see `_core.third`."""
         return _core.third(self.plan, self.parameters, angles, points=points, links=links, slides=slides)
+
+    def motions_along(self, directions: Floats, angles: Floats, channels: Sequence[_core.Channel]) -> Floats:
+        """Derivatives of motions at crank angles by directions (parameters, k), (numbers, n, k)."""
+        require("motions_along")
+        q, way = self.one, np.ascontiguousarray(directions)
+        along = _core.motions_along(self.plan, q, way, np.ascontiguousarray(angles), channels)
+        return along.reshape(len(along), len(angles), way.shape[1])
+
+    def kinks_along(self, directions: Floats, angles: Floats) -> Floats:
+        """Derivatives of crank angles that are kinks by directions (parameters, k), (n, k)."""
+        require("kinks_along")
+        way = np.ascontiguousarray(directions)
+        return _core.kinks_along(self.plan, self.one, way, np.ascontiguousarray(angles))
 
     def without_conservative(self) -> CompiledMachine:
         """The machine without loads that have a potential: gravity, springs, forces fixed in the frame."""

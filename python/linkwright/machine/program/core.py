@@ -20,6 +20,13 @@ def check_format(core: object) -> None:
 
 check_format(_core)
 
+
+def require(name: str) -> None:
+    """Refuse a core without a function that came later than the others of its format, by a `CoreError`."""
+    if not hasattr(_core, name):
+        raise CoreError(FORMAT, FORMAT, f"{_core.__file__}: {name} is missing")
+
+
 # What a program consists of, for those who read it.
 Element = _core.Element
 Line = _core.Line

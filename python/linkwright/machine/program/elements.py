@@ -129,7 +129,9 @@ class Elements(Places):
         self._foldable(name, rod, rod.sign)
 
     def _guided_rod(self, name: str, slider: Slider) -> None:
-        guide = Guide(through=slider.through, on=slider.on, angle=slider.angle, offset=slider.offset)
+        guide = Guide(through=slider.through, on=slider.on)
+        # Checked numbers, which may carry derivatives or be arrays over many machines.
+        guide = guide.with_entries({"angle": slider.angle, "offset": slider.offset})
         sign = 1.0 if slider.assembly == "positive" else -1.0
         self._rod(name, f"{name}.rod", slider.crank, self._guide(guide), slider.rod, sign)
 

@@ -214,7 +214,7 @@ class Loads:
         if load.torque is not None:
             on, carrier = _core.Load.FormulaOnLink, {"link": self.links[load.on]}
         elif load.along is not None or load.direction is not None:
-            cos, sin = self._vector(1.0, load.direction or 0.0)
+            cos, sin = self._vector(1.0, 0.0 if load.direction is None else load.direction)
             on, carrier = _core.Load.FormulaOnPoint, {"point": self.points[load.on], "cos": cos, "sin": sin}
             if load.along is not None:
                 on, carrier = _core.Load.FormulaAlong, carrier | {"link": self.links[load.along]}

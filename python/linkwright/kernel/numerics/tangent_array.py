@@ -1,0 +1,393 @@
+"""Arrays of numbers with their derivatives by several variables, which follow NumPy's arithmetic.
+
+What is worked out in NumPy of such an array comes out with its derivatives, f(a + b ε) = f(a) + f′(a) b ε, of
+all variables at once. Comparisons look at the values alone. A function without a rule here is refused, as
+with `linkwright.kernel.numerics.tangent`: a derivative is never dropped on the way.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.numerics.tangent import Tangent
+
+Floats = NDArray[np.float64]
+
+
+class TangentArray:
+    """Values and their derivatives by n variables.
+
+    Parameters
+    ----------
+    value : ndarray, shape (…)
+        The numbers.
+    d : ndarray, shape (…, n)
+        Their derivatives.
+    """
+
+    __slots__ = ("d", "value")
+    __hash__ = None  # type: ignore[assignment]
+
+    def __init__(self, value: Any, d: Any) -> None:
+        self.value, self.d = np.asarray(value), np.asarray(d)
+
+    # -- an array like any other -------------------------------------------------------------------------
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Of the values."""
+        return self.value.shape
+
+    @property
+    def ndim(self) -> int:
+        """Of the values."""
+        return self.value.ndim
+
+    @property
+    def size(self) -> int:
+        """How many values."""
+        return self.value.size
+
+    @property
+    def T(self) -> TangentArray:
+        """The axes in reverse."""
+        d = np.moveaxis(self.d.transpose(), 0, -1)
+        return TangentArray(self.value.T, d)
+
+    def __len__(self) -> int:
+        return len(self.value)
+
+    def __repr__(self) -> str:
+        return f"TangentArray({self.value!r}, {self.d!r})"
+
+    def __getitem__(self, key: Any) -> TangentArray:
+        return TangentArray(self.value[key], self.d[_with_lanes(key)])
+
+    def __setitem__(self, key: Any, new: Any) -> None:
+        new = _lifted(new, self.d.shape[-1])
+        self.value[key], self.d[_with_lanes(key)] = new.value, new.d
+
+    def __bool__(self) -> bool:
+        return bool(self.value)
+
+    def __array__(self, *_: Any, **__: Any) -> Any:
+        """Refuse to become an array without derivatives."""
+        raise TypeError("an array with derivatives does not become one without")
+
+    def copy(self) -> TangentArray:
+        """A copy of values and derivatives."""
+        return TangentArray(self.value.copy(), self.d.copy())
+
+    def reshape(self, *shape: Any) -> TangentArray:
+        """The same numbers in another shape."""
+        value = self.value.reshape(*shape)
+        return TangentArray(value, self.d.reshape((*value.shape, self.d.shape[-1])))
+
+    def sum(self, axis: int | None = None) -> TangentArray:
+        """Sum over an axis or all."""
+        axes = tuple(range(self.ndim)) if axis is None else (axis % self.ndim,)
+        return TangentArray(self.value.sum(axis=axes), self.d.sum(axis=axes))
+
+    def max(self) -> float:
+        """The largest value."""
+        return float(self.value.max())
+
+    def min(self) -> float:
+        """The smallest value."""
+        return float(self.value.min())
+
+    def item(self) -> TangentArray:
+        """The one number, with its derivatives."""
+        return self.reshape(())
+
+    def number(self) -> Tangent:
+        """The one number of an array without axes."""
+        return Tangent(float(self.value), self.d)
+
+    # -- arithmetic --------------------------------------------------------------------------------------
+
+    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:
+        """NumPy's functions of numbers."""
+        if method != "__call__" or options:
+            raise TypeError(f"no derivative of numpy.{ufunc.__name__} with {method} and {sorted(options)}")
+        arrays = [_lifted(x, self.d.shape[-1]) for x in inputs]
+        values = [x.value for x in arrays]
+        if ufunc.__name__ in _OF_VALUES:
+            return ufunc(*values)
+        if len(inputs) == 1 and ufunc.__name__ in _SLOPES:
+            value, slope = _SLOPES[ufunc.__name__](values[0])
+            return TangentArray(value, _times(slope, arrays[0].d))
+        if len(inputs) == 2 and ufunc.__name__ in _SLOPES_OF_TWO:
+            value, *slopes = _SLOPES_OF_TWO[ufunc.__name__](*values)
+            d = sum(_times(slope, x.d) for slope, x in zip(slopes, arrays, strict=True))
+            return TangentArray(value, np.broadcast_to(d, (*np.shape(value), self.d.shape[-1])))
+        raise TypeError(f"no derivative of numpy.{ufunc.__name__}")
+
+    def __array_function__(self, function: Any, types: Any, inputs: Any, options: Any) -> Any:
+        """NumPy's functions of arrays."""
+        rule = _FUNCTIONS.get(function)
+        if rule is None:
+            raise TypeError(f"no derivative of numpy.{function.__name__}")
+        return rule(*inputs, **options)
+
+
+def _times(slope: Any, d: Floats) -> Floats:
+    """A slope times derivatives; where these are zero it need not exist."""
+    slope = np.asarray(slope)[..., None]
+    if np.isfinite(slope).all():
+        return np.asarray(slope * d)
+    with np.errstate(invalid="ignore"):
+        return np.where(d == 0.0, 0.0, slope * d)
+
+
+def _operator(ufunc: Any, *, turned: bool = False) -> Callable[..., Any]:
+    def apply(self: TangentArray, *others: Any) -> Any:
+        inputs = (*others, self) if turned else (self, *others)
+        return self.__array_ufunc__(ufunc, "__call__", *inputs)
+
+    return apply
+
+
+_OPERATORS = {"add": np.add, "sub": np.subtract, "mul": np.multiply, "truediv": np.divide, "pow": np.power}
+_COMPARISONS = {
+    "lt": np.less,
+    "le": np.less_equal,
+    "gt": np.greater,
+    "ge": np.greater_equal,
+    "eq": np.equal,
+    "ne": np.not_equal,
+}
+for _name, _ufunc in (_OPERATORS | _COMPARISONS | {"neg": np.negative, "abs": np.absolute}).items():
+    setattr(TangentArray, f"__{_name}__", _operator(_ufunc))
+for _name, _ufunc in _OPERATORS.items():
+    setattr(TangentArray, f"__r{_name}__", _operator(_ufunc, turned=True))
+
+
+def primal(x: Any) -> Any:
+    """The numbers alone, where derivatives have no part."""
+    return x.value if isinstance(x, TangentArray | Tangent) else x
+
+
+def variables_of(numbers: Iterable[Any]) -> int | None:
+    """By how many variables numbers have derivatives; None if none has any."""
+    return next((x.d.shape[-1] for x in numbers if isinstance(x, TangentArray | Tangent)), None)
+
+
+def numbers(listed: Sequence[Any]) -> Any:
+    """A list of numbers as an array, with derivatives if one of them has some."""
+    n = variables_of(listed)
+    return np.asarray(listed) if n is None else _row(listed, n)
+
+
+def lifted(x: Any, n: int) -> TangentArray:
+    """A number or an array, with derivatives or without, as an array with derivatives by n variables."""
+    return _lifted(x, n).copy()
+
+
+def _lifted(x: Any, n: int) -> TangentArray:
+    """The same; what has no derivatives shares its memory."""
+    if isinstance(x, TangentArray):
+        return x
+    if isinstance(x, Tangent):
+        return TangentArray(x.value, x.d)
+    values = np.asarray(x)
+    if values.dtype != object:
+        return TangentArray(values, np.broadcast_to(0.0, (*values.shape, n)))
+    numbers = [_lifted(each, n) for each in values.ravel().tolist()]
+    value = np.array([each.value for each in numbers], dtype=float).reshape(values.shape)
+    return TangentArray(value, np.array([each.d for each in numbers]).reshape((*values.shape, n)))
+
+
+def _with_lanes(key: Any) -> Any:
+    """An index of the values as one of the derivatives, whose last axis is that of the variables."""
+    keys = key if isinstance(key, tuple) else (key,)
+    return (*keys, slice(None)) if any(each is Ellipsis for each in keys) else keys
+
+
+def _lanes(arrays: Sequence[Any]) -> int:
+    return next(x.d.shape[-1] for x in arrays if isinstance(x, TangentArray))
+
+
+_OF_VALUES = {
+    *("less", "less_equal", "greater", "greater_equal", "equal", "not_equal"),
+    *("isfinite", "isnan", "sign", "floor"),
+}
+
+
+def _inverse(x: Floats) -> Floats:
+    return np.asarray(1.0 / x)
+
+
+# Value and slope of functions of one number.
+_SLOPES: dict[str, Callable[[Floats], tuple[Any, Any]]] = {
+    "negative": lambda x: (-x, np.full_like(x, -1.0, dtype=float)),
+    # At zero it has none.
+    "absolute": lambda x: (np.abs(x), np.where(x == 0, np.nan, np.sign(x))),
+    "sqrt": lambda x: (np.sqrt(x), 0.5 / np.sqrt(x)),
+    "square": lambda x: (x * x, 2.0 * x),
+    "exp": lambda x: (np.exp(x), np.exp(x)),
+    "log": lambda x: (np.log(x), _inverse(x)),
+    "sin": lambda x: (np.sin(x), np.cos(x)),
+    "cos": lambda x: (np.cos(x), -np.sin(x)),
+    "tan": lambda x: (np.tan(x), 1.0 / np.cos(x) ** 2),
+    "tanh": lambda x: (np.tanh(x), 1.0 - np.tanh(x) ** 2),
+    "arcsin": lambda x: (np.arcsin(x), 1.0 / np.sqrt(1.0 - x * x)),
+    "arccos": lambda x: (np.arccos(x), -1.0 / np.sqrt(1.0 - x * x)),
+    "arctan": lambda x: (np.arctan(x), 1.0 / (1.0 + x * x)),
+}
+
+
+def _hypot(x: Floats, y: Floats) -> tuple[Any, Any, Any]:
+    """Where both vanish the length has no derivative."""
+    r = np.hypot(x, y)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return r, x / r, y / r
+
+
+def _power(x: Floats, p: Floats) -> tuple[Any, Any, Any]:
+    """The slope by the power counts where the base is positive."""
+    with np.errstate(invalid="ignore", divide="ignore"):
+        by_power = np.where(x > 0, np.power(x, p) * np.log(np.where(x > 0, x, 1.0)), 0.0)
+        return np.power(x, p), p * np.power(x, p - 1.0), by_power
+
+
+def _chosen(pick: Callable[[Floats, Floats], Any]) -> Callable[[Floats, Floats], tuple[Any, Any, Any]]:
+    """The larger or the smaller; where both are equal there is no derivative, but for equal numbers."""
+
+    def rule(x: Floats, y: Floats) -> tuple[Any, Any, Any]:
+        first = np.where(x == y, 0.5, (pick(x, y) == x).astype(float))
+        return pick(x, y), first, 1.0 - first
+
+    return rule
+
+
+# Value and both slopes of functions of two numbers.
+_SLOPES_OF_TWO: dict[str, Callable[[Floats, Floats], tuple[Any, Any, Any]]] = {
+    "add": lambda x, y: (x + y, np.ones_like(x), np.ones_like(y)),
+    "subtract": lambda x, y: (x - y, np.ones_like(x), -np.ones_like(y, dtype=float)),
+    "multiply": lambda x, y: (x * y, y, x),
+    "divide": lambda x, y: (x / y, 1.0 / y, -x / y / y),
+    "power": _power,
+    "hypot": _hypot,
+    "arctan2": lambda y, x: (np.arctan2(y, x), x / (x * x + y * y), -y / (x * x + y * y)),
+    "maximum": _chosen(np.maximum),
+    "minimum": _chosen(np.minimum),
+    "remainder": lambda x, y: (np.mod(x, y), np.ones_like(x), -np.floor(x / y)),
+}
+
+
+def _stack(arrays: Sequence[Any], axis: int = 0) -> TangentArray:
+    n = _lanes(arrays)
+    all_of = [_lifted(x, n) for x in arrays]
+    place = axis if axis >= 0 else axis - 1
+    return TangentArray(
+        np.stack([x.value for x in all_of], axis=axis), np.stack([x.d for x in all_of], axis=place)
+    )
+
+
+def _concatenate(arrays: Sequence[Any], axis: int = 0) -> TangentArray:
+    n = _lanes(arrays)
+    all_of = [_lifted(x, n) for x in arrays]
+    place = axis if axis >= 0 else axis - 1
+    return TangentArray(
+        np.concatenate([x.value for x in all_of], axis=axis),
+        np.concatenate([x.d for x in all_of], axis=place),
+    )
+
+
+def _where(condition: Any, first: Any, second: Any) -> TangentArray:
+    n = _lanes((first, second))
+    x, y = _lifted(first, n), _lifted(second, n)
+    return TangentArray(
+        np.where(condition, x.value, y.value), np.where(np.asarray(condition)[..., None], x.d, y.d)
+    )
+
+
+def _einsum(subscripts: str, *arrays: Any) -> TangentArray:
+    """The product rule; the letter z is that of the variables."""
+    n = _lanes(arrays)
+    all_of = [_lifted(x, n) for x in arrays]
+    names, out = subscripts.split("->")
+    terms = names.split(",")
+    d: Any = 0.0
+    for k, array in enumerate(all_of):
+        parts = [name + "z" if k == i else name for i, name in enumerate(terms)]
+        operands = [array.d if k == i else x.value for i, x in enumerate(all_of)]
+        d = d + np.einsum(f"{','.join(parts)}->{out}z", *operands)
+    return TangentArray(np.einsum(subscripts, *(x.value for x in all_of)), d)
+
+
+def _interp(x: Any, knots: Any, heights: Any, period: float | None = None) -> TangentArray:
+    """Straight lines between knots; at a knot where they meet at an angle there is no derivative."""
+    n = _lanes([x, *knots, *heights])
+    at, xp, fp = _lifted(x, n), _row(knots, n), _row(heights, n)
+    if period is not None:
+        at = np.remainder(at, period)
+        order = np.argsort(np.mod(xp.value, period))
+        xp, fp = np.remainder(xp, period)[order], fp[order]
+        xp, fp = _concatenate([xp[-1:] - period, xp, xp[:1] + period]), _concatenate([fp[-1:], fp, fp[:1]])
+    # Before the first knot and behind the last it is level.
+    span = np.where(np.diff(xp.value) > 0, np.diff(xp.value), np.nan)
+    slopes = np.concatenate([[0.0], np.diff(fp.value) / span, [0.0]])
+    left, right = (np.searchsorted(xp.value, at.value, side=side) for side in ("left", "right"))
+    i = np.clip(right - 1, 0, len(xp) - 2)
+    share = (at - xp[i]) / (xp[i + 1] - xp[i])
+    between = fp[i] + (fp[i + 1] - fp[i]) * share
+    outside = _where(right == 0, fp[np.zeros_like(i)], fp[np.full_like(i, len(fp) - 1)])
+    found = _where((right == 0) | (right == len(xp)), outside, between)
+    corner = _times(np.where(slopes[left] == slopes[right], 0.0, np.nan), at.d - xp[i].d)
+    return TangentArray(found.value, found.d + corner)
+
+
+def _row(numbers: Any, n: int) -> TangentArray:
+    """A list of numbers as an array."""
+    return numbers if isinstance(numbers, TangentArray) else _stack([*map(partial(_lifted, n=n), numbers)])
+
+
+def _as_rows(*arrays: Any) -> Any:
+    """Arrays of two axes at least."""
+    n = _lanes(arrays)
+    rows = [_lifted(x, n) for x in arrays]
+    rows = [x if x.ndim > 1 else x.reshape(1, -1) for x in rows]
+    return rows[0] if len(rows) == 1 else rows
+
+
+def _like(of_values: Callable[..., Any]) -> Callable[..., Any]:
+    return lambda x, *others, **options: of_values(x.value, *others, **options)
+
+
+_FUNCTIONS: dict[Any, Callable[..., Any]] = {
+    np.stack: _stack,
+    np.concatenate: _concatenate,
+    np.where: _where,
+    np.einsum: _einsum,
+    np.interp: _interp,
+    np.sum: lambda x, axis=None: (
+        x.sum(axis) if isinstance(x, TangentArray) else _stack(list(x)).sum(0 if axis is None else axis)
+    ),
+    np.moveaxis: lambda x, source, to: TangentArray(
+        np.moveaxis(x.value, source, to),
+        np.moveaxis(x.d, source % x.ndim, to % x.ndim),
+    ),
+    np.broadcast_to: lambda x, shape: TangentArray(
+        np.broadcast_to(x.value, shape), np.broadcast_to(x.d, (*shape, x.d.shape[-1]))
+    ),
+    np.atleast_1d: lambda x: x if x.ndim else x.reshape(1),
+    np.atleast_2d: lambda *arrays: _as_rows(*arrays),
+    np.cumsum: lambda x: TangentArray(np.cumsum(x.value), np.cumsum(x.d, axis=0)),
+    np.shape: lambda x: x.shape,
+    np.ndim: lambda x: x.ndim,
+    np.zeros_like: _like(np.zeros_like),
+    np.ones_like: _like(np.ones_like),
+    np.full_like: _like(np.full_like),
+    np.argmax: _like(np.argmax),
+    np.argmin: _like(np.argmin),
+    np.nanargmax: _like(np.nanargmax),
+    np.nanargmin: _like(np.nanargmin),
+    np.nanmax: lambda x: x.reshape(-1)[int(np.nanargmax(x.value))],
+}

@@ -1,0 +1,222 @@
+r"""Derivatives of a turning-moment diagram by its entries.
+
+The excess of the driver is zero, or changes its sign, where the energy is largest and smallest, so that
+
+.. math:: \mathrm d\Delta E = \int_{\varphi_{\min}}^{\varphi_{\max}} \mathrm d(T - M)\,d\varphi
+
+at fixed ends (envelope theorem). Torques, flywheel and rim are worked out by the formulas of the diagram
+itself, in arrays of tangents.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.kernel.numerics.tangent import Tangent
+from linkwright.kernel.numerics.tangent_array import lifted, numbers, primal, variables_of
+from linkwright.kernel.numerics.turn_curve import TurnCurve
+from linkwright.machine.machine import Machine
+from linkwright.machine.tangents import Derivatives, followed
+from linkwright.turning.diagram import (
+    DRIVER,
+    EXCESS,
+    TurningMomentDiagram,
+    evened,
+    fitted_curves,
+    rim_of,
+    turning_moment,
+)
+from linkwright.turning.model import TurningMoment
+
+Floats = NDArray[np.float64]
+
+# Extremes of the energy that are this near, as a share of its fluctuation, tie.
+_TIE = 1e-9
+
+# Degrees beyond those of the fitted series to which derivatives are integrated exactly.
+_MORE = 8
+
+# Share of the cycle beside a jump at which its sides are looked at.
+_BESIDE = 1e-10
+
+
+def turning_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
+    """Scalars of a turning-moment diagram by some entries. Raises what `turning_moment` raises."""
+    result = turning_moment(machine, n=1)
+    assert machine.turning_moment is not None
+    own = [name for name in variables if name.startswith("turning_moment.")]
+    work: Any = (
+        _OfAreas(machine.turning_moment) if machine.turning_moment.areas else _OfCurves(machine, result)
+    )
+    refused: dict[str, str] = {}
+    known, found = followed(machine, own, lambda along: work.scalars(along.turning_moment), refused)
+    place = {name: at for at, name in enumerate(known)}
+    listed = tuple(name for name in variables if name not in refused)
+    tangents = {}
+    for name, number in found.items():
+        value = getattr(result, name)
+        if value is None:
+            continue
+        d = lifted(number, len(known)).d
+        row = np.array([d[place[variable]] if variable in place else 0.0 for variable in listed])
+        tangents[name] = Tangent(float(value), row)
+    made_of_energy = dict.fromkeys(_OF_ENERGY & set(tangents), work.tie) if work.tie else {}
+    ties = made_of_energy | work.ties | _lost(tangents, listed)
+    return Derivatives(listed, tangents, {name: ties[name] for name in tangents if name in ties}, {}, refused)
+
+
+_OF_ENERGY = {
+    *(
+        "energy_fluctuation",
+        "energy_coefficient",
+        "inertia",
+        "flywheel_inertia",
+        "flywheel_mass",
+        "unevenness",
+    ),
+    *("speed_max", "speed_min", "acceleration_max", "acceleration_min", "rim_mass", "rim_area", "rim_width"),
+    "rim_thickness",
+}
+
+
+def _lost(tangents: dict[str, Tangent], variables: Sequence[str]) -> dict[str, str]:
+    """What lies on a corner of a table that an entry moves."""
+    lost = {}
+    for name, tangent in tangents.items():
+        moved = [by for by, d in zip(variables, tangent.d, strict=True) if np.isnan(d)]
+        if moved:
+            lost[name] = (
+                f"it is reached at a corner of the torque; there is no derivative by {', '.join(moved)}"
+            )
+    return lost
+
+
+class _OfAreas:
+    """From the areas of a diagram."""
+
+    def __init__(self, described: TurningMoment) -> None:
+        # The energy at the start of the first area counts too.
+        after = np.append(np.cumsum(np.asarray(described.areas)), 0.0)
+        self.most, self.least = int(after.argmax()), int(after.argmin())
+        span = _TIE * float(after[self.most] - after[self.least])
+        highest = np.flatnonzero(after >= after[self.most] - span)
+        lowest = np.flatnonzero(after <= after[self.least] + span)
+        ties = [
+            (end, places) for end, places in (("maximum", highest), ("minimum", lowest)) if len(places) > 1
+        ]
+        self.tie = "".join(
+            f"the {end} of the energy is reached after areas {places[0] + 1} and {places[1] + 1}"
+            for end, places in ties[:1]
+        )
+        self.ties: dict[str, str] = {}
+
+    def scalars(self, described: TurningMoment) -> dict[str, Any]:
+        """All scalars, with the derivatives of the description."""
+        after = np.cumsum(described.area_scale * numbers(described.areas))
+        levels = np.concatenate([after, np.zeros(1)])
+        change = levels[self.most] - levels[self.least]
+        return {"energy_fluctuation": change} | _of_flywheel(described, change)
+
+
+class _OfCurves:
+    """From torques over the angle."""
+
+    def __init__(self, machine: Machine, result: TurningMomentDiagram) -> None:
+        described = machine.turning_moment
+        assert described is not None
+        self.result, self.cycle = result, described.cycle
+        self.curves = fitted_curves(described)
+        energy = self.curves.excess(EXCESS, EXCESS, 0.0)
+        self.ends = energy.extreme(+1)[1], energy.extreme(-1)[1]
+        self.nodes, self.weights = _nodes(self.curves, self.ends)
+        self.tie = self._tie(energy)
+        self.ties: dict[str, str] = {}
+
+    def _tie(self, energy: TurnCurve) -> str:
+        """Where the energy has an extreme twice; empty if nowhere."""
+        at = np.append(self.curves.crossings(EXCESS), self.ends)
+        E = energy.at(at)[0]
+        for word, sign, end in (("maximum", 1.0, self.ends[0]), ("minimum", -1.0, self.ends[1])):
+            near = at[sign * E >= (sign * E).max() - _TIE * float(np.ptp(E))]
+            apart = np.abs((near - end + 0.5 * self.cycle) % self.cycle - 0.5 * self.cycle)
+            if (apart > _TIE).any():
+                other = np.degrees(near[apart > _TIE][0])
+                return f"the {word} of the energy is reached at {np.degrees(end):.4g}° and {other:.4g}°"
+        return ""
+
+    def scalars(self, described: TurningMoment) -> dict[str, Any]:
+        """All scalars, with the derivatives of the description."""
+        driver, load = self._torques(described, self.nodes)
+        mean, load_mean = (np.sum(curve * self.weights) / self.cycle for curve in (driver, load))
+        excess = driver - load - (mean - load_mean)
+        high, low = self.ends
+        # Once round from the minimum to the maximum.
+        between = (self.nodes > min(high, low)) & (self.nodes < max(high, low))
+        change = np.sum(excess * (self.weights * between)) * (1.0 if high > low else -1.0)
+        effect = _of_flywheel(described, change)
+        work = mean * self.cycle
+        found = {
+            "torque_mean": mean,
+            "power_mean": mean * described.speed,
+            "energy_cycle": work,
+            "energy_fluctuation": change,
+            "energy_coefficient": change / work if work else None,
+        }
+        for end, sign in (("max", +1), ("min", -1)):
+            found[f"torque_driver_{end}"] = self._extreme(described, f"torque_driver_{end}", DRIVER, sign)
+            if effect.get("inertia") is not None:
+                name = f"acceleration_{end}"
+                found[name] = self._extreme(described, name, EXCESS, sign) / effect["inertia"]
+        return found | effect
+
+    def _torques(self, described: TurningMoment, phi: Floats) -> tuple[Any, Any]:
+        """Driver and load at angles; what is left out is the mean of the other."""
+        torques = [
+            None if torque is None else torque.at(phi, self.cycle)
+            for torque in (described.driver, described.load)
+        ]
+        alone = described.driver if described.load is None else described.load
+        assert alone is not None
+        mean: Any = np.sum(alone.at(self.nodes, self.cycle) * self.weights) / self.cycle
+        driver, load = (mean * np.ones(len(phi)) if torque is None else torque for torque in torques)
+        return driver, load
+
+    def _extreme(self, described: TurningMoment, name: str, k: int, sign: int) -> Any:
+        """An extreme of driver or excess, at a jump from the side that has it."""
+        value, angle = self.curves.extreme(sign, k)
+        others = self.curves.extremes(sign, k, _TIE)
+        curve, at = self._beside(described, k, np.append(angle, others[others != angle]))
+        # Values at the angles themselves count before those on either side.
+        there = np.flatnonzero(np.abs(primal(curve) - value) <= _TIE * self.curves.peak[k])
+        slopes = lifted(curve, variables_of((curve,)) or 1).d[there]
+        apart = np.abs(slopes - slopes[0]).max(axis=1) > _TIE * np.abs(slopes).max()
+        if apart.any():
+            words = f"it is reached at {np.degrees(angle):.4g}° and {np.degrees(at[there][apart][0]):.4g}°"
+            self.ties[name] = words
+        return curve[int(there[0])]
+
+    def _beside(self, described: TurningMoment, k: int, phi: Floats) -> tuple[Any, Floats]:
+        """Driver or excess at angles, and a little before and after them, with the angles."""
+        aside = _BESIDE * self.cycle
+        at = np.mod(np.concatenate([phi, phi - aside, phi + aside]), self.cycle)
+        driver, load = self._torques(described, at)
+        return (driver - load if k == EXCESS else driver), at
+
+
+def _nodes(curves: TurnCurve, ends: tuple[float, float]) -> tuple[Floats, Floats]:
+    """Angles and weights of Gauss–Legendre quadrature, piece by piece."""
+    marks = np.unique(np.concatenate([curves.ends, ends]))
+    x, w = np.polynomial.legendre.leggauss(curves.series.shape[-1] + _MORE)
+    middle, half = 0.5 * (marks[1:] + marks[:-1]), 0.5 * np.diff(marks)
+    return (middle[:, None] + half[:, None] * x).ravel(), (half[:, None] * w).ravel()
+
+
+def _of_flywheel(described: TurningMoment, change: Any) -> dict[str, Any]:
+    """Flywheel, speed fluctuation and rim for a fluctuation of energy."""
+    effect = evened(described, change)
+    found = effect._asdict() | rim_of(described, effect)._asdict()
+    return {name: value for name, value in found.items() if value is not None}

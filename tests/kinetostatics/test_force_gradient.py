@@ -1,0 +1,151 @@
+"""Derivatives of the largest forces against extrapolated differences of the same analysis, and laws."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from sizes import cases
+from zoo import ZOO, animal
+
+import linkwright as lw
+from linkwright import _core
+from linkwright.kernel.errors import FindingError, LinkwrightError
+
+pytestmark = pytest.mark.skipif(
+    not hasattr(_core, "motions_along"), reason="the core was built before its derivatives of motions"
+)
+
+# Share of an entry by which it is varied: rounding leaves 1e-13 of a force over it, the differences h⁴.
+_STEP = 2e-4
+
+# What the differences themselves are good for, as a share of the largest derivative of a response.
+_TOLERANCE = 1e-7
+
+_DRIVES = (
+    '[drive]\nspeed = "12 rad/s"\n',
+    '[drive]\nmotor = { kind = "dc", speed_no_load = 30, torque_stall = 60, inertia = 0.02 }\n'
+    "gearbox = { ratio = 2, efficiency = 0.9 }\nflywheel = { inertia = 5 }\n",
+)
+
+
+_FOUR_BAR = """
+format = 1
+name = "four-bar"
+drive = { speed = 12 }
+mechanism.cranks.A = { radius = 0.1 }
+mechanism.points.D = { x = 0.4, y = 0.05 }
+mechanism.rockers.R = { crank = "A", pivot = "D", coupler = 0.35, rocker = 0.25 }
+mechanism.rigid_points.K = { link = "R.coupler", along = 0.2, across = 0.1 }
+[bodies]
+A = { mass = 2, inertia = 0.02, along = 0.03, across = 0.01 }
+"R.coupler" = { mass = 1, inertia = 0.01, along = 0.1, across = 0.05 }
+"R.rocker" = { mass_per_length = 6 }
+[loads]
+gravity = { kind = "gravity" }
+pull = { kind = "force", on = "K", force = 40, direction = "75 deg" }
+spring = { kind = "spring", between = ["O", "K"], stiffness = 300, free_length = 0.2, preload = 5 }
+brake = { kind = "dry", on = "R.rocker", torque = 2 }
+oil = { kind = "viscous", on = "R.coupler", damping_torsional = 0.4 }
+"""
+
+
+def _varied(machine: lw.Machine, rng: np.random.Generator) -> lw.Machine:
+    """A machine whose sizes, masses and loads differ by some per cent."""
+    firm = ("drive.speed", ".sections.", ".size", ".size_other", ".cycle", ".angle.", ".position.")
+    entries = {
+        name: value * (1 + 0.03 * rng.uniform(-1, 1))
+        for name, value in lw.addresses(machine).items()
+        if value and not any(part in name for part in firm)
+    }
+    return lw.replace(machine, entries)
+
+
+def _peaks(machine: lw.Machine) -> tuple[dict[str, float], dict[str, int]]:
+    """Largest forces, and at which of the angles they are."""
+    motor = machine.drive is not None and machine.drive.motor is not None
+    motion = lw.steady_state(machine, accuracy=1e-13) if motor else None
+    found = lw.forces(machine, motion, contributions=False)
+    curves = {"torque_drive_max": found.torque_drive, "shaking_force_max": np.hypot(*found.shaking_force.T)}
+    curves |= {f"reaction_max.{name}": pair.size for name, pair in found.pairs.items()}
+    places = {name: int(np.nanargmax(np.abs(curve))) for name, curve in curves.items()}
+    return {name: float(curve[places[name]]) for name, curve in curves.items()}, places
+
+
+def _check(machine: lw.Machine, every: int) -> int:
+    """Compare derivatives with differences; how many were compared."""
+    found = lw.gradient(machine, ["forces"])
+    _, places = _peaks(machine)
+    scales = np.nanmax(np.abs(found.derivatives * found.at), axis=1)
+    compared = 0
+    for at in np.flatnonzero(found.at)[::every]:
+        address, value = found.variables[at], found.at[at]
+        try:
+            near = [_peaks(lw.replace(machine, {address: value * (1 + k * _STEP)})) for k in (-2, -1, 1, 2)]
+        except LinkwrightError:
+            continue
+        for row, response in enumerate(found.responses):
+            name = response.partition(".")[2]
+            # A peak that goes to another angle beside has no derivative between.
+            if response in found.ties or any(at_peak[name] != places[name] for _, at_peak in near):
+                continue
+            low, below, above, high = (peaks[name] for peaks, _ in near)
+            difference = (8 * (above - below) - (high - low)) / (12 * _STEP)
+            exact = found.derivatives[row, at] * value
+            assert abs(exact - difference) <= _TOLERANCE * scales[row], (address, response)
+            compared += 1
+    return compared
+
+
+@pytest.mark.parametrize("name", ZOO)
+def test_derivatives_are_those_of_the_forces(name: str) -> None:
+    """On random machines of every kind of pair and load, at constant speed and behind a motor."""
+    compared = 0
+    for case in range(cases(2, 20)):
+        rng = np.random.default_rng([case, len(name)])
+        machine = animal(name, _DRIVES[case % 2])
+        try:
+            lw.forces(_varied(machine, rng))
+            machine = _varied(machine, np.random.default_rng([case, len(name)]))
+        except LinkwrightError:
+            # Redundant bars fit with their own lengths alone.
+            if not name.startswith("bars"):
+                continue
+        compared += _check(machine, cases(6, 1))
+    assert compared
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        "machines/roller_two_carts.toml",
+        "examples/fan_by_formula/machine.toml",
+        "examples/press_with_flywheel/machine.toml",
+    ],
+)
+def test_installations(path: str) -> None:
+    """Dry friction, an induction motor, a formula: entries with a derivative have that of the analysis."""
+    assert _check(lw.read(path), cases(5, 1))
+
+
+def test_masses_and_loads_scale() -> None:
+    """Forces at a given speed are homogeneous of degree one in masses, inertias and loads (Euler)."""
+    found = lw.gradient(lw.loads(_FOUR_BAR), ["forces"])
+    grows = [unit.startswith(("kg", "N")) for unit in found.variable_units]
+    sums = (found.derivatives * found.at)[:, grows].sum(axis=1)
+    assert sums == pytest.approx(found.values, rel=1e-12)
+
+
+def test_a_peak_on_a_kink_has_no_derivative_by_what_moves_it() -> None:
+    """The rod presses most at the dead centre, where the dry friction of the cart turns."""
+    found = lw.gradient(lw.read("machines/roller_one_cart.toml"), ["forces.reaction_max.A1"])
+    assert "mechanism.cranks.A1.phase" in found.ties["forces.reaction_max.A1"]
+    told = found.to_dict()["sensitivity"]["forces.reaction_max.A1"]
+    assert "mechanism.cranks.A1.phase" not in told
+    assert np.isfinite(list(told.values())).all()
+    assert np.isfinite(told["mechanism.cranks.A1.radius"])
+
+
+def test_forces_of_nothing_have_no_derivative() -> None:
+    machine = lw.read("examples/press_motion/machine.toml")
+    with pytest.raises(FindingError, match="zero but for rounding"):
+        lw.gradient(machine, ["forces.torque_drive_max"])

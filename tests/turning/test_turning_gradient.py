@@ -1,0 +1,86 @@
+"""Derivatives of turning-moment diagrams against extrapolated differences, and laws they obey."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from sizes import cases
+
+import linkwright as lw
+
+# Share of an entry by which it is varied, and what differences are good for.
+_STEP, _TOLERANCE = 2e-4, 1e-7
+
+_RIM = 'rim = { density = "7200 kg/m^3", stress = "4 MPa", width_ratio = 2 }'
+
+
+def _formula(rng: np.random.Generator) -> str:
+    """Harmonics of a driver against a load that is left out."""
+    terms = [f"c{k}*cos({k}*phi + p{k})" for k in range(1, 5)]
+    constants = ", ".join(
+        f"c{k} = {rng.uniform(100, 900):.6g}, p{k} = {rng.uniform(-3, 3):.6g}" for k in range(1, 5)
+    )
+    torque = f'torque = "m + {" + ".join(terms)}", constants = {{ m = 1500, {constants} }}'
+    return f'driver = {{ kind = "formula", {torque} }}\nunevenness = 0.02\nradius_of_gyration = 0.7\n{_RIM}'
+
+
+def _table(rng: np.random.Generator) -> str:
+    """A load by a table, in lines or steps, on a shaft with an inertia."""
+    angles = np.sort(rng.uniform(0.1, 6.2, 7)).round(6).tolist()
+    torques = rng.uniform(50, 900, 7).round(6).tolist()
+    between = rng.choice(["linear", "steps"])
+    return (
+        f'load = {{ kind = "table", angle = {angles}, torque = {torques}, between = "{between}" }}\n'
+        f"inertia = 30\nrim = {{ density = 7200, radius = 0.4 }}"
+    )
+
+
+def _areas(rng: np.random.Generator) -> str:
+    """Areas of a diagram that add up to zero."""
+    areas = rng.uniform(20, 90, 6) * [1, -1, 1, -1, 1, -1]
+    areas[-1] -= areas.sum()
+    return f"areas = {areas.tolist()}\narea_scale = 12\nunevenness = 0.03\ninertia = 1.5"
+
+
+@pytest.mark.parametrize("kind", [_formula, _table, _areas])
+def test_derivatives_are_those_of_the_diagram(kind) -> None:
+    compared = 0
+    for case in range(cases(4, 80)):
+        text = kind(np.random.default_rng(case))
+        machine = lw.loads(f'format = 1\nname = "shaft"\n[turning_moment]\nspeed = 25\n{text}\n')
+        found = lw.gradient(machine, ["turning_moment"])
+        scales = np.nanmax(np.abs(found.derivatives * found.at), axis=1)
+        for at, (address, value) in enumerate(zip(found.variables, found.at, strict=True)):
+            # Areas balance together alone.
+            if not value or not address.startswith("turning_moment.") or ".areas." in address:
+                continue
+            near = [
+                lw.turning_moment(lw.replace(machine, {address: value * (1 + k * _STEP)}), n=1)
+                for k in (-2, -1, 1, 2)
+            ]
+            for row, response in enumerate(found.responses):
+                low, below, above, high = (getattr(one, response.partition(".")[2]) for one in near)
+                if response in found.ties:
+                    continue
+                difference = (8 * (above - below) - (high - low)) / (12 * _STEP)
+                exact = found.derivatives[row, at] * value
+                assert abs(exact - difference) <= _TOLERANCE * scales[row], (case, address, response)
+                compared += 1
+    assert compared
+
+
+def test_a_flywheel_goes_with_the_energy_over_speed_and_fluctuation() -> None:
+    """J = ΔE/(δ ω²): exponents −1 and −2, and those of the torques add to 1 (Euler)."""
+    machine = lw.read("examples/flywheel_four_stroke/machine.toml")
+    found = lw.gradient(machine, ["turning_moment.flywheel_inertia"])
+    share = dict(zip(found.variables, found.elasticities[0], strict=True))
+    assert share["turning_moment.speed"] == pytest.approx(-2, abs=1e-12)
+    assert share["turning_moment.unevenness"] == pytest.approx(-1, abs=1e-12)
+    assert sum(x for name, x in share.items() if ".constants." in name) == pytest.approx(1, abs=1e-12)
+
+
+def test_equal_steps_tie() -> None:
+    """The punching press idles at one torque before and after its stroke: its maximum acceleration ties."""
+    machine = lw.read("examples/flywheel_punching_press/machine.toml")
+    found = lw.gradient(machine, ["turning_moment"])
+    assert set(found.ties) == {"turning_moment.acceleration_max"}
