@@ -1415,7 +1415,7 @@ class Cam:
         lift_d: _Floats,
         phi_d: _Floats,
     ) -> dict[str, _Floats]:
-        """Derivatives of the rows at angles, flat (angles, n): by directions of dimensions (6, n), of the lift
+        """Derivatives of the rows at angles, flat (angles, n): by directions of dimensions (6, n), of lift
         and its first three derivatives (4, angles, n) and of the angles (angles, n), flat each."""
 
     def curve(self, size: CamDimensions, phi: _Floats, before: bool, away: float) -> CamOffset:

@@ -40,7 +40,7 @@ from linkwright.machine.tangents import Derivatives, Directions, directions, fol
 
 Floats = NDArray[np.float64]
 
-# Relative accuracy of the steady motion under the forces, and its intervals per revolution: those of `forces`.
+# Relative accuracy of the steady motion, and its intervals per revolution: those of `forces`.
 _ACCURACY, _N = 1e-9, 360
 
 # Extremes this near, as a share of the curve's range, tie: the steady motion is not known better.
