@@ -70,7 +70,6 @@ __all__ = [
     "TorsionRotor",
     "TorsionSystem",
     "TorsionTorque",
-    "accelerations_along",
     "cam_crossings",
     "follow_group",
     "gaps",
@@ -1239,11 +1238,6 @@ def motions_along(
     plan: Plan, q: _Floats, directions: _Floats, phi: _Floats, what: Sequence[Channel]
 ) -> _Floats:
     """Derivatives of motions by directions (parameters, n) at fixed angles, (numbers, angles × n)."""
-
-def accelerations_along(
-    plan: Plan, q: _Floats, directions: _Floats, t: _Floats, phi: _Floats, omega: _Floats
-) -> _Floats:
-    """Derivatives of the acceleration by directions (parameters, n), angle and speed, (states, n + 2)."""
 
 def kinks_along(plan: Plan, q: _Floats, directions: _Floats, phi: _Floats) -> _Floats:
     """Derivatives of crank angles by directions (parameters, n), where they are kinks, (angles, n)."""

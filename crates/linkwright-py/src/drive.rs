@@ -1,6 +1,6 @@
 //! The machine reduced to its crank, and its motion: calls and results.
 
-use linkwright_core::drive::along::{self, States};
+use linkwright_core::drive::along;
 use linkwright_core::drive::batch::{self, QUANTITIES, Rows};
 use linkwright_core::drive::gradient::{CURVES, Gradient, NUMBERS};
 use linkwright_core::drive::kinks as core_kinks;
@@ -470,27 +470,6 @@ pub(crate) fn motor_torques(
 pub(crate) fn kinks<'py>(py: Python<'py>, plan: &Plan, q: Floats<'_>) -> PyResult<Curve<'py>> {
     let q = plan.parameters(&q)?;
     Ok(column(py, guarded(py, "kinks of the motion", || core_kinks::kinks(&plan.0, q))?))
-}
-
-/// Derivatives of the acceleration at states (t, φ, ω) by directions, angle and speed, (states, n + 2).
-#[pyfunction]
-pub(crate) fn accelerations_along<'py>(
-    py: Python<'py>,
-    plan: &Plan,
-    q: Floats<'_>,
-    values: PyReadonlyArray2<'_, f64>,
-    t: Floats<'_>,
-    phi: Floats<'_>,
-    omega: Floats<'_>,
-) -> PyResult<Table<'py>> {
-    let of = directions(plan, plan.parameters(&q)?, &values)?;
-    let at = States { t: t.as_slice()?, phi: phi.as_slice()?, omega: omega.as_slice()? };
-    if at.t.len() != at.phi.len() || at.phi.len() != at.omega.len() {
-        return Err(PyIndexError::new_err("as many times as angles and speeds are needed"));
-    }
-    filled(py, "derivatives of the acceleration", [at.phi.len(), of.n + 2], |to| {
-        along::accelerations_along(of, at, to)
-    })
 }
 
 /// Derivatives of crank angles by directions, where they are kinks, (angles, n).

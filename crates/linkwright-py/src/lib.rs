@@ -59,8 +59,8 @@ mod _core {
     #[pymodule_export]
     use super::drive::{
         MotionInTime, MotorTorques, NoSteadyMotion, OtherMotion, Reductions, SteadyCurves, SteadyGradient,
-        SteadyMotion, SteadyRows, SteadySolution, accelerations_along, kinks, kinks_along, law_torques,
-        motor_torques, reductions, steady_rows, steady_state, transient,
+        SteadyMotion, SteadyRows, SteadySolution, kinks, kinks_along, law_torques, motor_torques, reductions,
+        steady_rows, steady_state, transient,
     };
     #[pymodule_export]
     use super::linkage::{

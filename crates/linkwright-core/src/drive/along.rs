@@ -1,7 +1,6 @@
-//! Derivatives by the numbers of the machine at given states: of motions over the crank angle, and of the acceleration.
+//! Derivatives by the numbers of the machine at given crank angles: of motions, and of the kinks there.
 //!
-//! The kernels themselves in dual numbers, with a direction of the parameters in every lane. The state stays where it is:
-//! whoever follows a motion adds what the state itself owes to the parameters.
+//! The kernels themselves in dual numbers, with a direction of the parameters in every lane.
 
 use crate::drive::cycle::Machine;
 use crate::drive::motions::store;
@@ -74,66 +73,6 @@ impl Job for MotionsAlong<'_> {
                     let place = (row * phi.len() + at) * of.n + first;
                     out[place..place + some].copy_from_slice(&lanes[..some]);
                 }
-            }
-        }
-    }
-}
-
-/// States of the crank: times \[s\], angles \[rad\], speeds \[rad/s\].
-#[derive(Clone, Copy)]
-pub struct States<'a> {
-    pub t: &'a [f64],
-    pub phi: &'a [f64],
-    pub omega: &'a [f64],
-}
-
-/// Derivatives of the acceleration at states, by each direction and then by angle and speed: `out` is (states,
-/// directions + 2).
-pub fn accelerations_along(of: Directions<'_>, at: States<'_>, out: &mut [f64]) {
-    in_single_lanes(AccelerationsAlong { of, at, out });
-}
-
-struct AccelerationsAlong<'a> {
-    of: Directions<'a>,
-    at: States<'a>,
-    out: &'a mut [f64],
-}
-
-impl Job for AccelerationsAlong<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<R: Real>(self) {
-        let AccelerationsAlong { of, at, out } = self;
-        let all = of.n + 2;
-        let mut lanes = vec![0.0; R::LANES];
-        for first in (0..all).step_by(R::LANES) {
-            poll();
-            let some = R::LANES.min(all - first);
-            let q = of.numbers::<R>(first);
-            let mut only = |direction: usize| {
-                let is_it = |k| if first + k == direction { 1.0 } else { 0.0 };
-                (0..R::LANES).for_each(|k| lanes[k] = is_it(k));
-                R::load(&lanes)
-            };
-            let (by_angle, by_speed) = (only(of.n), only(of.n + 1));
-            let machine = Machine::new(of.plan, &q);
-            let mut m = Motion::new(&of.plan.mechanism, &q);
-            let mut given = Vec::new();
-            for i in 0..at.phi.len() {
-                let phi = Dual { value: R::splat(at.phi[i]), d: by_angle };
-                let omega = Dual { value: R::splat(at.omega[i]), d: by_speed };
-                let r = of.plan.reduce::<Dual<R>, 2>(&q, Angle::new(phi), 1.0, &mut m);
-                let torque: Dual<R> = of.plan.drive.torque(&of.plan.tables, &q, omega);
-                let mut net = torque - r.load - r.dry - r.viscous * omega - r.J_d1 * omega.squared() * 0.5;
-                if !of.plan.laws.is_empty() {
-                    given.clear();
-                    of.plan.give(&q, phi, &m, &mut given);
-                    let t = Dual::constant(R::splat(at.t[i]));
-                    net = net - machine.plan.law_torque::<Dual<R>, Dual<R>, Dual<R>>(&q, &given, omega, t);
-                }
-                (net / r.J).d.store(&mut lanes);
-                out[i * all + first..][..some].copy_from_slice(&lanes[..some]);
             }
         }
     }

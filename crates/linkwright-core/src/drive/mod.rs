@@ -20,7 +20,7 @@
 //! | [`steady`] | steady motion of one machine to a wanted accuracy |
 //! | [`gradient`] | derivatives of steady motion by the numbers of the machine |
 //! | [`transient`] | motion in time from given angle and speed, with its events |
-//! | [`along`] | derivatives of motions and of the acceleration at given states |
+//! | [`along`] | derivatives of motions and kinks at given angles |
 //! | `passing` | kinks of the drive as ends of steps of machines in lanes |
 //! | [`batch`] | steady motions of many machines: lanes and threads |
 //! | [`motions`] | motions of many machines over the crank angle |
