@@ -11,6 +11,7 @@
 | `equilibrium` | The linear system, its solution, and the iteration over friction |
 | `figures` | Figures of forces over the crank angle, with their captions |
 | `forces` | Which are its joint reactions, its driving torque, its shaking force? |
+| `gradient` | Derivatives of the largest forces by entries of the machine |
 | `friction` | Friction in pins, guides and slots, as given by the user |
 | `model/` | Masses on links and points; loads |
 | `motion` | Crank angle, speed, acceleration and time at which forces are asked for |

@@ -3,6 +3,7 @@
 | module | |
 | --- | --- |
 | `diagram` | Fluctuation of energy over a cycle, and the flywheel that evens the motion |
+| `gradient` | Derivatives of a diagram by its entries |
 | `figures` | The diagram, the energy and the speed over a cycle |
 | `model` | Torques and the turning-moment diagram in a file |
 | `rim` | The rim of a flywheel: speed, hoop stress, mass and cross-section |

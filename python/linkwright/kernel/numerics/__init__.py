@@ -7,6 +7,7 @@
 | `least_squares` | Linear least squares with what it can tell; damped steps for many problems |
 | `zeros` | Zeros and extremes of smooth functions of the crank angle, many at once, to rounding |
 | `tangent` | Numbers that carry their derivatives by entries through the translation of a description |
+| `tangent_array` | Arrays of numbers with their derivatives |
 | `taylor` | Numbers that carry their first three derivatives by time, for functions written with numpy |
 | `turn_curve` | Quantities over a revolution as Chebyshev series, piece by piece |
 | `turn_fit` | Quantities over a revolution |
