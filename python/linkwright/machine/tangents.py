@@ -40,8 +40,8 @@ def columns(
     Entries that follow from others (the breakdown speed of a motor from its rated point) are varied one at a
     time, all others of the file held; given ones are varied together.
     """
-    whole = [name for name in names if name.endswith(".cycle")]
-    refused.update(dict.fromkeys(whole, _WHOLE))
+    cycles = [name for name in names if name.endswith(".cycle")]
+    refused.update(dict.fromkeys(cycles, _WHOLE))
     names = [name for name in names if name not in refused]
     together = [name for name in names if is_given(machine, name)]
     groups = [together, *([name] for name in names if name not in set(together))]
@@ -163,8 +163,8 @@ def followed(
 
     Entries that `work` cannot follow, counts and searched numbers, are found one by one.
     """
-    whole = [name for name in names if name.endswith(".cycle")]
-    refused.update(dict.fromkeys(whole, _WHOLE))
+    cycles = [name for name in names if name.endswith(".cycle")]
+    refused.update(dict.fromkeys(cycles, _WHOLE))
     known = tuple(name for name in names if name not in refused)
     try:
         return known, work(seeded(machine, known))

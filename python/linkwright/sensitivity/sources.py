@@ -147,10 +147,10 @@ def _forces(machine: Machine, variables: Sequence[str]) -> Source:
     from linkwright.kinetostatics.gradient import force_tangents
     from linkwright.kinetostatics.result import Forces
 
-    found = force_tangents(machine, variables)
-    pairs = [name for name in (*found.tangents, *found.missing) if name.startswith("reaction_max.")]
+    derived = force_tangents(machine, variables)
+    pairs = [name for name in (*derived.tangents, *derived.missing) if name.startswith("reaction_max.")]
     words = {name: f"maximum force of {name.partition('.')[2]}" for name in pairs}
-    return _of_scalars("forces", Forces, found, words, dict.fromkeys(pairs, "N"))
+    return _of_scalars("forces", Forces, derived, words, dict.fromkeys(pairs, "N"))
 
 
 def _turning(machine: Machine, variables: Sequence[str]) -> Source:
@@ -164,24 +164,24 @@ def _turning(machine: Machine, variables: Sequence[str]) -> Source:
 def _of_scalars(
     prefix: str,
     kind: type,
-    found: Derivatives,
+    derived: Derivatives,
     words: Mapping[str, str] | None = None,
     units: Mapping[str, str] | None = None,
 ) -> Source:
     """Scalars of a result, called as they are declared, and others by `words` and `units`."""
-    marks = {name: shown(kind, name) for name in found.tangents if name not in (words or {})}
+    marks = {name: shown(kind, name) for name in derived.tangents if name not in (words or {})}
     words = {name: f"{mark.word} {mark.symbol}".strip() for name, mark in marks.items()} | dict(words or {})
     units = {name: mark.unit for name, mark in marks.items()} | dict(units or {})
-    listed = [f"{prefix}.{name}" for name in found.tangents]
+    listed = [f"{prefix}.{name}" for name in derived.tangents]
     return Source(
-        found.variables,
-        {f"{prefix}.{name}": value for name, value in found.tangents.items()},
+        derived.variables,
+        {f"{prefix}.{name}": value for name, value in derived.tangents.items()},
         {f"{prefix}.{name}": word for name, word in words.items()},
         {f"{prefix}.{name}": unit for name, unit in units.items()},
-        {f"{prefix}.{name}": reason for name, reason in found.ties.items()},
-        found.refused,
+        {f"{prefix}.{name}": reason for name, reason in derived.ties.items()},
+        derived.refused,
         listed,
-        {f"{prefix}.{name}": reason for name, reason in found.missing.items()},
+        {f"{prefix}.{name}": reason for name, reason in derived.missing.items()},
     )
 
 

@@ -53,11 +53,11 @@ def turning_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
         _OfAreas(machine.turning_moment) if machine.turning_moment.areas else _OfCurves(machine, result)
     )
     refused: dict[str, str] = {}
-    known, found = followed(machine, own, lambda along: work.scalars(along.turning_moment), refused)
+    known, numbers_of = followed(machine, own, lambda along: work.scalars(along.turning_moment), refused)
     place = {name: at for at, name in enumerate(known)}
     listed = tuple(name for name in variables if name not in refused)
     tangents = {}
-    for name, number in found.items():
+    for name, number in numbers_of.items():
         value = getattr(result, name)
         if value is None:
             continue
@@ -159,7 +159,7 @@ class _OfCurves:
         change = np.sum(excess * (self.weights * between)) * (1.0 if high > low else -1.0)
         effect = _of_flywheel(described, change)
         work = mean * self.cycle
-        found = {
+        numbers_of = {
             "torque_mean": mean,
             "power_mean": mean * described.speed,
             "energy_cycle": work,
@@ -167,11 +167,13 @@ class _OfCurves:
             "energy_coefficient": change / work if work else None,
         }
         for end, sign in (("max", +1), ("min", -1)):
-            found[f"torque_driver_{end}"] = self._extreme(described, f"torque_driver_{end}", DRIVER, sign)
+            numbers_of[f"torque_driver_{end}"] = self._extreme(
+                described, f"torque_driver_{end}", DRIVER, sign
+            )
             if effect.get("inertia") is not None:
                 name = f"acceleration_{end}"
-                found[name] = self._extreme(described, name, EXCESS, sign) / effect["inertia"]
-        return found | effect
+                numbers_of[name] = self._extreme(described, name, EXCESS, sign) / effect["inertia"]
+        return numbers_of | effect
 
     def _torques(self, described: TurningMoment, phi: Floats) -> tuple[Any, Any]:
         """Driver and load at angles; what is left out is the mean of the other."""
@@ -218,5 +220,5 @@ def _nodes(curves: TurnCurve, ends: tuple[float, float]) -> tuple[Floats, Floats
 def _of_flywheel(described: TurningMoment, change: Any) -> dict[str, Any]:
     """Flywheel, speed fluctuation and rim for a fluctuation of energy."""
     effect = evened(described, change)
-    found = effect._asdict() | rim_of(described, effect)._asdict()
-    return {name: value for name, value in found.items() if value is not None}
+    numbers_of = effect._asdict() | rim_of(described, effect)._asdict()
+    return {name: value for name, value in numbers_of.items() if value is not None}

@@ -198,15 +198,15 @@ def _lifted(x: Any, n: int) -> TangentArray:
     values = np.asarray(x)
     if values.dtype != object:
         return TangentArray(values, np.broadcast_to(0.0, (*values.shape, n)))
-    numbers = [_lifted(each, n) for each in values.ravel().tolist()]
-    value = np.array([each.value for each in numbers], dtype=float).reshape(values.shape)
-    return TangentArray(value, np.array([each.d for each in numbers]).reshape((*values.shape, n)))
+    numbers = [_lifted(entry, n) for entry in values.ravel().tolist()]
+    value = np.array([entry.value for entry in numbers], dtype=float).reshape(values.shape)
+    return TangentArray(value, np.array([entry.d for entry in numbers]).reshape((*values.shape, n)))
 
 
 def _with_lanes(key: Any) -> Any:
     """An index of the values as one of the derivatives, whose last axis is that of the variables."""
     keys = key if isinstance(key, tuple) else (key,)
-    return (*keys, slice(None)) if any(each is Ellipsis for each in keys) else keys
+    return (*keys, slice(None)) if any(entry is Ellipsis for entry in keys) else keys
 
 
 def _lanes(arrays: Sequence[Any]) -> int:
@@ -339,9 +339,9 @@ def _interp(x: Any, knots: Any, heights: Any, period: float | None = None) -> Ta
     share = (at - xp[i]) / (xp[i + 1] - xp[i])
     between = fp[i] + (fp[i + 1] - fp[i]) * share
     outside = _where(right == 0, fp[np.zeros_like(i)], fp[np.full_like(i, len(fp) - 1)])
-    found = _where((right == 0) | (right == len(xp)), outside, between)
+    result = _where((right == 0) | (right == len(xp)), outside, between)
     corner = _times(np.where(slopes[left] == slopes[right], 0.0, np.nan), at.d - xp[i].d)
-    return TangentArray(found.value, found.d + corner)
+    return TangentArray(result.value, result.d + corner)
 
 
 def _row(numbers: Any, n: int) -> TangentArray:
