@@ -153,7 +153,7 @@ _EXTREMES = ("speed_min", "speed_max", "acceleration_min", "acceleration_max")
 
 def test_what_has_no_derivative_is_told():
     machine = lw.read(TWO_CARTS)
-    with pytest.raises(InputError, match="responses: found"):
+    with pytest.raises(InputError, match="no response"):
         lw.gradient(machine, ["steady_state.uneveness"])
     with pytest.raises(MachineError, match="no such entry"):
         lw.gradient(machine, None, ["mechanism.cranks.A2.phas"])

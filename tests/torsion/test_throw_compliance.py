@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from hypothesis import strategies as st
 from sizes import cases
 from throw_models import frame_stiffness, solid_compliance
 
+import linkwright as lw
 from linkwright.kernel.errors import InputError
 from linkwright.torsion.model.engine.throw import CrankThrow
 from linkwright.torsion.model.engine.throw_compliance import (
@@ -20,6 +22,8 @@ from linkwright.torsion.model.engine.throw_compliance import (
     compliances,
     restraint_length,
 )
+
+MACHINES = Path(__file__).parents[2] / "machines"
 
 # Rounding of the frame's elimination, which loses some digits to stiff bars.
 FRAME = 1e-9
@@ -238,3 +242,12 @@ def test_remarks_say_what_is_out_of_range() -> None:
     assert set(compliance_remarks(throw(radius=0.03))) == {"ker_wilson"}
     assert set(compliance_remarks(throw(journal=(0.02, 0.095, 0.0)))) == {"zimanenko"}
     assert set(compliance_remarks(throw(restraint_length=0.05))) == {"constrained"}
+
+
+def test_a_throw_outside_the_range_of_its_formula_is_told() -> None:
+    """A formula gives a number beyond its range too: whoever uses it has to know."""
+    short = {"train.engine.stiffness_formula": "zimanenko", "train.engine.throw.journal.length": "20 mm"}
+    found = lw.torsion_study(lw.read(MACHINES / "v_diesel.toml", overrides=short)).warnings
+    assert [text for text in found if "outside the range of the formula zimanenko: 0.6 h D₁/L₁" in text]
+    as_is = lw.torsion_study(lw.read(MACHINES / "v_diesel.toml")).warnings
+    assert not [text for text in as_is if "outside the range of the formula" in text]

@@ -22,6 +22,7 @@ from linkwright.torsion.limits.operation import operation
 from linkwright.torsion.limits.overlay import Overlay, overlay
 from linkwright.torsion.limits.verdict import Verdict, verdict
 from linkwright.torsion.model.engine.engine import firing_angles
+from linkwright.torsion.model.engine.throw_compliance import compliance_remarks
 from linkwright.torsion.model.measured_response import MeasuredResponse
 from linkwright.torsion.model.train import Train
 from linkwright.torsion.modes.campbell import CampbellDiagram, campbell
@@ -373,6 +374,7 @@ def _warnings(study: TorsionStudy) -> Iterator[str]:
     """What one should know beside the numbers."""
     forced, at, train = study.forced, study.excited, study.machine.train
     yield from () if study.transient is None else (f"Manoeuvre: {note}." for note in study.transient.notes)
+    yield from () if train is None else _about_throws(train)
     if forced is None or at is None:
         if train is not None and pulsates(train):
             yield "Torques pulsate, but no speeds are given: forced vibration needs [train.run]."
@@ -401,6 +403,17 @@ def _warnings(study: TorsionStudy) -> Iterator[str]:
     if len(rest):
         listed = ", ".join(f"{order:.5g}" for order in rest[:4])
         yield f"Orders {listed} have no common base with the others: their amplitudes are added."
+
+
+def _about_throws(train: Train) -> Iterator[str]:
+    """Crank throws outside the range of the formula that gives their stiffness."""
+    for name, engine, _ in train.installed:
+        if engine.throw is None or engine.stiffness is not None or len(engine.throws) < 2:
+            continue
+        if remark := compliance_remarks(engine.throw).get(engine.stiffness_formula):
+            of = f"Engine {name}".rstrip()
+            formula = engine.stiffness_formula.replace("_", " ")
+            yield f"{of}: the throw is outside the range of the formula {formula}: {remark}."
 
 
 def _about_misfires(verdict: MisfireVerdict) -> Iterator[str]:

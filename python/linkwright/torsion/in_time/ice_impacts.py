@@ -156,5 +156,4 @@ def ice_notes(millings: Sequence[IceMilling]) -> list[str]:
 
 
 def _angles(turns: int) -> Floats:
-    angles: Floats = 2 * np.pi / _SAMPLES * np.arange(turns * _SAMPLES)
-    return angles
+    return np.arange(turns * _SAMPLES) * (2 * np.pi / _SAMPLES)

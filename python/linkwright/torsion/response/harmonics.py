@@ -140,7 +140,7 @@ def _load_harmonics(
         if load.harmonics:
             disc = place[load.on]
             resistance = [load.resistance(turning[disc] * speed) for speed in speeds.tolist()]
-            size = np.array([-wave.share * np.exp(1j * wave.phase) for wave in load.harmonics])
+            size = np.array([-wave.share * np.exp(1j * wave.phase) for wave in load.harmonics], dtype=complex)
             orders = turning[disc] * np.array([wave.order for wave in load.harmonics])
             sources.append(Source(disc, orders, size[:, None] * (factor * resistance)))
     return sources
