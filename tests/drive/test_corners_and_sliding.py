@@ -96,6 +96,41 @@ def test_a_jump_that_is_passed_is_none_to_slide_on() -> None:
     assert lw.steady_state(jumps(2.0, by=-8.0)).speed_min > 12.0
 
 
+def gained(u: float, amplitude: float, by: float) -> float:
+    """What u gains over a revolution by SciPy, stopped where the speed passes the jump."""
+    is_above, phi, start = u > 72.0, 0.0, u
+
+    def slope(phi: float, u: np.ndarray) -> list[float]:
+        load = 60.0 + amplitude * np.cos(phi) + (by if is_above else 0.0)
+        return [(160.0 - 8.0 * np.sqrt(2.0 * u[0]) - load) / 5.0]
+
+    def passes(phi: float, u: np.ndarray) -> float:
+        return float(u[0] - 72.0)
+
+    passes.terminal = True  # type: ignore[attr-defined]
+    while phi < 2 * np.pi:
+        piece = solve_ivp(
+            slope, (phi, 2 * np.pi), [u], "DOP853", rtol=1e-12, atol=1e-12, events=passes, max_step=0.1
+        )
+        phi, u = float(piece.t[-1]), float(piece.y[0, -1])
+        if piece.status == 1:
+            is_above = not is_above
+            phi, u = phi + 1e-10, u + 1e-10 * slope(phi, np.array([u]))[0]
+    return u - start
+
+
+@pytest.mark.parametrize("by", [8.0, 4.0])
+@pytest.mark.parametrize("amplitude", [20.0, 15.0, 10.0, 9.0, 8.5])
+def test_a_jump_that_is_passed_at_a_flat_angle_is_passed(amplitude: float, by: float) -> None:
+    """The motion repeats, and its multiplier is the slope of SciPy's map of revolutions."""
+    motion = lw.steady_state(jumps(amplitude, by=by))
+    u = 0.5 * float(motion.speed[0]) ** 2
+    assert gained(u, amplitude, by) == pytest.approx(0.0, abs=1e-7 * u)
+    apart = 1e-5 * u
+    slope = 1.0 + (gained(u + apart, amplitude, by) - gained(u - apart, amplitude, by)) / (2.0 * apart)
+    assert motion.multiplier == pytest.approx(slope, abs=1e-5)
+
+
 def test_a_level_that_moves_with_the_angle_holds_too() -> None:
     with pytest.raises(SteadyStateError, match="slides along a jump"):
         lw.steady_state(jumps(0.0, at="12 + 0.01*sin(phi)"))

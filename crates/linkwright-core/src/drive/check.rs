@@ -203,7 +203,10 @@ impl<R: Real> Turn<R> {
     /// closed.
     #[inline(always)]
     fn add_carried(&self, check: &mut Check, defect: &[f64], limits: Limits) {
-        let growth: Vec<R> = self.steps.iter().map(|step| step.growth).collect();
+        let mut growth: Vec<R> = self.steps.iter().map(|step| step.growth).collect();
+        for (growth, &[scale, _]) in growth.iter_mut().zip(&self.passed) {
+            *growth = *growth * scale;
+        }
         let sizes: Vec<f64> = defect.iter().map(|d| d.abs()).collect();
         let (carried, _) = self.layout.close(&growth, &bundle(&sizes));
         let u: Vec<f64> = unbundle(&self.steps.iter().map(|step| step.u).collect::<Vec<_>>());

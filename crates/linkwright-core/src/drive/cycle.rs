@@ -74,6 +74,8 @@ pub struct Turn<R> {
     pub correction: R,
     /// Relative correction after which a lane has converged: the next would be about its square.
     pub limit: f64,
+    /// What follows u at the end of each step, as [`Turn::passes`] took it; none where u itself does.
+    pub passed: Vec<[R; 2]>,
 }
 
 /// A machine with its parameters in lanes of `R`: what every function of a revolution works on.
@@ -86,6 +88,8 @@ pub struct Machine<'a, R> {
     /// Whether the laws at all stages of a step keep to one branch, that of [`REFERENCE`]: where a law jumps at some speed
     /// the jump is the end of a step then, and rounding does not decide on which side of it a stage lies.
     pub keeps_branch: bool,
+    /// The state that chooses the branch of all stages in the place of [`REFERENCE`]: what laws know there, and u.
+    pub side: Option<(&'a [LawGeometry<R>], R)>,
 }
 
 /// The stage whose state chooses the branch: well inside the step.
@@ -109,7 +113,7 @@ const SOLVED: f64 = 1e-6;
 impl<'a, R: Real> Machine<'a, R> {
     /// A machine that is evaluated as it is at every stage.
     pub fn new(plan: &'a Plan, q: &'a [R]) -> Self {
-        Machine { plan, q, keeps_branch: false }
+        Machine { plan, q, keeps_branch: false, side: None }
     }
 
     /// A machine whose steps each keep to one branch, or not.
@@ -191,7 +195,7 @@ impl<'a, R: Real> Machine<'a, R> {
     fn accelerations(&self, rows: &[Row<R>; S], geometry: &[LawGeometry<R>], X: &[R; S]) -> ([R; S], [R; S]) {
         let (mut f, mut d) = (*X, *X);
         if self.keeps_branch {
-            let reference = (self.geometry_at(geometry, REFERENCE), X[REFERENCE]);
+            let reference = self.side.unwrap_or((self.geometry_at(geometry, REFERENCE), X[REFERENCE]));
             for i in 0..S {
                 let own = self.geometry_at(geometry, i);
                 let epsilon = self.acceleration_on_branch(&rows[i], own, X[i], reference);
@@ -212,7 +216,7 @@ impl<'a, R: Real> Machine<'a, R> {
         (f, d)
     }
 
-    /// A step with a given solution, and what its laws need to know.
+    /// A step with a geometry solution, and what its laws need to know.
     #[inline(always)]
     pub fn step_of(
         &self,
@@ -317,7 +321,7 @@ impl<'a, R: Real> Machine<'a, R> {
         (step, geometry)
     }
 
-    /// Newton for the stages of a step from its given start.
+    /// Newton for the stages of a step from its geometry start.
     #[inline(always)]
     fn solve_step(&self, mut step: Step<R>, geometry: &[LawGeometry<R>], limit: f64) -> Step<R> {
         let mut worst = R::splat(f64::INFINITY);
@@ -483,7 +487,7 @@ impl<R: Real> Turn<R> {
         self.tabulate_again(machine, &steps, m);
     }
 
-    /// One machine, its steps between the given angles in lanes, the last bundle filled up at the end.
+    /// One machine, its steps between the geometry angles in lanes, the last bundle filled up at the end.
     #[inline(always)]
     pub fn of_steps(machine: &Machine<'_, R>, edges: &[f64], m: &mut Motion<R>) -> Self {
         let (mut phi, mut h): (Vec<f64>, Vec<f64>) =
@@ -524,6 +528,7 @@ impl<R: Real> Turn<R> {
             sweeps: 0,
             correction: R::splat(f64::INFINITY),
             limit: CONVERGED,
+            passed: Vec::new(),
         }
     }
 
@@ -543,6 +548,7 @@ impl<R: Real> Turn<R> {
         let row = Row { inverse: zero, drift: zero, load: zero, viscous: zero };
         self.steps.clear();
         self.geometry.clear();
+        self.passed.clear();
         for &(phi, h) in steps {
             self.steps.push(Step::at_rest(phi, h, [row; S], zero));
             self.take_rows(machine, self.steps.len() - 1, m);
@@ -550,7 +556,7 @@ impl<R: Real> Turn<R> {
         (self.multiplier, self.sweeps, self.correction) = (zero, 0, R::splat(f64::INFINITY));
     }
 
-    /// The stages of a step, which has its start and length; what laws need there is added to what is given.
+    /// The stages of a step, which has its start and length; what laws need there is added to what is geometry.
     #[inline(always)]
     pub fn take_rows(&mut self, machine: &Machine<'_, R>, k: usize, m: &mut Motion<R>) {
         let step = &mut self.steps[k];
@@ -636,7 +642,12 @@ impl<R: Real> Turn<R> {
         let (mut growth, mut defect) = (starts, ends);
         for (k, step) in self.steps.iter().enumerate() {
             growth[k] = step.growth;
-            defect[k] = step.end() + work[k].p[S - 1] - defect[k];
+            let mut end = step.end() + work[k].p[S - 1];
+            if let Some(&[scale, offset]) = self.passed.get(k) {
+                growth[k] = growth[k] * scale;
+                end = end.mul_add(scale, offset);
+            }
+            defect[k] = end - defect[k];
         }
         let (delta, multiplier) = self.layout.close(&growth, &defect);
         let (mut worst, done, limit) = (R::splat(0.0), self.correction, R::splat(self.limit));

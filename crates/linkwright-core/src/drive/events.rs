@@ -1,15 +1,18 @@
 //! Kinks and jumps of the equation of motion at angles that depend on the motion: a speed at which the characteristic of
 //! the drive has a kink, a switch of a formula, a knot of a damper's table.
 //!
-//! Where the motion passes one is found from its steps, becomes the end of a step, and stays there while the motion is
-//! solved again, until neither moves. What depends on the side (a slope, a torque that jumps) is taken on the branch of
-//! the step ([`crate::kernel::branch`]).
+//! Where the motion passes one is found from its steps and becomes the end of a step. That end moves with the motion: the
+//! step of Newton's method over the revolution takes u from the side before to the side behind as if the kink were passed
+//! where g, the quantity whose zero it is, would be zero ([`Passage`]), so that it converges however much the torque jumps;
+//! then the end goes there. What depends on the side (a slope, a torque that jumps) is taken on the branch of the step
+//! ([`crate::kernel::branch`]).
 
-use crate::drive::cycle::Machine;
-use crate::drive::law::SpeedKink;
-use crate::drive::mesh::{Piece, crossing};
+use crate::drive::cycle::{Machine, REFERENCE, Turn};
+use crate::drive::law::{LawGeometry, SpeedKink};
+use crate::drive::layout::bundle;
+use crate::drive::mesh::{Crossing, Mesh, Piece, crossing};
 use crate::drive::structure::Plan;
-use crate::kernel::radau::S;
+use crate::kernel::radau::{AT, C, N, S};
 use crate::kernel::real::Real;
 use crate::linkage::motion::Motion;
 
@@ -26,8 +29,18 @@ const KINK_SHARE_JUMP: f64 = 1e-10;
 /// enough that what extrapolation to it leaves is of the order of their product.
 const BESIDE: f64 = 1e-5;
 
+/// Rounding of u after a revolution, relative.
+const ROUNDING: f64 = 1e-12;
+
 /// A change of the acceleration at a kink below this share of it is no jump.
 const NO_JUMP: f64 = 1e-8;
+
+/// How far ahead of a motion the state lies that tells its side, as a share of a step.
+const AHEAD: f64 = 1e-6;
+
+/// How far beside a kink the state lies that tells its side: a share of u, or an angle where the kink hardly depends on u.
+const NUDGE: f64 = 1e-7;
+const UPRIGHT: f64 = 1e-3;
 
 /// Distance of u from a jump, as a share, at which its two sides are looked at.
 const ASIDE: f64 = 1e-6;
@@ -55,17 +68,74 @@ pub enum Pull {
     Down,
 }
 
-/// Where the motion passes a kink.
+/// How the motion passes a kink at the end of a step, or beside it.
 #[derive(Clone, Copy, Debug)]
-pub struct Passage {
-    /// Crank angle \[rad\], the end of a step.
-    pub phi: f64,
-    /// What it passes.
-    pub event: Event,
-    /// Factor by which it changes a small disturbance.
-    pub factor: f64,
-    /// How far the kink itself is \[rad\].
-    away: f64,
+pub struct Passage<R> {
+    /// u at the end of the step.
+    u: R,
+    /// The quantity whose zero the kink is, there.
+    g: R,
+    /// Its derivatives by φ and u.
+    slopes: [R; 2],
+    /// ε at the end of the step, on its branch.
+    before: R,
+    /// ε at the start of the next step, on its branch.
+    behind: R,
+}
+
+impl<R: Real> Passage<R> {
+    /// Angle behind the end of the step at which the motion before it passes the kink \[rad\]: −g/g′.
+    #[inline(always)]
+    pub fn late(&self) -> R {
+        -self.g / (self.slopes[0] + self.slopes[1] * self.before)
+    }
+
+    /// Whether the kink is at the end of the step, to the rounding of u.
+    fn is_there(&self) -> bool {
+        self.g.abs().max_lane() <= ROUNDING * (self.slopes[1] * self.u).abs().max_lane()
+    }
+
+    /// How the passing changes a small disturbance: the later the motion passes a jump, the longer the acceleration before
+    /// it lasts. With g′ the derivative of g along the motion, the factor is g′ behind over g′ before (the saltation of
+    /// Aizerman and Gantmacher, *PMM* 22, 1958); 1 where the acceleration is continuous.
+    #[inline(always)]
+    pub fn factor(&self) -> R {
+        let [by_phi, by_u] = self.slopes;
+        let factor = (by_phi + by_u * self.behind) / (by_phi + by_u * self.before);
+        self.where_continuous(R::splat(1.0), factor)
+    }
+
+    /// What u at the end of the step becomes for the next one, as `[scale, offset]`: the acceleration before lasts to where
+    /// the kink is passed.
+    #[inline(always)]
+    pub fn through(&self) -> [R; 2] {
+        let scale = self.factor();
+        let carried = (self.behind - self.before).mul_add(self.late(), self.u);
+        [scale, self.where_continuous(R::splat(0.0), carried - scale * self.u)]
+    }
+
+    /// One value where the acceleration is continuous, whose rounding would otherwise count, and another elsewhere.
+    #[inline(always)]
+    fn where_continuous(&self, there: R, elsewhere: R) -> R {
+        let size = self.before.abs().max(self.behind.abs());
+        (self.behind - self.before).abs().select_lt(size * NO_JUMP, there, elsewhere)
+    }
+}
+
+/// A state that tells on which side of all kinks a motion is.
+#[derive(Clone, Debug)]
+pub struct Side {
+    /// What laws know there.
+    geometry: Vec<LawGeometry<f64>>,
+    /// u there.
+    u: f64,
+}
+
+impl Side {
+    /// The machine on the branch of this side.
+    pub fn of<'b>(&'b self, machine: &Machine<'b, f64>) -> Machine<'b, f64> {
+        Machine { side: Some((&self.geometry, self.u)), ..*machine }
+    }
 }
 
 impl Plan {
@@ -120,17 +190,25 @@ impl<'a, R: Real> Events<'a, R> {
         [by_phi / (over_phi * 2.0), by_u / (over_u * 2.0)]
     }
 
-    /// How the passing of a jump changes a small disturbance: the later the motion passes it, the longer the acceleration
-    /// `before` lasts. With g the quantity whose zero the jump is, and g′ its derivative along the motion, the factor is
-    /// g′ behind over g′ before (the saltation of Aizerman and Gantmacher, *PMM* 22, 1958); 1
-    /// where the acceleration is continuous.
+    /// The kink with a number in the order of [`Events::all`].
     #[inline(always)]
-    pub fn saltation(&self, slopes: [R; 2], before: R, behind: R) -> R {
-        let [by_phi, by_u] = slopes;
-        let factor = (by_phi + by_u * behind) / (by_phi + by_u * before);
-        let size = before.abs().max(behind.abs());
-        // Rounding of an acceleration that does not jump would otherwise count.
-        (behind - before).abs().select_lt(size * NO_JUMP, R::splat(1.0), factor)
+    pub fn nth(&self, nth: usize) -> Event {
+        let speeds = self.speeds.len();
+        if nth < speeds { Event::Speed(nth) } else { Event::Law(self.laws[nth - speeds]) }
+    }
+
+    /// How the motion passes a kink at a crank angle with u, and ε on either side.
+    #[inline(always)]
+    pub fn passage(
+        &self,
+        event: Event,
+        phi: R,
+        u: R,
+        [before, behind]: [R; 2],
+        m: &mut Motion<R>,
+    ) -> Passage<R> {
+        let slopes = self.slopes(event, phi, u, m);
+        Passage { u, g: self.value(event, phi, u, m), slopes, before, behind }
     }
 }
 
@@ -143,92 +221,256 @@ impl Events<'_, f64> {
         }
     }
 
-    /// Where a step passes the kink that lies between its ends, as a length from its start.
-    fn place(&self, event: Event, piece: &Piece, [left, right]: [f64; 2], m: &mut Motion<f64>) -> f64 {
-        let excess = |h: f64| {
-            let end = self.machine.advance(piece.phi, piece.u, h, m).0.end();
-            self.value(event, piece.phi + h, end, m)
-        };
-        crossing(excess, piece.h, left, right)
+    /// The quantity whose zero the event is, on the quintic of a step at a share of it.
+    fn on_piece(&self, event: Event, piece: &Piece, share: f64, m: &mut Motion<f64>) -> f64 {
+        let phi = piece.phi + share * piece.h;
+        self.value(event, phi, piece.value(&piece.quintic(), phi), m)
     }
 
-    /// Angles inside steps at which the solution passes a kink of the drive or of a law, in order.
-    pub fn crossings(&self, pieces: &[Piece], m: &mut Motion<f64>) -> Vec<f64> {
-        let passed = self.passed_inside(pieces, ON_KINK, m);
-        let mut crossings: Vec<f64> = passed.into_iter().map(|(k, h)| pieces[k].phi + h).collect();
-        let cycle = self.machine.plan.cycle();
-        crossings.retain(|phi| *phi > 0.0 && *phi < cycle);
-        crossings.sort_by(f64::total_cmp);
-        crossings.dedup();
-        crossings
+    /// The mesh with its ends at kinks moved to where the solved motion passes them, and with new ends at those that it
+    /// passes inside steps; none where all lie at ends.
+    pub fn placed(&self, mesh: &Mesh, pieces: &[Piece], breaks: &[f64], m: &mut Motion<f64>) -> Option<Mesh> {
+        let kink_share = self.machine.plan.kink_share();
+        let mut moves = Vec::with_capacity(mesh.crossings.len());
+        for crossing in &mesh.crossings {
+            moves.push(self.move_of(crossing, pieces, m));
+        }
+        let mut next = mesh.clone();
+        let mut changes = next.follow(&moves, breaks, kink_share);
+        for found in self.crossings(mesh, &moves, pieces, m) {
+            changes |= next.add_crossing(found, kink_share);
+        }
+        changes.then_some(next)
     }
 
-    /// Crank angle and acceleration where the solution passes a kink inside a step, however near to its end: the curve of
-    /// the acceleration has a corner there.
-    pub fn corners(&self, pieces: &[Piece], m: &mut Motion<f64>) -> Vec<(f64, f64)> {
-        let passed = self.passed_inside(pieces, 0.0, m);
-        let corner = |(k, h): (usize, f64)| {
-            let piece = &pieces[k];
-            (piece.phi + h, self.machine.advance(piece.phi, piece.u, h, m).0.K[S - 1])
-        };
-        passed.into_iter().map(corner).collect()
+    /// By how much the end of a step has to move to where the motion passes its kink; none where it does not.
+    fn move_of(&self, crossing: &Crossing, pieces: &[Piece], m: &mut Motion<f64>) -> Option<f64> {
+        let event = self.nth(crossing.nth);
+        let [before, behind] = beside(crossing.phi, pieces);
+        let sides = [before, behind].map(|piece| self.on_piece(event, piece, C[REFERENCE], m));
+        if sides[0] * sides[1] >= 0.0 {
+            return None;
+        }
+        let passage = self.passage_between(event, before, behind, m);
+        if passage.is_there() {
+            return Some(0.0);
+        }
+        let late = passage.late();
+        let room = [(C[REFERENCE] - 1.0) * before.h, C[REFERENCE] * behind.h];
+        if room[0] < late && late < room[1] {
+            return Some(late);
+        }
+        // Where it passes at a flat angle the tangent points far off: the sign changes between the middles of the steps.
+        let end = self.value(event, before.phi + before.h, before.X[S - 1], m);
+        Some(if end * sides[0] < 0.0 {
+            self.within(event, before, [C[REFERENCE], 1.0], [sides[0], end], m) - before.h
+        } else {
+            let start = self.value(event, behind.phi, behind.u, m);
+            if start * sides[1] < 0.0 {
+                self.within(event, behind, [0.0, C[REFERENCE]], [start, sides[1]], m)
+            } else {
+                0.0
+            }
+        })
     }
 
-    /// Steps that pass a kink, with its distance from their starts. A kink within the share `near` of the speed, or of the
-    /// law's quantity, at an end of a step lies at that end.
-    fn passed_inside(&self, pieces: &[Piece], near: f64, m: &mut Motion<f64>) -> Vec<(usize, f64)> {
-        let mut passed = Vec::new();
-        let stages = || pieces.iter().flat_map(|piece| piece.X);
-        let (low, high) = stages().fold((f64::INFINITY, 0.0_f64), |(low, high), u| (low.min(u), high.max(u)));
+    /// Where the quintic of a step passes a kink between two shares of it, with the values there: a length from its start.
+    fn within(
+        &self,
+        event: Event,
+        piece: &Piece,
+        [from, to]: [f64; 2],
+        [left, right]: [f64; 2],
+        m: &mut Motion<f64>,
+    ) -> f64 {
+        piece.h * (from + crossing(|x| self.on_piece(event, piece, from + x, m), to - from, left, right))
+    }
+
+    /// How the motion passes a kink between two steps.
+    fn passage_between(
+        &self,
+        event: Event,
+        before: &Piece,
+        behind: &Piece,
+        m: &mut Motion<f64>,
+    ) -> Passage<f64> {
+        let (phi, u) = (before.phi + before.h, before.X[S - 1]);
+        let sides = [self.on_branch_of(before, phi, u, m), self.on_branch_of(behind, behind.phi, u, m)];
+        self.passage(event, phi, u, sides, m)
+    }
+
+    /// ε on the branch of a step.
+    fn on_branch_of(&self, piece: &Piece, phi: f64, u: f64, m: &mut Motion<f64>) -> f64 {
+        let (mut geometry, mut known) = (Vec::new(), Vec::new());
+        self.machine.row(C[REFERENCE].mul_add(piece.h, piece.phi), m, &mut known);
+        let row = self.machine.row(phi, m, &mut geometry);
+        self.machine.acceleration_on_branch(&row, &geometry, u, (&known, piece.X[REFERENCE])).value
+    }
+
+    /// How the motion passes the ends of steps at kinks: the number of the step before each, and its passage. Of several
+    /// kinks at one end the first stands for all.
+    pub fn passages(&self, mesh: &Mesh, pieces: &[Piece], m: &mut Motion<f64>) -> Vec<(usize, Passage<f64>)> {
+        let mut passages: Vec<(usize, Passage<f64>)> = Vec::with_capacity(mesh.crossings.len());
+        for crossing in &mesh.crossings {
+            let k = before(crossing.phi, pieces);
+            if passages.iter().all(|passage| passage.0 != k) {
+                let [before, behind] = beside(crossing.phi, pieces);
+                passages.push((k, self.passage_between(self.nth(crossing.nth), before, behind, m)));
+            }
+        }
+        passages
+    }
+
+    /// Kinks that the motion may pass, by number: those of the drive near its speeds, and all of laws.
+    fn within_reach(&self, pieces: &[Piece]) -> Vec<(usize, Event)> {
+        let stages = pieces.iter().flat_map(|piece| piece.X);
+        let (low, high) = stages.fold((f64::INFINITY, 0.0_f64), |(low, high), u| (low.min(u), high.max(u)));
         // With room for what lies between the stages.
         let may_be_passed = |event: &Event| match *event {
             Event::Speed(nth) => (0.8 * low..1.2 * high).contains(&(0.5 * self.speeds[nth].powi(2))),
             Event::Law(_) => true,
         };
-        for event in self.all().filter(may_be_passed) {
-            let values: Vec<f64> =
-                pieces.iter().map(|piece| self.value(event, piece.phi, piece.u, m)).collect();
-            let near = near * self.size(event, &values);
-            for (k, piece) in pieces.iter().enumerate() {
-                let (left, right) = (values[k], values[(k + 1) % values.len()]);
-                if left * right < 0.0 && left.abs() > near && right.abs() > near {
-                    passed.push((k, self.place(event, piece, [left, right], m)));
+        self.all().enumerate().filter(|(_, event)| may_be_passed(event)).collect()
+    }
+
+    /// The quantity whose zero a kink is, at the starts of the steps and at the end of the last.
+    fn at_ends(&self, event: Event, pieces: &[Piece], m: &mut Motion<f64>) -> Vec<f64> {
+        let last = &pieces[pieces.len() - 1];
+        let starts = pieces.iter().map(|piece| (piece.phi, piece.u));
+        let ends = starts.chain([(self.machine.plan.cycle(), last.X[S - 1])]);
+        ends.map(|(phi, u)| self.value(event, phi, u, m)).collect()
+    }
+
+    /// Crank angle and acceleration where the solution passes a kink inside a step, however near to its end: the curve of
+    /// the acceleration has a corner there.
+    pub fn corners(&self, pieces: &[Piece], m: &mut Motion<f64>) -> Vec<(f64, f64)> {
+        let mut corners = Vec::new();
+        for (_, event) in self.within_reach(pieces) {
+            let values = self.at_ends(event, pieces, m);
+            for (piece, ends) in pieces.iter().zip(values.windows(2)) {
+                if ends[0] * ends[1] < 0.0 {
+                    let h = self.within(event, piece, [0.0, 1.0], [ends[0], ends[1]], m);
+                    let step = self.machine.advance(piece.phi, piece.u, h, m).0;
+                    corners.push((piece.phi + h, step.K[S - 1]));
                 }
             }
         }
-        passed
+        corners
     }
 
-    /// Where a step passes a kink of a law first, as a length from its start; none where it passes none.
-    pub fn first_of_laws(&self, piece: &Piece, m: &mut Motion<f64>) -> Option<f64> {
-        let mut first: Option<f64> = None;
-        for event in self.laws.iter().copied().map(Event::Law) {
-            let left = self.value(event, piece.phi, piece.u, m);
-            let right = self.value(event, piece.phi + piece.h, piece.X[S - 1], m);
-            let near = ON_KINK * self.size(event, &[left, right]);
-            if left * right < 0.0 && left.abs() > near && right.abs() > near {
-                let at = self.place(event, piece, [left, right], m);
-                first = Some(first.map_or(at, |first| first.min(at)));
+    /// Kinks of the drive or of a law that the motion passes inside steps, besides those at ends that stay.
+    fn crossings(
+        &self,
+        mesh: &Mesh,
+        moves: &[Option<f64>],
+        pieces: &[Piece],
+        m: &mut Motion<f64>,
+    ) -> Vec<Crossing> {
+        let mut crossings = Vec::new();
+        let cycle = self.machine.plan.cycle();
+        for (nth, event) in self.within_reach(pieces) {
+            let values = self.at_ends(event, pieces, m);
+            let near = ON_KINK * self.size(event, &values);
+            let all = mesh.crossings.iter().zip(moves);
+            let stays = all.filter(|(crossing, by)| crossing.nth == nth && by.is_some());
+            let stays: Vec<f64> = stays.map(|(crossing, _)| crossing.phi).collect();
+            let is_at = |phi: f64| stays.iter().any(|&at| at == phi || (at == 0.0 && phi == cycle));
+            let middle = |piece: &Piece, m: &mut Motion<f64>| self.on_piece(event, piece, C[REFERENCE], m);
+            for (k, piece) in pieces.iter().enumerate() {
+                let end = pieces.get(k + 1).map_or(cycle, |next| next.phi);
+                // Beside a kink that stays the side of the step counts.
+                let (mut shares, mut ends) = ([0.0, 1.0], [values[k], values[k + 1]]);
+                match [is_at(piece.phi), is_at(end)] {
+                    [true, true] => continue,
+                    [true, false] => (shares[0], ends[0]) = (C[REFERENCE], middle(piece, m)),
+                    [false, true] => (shares[1], ends[1]) = (C[REFERENCE], middle(piece, m)),
+                    [false, false] => {}
+                }
+                if ends[0] * ends[1] < 0.0 && ends[0].abs() > near && ends[1].abs() > near {
+                    let phi = piece.phi + self.within(event, piece, shares, ends, m);
+                    crossings.extend((0.0 < phi && phi < cycle).then_some(Crossing { phi, nth }));
+                }
+            }
+        }
+        crossings
+    }
+
+    /// Where a step that keeps to a side passes a kink of a law first, as a length from its start, and the kink's number;
+    /// none where it passes none. `geometry` is what laws know at its stages.
+    pub fn first_of_laws(
+        &self,
+        side: &Side,
+        piece: &Piece,
+        geometry: &[LawGeometry<f64>],
+        m: &mut Motion<f64>,
+    ) -> Option<(f64, usize)> {
+        let (mut first, speeds): (Option<(f64, usize)>, _) = (None, self.speeds.len());
+        for nth in speeds..speeds + self.laws.len() {
+            let mut values = [self.on_side(nth, side); N];
+            for i in 0..S {
+                let geometry = self.machine.geometry_at(geometry, i).to_vec();
+                values[i + 1] = self.on_side(nth, &Side { geometry, u: piece.X[i] });
+            }
+            let near = ON_KINK * self.size(self.nth(nth), &values);
+            let passed = |&i: &usize| values[i] * values[0] < 0.0 && values[i].abs() > near;
+            let Some(to) = (1..N).find(passed) else { continue };
+            let (start, length) = (AT[to - 1] * piece.h, (AT[to] - AT[to - 1]) * piece.h);
+            let machine = side.of(&self.machine);
+            let excess = |x: f64| {
+                let end = machine.advance(piece.phi, piece.u, start + x, m).0.end();
+                self.value(self.nth(nth), piece.phi + start + x, end, m)
+            };
+            let at = start + crossing(excess, length, values[to - 1], values[to]);
+            if first.is_none_or(|(least, _)| at < least) {
+                first = Some((at, nth));
             }
         }
         first
     }
 
-    /// All passages of a solved revolution among the given starts of steps. Of two within sight of one kink the nearer counts.
-    pub fn passages<'p>(&self, starts: impl Iterator<Item = &'p Piece>, m: &mut Motion<f64>) -> Vec<Passage> {
-        let mut passages: Vec<Passage> = Vec::new();
-        for piece in starts {
-            let Some(next) = self.passed_at(piece.phi, piece.u, m) else { continue };
-            match passages.last_mut() {
-                Some(last) if last.event == next.event && next.phi - last.phi < 2.0 * BESIDE => {
-                    if next.away < last.away {
-                        *last = next;
-                    }
-                }
-                _ => passages.push(next),
-            }
-        }
-        passages
+    /// The quantity whose zero the kink of a law is, on a side.
+    fn on_side(&self, nth: usize, side: &Side) -> f64 {
+        let kink = self.laws[nth - self.speeds.len()];
+        self.machine.plan.speed_kink_value(self.machine.q, kink, &side.geometry, (2.0 * side.u).sqrt())
+    }
+
+    /// The side of a motion that goes on at a crank angle, a little ahead.
+    pub fn ahead(&self, phi: f64, u: f64, h: f64, m: &mut Motion<f64>) -> Side {
+        let (step, geometry) = self.machine.advance(phi, u, h * AHEAD, m);
+        // Newton may not find a way through a jump there.
+        let u = if step.X[S - 1].is_finite() { step.X[REFERENCE] } else { u };
+        Side { geometry: self.machine.geometry_at(&geometry, REFERENCE).to_vec(), u }
+    }
+
+    /// The side above a state, or below it.
+    pub fn beside(&self, phi: f64, u: f64, above: bool, m: &mut Motion<f64>) -> Side {
+        let mut geometry = Vec::new();
+        self.machine.row(phi, m, &mut geometry);
+        Side { geometry, u: u * if above { 1.0 + NUDGE } else { 1.0 - NUDGE } }
+    }
+
+    /// The side behind a kink of a law that the motion passes, and how it passes it; `epsilon` is that before.
+    pub fn behind(
+        &self,
+        nth: usize,
+        before: &Side,
+        [phi, u, epsilon]: [f64; 3],
+        m: &mut Motion<f64>,
+    ) -> (Side, Passage<f64>) {
+        let event = self.nth(nth);
+        let slopes = self.slopes(event, phi, u, m);
+        let from = self.on_side(nth, before);
+        // Beside the kink in u; in φ where its level is upright.
+        let side = if (slopes[1] * u).abs() > slopes[0].abs() * UPRIGHT {
+            self.beside(phi, u, from * slopes[1] < 0.0, m)
+        } else {
+            Side { u, ..self.beside(phi + NUDGE, u, true, m) }
+        };
+        let mut geometry = Vec::new();
+        let row = self.machine.row(phi, m, &mut geometry);
+        let behind = self.machine.acceleration_on_branch(&row, &geometry, u, (&side.geometry, side.u)).value;
+        let passage = self.passage(event, phi, u, [epsilon, behind], m);
+        (side, passage)
     }
 
     /// The jump of a law on which the motion is held: there, within the share `near` of u, the torques of both sides drive it
@@ -241,7 +483,7 @@ impl Events<'_, f64> {
         })
     }
 
-    /// u on the zero of an event, near the one given, by Newton.
+    /// u on the zero of an event, near the one geometry, by Newton.
     pub fn level(&self, event: Event, phi: f64, mut u: f64, m: &mut Motion<f64>) -> f64 {
         for _ in 0..LEVEL_SWEEPS {
             u -= self.value(event, phi, u, m) / self.slopes(event, phi, u, m)[1];
@@ -271,33 +513,34 @@ impl Events<'_, f64> {
         let (step, geometry) = self.machine.step_of(piece.phi, piece.h, piece.u, piece.X, m);
         self.machine.growth_on_side(&step, &geometry)
     }
+}
 
-    /// ε before and behind an angle, from both sides.
-    fn sides(&self, phi: f64, u: f64, m: &mut Motion<f64>) -> [f64; 2] {
-        let mut geometry = Vec::new();
-        let mut epsilon = |phi: f64, u: f64, m: &mut Motion<f64>| {
-            geometry.clear();
-            let row = self.machine.row(phi, m, &mut geometry);
-            self.machine.acceleration(&row, &geometry, u).value
-        };
-        let there = epsilon(phi, u, m);
-        [-BESIDE, BESIDE].map(|x| {
-            2.0 * epsilon(phi + x, u + there * x, m) - epsilon(phi + 2.0 * x, u + 2.0 * there * x, m)
-        })
-    }
-
-    /// What the motion passes at the end of a step, with the factor of a disturbance there; none where it passes nothing.
-    pub fn passed_at(&self, phi: f64, u: f64, m: &mut Motion<f64>) -> Option<Passage> {
-        let [before, behind] = self.sides(phi, u, m);
-        for event in self.all() {
-            let left = self.value(event, phi - BESIDE, u - before * BESIDE, m);
-            let right = self.value(event, phi + BESIDE, u + behind * BESIDE, m);
-            if left * right < 0.0 {
-                let factor = self.saltation(self.slopes(event, phi, u, m), before, behind);
-                let away = (self.value(event, phi, u, m) / (right - left)).abs() * (2.0 * BESIDE);
-                return Some(Passage { phi, event, factor, away });
+impl<R: Real> Turn<R> {
+    /// Takes u through the kinks at ends of steps: for each the number of the step before, and how the motion passes it.
+    #[inline(always)]
+    pub fn pass(&mut self, passages: &[(usize, Passage<f64>)]) {
+        let n = self.steps.len() * R::LANES;
+        let (mut scale, mut offset) = (vec![1.0; n], vec![0.0; n]);
+        for (k, passage) in passages {
+            let [by, and] = passage.through();
+            // Where a kink holds the motion, or drives it away on both sides, it is not passed.
+            if by > 0.0 && by.is_finite() && and.is_finite() {
+                (scale[*k], offset[*k]) = (by, and);
             }
         }
-        None
+        let pairs = bundle(&scale).into_iter().zip(bundle(&offset));
+        self.passed = pairs.map(|(scale, offset)| [scale, offset]).collect();
     }
+}
+
+/// Number of the step that ends at a crank angle: the last one for the start of the revolution.
+fn before(phi: f64, pieces: &[Piece]) -> usize {
+    let behind = pieces.partition_point(|piece| piece.phi < phi);
+    (behind + pieces.len() - 1) % pieces.len()
+}
+
+/// The steps before and behind a crank angle.
+fn beside(phi: f64, pieces: &[Piece]) -> [&Piece; 2] {
+    let k = before(phi, pieces);
+    [&pieces[k], &pieces[(k + 1) % pieces.len()]]
 }

@@ -10,7 +10,7 @@
 //! angle (envelope theorem), or along the kink that it sits on.
 
 use crate::drive::cycle::{Machine, REFERENCE, Turn, stages_of_part};
-use crate::drive::events::Events;
+use crate::drive::events::{Events, Passage};
 use crate::drive::layout::Layout;
 use crate::drive::reading::State;
 use crate::drive::steady::Steady;
@@ -29,9 +29,10 @@ pub const NUMBERS: usize = 11;
 /// Curves that are differentiated: time, speed, acceleration, torques of motor, drive and loads, inertia.
 pub const CURVES: usize = 7;
 
-/// Rounds in which the ends of steps at kinks are moved, and the share of its move by which the last may move one.
+/// Rounds in which the ends of steps at kinks are dual, and the share of its move by which the last may move one: where
+/// jumps alone decide, one round leaves rounding, which a flat angle enlarges.
 const PASSAGES_MAX: usize = 60;
-const MOVED: f64 = 1e-11;
+const MOVED: f64 = 1e-8;
 
 /// The same where moves have stopped shrinking: rounding, which a steep drive enlarges. Against the move, and against the
 /// largest change of u by the parameter.
@@ -141,19 +142,20 @@ impl<'a, R: Real> DualRevolution<'a, R> {
             || machine.moving(&ends, m),
         );
         let mut dual = DualRevolution { machine, steady, turn: Turn::empty(Layout::Machines), edges };
-        dual.differentiate(m);
-        if !steady.passages.is_empty() {
-            dual.move_passages(m);
+        dual.differentiate(Vec::new(), m);
+        if !steady.crossings.is_empty() {
+            dual.move_crossings(m);
         }
         dual
     }
 
-    /// The solution on the steps between the edges, with its derivatives.
+    /// The solution on the steps between the edges, with its derivatives; `passed` takes u through the ends of steps.
     #[inline(always)]
-    fn differentiate(&mut self, m: &mut Motion<Dual<R>>) {
+    fn differentiate(&mut self, passed: Vec<[Dual<R>; 2]>, m: &mut Motion<Dual<R>>) {
         let marks = &self.steady.marks;
         let steps: Vec<_> = self.edges.windows(2).map(|ends| (ends[0], ends[1] - ends[0])).collect();
         self.turn.tabulate_again(&self.machine, &steps, m);
+        self.turn.passed = passed;
         for (step, mark) in self.turn.steps.iter_mut().zip(marks) {
             step.u = Dual::splat(mark.u);
             step.X = mark.X.map(Dual::splat);
@@ -171,55 +173,87 @@ impl<'a, R: Real> DualRevolution<'a, R> {
 
     /// Moves the ends of steps at which the motion passes a kink along with it: the quantity g whose zero the kink is
     /// stays zero, φ′ = −(g_p + g_u u_p)/g′, with g′ along the motion before the kink. The motion in turn depends on that
-    /// where the torque jumps, or where the slope at the end of the step is that of the other side, as long as u changes
-    /// there. Sides and jumps count in the multiplier.
+    /// where the torque jumps, which [`Passage::through`] counts, or where the slope at the end of the step is that of the
+    /// other side, as long as u changes there. Sides and jumps count in the multiplier.
     #[inline(always)]
-    fn move_passages(&mut self, m: &mut Motion<Dual<R>>) {
+    fn move_crossings(&mut self, m: &mut Motion<Dual<R>>) {
         let events = Events::new(self.machine);
-        let never = R::splat(f64::INFINITY);
+        let (one, zero, never) = (Dual::splat(1.0), Dual::splat(0.0), R::splat(f64::INFINITY));
+        let edges = self.edges.clone();
         // In each lane, by how much moves are above rounding, and the largest of the round before.
         let (mut unsettled, mut last) = (never, never);
-        for _ in 0..PASSAGES_MAX {
-            let (mut most, mut excess, mut noise) = (R::splat(0.0), R::splat(0.0), R::splat(0.0));
-            let (mut factors, mut ends) = (Dual::splat(1.0), Vec::new());
+        for round in 0..2 * PASSAGES_MAX {
+            // Where that does not settle, the ends and the motion are found in turn.
+            let is_newton = round < PASSAGES_MAX;
+            if round == PASSAGES_MAX {
+                self.edges.clone_from(&edges);
+                last = never;
+            }
+            let mut passed = vec![[one, zero]; self.turn.steps.len()];
+            if is_newton {
+                for (k, passage) in self.passages(&events, m) {
+                    passed[k] = passage.through();
+                }
+            }
+            self.differentiate(passed, m);
             let change = self.turn.steps.iter().fold(R::splat(0.0), |most, step| most.max(step.u.d.abs()));
-            for passage in &self.steady.passages {
-                let marks = &self.steady.marks;
-                let k = marks.partition_point(|mark| mark.phi < passage.phi - AT_END).max(1);
-                let (step, phi) = (&self.turn.steps[k], self.edges[k]);
-                let slopes = events.slopes(passage.event, phi, step.u, m);
-                let (before, behind) = (self.turn.steps[k - 1].K[S - 1], self.start_of(k, m));
-                let along = slopes[0] + slopes[1] * before;
-                let left = events.value(passage.event, phi, step.u, m).d / along.value;
-                most = most.max(left.abs());
-                excess = excess.max(left.abs() - phi.d.abs() * MOVED);
-                let of_change = left.abs() * before.value.abs() - change * ROUNDING;
-                noise = noise.max(of_change.min(left.abs() - phi.d.abs() * ROUNDING));
-                self.edges[k].d = phi.d - left;
-                factors = factors * events.saltation(slopes, before, behind);
-                ends.push(k - 1);
+            let (mut most, mut excess, mut noise) = (R::splat(0.0), R::splat(0.0), R::splat(0.0));
+            for (k, passage) in self.passages(&events, m) {
+                let (late, next) = (passage.late().d, (k + 1) % self.turn.steps.len());
+                let (size, moved) = (late.abs(), self.edges[next].d.abs());
+                most = most.max(size);
+                excess = excess.max(size - moved * MOVED);
+                let of_change = size * self.turn.steps[k].K[S - 1].value.abs() - change * ROUNDING;
+                noise = noise.max(of_change.min(size - moved * ROUNDING));
+                self.edges[next].d = self.edges[next].d + late;
+                if next == 0 {
+                    let end = self.edges.len() - 1;
+                    self.edges[end].d = self.edges[end].d + late;
+                }
             }
-            self.differentiate(m);
-            for &k in &ends {
-                let step = &self.turn.steps[k];
-                let geometry = self.turn.geometry_of(&self.machine, k);
-                factors = factors * self.machine.growth_on_side(step, geometry) / step.growth;
-            }
-            self.turn.multiplier = self.turn.multiplier * factors;
             // Moves that shrink no more are rounding, if they are small.
             let stands = (last * 0.5).select_lt(most, noise, never);
             unsettled = R::splat(0.0).select_lt(excess, stands, excess);
             last = most;
             if unsettled.max_lane() <= 0.0 {
-                return;
+                break;
             }
         }
+        self.differentiate(Vec::new(), m);
+        let mut factor = one;
+        for (k, passage) in self.passages(&events, m) {
+            let (step, geometry) = (&self.turn.steps[k], self.turn.geometry_of(&self.machine, k));
+            factor = factor * passage.factor() * (self.machine.growth_on_side(step, geometry) / step.growth);
+        }
+        self.turn.multiplier = self.turn.multiplier * factor;
         // Nothing is known of derivatives that do not settle.
         let nothing = R::splat(0.0).select_lt(unsettled, R::splat(f64::NAN), R::splat(0.0));
         self.turn.multiplier.d = self.turn.multiplier.d + nothing;
         for step in &mut self.turn.steps {
             step.u.d = step.u.d + nothing;
         }
+    }
+
+    /// How the motion passes the kinks at ends of steps, with the number of the step before each. Of several kinks at one
+    /// end the first stands for all.
+    #[inline(always)]
+    fn passages(
+        &self,
+        events: &Events<'_, Dual<R>>,
+        m: &mut Motion<Dual<R>>,
+    ) -> Vec<(usize, Passage<Dual<R>>)> {
+        let (marks, n) = (&self.steady.marks, self.turn.steps.len());
+        let mut passages: Vec<(usize, Passage<Dual<R>>)> = Vec::new();
+        for crossing in &self.steady.crossings {
+            let behind = marks.partition_point(|mark| mark.phi < crossing.phi - AT_END);
+            let k = (behind + n - 1) % n;
+            if passages.iter().all(|passage| passage.0 != k) {
+                let sides = [self.turn.steps[k].K[S - 1], self.start_of(behind % n, m)];
+                let (event, phi, u) = (events.nth(crossing.nth), self.edges[k + 1], self.turn.steps[k].end());
+                passages.push((k, events.passage(event, phi, u, sides, m)));
+            }
+        }
+        passages
     }
 
     /// Acceleration at the start of a step, on its branch.

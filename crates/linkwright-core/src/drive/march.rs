@@ -14,8 +14,8 @@
 //! clear of zero, or the interval is halved.
 
 use crate::drive::cycle::{Machine, divide};
-use crate::drive::events::{Event, Events, Pull};
-use crate::drive::mesh::Piece;
+use crate::drive::events::{Event, Events, Pull, Side};
+use crate::drive::mesh::{Crossing, Piece};
 use crate::kernel::call::poll;
 use crate::kernel::radau::{C, S, tail};
 use crate::linkage::motion::Motion;
@@ -34,11 +34,14 @@ const REST: f64 = 1e-10;
 /// Most steps of a revolution.
 const STEPS_MAX: usize = 20_000;
 
-/// Turns that may be marched through before the search is given up.
+/// Turns that may be marched through before the search is geometry up.
 const TURNS_MAX: usize = 500;
 
 /// Relative distance from repeating at which a motion is good enough to start from.
 const REPEATS: f64 = 1e-7;
+
+/// Relative distance from repeating at which a motion still repeats.
+const CLOSES: f64 = 1e-4;
 
 /// Doublings of the speed before a machine counts as running away: from three times the working speed to
 /// 3000 times.
@@ -63,6 +66,9 @@ const ON_JUMP: f64 = 1e-9;
 /// By how much of u a motion that leaves a jump is put beside it.
 const BESIDE_JUMP: f64 = 1e-11;
 
+/// A jump that has just been passed is not passed again within this angle \[rad\]: there it would be slid along.
+const AGAIN: f64 = 1e-9;
+
 /// First step that leaves a jump, as a share of the longest.
 const FIRST_OFF: f64 = 0.02;
 
@@ -83,6 +89,8 @@ struct Revolution {
     /// Derivative of the end by the start.
     growth: f64,
     pieces: Vec<Piece>,
+    /// Where it passes kinks of laws.
+    crossings: Vec<Crossing>,
     /// Where it begins to slide along a jump of a law.
     slides: Option<Sliding>,
 }
@@ -101,6 +109,8 @@ pub struct Sliding {
 pub struct PeriodicMotion {
     /// Its steps.
     pub pieces: Vec<Piece>,
+    /// Where it passes kinks of laws, ends of its steps.
+    pub crossings: Vec<Crossing>,
     /// Derivative of the end of the revolution by its start.
     pub growth: f64,
     /// Where it begins to slide along a jump of a law, if it does.
@@ -128,7 +138,7 @@ pub enum NoMotion {
     Unknown,
 }
 
-/// Which motions are looked for.
+/// MotionChoice motions are looked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MotionChoice {
     /// The fastest one.
@@ -286,8 +296,11 @@ impl March<'_> {
             *if (high.gain() < 0.0) == falls { &mut top } else { &mut bottom } = high.start;
             nearest = high;
         }
-        let Revolution { pieces, growth, slides, .. } = nearest;
-        self.found.push(PeriodicMotion { pieces, growth, slides });
+        // Where both sides of a jump drive a motion away, the gain leaps over zero: nothing repeats there.
+        if (nearest.end / nearest.start - 1.0).abs() <= CLOSES {
+            let Revolution { pieces, crossings, growth, slides, .. } = nearest;
+            self.found.push(PeriodicMotion { pieces, crossings, growth, slides });
+        }
         Ok(())
     }
 
@@ -323,35 +336,48 @@ impl March<'_> {
         if self.turns > TURNS_MAX {
             return Err(NoMotion::Unknown);
         }
-        let mut turn = Revolution { start, end: start, growth: 1.0, pieces: Vec::new(), slides: None };
+        let (pieces, crossings) = (Vec::new(), Vec::new());
+        let mut turn = Revolution { start, end: start, growth: 1.0, pieces, crossings, slides: None };
         let longest = divide(&[0.0, std::f64::consts::TAU], LONGEST)[1];
         let mut h = 0.25 * longest;
         let mut next_break = 1;
         let mut phi = 0.0;
+        let mut side: Option<Side> = None;
         while next_break < self.breaks.len() {
             poll();
-            if turn.pieces.len() > STEPS_MAX {
+            if turn.pieces.len() + turn.crossings.len() > STEPS_MAX {
                 return Err(NoMotion::Unknown);
             }
             let left = self.breaks[next_break] - phi;
             if let Some(event) = self.events.held(phi, turn.end, ON_JUMP, &mut self.m) {
-                let slid = self.slide(event, &mut turn, phi, left.min(longest));
+                let (slid, pull) = self.slide(event, &mut turn, phi, left.min(longest));
                 (phi, next_break) = if slid < left {
                     (phi + slid, next_break)
                 } else {
                     (self.breaks[next_break], next_break + 1)
                 };
-                // A step that starts on a jump is not seen to come back to it.
                 h = FIRST_OFF * longest;
+                side = (pull != Pull::Holds && slid < left)
+                    .then(|| self.events.beside(phi, turn.end, pull == Pull::Up, &mut self.m));
                 continue;
             }
             let mut step = h.min(left);
-            let (mut found, _) = self.machine.advance(phi, turn.end, step, &mut self.m);
+            let on = side.take().or_else(|| {
+                self.machine.keeps_branch.then(|| self.events.ahead(phi, turn.end, step, &mut self.m))
+            });
+            let machine = on.as_ref().map_or(*self.machine, |side| side.of(self.machine));
+            let (mut found, geometry) = machine.advance(phi, turn.end, step, &mut self.m);
             let piece = Piece { phi, h: step, u: turn.end, X: found.X };
-            let jump = self.events.first_of_laws(&piece, &mut self.m);
-            if let Some(to) = jump.filter(|&to| to < step) {
+            let jump =
+                on.as_ref().and_then(|on| self.events.first_of_laws(on, &piece, &geometry, &mut self.m));
+            // What has just been passed at a flat angle is not passed back at once, whatever rounding says.
+            let is_again = |&(to, nth): &(f64, usize)| {
+                turn.crossings.last() == Some(&Crossing { phi, nth }) && to < AGAIN
+            };
+            let jump = jump.filter(|jump| !is_again(jump));
+            if let Some((to, _)) = jump.filter(|&(to, _)| to < step) {
                 step = to;
-                found = self.machine.advance(phi, turn.end, step, &mut self.m).0;
+                found = machine.advance(phi, turn.end, step, &mut self.m).0;
             }
             if found.rows.iter().any(|row| !row.inverse.is_finite()) {
                 return Err(NoMotion::DoesNotClose { phi });
@@ -363,21 +389,30 @@ impl March<'_> {
             // The highest degree falls with the fourth power of the length, what it adds to u with the fifth.
             let factor = if coarse.is_nan() { 0.2 } else { (0.8 * coarse.powf(-0.2)).clamp(0.2, 3.0) };
             if is_good {
-                turn.pieces.push(Piece { phi, h: step, u: turn.end, X: found.X });
+                if step > 0.0 {
+                    turn.pieces.push(Piece { phi, h: step, u: turn.end, X: found.X });
+                }
                 turn.end = found.X[S - 1];
                 turn.growth *= found.growth;
                 phi += step;
-                if jump.is_some() {
-                    let passed = self.events.passed_at(phi, turn.end, &mut self.m);
-                    turn.growth *= passed.map_or(1.0, |passage| passage.factor);
-                }
-                if step >= left {
+                h = (step * factor).min(longest);
+                let is_break = step >= left;
+                if is_break {
                     (phi, next_break) = (self.breaks[next_break], next_break + 1);
-                } else {
-                    h = (step * factor).min(longest);
                 }
+                if let (Some((_, nth)), Some(on)) = (jump, &on) {
+                    let at = [phi, turn.end, found.K[S - 1]];
+                    let (behind, passage) = self.events.behind(nth, on, at, &mut self.m);
+                    turn.growth *= passage.factor();
+                    turn.crossings.push(Crossing { phi, nth });
+                    (h, side) = (h.max(FIRST_OFF * longest), Some(behind));
+                } else {
+                    side = on;
+                }
+                // Behind a break other choices of the laws may hold.
+                side = side.filter(|_| !is_break);
             } else {
-                h = step * factor.min(0.5);
+                (h, side) = (step * factor.min(0.5), on);
             }
             let is_stuck = !is_good && h < REST_STEP.min(1e-3 * left);
             if is_stuck || turn.end <= self.rest {
@@ -388,8 +423,8 @@ impl March<'_> {
         Ok(turn)
     }
 
-    /// Takes a motion that is held on a jump along it, at most by `most`, to where one side lets it go; how far.
-    fn slide(&mut self, event: Event, turn: &mut Revolution, phi: f64, most: f64) -> f64 {
+    /// Takes a motion that is held on a jump along it, at most by `most`, to where one side lets it go: how far, and which side.
+    fn slide(&mut self, event: Event, turn: &mut Revolution, phi: f64, most: f64) -> (f64, Pull) {
         let (start, events, m) = (turn.end, &self.events, &mut self.m);
         let mut at = |x: f64| {
             let u = events.level(event, phi + x, start, m);
@@ -418,6 +453,6 @@ impl March<'_> {
         turn.growth = 0.0;
         let omega = (2.0 * start).sqrt();
         turn.slides.get_or_insert(Sliding { phi, omega });
-        slid
+        (slid, end.1)
     }
 }

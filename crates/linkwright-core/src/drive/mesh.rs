@@ -10,8 +10,8 @@ use crate::kernel::real::Real;
 /// A step shorter than this \[rad\] counts as that long where kinks are placed.
 const SHORTEST: f64 = 1e-4;
 
-/// A kink found anew this close to where it was, as a share of the steps there, takes its place.
-const SAME_KINK: f64 = 0.2;
+/// An end of a step that moves by more than this share of the shorter step beside it may have to pass other ends, which go.
+const FAR: f64 = 0.2;
 
 /// Most parts that a step is cut into at once.
 const PARTS_MAX: f64 = 4.0;
@@ -99,13 +99,22 @@ impl<R: Real> Turn<R> {
     }
 }
 
+/// An end of a step at which the motion passes a kink.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crossing {
+    /// Crank angle \[rad\].
+    pub phi: f64,
+    /// Number of the kink among those of the machine ([`crate::drive::events::Events`]).
+    pub nth: usize,
+}
+
 /// Steps of a revolution.
 #[derive(Clone, Debug)]
 pub struct Mesh {
     /// Ends of the steps from 0 to 2π.
     pub edges: Vec<f64>,
     /// Those of them at which the solution was found to pass a kink.
-    crossings: Vec<f64>,
+    pub crossings: Vec<Crossing>,
 }
 
 impl Mesh {
@@ -114,34 +123,66 @@ impl Mesh {
         Mesh { edges, crossings: Vec::new() }
     }
 
-    /// The mesh with the given kinks as ends of steps, each in place of the end at which it was found
-    /// before; none where all lie at ends already, to the share `kink_share` of a step.
-    pub fn with_crossings(&self, found: &[f64], breaks: &[f64], kink_share: f64) -> Option<Mesh> {
-        let (mut added, mut moved) = (Vec::new(), Vec::new());
-        for &phi in found {
-            let after = self.edges.partition_point(|&edge| edge <= phi);
-            let (low, high) = (self.edges[after - 1], self.edges[after]);
-            let (h, away) = (high - low, (phi - low).min(high - phi));
-            if away > kink_share * h.max(SHORTEST) {
-                added.push(phi);
-                let is_old = |edge: &f64| self.crossings.contains(edge) && !breaks.contains(edge);
-                let is_near = |edge: &f64| (edge - phi).abs() < SAME_KINK * h.max(SHORTEST);
-                moved.extend([low, high].into_iter().filter(|edge| is_old(edge) && is_near(edge)));
+    /// Moves the ends at kinks by some angles; where there is none the end is an ordinary one again. Whether any changes by
+    /// more than the share `kink_share` of a step.
+    pub fn follow(&mut self, moves: &[Option<f64>], breaks: &[f64], kink_share: f64) -> bool {
+        let mut changes = false;
+        for (crossing, by) in self.crossings.clone().into_iter().zip(moves) {
+            let at = self.edges.partition_point(|&edge| edge < crossing.phi);
+            let cycle = self.edges[self.edges.len() - 1];
+            let h = self.edges.get(at + 1).map_or(cycle, |next| next - crossing.phi);
+            let h = if at > 0 { h.min(crossing.phi - self.edges[at - 1]) } else { h };
+            if by.is_some_and(|by| by.abs() <= kink_share * h.max(SHORTEST)) {
+                continue;
             }
+            changes = true;
+            self.crossings.retain(|other| *other != crossing);
+            let Some(by) = *by else { continue };
+            if !breaks.contains(&crossing.phi) && self.crossings.iter().all(|other| other.phi != crossing.phi)
+            {
+                self.edges.remove(at);
+            }
+            let phi = (crossing.phi + by).rem_euclid(cycle);
+            if by.abs() > FAR * h {
+                self.drop_ordinary(phi, by.abs(), breaks);
+            }
+            self.add_crossing(Crossing { phi, ..crossing }, 0.0);
         }
-        let renew = |list: &[f64]| {
-            let mut list: Vec<f64> = list.iter().filter(|edge| !moved.contains(edge)).copied().collect();
-            list.extend(&added);
-            list.sort_by(f64::total_cmp);
-            list
-        };
-        let next = || Mesh { edges: renew(&self.edges), crossings: renew(&self.crossings) };
-        (!added.is_empty()).then(next)
+        changes
+    }
+
+    /// Makes room beside a crank angle: ends of steps that nothing asks for go.
+    fn drop_ordinary(&mut self, phi: f64, room: f64, breaks: &[f64]) {
+        let crossings = &self.crossings;
+        self.edges.retain(|edge| {
+            let is_ordinary = !breaks.contains(edge) && crossings.iter().all(|other| other.phi != *edge);
+            !(is_ordinary && (edge - phi).abs() < room)
+        });
+    }
+
+    /// Makes a kink the end of a step: one that is there to the share `kink_share` of the step, or a new one. Whether it is new.
+    pub fn add_crossing(&mut self, found: Crossing, kink_share: f64) -> bool {
+        let after = self.edges.partition_point(|&edge| edge <= found.phi).clamp(1, self.edges.len() - 1);
+        let (low, high) = (self.edges[after - 1], self.edges[after]);
+        let near = kink_share * (high - low).max(SHORTEST);
+        let end = if found.phi - low <= high - found.phi { low } else { high };
+        let is_new = (found.phi - end).abs() > near;
+        let phi = if is_new { found.phi } else { end % self.edges[self.edges.len() - 1] };
+        if is_new {
+            self.edges.insert(after, phi);
+        }
+        let crossing = Crossing { phi, ..found };
+        if !self.crossings.contains(&crossing) {
+            self.crossings.push(crossing);
+            self.crossings.sort_by(|a, b| a.phi.total_cmp(&b.phi));
+            return true;
+        }
+        is_new
     }
 
     /// Whether the motion was found to pass a kink at this end of a step.
     pub fn is_crossing(&self, edge: f64) -> bool {
-        self.crossings.contains(&edge)
+        self.crossings.iter().any(|crossing| crossing.phi == edge)
     }
 
     /// The mesh with the steps that are not good made shorter.
@@ -172,7 +213,7 @@ impl Mesh {
     }
 }
 
-/// Zero of `f` in [0, h] with given values of opposite sign at the ends: Illinois variant of regula falsi
+/// Zero of `f` in [0, h] with geometry values of opposite sign at the ends: Illinois variant of regula falsi
 /// (Dowell, Jarratt, *BIT* 11, 1971), order 1.44, never leaves the bracket.
 pub fn crossing(mut f: impl FnMut(f64) -> f64, h: f64, mut left: f64, mut right: f64) -> f64 {
     let (mut a, mut b) = (0.0, h);

@@ -13,12 +13,12 @@
 
 use crate::drive::between::Between;
 use crate::drive::cycle::{Machine, Turn, divide};
-use crate::drive::events::{Events, Passage};
+use crate::drive::events::Events;
 use crate::drive::extremes::{Extreme, Extremes};
 use crate::drive::layout::unbundle;
 use crate::drive::march::{MotionChoice, NoMotion, PeriodicMotion, Sliding, repeating};
 use crate::drive::measures::Totals;
-use crate::drive::mesh::{Mesh, Piece};
+use crate::drive::mesh::{Crossing, Mesh, Piece};
 use crate::drive::reading::Mark;
 use crate::drive::structure::Plan;
 use crate::kernel::call::poll;
@@ -41,8 +41,7 @@ const MESHES_MAX: usize = 400;
 /// distance.
 const PLACEMENTS_MAX: u32 = 8;
 
-/// The same where a law may jump: the angle at which it does so and the speeds there are only found in turn, so that each
-/// mesh is nearer by a share.
+/// The same where a law may jump: far from the motion an end of a step goes some way into the next at most.
 const JUMP_PLACEMENTS_MAX: u32 = 60;
 
 /// An accuracy that is asked for and cannot be had is reported, as long as it is better than this.
@@ -56,7 +55,7 @@ pub struct Steady {
     /// What lies between the starts of steps as series, where these are as exact as the steps.
     pub between: Option<Vec<Between<f64>>>,
     /// Where the motion passes kinks that depend on it: ends of steps.
-    pub passages: Vec<Passage>,
+    pub crossings: Vec<Crossing>,
     /// Derivative of the return map.
     pub multiplier: f64,
     /// Extremes.
@@ -261,7 +260,7 @@ impl Search<'_> {
         edges.push(self.plan.cycle());
         let accuracy = if told { self.accuracy.max(TOLD) } else { self.accuracy };
         Search {
-            mesh: Mesh::new(edges),
+            mesh: Mesh { crossings: motion.crossings.clone(), ..Mesh::new(edges) },
             start: Some(motion.pieces.clone()),
             any: told,
             accuracy,
@@ -277,7 +276,7 @@ impl Job for Search<'_> {
     fn run<R: Real>(self) -> Self::Output {
         let q: Vec<R> = self.q.iter().map(|&x| R::splat(x)).collect();
         // A law that jumps within a step would leave its stages no solution.
-        let (kink_share, may_jump) = (self.plan.kink_share(), self.plan.may_jump());
+        let may_jump = self.plan.may_jump();
         let mut plain_motion = Motion::new(&self.plan.mechanism, self.q);
         let mut m = Motion::new(&self.plan.mechanism, &q);
         let (mut mesh, mut start, mut sweeps, mut reached) = (self.mesh, self.start, 0, f64::NAN);
@@ -294,16 +293,18 @@ impl Job for Search<'_> {
                 Some(pieces) => turn.start_from(pieces),
                 None => turn.start_from_balance(&machine),
             }
+            if may_jump && !mesh.crossings.is_empty() {
+                turn.pass(&events.passages(&mesh, &turn.pieces(), &mut plain_motion));
+            }
             turn.solve(&machine);
             sweeps += turn.sweeps;
-            let mut multiplier = unbundle(&[turn.multiplier])[0];
+            let multiplier = unbundle(&[turn.multiplier])[0];
             if !turn.is_solved() || (multiplier >= 1.0 && !self.any) {
                 return Err(Failure { reached, ..Failure::new(Status::NoSteadyMotion) });
             }
             let pieces = turn.pieces();
             if placements < PLACEMENTS_MAX || may_jump {
-                let crossings = events.crossings(&pieces, &mut plain_motion);
-                if let Some(next) = mesh.with_crossings(&crossings, self.breaks, kink_share) {
+                if let Some(next) = events.placed(&mesh, &pieces, self.breaks, &mut plain_motion) {
                     if placements > JUMP_PLACEMENTS_MAX {
                         break;
                     }
@@ -320,15 +321,12 @@ impl Job for Search<'_> {
                 if !is_good && reached > USABLE.max(self.accuracy) {
                     break;
                 }
-                // A march ends its steps at jumps too.
-                let starts = pieces.iter().filter(|piece| may_jump || mesh.is_crossing(piece.phi));
-                let passages = events.passages(starts, &mut plain_motion);
                 let growths = turn.growths();
-                for passage in &passages {
-                    let k = pieces.partition_point(|piece| piece.phi < passage.phi).max(1) - 1;
+                let mut multiplier: f64 = growths.iter().product();
+                for (k, passage) in events.passages(&mesh, &pieces, &mut plain_motion) {
                     // What the step has counted for so far, on the side that rounding chose.
                     let side = events.growth_on_side(&pieces[k], &mut plain_motion) / growths[k];
-                    multiplier *= passage.factor * side;
+                    multiplier *= passage.factor() * side;
                 }
                 if multiplier.is_nan() || (multiplier >= 1.0 && !self.any) {
                     return Err(Failure { reached, ..Failure::new(Status::NoSteadyMotion) });
@@ -340,7 +338,7 @@ impl Job for Search<'_> {
                 return Ok(Steady {
                     marks: turn.marks(),
                     between: between.as_ref().map(|series| turn.in_a_row(series)),
-                    passages,
+                    crossings: mesh.crossings,
                     multiplier,
                     extremes: turn
                         .extremes(&machine, between.as_deref(), &mut m)
