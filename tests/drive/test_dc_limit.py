@@ -29,13 +29,13 @@ radius = 0.1
 
 def test_torque_is_held_within_the_limit() -> None:
     speeds = np.array([0.0, 50.0, 75.0, 80.0, 100.0, 110.0, 125.0, 200.0])
-    torque = compile_machine(lw.loads(FILE)).motor_torques(speeds)[0]
+    torque = compile_machine(lw.loads(FILE)).motor_torques(speeds).motor
     assert torque == pytest.approx(np.clip(STALL * (1 - speeds / NO_LOAD), -MOST, MOST), abs=1e-9)
 
 
 def test_a_limit_above_the_stall_torque_changes_nothing_forward() -> None:
     machine = lw.loads(FILE, ["drive.motor.torque_max=300"])
-    torque = compile_machine(machine).motor_torques(np.array([0.0, 50.0, 120.0]))[0]
+    torque = compile_machine(machine).motor_torques(np.array([0.0, 50.0, 120.0])).motor
     assert torque == pytest.approx([200.0, 100.0, -40.0], abs=1e-9)
 
 
