@@ -13,9 +13,6 @@ from dataclasses import asdict, replace
 from importlib import import_module
 from pathlib import Path
 
-# `numbers.py` of this folder is not that of the standard library: the folder is looked through last.
-sys.path.append(sys.path.pop(0))
-
 from common import FLOOR, PACE, Row, facts
 from peers import kernels
 from rich.console import Console

@@ -1,7 +1,7 @@
 """Every number of the product: written to a file, and compared with those of another state of the tree.
 
-``python benches/numbers.py write OUT.json`` runs every command over all machines, examples and templates;
-``python benches/numbers.py compare BEFORE.json AFTER.json`` tells every number that differs by more than
+``python benches/dump.py write OUT.json`` runs every command over all machines, examples and templates;
+``python benches/dump.py compare BEFORE.json AFTER.json`` tells every number that differs by more than
 1e-12 of the largest of its list, and ends with 1 if there is one.
 """
 
