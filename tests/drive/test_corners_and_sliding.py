@@ -174,3 +174,22 @@ def test_a_slope_in_place_of_the_jump_keeps_its_speed(amplitude: float, begins: 
     on = np.abs(speed - 12.0) < width
     assert on[(at > begins + 1) & (at < 113)].all()
     assert not on[(at > begins - 30) & (at < begins - 2)].any()
+
+
+def test_motions_between_two_corners_of_a_table_are_told() -> None:
+    """A motor whose curve steps down twice holds a constant load on either step; between them no motion is stable."""
+    file = """format = 1
+name = "Two steps"
+mechanism.cranks.A.radius = "1 m"
+bodies.A = { on = "A", inertia = 2 }
+loads.L = { kind = "dry", on = "A", torque = "10 N m" }
+[drive]
+motor = { kind = "table", speed = [0, 15.2, 15.3, 15.5, 15.9, 25], torque = [20, 20, 9, 9, 14, 0], inertia = 0 }
+gearbox = { ratio = 1, efficiency = 1 }
+"""
+    motion = lw.steady_state(lw.loads(file))
+    # Straight lines through the load of 10 N m: the last piece, and the two pieces around the lower step.
+    top, middle, low = 15.9 + 9.1 * 4 / 14, 15.5 + 0.4 / 5, 15.2 + 0.1 * 10 / 11
+    assert motion.speed_max == pytest.approx(top, rel=1e-9)
+    assert [other.speed_max for other in motion.others] == pytest.approx([middle, low], rel=1e-6)
+    assert [other.multiplier < 1 for other in motion.others] == [False, True]

@@ -14,8 +14,11 @@ use crate::drive::structure::Plan;
 use crate::kernel::radau::{B, S};
 use crate::kernel::real::Real;
 
-/// Levels on either side of the known motion.
-const LEVELS: usize = 12;
+/// Levels on either side of the known motion, each at half the energy of the one before.
+const LEVELS: i32 = 12;
+
+/// As many in place of each where the torque is a table or a law over the speed, which may rise and fall anywhere.
+const FINE: i32 = 4;
 
 /// The fastest level has this many times the working speed at its slowest.
 const FASTEST: f64 = 3.0;
@@ -45,6 +48,12 @@ impl Plan {
         let loads = self.drive.speed_loads.iter().map(|&load| self.tables[load].last_change(-1.0));
         (motor / q[self.drive.ratio]).max(R::splat(loads.fold(0.0, f64::max)))
     }
+
+    /// How many levels there are in place of one.
+    fn levels_in_place_of_one(&self) -> i32 {
+        let is_drawn = matches!(self.drive.motor, Motor::Table { .. }) || !self.drive.speed_loads.is_empty();
+        if is_drawn || !self.laws.is_empty() { FINE } else { 1 }
+    }
 }
 
 impl<R: Real> Turn<R> {
@@ -58,10 +67,11 @@ impl<R: Real> Turn<R> {
         // Where nothing rises from here on, the top level alone tells of a load that drives.
         let rises = bottom.viscous.select_lt(zero, one, zero);
         let rises = (bottom.u * 2.0).sqrt().select_lt(machine.plan.falls_from(machine.q), one, rises);
-        let levels = if rises.max_lane() > 0.5 { LEVELS } else { 1 };
+        let fine = machine.plan.levels_in_place_of_one();
+        let levels = if rises.max_lane() > 0.5 { LEVELS * fine } else { 1 };
         let mut may = zero;
         for level in 0..levels {
-            let energy = top * 0.5_f64.powi(level as i32);
+            let energy = top * 0.5_f64.powf(f64::from(level) / f64::from(fine));
             let left = R::out_of_line(
                 #[inline(always)]
                 || self.torque_left(machine, energy),
@@ -78,11 +88,12 @@ impl<R: Real> Turn<R> {
         let bottom = self.bottom();
         let rises = bottom.viscous.select_lt(zero, one, zero);
         let rises = zero.select_lt(machine.plan.falls_from(machine.q), one, rises);
-        let levels = if rises.max_lane() > 0.5 { LEVELS } else { 0 };
+        let fine = machine.plan.levels_in_place_of_one();
+        let levels = if rises.max_lane() > 0.5 { LEVELS * fine } else { 0 };
         let mut may = zero;
         for level in 1..=levels {
             // Down to where the machine comes to rest at some angle, and close to the known motion.
-            let near = 0.5_f64.powi(level as i32);
+            let near = 0.5_f64.powf(f64::from(level) / f64::from(fine));
             for share in [near, 1.0 - near] {
                 let energy = bottom.energy * -share;
                 let left = R::out_of_line(
