@@ -177,14 +177,17 @@ def test_a_slope_in_place_of_the_jump_keeps_its_speed(amplitude: float, begins: 
 
 
 def test_motions_between_two_corners_of_a_table_are_told() -> None:
-    """A motor whose curve steps down twice holds a constant load on either step; between them no motion is stable."""
+    """A motor whose curve steps down twice holds a constant load on either step, and between them unstably."""
     file = """format = 1
 name = "Two steps"
 mechanism.cranks.A.radius = "1 m"
 bodies.A = { on = "A", inertia = 2 }
 loads.L = { kind = "dry", on = "A", torque = "10 N m" }
 [drive]
-motor = { kind = "table", speed = [0, 15.2, 15.3, 15.5, 15.9, 25], torque = [20, 20, 9, 9, 14, 0], inertia = 0 }
+motor.kind = "table"
+motor.inertia = 0
+motor.speed = [0, 15.2, 15.3, 15.5, 15.9, 25]
+motor.torque = [20, 20, 9, 9, 14, 0]
 gearbox = { ratio = 1, efficiency = 1 }
 """
     motion = lw.steady_state(lw.loads(file))
