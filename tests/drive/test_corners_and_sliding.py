@@ -177,7 +177,7 @@ def test_a_slope_in_place_of_the_jump_keeps_its_speed(amplitude: float, begins: 
 
 
 def test_motions_between_two_corners_of_a_table_are_told() -> None:
-    """A motor whose curve steps down twice holds a constant load on either step, and between them unstably."""
+    """A motor whose curve steps down twice holds a load on either step, and between them unstably."""
     file = """format = 1
 name = "Two steps"
 mechanism.cranks.A.radius = "1 m"
