@@ -303,14 +303,14 @@ impl Job for Search<'_> {
                 return Err(Failure { reached, ..Failure::new(Status::NoSteadyMotion) });
             }
             let pieces = turn.pieces();
-            if placements < PLACEMENTS_MAX || may_jump {
-                if let Some(next) = events.placed(&mesh, &pieces, self.breaks, &mut plain_motion) {
-                    if placements > JUMP_PLACEMENTS_MAX {
-                        break;
-                    }
-                    (mesh, start, placements) = (next, Some(pieces), placements + 1);
-                    continue;
+            if (placements < PLACEMENTS_MAX || may_jump)
+                && let Some(next) = events.placed(&mesh, &pieces, self.breaks, &mut plain_motion)
+            {
+                if placements > JUMP_PLACEMENTS_MAX {
+                    break;
                 }
+                (mesh, start, placements) = (next, Some(pieces), placements + 1);
+                continue;
             }
             let check = turn.check(&machine, self.accuracy, &mut m);
             let is_good = check.excess.iter().all(|excess| excess.error <= 1.0);
