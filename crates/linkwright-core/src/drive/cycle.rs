@@ -74,7 +74,7 @@ pub struct Turn<R> {
     pub correction: R,
     /// Relative correction after which a lane has converged: the next would be about its square.
     pub limit: f64,
-    /// What follows u at the end of each step, as [`Turn::passes`] took it; none where u itself does.
+    /// What follows u at the end of each step, as [`Turn::pass`] took it; none where u itself does.
     pub passed: Vec<[R; 2]>,
 }
 
@@ -216,7 +216,7 @@ impl<'a, R: Real> Machine<'a, R> {
         (f, d)
     }
 
-    /// A step with a geometry solution, and what its laws need to know.
+    /// A step with a known solution, and what its laws need to know.
     #[inline(always)]
     pub fn step_of(
         &self,
@@ -321,7 +321,7 @@ impl<'a, R: Real> Machine<'a, R> {
         (step, geometry)
     }
 
-    /// Newton for the stages of a step from its geometry start.
+    /// Newton for the stages of a step from its start values.
     #[inline(always)]
     fn solve_step(&self, mut step: Step<R>, geometry: &[LawGeometry<R>], limit: f64) -> Step<R> {
         let mut worst = R::splat(f64::INFINITY);
@@ -487,7 +487,7 @@ impl<R: Real> Turn<R> {
         self.tabulate_again(machine, &steps, m);
     }
 
-    /// One machine, its steps between the geometry angles in lanes, the last bundle filled up at the end.
+    /// One machine, its steps between the given angles in lanes, the last bundle filled up at the end.
     #[inline(always)]
     pub fn of_steps(machine: &Machine<'_, R>, edges: &[f64], m: &mut Motion<R>) -> Self {
         let (mut phi, mut h): (Vec<f64>, Vec<f64>) =
@@ -556,7 +556,7 @@ impl<R: Real> Turn<R> {
         (self.multiplier, self.sweeps, self.correction) = (zero, 0, R::splat(f64::INFINITY));
     }
 
-    /// The stages of a step, which has its start and length; what laws need there is added to what is geometry.
+    /// The stages of a step, which has its start and length; what laws need there is added to `geometry`.
     #[inline(always)]
     pub fn take_rows(&mut self, machine: &Machine<'_, R>, k: usize, m: &mut Motion<R>) {
         let step = &mut self.steps[k];

@@ -483,7 +483,7 @@ impl Events<'_, f64> {
         })
     }
 
-    /// u on the zero of an event, near the one geometry, by Newton.
+    /// u on the zero of an event, near the given one, by Newton.
     pub fn level(&self, event: Event, phi: f64, mut u: f64, m: &mut Motion<f64>) -> f64 {
         for _ in 0..LEVEL_SWEEPS {
             u -= self.value(event, phi, u, m) / self.slopes(event, phi, u, m)[1];

@@ -29,7 +29,7 @@ pub const NUMBERS: usize = 11;
 /// Curves that are differentiated: time, speed, acceleration, torques of motor, drive and loads, inertia.
 pub const CURVES: usize = 7;
 
-/// Rounds in which the ends of steps at kinks are dual, and the share of its move by which the last may move one: where
+/// Rounds in which the ends of steps at kinks are moved, and the share of its move by which the last may move one: where
 /// jumps alone decide, one round leaves rounding, which a flat angle enlarges.
 const PASSAGES_MAX: usize = 60;
 const MOVED: f64 = 1e-8;

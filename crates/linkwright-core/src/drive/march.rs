@@ -34,7 +34,7 @@ const REST: f64 = 1e-10;
 /// Most steps of a revolution.
 const STEPS_MAX: usize = 20_000;
 
-/// Turns that may be marched through before the search is geometry up.
+/// Turns that may be marched through before the search is given up.
 const TURNS_MAX: usize = 500;
 
 /// Relative distance from repeating at which a motion is good enough to start from.
@@ -138,7 +138,7 @@ pub enum NoMotion {
     Unknown,
 }
 
-/// MotionChoice motions are looked for.
+/// Which motions are looked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MotionChoice {
     /// The fastest one.

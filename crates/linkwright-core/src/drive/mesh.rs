@@ -213,7 +213,7 @@ impl Mesh {
     }
 }
 
-/// Zero of `f` in [0, h] with geometry values of opposite sign at the ends: Illinois variant of regula falsi
+/// Zero of `f` in [0, h] with given values of opposite sign at the ends: Illinois variant of regula falsi
 /// (Dowell, Jarratt, *BIT* 11, 1971), order 1.44, never leaves the bracket.
 pub fn crossing(mut f: impl FnMut(f64) -> f64, h: f64, mut left: f64, mut right: f64) -> f64 {
     let (mut a, mut b) = (0.0, h);
