@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from linkwright.kernel.numerics.tangent import Tangent, primal
+from linkwright.kernel.numerics.tangent_array import TangentArray
 
 
 def _at(x: float, y: float) -> tuple[Tangent, Tangent]:
@@ -51,3 +52,16 @@ def test_a_derivative_is_never_dropped(lose):
     x, _ = _at(1.3, 0.7)
     with pytest.raises(TypeError):
         lose(x)
+
+
+def test_where_two_are_equal_the_larger_has_no_derivative_unless_theirs_are() -> None:
+    x = TangentArray(np.array([0.0, 1.0]), np.array([[1.0], [1.0]]))
+    np.testing.assert_array_equal(np.maximum(x, 0.0).d[:, 0], [np.nan, 1.0])
+    np.testing.assert_array_equal(np.minimum(x, 0.0).d[:, 0], [np.nan, 0.0])
+    np.testing.assert_array_equal(np.maximum(x, x).d[:, 0], [1.0, 1.0])
+
+
+def test_a_negative_base_has_no_derivative_by_its_power() -> None:
+    base = TangentArray(np.array([-2.0]), np.array([[1.0, 0.0]]))
+    power = TangentArray(np.array([2.0]), np.array([[0.0, 1.0]]))
+    np.testing.assert_array_equal((base**power).d, [[-4.0, np.nan]])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from scipy.integrate import solve_ivp
 
 import linkwright as lw
 from linkwright.kernel.errors import MachineFileError
-from linkwright.torsion.in_time.ice_impacts import pulses
+from linkwright.torsion.in_time.ice_impacts import _SAMPLES, pulses
 from linkwright.torsion.in_time.transient import TorsionTransient
 from linkwright.torsion.model.ice_impacts import IceImpacts, IcePropeller
 
@@ -226,13 +227,35 @@ def test_stage_with_a_permitted_torque_is_judged() -> None:
     assert loose.findings == []
 
 
+def test_limit_of_a_stage_in_a_loop_is_said_not_to_be_judged() -> None:
+    text = Path("examples/ice_impacts/machine.toml").read_text(encoding="utf-8")
+    second = '[train.gears.second]\nbetween = ["pinion", "wheel"]\nratio = 5\n'
+    machine = lw.loads(text.replace("[train.shafts.line]", f"{second}[train.shafts.line]"))
+    moved = lw.torsion_transient(machine)
+    assert np.isnan(moved.stage_torque).all()
+    (note,) = moved.notes
+    assert note.startswith("stage: torque_permitted is not judged")
+    assert moved.to_dict()["stages"]["stage"] == {"torque_max": None, "torque_min": None}
+
+
+def test_shortest_pulse_keeps_its_impulse() -> None:
+    """α_i C_q 2/π from the samples of the table, wherever between them a pulse begins."""
+    ice = {"time": 0.0, "torque": 1.0, "duration": math.radians(5), "blades": 7, "impacts": 7}
+    event = IceImpacts.model_validate(ONE | ice)
+    angle = np.arange(_SAMPLES) * (2 * np.pi / _SAMPLES)
+    sampled = pulses(event, angle).sum() * 2 * np.pi / _SAMPLES
+    # Trapezoids of a half sine: (π/20)²/12 of it at most, one step before the ends and behind them.
+    assert sampled == pytest.approx(7 * 2 / math.pi * math.radians(5), rel=(math.pi / 20) ** 2 / 6)
+
+
 RULES: list[tuple[dict[str, Any], str]] = [
     ({"case": 1, "torque": None}, "either torque or propeller"),
     ({}, "either case, or amplitude and duration"),
     ({"case": 1, "amplitude": 0.5}, "none beside case"),
     ({"case": 1, "blades": 7}, "3 to 6"),
     ({"case": 1, "impacts": None}, "their number"),
-    ({"amplitude": 1, "duration": 7.0}, "a revolution at most"),
+    ({"amplitude": 1, "duration": 7.0}, "5 deg to a revolution"),
+    ({"amplitude": 1, "duration": math.radians(4.9)}, "5 deg to a revolution"),
     ({"case": 1, "on": "hub"}, "the name of a disc"),
     ({"case": 1, "time": 0.9}, "less than the duration"),
 ]

@@ -84,3 +84,15 @@ def test_equal_steps_tie() -> None:
     machine = lw.read("examples/flywheel_punching_press/machine.toml")
     found = lw.gradient(machine, ["turning_moment"])
     assert set(found.ties) == {"turning_moment.acceleration_max"}
+
+
+def test_closed_areas_from_an_extreme_tie_by_single_areas_alone() -> None:
+    """The end of a closed cycle is its start: one area moves them apart, the scale of all does not."""
+    described = "areas = [50, -40, 30, -40]\narea_scale = 12\nunevenness = 0.03"
+    machine = lw.loads(f'format = 1\nname = "shaft"\n[turning_moment]\nspeed = 25\n{described}\n')
+    name = "turning_moment.energy_fluctuation"
+    found = lw.gradient(machine, [name], ["turning_moment.area_scale"])
+    assert found.ties == {}
+    assert found.derivatives[0, 0] == pytest.approx(50, rel=1e-14)
+    found = lw.gradient(machine, [name], ["turning_moment.areas.3"])
+    assert found.ties == {name: "the minimum of the energy is reached after area 4 and at the start"}

@@ -105,21 +105,31 @@ class _OfAreas:
         span = _TIE * float(after[self.most] - after[self.least])
         highest = np.flatnonzero(after >= after[self.most] - span)
         lowest = np.flatnonzero(after <= after[self.least] + span)
-        ties = [
-            (end, places) for end, places in (("maximum", highest), ("minimum", lowest)) if len(places) > 1
-        ]
-        self.tie = "".join(
-            f"the {end} of the energy is reached after areas {places[0] + 1} and {places[1] + 1}"
-            for end, places in ties[:1]
-        )
-        self.ties: dict[str, str] = {}
+        self.places = {"maximum": highest, "minimum": lowest}
+        self.tie, self.ties = "", dict[str, str]()
 
     def scalars(self, described: TurningMoment) -> dict[str, Any]:
         """All scalars, with the derivatives of the description."""
         after = np.cumsum(described.area_scale * numbers(described.areas))
         levels = np.concatenate([after, np.zeros(1)])
+        self.tie = self._tie(lifted(levels, variables_of((levels,)) or 1).d)
         change = levels[self.most] - levels[self.least]
         return {"energy_fluctuation": change} | _of_flywheel(described, change)
+
+    def _tie(self, slopes: Floats) -> str:
+        """Where the energy has an extreme twice that entries move apart; empty if nowhere."""
+        for end, places in self.places.items():
+            for place in places[1:]:
+                if np.abs(slopes[place] - slopes[places[0]]).max() > _TIE * np.abs(slopes).max():
+                    # The level behind the last is that at the start.
+                    is_start = place == len(slopes) - 1
+                    where = (
+                        f"area {places[0] + 1} and at the start"
+                        if is_start
+                        else (f"areas {places[0] + 1} and {place + 1}")
+                    )
+                    return f"the {end} of the energy is reached after {where}"
+        return ""
 
 
 class _OfCurves:

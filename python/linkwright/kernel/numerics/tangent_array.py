@@ -125,6 +125,9 @@ class TangentArray:
         if len(inputs) == 2 and ufunc.__name__ in _SLOPES_OF_TWO:
             value, *slopes = _SLOPES_OF_TWO[ufunc.__name__](*values)
             d = sum(_times(slope, x.d) for slope, x in zip(slopes, arrays, strict=True))
+            if ufunc.__name__ in _CHOICES:
+                first, second = (x.d for x in arrays)
+                d = np.where((values[0] == values[1])[..., None] & (first == second), first, d)
             return TangentArray(value, np.broadcast_to(d, (*np.shape(value), self.d.shape[-1])))
         raise TypeError(f"no derivative of numpy.{ufunc.__name__}")
 
@@ -250,21 +253,25 @@ def _hypot(x: Floats, y: Floats) -> tuple[Any, Any, Any]:
 
 
 def _power(x: Floats, p: Floats) -> tuple[Any, Any, Any]:
-    """The slope by the power counts where the base is positive."""
+    """By the power it has a slope where the base is not negative."""
     with np.errstate(invalid="ignore", divide="ignore"):
-        by_power = np.where(x > 0, np.power(x, p) * np.log(np.where(x > 0, x, 1.0)), 0.0)
+        by_power = np.where(
+            x > 0, np.power(x, p) * np.log(np.where(x > 0, x, 1.0)), np.where(x < 0, np.nan, 0.0)
+        )
         return np.power(x, p), p * np.power(x, p - 1.0), by_power
 
 
 def _chosen(pick: Callable[[Floats, Floats], Any]) -> Callable[[Floats, Floats], tuple[Any, Any, Any]]:
-    """The larger or the smaller; where both are equal there is no derivative, but for equal numbers."""
+    """The larger or the smaller; where both are equal there is a derivative if theirs are equal too."""
 
     def rule(x: Floats, y: Floats) -> tuple[Any, Any, Any]:
-        first = np.where(x == y, 0.5, (pick(x, y) == x).astype(float))
+        first = np.where(x == y, np.nan, (pick(x, y) == x).astype(float))
         return pick(x, y), first, 1.0 - first
 
     return rule
 
+
+_CHOICES = ("maximum", "minimum")
 
 # Value and both slopes of functions of two numbers.
 _SLOPES_OF_TWO: dict[str, Callable[[Floats, Floats], tuple[Any, Any, Any]]] = {

@@ -25,7 +25,7 @@ from linkwright.kernel.errors import ConvergenceError, InputError
 from linkwright.kernel.limits import SAMPLES
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label, declared
-from linkwright.kernel.result import Result
+from linkwright.kernel.result import Result, finite
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.transient import MovingTrain, TrainMotion
 from linkwright.torsion.in_time.ice_impacts import (
@@ -42,7 +42,7 @@ from linkwright.torsion.in_time.moving_drive import moving_drive
 from linkwright.torsion.in_time.moving_train import moving_train
 from linkwright.torsion.in_time.stage_torque import stage_torques
 from linkwright.torsion.in_time.steady_start import balanced_start, loaded_angles
-from linkwright.torsion.limits.peak_judgement import PeakJudgement, judged
+from linkwright.torsion.limits.peak_judgement import PeakJudgement, judged, unjudged
 from linkwright.torsion.model.train import Train
 from linkwright.torsion.model.train_transient import TrainTransient
 from linkwright.torsion.model.whole_train import whole_train
@@ -192,10 +192,11 @@ class TorsionTransient(Result):
         """Extremes by name of shaft and disc; with ``curves`` also the samples."""
         results = super().to_dict(curves=curves) | {"work": self.work, "loss": self.loss}
         results["judgements"] = [judgement.to_dict() for judgement in self.judgements]
-        results["stages"] = {
+        stages = {
             name: {"torque_max": float(row.max()), "torque_min": float(row.min())}
             for name, row in zip(self.stages, self.stage_torque, strict=True)
         }
+        results["stages"] = finite(stages)
         results["ice"] = [asdict(one) for one in self.ice]
         names = {"(shafts,)": self.shafts, "(discs,)": self.discs}
         for name, (_, mark) in declared(type(self)).items():
@@ -240,7 +241,8 @@ def torsion_transient(machine: Machine, manoeuvre: TrainTransient | None = None)
         moved = _followed(train, manoeuvre, manoeuvre.speed)
     else:
         moved = _train_moved(machine.train, manoeuvre)
-    return replace(moved, judgements=judged(machine, moved))
+    notes = (*moved.notes, *unjudged(machine, moved))
+    return replace(moved, judgements=judged(machine, moved), notes=notes)
 
 
 def _train_moved(train: Train, manoeuvre: TrainTransient) -> TorsionTransient:

@@ -90,15 +90,29 @@ def judged(machine: Machine, moved: TorsionTransient) -> tuple[PeakJudgement, ..
     return (*_torques(machine, moved), *_stresses(machine, moved), *_stages(machine, moved))
 
 
+def unjudged(machine: Machine, moved: TorsionTransient) -> Iterator[str]:
+    """Limits of gear stages that cannot be judged, in sentences."""
+    for name, row, _ in _limited_stages(machine, moved):
+        if not np.isfinite(row).all():
+            yield f"{name}: torque_permitted is not judged: statics does not tell the torque of the stage"
+
+
 def _stages(machine: Machine, moved: TorsionTransient) -> Iterator[PeakJudgement]:
     """Largest torques of gear stages."""
-    gears = {} if machine.train is None else machine.train.gears
-    for name, row in zip(moved.stages, moved.stage_torque, strict=True):
-        permitted = gears[name].torque_permitted
-        if permitted is not None and np.isfinite(row).all():
+    for name, row, permitted in _limited_stages(machine, moved):
+        if np.isfinite(row).all():
             worst = int(np.abs(row).argmax())
             torque, time = float(abs(row[worst])), float(moved.time[worst])
             yield PeakJudgement(name, "torque", TORQUE, torque, permitted, time)
+
+
+def _limited_stages(machine: Machine, moved: TorsionTransient) -> Iterator[tuple[str, Floats, float]]:
+    """Gear stages with a permitted torque: name, torque (n,) and permitted torque [N m]."""
+    gears = {} if machine.train is None else machine.train.gears
+    for name, row in zip(moved.stages, moved.stage_torque, strict=True):
+        permitted = gears[name].torque_permitted
+        if permitted is not None:
+            yield name, row, permitted
 
 
 def _torques(machine: Machine, moved: TorsionTransient) -> Iterator[PeakJudgement]:

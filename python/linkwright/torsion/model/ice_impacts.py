@@ -60,6 +60,9 @@ _LIMIT = 1.8
 # Revolutions of a milling sequence per metre of ice.
 _REVOLUTIONS = 2.0
 
+# Shortest pulse [rad]: of a shorter one the table of the torque over the angle would have few samples, or none.
+_SHORTEST = math.radians(5.0) * (1 - 1e-9)
+
 # Bounds of pitch over diameter within which propellers are built, with room on either side.
 _SLOW, _STEEP = 0.2, 3.0
 
@@ -175,8 +178,9 @@ class IceImpacts(CheckedDescription):
             yield fault(
                 "blades", found=self.blades, expected="3 to 6, for which the case holds", remedy=remedy
             )
-        if self.duration is not None and self.duration > 2 * math.pi:
-            yield fault("duration", found=self.duration, expected="a revolution at most, 6.28319 rad")
+        if self.duration is not None and not _SHORTEST <= self.duration <= 2 * math.pi:
+            found = f"{math.degrees(self.duration):.6g} deg"
+            yield fault("duration", found=found, expected="5 deg to a revolution, 360 deg")
         if self.impacts is None and self.propeller is None:
             yield fault("impacts", expected="their number, as no ice class gives it")
 
