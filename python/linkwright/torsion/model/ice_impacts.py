@@ -60,7 +60,7 @@ _LIMIT = 1.8
 # Revolutions of a milling sequence per metre of ice.
 _REVOLUTIONS = 2.0
 
-# Shortest pulse [rad]: of a shorter one the table of the torque over the angle would have few samples, or none.
+# Shortest pulse [rad]: of a shorter one the table of the torque over the angle has few samples, or none.
 _SHORTEST = math.radians(5.0) * (1 - 1e-9)
 
 # Bounds of pitch over diameter within which propellers are built, with room on either side.
