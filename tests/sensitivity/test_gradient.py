@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError, LinkwrightError, MachineError
+from linkwright.kernel.errors import FindingError, InputError, LinkwrightError, MachineError
 from linkwright.machine.program.compiled import Translation
 from linkwright.machine.tangents import directions
 
@@ -221,3 +221,9 @@ def test_kinks_under_a_steep_motor_have_derivatives(mass, inertia, rotor):
         difference = (8 * (peak[1] - peak[-1]) - (peak[2] - peak[-2])) / (12 * h)
         # The peak is known to some 1e-9 of it, the difference to that over its step.
         assert of[address] == pytest.approx(difference, rel=1e-5, abs=1e-5 * abs(peak[1] / value))
+
+
+def test_an_analysis_without_any_derivative_is_said() -> None:
+    """A press without masses or loads: every force is zero."""
+    with pytest.raises(FindingError, match=r"^forces: nothing has a derivative: forces\.torque_drive_max: "):
+        lw.gradient(lw.read("examples/press_motion/machine.toml"), ["forces"])

@@ -176,6 +176,9 @@ def gradient(
 def _named(of: Source, name: str) -> list[str]:
     """The responses that a name means."""
     if name in SOURCES:
+        if not of.usual:
+            one = next(iter(of.missing.items()), None)
+            raise FindingError(f"{name}: nothing has a derivative" + (f": {one[0]}: {one[1]}" if one else ""))
         return list(of.usual)
     without = chosen(of.missing, name)
     if name in without:
