@@ -157,6 +157,8 @@ def test_sentences_count_from_the_dead_centre() -> None:
             "at crank angle 282°, 10° to 5°: no force"
         )
         assert sentence("an angle of 90° is ideal") == "an angle of 90° is ideal"
+        # As `:.4g` writes a root next to zero.
+        assert sentence("no force at crank angle 1e-05°") == "no force at crank angle 270°"
 
 
 @pytest.mark.parametrize(

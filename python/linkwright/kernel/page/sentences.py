@@ -23,7 +23,7 @@ _NUMBER = r"(?<![\w.,·^])[-−]?\d+(?:\.\d+)?(?:·10[⁻⁰¹²³⁴⁵⁶⁷�
 # Not the start of a longer unit, nor the power in the name of a type of motor.
 _END = r"(?![\w²³⁴/·^]| \d+-pole)"
 _QUANTITY = re.compile(rf"({_NUMBER}) ({'|'.join(map(re.escape, _UNITS))}){_END}")
-_ANGLE = r"[-−]?\d+(?:\.\d+)?°"
+_ANGLE = r"[-−]?\d+(?:\.\d+)?(?:e[-+]?\d+)?°"
 _CRANK_ANGLES = re.compile(rf"((?:φ = |crank angles? (?:of )?))({_ANGLE}(?:(?:, | to | and ){_ANGLE})*)")
 
 # Digits with which a number in another unit is written at least: 1 m is 3.28 ft.
