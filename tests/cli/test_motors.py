@@ -44,7 +44,8 @@ def test_what_is_asked_for_narrows_the_list() -> None:
     [
         (["--poles", "3"], "4, 6 poles"),
         (["--series", "AIQ"], '"AIR"'),
-        (["--power-min", "9 MW"], "no motor"),
+        (["--series", "AIR", "--poles", "4"], "6 poles"),
+        (["--power-min", "9 MW"], '--power-min: found "9 MW", expected at most 55 kW'),
         (["--power-min", "9 kg"], "a power"),
     ],
 )

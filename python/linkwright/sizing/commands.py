@@ -415,8 +415,18 @@ def _chosen(poles: int | None, power_min: str, series: str) -> list[CatalogueMot
         if motor.power_rated >= power and poles in (None, motor.poles) and series in ("", motor.series)
     ]
     if not chosen:
-        raise InputError(f"no motor of the catalogue has {power:.6g} W or more and is as asked for")
+        raise InputError(_none_of(poles, power_min, series, known))
     return sorted(chosen, key=lambda motor: (motor.poles, motor.power_rated))
+
+
+def _none_of(poles: int | None, power_min: str, series: str, known: Sequence[CatalogueMotor]) -> str:
+    """Which option leaves no motor, and what the catalogue has in its place."""
+    like = [motor for motor in known if series in ("", motor.series)]
+    numbers = sorted({motor.poles for motor in like})
+    if poles is not None and poles not in numbers:
+        return f"--poles: found {poles}, the series {series} has motors with {', '.join(map(str, numbers))} poles"
+    most = max(motor.power_rated for motor in like if poles in (None, motor.poles)) / 1000
+    return f'--power-min: found "{power_min}", expected at most {most:g} kW, the most powerful of these motors'
 
 
 def _entries(motor: CatalogueMotor) -> dict[str, Any]:
