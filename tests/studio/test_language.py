@@ -43,6 +43,11 @@ def test_what_is_quoted_stays_as_files_have_it() -> None:
     assert in_words(text, "uk", "expected") == 'кут, більше 0, наприклад "30 deg", або число в радіанах'
 
 
+def test_a_list_is_translated_part_by_part() -> None:
+    title = "torque of the motor, driving torque at the crank, …"
+    assert in_words(title, "uk", "title") == "момент двигуна, рушійний момент на кривошипі, …"
+
+
 def test_only_texts_are_translated() -> None:
     body = {"of": "machine", "results": [{"name": "steady_state", "word": "crank angle", "unit": "rad"}]}
     said = in_words(body, "uk")

@@ -26,7 +26,7 @@ export function Editor() {
   };
   return html`
     <div class="editor">
-      <pre class="lines" aria-hidden="true" ref=${numbers}>${Array.from({ length: lines }, (_, n) => html`<span class=${wrong.has(n + 1) ? "bad" : ""}>${n + 1}\n</span>`)}</pre>
+      <pre class="lines" aria-hidden="true" ref=${numbers}>${Array.from({ length: lines }, (_, n) => html`<span class=${wrong.has(n + 1) ? "bad" : ""}>${n + 1}</span>`)}</pre>
       <textarea ref=${area} aria-label="Text of the machine file" spellcheck=${false} wrap="off" defaultValue=${text} onInput=${changed}
         onScroll=${(/** @type {any} */ { target }) => numbers.current && (numbers.current.scrollTop = target.scrollTop)}></textarea>
     </div>
