@@ -10,6 +10,7 @@ import pytest
 
 from linkwright.app.commands.report import _content
 from linkwright.kernel.errors import InputError
+from linkwright.kernel.figure.in_language import _said
 from linkwright.kernel.page.html import html
 from linkwright.kernel.page.language import ENGLISH, Language, in_language, language
 
@@ -57,12 +58,26 @@ class Watched(Language):
         ("≥ 4.85 1/m", "≥ 4,85 1/м"),
         ("Motion of cart 2.5 and cart 3.5", "Рух cart 2.5 і cart 3.5"),
         ("2.5-axle at most 3.5 N", "2.5-axle — не більше 3,5 Н"),
+        (
+            "The motor slows to 91.18 rad/s in each revolution, below its breakdown speed of 94.95 rad/s: "
+            "the machine passes this point on stored kinetic energy alone.",
+            "Двигун сповільнюється до 91,18 рад/с у кожному оберті, нижче за критичну швидкість 94,95 рад/с: "
+            "машина проходить це місце лише за рахунок кінетичної енергії.",
+        ),
         ("something nobody wrote", "something nobody wrote"),
     ],
 )
 def test_texts(english: str, ukrainian: str) -> None:
     assert UKRAINIAN.label(english) == ukrainian
     assert ENGLISH.label(english) == english
+
+
+def test_a_paragraph_of_a_figure_is_translated_as_a_whole() -> None:
+    broken = "In brackets: referred to\nthe speed of motor.", "speed\n[rpm]"
+    assert [_said(text, UKRAINIAN).split() for text in broken] == [
+        ["У", "дужках:", "зведено", "до", "швидкості", "двигун."],
+        ["швидкість", "[об/хв]"],
+    ]
 
 
 def test_every_translation_has_the_places_of_its_text() -> None:
@@ -93,10 +108,8 @@ def test_every_unit_of_a_text_is_part_of_its_number() -> None:
 )
 def test_a_report_has_no_english_left(words: str) -> None:
     content = _content(words.split(), "linkwright run machine.toml")
-    # Entries of a manoeuvre are shown as they are in the file; a note below the scheme of a small train is
-    # broken into lines within a text.
-    broken = "length of a solid steel shaft of 100 mm, shortened at a break"
-    own = {content.title, content.lead, content.papers, str(content.groups), broken}
+    # Entries of a manoeuvre are shown as they are in the file.
+    own = {content.title, content.lead, content.papers, str(content.groups)}
     watched = Watched(UKRAINIAN.code, UKRAINIAN.texts, UKRAINIAN.units, UKRAINIAN.decimal)
     page = html(in_language(content, watched))
     left = {text for text in watched.left if ENGLISH_WORDS.search(text) and text not in own}

@@ -62,6 +62,8 @@ def test_what_cannot_be_had(tmp_path: Path) -> None:
         lw.allocate(chain(tmp_path, ("999.5 mm", "1000.2 mm")), 0.99, rows=200)
     with pytest.raises(InputError, match="`cost` beside"):
         lw.allocate(chain(tmp_path, ("cost = 1.0\n", ""), ("cost = 8.0\n", "")), 0.99, rows=200)
+    with pytest.raises(InputError, match="a number greater than 0"):
+        lw.allocate(chain(tmp_path, ("cost = 8.0\n", "cost = -1\n")), 0.99, rows=200)
 
 
 def test_the_command(tmp_path: Path) -> None:

@@ -236,3 +236,20 @@ def test_rim_without_flywheel_has_its_stress_alone() -> None:
 def test_wrong_rims_are_refused(rim: dict[str, float], words: str) -> None:
     with pytest.raises(MachineError, match=words):
         machine(speed=10, areas=[5, -5], rim=rim)
+
+
+def areas_of(areas: list[float]) -> lw.Machine:
+    head = 'format = 1\nname = "shaft"\n[turning_moment]\nspeed = 60\nunevenness = 0.02\n'
+    return lw.loads(f"{head}areas = {areas}\narea_scale = 71.4\n")
+
+
+def test_areas_that_balance_leave_nothing() -> None:
+    """Rounding of their sum is no energy."""
+    diagram = lw.turning_moment(areas_of([-30, 410, -280, 320, -330, 250, -360, 280, -260]))
+    assert diagram.areas[-1]["energy_after"] == 0
+    assert diagram.accuracy == 0
+
+
+def test_areas_that_do_not_balance_are_told_with_their_limit() -> None:
+    with pytest.raises(FindingError, match=r"2142 J, 1\.2 % of the sum"):
+        lw.turning_moment(areas_of([-30, 410, -280, 320, -330, 250, -360, 280, -230]))

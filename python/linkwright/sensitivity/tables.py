@@ -13,16 +13,20 @@ from linkwright.sensitivity.gradient import Gradient
 # Rows of a table: what comes after changes a response by less than these.
 ROWS = 12
 
+# Elasticity that is rounding error: a derivative is exact to some 1e-14 of the largest of its sum.
+ROUNDED = 1e-13
+
 
 def ranked(gradient: Gradient, response: str) -> list[int]:
     """Places of the variables by their influence: change of the response for 1 % of each, largest first.
 
-    Entries that are zero follow, by the size of the derivative.
+    Entries that are zero follow, by the size of the derivative. Rounding errors are left out.
     """
     row = gradient.responses.index(response)
     slopes = gradient.derivatives[row]
     effect = np.abs(slopes * gradient.at)
-    known = np.flatnonzero(np.isfinite(slopes) & (slopes != 0)).tolist()
+    is_rounding = (gradient.at != 0) & (effect <= ROUNDED * np.abs(gradient.values[row]))
+    known = np.flatnonzero(np.isfinite(slopes) & (slopes != 0) & ~is_rounding).tolist()
     return sorted(known, key=lambda at: (-effect[at], -abs(slopes[at])))
 
 

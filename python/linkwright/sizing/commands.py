@@ -424,9 +424,12 @@ def _none_of(poles: int | None, power_min: str, series: str, known: Sequence[Cat
     like = [motor for motor in known if series in ("", motor.series)]
     numbers = sorted({motor.poles for motor in like})
     if poles is not None and poles not in numbers:
-        return f"--poles: found {poles}, the series {series} has motors with {', '.join(map(str, numbers))} poles"
+        listed = ", ".join(map(str, numbers))
+        return f"--poles: found {poles}, the series {series} has motors with {listed} poles"
     most = max(motor.power_rated for motor in like if poles in (None, motor.poles)) / 1000
-    return f'--power-min: found "{power_min}", expected at most {most:g} kW, the most powerful of these motors'
+    return (
+        f'--power-min: found "{power_min}", expected at most {most:g} kW, the most powerful of these motors'
+    )
 
 
 def _entries(motor: CatalogueMotor) -> dict[str, Any]:

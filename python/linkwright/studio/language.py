@@ -69,7 +69,7 @@ def _said(text: str, code: str) -> str:
     quoted = _QUOTED.findall(text)
     bare = _QUOTED.sub(_MARK, text)
     listed = bare.split(", ")
-    # A list of known texts comes first: a text with a name in it, "torque of {}", would take the rest for the name.
+    # A list of known texts comes first: "torque of {}" would take all that follows for the name.
     is_list = bare not in to.texts and all(part in to.texts or part == "…" for part in listed)
     words = bare if is_list else to(bare)
     words = words if words != bare else ", ".join(map(to, listed))

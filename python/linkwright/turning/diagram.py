@@ -257,10 +257,13 @@ def turning_moment(machine: Machine, *, n: int = 720) -> TurningMomentDiagram:
 def _of_areas(described: TurningMoment) -> TurningMomentDiagram:
     """From the areas of a diagram: the energies at its crossings are all that counts."""
     areas = described.area_scale * np.asarray(described.areas)
-    after = np.cumsum(areas)
-    if abs(after[-1]) > _READING * np.abs(areas).sum():
+    after, gross = np.cumsum(areas), float(np.abs(areas).sum())
+    # What summing rounds.
+    after[np.abs(after) < len(areas) * np.finfo(float).eps * gross] = 0.0
+    if abs(after[-1]) > _READING * gross:
         raise FindingError(
-            f"turning_moment.areas: they add up to {after[-1]:.6g} J: the shaft would gain that in every "
+            f"turning_moment.areas: they add up to {after[-1]:.6g} J, {100 * abs(after[-1]) / gross:.3g} % "
+            f"of the sum of their sizes, at most {100 * _READING:g} %: the shaft would gain that in every "
             "cycle; areas above and below the mean have to be equal"
         )
     change = float(np.ptp(np.append(after, 0.0)))

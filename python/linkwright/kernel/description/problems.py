@@ -47,8 +47,12 @@ def _problem(error: ErrorDetails, model: type[BaseModel], data: object) -> Probl
 
 
 def _bound(kind: str, context: dict[str, Any]) -> str:
-    """The limit that a whole number goes beyond, in words."""
+    """The limit that a number goes beyond, in words."""
     match kind:
+        case "greater_than":
+            return f" greater than {context['gt']:g}"
+        case "less_than":
+            return f" less than {context['lt']:g}"
         case "greater_than_equal":
             return f", at least {context['ge']}"
         case "less_than_equal":

@@ -85,6 +85,8 @@ def words_of(annotation: Any) -> str:
         return "true or false"
     if int in bare:
         return "a whole number"
+    if float in bare:
+        return "a number"
     return "a text" if str in bare else "another value"
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
 from matplotlib.figure import Figure
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
 def translated_figure(figure: Figure, to: Language) -> Figure:
     """The figure, with its words in a language; it is changed in place."""
     for artist in figure.findobj(Text):
-        artist.set_text("\n".join(to.label(line) for line in artist.get_text().split("\n")))
+        artist.set_text(_said(artist.get_text(), to))
     for axes in figure.axes:
         # What the cursor tells of a curve is its label.
         for line in axes.get_lines():
@@ -23,6 +24,14 @@ def translated_figure(figure: Figure, to: Language) -> Figure:
         for axis in (axes.xaxis, axes.yaxis):
             axis.set_major_formatter(_Marks(axis.get_major_formatter(), to))
     return figure
+
+
+def _said(text: str, to: Language) -> str:
+    """Words of a figure: line by line, a paragraph as a whole in lines as long as they were."""
+    lines = text.split("\n")
+    if len(lines) == 1 or not text.rstrip().endswith("."):
+        return "\n".join(map(to.label, lines))
+    return "\n".join(wrap(to(" ".join(lines)), max(map(len, lines))))
 
 
 class _Marks(Formatter):

@@ -62,6 +62,7 @@ def transient_figure(
             xytext=(3, -9),
             textcoords="offset points",
             fontsize=8,
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.8},
         )
     legend_above(axes[0])
     axes[-1].set_xlim(float(motion.time[0]), float(motion.time[-1]))
