@@ -85,9 +85,9 @@ def words_of(annotation: Any) -> str:
         return "true or false"
     if int in bare:
         return "a whole number"
-    if float in bare:
-        return "a number"
-    return "a text" if str in bare else "another value"
+    if str in bare:
+        return "a text"
+    return "a number" if float in bare else "another value"
 
 
 def _below(annotation: Any, key: str, data: object) -> Any:
