@@ -471,9 +471,9 @@ pub fn stages_of_part<R: Real>(quintic: &[R; N], from: R, length: R) -> [R; S] {
 impl<R: Real> Turn<R> {
     /// Machines in lanes, each with its own ends of steps; lanes with fewer steps are filled up at its end.
     #[inline(always)]
-    pub fn tabulate_machines(&mut self, machine: &Machine<'_, R>, edges: &[Vec<f64>], m: &mut Motion<R>) {
-        let most = edges.iter().map(Vec::len).max().unwrap_or(0);
-        let at = |lane: &Vec<f64>, k: usize| lane.get(k).copied().unwrap_or(machine.plan.cycle());
+    pub fn tabulate_machines(&mut self, machine: &Machine<'_, R>, edges: &[&[f64]], m: &mut Motion<R>) {
+        let most = edges.iter().map(|lane| lane.len()).max().unwrap_or(0);
+        let at = |lane: &[f64], k: usize| lane.get(k).copied().unwrap_or(machine.plan.cycle());
         let mut starts = vec![0.0; R::LANES];
         let mut ends = starts.clone();
         let mut steps = Vec::with_capacity(most);
@@ -546,12 +546,14 @@ impl<R: Real> Turn<R> {
     pub fn tabulate_again(&mut self, machine: &Machine<'_, R>, steps: &[(R, R)], m: &mut Motion<R>) {
         let zero = R::splat(0.0);
         let row = Row { inverse: zero, drift: zero, load: zero, viscous: zero };
-        self.steps.clear();
         self.geometry.clear();
         self.passed.clear();
-        for &(phi, h) in steps {
-            self.steps.push(Step::at_rest(phi, h, [row; S], zero));
-            self.take_rows(machine, self.steps.len() - 1, m);
+        if self.steps.len() != steps.len() {
+            self.steps.resize(steps.len(), Step::at_rest(zero, zero, [row; S], zero));
+        }
+        for (k, &(phi, h)) in steps.iter().enumerate() {
+            (self.steps[k].phi, self.steps[k].h) = (phi, h);
+            self.take_rows(machine, k, m);
         }
         (self.multiplier, self.sweeps, self.correction) = (zero, 0, R::splat(f64::INFINITY));
     }

@@ -84,7 +84,7 @@ impl<R: Real> Machine<'_, R> {
 impl<R: Real> Totals<R> {
     /// From the integrals over a revolution.
     #[inline(always)]
-    fn new(layout: Layout, sums: [R; INTEGRALS]) -> Self {
+    pub(super) fn new(layout: Layout, sums: [R; INTEGRALS]) -> Self {
         let mut totals = sums;
         for total in &mut totals {
             *total = layout.total(*total);

@@ -21,7 +21,8 @@
 //! | [`gradient`] | derivatives of steady motion by the numbers of the machine |
 //! | [`transient`] | motion in time from given angle and speed, with its events |
 //! | [`along`] | derivatives of motions and kinks at given angles |
-//! | `passing` | kinks of the drive as ends of steps of machines in lanes |
+//! | `row_mesh` | the mesh of each row of a batch, with ends of steps at kinks of the drive |
+//! | `row_lanes` | rows of a batch side by side |
 //! | [`batch`] | steady motions of many machines: lanes and threads |
 //! | [`motions`] | motions of many machines over the crank angle |
 
@@ -44,9 +45,10 @@ pub mod measures;
 pub mod mesh;
 pub mod motions;
 pub mod motor;
-mod passing;
 pub mod reading;
 pub mod reduce;
+mod row_lanes;
+mod row_mesh;
 pub mod steady;
 pub mod structure;
 pub mod transient;

@@ -112,32 +112,51 @@ impl Drive {
     /// curve begins, and where the motor's torque changes sign when the gearbox tells the directions apart.
     #[inline(always)]
     pub fn speed_kinks<R: Real>(&self, tables: &[Table], q: &[R]) -> Vec<R> {
-        let ratio = q[self.ratio];
-        let tells_apart = (q[self.forward] - q[self.reverse]).abs().max_lane() > 0.0;
-        let mut at_motor = Vec::new();
-        match &self.motor {
-            Motor::Off | Motor::Constant { .. } => {}
-            Motor::Line { inverse_speed, .. } => {
-                at_motor.extend(tells_apart.then(|| q[*inverse_speed].recip()))
-            }
-            Motor::Induction { inverse_synchronous, spans, .. } => {
-                at_motor.extend(tells_apart.then(|| q[*inverse_synchronous].recip()));
-                at_motor.extend(spans.iter().map(|span| q[span.x1]));
-            }
-            Motor::Table { table } => {
-                let table = &tables[*table];
-                at_motor.extend(table.knots().iter().map(|&knot| R::splat(knot)));
-                if tells_apart {
-                    at_motor.extend(zeros(table).into_iter().map(R::splat));
-                }
-            }
-        }
-        let mut kinks: Vec<R> = at_motor.iter().map(|&speed| speed / ratio).collect();
-        kinks.extend(self.speed_loads.iter().flat_map(|&t| tables[t].knots()).map(|&knot| R::splat(knot)));
+        let mut kinks = self.kinks_of_lanes(tables, q);
         kinks.retain(|speed| speed.max_lane() > 0.0);
         kinks.sort_by(|a, b| a.max_lane().total_cmp(&b.max_lane()));
         kinks.dedup_by(|a, b| a.max_lane() == b.max_lane());
         kinks
+    }
+
+    /// The same of machines in lanes, in any order; not a number, or not above zero, in a lane without the kink.
+    #[inline(always)]
+    pub(super) fn kinks_of_lanes<R: Real>(&self, tables: &[Table], q: &[R]) -> Vec<R> {
+        let ratio = q[self.ratio];
+        // Where the gearbox does not tell the directions apart a change of sign is no kink.
+        let if_apart = |speed: R| {
+            let apart = (q[self.forward] - q[self.reverse]).abs();
+            R::splat(0.0).select_lt(apart, speed, R::splat(f64::NAN))
+        };
+        let mut at_motor = Vec::new();
+        match &self.motor {
+            Motor::Off | Motor::Constant { .. } => {}
+            Motor::Line { inverse_speed, .. } => at_motor.push(if_apart(q[*inverse_speed].recip())),
+            Motor::Induction { inverse_synchronous, spans, .. } => {
+                at_motor.push(if_apart(q[*inverse_synchronous].recip()));
+                for span in spans {
+                    at_motor.push(q[span.x1]);
+                }
+            }
+            Motor::Table { table } => {
+                let table = &tables[*table];
+                for &knot in table.knots() {
+                    at_motor.push(R::splat(knot));
+                }
+                for zero in zeros(table) {
+                    at_motor.push(if_apart(R::splat(zero)));
+                }
+            }
+        }
+        for speed in &mut at_motor {
+            *speed = *speed / ratio;
+        }
+        for &table in &self.speed_loads {
+            for &knot in tables[table].knots() {
+                at_motor.push(R::splat(knot));
+            }
+        }
+        at_motor
     }
 }
 

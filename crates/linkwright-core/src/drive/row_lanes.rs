@@ -1,0 +1,301 @@
+//! Rows of a batch side by side in lanes.
+
+use crate::drive::batch::{QUANTITIES, Rows, row_of};
+use crate::drive::cycle::{Machine, Turn};
+use crate::drive::layout::{Layout, unbundle};
+use crate::drive::row_mesh::RowMesh;
+use crate::drive::structure::Plan;
+use crate::kernel::real::Real;
+use crate::kernel::status::Status;
+use crate::linkage::motion::Motion;
+use std::cmp::Ordering;
+
+/// Relative corrections after which a revolution, and the revolution in steps of half the length, have converged. The next
+/// would be about their squares, which measured errors do not notice.
+const CONVERGED: [f64; 2] = [1e-4, 1e-6];
+
+/// Most times that ends of steps are moved to the kinks that a motion passes.
+const PLACEMENTS: usize = 4;
+
+/// Ends of steps farther from their kinks \[rad\] are not placed well enough.
+const PLACED: f64 = 1e-6;
+
+/// Relative error that a row in lanes may have, as measured.
+const PROMISED: f64 = 1e-7;
+
+/// Most meshes that a row is solved on; rows that ask for more are solved one by one.
+const MESHES_MAX: usize = 4;
+
+/// Rows of a bundle, and where their results go.
+pub(super) struct Results<'a> {
+    /// Number of the first row of the chunk in the batch.
+    pub first: usize,
+    /// Of the rows of the chunk.
+    pub status: &'a mut [Status],
+    /// Their results one after the other.
+    pub out: &'a mut [f64],
+}
+
+/// What bundles of rows are solved with.
+pub(super) struct RowLanes<'a, R> {
+    plan: &'a Plan,
+    rows: &'a Rows<'a>,
+    q: Vec<R>,
+    m: Motion<R>,
+    coarse: Turn<R>,
+    /// The same in steps of half the length.
+    turn: Turn<R>,
+}
+
+/// What becomes of a solved row.
+#[derive(Clone, Copy, PartialEq)]
+enum Verdict {
+    /// It has its result.
+    Good,
+    /// It passes kinks of the drive inside its steps.
+    Kinks,
+    /// Some of its steps are too long.
+    Coarse,
+    /// It is to be solved on its own.
+    Refused,
+}
+
+impl<'a, R: Real> RowLanes<'a, R> {
+    #[inline(always)]
+    pub(super) fn new(plan: &'a Plan, rows: &'a Rows<'a>) -> Self {
+        let q: Vec<R> = rows.base.iter().map(|&x| R::splat(x)).collect();
+        let m = Motion::new(&plan.mechanism, &q);
+        let (mut coarse, mut turn) = (Turn::empty(Layout::Machines), Turn::empty(Layout::Machines));
+        (coarse.limit, turn.limit) = (CONVERGED[0], CONVERGED[1]);
+        RowLanes { plan, rows, q, m, coarse, turn }
+    }
+
+    /// Solves rows of which nothing is known; returns the turns swept. Those that need other meshes are added to the list.
+    #[inline(always)]
+    pub(super) fn solve_new(&mut self, rows: &[usize], to: &mut Results<'_>, next: &mut Vec<RowMesh>) -> u64 {
+        self.load(rows, to.first);
+        let (machine, m) = (Machine::new(self.plan, &self.q), &mut self.m);
+        let breaks = R::out_of_line(
+            #[inline(always)]
+            || machine.breaks(m),
+        );
+        let meshes: Vec<RowMesh> =
+            rows.iter().zip(breaks).map(|(&row, breaks)| RowMesh::new(row, breaks)).collect();
+        self.tabulate(&meshes);
+        let (machine, turn) = (Machine::new(self.plan, &self.q), &mut self.coarse);
+        R::out_of_line(
+            #[inline(always)]
+            || turn.start_from_balance(&machine),
+        );
+        turn.solve(&machine);
+        self.take(meshes, R::splat(0.0), to, next)
+    }
+
+    /// The same of rows with a solution on other meshes.
+    #[inline(always)]
+    pub(super) fn solve_again(
+        &mut self,
+        mut meshes: Vec<RowMesh>,
+        to: &mut Results<'_>,
+        next: &mut Vec<RowMesh>,
+    ) -> u64 {
+        let rows: Vec<usize> = meshes.iter().map(|mesh| mesh.row).collect();
+        self.load(&rows, to.first);
+        self.tabulate(&meshes);
+        let (machine, turn, m) = (Machine::new(self.plan, &self.q), &mut self.coarse, &mut self.m);
+        turn.start_from_samples(&meshes);
+        turn.solve(&machine);
+        let mut displaced = R::splat(0.0);
+        for _ in 0..PLACEMENTS {
+            displaced = R::out_of_line(
+                #[inline(always)]
+                || turn.move_to_kinks(&machine, &mut meshes, m),
+            );
+            if displaced.max_lane() <= 0.0 {
+                break;
+            }
+            turn.solve(&machine);
+        }
+        self.take(meshes, displaced, to, next)
+    }
+
+    #[inline(always)]
+    fn load(&mut self, rows: &[usize], first: usize) {
+        let numbers: Vec<usize> = rows.iter().map(|row| first + row).collect();
+        self.rows.lanes(&numbers, &mut self.q);
+        self.m.ground(&self.plan.mechanism, &self.q);
+    }
+
+    #[inline(always)]
+    fn tabulate(&mut self, meshes: &[RowMesh]) {
+        let (machine, turn, m) = (Machine::new(self.plan, &self.q), &mut self.coarse, &mut self.m);
+        let mut edges: Vec<&[f64]> = meshes.iter().map(|mesh| &mesh.edges[..]).collect();
+        edges.resize(R::LANES, &meshes[meshes.len() - 1].edges);
+        R::out_of_line(
+            #[inline(always)]
+            || turn.tabulate_machines(&machine, &edges, m),
+        );
+    }
+
+    /// Takes the results of the solved rows that are good, and makes meshes for those that need others.
+    #[inline(always)]
+    fn take(
+        &mut self,
+        mut meshes: Vec<RowMesh>,
+        displaced: R,
+        to: &mut Results<'_>,
+        next: &mut Vec<RowMesh>,
+    ) -> u64 {
+        let n = meshes.len() as u64;
+        let kinks = self.kinks_passed(meshes.len());
+        let is_solved = unbundle(&[self.coarse.correction]);
+        let mut verdicts = vec![Verdict::Good; meshes.len()];
+        let passes = kinks.iter().any(|kinks| !kinks.is_empty());
+        if passes {
+            self.coarse.give_samples(&mut meshes);
+        }
+        for (lane, verdict) in verdicts.iter_mut().enumerate() {
+            if is_solved[lane].partial_cmp(&CONVERGED[0]) != Some(Ordering::Less) {
+                *verdict = Verdict::Refused;
+            } else if !kinks[lane].iter().all(|&speed| meshes[lane].resolves(speed)) {
+                *verdict = Verdict::Kinks;
+            }
+        }
+        let (errors, sweeps) = self.judge(&meshes, displaced, &mut verdicts, to);
+        if !passes && verdicts.contains(&Verdict::Coarse) {
+            self.coarse.give_samples(&mut meshes);
+        }
+        for (lane, mut mesh) in meshes.into_iter().enumerate() {
+            let goes_on = mesh.rounds < MESHES_MAX
+                && match verdicts[lane] {
+                    Verdict::Good => continue,
+                    Verdict::Refused => false,
+                    Verdict::Kinks => {
+                        mesh.place_kinks(&kinks[lane]);
+                        true
+                    }
+                    Verdict::Coarse => {
+                        let of_lane = errors.iter().skip(lane).step_by(R::LANES);
+                        mesh.refine(&of_lane.copied().collect::<Vec<_>>(), PROMISED)
+                    }
+                };
+            if goes_on {
+                next.push(mesh);
+            } else {
+                to.status[mesh.row] = Status::Inaccurate;
+            }
+        }
+        u64::from(self.coarse.sweeps) * n + u64::from(sweeps) * n
+    }
+
+    /// Speeds of the drive's kinks between slowest and fastest, of each of some lanes.
+    #[inline(always)]
+    fn kinks_passed(&self, n: usize) -> Vec<Vec<f64>> {
+        let (mut low, mut high) = (R::splat(f64::INFINITY), R::splat(0.0));
+        for step in &self.coarse.steps {
+            for &u in &step.X {
+                (low, high) = (low.min(u), high.max(u));
+            }
+        }
+        let (zero, mut passed) = (R::splat(0.0), vec![Vec::new(); n]);
+        for speed in self.plan.drive.kinks_of_lanes(&self.plan.tables, &self.q) {
+            let u = speed.squared() * 0.5;
+            let inside = low.select_lt(u, u.select_lt(high, speed, zero), zero);
+            if zero.any_below(inside) {
+                for (passed, speed) in passed.iter_mut().zip(unbundle(&[inside])) {
+                    passed.extend((speed > 0.0).then_some(speed));
+                }
+            }
+        }
+        passed
+    }
+
+    /// Writes the results of rows that are good so far, or tells why they are not. Returns the errors of all steps, lane by
+    /// lane, and the turns swept.
+    #[inline(always)]
+    fn judge(
+        &mut self,
+        meshes: &[RowMesh],
+        displaced: R,
+        verdicts: &mut [Verdict],
+        to: &mut Results<'_>,
+    ) -> (Vec<f64>, u32) {
+        if !verdicts.contains(&Verdict::Good) {
+            return (Vec::new(), 0);
+        }
+        let machine = Machine::new(self.plan, &self.q);
+        let (coarse, turn, m) = (&self.coarse, &mut self.turn, &mut self.m);
+        R::out_of_line(
+            #[inline(always)]
+            || coarse.halve_into(turn, &machine, m),
+        );
+        turn.solve(&machine);
+        turn.multiply_by_sides(&machine, meshes);
+        let (errors, totals) = R::out_of_line(
+            #[inline(always)]
+            || turn.errors_against(coarse, &machine, m),
+        );
+        let (mut worst, infinity) = (R::splat(0.0), R::splat(f64::INFINITY));
+        for &error in &errors {
+            // A NaN is not below the limit.
+            worst = worst.max(error.select_lt(R::splat(PROMISED), error, infinity));
+        }
+        worst = turn.correction.select_lt(R::splat(turn.limit), worst, infinity);
+        for (verdict, worst) in verdicts.iter_mut().zip(unbundle(&[worst])) {
+            if *verdict == Verdict::Good && worst > PROMISED {
+                *verdict = Verdict::Coarse;
+            }
+        }
+        let errors = unbundle(&errors);
+        if !verdicts.contains(&Verdict::Good) {
+            return (errors, turn.sweeps);
+        }
+        let extremes = R::out_of_line(
+            #[inline(always)]
+            || turn.extremes(&machine, None, m),
+        );
+        let may_have_faster = R::out_of_line(
+            #[inline(always)]
+            || coarse.may_have_faster(&machine),
+        );
+        // A motion that the machine departs from, or that may not be the fastest, is no answer.
+        let (zero, one) = (R::splat(0.0), R::splat(1.0));
+        let is_stable = turn.multiplier.select_lt(one, one, zero);
+        let is_fastest = may_have_faster.select_lt(R::splat(0.5), is_stable, zero);
+        let is_answer = displaced.select_lt(R::splat(PLACED), is_fastest, zero);
+        let is_answer = zero.select_lt(extremes.speed_min.value, is_answer, zero);
+        let is_answer = unbundle(&[is_answer]);
+        let numbers = unbundle(&row_of(turn.multiplier, &extremes, &totals));
+        for (lane, mesh) in meshes.iter().enumerate() {
+            if verdicts[lane] != Verdict::Good {
+                continue;
+            }
+            let result = &mut to.out[mesh.row * QUANTITIES..(mesh.row + 1) * QUANTITIES];
+            for (k, number) in result.iter_mut().enumerate() {
+                *number = numbers[k * R::LANES + lane];
+            }
+            if is_answer[lane] < 0.5 || !result.iter().all(|x| x.is_finite()) {
+                verdicts[lane] = Verdict::Refused;
+            }
+        }
+        (errors, turn.sweeps)
+    }
+}
+
+impl<R: Real> Turn<R> {
+    /// Where a step ends on a kink its growth has the slope that rounding chose: the multiplier gets that of its own side.
+    #[inline(always)]
+    fn multiply_by_sides(&mut self, machine: &Machine<'_, R>, meshes: &[RowMesh]) {
+        for k in (1..self.steps.len() / 2).filter(|&k| meshes.iter().any(|mesh| mesh.is_kink(k))) {
+            // The end of a step is that of the second of its halves.
+            let step = &self.steps[2 * k - 1];
+            let side = machine.growth_on_side(step, self.geometry_of(machine, 2 * k - 1)) / step.growth;
+            let mut is_kink = vec![0.0; R::LANES];
+            for (lane, is_kink) in is_kink.iter_mut().enumerate() {
+                *is_kink = f64::from(u8::from(meshes[lane.min(meshes.len() - 1)].is_kink(k)));
+            }
+            let factor = R::load(&is_kink).select_lt(R::splat(0.5), R::splat(1.0), side);
+            self.multiplier = self.multiplier * factor;
+        }
+    }
+}
