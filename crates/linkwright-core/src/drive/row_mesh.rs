@@ -131,7 +131,6 @@ impl<R: Real> Turn<R> {
         for row in rows.iter_mut() {
             row.samples.clear();
         }
-        let last = self.steps.last().map_or(self.multiplier, |step| step.K[S - 1]);
         let mut give = |phi: R, u: R, epsilon: R, k: usize| {
             phi.store(&mut lanes);
             u.store(&mut lanes[R::LANES..]);
@@ -141,12 +140,18 @@ impl<R: Real> Turn<R> {
                 row.samples.push(Sample { phi: of(0), u: of(1), epsilon: of(2) });
             }
         };
-        give(R::splat(0.0), self.steps[0].u, last, 0);
+        let first = &self.steps[0];
+        give(first.phi, first.u, first.K[0], 0);
         for (k, step) in self.steps.iter().enumerate() {
             for i in 0..S {
                 let phi = step.h.mul_add(R::splat(C[i]), step.phi);
                 give(phi, step.X[i], step.K[i], k);
             }
+        }
+        // At φ = 0 the motion is that at the end of the cycle, which lies in another step in each lane.
+        for row in rows {
+            let end = row.samples.last().map_or(f64::NAN, |sample| sample.epsilon);
+            row.samples[0].epsilon = end;
         }
     }
 
