@@ -21,6 +21,7 @@
 //! | [`gradient`] | derivatives of steady motion by the numbers of the machine |
 //! | [`transient`] | motion in time from given angle and speed, with its events |
 //! | [`along`] | derivatives of motions and kinks at given angles |
+//! | `rows` | parameters and results of the rows of a batch |
 //! | `row_mesh` | the mesh of each row of a batch, with ends of steps at kinks of the drive |
 //! | `row_lanes` | rows of a batch side by side |
 //! | [`batch`] | steady motions of many machines: lanes and threads |
@@ -49,6 +50,7 @@ pub mod reading;
 pub mod reduce;
 mod row_lanes;
 mod row_mesh;
+mod rows;
 pub mod steady;
 pub mod structure;
 pub mod transient;

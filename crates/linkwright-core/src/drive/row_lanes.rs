@@ -1,9 +1,9 @@
 //! Rows of a batch side by side in lanes.
 
-use crate::drive::batch::{QUANTITIES, Rows, row_of};
 use crate::drive::cycle::{Machine, Turn};
 use crate::drive::layout::{Layout, unbundle};
 use crate::drive::row_mesh::RowMesh;
+use crate::drive::rows::{QUANTITIES, Rows, row_of};
 use crate::drive::structure::Plan;
 use crate::kernel::real::Real;
 use crate::kernel::status::Status;
@@ -266,6 +266,8 @@ impl<'a, R: Real> RowLanes<'a, R> {
         let is_answer = zero.select_lt(extremes.speed_min.value, is_answer, zero);
         let is_answer = unbundle(&[is_answer]);
         let numbers = unbundle(&row_of(turn.multiplier, &extremes, &totals));
+        let kinks = self.plan.drive.kinks_of_lanes(&self.plan.tables, &self.q);
+        let kinks: Vec<Vec<f64>> = kinks.iter().map(|kink| unbundle(&[*kink])).collect();
         for (lane, mesh) in meshes.iter().enumerate() {
             if verdicts[lane] != Verdict::Good {
                 continue;
@@ -274,7 +276,10 @@ impl<'a, R: Real> RowLanes<'a, R> {
             for (k, number) in result.iter_mut().enumerate() {
                 *number = numbers[k * R::LANES + lane];
             }
-            if is_answer[lane] < 0.5 || !result.iter().all(|x| x.is_finite()) {
+            // Extremes may lie beyond a kink that no stage does.
+            let is_unseen = |speed: f64| result[0] < speed && speed < result[1] && !mesh.has(speed);
+            let passes_unseen = kinks.iter().any(|kink| is_unseen(kink[lane]));
+            if passes_unseen || is_answer[lane] < 0.5 || !result.iter().all(|x| x.is_finite()) {
                 verdicts[lane] = Verdict::Refused;
             }
         }

@@ -63,6 +63,11 @@ impl RowMesh {
         self.kinks.get(edge).is_some_and(|&u| u > 0.0)
     }
 
+    /// Whether the speed is passed at an end of a step.
+    pub(super) fn has(&self, speed: f64) -> bool {
+        self.kinks.contains(&(0.5 * speed * speed))
+    }
+
     /// Takes over a solution, from which ends of steps at kinks of the drive follow.
     pub(super) fn place_kinks(&mut self, speeds: &[f64]) {
         let mut passages: Vec<(f64, f64)> = Vec::new();
