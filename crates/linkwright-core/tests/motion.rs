@@ -358,13 +358,13 @@ fn batch_is_the_single_machine() {
         let mut out = vec![0.0; n * QUANTITIES];
         let (status, _) = steady_rows(&built.plan, &rows, 1e-10, &mut out);
         assert!(status.iter().all(|&s| s == Status::Ok), "all solved");
-        for row in (0..n).step_by(7) {
+        for row in 0..n {
             let exact = row_of_steady(&steady(&built.plan, &rows.row(row), 1e-12).expect("steady"));
             for k in 0..11 {
                 let scale = exact[k].abs().max(if k == 5 { 1.0 } else { 1e-12 });
                 let error = (out[row * QUANTITIES + k] - exact[k]).abs() / scale;
-                // 32 steps a revolution: speeds to 1e-8, accelerations to 1e-7, the multiplier to 1e-6.
-                assert!(error < 1e-6, "row {row}, number {k}: off by {error:e}");
+                // What lanes promise, also where the speed passes the synchronous one only between two stages of a step.
+                assert!(error < 1e-7, "row {row}, number {k}: off by {error:e}");
             }
         }
     }

@@ -5,6 +5,7 @@ use crate::drive::layout::{Layout, unbundle};
 use crate::drive::row_mesh::RowMesh;
 use crate::drive::rows::{QUANTITIES, Rows, row_of};
 use crate::drive::structure::Plan;
+use crate::kernel::radau::{C, S};
 use crate::kernel::real::Real;
 use crate::kernel::status::Status;
 use crate::linkage::motion::Motion;
@@ -193,8 +194,13 @@ impl<'a, R: Real> RowLanes<'a, R> {
     fn kinks_passed(&self, n: usize) -> Vec<Vec<f64>> {
         let (mut low, mut high) = (R::splat(f64::INFINITY), R::splat(0.0));
         for step in &self.coarse.steps {
-            for &u in &step.X {
-                (low, high) = (low.min(u), high.max(u));
+            let mut before = 0.0;
+            for i in 0..S {
+                // Between two stages a curve does not pass the tangent on the side to which it bends away from its chord.
+                let on_tangent = step.X[i] - step.K[i] * step.h * (C[i] - before);
+                low = low.min(step.X[i]).min(on_tangent);
+                high = high.max(step.X[i]).max(on_tangent);
+                before = C[i];
             }
         }
         let (zero, mut passed) = (R::splat(0.0), vec![Vec::new(); n]);

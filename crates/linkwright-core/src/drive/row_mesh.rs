@@ -1,10 +1,10 @@
 //! The mesh of each row of a batch: its own, so that its result depends on that row alone.
 //!
 //! A row whose motion passes a speed at which the drive's characteristic has a kink gets ends of steps at the angles at
-//! which it does so. The solution on that mesh passes them elsewhere by the square of what the first was off; the ends of
+//! which it does so, also where it does so and returns between two stages. The solution on that mesh passes them elsewhere by the square of what the first was off; the ends of
 //! its steps are moved there, in all lanes at once, until they stay. Steps that are too coarse are halved.
 
-use crate::drive::cycle::{Machine, Turn, divide};
+use crate::drive::cycle::{Machine, Step, Turn, divide};
 use crate::drive::layout::unbundle;
 use crate::drive::mesh::crossing;
 use crate::kernel::radau::{C, S};
@@ -32,7 +32,10 @@ const PASSED: f64 = 1e-6;
 struct Sample {
     phi: f64,
     u: f64,
+    /// Acceleration there, coming from before.
     epsilon: f64,
+    /// The same going on: another one where the load jumps.
+    after: f64,
 }
 
 /// A row of a batch with the mesh that it is solved on.
@@ -72,8 +75,9 @@ impl RowMesh {
     pub(super) fn place_kinks(&mut self, speeds: &[f64]) {
         let mut passages: Vec<(f64, f64)> = Vec::new();
         for u in speeds.iter().map(|speed| 0.5 * speed * speed) {
-            let passed = self.samples.windows(2).filter(|ends| (ends[0].u < u) != (ends[1].u < u));
-            passages.extend(passed.map(|ends| (passage(ends[0], ends[1], u), u)));
+            for ends in self.samples.windows(2) {
+                passages.extend(passed(ends[0], ends[1], u).map(|phi| (phi, u)));
+            }
         }
         passages.retain(|&(phi, _)| self.breaks.iter().all(|at| (at - phi).abs() > APART));
         passages.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -108,14 +112,37 @@ impl RowMesh {
     pub(super) fn resolves(&self, speed: f64) -> bool {
         let u = 0.5 * speed * speed;
         let is_inside = |samples: &[Sample]| {
-            samples.iter().any(|s| s.u < u * (1.0 - PASSED))
-                && samples.iter().any(|s| s.u > u * (1.0 + PASSED))
+            let between = samples.windows(2).filter_map(|ends| extreme(ends[0], ends[1]));
+            let all: Vec<f64> = samples.iter().map(|s| s.u).chain(between.map(|s| s.u)).collect();
+            all.iter().any(|&x| x < u * (1.0 - PASSED)) && all.iter().any(|&x| x > u * (1.0 + PASSED))
         };
         (0..self.samples.len() / S).all(|k| !is_inside(&self.samples[k * S..=(k + 1) * S]))
     }
 }
 
-/// Where the cubic through two samples with their slopes passes `u`.
+/// Where the cubic through two samples with their slopes passes `u`: nowhere, once, or on both sides of its extreme.
+fn passed(from: Sample, to: Sample, u: f64) -> impl Iterator<Item = f64> {
+    let middle = extreme(from, to).unwrap_or(to);
+    [(from, middle), (middle, to)]
+        .into_iter()
+        .filter(move |(from, to)| (from.u < u) != (to.u < u))
+        .map(move |(from, to)| passage(from, to, u))
+}
+
+/// The extreme that the cubic through two samples with their slopes has between them.
+fn extreme(from: Sample, to: Sample) -> Option<Sample> {
+    let (h, rise) = (to.phi - from.phi, to.u - from.u);
+    let (start, end) = (h * from.after, h * to.epsilon);
+    if start * end >= 0.0 {
+        return None;
+    }
+    let bend = 3.0 * rise - 2.0 * start - end;
+    let slope = |x: f64| start + x * (2.0 * bend + 3.0 * x * (start + end - 2.0 * rise));
+    let at = crossing(slope, 1.0, start, end);
+    Some(Sample { phi: from.phi + at * h, u: hermite(from, to, at), epsilon: 0.0, after: 0.0 })
+}
+
+/// Where the cubic through two samples on both sides of `u`, with their slopes, passes it.
 fn passage(from: Sample, to: Sample, u: f64) -> f64 {
     let h = to.phi - from.phi;
     from.phi + crossing(|x| hermite(from, to, x / h) - u, h, from.u - u, to.u - u)
@@ -125,33 +152,38 @@ fn passage(from: Sample, to: Sample, u: f64) -> f64 {
 fn hermite(from: Sample, to: Sample, x: f64) -> f64 {
     let (h, rise) = (to.phi - from.phi, to.u - from.u);
     let y = 1.0 - x;
-    from.u + x * x * (3.0 - 2.0 * x) * rise + x * y * h * (y * from.epsilon - x * to.epsilon)
+    from.u + x * x * (3.0 - 2.0 * x) * rise + x * y * h * (y * from.after - x * to.epsilon)
 }
 
 impl<R: Real> Turn<R> {
     /// Gives the rows, one a lane, the solution at the starts and stages of their steps.
     #[inline(always)]
     pub(super) fn give_samples(&self, rows: &mut [RowMesh]) {
-        let mut lanes = vec![0.0; 3 * R::LANES];
+        let mut lanes = vec![0.0; 4 * R::LANES];
         for row in rows.iter_mut() {
             row.samples.clear();
         }
-        let mut give = |phi: R, u: R, epsilon: R, k: usize| {
-            phi.store(&mut lanes);
-            u.store(&mut lanes[R::LANES..]);
-            epsilon.store(&mut lanes[2 * R::LANES..]);
+        let mut give = |numbers: [R; 4], k: usize| {
+            for (number, lanes) in numbers.iter().zip(lanes.chunks_exact_mut(R::LANES)) {
+                number.store(lanes);
+            }
             for (lane, row) in rows.iter_mut().enumerate().filter(|(_, row)| k + 1 < row.edges.len()) {
                 let of = |number: usize| lanes[number * R::LANES + lane];
-                row.samples.push(Sample { phi: of(0), u: of(1), epsilon: of(2) });
+                row.samples.push(Sample { phi: of(0), u: of(1), epsilon: of(2), after: of(3) });
             }
         };
+        // The slope of the quintic, over the share of the step.
+        let at_start = |step: &Step<R>| step.quintic()[1] / step.h;
         let first = &self.steps[0];
-        give(first.phi, first.u, first.K[0], 0);
+        give([first.phi, first.u, first.K[0], at_start(first)], 0);
         for (k, step) in self.steps.iter().enumerate() {
-            for i in 0..S {
+            for i in 0..S - 1 {
                 let phi = step.h.mul_add(R::splat(C[i]), step.phi);
-                give(phi, step.X[i], step.K[i], k);
+                give([phi, step.X[i], step.K[i], step.K[i]], k);
             }
+            // Behind the last step nothing follows.
+            let after = at_start(self.steps.get(k + 1).unwrap_or(step));
+            give([step.phi + step.h, step.X[S - 1], step.K[S - 1], after], k);
         }
         // At φ = 0 the motion is that at the end of the cycle, which lies in another step in each lane.
         for row in rows {
