@@ -231,7 +231,7 @@ impl<R: Real> Turn<R> {
 }
 
 impl<R: Real> Turn<R> {
-    /// The relative error of each step of twice the length, in each lane: what the turn differs by from the revolution in
+    /// The relative error of each step of twice the length, in each lane: what this revolution differs by from that in
     /// such steps at their ends, over what halving wins; and, in the step that differs most, the errors of the parts of its
     /// first half from the start on, as in [`Turn::check`].
     #[inline(always)]
