@@ -168,7 +168,7 @@ class _Kinks:
         self.angles, self.cycle = compiled.kinks(), compiled.cycle
         at = np.array([float(get(machine, name)) for name in self.variables])
         along = compiled.kinks_along(program.values, self.angles) * np.where(at == 0.0, 1.0, at)
-        self.moves = np.abs(along) > _ROUNDING
+        self.moves: NDArray[np.bool_] = np.abs(along) > _ROUNDING
 
     def on(self, angle: float) -> NDArray[np.bool_]:
         """Which kinks are at a crank angle [rad]."""
@@ -178,8 +178,7 @@ class _Kinks:
 
     def moved_at(self, angle: float) -> NDArray[np.bool_]:
         """Which variables move a kink at a crank angle [rad], (variables,)."""
-        moved: NDArray[np.bool_] = self.moves[self.on(angle)].any(axis=0)
-        return moved
+        return np.asarray(self.moves[self.on(angle)].any(axis=0))
 
     def words(self, angle: float, moving: NDArray[np.bool_]) -> str:
         """Which entries have no derivative there."""
@@ -197,21 +196,19 @@ def _motion_along(machine: Machine, motion: Motion, program: Directions, solutio
     phi = motion.crank_angle
     if solution is not None:
         curves = solution.gradient(program.values, phi).curves
-        followed = {name: TangentArray(getattr(motion, name), getattr(curves, name)) for name in _MOTION[1:]}
+        followed: dict[str, Any] = {
+            name: TangentArray(getattr(motion, name), getattr(curves, name)) for name in _MOTION[1:]
+        }
         return replace(motion, **followed)
     drive = seeded(machine, program.variables).drive
     assert drive is not None
     given: Any = drive.speed
     if isinstance(drive.motor, ConstantSpeedMotor):
         given = drive.motor.speed / drive.gearbox.ratio
-    speed = lifted(given * lifted(np.ones(len(phi)), n), n)
-    still = not motion.speed.any()
-    return replace(
-        motion,
-        speed=speed,
-        acceleration=lifted(motion.acceleration, n),
-        time=lifted(phi, n) if still else phi / speed,
-    )
+    speed: Any = lifted(given * lifted(np.ones(len(phi)), n), n)
+    acceleration: Any = lifted(motion.acceleration, n)
+    time: Any = phi / speed if motion.speed.any() else lifted(phi, n)
+    return replace(motion, speed=speed, acceleration=acceleration, time=time)
 
 
 class _SceneAlong(Scene):

@@ -164,20 +164,21 @@ def kinematics_along(machine: Machine, motion: Kinematics, directions: Floats) -
     return Kinematics(motion.angles, **parts)
 
 
-def _along(part: str, motion: Any, rows: Floats) -> Any:
+def _along(part: str, motion: Any, rows: Any) -> Any:
     """A part's motion with derivatives, in the order of the core's rows."""
+    array: Any = TangentArray
     if part == "points":
         d = [np.stack(rows[k : k + 2], axis=1) for k in (0, 2, 4)]
         values = (motion.position, motion.d1, motion.d2)
-        return PointMotion(*map(TangentArray, values, d))
+        return PointMotion(*map(array, values, d))
     if part == "slides":
-        return SlideMotion(*map(TangentArray, (motion.position, motion.d1, motion.d2), rows))
+        return SlideMotion(*map(array, (motion.position, motion.d1, motion.d2), rows))
     # Of a unit vector e: dψ = e × de.
     cos, sin = np.cos(motion.angle)[:, None], np.sin(motion.angle)[:, None]
     return LinkMotion(
-        TangentArray(motion.angle, cos * rows[1] - sin * rows[0]),
-        TangentArray(motion.d1, rows[2]),
-        TangentArray(motion.d2, rows[3]),
+        array(motion.angle, cos * rows[1] - sin * rows[0]),
+        array(motion.d1, rows[2]),
+        array(motion.d2, rows[3]),
     )
 
 

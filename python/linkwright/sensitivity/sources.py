@@ -13,7 +13,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from linkwright.drive.gradient import steady_tangents
@@ -195,7 +195,7 @@ SOURCES: dict[str, Callable[[Machine, Sequence[str]], Source]] = {
 }
 
 
-def chosen(listed: Mapping[str, Tangent], asked: str) -> list[str]:
+def chosen(listed: Collection[str], asked: str) -> list[str]:
     """Responses that a name means: that of it alone, or all that begin with it. Empty if there is none."""
     return [asked] if asked in listed else [name for name in listed if name.startswith(f"{asked}.")]
 

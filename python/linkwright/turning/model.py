@@ -100,7 +100,8 @@ class FormulaShaftTorque(ShaftTorque):
         # Where a formula has no value the fit says so, with the angle.
         with np.errstate(all="ignore"):
             values = value(parse(self.torque), {**NUMBERS, **self.constants, "phi": phi})
-        return values * np.ones(phi.shape)
+        torques: Floats = values * np.ones(phi.shape)
+        return torques
 
 
 class TableShaftTorque(ShaftTorque):

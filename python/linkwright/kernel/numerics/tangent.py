@@ -95,7 +95,7 @@ class Tangent:
             return NotImplemented
         return self.__mul__(other.reciprocal() if isinstance(other, Tangent) else 1.0 / other)
 
-    def __rtruediv__(self, other: Any) -> Tangent:
+    def __rtruediv__(self, other: Any) -> Any:
         return self.reciprocal().__mul__(other)
 
     def __pow__(self, power: Any) -> Any:
@@ -105,7 +105,7 @@ class Tangent:
             return power.__mul__(self.log()).exp()
         return self._by(self.value**power, power * self.value ** (power - 1))
 
-    def __rpow__(self, base: Any) -> Tangent:
+    def __rpow__(self, base: Any) -> Any:
         return self.__mul__(math.log(base)).exp()
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:

@@ -213,7 +213,7 @@ def _with_lanes(key: Any) -> Any:
 
 
 def _lanes(arrays: Sequence[Any]) -> int:
-    return next(x.d.shape[-1] for x in arrays if isinstance(x, TangentArray))
+    return int(next(x.d.shape[-1] for x in arrays if isinstance(x, TangentArray)))
 
 
 _OF_VALUES = {
@@ -332,7 +332,9 @@ def _einsum(subscripts: str, *arrays: Any) -> TangentArray:
 def _interp(x: Any, knots: Any, heights: Any, period: float | None = None) -> TangentArray:
     """Straight lines between knots; at a knot where they meet at an angle there is no derivative."""
     n = _lanes([x, *knots, *heights])
-    at, xp, fp = _lifted(x, n), _row(knots, n), _row(heights, n)
+    at: Any = _lifted(x, n)
+    xp: Any = _row(knots, n)
+    fp: Any = _row(heights, n)
     if period is not None:
         at = np.remainder(at, period)
         order = np.argsort(np.mod(xp.value, period))

@@ -156,4 +156,4 @@ def ice_notes(millings: Sequence[IceMilling]) -> list[str]:
 
 
 def _angles(turns: int) -> Floats:
-    return np.arange(turns * _SAMPLES) * (2 * np.pi / _SAMPLES)
+    return np.linspace(0.0, 2 * np.pi * turns, turns * _SAMPLES, endpoint=False)

@@ -125,8 +125,9 @@ class IcePropeller(CheckedDescription):
         D, H = self.diameter, self.thickness
         k = (_STRONG_ICE if self.ice_class in _STRONG else _OTHER_ICE)[int(self.ducted)]
         depth = D**3 if _LIMIT * H > D else 1.9 * H**1.1 * D**1.9
-        turning: float = (self.speed / (2 * math.pi) * D) ** 0.17
-        return 1e3 * k * (1 - self.hub_diameter / D) * (self.pitch / D) ** 0.16 * turning * depth
+        turning = (self.speed / (2 * math.pi) * D) ** 0.17
+        torque: float = 1e3 * k * (1 - self.hub_diameter / D) * (self.pitch / D) ** 0.16 * turning * depth
+        return torque
 
 
 class IceImpacts(CheckedDescription):

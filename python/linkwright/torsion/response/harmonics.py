@@ -140,9 +140,11 @@ def _load_harmonics(
         if load.harmonics:
             disc = place[load.on]
             resistance = [load.resistance(turning[disc] * speed) for speed in speeds.tolist()]
-            size = np.array([-wave.share * np.exp(1j * wave.phase) for wave in load.harmonics], dtype=complex)
+            waves = [-wave.share * np.exp(1j * wave.phase) for wave in load.harmonics]
+            size = np.array(waves, dtype=np.complex128)
             orders = turning[disc] * np.array([wave.order for wave in load.harmonics])
-            sources.append(Source(disc, orders, size[:, None] * (factor * resistance)))
+            harmonics = size[:, None] * (factor * resistance)
+            sources.append(Source(disc, orders, harmonics))
     return sources
 
 
