@@ -1234,12 +1234,10 @@ def motions(
 ) -> None:
     """Motions of n machines at the angles `phi` into `out` (n, numbers, angles)."""
 
-def motions_along(
-    plan: Plan, q: _Floats, directions: _Floats, phi: _Floats, what: Sequence[Channel]
-) -> _Floats:
+def motions_along(plan: Plan, q: _Floats, values: _Floats, phi: _Floats, what: Sequence[Channel]) -> _Floats:
     """Derivatives of motions by directions (parameters, n) at fixed angles, (numbers, angles × n)."""
 
-def kinks_along(plan: Plan, q: _Floats, directions: _Floats, phi: _Floats) -> _Floats:
+def kinks_along(plan: Plan, q: _Floats, values: _Floats, phi: _Floats) -> _Floats:
     """Derivatives of crank angles by directions (parameters, n), where they are kinks, (angles, n)."""
 
 @final

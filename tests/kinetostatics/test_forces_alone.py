@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -9,6 +11,7 @@ import linkwright as lw
 from linkwright.kernel.errors import FindingError
 from linkwright.kernel.limits import Limit
 from linkwright.kinetostatics import equilibrium
+from linkwright.kinetostatics.figures import captioned_forces
 from linkwright.kinetostatics.friction import Friction
 
 
@@ -34,3 +37,10 @@ def test_more_forces_than_fit_are_refused(monkeypatch: pytest.MonkeyPatch) -> No
     lw.forces(machine, n=10)
     with pytest.raises(FindingError, match=r"found 361 crank angles, 18 equations .* at most 10 000 of all"):
         lw.forces(machine, n=360)
+
+
+def test_where_no_pair_bears_a_force_there_is_no_figure_of_reactions() -> None:
+    """A figure without curves says nothing, and its legend warns."""
+    machine = lw.read(Path(__file__).parents[2] / "examples/cam_roller_undercut/machine.toml")
+    forces = lw.forces(machine, speed=3.0)
+    assert not list(captioned_forces(forces))

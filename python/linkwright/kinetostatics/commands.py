@@ -255,11 +255,19 @@ def _files(cases: dict[str, Forces]) -> dict[str, str]:
 
 
 def _figures(cases: dict[str, Forces]) -> dict[str, Figure]:
-    """Figures by name."""
-    from linkwright.kinetostatics.figures import cases_figure, forces_figure, hodograph_figure, polar_figure
+    """Figures by name; none where no pair bears a force."""
+    from linkwright.kinetostatics.figures import (
+        cases_figure,
+        forces_figure,
+        has_reactions,
+        hodograph_figure,
+        polar_figure,
+    )
 
     drawn = {}
     for end, result in _numbered(cases):
+        if not has_reactions(result):
+            continue
         drawn[f"forces{end}"] = forces_figure(result)
         drawn[f"hodograph{end}"] = hodograph_figure(result)
         drawn[f"polar{end}"] = polar_figure(result)

@@ -133,8 +133,15 @@ def _largest(forces: Forces) -> list[str]:
     return sorted(sizes, key=lambda name: -sizes[name])[:_MOST]
 
 
+def has_reactions(forces: Forces) -> bool:
+    """Whether a pair bears a force at all, which figures show."""
+    return bool(_largest(forces))
+
+
 def captioned_forces(forces: Forces) -> Iterator[CaptionedFigure]:
-    """The figures of forces with their captions."""
+    """The figures of forces with their captions; none where no pair bears a force."""
+    if not has_reactions(forces):
+        return
     pins = forces.reaction_max
     largest = max(pins, key=lambda name: pins[name])
     caption = (

@@ -10,7 +10,9 @@ const SAID = ["title", "aria-label", "aria-valuetext", "placeholder"];
 function element(type, props, ...children) {
   // Another language draws anew what never changes otherwise (htm, "Caching").
   this[0] = 3;
-  if (typeof type !== "string" || props?.translate === "no") return h(type, props, ...children);
+  // As a property of an element it is yes or no in truth values.
+  if (props?.translate === "no") return h(type, { ...props, translate: false }, ...children);
+  if (typeof type !== "string") return h(type, props, ...children);
   const called = props && Object.fromEntries(SAID.flatMap((name) => (typeof props[name] === "string" ? [[name, said(props[name])]] : [])));
   return h(type, { ...props, ...called }, ...children.map((child) => (typeof child === "string" ? said(child) : child)));
 }

@@ -1,4 +1,5 @@
 // What an entry does to the result that is looked at, in words: "δ falls by 3 % per cm".
+import { isElement } from "./build.js";
 import { said, saidOf } from "./language.js";
 import * as state from "./state.js";
 import { number, shownUnit } from "./units.js";
@@ -31,7 +32,10 @@ export function entryAt(address) {
 /** An address as words: "radius of A1". @param {string} address */
 export function named(address) {
   const keys = address.split(".").map((key) => key.replaceAll("_", " "));
-  return keys.length > 1 ? saidOf("{} of {}", said(keys[keys.length - 1]), keys[keys.length - 2]) : address;
+  const of = keys[keys.length - 2];
+  // What the user has named keeps its name.
+  const isNamed = isElement(address.slice(0, address.lastIndexOf(".")));
+  return keys.length > 1 ? saidOf("{} of {}", said(keys[keys.length - 1]), isNamed ? of : said(of)) : address;
 }
 
 /**
