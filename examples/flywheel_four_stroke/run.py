@@ -16,10 +16,8 @@ from linkwright.turning.figures import diagram_figure
 def two_cylinders(machine: lw.Machine) -> lw.Machine:
     """The same engine with a second cylinder that fires a revolution later."""
     one = machine.turning_moment.driver.torque
-    other = (
-        "where(phi < pi, suction, where(phi < 2*pi, compression, where(phi < 3*pi, expansion, exhaust)))"
-        "*abs(sin(phi))"
-    )
+    other = "where(phi < pi, suction, where(phi < 2*pi, compression, where(phi < 3*pi, expansion, exhaust)))"
+    other += "*abs(sin(phi))"
     return lw.replace(machine, {"turning_moment.driver.torque": f"{one} + {other}"})
 
 

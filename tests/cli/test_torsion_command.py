@@ -173,7 +173,7 @@ def test_damper(file: str, tmp_path: Path) -> None:
         (["--on", "x", "--ring-inertia", "0.2"], 'found "x"'),
         (["--on", "motor", "--ring-inertia", "2 m"], "--ring-inertia"),
         (["--on", "motor", "--ring-inertia", "0.2", "--mode", "9"], "mode: found 9"),
-        (["--on", "motor", "--ring-inertia", "-1"], "ring_inertia: found -1"),
+        (["--on", "motor", "--ring-inertia", "-1"], "--ring-inertia: found -1"),
     ],
 )
 def test_wrong_damper(file: str, words: list[str], part: str) -> None:

@@ -9,12 +9,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
-from typing import NamedTuple
+from math import isfinite, pi
+from typing import TYPE_CHECKING, NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+    Floats = NDArray[np.float64]
 
 # An angle as near as this to the end of its cycle is its beginning [rad]: rounding of a root.
 _ROUNDING = 2e-8
@@ -64,7 +66,7 @@ class Zero(NamedTuple):
         # Sample at the zero, or behind it; what ends the cycle begins it again.
         into = (self.angle - angle[0]) % cycle
         behind = 0.0 if cycle - into < _ROUNDING else into
-        start = int(np.searchsorted(angle[:-1], angle[0] + behind - _ROUNDING))
+        start = int(angle[:-1].searchsorted(angle[0] + behind - _ROUNDING))
         counted = _turned(angle, start, cycle)
         counted += self._replace(cycle=cycle).counted(float(counted[0])) - counted[0]
         return counted, {name: _turned(own, start, _growth(name, own)) for name, own in columns.items()}
@@ -74,9 +76,9 @@ class Zero(NamedTuple):
         if not (self.words and self.cycle and len(angle) > 2):
             return 0.0
         span = float(angle[-1] - angle[0])
-        turns = round(span / (2 * np.pi))
-        is_cycle = turns > 0 and abs(span - 2 * np.pi * turns) < _WHOLE
-        return 2 * np.pi * turns if is_cycle else 0.0
+        turns = round(span / (2 * pi))
+        is_cycle = turns > 0 and abs(span - 2 * pi * turns) < _WHOLE
+        return 2 * pi * turns if is_cycle else 0.0
 
 
 # How far the ends of a cycle are from whole revolutions at most [rad].
@@ -122,6 +124,9 @@ def counted_columns(columns: Mapping[str, Floats]) -> dict[str, Floats]:
 
 def _turned(values: Floats, start: int, growth: float) -> Floats:
     """Values over a cycle, both ends included, from a sample on; by how much they grow over the cycle."""
+    # Imported here: what prints a help text needs no arrays.
+    import numpy as np
+
     return np.concatenate([values[start:-1], values[: start + 1] + growth])
 
 
@@ -130,5 +135,5 @@ def _growth(head: str, values: Floats) -> float:
     rise = float(values[-1] - values[0])
     if head == _TIME:
         return rise
-    is_angle = head.endswith("[rad]") and np.isfinite(rise)
-    return 2 * np.pi * round(rise / (2 * np.pi)) if is_angle else 0.0
+    is_angle = head.endswith("[rad]") and isfinite(rise)
+    return 2 * pi * round(rise / (2 * pi)) if is_angle else 0.0
