@@ -34,8 +34,9 @@ const REST: f64 = 1e-10;
 /// Most steps of a revolution.
 const STEPS_MAX: usize = 20_000;
 
-/// Turns that may be marched through before the search is given up.
+/// Turns that may be marched through before the search is given up, and steps in all of them: some seconds.
 const TURNS_MAX: usize = 500;
+const STEPS_IN_ALL_MAX: usize = 400_000;
 
 /// Relative distance from repeating at which a motion is good enough to start from.
 const REPEATS: f64 = 1e-7;
@@ -155,6 +156,8 @@ struct March<'a> {
     /// Those of laws are ends of steps.
     events: Events<'a, f64>,
     turns: usize,
+    /// Steps tried in all of them.
+    steps: usize,
     /// Motions that repeat, from the fastest down.
     found: Vec<PeriodicMotion>,
 }
@@ -177,6 +180,7 @@ pub fn repeating(
         m,
         events: Events::new(*machine),
         turns: 0,
+        steps: 0,
         found: Vec::new(),
     };
     match march.walk(working, which) {
@@ -345,7 +349,8 @@ impl March<'_> {
         let mut side: Option<Side> = None;
         while next_break < self.breaks.len() {
             poll();
-            if turn.pieces.len() + turn.crossings.len() > STEPS_MAX {
+            self.steps += 1;
+            if turn.pieces.len() + turn.crossings.len() > STEPS_MAX || self.steps > STEPS_IN_ALL_MAX {
                 return Err(NoMotion::Unknown);
             }
             let left = self.breaks[next_break] - phi;
