@@ -15,7 +15,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from linkwright.drive.model.drive import Drive
 from linkwright.drive.steady_state import SteadyState
@@ -110,7 +110,7 @@ def forces(
     )
     models, sources = acting(scene, friction or {}, pressure_angle)
     columns = sources if contributions else {"": together(scene, sources.values())}
-    solution = _solved(scene, models, columns)
+    solution, _ = solved(scene, models, columns)
     result = Collector(scene, models, sources, columns, solution).forces()
     return result if contributions else replace(result, contributions={})
 
@@ -130,12 +130,15 @@ def equilibrium(scene: Scene, models: list[PairModel], columns: Mapping[str, App
     )
 
 
-def _solved(scene: Scene, models: list[PairModel], columns: Mapping[str, AppliedLoad]) -> Solution:
-    """The unknowns, with second contacts of cams where the first would have to pull."""
+def solved(
+    scene: Scene, models: list[PairModel], columns: Mapping[str, AppliedLoad]
+) -> tuple[Solution, NDArray[np.float64]]:
+    """The unknowns, with second contacts of cams where the first would have to pull, and those without."""
     solution = equilibrium(scene, models, columns).solve()
-    if with_pulls(scene, models, solution.x.sum(axis=-1)):
+    without = solution.x.sum(axis=-1)
+    if with_pulls(scene, models, without):
         solution = equilibrium(scene, models, columns).solve()
-    return solution
+    return solution, without
 
 
 def _sources(scene: Scene, models: list[PairModel]) -> dict[str, AppliedLoad]:

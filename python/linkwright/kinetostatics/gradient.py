@@ -25,7 +25,7 @@ from linkwright.kernel.numerics.tangent_array import TangentArray, lifted
 from linkwright.kinetostatics.applied import together
 from linkwright.kinetostatics.collect import Collector
 from linkwright.kinetostatics.equilibrium import Equilibrium, Solution
-from linkwright.kinetostatics.forces import acting, equilibrium, forces
+from linkwright.kinetostatics.forces import acting, equilibrium, forces, solved
 from linkwright.kinetostatics.motion import Motion
 from linkwright.kinetostatics.pairs import with_pulls
 from linkwright.kinetostatics.places import Scene
@@ -234,12 +234,10 @@ def _forces_along(machine: Machine, motion: Motion, along: Motion, program: Dire
     """Forces at the angles of a motion, with derivatives."""
     scene = Scene(machine, motion)
     models, sources = acting(scene, {})
-    first = solution = equilibrium(scene, models, {"": together(scene, sources.values())}).solve()
-    if with_pulls(scene, models, first.x.sum(axis=-1)):
-        solution = equilibrium(scene, models, {"": together(scene, sources.values())}).solve()
+    solution, without = solved(scene, models, {"": together(scene, sources.values())})
     moving = _SceneAlong(scene, along, program)
     models, sources = acting(moving, {})
-    with_pulls(moving, models, first.x.sum(axis=-1))
+    with_pulls(moving, models, without)
     columns = {"": together(moving, sources.values())}
     followed = _along(equilibrium(moving, models, columns), solution)
     return Collector(moving, models, sources, columns, followed).forces()
