@@ -88,7 +88,7 @@ def _runs_backwards(flank) -> np.ndarray:
 
 
 def test_undercut_under_a_flat_face_is_told_with_the_base_radius_that_mends_it() -> None:
-    """ρ = r_0 + s + s″; the least base radius makes its least value zero."""
+    """ρ = r_0 + s + s″; the smallest base radius makes its smallest value zero."""
     lines = 'base_radius = "30 mm"\ncontact = "flat"\n'
     text = told(lines)
     law = profile(lines).cam.lift
@@ -101,7 +101,7 @@ def test_undercut_under_a_flat_face_is_told_with_the_base_radius_that_mends_it()
 
 
 def test_undercut_that_ends_at_the_start_of_the_turn() -> None:
-    """A harmonic return whose deceleration jumps to nothing where the turn closes."""
+    """A harmonic return whose deceleration jumps to nothing where the revolution closes."""
     sections = """
 sections = [
   { angle = "200 deg" },
@@ -395,7 +395,7 @@ def test_limits_are_cautions_with_the_size_that_keeps_them() -> None:
     tight = next(each for each in texts if "radius of curvature" in each)
     for text, word in ((steep, "pressure angle"), (tight, "radius of curvature")):
         base = numbers(text.split("base radius of")[1])[0]
-        # Five digits are told.
+        # Five digits are reported.
         assert not any(word in each for each in cam_cautions(profile(lines.format(base * 1.0001))))
         assert any(word in each for each in cam_cautions(profile(lines.format(base * 0.9999))))
     found = profile(lines.format(35)).flanks[0]

@@ -146,7 +146,7 @@ def test_torque_is_the_moment_of_the_contact_about_the_cam() -> None:
 
 def test_a_cam_without_friction_gives_back_what_it_takes() -> None:
     found = contact_force(course(n=3600), FOLLOWER)
-    # The trapezoidal rule over a whole turn, with jumps of the third derivative.
+    # The trapezoidal rule over a whole revolution, with jumps of the third derivative.
     assert abs(found.torque_mean) < 1e-6 * found.torque_max
     load = np.where(course(n=3600).lift_d1 > 0, 200.0, 0.0)
     worked = contact_force(course(n=3600), replace(FOLLOWER, load=load))

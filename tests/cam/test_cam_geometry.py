@@ -135,7 +135,7 @@ def test_extremes_are_those_of_dense_samples_closed_in_on(case) -> None:
 
 
 def _greatest(f) -> float:
-    """Greatest value over a turn by dense samples and golden sections, without derivatives."""
+    """Largest value over a revolution by dense samples and golden sections, without derivatives."""
     phi = np.linspace(0, TURN, 7201)
     i = int(np.argmax(f(phi)))
     low, high = phi[max(i - 1, 0)], phi[min(i + 1, 7200)]
@@ -283,7 +283,7 @@ def test_support_function_of_constant_breadth() -> None:
         along = points @ unit(direction)
         # Between points of the polygon the breadth is short by less than ρ (2π/7200)²/8 at each side.
         assert along.max() - along.min() == pytest.approx(2 * a, abs=3e-8 * a)
-    # The trapezoidal rule over a whole turn of a smooth periodic function is exact to rounding.
+    # The trapezoidal rule over a whole revolution of a smooth periodic function is exact to rounding.
     speed = np.linalg.norm(profile_of(found).tangents(phi), axis=1)
     assert speed.mean() * TURN == pytest.approx(np.pi * 2 * a, rel=1e-14), "Barbier's theorem"
 
@@ -335,7 +335,7 @@ def test_two_followers_touch_one_cam_at_every_angle(closure: str, kind: str, siz
                 gap = -((ground - [end, 0.0]) @ normal)
             else:
                 gap = np.linalg.norm(ground - [end, 0.0], axis=1) - size_of.roller_radius
-            # Half the distance of points at most, squared over twice the least radius; an edge meets the
+            # Half the distance of points at most, squared over twice the smallest radius; an edge meets the
             # polygon up to half a side away.
             assert gap.min() < (8e-5 if kind == "point" else 1e-6)
             assert gap.min() > -1e-12

@@ -31,7 +31,7 @@ def machine(size: str, law: str, rise: float = 120.0, lift: float = 0.02, more: 
 
 
 def test_undercut_in_the_last_interval_of_a_piece_is_told() -> None:
-    """ρ = r₀ + s + s″ under a flat face: least where s′ + s‴ = 0, half a degree before the joint."""
+    """ρ = r₀ + s + s″ under a flat face: smallest where s′ + s‴ = 0, half a degree before the joint."""
     size = 'contact = "flat"\nbase_radius = 0.074098'
     profile = lw.cam_profile(machine(size, '{ kind = "modified_sine", share = 0.05 }', rise=60.0))
     law = profile.cam.lift
@@ -78,7 +78,7 @@ s = { kind = "spring", between = ["F", "c"], stiffness = 10000, free_length = 0.
     both = [(10_000 * (0.09 + 0.01) + 2 * sign * a) / np.cos(steep) for sign in (1, -1)]
     assert loaded.force_max == pytest.approx(both[0], rel=1e-7)
     assert loaded.force_max_angle == pytest.approx(np.radians(60.0), abs=1e-8)
-    # Not the least of all, but there: on the later side of the jump.
+    # Not the smallest of all, but there: on the later side of the jump.
     after = np.searchsorted(loaded.crank_angle, np.radians(60.0))
     assert loaded.force[after] == pytest.approx(both[1], rel=1e-7)
     assert loaded.force_min <= both[1] * (1 + 1e-8)

@@ -132,7 +132,7 @@ def test_oscillating_follower_swings_away_from_the_cam(side: str, rotation: str)
 
 
 def test_joints_give_the_value_after_them() -> None:
-    """The jerk of the cycloidal law jumps to its greatest value where the rise begins."""
+    """The jerk of the cycloidal law jumps to its largest value where the rise begins."""
     found = lw.kinematics(machine(RISE + 'base_radius = "40 mm"\nroller_radius = "10 mm"'), [0.0], third=True)
     beta = np.radians(110)
     assert found.slides["F"].d3[0] == pytest.approx(0.02 * TURN**2 / beta**3, rel=1e-14)
@@ -150,7 +150,7 @@ def test_joints_give_the_value_after_them() -> None:
 def test_turns_go_on_and_on() -> None:
     m = machine(RISE + LINE)
     one, many = lw.kinematics(m, PHI), lw.kinematics(m, PHI + 20 * TURN)
-    # 20 turns are 126 rad: an angle loses 1.4e-14 of a radian.
+    # 20 revolutions are 126 rad: an angle loses 1.4e-14 of a radian.
     np.testing.assert_allclose(one.slides["F"].position, many.slides["F"].position, atol=1e-14)
     backwards = lw.kinematics(m, PHI - 3 * TURN)
     np.testing.assert_allclose(one.slides["F"].position, backwards.slides["F"].position, atol=1e-14)

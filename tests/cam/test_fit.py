@@ -219,7 +219,7 @@ def test_a_curve_without_size_is_told() -> None:
 
 
 def test_a_standstill_is_a_corner() -> None:
-    """A flat face that turns about a point of the cam for half a turn: s + s″ + r₀ = 0, a drop's tip."""
+    """A flat face that turns about a point of the cam by 180°: s + s″ + r₀ = 0, a drop's tip."""
     tip = 0.02
 
     def places(phi: np.ndarray, side: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

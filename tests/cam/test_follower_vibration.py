@@ -107,7 +107,7 @@ def test_a_law_without_symmetry_is_rarely_quiet() -> None:
     near = np.array([each.ratio for each in found.quiet])
     left = np.array([each.residual for each in found.quiet])
     assert len(near) > 3
-    # The transform is zero only where 0.4 ν and 0.6 ν are both whole turns: once, at τ = 5.
+    # The transform is zero only where 0.4 ν and 0.6 ν are both whole revolutions: once, at τ = 5.
     whole = np.abs(near - 5) < 1e-4
     assert left[whole] == pytest.approx([0.0], abs=1e-9)
     assert (left[~whole] > 1e-6).all()

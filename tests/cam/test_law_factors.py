@@ -27,7 +27,7 @@ FACTORS = cam_laws()
 # Rounding of sums of ten terms.
 EXACT = 1e-12
 
-# v = 15/13 of the law of paper 2; a = 12 v/t_p (u − 2u² + u³) is greatest at u = 1/3.
+# v = 15/13 of the law of paper 2; a = 12 v/t_p (u − 2u² + u³) is largest at u = 1/3.
 COMBINED = {"C_v": 15 / 13, "C_a": 12 * 15 / 13 * 6 * 4 / 27, "C_j": 12 * 15 / 13 * 36}
 
 CLOSED_FORMS = {
@@ -123,7 +123,7 @@ ACCELERATIONS: dict[str, tuple[Callable[[float], float], list[float]]] = {
 
 
 def greatest(function: Callable[[float], float], ends: list[float]) -> float:
-    """Greatest size of a function: a grid, then Brent's method around its best point."""
+    """Largest absolute value of a function: a grid, then Brent's method around its best point."""
     z = np.linspace(0, 1, 2001)
     best = float(z[np.argmax([abs(function(x)) for x in z])])
     around = (max(best - 1e-3, 0.0), min(best + 1e-3, 1.0))

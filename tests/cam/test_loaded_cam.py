@@ -77,7 +77,7 @@ def test_contact_is_lost_as_the_follower_alone_says(law: str, damping: float) ->
     assert found.speed_lost_angle is not None
     # Forces at 1 to 3 rad/s differ by a ten-thousandth of themselves through inertia.
     assert found.speed_lost == pytest.approx(wanted.speed, rel=1e-10)
-    # The speed is flat at its least: the angle is good to the root of that.
+    # The speed is flat at its smallest: the angle is good to the root of that.
     assert found.speed_lost_angle == pytest.approx(wanted.cam_angle, abs=1e-4)
 
 

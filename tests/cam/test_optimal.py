@@ -23,7 +23,7 @@ VALUES_START, VALUES_END = (0.0, 0.3, -1.0, 2.0, 0.5), (1.0, -0.2, 0.7, 1.0, -3.
 
 
 def numeric_minimum(order: int, start: dict[int, float], end: dict[int, float], size: int = 14) -> float:
-    """Least ∫ (dⁿx/dzⁿ)² over Legendre series under the same conditions, by quadratic programming.
+    """Smallest ∫ (dⁿx/dzⁿ)² over Legendre series under the same conditions, by quadratic programming.
 
     The conditions are met by a pseudo-inverse; in their null space the quadratic is minimised, which is the
     KKT system with its multipliers eliminated.
@@ -106,7 +106,7 @@ def test_known_optima() -> None:
 
 
 def test_the_start_of_paper_2_is_optimal_for_its_travel_only() -> None:
-    """With free travel the least ∫ jerk² is 12, at a travel of 1/2; the paper's has 19.2 at 3/5."""
+    """With free travel the smallest ∫ jerk² is 12, at a travel of 1/2; the paper's has 19.2 at 3/5."""
     start = {0: 0.0, 1: 0.0, 2: 0.0}
     free = optimal(3, start, {1: 1.0, 2: 0.0})
     z = np.linspace(0, 1, 21)

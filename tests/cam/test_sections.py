@@ -1,4 +1,4 @@
-"""Programmes as they stand in a file: they close, their joints are told, and what is wrong has its place."""
+"""Programmes as they stand in a file: they close, their joints are reported, faults have their places."""
 
 from __future__ import annotations
 

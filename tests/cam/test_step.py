@@ -1,4 +1,4 @@
-"""STEP files, where the kernel of the extra is installed; where it is not, that is told with its remedy."""
+"""STEP files, where the kernel of the extra is installed; elsewhere a message with the remedy."""
 
 from __future__ import annotations
 

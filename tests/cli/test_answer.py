@@ -265,7 +265,7 @@ def ask(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str, str], Result
     folder = tmp_path_factory.mktemp("asked")
     for name, text in TEXTS.items():
         (folder / name).write_text(text, encoding="utf-8")
-    # Two turns, in which eight cylinders fire at one strength.
+    # Two revolutions, in which eight cylinders fire at one strength.
     rows = [f"{n}, {1500 * (1 + 0.01 * np.cos(n * np.pi / 90)):.6f}" for n in range(721)]
     (folder / "even.csv").write_text("\n".join(["angle [deg], speed [rpm]", *rows]) + "\n")
     known = FILES | {path.name: str(path) for path in folder.iterdir()}

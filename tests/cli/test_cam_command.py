@@ -1,4 +1,4 @@
-"""`linkwright cam FILE`: tables, JSON, report and drawings; what cannot be made is told."""
+"""`linkwright cam FILE`: tables, JSON, report and drawings; what cannot be made is reported."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Commands on machines with cams: exit codes, what is told, entries and sections given with ``--set``."""
+"""Commands on machines with cams: exit codes, what is reported, entries and sections given with ``--set``."""
 
 from __future__ import annotations
 

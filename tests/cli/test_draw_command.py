@@ -81,7 +81,7 @@ def test_a_pose_is_that_of_the_angle_given(tmp_path: Path) -> None:
         assert done.exit_code == 0, done.output
         drawn = ezdxf.readfile(place).modelspace()  # type: ignore[attr-defined]
         found = {tuple(np.round(point.dxf.location, 6)[:2] + 0.0) for point in drawn.query("POINT")}
-        # In millimetres, to what a turn of many revolutions leaves of its digits.
+        # In millimetres, to what a rotation of many revolutions leaves of its digits.
         pose = lw.pose(lw.read(file), np.radians(float(angle.split()[0])))
         assert tuple(np.round(1e3 * np.array(pose.points[name].position), 6) + 0.0) in found
 

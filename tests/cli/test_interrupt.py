@@ -20,7 +20,7 @@ PATIENCE = 60.0
 
 
 def _start(*arguments: str) -> subprocess.Popen[str]:
-    # Each import is told of on standard error as soon as it is done.
+    # Each import writes to standard error as soon as it is done.
     command = [sys.executable, "-X", "importtime", "-m", "linkwright", *arguments]
     # Who started the tests may have let them ignore interrupts.
     return subprocess.Popen(

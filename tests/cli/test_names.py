@@ -213,7 +213,7 @@ def test_names_go_through_every_command(tmp_path: Path, kind: str, start: int) -
         shown = CliRunner().invoke(application(), ["motion", str(file), "--at", "30 deg", "--csv"]).stdout
         rows = list(csv.reader(StringIO(shown)))
         assert {len(row) for row in rows} == {5}
-        # The crank pin and the slider are told under their own names.
+        # The crank pin and the slider are reported under their own names.
         assert {name.removeprefix("'") for name, *_ in rows} >= {some[1], some[2]}
 
 

@@ -66,7 +66,7 @@ def test_dead_centre(tmp_path: Path) -> None:
 
 
 def test_cautions_are_printed(task: Path) -> None:
-    """A poor transmission angle is told on the terminal and in JSON."""
+    """A poor transmission angle is reported on the terminal and in JSON."""
     wide = ("dead-centre", "--swing", "110 deg", "--time-ratio", "1.5")
     told = json.loads(run(*wide, "--json").stdout)
     assert "transmission angle falls to" in told["warnings"][0]

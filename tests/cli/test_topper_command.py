@@ -130,7 +130,7 @@ def test_best_knife(file: str, tmp_path: Path) -> None:
         "map.svg",
         "map.png",
     }
-    # What is told can be set, and gives the same share.
+    # What is reported can be set, and gives the same share.
     keys = ("edge_angle", "edge_length", "knife_speed")
     own = [word for key in keys for word in ("--set", f"topper.{key}={best[key]!r}")]
     field = told("field", file, *own)["results"]["topper_field"]

@@ -64,7 +64,7 @@ def closed_forms(entries: dict[str, float]) -> dict[str, float]:
 
 
 def share_left(entries: dict[str, float]) -> float:
-    """The greatest share left of heads at both limits of the offset: 72 phases, chords by samples."""
+    """The largest share left of heads at both limits of the offset: 72 phases, chords by samples."""
     D, h, delta, alpha, length, v, v_h, stroke = (entries[name] for name in ENTRIES)
     r, sin, cos = math.sqrt(h * (D - h)), math.sin(alpha), math.cos(alpha)
     t = np.linspace(-1, 1, 4001) * (r + (stroke + delta) * abs(sin)) / (v * cos)

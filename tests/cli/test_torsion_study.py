@@ -89,7 +89,7 @@ def test_speeds_are_asked_for(tmp_path: Path) -> None:
     file.write_text(text[: text.index("[train.run]")], encoding="utf-8")
     found = run(str(file))
     assert found.exit_code == 0
-    # Without speeds there is free vibration alone, and the reader is told what to give.
+    # Without speeds there is free vibration alone, and the warning says what to give.
     assert "[train.run]" in found.stdout
 
 

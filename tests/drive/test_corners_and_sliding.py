@@ -162,7 +162,7 @@ def steep(amplitude: float, width: float) -> Callable[[float, np.ndarray], list[
 
 @pytest.mark.parametrize(("amplitude", "begins"), [(5.0, 73.0), (7.0, 110.6)])
 def test_a_slope_in_place_of_the_jump_keeps_its_speed(amplitude: float, begins: float) -> None:
-    """The motion comes to the jump at the angle that is told, and stays on the slope for some time."""
+    """The motion comes to the jump at the angle that is reported, and stays on the slope for some time."""
     width = 1e-3
     u = np.array([72.0])
     for _ in range(4):

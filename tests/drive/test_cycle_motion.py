@@ -1,4 +1,4 @@
-"""Motion over the cycle: closed forms of a slider-crank, kinks, limits of the crank."""
+"""Motion over the cycle: closed forms of a slider-crank, kinks, limits of crank rotation."""
 
 from __future__ import annotations
 

@@ -50,7 +50,7 @@ def test_peak_of_a_motor_in_a_narrow_corner() -> None:
     assert made.drive is not None
     ratio = made.drive.gearbox.ratio
     low, high = (ratio * speed for speed in (plain.speed_min, plain.speed_max))
-    # Near the least speed, where the straight line has its greatest torque in the turn: 235 N m.
+    # Near the smallest speed, where the straight line has its largest torque in the revolution: 235 N m.
     tip, half = low + 0.05 * (high - low), 0.005 * (high - low)
     speed = np.array([0.0, tip - half, tip, tip + half, 2 * high])
     torque = 215.0 - 265.0 * (speed - low) / (high - low) + [0.0, 0.0, 40.0, 0.0, 0.0]

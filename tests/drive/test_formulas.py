@@ -115,7 +115,7 @@ def test_formula_moves_the_machine_as_the_built_in_load(what: str) -> None:
     np.testing.assert_allclose(other.viscous, one.viscous, rtol=1e-12, atol=1e-12)
     steady = [lw.steady_state(each, accuracy=1e-11) for each in (built_in, by_formula)]
     for name in MEASURES:
-        # A load of fixed direction does no work in a turn: a joule is the measure then.
+        # A load of fixed direction does no work in a revolution: a joule is the measure then.
         scale = max(abs(getattr(steady[0], name)), steady[0].acceleration_max if "acc" in name else 1.0)
         # Extremes are read on the meshes of both, which agree to the accuracy times 100.
         difference = getattr(steady[1], name) - getattr(steady[0], name)

@@ -1,4 +1,4 @@
-"""Motors of the catalogue without a printed breakdown torque: the least of a standard, and it is said."""
+"""Motors of the catalogue without a printed breakdown torque: the smallest of a standard, and it is said."""
 
 from __future__ import annotations
 

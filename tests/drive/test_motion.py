@@ -323,7 +323,7 @@ def test_a_turn_needs_an_interval(two_carts: lw.Machine, n: int) -> None:
 @pytest.mark.parametrize("share", [1e-5, 3e-5, 1e-4, 3e-4])
 @pytest.mark.parametrize("start", range(0, 360, 45))
 def test_a_kink_over_speed_that_is_passed_and_passed_back(share: float, start: int) -> None:
-    """A flywheel swings by a torque −B cos φ; a brake bites from just below its greatest speed on."""
+    """A flywheel swings by a torque −B cos φ; a brake bites from just below its largest speed on."""
     J, B, speed = 1.0, 20.0, 10.0
     phi = np.radians(start)
     energy = 0.5 * J * speed**2 + B * np.sin(phi)

@@ -50,7 +50,7 @@ def test_a_flywheel_under_constant_torque() -> None:
 
 
 def test_an_extreme_of_the_acceleration_satisfies_the_equation_of_motion(press) -> None:
-    """ε = (M_d − M_r − ½ J′ω²)/J at the angle and speed that are told, and no sample lies beyond."""
+    """ε = (M_d − M_r − ½ J′ω²)/J at the angle and speed that are reported, and no sample lies beyond."""
     machine, motion = press
     compiled = compile_machine(machine)
     sampled = course(motion, 20_000)

@@ -117,7 +117,7 @@ def test_springs_give_back_what_they_take(load: str) -> None:
     drag = '{ kind = "viscous", on = "K", damping = 150 }'
     found = lw.steady_state(machine(load, drag), accuracy=1e-12)
     assert found.energy_drive == pytest.approx(found.energy_load, rel=1e-9)
-    # All work is the damper's: that of the spring over a turn is nothing. Trapezoids on 360 intervals of a
+    # All work is the damper's: the spring does none over a revolution. Trapezoids on 360 intervals of a
     # smooth periodic function.
     viscous = lw.reduction(machine(drag)).viscous
     work = np.trapezoid(viscous * found.speed, found.crank_angle)
@@ -162,7 +162,7 @@ def test_damper_by_a_bent_curve_balances_its_work() -> None:
     speed = np.interp(PHI, found.crank_angle, found.speed) * slope(length)
     assert abs(speed).max() > 0.3
     work = np.trapezoid(np.interp(speed, [-2, -0.3, 0, 0.2, 2], [-300, -200, 0, 50, 90]) * slope(length), PHI)
-    # 48 trapezoids over a turn with kinks.
+    # 48 trapezoids over a revolution with kinks.
     assert found.energy_load == pytest.approx(work, rel=1e-2)
 
 

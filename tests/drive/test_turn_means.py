@@ -19,7 +19,7 @@ from linkwright.machine.read import loads
 Function = Callable[[np.ndarray], np.ndarray]
 TURN = np.array([0.0, 2 * np.pi])
 
-# Function, its integral over the revolution, its greatest value.
+# Function, its integral over the revolution, its largest value.
 KNOWN: dict[str, tuple[Function, float, float]] = {
     "smooth": (lambda x: np.exp(np.cos(x)), 2 * np.pi * np.i0(1.0), np.e),
     "kinks": (lambda x: np.abs(np.sin(x - 0.3)), 4.0, 1.0),
@@ -40,7 +40,7 @@ def test_integral_and_extreme_of_known_functions(name: str) -> None:
     of, integral, greatest = KNOWN[name]
     curve = turn_curve(lambda x: of(x)[None], TURN, name)
     off = abs(curve.integral()[0] - integral)
-    # What is told of the error holds, but for rounding of the sum itself; and it is small.
+    # What is reported of the error holds, but for rounding of the sum itself; and it is small.
     assert off <= curve.error[0] + 1e-15 * curve.size[0]
     assert off <= 1e-11 * curve.size[0]
     assert curve.error[0] <= 1e-10 * curve.size[0]
@@ -170,7 +170,7 @@ def test_means_against_brute_force(name: str) -> None:
 
 
 def test_a_window_has_its_exact_mean() -> None:
-    """30 N m over the angle at which cos φ > 0.9999, though no kink is told."""
+    """30 N m over the angle at which cos φ > 0.9999, though no kink is reported."""
     found = reduction(machine(RESISTING["window"][1])).torque_load_mean
     assert found == pytest.approx(-30 * np.arccos(0.9999) / np.pi, rel=1e-12)
 

@@ -22,7 +22,7 @@ SECONDS = 60.0
 # The same for a case that integrates by other means as well [s].
 LONGEST = 120.0
 
-# Who takes no processor time either waits for ever: this many times as long on the clock is a deadlock,
+# Who takes no processor time either waits endlessly: this many times as long on the clock is a deadlock,
 # however much else there is to do.
 CLOCK = 20.0
 

@@ -51,7 +51,7 @@ def violations(machine: Machine, steady: SteadyState, accuracy: float) -> dict[s
 
 
 def rounding(steady: SteadyState, compiled: CompiledMachine) -> float:
-    """Torque that rounding makes: of the speed on the characteristic, and of what goes to and fro [N m].
+    """Torque that rounding makes: of the speed on the characteristic, and of what oscillates [N m].
 
     Where a drive idles this is all the torque that there is.
 
@@ -79,7 +79,7 @@ def _peak(steady: SteadyState) -> float:
 
 
 def _energy(machine: Machine, steady: SteadyState) -> float:
-    """Work at the crank against that of the loads, as a share of what goes to and fro, rounding apart."""
+    """Work at the crank against that of the loads, as a share of what oscillates, rounding apart."""
     size = float(np.trapezoid(np.abs(steady.torque_load) + np.abs(steady.torque_drive), steady.crank_angle))
     idle = _ROUNDING * float((steady.inertia_reduced * steady.speed**2).max())
     idle += 2 * np.pi * rounding(steady, compile_machine(machine))

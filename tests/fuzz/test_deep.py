@@ -49,7 +49,7 @@ def test_an_error_that_escapes_a_case_is_told_and_the_next_case_runs(monkeypatch
 
 
 def test_a_case_is_judged_by_the_processor_time_that_it_takes(monkeypatch: pytest.MonkeyPatch) -> None:
-    """One that waits for a busy machine goes on; one that computes for ever is told, and so is a deadlock."""
+    """A case that waits for a busy machine goes on; an endless computation and a deadlock are reported."""
     with watched({}, seconds=0.1):
         time.sleep(0.3)
     with pytest.raises(PromiseError, match=r"within 0\.1 s of processor time"), watched({}, seconds=0.1):

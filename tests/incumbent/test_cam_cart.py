@@ -98,7 +98,7 @@ def over_angle(phi: float, y: np.ndarray) -> list[float]:
 
 
 def turn(start: float) -> tuple[np.ndarray, list]:
-    """Energy and time after a turn, and its pieces."""
+    """Energy and time after a revolution, and its pieces."""
     y, pieces = np.array([start, 0.0]), []
     for low, high in pairwise(JOINTS):
         # The law's own formula must be taken inside the piece, also at its end.
@@ -124,7 +124,7 @@ def test_steady_motion_of_a_cart_driven_by_a_cam() -> None:
     # Samples 1e-3 rad apart miss a flat extreme by some 1e-8 of it.
     assert found.speed_max == pytest.approx(max(speeds), rel=2e-7)
     assert found.speed_min == pytest.approx(min(speeds), rel=2e-7)
-    # Work of friction and weight in a turn: the weight gives back what it takes.
+    # Work of friction and weight in a revolution: the weight gives back what it takes.
     assert found.energy_load == pytest.approx(2 * H * ROLL, rel=1e-9)
     assert found.energy_drive == pytest.approx(found.energy_load, rel=1e-9)
 

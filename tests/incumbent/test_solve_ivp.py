@@ -1,7 +1,7 @@
 """Steady motion against SciPy's DOP853 on a model written by hand from paper 1, equations (1) to (10).
 
 The model shares nothing with the package: energy as the state over the angle, carts in closed form, from one
-corner of the friction to the next; the energy at the start is the root of what a turn adds to it. Without a
+corner of the friction to the next; the energy at the start is the root of what a cycle adds to it. Without a
 starting torque Kloss's formula holds at all speeds.
 """
 
@@ -122,7 +122,7 @@ class Variant:
         return sorted(found)
 
     def turn(self, start: np.ndarray, dense: bool = False) -> tuple[np.ndarray, list]:
-        """One turn, from corner to corner."""
+        """One revolution, from corner to corner."""
         y, pieces = start, []
         for low, high in pairwise(self.corners()):
             if high - low < 1e-12:
@@ -133,7 +133,7 @@ class Variant:
         return y, pieces
 
     def solve(self) -> tuple[float, float, float]:
-        """ω_min, ω_max and the period of steady motion, by secant steps on the turn's map."""
+        """ω_min, ω_max and the period of steady motion, by secant steps on the map of a revolution."""
         J0 = self.reduced(0.0)[0]
         top = self.motor[0] / self.ratio
 
@@ -148,7 +148,7 @@ class Variant:
         return min(low for low, _ in speeds), max(high for _, high in speeds), float(end[1])
 
     def extremes(self, low: float, high: float, sol) -> tuple[float, float]:
-        """Least and greatest speed of a piece, closed in on three times."""
+        """Minimum and maximum speed of a piece, closed in on three times."""
 
         def omega(phi: float) -> float:
             return float(np.sqrt(2 * sol(phi)[0] / self.reduced(phi)[0]))

@@ -124,7 +124,7 @@ def test_mean_over_time_of_an_uneven_revolution() -> None:
 def test_envelope_has_peak_and_means() -> None:
     result = forces(lw.loads(ENGINE), speed=100.0)
     rows = {row.name: row for row in envelope(result)}
-    # The greatest force of inertia is at the far dead centre: (m_r (1 + λ) + m_t) r ω².
+    # The largest force of inertia is at the far dead centre: (m_r (1 + λ) + m_t) r ω².
     row = rows["shaking_force"]
     assert row.peak == pytest.approx((1.2 * 1.25 + 0.8) * 500, rel=1e-12)
     assert row.peak_angle in (0.0, pytest.approx(2 * np.pi))

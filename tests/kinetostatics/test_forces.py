@@ -152,7 +152,7 @@ def _pressed(scene: Scene, follower: Any, name: str, force: np.ndarray) -> np.nd
 
 
 def test_force_on_the_frame_is_the_change_of_momentum(found: tuple[lw.Machine, Forces]) -> None:
-    """Σ m a = loads from outside − force on the frame, without any reaction in it."""
+    """Σ m a = loads from outside − shaking force, without any reaction in it."""
     machine, result = found
     scene = Scene(machine, motion_at(machine, None, speed=SPEED, acceleration=ACCELERATION))
     from linkwright.kinetostatics.applied import applied

@@ -139,7 +139,7 @@ def test_of_several_motions_the_stable_one_is_found_at_every_accuracy() -> None:
 @pytest.mark.parametrize("name", ["three_motions", "narrow_window", "two_motions"])
 @pytest.mark.parametrize("accuracy", [1e-6, 1e-9, 1e-11])
 def test_stable_and_unstable_motions_take_turns(name: str, accuracy: float) -> None:
-    """The turn-to-turn map increases: between two stable motions lies an unstable one that parts them."""
+    """The return map increases: between two stable motions lies an unstable one that parts them."""
     machine = read(HERE / "machines" / f"{name}.toml")
     steady = steady_state(machine, accuracy=accuracy)
     assert steady.others
@@ -157,7 +157,7 @@ def test_starts_part_at_the_unstable_motion(name: str) -> None:
     machine = read(HERE / "machines" / f"{name}.toml")
     steady = steady_state(machine)
     parting = steady.others[0]
-    # The phase of the crank is that of the analysis, so whole turns end at φ = 0.
+    # The phase of the crank is that of the analysis, so whole revolutions end at φ = 0.
     up = lw.transient(machine, speed=1.01 * parting.speed_max, turns=300.0, accuracy=1e-9)
     assert up.speed[-1] == pytest.approx(steady.speed[0], rel=1e-6)
     down = lw.transient(machine, speed=0.99 * parting.speed_min, turns=300.0, accuracy=1e-9)

@@ -1,4 +1,4 @@
-"""Motion through change points: over several turns, with links of very different length, in batches."""
+"""Motion through change points: over several revolutions, with links of very different length, in batches."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def four_bar(crank: float, coupler: float, rocker: float, frame: float, side: st
 @pytest.mark.parametrize("lengths", [(2, 3, 5, 4), (0.1, 0.35, 0.2, 0.25), (0.1, 0.3, 0.2, 0.2)])
 @pytest.mark.parametrize("side", ["left", "right"])
 def test_one_change_point_a_turn(lengths: tuple[float, ...], side: str) -> None:
-    """The motion comes back after two turns, and is smooth all the way: its joint and rates do not jump."""
+    """The motion comes back after two revolutions, and is smooth: its joint and rates do not jump."""
     machine = four_bar(*lengths, side=side)
     assert lw.period_turns(machine) == 2
     angles = np.linspace(0, 4 * np.pi, 20001)

@@ -309,7 +309,7 @@ def test_limits_in_closed_form() -> None:
 def test_narrow_gaps_are_seen(short: float) -> None:
     """Coupler and rocker too short by a little leave a gap that no grid of quarter degrees meets."""
     r, a, b, d = 0.1, 0.2, 0.2, 0.3
-    # The phase puts the gap between two angles of any grid of simple shares of the turn.
+    # The phase puts the gap between two angles of any grid of simple shares of the revolution.
     phase = 0.00123
     machine = lw.replace(four_bar(r, a, b, d + short), {"mechanism.cranks.A.phase": phase})
     ((low, high),) = closure(machine).ranges
@@ -450,7 +450,7 @@ def test_zeros_of_hard_functions() -> None:
     powers = np.array([1.0, 3.0, 7.0, 15.0])
     at = np.array([0.3, 0.1, 0.7, 0.45])
     near, far = zeros(lambda x: np.sign(x - at) * np.abs(x - at) ** powers, np.zeros(4), np.ones(4))
-    # A zero of order p is blurred to the p-th root of the least number there is; none is that large here.
+    # A zero of order p is blurred to the p-th root of the smallest number there is; none is that large here.
     np.testing.assert_allclose(near, at, atol=1e-13)
     near, far = zeros(lambda x: np.where(x < 1 / 3, -1.0, 2.0), np.zeros(1), np.ones(1))
     assert abs(near[0] - far[0]) < 1e-15
@@ -478,7 +478,7 @@ def test_velocity_ratio_by_the_instant_centre() -> None:
 
 
 def test_angles_lie_in_the_range_in_which_the_mechanism_moves() -> None:
-    """A lift on a screw, whose crank goes from some turns back to many turns forward."""
+    """A lift on a screw, whose crank goes from some revolutions back to many revolutions forward."""
     found = lw.linkage(lw.read(Path(__file__).parents[2] / "examples" / "scissor_lift" / "machine.toml"))
     low, high = found.closure.ranges[0]
     assert low < 0 < high
@@ -489,7 +489,7 @@ def test_angles_lie_in_the_range_in_which_the_mechanism_moves() -> None:
 
 
 def test_a_mechanism_that_closes_at_single_angles_does_not_move() -> None:
-    """A rocker of next to nothing, that a crank which turns many times passes at one angle a turn."""
+    """A rocker of next to nothing, that a crank which turns many times passes at one angle a revolution."""
     gears = Path(__file__).parents[2] / "examples" / "gears_and_guides" / "machine.toml"
     with pytest.raises(AssemblyError, match="closes only"):
         lw.linkage(lw.read(gears, ["mechanism.rockers.C.rocker=1e-9"]))

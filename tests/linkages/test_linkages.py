@@ -29,7 +29,7 @@ def machine(text: str) -> lw.Machine:
 
 
 def rates_error(motion: lw.Kinematics) -> float:
-    """Greatest difference of the rates of points from those of their Fourier series, over a whole turn."""
+    """Largest difference of the rates of points from those of their Fourier series."""
     n = len(motion.angles)
     order = 1j * np.arange(n // 2 + 1)[:, None]
     pairs = [
@@ -152,7 +152,7 @@ C = { crank = "A", pivot = "B", coupler = 0.12, rocker = 0.11 }
 
 
 def test_folding_dyad_on_a_four_bar_linkage() -> None:
-    """A parallelogram on the rocker of a crank-rocker folds in the middle of its swing, twice a turn.
+    """A parallelogram on the rocker of a crank-rocker folds in the middle of its swing, twice a revolution.
 
     The far bar turns exactly as the rocker at, near and far from there.
     """
@@ -317,7 +317,7 @@ S = { crank = "K", rod = 0.3, through = "P", offset = OFFSET }
     whole = lw.closure(machine(text.replace("OFFSET", "0.05")))
     assert whole.turns_fully
     assert whole.turns == 2
-    # With the guide 0.15 m above, the pin is 0.35 m from it at its lowest: at 540°, in the second turn.
+    # With the guide 0.15 m above, the pin is 0.35 m from it at its lowest: at 540°, in the second revolution.
     part = lw.closure(machine(text.replace("OFFSET", "0.15")))
     assert part.element == "S"
     low, high = part.ranges[0]

@@ -1,6 +1,6 @@
 """Rhombi, kites and what is nearly one: closed forms, positions in 110 digits, refusals, batches.
 
-Linkages are taken as they are, turned, mirrored and scaled; crank angles lie over two turns and from 1e-14
+Linkages are taken as they are, turned, mirrored and scaled; crank angles lie over two revolutions from 1e-14
 rad on beside the points where links come into line.
 """
 
@@ -45,7 +45,7 @@ def four_bar(
 
 
 def angles(*centres: float) -> np.ndarray:
-    """Two turns, and the neighbourhood of some angles in both."""
+    """Two revolutions, and the neighbourhood of some angles in both."""
     near = np.concatenate([[0.0], 10.0 ** np.arange(-14, 0.1, 0.5)])
     beside = [at + turn + way * near for at in centres for turn in (0, 2 * np.pi) for way in (-1, 1)]
     return np.sort(np.concatenate([np.linspace(0, 4 * np.pi, 289), *beside]))
@@ -113,7 +113,7 @@ def test_an_antiparallelogram_that_whirls_is_refused(excess: float) -> None:
 @pytest.mark.parametrize("side", ["left", "right"])
 @pytest.mark.parametrize("turned", [0.0, np.pi, -2.1])
 def test_a_kite_is_galloways_linkage(long: float, side: str, turned: float) -> None:
-    """The rocker turns once in two turns of the crank: ψ is (φ + θ)/2 and the angle at the rhombus' half."""
+    """The rocker turns once in two of the crank: ψ is (φ + θ)/2 and the angle at the rhombus' half."""
     machine = four_bar((1.0, long, long, 1.0), side, turned=turned)
     motion = lw.kinematics(machine, at := angles(turned), third=True)
     # u = D − A = w n with n smooth: w = 2 sin((φ − θ)/2), n = −i exp(i (φ + θ)/2).
@@ -406,7 +406,7 @@ def test_rows_of_a_batch_are_the_single_machines() -> None:
 
 
 def test_steady_motion_of_a_batch_is_that_of_each_machine() -> None:
-    """Parallelograms, near-rhombi; a status where lengths do not tell, or a kite takes two turns."""
+    """Parallelograms, near-rhombi; a status where lengths do not tell, or a kite takes two revolutions."""
     coupler = np.array([1.5, 1.0, 1.0 + 1e-4, 1.2, 1.5])
     frame = np.array([1.5, 1.0, 1.0 + 1e-4, 1.2 * (1 + 1e-10), 1.0])
     rocker = np.array([1.0, 1.0, 1.0, 1.0, 1.5])

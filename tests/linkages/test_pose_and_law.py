@@ -285,7 +285,7 @@ def test_motion_within_limits() -> None:
     # A peak beyond the limit between two of the times is seen too.
     with pytest.raises(AssemblyError, match="passes the limit of R"):
         lw.motion(limited, lambda t: limit * 1.001 * np.sin(t), np.array([0.0, 1.2, 1.9, 2.5]))
-    # One turn on, and in the range from below.
+    # One revolution on, and in the range from below.
     lw.motion(limited, lambda t: 2 * np.pi + 0.5 * np.sin(t), t)
     with pytest.raises(ShapeError, match="increase"):
         lw.motion(limited, constant_speed(1.0), [0.0, 0.0])

@@ -56,7 +56,7 @@ def test_the_fit_is_a_machine_that_gives_it(paper: Paper1) -> None:
 
 
 def test_the_limit_in_speeds(paper: Paper1) -> None:
-    """½ J ω² is the same at every angle, and ε is the slope of ω along the turn."""
+    """½ J ω² is the same at every angle, and ε is the slope of ω along the revolution."""
     for drive in paper.drives:
         omega, epsilon = limit_curves(drive.reduced, drive.published.values["speed_mean"])
         energy = drive.reduced.inertia_reduced * omega**2

@@ -206,7 +206,7 @@ def test_same_drive_for_all(paper: Paper2) -> None:
         assert each.machine.loads == first.loads
         assert each.machine.bodies == first.bodies
         assert each.velocity.max() > 0
-        # 4 F Δx/2 of work a turn, whatever the law.
+        # 4 F Δx/2 of work a revolution, whatever the law.
         assert each.steady.energy_load == pytest.approx(2 * 3562 * STROKE, rel=1e-9)
 
 
@@ -232,7 +232,7 @@ def test_hollow_by_the_polar_formula(paper: Paper2) -> None:
 
 
 def test_roller_on_the_profile_by_distance(paper: Paper2) -> None:
-    """The centre lies where its least distance from the profile is the radius."""
+    """The centre lies where its smallest distance from the profile is the radius."""
     radius = paper.rollers.radius
     found = centre_distance(paper.profile, radius)
     x, y = paper.profile.flanks[0].curve().points(np.linspace(0, 2 * np.pi, 200_001)).T
@@ -243,7 +243,7 @@ def test_roller_on_the_profile_by_distance(paper: Paper2) -> None:
         def spare(reach: float, cos: float = cos, sin: float = sin) -> float:
             return float(np.hypot(x - reach * cos, y - reach * sin).min()) - radius
 
-        # Points 3e-5 m apart see the least distance to 1e-8.
+        # Points 3e-5 m apart see the smallest distance to 1e-8.
         assert found[n] == pytest.approx(brentq(spare, found[n] - 0.01, found[n] + 0.01), abs=1e-7)
 
 

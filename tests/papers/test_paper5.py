@@ -120,7 +120,7 @@ def test_figure_3_by_hand(paper: Paper5) -> None:
 
 
 def test_verdict_in_closed_form(paper: Paper5) -> None:
-    """(10) has its greatest (d + 2Δ)√(1 + ρ²) at tan α = 1/ρ; its least over its greatest is 5/6 where
+    """(10) has its largest (d + 2Δ)√(1 + ρ²) at tan α = 1/ρ; its smallest over its largest is 5/6 where
     tan α = (5ρ_max/6 − ρ_min)/(1 − 5/6)."""
     found = paper.verdict
     # The angles of the scan are hundredths of a degree apart.

@@ -133,7 +133,7 @@ def test_every_status_has_its_sentence() -> None:
 
 
 def test_loads_with_a_potential_do_not_resist_a_cycle() -> None:
-    """Without gravity and springs the mean resistance over the turn is the same."""
+    """Without gravity and springs the mean resistance over the revolution is the same."""
     machine = lw.read("machines/roller_two_carts.toml")
     compiled = compile_machine(machine)
     angles = lw.steady_state(machine, n=4096).crank_angle[:-1]

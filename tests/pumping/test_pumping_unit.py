@@ -111,7 +111,7 @@ def test_stroke_is_reached_at_its_ends() -> None:
 
 
 def test_cable_carries_the_same_stroke() -> None:
-    """The slide of the cable and the turn of the beam are two ways to the polished rod."""
+    """The slide of the cable and the rotation of the beam are two ways to the polished rod."""
     known = catalogue_unit("C-114D-133-54").unit()
     # Turning counter-clockwise, its rear arm swings across 180°.
     other = PumpingUnit(**{**known.model_dump(exclude_none=True), "rotation": "counter_clockwise"})
@@ -202,7 +202,7 @@ def test_best_counterbalance_has_equal_peaks(unit: PumpingUnit) -> None:
 
 
 def test_work_is_that_of_the_load_alone() -> None:
-    """Counterweights, and the unbalance, do no work over a turn; losses add to it."""
+    """Counterweights, and the unbalance, do no work over a revolution; losses add to it."""
     gear = loaded(CONVENTIONAL, **TABLE, counterbalance=2e4, phase=0.3)
     assert gear.torque_net_mean * 2 * np.pi == pytest.approx(gear.work, rel=1e-12)
     # 25 kN more on the way up, over the whole stroke; the loads jump where it turns.

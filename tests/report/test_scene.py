@@ -1,4 +1,4 @@
-"""The data of the moving sketch: links keep their length, sliders their guide, time its pace."""
+"""The data of the moving sketch: links keep their length, sliders their guide, time its playback speed."""
 
 from __future__ import annotations
 

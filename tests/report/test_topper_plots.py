@@ -130,7 +130,7 @@ def test_verdict_chart_is_that_of_the_lengths() -> None:
     # L cos α − S, between points of the chart.
     assert low == pytest.approx(0.25 * np.cos(np.radians(20)) - 0.06, rel=1e-4)
     assert high == pytest.approx(0.30 * np.cos(np.radians(20)) - 0.06, rel=1e-4)
-    # With the machine's share of Δ in the band, such heads need the lengths claimed at the greatest v_h/v.
+    # With the machine's share of Δ in the band, such heads need the lengths claimed at the largest v_h/v.
     share = 2 * 0.02 / chart.band
     for each, length in zip(chart.bands["constant_speed"], chart.lengths, strict=True):
         band = float(np.interp(np.radians(20), chart.angles, each))

@@ -104,7 +104,7 @@ def test_what_is_left_is_said_with_its_place() -> None:
 def test_mechanism_adds_its_drive() -> None:
     assert "topper_drive" not in shown("own")
     listed = rows(shown("crank")["topper_drive"])
-    # 2.6 kg on a crank of 30 mm at 275 rpm with λ = 0.2: greatest at the outer dead centre.
+    # 2.6 kg on a crank of 30 mm at 275 rpm with λ = 0.2: largest at the outer dead centre.
     force = 2.6 * 0.03 * (275 * np.pi / 30) ** 2 * 1.2
     assert listed["maximum inertia force of the knife"][0] == f"{number(force)} N"
     assert "reduction" in shown("crank")
@@ -135,7 +135,7 @@ def test_page_is_about_the_topper(case: str) -> None:
     assert ("topper_slicing" in figures) == moves
     assert ("topper_use" in figures) == (followed and case != "stands")
     assert "Paper 5" in text
-    # What moves a topper alone is no drive line.
+    # What moves a topper alone is no driveline.
     assert ("reduced to the crank" in text) == (case == "crank")
     assert ("Paper 1" in text) == (case == "crank")
     assert ('id="scene"' in text) == (case == "crank")

@@ -36,7 +36,7 @@ def _from_segment(p: Floats, a: Floats, b: Floats) -> Floats:
 
 
 def quadrature(cam: Cam, integrand: Callable[[Floats, Floats], Floats]) -> float:
-    """∫ f(p, p′) dφ over the turn, by Gauss–Legendre on eight parts of each stretch."""
+    """∫ f(p, p′) dφ over the revolution, by Gauss–Legendre on eight parts of each stretch."""
     x, w = np.polynomial.legendre.leggauss(40)
     total = 0.0
     for a, b in zip(cam.breaks, cam.breaks[1:], strict=False):

@@ -23,7 +23,7 @@ PIECES, DEGREE = 24, 13
 
 
 def fitted(function: Callable[[Floats], Floats], pieces: int = PIECES, degree: int = DEGREE) -> MotionLaw:
-    """A smooth function over a turn as a law, good to rounding."""
+    """A smooth function over a revolution as a law, good to rounding."""
     breaks = TURN * np.arange(pieces + 1) / pieces
     made = []
     for low, high in pairwise(breaks):

@@ -29,7 +29,7 @@ def dwell(angle: float, lift: float) -> MotionLaw:
 
 
 def turn(law: MotionLaw, lift: float, rise: float = 2.0, high: float = 0.8, back: float = 1.7) -> MotionLaw:
-    """Rise, dwell, return and dwell over one turn."""
+    """Rise, dwell, return and dwell over one revolution."""
     up, down = law.scaled(lift), law.reversed().scaled(lift)
     rest = 2 * np.pi - rise - high - back
     return joined(

@@ -127,7 +127,7 @@ def _in_any(from_end: Floats, edge: Floats, move: Floats, area: Floats) -> Mask:
 
 
 def length_by_bisection(over: Pass, points: Floats, rounds: int = 20) -> float:
-    """Least length whose parallelograms hold every point."""
+    """Smallest length whose parallelograms hold every point."""
     low, high = 0.0, 4 * (over.diameter + abs(over.offset) + over.knife.reach) / np.cos(over.knife.angle)
     for _ in range(rounds):
         middle = (low + high) / 2
@@ -139,7 +139,7 @@ def length_by_bisection(over: Pass, points: Floats, rounds: int = 20) -> float:
 
 
 def lengths_of_points(over: Pass, points: Floats, per_cycle: int = STEPS) -> Floats:
-    """Least length whose edge crosses each point: of all passes of its line, the one nearest its middle.
+    """Smallest length whose edge crosses each point: of all passes of its line, the one nearest its middle.
 
     The line stands at x = v t + (Y − y) tan α beside the point (X, Y); there the point is |Y − y|/cos α
     from the middle of the edge.
@@ -263,7 +263,7 @@ def _gaps(low: Floats, high: Floats, which: NDArray[np.int64], y: Floats, half: 
 
 
 def needed_length(over: Pass, n: int = 24, rounds: int = 24, per_cycle: int = STEPS) -> float:
-    """Least length that cuts every point: the greatest of a lattice and the rim, closed in upon."""
+    """Smallest length that cuts every point: the largest of a lattice and the rim, closed in upon."""
     points = np.concatenate([lattice(over, n), rim(over, 6 * n)])
     lengths = lengths_of_points(over, points, per_cycle)
     best = points[np.argsort(lengths)[-3:]]
@@ -277,7 +277,7 @@ def needed_length(over: Pass, n: int = 24, rounds: int = 24, per_cycle: int = ST
 
 
 def worst(knife: Knife, diameter: float, offset: float, phases: int = 12) -> tuple[float, Pass]:
-    """Greatest needed length over phases, at this offset to either side: a scan, then closing in."""
+    """Largest needed length over phases, at this offset to either side: a scan, then closing in."""
     scan = 2 * np.pi * np.arange(phases) / phases
     found = [_needed_at(knife, diameter, o, p) for o in (-offset, offset) for p in scan]
     for k in range(8):
@@ -312,7 +312,7 @@ def to_and_fro(law: Law, stroke: float, mean_speed: float, angle: float, forward
 
 
 def triangular(phase: Floats) -> Floats:
-    """The same speed to and fro."""
+    """The same speed back and forth."""
     return np.asarray(2 / np.pi * np.arcsin(np.sin(phase)))
 
 

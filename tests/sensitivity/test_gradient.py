@@ -112,7 +112,7 @@ def test_a_load_that_ends_on_the_dead_centre():
 
 
 def test_symmetric_carts_tie():
-    """Two equal carts at 90° have their minimum speed once each half revolution: a tie that is told."""
+    """Two equal carts at 90° have their minimum speed once each half revolution: a tie that is reported."""
     machine = lw.replace(lw.read(TWO_CARTS), {"mechanism.cranks.A2.phase": np.pi})
     found = lw.gradient(machine, ["steady_state.unevenness"])
     assert "steady_state.unevenness" in found.ties

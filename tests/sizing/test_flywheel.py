@@ -1,4 +1,4 @@
-"""Flywheels: analysing the machine with one gives back the unevenness that was asked for."""
+"""Flywheels: analysing the machine with one gives back the speed fluctuation that was asked for."""
 
 from __future__ import annotations
 
@@ -144,7 +144,7 @@ def test_excess_work_against_fine_samples(name: str) -> None:
 
 
 def test_what_turns_with_the_crank_already_is_taken_off() -> None:
-    """Drive, and a disc on the crank; not what goes to and fro."""
+    """Drive, and a disc on the crank; not what oscillates."""
     plain = yoke(40.0)
     estimate, work = classical_flywheel(plain, 0.01)
     assert estimate == pytest.approx(work / (0.01 * 20**2) - 0.5, rel=1e-14)

@@ -44,7 +44,7 @@ def test_analysis_gives_back_what_was_asked(name: str, choices: dict[str, MotorC
     assert steady.torque_motor_rms <= motor.torque_rated
     assert abs(steady.torque_motor).max() <= PEAK_SHARE * motor.torque_breakdown * (1 + 1e-4)
     assert run_up(machine).turns > 0
-    # From the worst angle, too: at every angle of the turn the motor sets the machine moving.
+    # From the worst angle, too: at every angle of the revolution the motor sets the machine moving.
     for angle in range(0, 360, 15):
         start = replace(machine, {"run_up.angle_start": angle * 3.141592653589793 / 180})
         assert run_up(start, steady=steady).turns > 0

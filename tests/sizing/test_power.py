@@ -16,7 +16,7 @@ from linkwright.sizing.power import required_power
     ("name", "carts"), [("one_cart", 1), ("two_carts", 2), ("three_carts", 3), ("four_carts", 4)]
 )
 def test_dry_friction_over_the_stroke(name: str, carts: int) -> None:
-    """Each cart travels twice its stroke of 0.4 m a turn against 3562 N, whatever the phases."""
+    """Each cart travels twice its stroke of 0.4 m a revolution against 3562 N, whatever the phases."""
     found = required_power(read(library_path(f"roller_{name}")))
     mean = carts * 3562 * 0.8 / (2 * np.pi)
     assert found.torque_load_mean == pytest.approx(mean, rel=1e-12)

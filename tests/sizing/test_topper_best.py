@@ -42,7 +42,7 @@ def test_without_a_wish_for_draw_cut_the_knife_rests_across_the_row() -> None:
     found = best_knife(topped)
     assert found.best is not None
     assert (found.best.edge_angle, found.best.knife_speed) == (0, 0)
-    # The least edge for 950 of 1000 heads.
+    # The smallest edge for 950 of 1000 heads.
     assert found.best.edge_length == pytest.approx(bands(topped)[949], rel=1e-9)
     assert found.best.share_complete == 0.95
     assert found.best.at_bounds == ("angle_min", "knife_speed_min")
@@ -73,7 +73,7 @@ def test_no_knife_at_random_is_better() -> None:
     assert len(lengths) > 50
     # Steps of a sample of 1000 leave the search a little room.
     assert min(lengths) > found.best.edge_length * (1 - 2e-3)
-    # What is told of it is what its machine does.
+    # What is reported of it is what its machine does.
     own = topped.topper.model_dump() | {
         "edge_angle": found.best.edge_angle,
         "edge_length": found.best.edge_length,
@@ -169,7 +169,7 @@ limits = { knife_speed_min = 0.5, knife_speed_max = 0.5, slicing_min = 0.4 }
 """
     found = best_knife(lw.loads(text))
     assert found.best is not None
-    # Two strokes of 60 mm a turn.
+    # Two strokes of 60 mm a revolution.
     assert found.best.crank_speed == pytest.approx(2 * math.pi * 0.5 / 0.12, rel=1e-6)
 
 

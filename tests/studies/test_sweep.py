@@ -229,7 +229,7 @@ def test_processes_that_are_lost_are_replaced(study_file: Files, tmp_path: Path)
 def test_a_cluster_with_a_worker_killed(
     study_file: Files, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Its folder is that of one process; what cannot be reached is told."""
+    """Its folder is that of one process; what cannot be reached is reported."""
     distributed = pytest.importorskip("distributed")
     plan = lw.read_study(study_file(("chunk = 4", "chunk = 1")))
     lw.sweep(plan, tmp_path / "alone")

@@ -91,7 +91,7 @@ EDGES = {
     ("drive.commands", "linkages"),
     ("drive", "kinetostatics.model"),
     ("drive.model", "torsion.model"),
-    # A drive line that twists is a train.
+    # A torsionally flexible driveline is a train.
     ("torsion.model", "drive.model"),
     ("torsion.core", "drive.model"),
     ("torsion.response", "drive"),

@@ -112,7 +112,7 @@ def test_offsets_of_roots_count_to_the_left() -> None:
 
 
 def test_a_sine_goes_to_the_left_from_phase_zero() -> None:
-    """A quarter of a turn on it is at its left end, and leaves the right side of a head."""
+    """A quarter of a revolution on it is at its left end, and leaves the right side of a head."""
     found = heads(offset=0, phase=np.pi / 2)
     assert found.uncut_right[0] > 0 == found.uncut_left[0]
 

@@ -25,8 +25,9 @@ from linkwright.kernel.result import Result
 
 ROOT = Path(__file__).parents[2]
 
-# The glossary names the retired words, and the changelog says what they were.
+# The glossary names the retired words, the changelog says what they were, and this file looks for them.
 EXCUSED = {
+    Path(__file__),
     ROOT / "CHANGELOG.md",
     ROOT / "docs" / "glossary.md",
     ROOT / "python" / "linkwright" / "kernel" / "page" / "glossary.toml",
@@ -84,6 +85,14 @@ def of_python(source: str) -> Iterator[str]:
         yield _CODE.sub("·", _PARAMETER.sub("", text))
 
 
+def of_test(source: str) -> Iterator[str]:
+    """Docstrings and comments of a test; its other texts are the machines and the messages that it tries."""
+    yield from in_blocks("".join(next(iter(_COMMENT.findall(line)), "")) for line in source.splitlines())
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef):
+            yield _CODE.sub("·", ast.get_docstring(node) or "")
+
+
 def in_blocks(comments: Iterable[str]) -> Iterator[str]:
     """Comments of lines that follow one another as one text; empty strings divide them."""
     for is_comment, lines in groupby(comments, bool):
@@ -133,6 +142,7 @@ KINDS = {
     "pages": (of_page, ["*.md", "docs/**/*.md", "examples/**/*.md", "benches/*.md"]),
     "package": (of_python, ["python/**/*.py", "python/**/*.pyi", "docs/*.py", "examples/**/*.py"]),
     "benches": (of_python, ["benches/**/*.py"]),
+    "tests": (of_test, ["tests/**/*.py"]),
     "notebooks": (of_data, ["docs/**/*.ipynb"]),
     "templates": (of_template, ["python/**/*.html"]),
     "scripts": (of_script, ["python/**/*.js"]),

@@ -15,7 +15,7 @@ from linkwright.synthesis.four_bar import worst_transmission
 
 
 def extremes(machine: lw.Machine) -> tuple[float, float, float, float]:
-    """Crank angles of the greatest and the least rocker angle and these, by Newton."""
+    """Crank angles of the maximum and the minimum rocker angle and these, by Newton."""
     angles = np.linspace(0, 2 * np.pi, 721)
     motion = lw.kinematics(machine, angles).links["B.rocker"]
     found = []

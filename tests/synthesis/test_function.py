@@ -57,7 +57,7 @@ def test_structural_error_is_that_of_a_finer_analysis() -> None:
     turned = rocker(found.machine, 60 * DEG * (x - 1))
     off = turned - turned[0] - 90 * DEG * np.log10(x) / np.log10(2)
     first = (found.generated[0] - found.wanted[0]) / np.log10(2) * 90 * DEG
-    # The greatest deviation lies at most half an interval of the range from where it is looked at.
+    # The largest deviation lies at most half an interval of the range from where it is looked at.
     assert np.abs(off + first).max() == pytest.approx(found.angle_error_max, rel=1e-4)
     # It changes its sign at each of the three points.
     signs = np.sign((found.generated - found.wanted)[np.abs(found.generated - found.wanted) > 1e-12])

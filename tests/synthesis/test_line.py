@@ -40,7 +40,7 @@ def test_approximate_lines_are_nearly_straight(kind: str) -> None:
 
 
 def test_hoeken_against_its_closed_form() -> None:
-    """Crank 1, frame 2, coupler = rocker = 2.5, P at 5, over half a turn.
+    """Crank 1, frame 2, coupler = rocker = 2.5, P at 5, over half a revolution.
 
     Coupler and rocker are equal, so P, A and B₀ make a right angle at B₀: P is perpendicular to B₀A, at
     distance √(25 − d²) with d² = 5 − 4 cos φ.

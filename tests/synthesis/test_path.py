@@ -38,7 +38,7 @@ def test_path_without_timing() -> None:
     found = lw.path_generator(PathTask(**drawn(), seed=1))
     assert found.error_relative < 1e-6
     assert found.type == "crank-rocker"
-    # One turn of the crank meets all points in order.
+    # One revolution of the crank meets all points in order.
     turned = np.unwrap(found.crank_angles)
     assert (np.diff(turned) > 0).all() or (np.diff(turned) < 0).all()
     assert np.ptp(turned) < 2 * np.pi
@@ -111,7 +111,7 @@ def test_a_best_that_few_starts_find_is_told() -> None:
 
 
 def test_transmission_angles_of_exact_linkages_decide() -> None:
-    """Many linkages pass six points; a poor transmission angle is told, with the remedy."""
+    """Many linkages pass six points; a poor transmission angle is reported, with the remedy."""
     points = {"x": tuple(np.linspace(0, 1, 6)), "y": (0.0,) * 6}
     best = lw.path_generator(PathTask(**points, population=60))
     limit = best.transmission_angle_min + np.radians(2)

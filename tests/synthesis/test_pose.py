@@ -1,4 +1,4 @@
-"""Motion generation: the body passes its poses, as a rigid body; what cannot be is told."""
+"""Motion generation: the body passes its poses, as a rigid body; what cannot be is reported."""
 
 from __future__ import annotations
 

@@ -358,7 +358,7 @@ def test_knife_that_does_not_turn_back(angle: float) -> None:
 
 @pytest.mark.parametrize("name", [name for name in CASES if CASES[name].law in ("harmonic", "triangular")])
 def test_mirror_image(name: str) -> None:
-    """Left and right swapped: these laws are their own mirror image half a turn later."""
+    """Left and right swapped: these laws are their own mirror image half a revolution later."""
     case = CASES[name]
     image = replace(case, angle=-case.angle, offset=-case.offset, phase=case.phase + 180.0)
     assert image.needed() == pytest.approx(case.needed(), rel=1e-10)

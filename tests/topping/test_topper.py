@@ -80,7 +80,7 @@ def test_the_other_end_that_leads_is_the_mirror_image() -> None:
     for name in ("length_exact", "uncut_share", "length_best_phase", "slicing_ratio_mean"):
         assert getattr(one, name) == pytest.approx(getattr(other, name), rel=1e-9)
     assert one.uncut_share_mean == pytest.approx(other.uncut_share_mean, rel=1e-9)
-    # Mirrored, the knife starts to the right: half a turn on.
+    # Mirrored, the knife starts to the right: half a revolution on.
     np.testing.assert_allclose(one.length_by_phase[:91], other.length_by_phase[90:], rtol=1e-12)
 
 
@@ -220,7 +220,7 @@ def test_a_very_long_rod_moves_the_knife_as_a_sine() -> None:
 
 
 def test_inertia_force_is_that_of_the_slider_crank() -> None:
-    """The greatest acceleration is rω²(1 + r/l), at the outer dead centre."""
+    """The largest acceleration is rω²(1 + r/l), at the outer dead centre."""
     found = cut(file="topper_crank.toml")
     omega = 275 * np.pi / 30
     assert found.knife_mass == 2.6
@@ -241,7 +241,7 @@ def test_drive_torque_is_that_of_the_reduction() -> None:
     assert found.drive_torque_max == pytest.approx(torque(36_000).max(), rel=1e-7)
     assert found.drive_torque_min == pytest.approx(torque(36_000).min(), rel=1e-7)
     assert found.drive_torque_mean == pytest.approx(torque(720)[:-1].mean(), rel=1e-9)
-    # Dry friction takes 4 r F in a turn.
+    # Dry friction takes 4 r F in a revolution.
     assert found.drive_torque_mean == pytest.approx(4 * 0.03 * 12 / (2 * np.pi), rel=1e-4)
     assert found.drive_power_mean == pytest.approx(found.drive_torque_mean * omega)
 
@@ -346,7 +346,7 @@ motion = {{ kind = "member", of = "k" }}
     ],
 )
 def test_any_member_that_comes_back(law: str, stroke: float, speed: float) -> None:
-    """A sum of harmonics, a law with corners, a member that rests: way in a turn by hand."""
+    """A sum of harmonics, a law with corners, a member that rests: way in a revolution by hand."""
     found = topper(lw.loads(MEMBER.format(law=law)))
     assert found.stroke == pytest.approx(stroke, abs=1e-12)
     assert found.knife_speed == pytest.approx(speed * 275 / 60, abs=1e-12)

@@ -258,7 +258,7 @@ def test_measured_roots_from_a_file(tmp_path: Path) -> None:
     assert topped.topper is not None
     roots = draw_roots(topped.topper)
     assert roots.root_diameter.reshape(4, 100)[:, 0].tolist() == pytest.approx([0.1, 0.12, 0.09, 0.131])
-    # The phases of each root are even over a turn.
+    # The phases of each root are even over a revolution.
     gaps = np.diff(np.sort(roots.start.reshape(4, 100), axis=1), axis=1)
     np.testing.assert_allclose(gaps, 0.01, atol=1e-12)
     found = topper_field(topped)

@@ -69,7 +69,7 @@ def test_a_crank_that_turns_faster_moves_the_knife_faster() -> None:
     assert topped.topper is not None
     (own,) = edges_with(topped, topped.topper, None)
     speed = own.knife.mean_speed
-    # Twice the stroke of 60 mm a turn, but for the rod.
+    # Twice the stroke of 60 mm a revolution, but for the rod.
     assert speed == pytest.approx(2 * 0.06 * 275 / 60, rel=1e-6)
     swept = sweep_field(topped, {"knife_speed": [0.0, speed, 2 * speed]})
     for place, rpm in ((1, 275), (2, 550)):
@@ -92,7 +92,7 @@ def test_heights_are_shifted_to_their_mean() -> None:
 
 
 def test_an_edge_that_hardly_goes_on_is_left_out() -> None:
-    # Far aslant the edge runs back with each stroke: tan 88° times the speed of the knife is 13 v.
+    # Far oblique the edge runs back with each stroke: tan 88° times the speed of the knife is 13 v.
     small = RANDOM.replace("2000", "200")
     swept = sweep_field(machine(small), {"edge_angle": np.radians([20.0, 88.0])})
     assert np.isfinite(swept.share_complete).tolist() == [True, False]

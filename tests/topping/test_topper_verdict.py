@@ -133,7 +133,7 @@ def test_stroke_longer_than_the_claim() -> None:
 
 
 def test_verdict_says_what_holds() -> None:
-    """By hand at α = 0: exact 0.2 √1.25 + 0.04 = 0.2636 m, at the least 0.2 √(1 + ρ²) + 0.04."""
+    """By hand at α = 0: exact 0.2 √1.25 + 0.04 = 0.2636 m, at the minimum 0.2 √(1 + ρ²) + 0.04."""
     found = length_verdict(PAPER, 0.0, 0.2, 0.02)
     assert [each.way for each in found.demands] == ["published", "consistent", "constant_speed"]
     printed, _, exact = found.demands

@@ -1,4 +1,4 @@
-"""Speeds to be barred: bounds against closed forms and SciPy's root finder."""
+"""Barred speed ranges: bounds against closed forms and SciPy's root finder."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Outside barred speeds every shaft is within its limit, and they cover what the rule asks for about peaks.
+"""Outside barred speed ranges every shaft is within its limit, and they cover what the rule asks for.
 
 On random trains, on every shipped machine and every example, with limits that part of their stress is above.
 """

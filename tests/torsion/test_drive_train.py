@@ -1,4 +1,4 @@
-"""A drive line whose shafts twist: its train, what excites it, and its limit, the rigid drive line."""
+"""A driveline whose shafts twist: its train, what excites it, and its limit, the rigid driveline."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from linkwright.torsion.response.drive_line import drive_line, mean_inertia
 
 CART = """
 format = 1
-name = "Cart on an elastic drive line"
+name = "Cart on an elastic driveline"
 [mechanism.cranks.A]
 radius = 0.2
 [mechanism.sliders.cart]
@@ -75,7 +75,7 @@ def test_stations_of_a_drive_with_both_shafts() -> None:
     assert train.gears["gears"].between == ("gearbox", "wheel")
 
 
-# All that a drive line may be: which of its three parts are elastic, geared or direct, what sits where.
+# All that a driveline may be: which of its three parts are elastic, geared or direct, what sits where.
 ELASTIC = [each for each in product([False, True], repeat=3) if any(each)]
 EXTRAS = [
     "",
@@ -174,7 +174,7 @@ def forced_crank(made: lw.Machine, speed: float, orders: np.ndarray) -> np.ndarr
 def test_a_rigid_drive_line_is_the_limit_of_the_elastic_one(ratio: float) -> None:
     """The swinging of the crank tends to the rigid steady motion's as 1/k, and with its linear part's error.
 
-    A flywheel n times as heavy makes the unevenness n times smaller; the linear part errs by its square.
+    A flywheel n times as heavy divides the speed fluctuation by n; the linear part errs by its square.
     """
     orders = np.arange(1.0, 9.0)
     errors = []
@@ -236,7 +236,7 @@ def test_many_speeds_at_once() -> None:
     assert both == pytest.approx(np.array(each).T, rel=1e-13, abs=1e-11)
     found = lw.station_damping(lw.loads(fan + MOTOR + BOX.format(ratio=5)), speeds)
     assert found.keys() == {"motor", "crank"}
-    # Rounding of means over the turn, over a step of 1e-5.
+    # Rounding of means over the revolution, over a step of 1e-5.
     assert found["crank"][1] == pytest.approx(lw.station_damping(lw.loads(fan), 9.0)["crank"], rel=1e-8)
 
 

@@ -117,7 +117,7 @@ def test_two_strokes_on_one_throw_angle_fire_together() -> None:
 
 
 def test_order_is_not_made_to_fit_by_turning_back() -> None:
-    # Backwards through the dead centres takes two turns; the twins at 0° cannot take one of them back.
+    # Backwards through the dead centres takes two revolutions; the twins at 0° cannot take one of them back.
     with pytest.raises(MachineError, match=r"repeats after 2 revolutions"):
         machine(
             engine={

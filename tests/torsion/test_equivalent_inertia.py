@@ -17,7 +17,7 @@ from linkwright.torsion.model.engine.equivalent_inertia import central_mean_iner
 from linkwright.torsion.model.engine.rod import ArticulatedRod, Rod
 from linkwright.torsion.model.engine.running_gear import RunningGear, throw_motion, throw_reduction
 
-# Rounding of sums over a turn.
+# Rounding of sums over a revolution.
 ROUNDING = 1e-13
 
 RADIUS = 0.09
@@ -100,7 +100,7 @@ def test_inertia_torque_from_the_forces_of_free_bodies() -> None:
 
 @pytest.mark.parametrize("name", THROWS)
 def test_derivative_over_the_turn(name: str) -> None:
-    """J′ and the weights' torque have no mean over a turn; J′ integrates to the change of J."""
+    """J′ and the weights' torque have no mean over a revolution; J′ integrates to the change of J."""
     phi = 2 * np.pi * np.arange(128) / 128
     found = throw_reduction(RADIUS, THROWS[name], phi, 0.2, 0.3 - 0.1j)
     assert found.inertia_reduced_d1.mean() == pytest.approx(0, abs=1e-15)
@@ -113,7 +113,7 @@ def test_derivative_over_the_turn(name: str) -> None:
 
 
 def test_own_inertia_and_weight_of_the_throw() -> None:
-    """A mass on the crank, and one a quarter of a turn ahead of it, that fall from the vertical."""
+    """A mass on the crank, and one a quarter of a revolution ahead of it, that fall from the vertical."""
     phi = np.linspace(0, 6, 13)
     found = throw_reduction(RADIUS, (), phi, 0.2, 0.3 + 0.4j, gravity=10.0)
     assert np.all(found.inertia_reduced == 0.2)
@@ -146,7 +146,7 @@ def test_mean_in_closed_form(ratio: float, centre: float, inertia: float, piston
 
 @pytest.mark.parametrize("name", THROWS)
 def test_means_against_adaptive_quadrature(name: str) -> None:
-    """Energy at constant speed, time of a turn at constant energy, speed at constant momentum."""
+    """Energy at constant speed, time of a revolution at constant energy, speed at constant momentum."""
     gears, own = THROWS[name], 0.05
 
     def mean(function: object) -> float:

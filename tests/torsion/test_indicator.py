@@ -73,7 +73,7 @@ def test_a_cycle_may_begin_anywhere(start: float) -> None:
 
 
 def test_two_strokes() -> None:
-    """A cycle of one turn, its diagram a degree apart, from the bottom dead centre."""
+    """A cycle of one revolution, its diagram a degree apart, from the bottom dead centre."""
     place, gas = cylinder(2), diesel(isentropic_exponent=1.36, mean_effective_pressure=9e5)
     angle = np.radians(np.arange(-180.0, 180.0))
     cycle = gas.cycle_pressure(place, SPEEDS)

@@ -28,7 +28,7 @@ def test_engine(name: str) -> None:
     assert found is not None
     strokes = [each.stroke for each in dead_centres(engine.radius, running_gears(engine))]
     swept = math.pi / 4 * engine.bore**2 * math.fsum(strokes) * len(engine.throws)
-    # A cycle of two turns does the work p_i V_h.
+    # A cycle of two revolutions does the work p_i V_h.
     assert isinstance(engine.gas, Combustion)
     assert engine.gas.mean_effective_pressure is not None
     pressure = engine.gas.mean_effective_pressure

@@ -28,7 +28,7 @@ def wave(angle: np.ndarray) -> np.ndarray:
 @pytest.mark.parametrize("start", [0.0, -2 * np.pi, 1.234])
 @pytest.mark.parametrize(("cycles", "extra"), [(1, 0), (1, 1), (3, 0), (3, 1)])
 def test_harmonics_do_not_depend_on_where_a_record_begins(start: float, cycles: int, extra: int) -> None:
-    """Over whole cycles of two turns, with or without the first sample once more at the end."""
+    """Over whole cycles of two revolutions, with or without the first sample once more at the end."""
     angle = start + 4 * np.pi * np.arange(64 * cycles + extra) / 64
     record = recorded_speed(angle, wave(angle), 2)
     assert (record.turns, len(record.samples)) == (2 * cycles, 64 * cycles)

@@ -92,7 +92,7 @@ def test_a_hollow_taper_whose_bore_vanishes_is_solid(first: float, second: float
 
 @pytest.mark.parametrize(("half_angle", "softer"), [(10.0, 0.005), (20.0, 0.021), (30.0, 0.052)])
 def test_a_steep_cone_against_its_exact_solution(half_angle: float, softer: float) -> None:
-    """Föppl: ψ = C/ρ³ with ρ from the tip, C = T/(6πG (2/3 − cos α + cos³α/3)); spheres turn as a whole."""
+    """Föppl: ψ = C/ρ³ with ρ from the tip, C = T/(6πG (2/3 − cos α + cos³α/3)); spheres are rigid."""
     a = math.radians(half_angle)
     C = 1 / (6 * math.pi * (2 / 3 - math.cos(a) + math.cos(a) ** 3 / 3))
     rim = math.cos(a) ** 3  # 1/ρ³ at the rim of the disc at x is cos³α/x³.

@@ -129,7 +129,7 @@ def test_motor_curve_is_the_characteristic(
     wanted = compile_machine(machine).motor_torques(speeds).motor
     curve = motor_curve(motor)
     found = cubic(curve, speeds)
-    # The points are dense enough for 1e-5 of the greatest torque beside kinks, 1e-6 elsewhere.
+    # The points are dense enough for 1e-5 of the largest torque beside kinks, 1e-6 elsewhere.
     assert found == pytest.approx(wanted, abs=1e-5 * np.abs(wanted).max())
 
 
@@ -152,7 +152,7 @@ def cubic(curve: Curve, x: np.ndarray) -> np.ndarray:
 
 
 def test_waterfall_finds_orders_while_the_speed_rises() -> None:
-    """Orders 1.5 and 4 with known amplitudes on a run-up of 40 turns; nothing at orders two steps away."""
+    """Orders 1.5 and 4 with known amplitudes on a run-up of 40 revolutions; nothing two steps away."""
     t = np.linspace(0, 4, 16001)
     angle = 30 * t + 5 * t**2
     signal = 7 + 3 * np.cos(1.5 * angle + 0.3) + 0.5 * np.cos(4 * angle)

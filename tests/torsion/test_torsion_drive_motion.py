@@ -1,4 +1,4 @@
-"""Drive lines in motion: the rigid drive line as their limit, energy, kinks of loads, motors."""
+"""Drivelines in motion: the rigid driveline as their limit, energy, kinks of loads, motors."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from linkwright.torsion.model.train_transient import TrainTransient
 
 CART = """
 format = 1
-name = "Cart on an elastic drive line"
+name = "Cart on an elastic driveline"
 [mechanism.cranks.A]
 radius = 0.2
 [mechanism.sliders.cart]

@@ -138,7 +138,7 @@ def _row(part: Any, place: dict[str, int], n: int) -> np.ndarray:
 @pytest.mark.parametrize("train", [geared(), looped(), two_discs(damping=1.0, loss_factor=0.01)])
 def test_power_in_is_power_dissipated(train: lw.Machine) -> None:
     found = forced_vibration(train)
-    # Far below resonance power is a ten-thousandth of what goes to and fro.
+    # Far below resonance power is a ten-thousandth of what oscillates.
     np.testing.assert_allclose(found.shaft_heat.sum(0) + found.disc_heat.sum(0), found.power, rtol=1e-9)
 
 

@@ -1,4 +1,4 @@
-"""Manoeuvres of trains in machine files: engines, loads, motors, events, and what is told of wrong ones."""
+"""Manoeuvres of trains in machine files: engines, loads, motors, events, and messages about wrong ones."""
 
 from __future__ import annotations
 
@@ -302,7 +302,7 @@ def test_limits_are_judged_in_the_manoeuvre(tmp_path: Path) -> None:
 
 
 def test_stress_while_a_resonance_is_passed() -> None:
-    """Half of greatest less least stress within two turns, against what is permitted in transient passage."""
+    """The stress amplitude within two revolutions, against what is permitted in transient passage."""
     text = PLAIN.replace('"20 N m s/rad" }', '"20 N m s/rad", limit = { diameter = 0.05, LIMIT } }')
     pulse = """
 [train.excitations.e]

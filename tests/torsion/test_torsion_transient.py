@@ -111,7 +111,7 @@ def test_one_throw_follows_its_energy() -> None:
     found = follow_train(train, duration=2.0, speed=40.0, accuracy=1e-11)
     inertia = 1.0 + 0.35 * np.cos(2 * found.angle[0]) + 0.1 * np.sin(found.angle[0])
     assert found.speed[0] == pytest.approx(40.0 * np.sqrt(1.35 / inertia), rel=1e-9)
-    # The greatest speed lies between the samples: where J(θ) is least, at one of the angles near ±π/2.
+    # The largest speed lies between the samples: where J(θ) is smallest, at one of the angles near ±π/2.
     fine = np.linspace(0, 2 * np.pi, 100_001)
     least = (1.0 + 0.35 * np.cos(2 * fine) + 0.1 * np.sin(fine)).min()
     assert found.speed_max[0] == pytest.approx(40.0 * np.sqrt(1.35 / least), rel=1e-8)
@@ -242,7 +242,7 @@ def test_two_phase_short_circuit_from_flux_linkages() -> None:
     )
     t = np.linspace(0, 0.04, 801)
     theta = omega * t - np.pi / 2
-    # Stator axes α and β of the shorted pair; the rotor's flux of 1 turns, β of the stator stays as it was.
+    # Stator axes α and β of the shorted pair; the flux 1 of the rotor revolves, the stator's β stays.
     current = (np.sin(theta) - np.sin(theta[0])) / x
     by_flux = -M * np.cos(theta) * current
     assert over_time(two, t) == pytest.approx(by_flux, abs=1e-9 * M)

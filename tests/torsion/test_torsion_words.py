@@ -86,7 +86,7 @@ def test_loads_stay_as_given_unless_they_shall_follow() -> None:
     study = lw.torsion_study(made.model_copy(update={"train": made.train.model_copy(update={"run": run})}))
     assert study.excited is not None
     assert study.forced is not None
-    # Mean effective pressure times the swept volume over two turns, less the load.
+    # Mean effective pressure times the swept volume over two revolutions, less the load.
     left = 6e5 * np.pi / 4 * 0.1**2 * 0.1 / (4 * np.pi) - 10.0
     np.testing.assert_allclose(study.excited.torques.surplus, left, rtol=1e-9)
     np.testing.assert_array_equal(study.excited.torques.load_factor, 1.0)

@@ -1,4 +1,4 @@
-"""Unevenness over the cylinders: closed forms, δ in the limit of one cylinder, dense sampling."""
+"""Speed fluctuation over the cylinders: closed forms, δ in the limit of one cylinder, dense sampling."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ def test_a_weak_cylinder_shows_in_its_share_and_in_the_spread() -> None:
     healthy = along(firing.engine(**STIFF), firing.firing_angles(), 60.0)
     weak = along(firing.engine([1, 1, 0.2, 1, 1, 1], **STIFF), firing.firing_angles(), 60.0)
     assert weak.spread[0] > 0.2 * healthy.unevenness[0]
-    # The speed rises least in the share of cylinder 3.
+    # The speed rises by the smallest amount in the share of cylinder 3.
     assert weak.cylinders[int(np.argmin(weak.share[0]))] in ("3", "5", "6")
 
 
