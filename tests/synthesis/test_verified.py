@@ -17,7 +17,7 @@ CLOSE = 1e-6
 
 
 def test_crank_rockers_of_all_kinds() -> None:
-    """Swings up to half a revolution, densely at the ends; time ratios near 1 and far from it; any coupler."""
+    """Swings up to half a revolution, dense at the ends; time ratios near 1 and far from it; any coupler."""
     rng = np.random.default_rng(5)
     made = 0
     for k in range(90):
