@@ -26,7 +26,7 @@ PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 
 _FENCED = re.compile(r"^```(\w+)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
 # Of a clone, or of what a reader has at hand.
-_ELSEWHERE = ("train.toml", "study.toml")
+_ELSEWHERE = ("train.toml", "--chunks")
 # Serves until it is interrupted; `tests/studio` opens it.
 _ENDLESS = "linkwright studio"
 # Commands whose machine cannot do it, as the page says.

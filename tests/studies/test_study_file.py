@@ -10,6 +10,7 @@ import pytest
 
 import linkwright as lw
 from linkwright.kernel.errors import InputError, MachineFileError
+from linkwright.kernel.files.library import study_templates, template
 
 Files = Callable[..., Path]
 
@@ -117,3 +118,10 @@ def test_a_list_from_csv_and_parquet(study_file: Files, tmp_path: Path) -> None:
     (tmp_path / "rows.csv").write_text("phase [deg]\n80\n")
     with pytest.raises(InputError, match="no column"):
         lw.read_study(study_file(change))
+
+
+@pytest.mark.parametrize("name", study_templates())
+def test_templates_are_sound(name: str, tmp_path: Path) -> None:
+    path = tmp_path / "study.toml"
+    path.write_text(template(name), encoding="utf-8")
+    assert "delta" in [asked.name for asked in lw.read_study(path).asked]

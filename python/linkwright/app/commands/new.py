@@ -1,4 +1,4 @@
-"""``linkwright new TEMPLATE``: a machine file to start from."""
+"""``linkwright new TEMPLATE``: a machine file or a study file to start from."""
 
 from __future__ import annotations
 
@@ -38,16 +38,16 @@ def new(
     force: Force = False,
     list: List = False,
 ) -> None:
-    """Write a machine file to start from.
+    """Write a machine file or a study to start from.
 
     It goes to standard output, or to --out.
     """
+    from linkwright.kernel.files.library import study_templates, templates
     from linkwright.kernel.files.library import template as text_of
-    from linkwright.kernel.files.library import templates
     from linkwright.pumping.model.unit_catalogue import unit_template
 
     if list or template is None:
-        click.echo("\n".join(_units() if template == _UNIT else _rows(templates())))
+        click.echo("\n".join(_units() if template == _UNIT else _rows(templates() | study_templates())))
         return
     if template == _UNIT:
         put(unit_template(designation, hole), out, force=force)

@@ -1,4 +1,4 @@
-"""Machine files that come with the package: the library, the examples, and templates to start from."""
+"""Files of the package: machines of the library, examples, and templates to start from."""
 
 from __future__ import annotations
 
@@ -32,12 +32,23 @@ def _files() -> dict[str, Path]:
     return machines | examples
 
 
-_FOLDER = Path(__file__).with_name("templates")
+_MACHINES = Path(__file__).with_name("templates")
+_STUDIES = Path(__file__).parents[2] / "studies" / "templates"
 
 
 def templates() -> dict[str, str]:
-    """Names of the templates → what they describe, from their first lines."""
-    paths = sorted(_FOLDER.glob("*.toml"))
+    """Names of the templates of machine files → what they describe, from their first lines."""
+    return _described(_MACHINES)
+
+
+def study_templates() -> dict[str, str]:
+    """Names of the templates of study files → what they describe."""
+    return _described(_STUDIES)
+
+
+def _described(folder: Path) -> dict[str, str]:
+    """The first lines of the files of a folder, by name."""
+    paths = sorted(folder.glob("*.toml"))
     return {path.stem: path.read_text(encoding="utf-8").split("\n", 1)[0].lstrip("# ") for path in paths}
 
 
@@ -45,7 +56,8 @@ def template(name: str) -> str:
     """The text of a template such as ``"slider-crank"``; an `InputError` names close ones if there is
     none.
     """
-    known = templates()
+    known = templates() | study_templates()
     if name not in known:
         raise InputError(f'there is no template "{name}": {suggestion(name, known)}')
-    return (_FOLDER / f"{name}.toml").read_text(encoding="utf-8")
+    folder = _MACHINES if name in templates() else _STUDIES
+    return (folder / f"{name}.toml").read_text(encoding="utf-8")
