@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from linkwright.drive.model.catalogue import estimated_inertia, motors
+from linkwright.drive.model.catalogue import estimated_inertia, motor, motors
 from linkwright.drive.model.motor import InductionMotor
 from linkwright.drive.run_up import run_up
 from linkwright.drive.steady_state import steady_state
@@ -14,7 +14,7 @@ from linkwright.machine.address import replace
 from linkwright.machine.machine import Machine
 from linkwright.machine.read import loads, read
 from linkwright.machine.write import dumps
-from linkwright.sizing.checks import PEAK_SHARE
+from linkwright.sizing.checks import PEAK_SHARE, motion_checks
 from linkwright.sizing.motor import MotorChoice, choose_motor
 from linkwright.sizing.motor_change import rotor_inertia
 
@@ -124,9 +124,23 @@ def test_a_missing_start_torque_is_not_held_against_a_motor_as_a_failure() -> No
     check = next(each for each in weak.checks if each.name == "starting_torque_worst")
     assert check.passed is None
     assert "Kloss" in check.note
-    no_breakdown = next(each for each in choice.candidates if each.type.startswith("IE3 30 kW"))
-    assert not no_breakdown.passes
-    assert "not checkable" in no_breakdown.reason
+
+
+def test_a_missing_breakdown_torque_is_the_minimum_of_standards() -> None:
+    """IEC 60034-1, 9.4.1: 1.6 times the rated torque; the same in sizing and in the sized machine."""
+    light = replace(machine_of("two_carts"), {"loads.rolling1.force": 300.0, "loads.rolling2.force": 300.0})
+    choice = choose_motor(
+        light, free_ratio=True, by="fixed-start", catalogue=[motor("IE3 30 kW 4-pole frame 200")]
+    )
+    assert choice.chosen is not None
+    peak = next(check for check in choice.chosen.checks if check.name == "torque_peak")
+    assert peak.limit == pytest.approx(PEAK_SHARE * 1.6 * 193.0, rel=1e-12)
+    assert "IEC 60034-1" in peak.note
+    assert any("breakdown torque" in text and "308.8 N m" in text for text in choice.warnings)
+    assert choice.chosen.to_dict()["torque_breakdown_is_minimum"] is True
+    machine = choice.chosen.machine
+    assert machine is not None
+    assert next(c for c in motion_checks(machine).checks if c.name == "torque_peak") == peak
 
 
 def test_rotor_inertia_by_similarity() -> None:

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from linkwright.drive.model.catalogue import KNOWN, OVERLOAD, breakdown_is_minimum, estimated_inertia
+from linkwright.drive.model.catalogue import KNOWN, OVERLOAD, estimated_inertia
 from linkwright.drive.model.drive import Drive
 from linkwright.drive.model.motor import ConstantSpeedMotor, DcMotor, InductionMotor
 from linkwright.drive.reduction import Reduction
@@ -77,9 +77,7 @@ _NO_ROTOR = "The file gives no rotor inertia for the motor"
 def _least_breakdown(drive: Drive) -> Iterator[str]:
     """A type of the catalogue whose source prints no breakdown torque."""
     motor = drive.motor
-    if not isinstance(motor, InductionMotor) or not motor.catalogue:
-        return
-    if "torque_breakdown" not in motor.model_fields_set and breakdown_is_minimum(motor.catalogue):
+    if isinstance(motor, InductionMotor) and motor.breakdown_is_minimum:
         yield (
             f"The catalogue gives no breakdown torque for {motor.catalogue}: the minimum of IEC 60034-1 "
             f"is used, {OVERLOAD:g} times the rated torque, {motor.torque_breakdown:.4g} N m; most "

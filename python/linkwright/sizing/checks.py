@@ -17,12 +17,12 @@ The torques are those of the exact steady motion, not of a mean load.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, Any
 
 import numpy as np
 
-from linkwright.drive.model.catalogue import CatalogueMotor
+from linkwright.drive.model.catalogue import OVERLOAD, CatalogueMotor
 from linkwright.drive.model.motor import ConstantSpeedMotor, DcMotor, InductionMotor
 from linkwright.drive.reduction import reduction_of
 from linkwright.drive.run_up import RunUp, run_up
@@ -42,6 +42,9 @@ SPEED_BAND = 0.12
 # Torque goes with the square of the voltage: with 10 % less of it 0.9² = 0.81 of the breakdown torque is
 # left. Handbooks of electric drives give 0.8 to 0.85.
 PEAK_SHARE = 0.9**2
+
+# What counts as breakdown torque where the source gives none.
+LEAST_BREAKDOWN = f"the minimum of IEC 60034-1, {OVERLOAD:g} times the rated torque; the catalogue gives none"
 
 # Intervals of the revolution over which maximum torques are looked for: the largest of 1440 samples of a
 # smooth curve misses its peak by some 1e-5.
@@ -226,7 +229,9 @@ def torque_checks(motor: InductionMotor | DcMotor, steady: SteadyState) -> tuple
     peak = max(steady.torque_motor_max, -steady.torque_motor_min)
     rms = _at_most("torque_rms", steady.torque_motor_rms, motor.torque_rated, "no rated torque")
     limit = PEAK_SHARE * motor.torque_breakdown if motor.torque_breakdown else None
-    return rms, _at_most("torque_peak", peak, limit, "no breakdown torque")
+    check = _at_most("torque_peak", peak, limit, "no breakdown torque")
+    note = f"the breakdown torque is {LEAST_BREAKDOWN}"
+    return rms, replace(check, note=note) if motor.breakdown_is_minimum else check
 
 
 def _torque_limits(steady: SteadyState, rated: float | None, most: float | None) -> tuple[Check, Check]:

@@ -437,7 +437,13 @@ def _entries(motor: CatalogueMotor) -> dict[str, Any]:
     from linkwright.sizing.motor_change import rotor_inertia
 
     inertia, estimated = rotor_inertia(motor)
-    return {**asdict(motor), "inertia": inertia, "inertia_is_estimated": estimated}
+    return {
+        **asdict(motor),
+        "torque_breakdown": motor.breakdown,
+        "torque_breakdown_is_minimum": motor.breakdown_is_minimum,
+        "inertia": inertia,
+        "inertia_is_estimated": estimated,
+    }
 
 
 def _tables(motors: list[CatalogueMotor]) -> list[Table]:
@@ -458,16 +464,14 @@ def _tables(motors: list[CatalogueMotor]) -> list[Table]:
 
 def _row(motor: CatalogueMotor) -> Row:
     """A motor in the units of catalogues: kW, rpm, torques over the rated one."""
-    from linkwright.drive.model.catalogue import OVERLOAD
     from linkwright.kernel.page.numbers import measured, number, quantity
 
     entries = _entries(motor)
     mark = "~" if entries["inertia_is_estimated"] else ""
     start = motor.torque_start
-    least = motor.torque_breakdown is None
-    breakdown = OVERLOAD if motor.torque_breakdown is None else motor.torque_breakdown / motor.torque_rated
+    least = "≥ " if motor.breakdown_is_minimum else ""
     over = (
-        f"{'≥ ' if least else ''}{number(breakdown, 3)} ×",
+        "–" if motor.breakdown is None else f"{least}{number(motor.breakdown / motor.torque_rated, 3)} ×",
         "–" if start is None else f"{number(start / motor.torque_rated, 3)} ×",
     )
     return (

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Annotated, Any, Literal
 
@@ -18,7 +18,14 @@ from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record
 from linkwright.kernel.units import INERTIA, RATIO, not_negative, positive
 from linkwright.machine.machine import Machine
-from linkwright.sizing.checks import DECISIVE, Check, MotorChecks, motion_checks, rating_checks
+from linkwright.sizing.checks import (
+    DECISIVE,
+    LEAST_BREAKDOWN,
+    Check,
+    MotorChecks,
+    motion_checks,
+    rating_checks,
+)
 from linkwright.sizing.flywheel import UNEVENNESS, flywheel_inertia
 from linkwright.sizing.motor_change import rotor_inertia, with_flywheel, with_motor
 from linkwright.sizing.power import RequiredPower, required_power
@@ -52,9 +59,7 @@ class Candidate(Record):
         tuple[Check, ...], About("Those made; a motor whose rating does not suit is not analysed further.")
     ]
     decisive: Annotated[tuple[str, ...], About("Names of the checks that it must pass.")]
-    machine: Annotated[
-        Machine | None, About("The machine with it; None if the catalogue gives no characteristic.")
-    ] = None
+    machine: Annotated[Machine | None, About("The machine with it; None if its rating does not suit.")] = None
     steady: Annotated[SteadyState | None, About("Its steady motion, where there is one.")] = None
     run_up: Annotated[RunUp | None, About("Its run-up, where it succeeds.")] = None
 
@@ -88,6 +93,8 @@ class Candidate(Record):
             "ratio": self.ratio,
             "inertia": self.inertia,
             "inertia_estimated": self.inertia_estimated,
+            "torque_breakdown": self.known.breakdown,
+            "torque_breakdown_is_minimum": self.known.breakdown_is_minimum,
             "flywheel": self.flywheel,
             "passes": self.passes,
             "reason": self.reason,
@@ -283,17 +290,15 @@ def _has_ratio(machine: Machine) -> bool:
     return machine.drive is not None and "ratio" in machine.drive.gearbox.model_fields_set
 
 
-def _lacking(known: CatalogueMotor) -> Check | None:
-    """What the catalogue does not give and no check can do without."""
-    if known.kind != "induction" or known.torque_breakdown is not None:
-        return None
-    note = "not checkable: the catalogue gives no breakdown torque"
-    return Check("torque_peak", None, None, "N m", None, note=note)
-
-
 def _rank(candidate: Candidate) -> tuple[bool, float, str]:
     """Those that pass first, then the smaller ones."""
     return not candidate.passes, candidate.known.power_rated, candidate.type
+
+
+def _least_breakdown(known: CatalogueMotor) -> Iterator[str]:
+    """A breakdown torque that the catalogue does not give."""
+    if known.breakdown_is_minimum:
+        yield f"the breakdown torque of {known.type}, {known.breakdown:.4g} N m, is {LEAST_BREAKDOWN}"
 
 
 @dataclass(frozen=True)
@@ -318,9 +323,8 @@ class _Judge:
         estimate, estimated = rotor_inertia(known)
         inertia = self.inertias.get(known.type, estimate)
         estimated = estimated and known.type not in self.inertias
-        lacking = _lacking(known)
-        fitted, flywheel, done = None, None, MotorChecks((lacking,) if lacking else ())
-        if lacking is None and all(check.passed for check in rating):
+        fitted, flywheel, done = None, None, MotorChecks(())
+        if all(check.passed for check in rating):
             fitted, flywheel, done = self._analysed(known, inertia, ratio, estimated)
         return Candidate(
             type=known.type,
@@ -354,7 +358,13 @@ class _Judge:
 
     def doubts(self, chosen: Candidate | None) -> list[str]:
         """What the choice rests on without being known."""
-        if chosen is None or not chosen.inertia_estimated:
+        if chosen is None:
+            return []
+        return [*_least_breakdown(chosen.known), *self._rotor(chosen)]
+
+    def _rotor(self, chosen: Candidate) -> list[str]:
+        """Whether the choice rests on an estimated inertia."""
+        if not chosen.inertia_estimated:
             return []
         words = f"the inertia of the rotor of {chosen.type}, {chosen.inertia:.3g} kg m², is {ESTIMATE}"
         lost = [name for factor in (1 / _DOUBT, _DOUBT) for name in self._lost(chosen, factor)]

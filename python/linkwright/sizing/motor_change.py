@@ -41,6 +41,8 @@ def _motor_table(known: CatalogueMotor, ratio: float, speed: float | None) -> di
         rated = {"speed_rated": known.speed_rated, "torque_rated": known.torque_rated}
         return {"kind": "constant_speed", "speed": speed * ratio, **rated}
     entries = {name: getattr(known, name) for name in _ENTRIES[known.kind]}
+    if known.breakdown_is_minimum:
+        entries["torque_breakdown"] = known.breakdown
     return {"kind": known.kind} | {name: value for name, value in entries.items() if value is not None}
 
 

@@ -79,6 +79,18 @@ class CatalogueMotor:
     torque_max: float | None = None
     speed_max: float | None = None
 
+    @property
+    def breakdown(self) -> float | None:
+        """Breakdown torque [N m]: as the source gives it, or `OVERLOAD`; None for kinds that have none."""
+        if self.torque_breakdown is None and self.kind == "induction":
+            return OVERLOAD * self.torque_rated
+        return self.torque_breakdown
+
+    @property
+    def breakdown_is_minimum(self) -> bool:
+        """Whether the source gives no breakdown torque, so that the minimum of standards counts."""
+        return self.torque_breakdown is None and self.kind == "induction"
+
 
 def motors() -> tuple[CatalogueMotor, ...]:
     """All types of the catalogue, in its order.
@@ -164,14 +176,9 @@ def entries(type: str) -> dict[str, Any]:
         "inertia",
     )
     values = {name: known[name] for name in names if name in known}
-    if breakdown_is_minimum(type):
-        values["torque_breakdown"] = OVERLOAD * motor(type).torque_rated
+    if motor(type).breakdown is not None:
+        values["torque_breakdown"] = motor(type).breakdown
     return values
-
-
-def breakdown_is_minimum(type: str) -> bool:
-    """Whether the source gives no breakdown torque of a type, so that the minimum by standards counts."""
-    return motor(type).torque_breakdown is None
 
 
 @cache

@@ -177,6 +177,16 @@ class InductionMotor(Motor):
         """Those of pull-up and breakdown [rad/s]."""
         return tuple(mark for mark in (self.speed_pull_up, self.speed_breakdown) if mark is not None)
 
+    @property
+    def breakdown_is_minimum(self) -> bool:
+        """Whether neither file nor catalogue gives the breakdown torque, so that the minimum of standards
+        counts.
+        """
+        from linkwright.drive.model import catalogue
+
+        given = self.catalogue is None or "torque_breakdown" in self.model_fields_set
+        return not given and catalogue.motor(str(self.catalogue)).breakdown_is_minimum
+
     @classmethod
     def _completed(cls, given: Values) -> Values:
         values = with_rated_point(given)
