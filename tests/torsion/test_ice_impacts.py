@@ -11,7 +11,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import linkwright as lw
-from linkwright.kernel.errors import MachineFileError
+from linkwright.kernel.errors import InputError, MachineFileError
 from linkwright.torsion.in_time.ice_impacts import _SAMPLES, pulses
 from linkwright.torsion.in_time.transient import TorsionTransient
 from linkwright.torsion.model.ice_impacts import IceImpacts, IcePropeller
@@ -117,7 +117,7 @@ def test_ice_does_not_come_again() -> None:
 
 def test_a_propeller_that_stops_is_said() -> None:
     moved = met(ONE | {"time": 0.1, "torque": 2e7, "duration": 2.0}, accuracy=1e-7)
-    assert any("stopped by the ice" in note for note in moved.notes)
+    assert any("the ice stops propeller" in note for note in moved.notes)
     assert moved.ice[0].speed_min < 0
 
 
@@ -273,3 +273,27 @@ def test_what_makes_no_sense(change: dict[str, Any], words: str) -> None:
     )
     with pytest.raises(MachineFileError, match=words):
         lw.loads(text)
+
+
+def test_a_propeller_at_rest_is_said() -> None:
+    moved = met(ONE | {"time": 0.1, "torque": 10.0, "duration": 0.5}, speed=0.0)
+    assert any("does not rotate ahead" in note for note in moved.notes)
+    assert not any("stops" in note for note in moved.notes)
+
+
+def test_tables_of_pulses_have_an_end() -> None:
+    # 0.8 s at 100 000 rad/s are 12 700 revolutions.
+    with pytest.raises(InputError, match=r"may make 1\d{4} revolutions, .* computed for 1000"):
+        met(ONE | {"time": 0.1, "torque": 10.0, "duration": 0.5}, speed=1e5)
+
+
+@pytest.mark.parametrize(("blades", "turns", "count"), [(3, 1.5, 5), (5, 1.5, 8), (5, 0.5, 3), (4, 0.5, 2)])
+def test_half_an_impact_counts_as_one(blades: int, turns: float, count: int) -> None:
+    """Round half up, whether the whole number below is even (4.5, 2.5) or odd (7.5)."""
+    # H_ice/m = turns / 2: 2 H_ice/m revolutions.
+    propeller = {"ice_class": "PC7", "diameter": 4.0, "hub_diameter": 1.0, "pitch": 3.0, "speed": SPEED}
+    event = {"kind": "ice_impacts", "on": "p", "time": 0.0, "blades": blades, "case": 1}
+    made = IceImpacts.model_validate(event | {"propeller": propeller | {"ice_thickness": turns / 2}})
+    assert made.propeller is not None
+    assert made.propeller.revolutions == pytest.approx(turns)
+    assert made.count == count

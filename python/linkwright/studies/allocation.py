@@ -109,8 +109,10 @@ def allocate(
     """
     if not 0 < wanted < 1:
         raise InputError(f"wanted {wanted}: expected a number between 0 and 1, such as 0.99")
-    if not 0.1 <= power <= 10 or not 100 <= rows <= _ROWS_MOST:
-        raise InputError(f"power {power}, rows {rows}: expected 0.1 to 10, and 100 to 10 000 000 rows")
+    if not 0.1 <= power <= 10:
+        raise InputError(f"power {power}: expected 0.1 to 10")
+    if not 100 <= rows <= _ROWS_MOST:
+        raise InputError(f"rows {rows}: expected 100 to 10 000 000 rows")
     # One machine of the rows, with room for rounding.
     finest = (1 - 1e-9) / rows
     if not finest <= wanted <= 1 - finest:

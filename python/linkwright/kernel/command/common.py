@@ -7,12 +7,15 @@
 | 2 | the input is wrong |
 | 70 | the program contradicted itself |
 | 130 | interrupted from the keyboard |
+| 141 | nobody reads the output any more, as with `| head` |
 """
 
 from __future__ import annotations
 
 import math
+import os
 import re
+import sys
 from collections.abc import Callable
 from functools import wraps
 from pathlib import Path
@@ -85,8 +88,7 @@ def reports_errors(
             click.echo(printable(_by_options(error)), err=True)
             raise click.exceptions.Exit(error.exit_code) from None
         except BrokenPipeError:
-            # Whoever read the output has enough.
-            raise
+            raise _unread() from None
         except OSError as error:
             click.echo(printable(f"cannot read or write: {error}"), err=True)
             raise click.exceptions.Exit(InputError.exit_code) from None
@@ -94,6 +96,21 @@ def reports_errors(
             raise click.exceptions.Exit(EXIT_CODE) from None
 
     return run
+
+
+# What a shell reports for a program that writes to a pipe which nobody reads any more: 128 + SIGPIPE.
+_UNREAD = 141
+
+
+def _unread() -> click.exceptions.Exit:
+    """The end of a command whose output nobody reads any more, as in ``linkwright run FILE | head``.
+
+    What is still to be written goes nowhere, so that nothing is said of it when the program ends.
+    """
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, sys.stdout.fileno())
+    os.close(nowhere)
+    return click.exceptions.Exit(_UNREAD)
 
 
 # What a message about arguments begins with: their names, each perhaps with its number, up to a colon or the

@@ -11,7 +11,7 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from textwrap import fill
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from linkwright.kernel.limits import SENTENCES, TABLE_ROWS, TABLES, grouped
 from linkwright.kernel.page.table import Table
@@ -32,7 +32,15 @@ def console(*, error: bool = False) -> Console:
 
     stream = sys.stderr if error else sys.stdout
     width = None if stream.isatty() else _WIDTH
-    return Console(stderr=error, markup=False, emoji=False, highlight=False, width=width)
+    made = Console(stderr=error, markup=False, emoji=False, highlight=False, width=width)
+    # rich would end the program with exit code 1, which stands for findings.
+    made.on_broken_pipe = _unread  # type: ignore[method-assign]
+    return made
+
+
+def _unread() -> NoReturn:
+    """Nobody reads the output any more: told as for any other output."""
+    raise BrokenPipeError
 
 
 def styled(*parts: str | tuple[str, str]) -> Text:

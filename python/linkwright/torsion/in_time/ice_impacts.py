@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from linkwright.kernel.core.curve import switched
 from linkwright.kernel.core.periodic_table import spline
+from linkwright.kernel.errors import InputError
 from linkwright.torsion.core.torque import TrainTorque
 from linkwright.torsion.model.ice_impacts import IceImpacts
 from linkwright.torsion.model.train_transient import TrainTransient
@@ -37,6 +38,10 @@ class IceStart(NamedTuple):
 
     angle: float  # of the disc of the propeller [rad]
     turns: int  # revolutions after which its table would repeat
+
+
+# A table has some million samples at most; ice passes in seconds, 1000 revolutions take minutes.
+TURNS_MAX = 1000
 
 
 # By the place of the event among those of the manoeuvre.
@@ -95,13 +100,12 @@ def ice_torque(name: str, on: int, event: IceImpacts, start: IceStart) -> TrainT
 def pulses(event: IceImpacts, angle: Floats) -> Floats:
     """All pulses with their ramps, one being the peak of a single pulse, (n,).
 
-    `angle`: (n,) of the propeller from the first impact on [rad].
+    `angle`: (n,) of the propeller from the first impact on [rad], rising.
     """
     alpha, total = event.pulse.duration, np.zeros_like(angle)
     for begin in event.begins:
-        since = angle - begin
-        lasting = (since > 0) & (since < alpha)
-        total[lasting] += np.sin(np.pi * since[lasting] / alpha)
+        first, last = np.searchsorted(angle, begin, "right"), np.searchsorted(angle, begin + alpha)
+        total[first:last] += np.sin(np.pi * (angle[first:last] - begin) / alpha)
     if event.ramp:
         total *= np.clip(np.minimum(angle, event.length - angle) / event.ramp, 0.0, 1.0)
     return total
@@ -113,7 +117,17 @@ def turns_needed(event: IceImpacts, speed: float, left: float) -> int:
     `speed`: of the propeller at the first impact [rad/s]; `left`: time of the manoeuvre after it [s].
     """
     most = max(event.length, abs(speed) * left) / (2 * np.pi)
-    return int(np.ceil(most + _BEYOND))
+    return within_limit(int(np.ceil(most + _BEYOND)))
+
+
+def within_limit(turns: int) -> int:
+    """Revolutions of a table, or the error that they are too many."""
+    if turns > TURNS_MAX:
+        raise InputError(
+            f"train.transient: after the first impact of ice the propeller may make {turns} revolutions, and "
+            f"its pulses are computed for {TURNS_MAX}: shorten the duration of the manoeuvre"
+        )
+    return turns
 
 
 def is_outrun(event: IceImpacts, start: IceStart, angle: Floats) -> bool:
@@ -148,8 +162,15 @@ def ice_notes(millings: Sequence[IceMilling]) -> list[str]:
     """What a reader of the result has to know of the ice, in sentences."""
     notes = []
     for one in millings:
-        if one.speed_min <= 0:
-            notes.append(f"{one.on} is stopped by the ice: pulses over the angle say nothing beyond that")
+        if one.speed_before <= 0:
+            notes.append(
+                f"{one.on} does not rotate ahead when the ice begins: the pulses are those of rotation ahead"
+            )
+        elif one.speed_min <= 0:
+            notes.append(
+                f"the ice stops {one.on}: pulses over the angle do not hold beyond standstill, and the rules "
+                "have no torque for a blocked propeller"
+            )
         elif one.end is None:
             notes.append(f"the manoeuvre ends before the ice has passed {one.on}")
     return notes

@@ -37,6 +37,7 @@ from linkwright.torsion.in_time.ice_impacts import (
     is_outrun,
     milled,
     turns_needed,
+    within_limit,
 )
 from linkwright.torsion.in_time.moving_drive import moving_drive
 from linkwright.torsion.in_time.moving_train import moving_train
@@ -264,7 +265,7 @@ def _train_moved(train: Train, manoeuvre: TrainTransient) -> TorsionTransient:
         ]
         if not outrun:
             break
-        starts |= {n: starts[n]._replace(turns=2 * starts[n].turns) for n in outrun}
+        starts |= {n: starts[n]._replace(turns=within_limit(2 * starts[n].turns)) for n in outrun}
     ice = tuple(
         milled(
             event,

@@ -209,7 +209,8 @@ class IceImpacts(CheckedDescription):
         if self.impacts is not None:
             return self.impacts
         assert self.propeller is not None
-        return max(round(self.blades * self.propeller.revolutions), 1)
+        # Half an impact counts as one, in every number of blades.
+        return max(math.floor(self.blades * self.propeller.revolutions + 0.5), 1)
 
     @property
     def begins(self) -> list[float]:

@@ -1,0 +1,24 @@
+"""Output that nobody reads any more is no finding and no error: the program ends as others do."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+
+
+@pytest.mark.parametrize("words", [("run", "two_carts_evenness"), ("motors",)])
+def test_ends_without_a_word(words: tuple[str, ...]) -> None:
+    """128 + SIGPIPE, what a shell reports for programs that the signal ends."""
+    program = subprocess.Popen(
+        [sys.executable, "-m", "linkwright", *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    )
+    assert program.stdout is not None
+    assert program.stderr is not None
+    # Nothing is read at all, so that the first line that is written finds the pipe closed.
+    program.stdout.close()
+    told = program.stderr.read()
+    program.stderr.close()
+    assert program.wait() == 141
+    assert told == b""
