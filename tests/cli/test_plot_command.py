@@ -69,3 +69,33 @@ def test_wrong_input(words: tuple[str, ...], said: str) -> None:
     done = run(*words)
     assert done.exit_code == 2
     assert said in done.stderr
+
+
+def test_one_angle_for_all_and_the_force_of_the_load(tmp_path: Path) -> None:
+    """Curves of analyses with grids of their own stand in one table."""
+    table = tmp_path / "ram.csv"
+    words = ("ram.place", "loads.work", "steady_state.speed", "--zero", "top", "--units", "mm,rpm,kN")
+    done = run(*words, "--out", str(table))
+    assert done.exit_code == 0, done.output
+    rows = list(csv.reader(table.read_text(encoding="utf-8").splitlines()))
+    heads = ["motion.ram.place [mm]", "forces.loads.work [kN]", "steady_state.speed [rpm]"]
+    assert rows[0] == ["crank_angle [°]", *heads]
+    assert [row[0] for row in rows[1:4]] == ["0.0", "1.0", "2.0"]
+    place, force, speed = (np.array([float(row[k]) for row in rows[1:]]) for k in (1, 2, 3))
+    table_of_file = lw.read(PRESS).loads["work"]
+    ahead = np.interp(place / 1e3, table_of_file.position, table_of_file.forward)  # type: ignore[union-attr]
+    going_down = np.arange(len(place)) < len(place) // 2
+    # Downward the force is against the motion; upward there is none. It rises by 30 kN in a millimetre, of
+    # which the table has nine decimals.
+    assert force == pytest.approx(np.where(going_down, -ahead / 1e3, 0.0), abs=3e-8)
+    steady = lw.steady_state(lw.read(PRESS))
+    assert speed.max() <= steady.speed_max * 30 / np.pi
+    assert speed.min() >= steady.speed_min * 30 / np.pi
+    assert "rpm" in done.stdout.split("Values")[1]
+
+
+def test_the_list_of_curves_is_whole() -> None:
+    told = run()
+    listed = json.loads(run("--json").stdout)["results"]["curves"]
+    assert all(name in told.stdout for name in listed)
+    assert "more rows" not in told.stdout

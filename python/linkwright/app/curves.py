@@ -166,6 +166,33 @@ def from_zero(curve: Curve, zero: float) -> Curve:
     return replace(curve, x=angles, values=values)
 
 
+# Places that differ by less of the range are one: what rounding makes of a crank angle.
+_SAME = 1e-9
+
+
+def on_common_points(curves: Sequence[Curve]) -> list[Curve]:
+    """Curves on the points of the coarsest of them, so that a table has one column for what they run over.
+
+    The grids of the analyses are parts of each other; a curve that is not known at those points, or runs over
+    something that does not rise, stays as it is.
+    """
+    coarse = min(curves, key=lambda curve: len(curve.x)).x
+    if np.any(np.diff(coarse) <= 0):
+        return list(curves)
+    return [_at(curve, coarse) for curve in curves]
+
+
+def _at(curve: Curve, places: Floats) -> Curve:
+    """A curve at some of its own points, if all of the places are such."""
+    if np.any(np.diff(curve.x) <= 0):
+        return curve
+    after = np.clip(np.searchsorted(curve.x, places), 1, len(curve.x) - 1)
+    nearest = np.where(places - curve.x[after - 1] < curve.x[after] - places, after - 1, after)
+    if np.abs(curve.x[nearest] - places).max() > _SAME * np.ptp(places):
+        return curve
+    return replace(curve, x=places, values=curve.values[nearest])
+
+
 class CurveExtremes(NamedTuple):
     """Minimum and maximum of a curve, and where.
 

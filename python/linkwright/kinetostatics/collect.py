@@ -10,8 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.errors import FindingError
+from linkwright.kernel.numerics.tangent_array import primal
 from linkwright.kinetostatics.applied import AppliedLoad, together
 from linkwright.kinetostatics.equilibrium import Solution
+from linkwright.kinetostatics.model.loads.table import TorqueAngle, TorqueSpeed
 from linkwright.kinetostatics.pairs import PairModel
 from linkwright.kinetostatics.places import Scene, cross
 from linkwright.kinetostatics.result import Contribution, Forces, PairForce
@@ -86,6 +88,8 @@ class Collector:
             drives=drives,
             contributions=shares,
             motion=motion,
+            load_forces=self._load_forces(),
+            load_torques=self._load_torques(),
             findings=(*_where(self.solution, motion.crank_angle), *self._slack(pairs)),
         )
 
@@ -122,6 +126,28 @@ class Collector:
             friction = self._dry(span, total) + model.viscous
         normal = np.hypot(at[:, 0], at[:, 1]) if model.kind == "pin" else total[:, span.start]
         return PairForce(pair.name, pair.kind, pair.first, pair.second, at[:, :2], moment, friction, normal)
+
+    def _load_forces(self) -> dict[str, Floats]:
+        """Force of each load on a slide, along its guide."""
+        forces = {}
+        for name, load in self.scene.machine.loads.items():
+            pair = self.scene.structure.pairs.get(f"{getattr(load, 'on', None)}.guide")
+            if pair is not None and pair.guide is not None:
+                values = self.sources[f"loads.{name}"].wrenches.values
+                force = values[:, self.scene.index[pair.second], :2]
+                forces[name] = (force * self.scene.direction(pair.guide)).sum(axis=-1)
+        return forces
+
+    def _load_torques(self) -> dict[str, Floats]:
+        """Torque of each load on a link or on the crankshaft."""
+        torques = {}
+        for name, load in self.scene.machine.loads.items():
+            source, on = self.sources[f"loads.{name}"], getattr(load, "on", None)
+            if on is None and isinstance(load, TorqueAngle | TorqueSpeed):
+                torques[name] = -source.resisting
+            elif on in self.scene.index and not primal(source.wrenches.values)[..., :2].any():
+                torques[name] = source.wrenches.values[:, self.scene.index[on], 2]
+        return torques
 
     def _contributions(self) -> dict[str, Contribution]:
         """The share of each source."""

@@ -107,6 +107,12 @@ class Forces(Result):
     ]
     contributions: Annotated[dict[str, Contribution], About(_CONTRIBUTIONS)]
     motion: Annotated[Motion, About("As it was given.")]
+    load_forces: Annotated[
+        dict[str, Floats], About("Force of each load on a slide, along its guide [N]; forward is positive.")
+    ] = field(default_factory=dict)
+    load_torques: Annotated[
+        dict[str, Floats], About("Torque of each load on a link or on the crankshaft [N m].")
+    ] = field(default_factory=dict)
     findings: Annotated[
         tuple[str, ...], About("Where forces are unbounded, friction locks, or a cable pushes, in sentences.")
     ] = field(default=())
@@ -146,7 +152,9 @@ class Forces(Result):
         for name, pair in self.pairs.items():
             columns |= {f"{name}_{axis} [N]": pair.force[:, k] for k, axis in enumerate("xy")}
             columns[f"{name}_moment [N m]"] = pair.moment
-        return columns | {f"{name}_drive [N m or N]": values for name, values in self.drives.items()}
+        columns |= {f"{name}_drive [N m or N]": values for name, values in self.drives.items()}
+        columns |= {f"loads.{name} [N]": values for name, values in self.load_forces.items()}
+        return columns | {f"loads.{name} [N m]": values for name, values in self.load_torques.items()}
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Scalars and maximum forces by name, with ``curves`` also all forces as lists. Returns: plain
@@ -157,4 +165,6 @@ class Forces(Result):
             results["reactions"] = {name: pair.force.tolist() for name, pair in self.pairs.items()}
             results["moments"] = {name: pair.moment.tolist() for name, pair in self.pairs.items()}
             results["drives"] = {name: torque.tolist() for name, torque in self.drives.items()}
+            results["load_forces"] = {name: force.tolist() for name, force in self.load_forces.items()}
+            results["load_torques"] = {name: torque.tolist() for name, torque in self.load_torques.items()}
         return results

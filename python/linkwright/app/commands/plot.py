@@ -49,6 +49,9 @@ _PICTURES = (".png", ".svg", ".pdf")
 # The place of a flat peak is known to the root of rounding: beside this, what is left of zero is rounding.
 _PLACE = 2e4
 
+# Digits of the largest value of a column: what the cycle is computed to.
+_DIGITS = 12
+
 # Intervals of the table on the terminal.
 _ROWS = 12
 
@@ -70,7 +73,7 @@ def plot(
     Any curve that `linkwright run` computes, and motion of points, links and slides; over the crank angle of
     a revolution unless it runs over something else.
     """
-    from linkwright.app.curves import chosen, curves_figure, curves_of, from_zero
+    from linkwright.app.curves import chosen, curves_figure, curves_of, from_zero, on_common_points
     from linkwright.app.study import study
     from linkwright.kernel.page.angle_zero import Zero
     from linkwright.linkages.zero import zero_angle
@@ -83,17 +86,18 @@ def plot(
         hand_over(_list_of(results, curves_of(results)), json=json)
         return
     curves = [from_zero(curve, counted.angle) for curve in chosen(results, quantity, over)]
+    listed = on_common_points(curves)
     with as_wanted(machine.units):
-        written = _write(curves, counted.words, out or [], force=force)
+        written = _write(curves, listed, counted.words, out or [], force=force)
         if csv:
-            put(_csv(curves), None)
+            put(_csv(listed), None)
     answer = Answer(
         machine=machine.name,
         units=machine.units,
         results=lambda _: {"plot": _curve_data(results, curves, counted.angle)},
         findings=results.findings,
         warnings=results.warnings,
-        tables=lambda: [_extremes(results, curves, counted.angle), _values(curves)],
+        tables=lambda: [_extremes(results, curves, counted.angle), _values(listed)],
         figures=lambda: {"curves": curves_figure(curves, counted.words)},
         head=lambda: f"Crank angles from the {counted.words}" if counted.words else "",
     )
@@ -118,7 +122,9 @@ def _list_of(study: Study, curves: dict[str, Curve]) -> Answer:
         },
         findings=study.findings,
         warnings=study.warnings,
-        tables=lambda: [Table("curves", "Curves that can be drawn", ("curve", "", "over"), rows)],
+        tables=lambda: [
+            Table("curves", "Curves that can be drawn", ("curve", "", "over"), rows, is_whole=True)
+        ],
     )
 
 
@@ -142,8 +148,10 @@ def _curve_data(study: Study, curves: Sequence[Curve], zero: float) -> dict[str,
     }
 
 
-def _write(curves: Sequence[Curve], zero: str, outs: Sequence[str], *, force: bool) -> list[Path]:
-    """The picture and the table where they are wanted."""
+def _write(
+    curves: Sequence[Curve], listed: Sequence[Curve], zero: str, outs: Sequence[str], *, force: bool
+) -> list[Path]:
+    """The picture, and the table of the curves on common points, where they are wanted."""
     from linkwright.app.curves import bytes_of, curves_figure
     from linkwright.kernel.files.output import write_file
 
@@ -151,7 +159,7 @@ def _write(curves: Sequence[Curve], zero: str, outs: Sequence[str], *, force: bo
     for place in map(Path, outs):
         ending = place.suffix.lower()
         if ending == ".csv":
-            write_file(place, _csv(curves), replace=force)
+            write_file(place, _csv(listed), replace=force)
         elif ending in _PICTURES:
             write_file(place, bytes_of(curves_figure(curves, zero), ending), replace=force)
         elif ending:
@@ -163,7 +171,7 @@ def _write(curves: Sequence[Curve], zero: str, outs: Sequence[str], *, force: bo
             pictures = {
                 f"plot{kind}": bytes_of(curves_figure(curves, zero), kind) for kind in (".png", ".svg")
             }
-            written += folder.write({"plot.csv": _csv(curves), **pictures})
+            written += folder.write({"plot.csv": _csv(listed), **pictures})
             continue
         written.append(place)
     return written
@@ -184,12 +192,23 @@ def _csv(curves: Sequence[Curve]) -> str:
         if last is None or len(curve.x) != len(last) or not np.array_equal(curve.x, last):
             name = f"{curve.over} [{unit or '-'}]"
             columns[name if name not in columns else f"{curve.over} of {curve.name} [{unit or '-'}]"] = _long(
-                curve.x / factor, most
+                _known(curve.x / factor), most
             )
             last = curve.x
         unit, factor = reader().shown(curve.unit, _usual(curve.unit))
-        columns[f"{curve.name} [{unit or '-'}]"] = _long(curve.values / factor, most)
+        columns[f"{curve.name} [{unit or '-'}]"] = _long(_known(curve.values / factor), most)
     return columns_csv(columns)
+
+
+def _known(values: Any) -> Any:
+    """Without the digits that are rounding beside the largest value."""
+    import numpy as np
+
+    largest = float(np.nanmax(np.abs(values), initial=0.0))
+    if not 0 < largest < np.inf:
+        return values
+    # The sum turns -0 into 0.
+    return np.round(values, _DIGITS - int(np.ceil(np.log10(largest)))) + 0.0
 
 
 def _long(values: Any, length: int) -> Any:

@@ -112,11 +112,16 @@ def print_tables(
         if head or nth:
             out.print()
         out.print(_drawn(table))
-        _print_more(len(table.rows) - TABLE_ROWS.most, "rows")
+        _print_more(len(table.rows) - _most(table), "rows")
     _print_more(len(tables) - TABLES.most, "tables")
     for part in _sentences(findings, warnings):
         out.print()
         out.print(part)
+
+
+def _most(table: Table) -> int:
+    """Rows of a table that are shown."""
+    return len(table.rows) if table.is_whole else TABLE_ROWS.most
 
 
 def _print_more(count: int, words: str) -> None:
@@ -144,7 +149,7 @@ def _drawn(table: Table) -> RenderableType:
         # A narrow terminal may break words and lists of them, never a number.
         listed = any(", " in row[n] for row in table.rows)
         drawn.add_column(fill(head, _HEAD), no_wrap=not listed)
-    for row in table.rows[: TABLE_ROWS.most]:
+    for row in table.rows[: _most(table)]:
         drawn.add_row(*row)
     return drawn
 

@@ -40,6 +40,7 @@ class Table(NamedTuple):
     title: str
     heads: Row
     rows: list[Row]
+    is_whole: bool = False  # whether a terminal shows all rows, however many
 
 
 def row(result: Result, name: str, at: str = "", *, length: str = "") -> Row:
