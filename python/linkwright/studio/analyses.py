@@ -34,6 +34,7 @@ from linkwright.machine.machine import Machine
 from linkwright.machine.program.drive_line import drive_inertia
 from linkwright.studio.drawing import drawing
 from linkwright.studio.shown import shown
+from linkwright.studio.views import knife_view, train_view
 
 # Intervals of the revolution of steady motion that the drawing and its plots follow, and of the forces while
 # a slider is held: no line shows more.
@@ -142,6 +143,8 @@ class Answers:
         Of `drawing`, of the fast lane.
     figures : list of dict
         Diagrams that are no curves, as SVG: ``name``, ``title``, ``caption``, ``svg``.
+    views : list of dict
+        Pictures beside the drawing, of `views`.
     """
 
     results: list[dict[str, Any]]
@@ -149,6 +152,7 @@ class Answers:
     warnings: tuple[str, ...] = ()
     scene: dict[str, Any] | None = None
     figures: tuple[dict[str, str], ...] = ()
+    views: tuple[dict[str, Any], ...] = ()
 
     def body(self) -> dict[str, Any]:
         """All of it for a message."""
@@ -159,9 +163,11 @@ def fast(machine: Machine, *, held: bool) -> Answers:
     """What follows every change: scene, steady motion, forces, at fewer angles while a slider or joint is
     `held`.
     """
-    if not machine.has_crank:
-        return Answers([])
     findings = Findings()
+    train = findings.of(train_view, machine) if has_train(machine) else None
+    views = () if train is None else (train,)
+    if not machine.has_crank:
+        return Answers([], findings.findings, findings.warnings, views=views)
     steady = findings.of(steady_state, machine, n=_INTERVALS) if has_motor(machine) else None
     acting = None
     if steady is not None and _is_loaded(machine):
@@ -169,7 +175,7 @@ def fast(machine: Machine, *, held: bool) -> Answers:
     scene = findings.of(drawing, machine, steady, acting)
     results: dict[str, Result | None] = {"steady_state": steady, "forces": acting}
     known = [shown(name, result) for name, result in results.items() if result is not None]
-    return Answers(known, findings.findings, findings.warnings, scene)
+    return Answers(known, findings.findings, findings.warnings, scene, views=views)
 
 
 def _forces(machine: Machine, steady: SteadyState, every: int) -> Any:
@@ -199,7 +205,14 @@ def _study(machine: Machine, to: Language) -> Answers:
     results = study(machine)
     known = [shown(name, result) for name, result in _new_results(results)]
     drawn = [figure for figure in figures(results) if figure.name not in _CURVES]
-    return Answers(known, results.findings, results.warnings, figures=tuple(_svg(one, to) for one in drawn))
+    knife = knife_view(results)
+    return Answers(
+        known,
+        results.findings,
+        results.warnings,
+        figures=tuple(_svg(one, to) for one in drawn),
+        views=() if knife is None else (knife,),
+    )
 
 
 # Figures of the report that plots of the studio show in more detail.

@@ -24,15 +24,12 @@ from numpy.typing import NDArray
 from linkwright.app.report.scene import moving_scene
 from linkwright.drive.steady_state import SteadyState
 from linkwright.kernel.description.place import join
-from linkwright.kernel.errors import LinkwrightError
 from linkwright.kinetostatics.result import Forces
 from linkwright.linkages.model.mechanism import Mechanism
 from linkwright.linkages.model.structure import structure
 from linkwright.linkages.model.topology import ORIGIN
 from linkwright.linkages.motion import rates_of
 from linkwright.machine.machine import Machine
-from linkwright.machine.read import loads
-from linkwright.studio.files import Folder, base, opened
 
 Floats = NDArray[np.float64]
 
@@ -59,20 +56,6 @@ def drawing(machine: Machine, steady: SteadyState | None, acting: Forces | None)
         "forces": _acting(machine, scene, acting) if acting is not None else [],
         "handles": handles(machine),
     }
-
-
-def thumbnail(folder: Folder, place: str, name: str) -> dict[str, Any] | None:
-    """The drawing of a machine of the gallery, at constant speed; None where nothing moves, or the file is
-    none.
-    """
-    try:
-        machine = loads(opened(folder, place, name), path=base(folder, place, name))
-        scene = moving_scene(machine, None) if machine.has_crank else None
-    except LinkwrightError:
-        return None
-    if scene is not None:
-        del scene["motion"]
-    return scene
 
 
 def _along(scene: dict[str, Any], steady: SteadyState) -> Floats:

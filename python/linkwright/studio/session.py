@@ -28,9 +28,9 @@ from linkwright.studio.controls import controls
 from linkwright.studio.design import reach, slopes
 from linkwright.studio.document import changed
 from linkwright.studio.drag import drag
-from linkwright.studio.drawing import thumbnail
 from linkwright.studio.files import Folder, base, gallery, opened
 from linkwright.studio.language import in_words, spoken
+from linkwright.studio.views import thumbnail
 from linkwright.studio.wire import WireError, packed, unpacked
 from linkwright.studio.worker import Worker
 
@@ -303,7 +303,7 @@ class Session:
             self.place, self.name = place, name
             return {"of": "file", "place": place, "name": name, "text": text}
         if ask == "thumbnail":
-            return {"of": "thumbnail", "scene": thumbnail(self.folder, place, name)}
+            return {"of": "thumbnail", **thumbnail(self.folder, place, name)}
         if ask == "save":
             self.folder.write(name, str(body.get("text", "")), replace=bool(body.get("replace")))
             self.place, self.name = "folder", name

@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.kernel.quantities import DeclaredQuantity, quantities_of
+from linkwright.kernel.quantities import DeclaredQuantity, Label, quantities_of
+from linkwright.kernel.quantities import declared as marks
 from linkwright.kernel.result import Result
 
 Floats = NDArray[np.float64]
@@ -30,7 +31,11 @@ def shown(name: str, result: Result) -> dict[str, Any]:
     return {
         "name": name,
         "scalars": list(_scalars(result, declared)),
-        "plots": [*_plots(name, result, declared), *_of_columns(name, result)],
+        "plots": [
+            *_plots(name, result, declared),
+            *_of_parts(name, result, declared),
+            *_of_columns(name, result),
+        ],
     }
 
 
@@ -71,7 +76,7 @@ def _plots(name: str, result: Result, declared: list[DeclaredQuantity]) -> Itera
         drawn = [
             (quantity, y) for quantity, y in listed if y is not None and x is not None and y.shape == x.shape
         ]
-        if x is not None and drawn and len(x) > 1:
+        if x is not None and drawn and len(x) >= _LINE:
             yield {
                 "key": f"{name}.{drawn[0][0].name}",
                 "title": drawn[0][0].word if len(drawn) == 1 else _common(drawn),
@@ -92,6 +97,52 @@ def _list_of(result: Result, name: str) -> Floats | None:
     values = getattr(result, name, None)
     is_list = isinstance(values, np.ndarray) and values.ndim == 1 and values.dtype.kind in "fiu"
     return np.asarray(values, dtype=float) if is_list else None
+
+
+def _of_parts(name: str, result: Result, declared: list[DeclaredQuantity]) -> Iterator[dict[str, Any]]:
+    """Arrays with a row for each shaft or disc over one abscissa: a plot each, a curve for each part."""
+    known = {quantity.name: quantity for quantity in declared if quantity.kind == "curve"}
+    for quantity in known.values():
+        parts, x = (
+            _parts(result, quantity),
+            _list_of(result, quantity.over) if quantity.over in known else None,
+        )
+        rows = np.asarray(getattr(result, quantity.name, None)) if parts and x is not None else None
+        if x is None or rows is None or rows.shape != (len(parts), len(x)) or len(x) < _LINE:
+            continue
+        yield {
+            "key": f"{name}.{quantity.name}",
+            "title": quantity.word,
+            "unit": quantity.unit,
+            "x": {**_words(known[quantity.over]), "values": x},
+            "curves": [
+                {
+                    **_words(quantity),
+                    "name": part,
+                    "word": part.replace("_", " "),
+                    "symbol": "",
+                    "values": row,
+                }
+                for part, row in zip(parts, rows.astype(float), strict=True)
+            ],
+        }
+
+
+# Points that make a line; fewer are the columns of a table, such as modes.
+_LINE = 40
+
+
+def _parts(result: Result, quantity: DeclaredQuantity) -> tuple[str, ...]:
+    """Names of the rows of a quantity, as its shape ``(shafts, speeds)`` says; of modes, numbers."""
+    _, mark = marks(type(result))[quantity.name]
+    axes = mark.shape.strip("()").split(", ") if isinstance(mark, Label) else []
+    if len(axes) != 2:
+        return ()
+    names = getattr(result, axes[0], None)
+    if isinstance(names, tuple) and all(isinstance(each, str) for each in names):
+        return names
+    rows = getattr(result, quantity.name, None)
+    return tuple(f"{n + 1}" for n in range(len(rows))) if axes[0] == "modes" and rows is not None else ()
 
 
 def _of_columns(name: str, result: Result) -> Iterator[dict[str, Any]]:

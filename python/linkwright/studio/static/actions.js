@@ -85,8 +85,8 @@ function begunLanes(lanes, sound) {
 }
 
 /** @param {string} lane @param {any} body */
-function put(lane, { results, findings, warnings, figures }) {
-  state.answers.value = { ...state.answers.value, [lane]: { results, findings, warnings, figures } };
+function put(lane, { results, findings, warnings, figures, views }) {
+  state.answers.value = { ...state.answers.value, [lane]: { results, findings, warnings, figures, views } };
 }
 
 function redrawn() {

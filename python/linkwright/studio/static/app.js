@@ -12,10 +12,10 @@ import { Dialog } from "./dialogs.js";
 import { Editor } from "./editor.js";
 import { Header, saveNow } from "./header.js";
 import { Head, Numbers } from "./numbers.js";
-import { Playbar } from "./playbar.js";
 import { Diagrams, Plots } from "./plots.js";
-import { Stage, frames } from "./stage.js";
+import { frames } from "./stage.js";
 import * as state from "./state.js";
+import { Picture } from "./views.js";
 
 /** @param {{ name: string, tabs: [string, any][] }} props */
 function Tabs({ name, tabs }) {
@@ -48,7 +48,7 @@ function App() {
     <main>
       <aside class="left" aria-label="Entries of the machine"><${Tabs} name="entries" tabs=${[["Entries", Controls], ["File", Editor]]} /></aside>
       <section class="middle" aria-label="Machine in motion">
-        <${Stage} /><${Playbar} /><${Chips} />
+        <${Picture} /><${Chips} />
         <div class="below"><${Head} /><${Findings} /></div>
       </section>
       <aside class="right" aria-label="Results"><${Tabs} name="results" tabs=${[["Plots", Plots], ["Numbers", Numbers], ["Diagrams", Diagrams], ["Design", Design]]} /></aside>

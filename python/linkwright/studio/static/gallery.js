@@ -3,12 +3,17 @@ import { html } from "./html.js";
 import { useEffect, useRef, useState } from "./vendor/hooks.mjs";
 import { list, open, thumbnail } from "./actions.js";
 import { fit } from "./frame.js";
+import { paintKnife } from "./knife.js";
 import { paintMoving, paintStill } from "./painter.js";
 import * as state from "./state.js";
 import { colours } from "./theme.js";
 import { onward, placeOf, watchable } from "./timeline.js";
+import { paintTrain } from "./twist.js";
 
 const PLACES = /** @type {Record<string, string>} */ ({ template: "Templates to start from", library: "Machines of the library", folder: "Files of this folder" });
+
+/** Seconds of one period of a train. */
+const PERIOD = 2.4;
 
 /** One request at a time, in the order in which cards are seen. */
 let queue = Promise.resolve();
@@ -19,7 +24,7 @@ const known = new Map();
 function sceneOf(place, name) {
   const key = `${place}/${name}`;
   if (!known.has(key)) known.set(key, (queue = queue.then(() => thumbnail(place, name)).catch(() => null)));
-  return known.get(key).then((/** @type {any} */ body) => body?.scene ?? null);
+  return known.get(key).then((/** @type {any} */ body) => body?.scene ?? body?.view ?? null);
 }
 
 /** @param {HTMLCanvasElement} canvas @param {any} scene @returns {() => void} */
@@ -31,7 +36,7 @@ function moving(canvas, scene) {
   watch.observe(canvas);
   /** @param {number} now */
   function step(now) {
-    const period = scene.times[scene.times.length - 1];
+    const period = scene.times ? scene.times[scene.times.length - 1] : scene.seconds ?? PERIOD;
     if (before && !still) [time, way] = onward(time, way, ((now - before) / 1000) * (period / watchable(period)), period, scene.swings);
     before = now;
     if (seen) draw();
@@ -41,6 +46,7 @@ function moving(canvas, scene) {
     const [ratio, ink] = [devicePixelRatio || 1, colours()];
     const { clientWidth: width, clientHeight: height } = canvas;
     if (canvas.width !== Math.round(width * ratio)) [canvas.width, canvas.height] = [Math.round(width * ratio), Math.round(height * ratio)];
+    if (!scene.times) return beside(width, height, ratio, ink);
     const zoom = 0.45;
     ctx.setTransform(ratio * zoom, 0, 0, ratio * zoom, 0, 0);
     ctx.clearRect(0, 0, width / zoom, height / zoom);
@@ -48,6 +54,14 @@ function moving(canvas, scene) {
     const view = { ctx, scene: { ...scene, parts }, frame: fit(scene.box, width / zoom, height / zoom), k: placeOf(scene.times, time), ink, series: ink.series };
     paintStill({ ...view, scene: { ...scene, parts: parts.filter((/** @type {any} */ { kind }) => kind !== "ground") } });
     paintMoving(view);
+  }
+  /** A train in its lowest mode, or a knife on its way. @param {number} width @param {number} height @param {number} ratio @param {any} ink */
+  function beside(width, height, ratio, ink) {
+    ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+    ctx.clearRect(0, 0, width, height);
+    const paper = { ctx, width, height, passed: 0, ink, series: ink.series };
+    if (scene.kind === "topper") paintKnife(paper, scene, scene.span[0] + (still ? 0.5 : time / scene.seconds) * (scene.span[1] - scene.span[0]), false);
+    else if (scene.frequencies.length) paintTrain(paper, scene, 0, Math.cos((2 * Math.PI * time) / PERIOD), false);
   }
   handle = requestAnimationFrame(step);
   return () => {

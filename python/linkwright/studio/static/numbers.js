@@ -7,10 +7,17 @@ import { number, shownUnit } from "./units.js";
 
 /** Scalars of the head: by name of the result and of the quantity. */
 const HEAD = [
+  "topper.length_exact", "topper.uncut_share", "topper.uncut_share_mean", "topper.worst_phase", "topper.cutting_speed_min", "topper.frequency",
+  "rotator.string_turn_days", "pumping_unit.stroke", "pumping_unit.torque_factor_max", "cam.stroke", "cam.pressure_angle_max", "cam.curvature_radius_convex_min", "cam_force.force_max",
+  "turning_moment.unevenness", "turning_moment.energy_fluctuation", "turning_moment.flywheel_inertia", "turning_moment.torque_mean",
   "steady_state.unevenness", "steady_state.speed_mean_time", "steady_state.torque_motor_rms", "steady_state.power_motor_mean", "run_up.time",
   "forces.shaking_force_max", "forces.torque_drive_max",
 ];
-const HEAD_MOST = 6;
+const HEAD_MOST = 8;
+
+/** Natural frequencies of a train at the head, and scalars that are none of its results. */
+const MODES_MOST = 3;
+const NO_RESULT = ["scheme.diameter", "along.speed", "linkage.period_turns"];
 
 /** Index marks of a symbol, as M_d,max. @param {{ symbol: string }} props */
 export function Sign({ symbol }) {
@@ -28,8 +35,10 @@ export function Head() {
   /** @type {Map<string, import("./types.js").Words & { value: number }>} */
   const known = new Map(state.results.value.flatMap(({ name, scalars }) => scalars.map((each) => [`${name}.${each.name}`, each])));
   const found = HEAD.flatMap((name) => known.get(name) ?? []);
-  const fill = [...known.values()].filter((each) => !found.includes(each));
-  const shown = [...found, ...fill].slice(0, found.length >= 3 ? Math.min(found.length, HEAD_MOST) : HEAD_MOST);
+  const fill = [...known.entries()].flatMap(([name, each]) => (found.includes(each) || NO_RESULT.includes(name) ? [] : [each]));
+  const train = state.views.value.find(({ kind }) => kind === "train");
+  const modes = Array.from(train && !state.isDrawn.value ? train.frequencies.subarray(0, MODES_MOST) : [], (/** @type {number} */ f, n) => ({ name: `mode_${n + 1}`, word: `natural frequency, mode ${n + 1}`, symbol: "f", unit: "Hz", value: f }));
+  const shown = [...modes, ...found, ...fill].slice(0, found.length >= 3 ? Math.min(found.length, HEAD_MOST) : HEAD_MOST);
   if (!shown.length) return null;
   const of = new Map(state.results.value.flatMap(({ name, scalars }) => scalars.map((each) => /** @type {const} */ ([each, name]))));
   return html`<dl class="head" aria-label="Main results">${shown.map((each) => {

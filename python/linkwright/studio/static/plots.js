@@ -15,7 +15,8 @@ import { number, shownUnit } from "./units.js";
 const ROWS_MOST = 181;
 
 /** Plots that say the same as another, or nothing that one looks for first. */
-const ASIDE = [/^forces\.(time|speed|acceleration|power_residual|crank_angle)$/, /\.time$/, /^forces\.shaking_force_/, /_moment$/, /^run_(up|down)\.(crank_angle)$/, /^reduction\./, /^steady_state\.power/, /^forces\.power/];
+const ASIDE = [/^forces\.(time|speed|acceleration|power_residual|crank_angle)$/, /\.time$/, /^forces\.shaking_force_/, /_moment$/, /^run_(up|down)\.(crank_angle)$/, /^reduction\./, /^steady_state\.power/, /^forces\.power/,
+  /^forced\.(mean_torques|torque_|.*_heat|power|unevenness_|shaft_torque_max)/, /^stress\.(mean|greatest|continuous|transient)/];
 
 const titled = (/** @type {string} */ words) => words[0].toUpperCase() + words.slice(1);
 
@@ -56,7 +57,7 @@ function Panel({ plot, of }) {
     <section class="panel" aria-label=${plot.title}>
       <header>
         <h3>${titled(plot.title)} <small>${unit}</small></h3>
-        <span class="legend">${plot.curves.length > 1 ? plot.curves.map(({ symbol, word }, n) => html`<span key=${n} title=${word}><i class="key c${n % 6}"></i>${short(symbol, word)}</span>`) : null}</span>
+        <span class="legend">${plot.curves.length > 1 ? plot.curves.map(({ symbol, word, own }, n) => html`<span key=${n} title=${word} translate=${own ? "no" : undefined}><i class="key c${n % 6}"></i>${short(symbol, word)}</span>`) : null}</span>
         <span class="tools">
           <button class="quiet" aria-pressed=${data ? "true" : "false"} onClick=${() => setData(!data)} title="The numbers as a table">Data</button>
           <button class="quiet" onClick=${asCsv} title="Download CSV">CSV</button>

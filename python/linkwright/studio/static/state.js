@@ -51,12 +51,16 @@ export const isDrawn = computed(() => scene.value !== null);
 export const reason = signal("");
 
 // -- answers, those of each lane apart, so that one does not wait for another
-/** @type {Signal<Record<string, { results: import("./types.js").Shown[], findings: string[], warnings: string[], figures: import("./types.js").Figure[] }>>} */
+/** @type {Signal<Record<string, { results: import("./types.js").Shown[], findings: string[], warnings: string[], figures: import("./types.js").Figure[], views?: any[] }>>} */
 export const answers = signal({});
 /** State of each lane: "ready", "running", "stopped". @type {Signal<Record<string, string>>} */
 export const lanes = signal({});
 const inOrder = computed(() => ["fast", "study", "torsion"].map((lane) => answers.value[lane]).filter(Boolean));
 export const results = computed(() => inOrder.value.flatMap((each) => each.results));
+/** Pictures beside the drawing. @type {Signal<any[]>} */
+export const views = /** @type {any} */ (computed(() => inOrder.value.flatMap((each) => each.views ?? [])));
+/** The picture that was chosen. */
+export const seen = signal("mechanism");
 export const figures = computed(() => inOrder.value.flatMap((each) => each.figures));
 export const findings = computed(() => [...new Set(inOrder.value.flatMap((each) => each.findings))]);
 export const warnings = computed(() => [...new Set(inOrder.value.flatMap((each) => each.warnings))]);

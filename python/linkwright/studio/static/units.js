@@ -20,7 +20,7 @@ export const UNITS = {
   "kg m²": { word: "Moment of inertia", units: { "kg m²": 1, "kg cm²": 1e-4, "lb ft²": 0.04214011009380480 }, sets: ["kg m²", "kg m²", "lb ft²"] },
   W: { word: "Power", units: { W: 1, kW: 1e3, hp: 745.6998715822701 }, sets: ["W", "kW", "hp"] },
   s: { word: "Time", units: { s: 1, ms: 1e-3, min: 60 }, sets: ["s", "s", "s"] },
-  Pa: { word: "Pressure", units: { Pa: 1, MPa: 1e6, bar: 1e5, psi: 6894.757293168361 }, sets: ["Pa", "MPa", "psi"] },
+  Pa: { word: "Pressure", units: { Pa: 1, MPa: 1e6, bar: 1e5, psi: 6894.757293168361 }, sets: ["MPa", "MPa", "psi"] },
 };
 
 export const SETS = ["SI", "Workshop", "Inch"];

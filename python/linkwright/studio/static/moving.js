@@ -1,0 +1,56 @@
+// A canvas that is drawn anew at every frame while its picture moves, and once after every change.
+import { html } from "./html.js";
+import { useEffect, useLayoutEffect, useRef } from "./vendor/hooks.mjs";
+import { frames } from "./stage.js";
+import * as state from "./state.js";
+import { colours } from "./theme.js";
+
+/**
+ * What a picture is drawn with; `passed` is the time since the last frame on the page [s], 0 while it stands.
+ * @typedef {{ ctx: CanvasRenderingContext2D, width: number, height: number, passed: number, ink: Record<string, string>, series: string[] }} Paper
+ */
+
+/** Longest time between two frames that moves the picture [s]: a tab that was away does not jump. */
+const LONGEST = 0.1;
+
+/** @param {{ label: string, draw: (paper: Paper) => void }} props */
+export function Moving({ label, draw }) {
+  const own = useRef(/** @type {HTMLCanvasElement | null} */ (null));
+  const now = useRef(draw);
+  const isDirty = useRef(true);
+  useLayoutEffect(() => {
+    now.current = draw;
+    isDirty.current = true;
+  });
+  useEffect(() => {
+    const canvas = /** @type {HTMLCanvasElement} */ (own.current);
+    const ctx = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
+    let [handle, before] = [0, 0];
+    const observer = new ResizeObserver(() => (isDirty.current = true));
+    observer.observe(canvas);
+    /** @param {number} at */
+    function step(at) {
+      const passed = state.playing.value && before ? Math.min((at - before) / 1000, LONGEST) : 0;
+      before = at;
+      if (passed || isDirty.current) {
+        isDirty.current = false;
+        const [ratio, { clientWidth: width, clientHeight: height }] = [devicePixelRatio || 1, canvas];
+        const wanted = [Math.max(1, Math.round(width * ratio)), Math.max(1, Math.round(height * ratio))];
+        if (canvas.width !== wanted[0] || canvas.height !== wanted[1]) [canvas.width, canvas.height] = wanted;
+        ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+        ctx.clearRect(0, 0, width, height);
+        const ink = colours();
+        now.current({ ctx, width, height, passed, ink, series: ink.series });
+        frames.count += 1;
+      }
+      handle = requestAnimationFrame(step);
+    }
+    handle = requestAnimationFrame(step);
+    return () => {
+      cancelAnimationFrame(handle);
+      observer.disconnect();
+    };
+  }, []);
+  void state.look.value;
+  return html`<canvas ref=${own} role="img" aria-label=${label}></canvas>`;
+}
