@@ -34,7 +34,7 @@ SILENT = {
         "studio/controls.py",
         "_number",
     ): "a text that is no quantity is a problem of the file, which stands beside it",
-    ("studio/drawing.py", "thumbnail"): "a machine that cannot be drawn has no picture; opening it says why",
+    ("studio/views.py", "thumbnail"): "a machine that cannot be drawn has no picture; opening it says why",
     ("sizing/flywheel.py", "_unevenness"): "no steady motion is an answer there: δ counts as infinite",
     ("studies/engine.py", "_solve"): "rows that a batch cannot hold are solved one by one, and say why",
     ("studies/sweep.py", "_try"): "what a machine cannot do as it is, its variants may, and each row says so",
