@@ -18,6 +18,7 @@ No mechanics is computed here: the studio asks the rooms of the subjects, and th
 | `drag` | Which lengths bring a point to a place, and where the linkage no longer closes |
 | `design` | What entries do to a result, and which entries bring it to a value |
 | `search` | Sweeps and optimisations of the machine, in the process beside |
+| `export` | Reports, motions and poses as files |
 | `controls` | Controls of all entries, from the descriptions |
 | `document` | The text of the file: changes that keep comments |
 | `files` | Files below the folder, library, templates |

@@ -70,16 +70,20 @@ class Session:
         self.searcher: Worker = Worker()
         self.search: tuple[int, Body] | None = None
         self.sought = asyncio.Event()
+        # Files that were asked for, made one after another.
+        self.maker: Worker = Worker()
+        self.exports: asyncio.Queue[tuple[int, Body]] = asyncio.Queue(_WAITING)
 
     async def run(self) -> None:
         """Answer until cancelled."""
         try:
             async with asyncio.TaskGroup() as tasks:
-                for lane in (self._compute, self._answer, self._beside, self._search):
+                for lane in (self._compute, self._answer, self._beside, self._search, self._export):
                     tasks.create_task(lane())
         finally:
             await self.worker.end()
             await self.searcher.end()
+            await self.maker.end()
 
     def take(self, message: bytes) -> None:
         """Take one message of the page; a `WireError` if it is none, or more wait than a page ever sends."""
@@ -94,11 +98,14 @@ class Session:
             self._speak(str(body.get("code", "")))
         elif body["ask"] == "end search":
             asyncio.ensure_future(self.searcher.end())  # noqa: RUF006 (as of what is stopped)
+        elif body["ask"] == "end export":
+            asyncio.ensure_future(self.maker.end())  # noqa: RUF006 (as of what is stopped)
         elif body["ask"] == "stop":
             asyncio.ensure_future(self._stop())  # noqa: RUF006 (it ends a process, and is not waited for)
         else:
+            waiting = self.exports if body["ask"] == "export" else self.others
             try:
-                self.others.put_nowait((number, body))
+                waiting.put_nowait((number, body))
             except asyncio.QueueFull:
                 raise WireError("too many requests at once") from None
 
@@ -274,6 +281,40 @@ class Session:
                 is_ended = False
             if is_ended or self.searcher.is_ended:
                 await self.send(packed(number, {"of": "search", "ended": True}))
+
+    # -- exports -------------------------------------------------------------------------------------------
+
+    async def _export(self) -> None:
+        """Make the files that were asked for, in their order."""
+        while True:
+            number, body = await self.exports.get()
+            path = base(self.folder, self.place, self.name)
+            try:
+                job = {"number": number, "lane": "export", "text": self.text, "path": path}
+                job |= {"export": self._to_make(body), "language": self.language}
+            except LinkwrightError as error:
+                await self.send(self._packed(number, {"of": "refused", "words": str(error)}))
+                continue
+            except Exception as error:
+                await self.send(_internal(number, error))
+                continue
+            message = await self.maker.run(job)
+            ended = self._packed(number, {"of": "export", "ended": True})
+            await self.send(ended if message is None else message)
+
+    def _to_make(self, body: Body) -> Body:
+        """What is asked for, with the real paths of a company file and of the variants."""
+        path = base(self.folder, self.place, self.name)
+        variants = [
+            {"name": str(one["name"]), "text": str(one["text"]), "path": path}
+            for one in body.get("variants") or ()
+        ]
+        company = str(body.get("company") or "")
+        return {
+            **body,
+            "variants": variants,
+            "company": str(self.folder.inside(company)) if company else "",
+        }
 
     # -- files -----------------------------------------------------------------------------------------------
 

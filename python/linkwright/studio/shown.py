@@ -139,7 +139,7 @@ def _parts(result: Result, quantity: DeclaredQuantity) -> tuple[str, ...]:
     if len(axes) != 2:
         return ()
     names = getattr(result, axes[0], None)
-    if isinstance(names, tuple) and all(isinstance(each, str) for each in names):
+    if isinstance(names, tuple) and all(isinstance(name, str) for name in names):
         return names
     rows = getattr(result, quantity.name, None)
     return tuple(f"{n + 1}" for n in range(len(rows))) if axes[0] == "modes" and rows is not None else ()

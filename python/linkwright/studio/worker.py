@@ -49,11 +49,17 @@ def main() -> None:
                 from linkwright.studio.search import search
 
                 answer = search(machine, job["search"], partial(send, number, code, is_last=False))
+            elif lane == "export":
+                from linkwright.studio.export import export
+
+                answer = export(machine, job["export"], code)
             else:
                 answer = {"of": "beside", "lane": lane, **beside(machine, lane, spoken(code)).body()}
         except LinkwrightError as error:
             if lane == "search":
                 answer = {"of": "search", "ended": True, "words": str(error)}
+            elif lane == "export":
+                answer = {"of": "refused", "words": str(error)}
             else:
                 answer = {"of": "beside", "lane": lane, **failed(error).body()}
         send(number, code, answer, is_last=True)
@@ -86,7 +92,7 @@ class Worker:
         Parameters
         ----------
         job : dict
-            As of `run`; of a search, ``search`` besides.
+            As of `run`; ``search`` or ``export`` besides, what was asked for.
         """
         process = await self._running()
         self.is_ended = is_last = False

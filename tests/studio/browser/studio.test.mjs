@@ -239,6 +239,17 @@ test("plots have their data and their files", async () => {
   }
 });
 
+test("the report and the pose are files", async () => {
+  await page.getByRole("button", { name: "Export" }).click();
+  for (const label of ["Formulas", "Data of the machine", "Assumptions"]) await page.getByLabel(label).uncheck();
+  for (const [kind, head] of [["dxf", "  0\nSECTION"], ["pdf", "%PDF"]]) {
+    const [file] = await Promise.all([page.waitForEvent("download"), page.locator(`[data-make="${kind}"]`).click()]);
+    assert.ok(file.suggestedFilename().endsWith(`.${kind}`));
+    assert.ok(readFileSync(await file.path(), "latin1").startsWith(head));
+  }
+  await page.keyboard.press("Escape");
+});
+
 test("a result is pulled, and the entries that follow give it on the command line too", async () => {
   await page.evaluate((text) => globalThis.studio.write(text), readFileSync(`${ROOT}machines/roller_two_carts.toml`, "utf8"));
   await known();
@@ -339,6 +350,26 @@ test("every machine of the gallery opens", async () => {
     assert.deepEqual(problems, [], `${place}/${name}`);
     assert.equal(await page.evaluate(() => globalThis.studio.state.message.value), "", `${place}/${name}`);
   }
+});
+
+test("a train twists in its modes, and a knife goes over the heads", async () => {
+  const picture = () => page.evaluate(() => document.querySelector(".stage canvas").toDataURL());
+  await page.evaluate(() => globalThis.studio.open("library", "v8_diesel"));
+  await known();
+  const modes = page.locator("#mode");
+  await modes.waitFor();
+  const { results } = JSON.parse(execFileSync(LINKWRIGHT, ["torsion", "v8_diesel", "--json", "--curves"], { encoding: "utf8", maxBuffer: 1e9 }));
+  const lowest = results.free.natural_frequencies.find((f) => f > 0);
+  assert.match(await modes.locator("option").first().textContent(), new RegExp(`^1: ${lowest.toPrecision(5)} Hz`));
+  const first = await picture();
+  await modes.selectOption("2");
+  await shows(picture, (now) => now !== first);
+  await page.evaluate(() => globalThis.studio.open("library", "topper"));
+  await known();
+  await page.locator("#knife").waitFor();
+  const before = await picture();
+  await page.locator("#knife").fill("0.9");
+  await shows(picture, (now) => now !== before);
 });
 
 test("there was no error on the console, and no request to elsewhere", () => assert.deepEqual(faults, []));

@@ -151,6 +151,16 @@ export function seek(asked) {
   link.send({ ask: "search", ...asked });
 }
 
+/** A file of the machine; null if it was stopped or cannot be made. @param {object} asked @returns {Promise<Blob | null>} */
+export async function make(asked) {
+  const body = await link.ask({ ask: "export", ...asked });
+  if (body.words) state.message.value = body.words;
+  if (!body.data) return null;
+  return new Blob([Uint8Array.from(atob(body.data), (letter) => letter.charCodeAt(0))]);
+}
+
+export const stopMaking = () => link.send({ ask: "end export" });
+
 export const stopSearch = () => link.send({ ask: "end search" });
 
 // Derivatives follow the machine, and the result that is looked at.

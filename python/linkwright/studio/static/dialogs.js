@@ -3,6 +3,7 @@ import { html } from "./html.js";
 import { useEffect, useRef, useState } from "./vendor/hooks.mjs";
 import { save } from "./actions.js";
 import { folded } from "./folded.js";
+import { Files } from "./files.js";
 import { Gallery } from "./gallery.js";
 import { Icon } from "./icons.js";
 import { unitSaid } from "./language.js";
@@ -65,6 +66,7 @@ function Elsewhere() {
 const DIALOGS = /** @type {Record<string, [string, any]>} */ ({
   gallery: ["Machines", Gallery],
   save: ["Save as", SaveAs],
+  files: ["Export", Files],
   units: ["Units", Units],
   elsewhere: ["The same elsewhere", Elsewhere],
 });

@@ -27,6 +27,7 @@ export function Header() {
         <button onClick=${() => (state.dialog.value = "gallery")}>Machines</button>
         <button onClick=${saveNow} title="Save (Ctrl+S)">Save</button>
         <button onClick=${() => (state.dialog.value = "save")}>Save as</button>
+        <button onClick=${() => (state.dialog.value = "files")} title="Report, motion, drawing">Export</button>
         <span class="gap"></span>
         <button class="icon" disabled=${!past.canUndo} onClick=${undo} aria-label="Undo" title="Undo (Ctrl+Z)"><${Icon} name="undo" /></button>
         <button class="icon" disabled=${!past.canRedo} onClick=${redo} aria-label="Redo" title="Redo (Ctrl+Shift+Z)"><${Icon} name="redo" /></button>

@@ -13,7 +13,7 @@ const HEAD = [
   "steady_state.unevenness", "steady_state.speed_mean_time", "steady_state.torque_motor_rms", "steady_state.power_motor_mean", "run_up.time",
   "forces.shaking_force_max", "forces.torque_drive_max",
 ];
-const HEAD_MOST = 8;
+const HEAD_MOST = 6;
 
 /** Natural frequencies of a train at the head, and scalars that are none of its results. */
 const MODES_MOST = 3;
