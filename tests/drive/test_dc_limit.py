@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.drive.model.motor import DcMotor
 from linkwright.kernel.errors import InputError, MachineFileError, ShapeError
 from linkwright.machine.program.compiled import compile_machine
+from linkwright.torsion.core.torque import motor_curve
 
 STALL, NO_LOAD, MOST, INERTIA = 200.0, 100.0, 50.0, 4.0
 
@@ -37,6 +39,40 @@ def test_a_limit_above_the_stall_torque_changes_nothing_forward() -> None:
     machine = lw.loads(FILE, ["drive.motor.torque_max=300"])
     torque = compile_machine(machine).motor_torques(np.array([0.0, 50.0, 120.0])).motor
     assert torque == pytest.approx([200.0, 100.0, -40.0], abs=1e-9)
+
+
+def test_a_limit_above_the_stall_torque_begins_backwards() -> None:
+    """Driven backward the motor gives more than at standstill, up to the limit; so in a train."""
+    machine = lw.loads(FILE, ["drive.motor.torque_max=300"])
+    speeds, torques = np.array([-80.0, -50.0, -20.0, 0.0]), [300.0, 300.0, 240.0, 200.0]
+    assert compile_machine(machine).motor_torques(speeds).motor == pytest.approx(torques, abs=1e-9)
+    assert machine.drive is not None
+    assert isinstance(machine.drive.motor, DcMotor)
+    curve = motor_curve(machine.drive.motor)
+    assert np.interp(speeds, curve.x, curve.y) == pytest.approx(torques, abs=1e-9)
+
+
+def test_where_a_limit_begins_backwards_nothing_happens_forward() -> None:
+    """The motion passes 50 rad/s, and the limit of 300 N m begins at −50 rad/s: all is as without it."""
+    load = """
+[loads.L]
+kind = "formula"
+on = "A"
+torque = "-100 - 95*cos(phi)"
+"""
+    text = FILE.replace(f"inertia = {INERTIA}\n", "inertia = 0.2\n") + load
+    limited = lw.loads(text, ["drive.motor.torque_max=300"])
+    free = lw.loads(text.replace(f"torque_max = {MOST}\n", ""))
+    motion, other = lw.steady_state(limited), lw.steady_state(free)
+    assert motion.speed_min < 50.0 < motion.speed_max
+    for name in ("speed_min", "speed_max", "multiplier", "acceleration_max", "torque_motor_max"):
+        assert getattr(motion, name) == pytest.approx(getattr(other, name), rel=1e-8), name
+    inertias = {"drive.motor.inertia": np.array([0.2, 0.3])}
+    rows, others = lw.steady_states(limited, inertias), lw.steady_states(free, inertias)
+    assert rows.speed_min == pytest.approx(others.speed_min, rel=1e-8)
+    assert lw.transient(limited, duration=0.4).speed[-1] == pytest.approx(
+        lw.transient(free, duration=0.4).speed[-1], rel=1e-8
+    )
 
 
 @pytest.mark.parametrize("at", [3.0, 6.0, 8.0, 10.0])

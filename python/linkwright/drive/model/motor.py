@@ -326,14 +326,15 @@ class DcMotor(Motor):
         return () if self.torque_max is None else tuple(speed for speed, _ in self.limited())
 
     def limited(self) -> tuple[tuple[float, float], ...]:
-        """Ends of the straight part of a characteristic with a limit: speeds [rad/s] and torques [N m]."""
+        """Ends of the straight part of a characteristic with a limit: speeds [rad/s] and torques [N m].
+
+        The first speed is negative where the limit exceeds the stall torque.
+        """
         assert self.torque_max is not None
         assert self.torque_stall is not None
         share = self.torque_max / self.torque_stall
-        end = (self.speed_no_load * (1 + share), -self.torque_max)
-        if np.all(share < 1):
-            return (self.speed_no_load * (1 - share), self.torque_max), end
-        return (0.0, self.torque_stall), end
+        ends = (1 - share, self.torque_max), (1 + share, -self.torque_max)
+        return tuple((self.speed_no_load * at, torque) for at, torque in ends)
 
     @classmethod
     def _completed(cls, given: Values) -> Values:
