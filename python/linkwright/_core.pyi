@@ -1010,6 +1010,7 @@ class Status:
     INACCURATE: Final[Status]
     TWO_TURNS: Final[Status]
     SLIDES: Final[Status]
+    NEUTRAL: Final[Status]
 
     def __int__(self) -> int: ...
     @staticmethod
@@ -1092,12 +1093,14 @@ class NoSteadyMotion:
     """Why there is no steady motion; NaN where there is no such number.
 
     Crank angle at which the machine comes to rest or does not close [rad], speed from which it slows down
-    or which it exceeds [rad/s], accuracy reached.
+    or which it exceeds, or the fastest that repeats of a range [rad/s], the slowest of that range at the same
+    angle φ = 0 [rad/s], accuracy reached.
     """
 
     status: Final[Status]
     crank_angle: Final[float]
     speed: Final[float]
+    speed_slowest: Final[float]
     accuracy: Final[float]
 
 @final

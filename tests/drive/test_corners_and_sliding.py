@@ -196,3 +196,26 @@ gearbox = { ratio = 1, efficiency = 1 }
     assert motion.speed_max == pytest.approx(top, rel=1e-9)
     assert [other.speed_max for other in motion.others] == pytest.approx([middle, low], rel=1e-6)
     assert [other.multiplier < 1 for other in motion.others] == [False, True]
+
+
+def beside_a_jump(window: float, amplitude: float, *, is_steep: bool) -> lw.Machine:
+    """A load that falls by 40 N m at 12 rad/s and holds the motor a little below 12 and below 17 rad/s."""
+    base = 160.0 - 8.0 * (12.0 - window)
+    ripple = f"{amplitude}*cos(phi)"
+    more, tables = f"{ripple} + {base} - where(omega > 12, 40, 0)", ""
+    if is_steep:
+        more, torques = ripple, [base, base, base - 40.0, base - 40.0]
+        tables = f'\n[loads.T]\nkind = "torque_speed"\nspeed = [0, 12, 12.001, 20]\ntorque = {torques}\n'
+    text = FILE.format(inertia=5.0, speeds=[0, 10, 20], last=0, amplitude=0, more="")
+    return lw.loads(text.replace("60 + 0*cos(phi)", more) + tables)
+
+
+@pytest.mark.parametrize("is_steep", [False, True])
+@pytest.mark.parametrize("window", [0.3, 0.02, 0.0003])
+@pytest.mark.parametrize("share", [0.0, 1.2])
+def test_a_motion_right_below_a_jump_is_told(is_steep: bool, window: float, share: float) -> None:
+    """Both motions have the mean speed at which motor and mean load balance, to the square of the ripple."""
+    motion = lw.steady_state(beside_a_jump(window, share * window, is_steep=is_steep))
+    assert motion.speed_mean_time == pytest.approx(17.0 - window, rel=1e-4 * share * window + 1e-9)
+    assert [other.is_stable for other in motion.others] == [True]
+    assert motion.others[0].speed_mean_time == pytest.approx(12.0 - window, rel=1e-4 * share * window + 1e-7)

@@ -16,17 +16,20 @@ pub enum Status {
     TwoTurns = 4,
     /// The motion slides along a jump of a load over the speed.
     Slides = 5,
+    /// Drive and loads leave no work at a whole range of speeds: every one of them repeats.
+    Neutral = 6,
 }
 
 impl Status {
     /// All of them, by number.
-    pub const ALL: [Status; 6] = [
+    pub const ALL: [Status; 7] = [
         Status::Ok,
         Status::DoesNotClose,
         Status::NoSteadyMotion,
         Status::Inaccurate,
         Status::TwoTurns,
         Status::Slides,
+        Status::Neutral,
     ];
 
     /// What it means.
@@ -41,6 +44,9 @@ impl Status {
             Status::TwoTurns => "the motion repeats only after two revolutions of the crank",
             Status::Slides => {
                 "the motion slides along a jump of a load over the speed, where the load has no value of its own"
+            }
+            Status::Neutral => {
+                "no speed of its own: drive and loads leave no work over a range of speeds, and each of them repeats"
             }
         }
     }

@@ -201,6 +201,7 @@ pub(crate) struct NoSteadyMotion {
     status: Status,
     crank_angle: f64,
     speed: f64,
+    speed_slowest: f64,
     accuracy: f64,
 }
 
@@ -234,10 +235,11 @@ pub(crate) fn steady_state(
         Ok((found, curves)) => {
             SteadyOutcome::Motion(SteadyMotion::of(py, known.clone_ref(py), q, found, curves)?)
         }
-        Err(Failure { status, phi, omega, reached }) => SteadyOutcome::None(NoSteadyMotion {
+        Err(Failure { status, phi, omega, slowest, reached }) => SteadyOutcome::None(NoSteadyMotion {
             status: status.into(),
             crank_angle: phi,
             speed: omega,
+            speed_slowest: slowest,
             accuracy: reached,
         }),
     })

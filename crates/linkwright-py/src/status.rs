@@ -13,6 +13,7 @@ pub(crate) enum Status {
     Inaccurate = CoreStatus::Inaccurate as isize,
     TwoTurns = CoreStatus::TwoTurns as isize,
     Slides = CoreStatus::Slides as isize,
+    Neutral = CoreStatus::Neutral as isize,
 }
 
 impl From<CoreStatus> for Status {
@@ -24,6 +25,7 @@ impl From<CoreStatus> for Status {
             CoreStatus::Inaccurate => Status::Inaccurate,
             CoreStatus::TwoTurns => Status::TwoTurns,
             CoreStatus::Slides => Status::Slides,
+            CoreStatus::Neutral => Status::Neutral,
         }
     }
 }

@@ -170,7 +170,12 @@ def _others(steady: SteadyState) -> Iterator[str]:
             f"({other.speed_mean_time:.4g} rad/s on average)"
         )
         faster = other.period < steady.period
-        if other.is_stable:
+        if other.multiplier == 1.0:
+            yield (
+                f"A motion {range_} is one end of a range of motions that all repeat: within it neither "
+                "drive nor loads depend on the speed; the computed motion follows from a fast start."
+            )
+        elif other.is_stable:
             yield (
                 f"Another steady motion is possible, {range_}: a machine that starts near it stays there; "
                 "the computed one follows from a fast start."

@@ -487,12 +487,32 @@ def _failure(
         )
     if motion.status == Status.SLIDES:
         return sliding(machine, angle, speed)
+    if motion.status == Status.NEUTRAL:
+        return SteadyStateError(_neutral(compiled, motion.speed_slowest, speed))
     text = "was not decided within 500 revolutions" if np.isnan(reached) else f"{reached:.1e} was reached"
     return ConvergenceError(
         f"steady motion was not found to a relative accuracy of {accuracy:g} ({text}); reduce the accuracy, "
         "or check whether the mechanism nearly locks",
         method="collocation",
         iterations=12288,
+    )
+
+
+def _neutral(compiled: CompiledMachine, slowest: float, fastest: float) -> str:
+    """That a whole range of motions repeats."""
+    load, viscous = mean_over_turn(compiled)
+    omega = np.array([slowest if np.isinf(fastest) else 0.5 * (slowest + fastest)])
+    drive = float(compiled.motor_torques(omega).crank[0])
+    needed = float((load + viscous * omega + compiled.speed_load(omega) + mean_laws(compiled, omega))[0])
+    if np.isinf(fastest):
+        range_ = f"from {slowest:.5g} rad/s up" if slowest else "at any speed"
+    else:
+        range_ = f"from {slowest:.5g} to {fastest:.5g} rad/s at φ = 0"
+    return (
+        f"no steady motion of its own: {range_} the drive gives on average just what the loads take "
+        f"({drive:.4g} against {needed:.4g} N m at the crank), and neither depends on the speed, so the "
+        "machine keeps whatever speed of these it has; add a load that grows with speed or a motor whose "
+        "torque falls with it"
     )
 
 

@@ -4,11 +4,12 @@
 //! round. Where the drive's torque falls with speed and that of the loads does not, no other can repeat: two
 //! motions would draw nearer each other all round. Elsewhere the mean torque left for acceleration is looked
 //! at over levels of energy: at level E the machine has at every angle the kinetic energy of the known motion
-//! and E more. A change of sign besides that at E = 0 tells of another motion. This is exact for slight
+//! and E more. A change of sign besides that at E = 0, or no torque at all, tells of another motion. This is exact for slight
 //! changes of the motion and for a machine whose inertia outweighs the torques; [`crate::drive::march`] then finds
 //! out what there is.
 
 use crate::drive::cycle::{Machine, Turn};
+use crate::drive::layout::unbundle;
 use crate::drive::motor::Motor;
 use crate::drive::structure::Plan;
 use crate::kernel::radau::{B, S};
@@ -23,8 +24,17 @@ const FINE: i32 = 4;
 /// The fastest level has this many times the working speed at its slowest.
 const FASTEST: f64 = 3.0;
 
-/// A level at which the mean torque is below this share of its parts tells nothing.
+/// A mean torque below this share of its parts is none.
 const NOISE: f64 = 1e-9;
+
+/// The same of levels beside those at which the machine passes a kink.
+const BESIDE: f64 = 1e-6;
+
+/// Newton steps to the zero of a quantity that tells a kink, most often a speed, from that of the known motion.
+const LEVEL_SWEEPS: usize = 8;
+
+/// Distance of the levels right beside the known motion, as a share of its energy.
+const NEAR: f64 = 1e-3;
 
 impl Plan {
     /// Crank speed from which the net torque of drive and loads does not rise with speed, up to where the
@@ -49,10 +59,20 @@ impl Plan {
         (motor / q[self.drive.ratio]).max(R::splat(loads.fold(0.0, f64::max)))
     }
 
+    /// Whether the motor may have the same torque at a range of speeds.
+    fn may_be_neutral(&self) -> bool {
+        matches!(self.drive.motor, Motor::Off | Motor::Constant { .. } | Motor::Table { .. })
+    }
+
+    /// Whether the torque over the speed is drawn or written, so that it may rise and fall anywhere.
+    fn is_drawn(&self) -> bool {
+        let has_table = matches!(self.drive.motor, Motor::Table { .. }) || !self.drive.speed_loads.is_empty();
+        has_table || !self.laws.is_empty()
+    }
+
     /// How many levels there are in place of one.
     fn levels_in_place_of_one(&self) -> i32 {
-        let is_drawn = matches!(self.drive.motor, Motor::Table { .. }) || !self.drive.speed_loads.is_empty();
-        if is_drawn || !self.laws.is_empty() { FINE } else { 1 }
+        if self.is_drawn() { FINE } else { 1 }
     }
 }
 
@@ -76,7 +96,26 @@ impl<R: Real> Turn<R> {
                 #[inline(always)]
                 || self.torque_left(machine, energy),
             );
-            may = zero.select_lt(left, one, may);
+            may = left.select_lt(zero, may, one);
+        }
+        may
+    }
+
+    /// 1 in the lanes where drive and loads leave no torque right beside the motion: whatever is as fast repeats as well.
+    #[inline(always)]
+    pub fn may_be_neutral(&self, machine: &Machine<'_, R>) -> R {
+        let (one, zero) = (R::splat(1.0), R::splat(0.0));
+        let mut may = zero;
+        if !machine.plan.may_be_neutral() {
+            return may;
+        }
+        let near = self.bottom().energy * NEAR;
+        for energy in [-near, near] {
+            let left = R::out_of_line(
+                #[inline(always)]
+                || self.torque_left(machine, energy),
+            );
+            may = zero.select_lt(left.abs(), may, one);
         }
         may
     }
@@ -100,10 +139,84 @@ impl<R: Real> Turn<R> {
                     #[inline(always)]
                     || self.torque_left(machine, energy),
                 );
-                may = left.select_lt(zero, one, may);
+                may = zero.select_lt(left, may, one);
             }
         }
         may
+    }
+
+    /// u at φ = 0 of levels between which motions of one machine may lie, however near kinks or jumps over the speed are to
+    /// each other: above the solved motion, and below it.
+    #[inline(always)]
+    pub fn hints(&self, machine: &Machine<'_, R>) -> [Vec<f64>; 2] {
+        let mut hints = [Vec::new(), Vec::new()];
+        let first = |x: R| unbundle(&[x])[0];
+        // The last stage lies at the end of the cycle, where the machine is as at its start.
+        let Some(last) = self.steps.last().filter(|_| machine.plan.is_drawn()) else { return hints };
+        let inverse = unbundle(&[last.rows[S - 1].inverse])[R::LANES - 1];
+        let (start, least) = (first(self.steps[0].u), -first(self.bottom().energy));
+        // Right beside the known motion, from which nothing departs.
+        let mut signs = vec![(least * NEAR, 1.0), (-least * NEAR, -1.0)];
+        for energy in self.levels_of_kinks(machine) {
+            let known = first(energy);
+            if known > least && known.abs() > -least * NEAR {
+                let left = R::out_of_line(
+                    #[inline(always)]
+                    || self.torque_left(machine, energy),
+                );
+                signs.push((known, first(left)));
+            }
+        }
+        signs.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for ends in signs.windows(2) {
+            let is_known = ends[0].0 < 0.0 && ends[1].0 > 0.0;
+            if !is_known && ends[0].1 * ends[1].1 <= 0.0 {
+                hints[usize::from(ends[0].0 < 0.0)]
+                    .extend(ends.iter().map(|end| end.0.mul_add(inverse, start)));
+            }
+        }
+        hints
+    }
+
+    /// For each kink over the speed the levels right below and above those at which the machine passes it in the revolution.
+    #[inline(always)]
+    fn levels_of_kinks(&self, machine: &Machine<'_, R>) -> Vec<R> {
+        let beside = self.bottom().energy * BESIDE;
+        let mut levels = Vec::new();
+        let mut take = |low: R, high: R| {
+            let (low, high) = (self.layout.lowest(low), self.layout.highest(high));
+            levels.extend([low - beside, (low + high) * 0.5, high + beside]);
+        };
+        let infinity = R::splat(f64::INFINITY);
+        for speed in machine.plan.drive.kinks_of_lanes(&machine.plan.tables, machine.q) {
+            if !R::splat(0.0).any_below(speed) {
+                continue;
+            }
+            let (u, mut low, mut high) = (speed.squared() * 0.5, infinity, -infinity);
+            for step in &self.steps {
+                for (row, &X) in step.rows.iter().zip(&step.X) {
+                    let energy = (u - X) / row.inverse;
+                    (low, high) = (low.min(energy), high.max(energy));
+                }
+            }
+            take(low, high);
+        }
+        for kink in machine.plan.speed_kinks() {
+            let (mut low, mut high) = (infinity, -infinity);
+            for (k, step) in self.steps.iter().enumerate() {
+                let geometry = self.geometry_of(machine, k);
+                for i in 0..S {
+                    let known = machine.geometry_at(geometry, i);
+                    let value =
+                        |u: R| machine.plan.speed_kink_value(machine.q, kink, known, (u * 2.0).sqrt());
+                    let u = level_of(value, step.X[i]);
+                    let energy = (u - step.X[i]) / step.rows[i].inverse;
+                    (low, high) = (energy.select_lt(low, energy, low), high.select_lt(energy, energy, high));
+                }
+            }
+            take(low, high);
+        }
+        levels
     }
 
     /// The minimum of some quantities over the revolution.
@@ -151,6 +264,16 @@ impl<R: Real> Turn<R> {
         let (left, parts) = (self.layout.total(left), self.layout.total(parts));
         (parts * NOISE).select_lt(left.abs(), left, zero)
     }
+}
+
+/// u at which a quantity is zero, by Newton from a known u: most are nearly linear in it. Not finite where there is none.
+#[inline(always)]
+fn level_of<R: Real>(value: impl Fn(R) -> R, mut u: R) -> R {
+    for _ in 0..LEVEL_SWEEPS {
+        let aside = u * BESIDE;
+        u = u - value(u) * aside * 2.0 / (value(u + aside) - value(u - aside));
+    }
+    u
 }
 
 /// The minimum over a revolution of u, kinetic energy, 1/J and viscous coefficient.

@@ -13,11 +13,11 @@
 //! leapt over is read from the gain P(u) − u and its slope at both ends: the cubic through them must keep
 //! clear of zero, or the interval is halved.
 
-use crate::drive::cycle::{Machine, divide};
+use crate::drive::cycle::{Machine, Step, divide};
 use crate::drive::events::{Event, Events, Pull, Side};
 use crate::drive::mesh::{Crossing, Piece};
 use crate::kernel::call::poll;
-use crate::kernel::radau::{C, S, tail};
+use crate::kernel::radau::{B, C, S, tail};
 use crate::linkage::motion::Motion;
 
 /// What the polynomial of a step may have of the highest degree, as a share of u: with order 9, errors are
@@ -61,6 +61,17 @@ const HALVINGS: u32 = 8;
 /// bends towards zero, the gain itself may get there.
 const CLEAR: f64 = 0.9;
 
+/// Work below this share of its parts is none.
+const NO_WORK: f64 = 1e-8;
+
+/// Rounding of what carries inertias along, relative.
+const ROUNDING: f64 = 1e-14;
+
+/// How near to a motion that repeats, as a share of u, every other may repeat too; and how exactly the ends of the range of
+/// those are found.
+const BESIDE: f64 = 1e-4;
+const ENDS: f64 = 1e-7;
+
 /// A motion this near to a jump of a law, as a share of u, is on it.
 const ON_JUMP: f64 = 1e-9;
 
@@ -94,6 +105,19 @@ struct Revolution {
     crossings: Vec<Crossing>,
     /// Where it begins to slide along a jump of a law.
     slides: Option<Sliding>,
+    balance: Balance,
+}
+
+/// What drive and loads leave over a revolution.
+#[derive(Clone, Copy, Debug)]
+struct Balance {
+    /// Work \[J\].
+    work: f64,
+    /// That of their sizes, and what rounding leaves where there are none.
+    size: f64,
+    rounding: f64,
+    /// Whether no torque of the revolution depends on the speed.
+    is_even: bool,
 }
 
 /// Where a motion begins to slide along a jump of a law.
@@ -133,6 +157,9 @@ pub enum NoMotion {
     Rests { omega: f64, phi: f64 },
     /// At speed `omega` the machine still gains speed from turn to turn.
     RunsAway { omega: f64 },
+    /// Drive and loads leave no work over a revolution at any speed of a range: all of them repeat. Speeds at φ = 0; the
+    /// fastest may be infinite, the slowest zero.
+    Neutral { slowest: f64, fastest: f64 },
     /// It does not close at the angle `phi`.
     DoesNotClose { phi: f64 },
     /// No answer within the turns allowed.
@@ -160,9 +187,12 @@ struct March<'a> {
     steps: usize,
     /// Motions that repeat, from the fastest down.
     found: Vec<PeriodicMotion>,
+    /// Starts that are to be looked at.
+    hints: &'a [f64],
 }
 
-/// Motions that repeat, to about seven digits, from the fastest down; at least one.
+/// Motions that repeat, to about seven digits, from the fastest down; at least one. `hints` are u at φ = 0 between which
+/// some may lie, however near to each other.
 ///
 /// # Errors
 /// [`NoMotion`] says why there is none.
@@ -170,6 +200,7 @@ pub fn repeating(
     machine: &Machine<'_, f64>,
     breaks: &[f64],
     which: MotionChoice,
+    hints: &[f64],
 ) -> Result<Vec<PeriodicMotion>, NoMotion> {
     let m = Motion::new(&machine.plan.mechanism, machine.q);
     let working = 0.5 * machine.q[machine.plan.drive.speed_start].powi(2);
@@ -182,11 +213,29 @@ pub fn repeating(
         turns: 0,
         steps: 0,
         found: Vec::new(),
+        hints,
     };
     match march.walk(working, which) {
+        Err(NoMotion::Neutral { slowest, .. }) => march.take_range(slowest),
         _ if !march.found.is_empty() => Ok(march.found),
         Ok(()) => Err(NoMotion::Unknown),
         Err(reason) => Err(reason),
+    }
+}
+
+impl Balance {
+    /// Adds a step.
+    fn add(&mut self, machine: &Machine<'_, f64>, step: &Step<f64>) {
+        let Machine { plan, q, .. } = *machine;
+        for (i, row) in step.rows.iter().enumerate() {
+            let torque = plan.drive.torque(&plan.tables, q, (2.0 * step.X[i]).sqrt());
+            let carried = row.drift * step.X[i];
+            let left = (step.K[i] + carried) / row.inverse;
+            self.rounding += step.h * B[i] * carried.abs() / row.inverse * ROUNDING;
+            self.work += step.h * B[i] * left;
+            self.size += step.h * B[i] * (torque.abs() + (torque - left).abs());
+            self.is_even &= step.D[i] + row.drift == 0.0;
+        }
     }
 }
 
@@ -194,6 +243,15 @@ impl Revolution {
     /// What u gains over the revolution.
     fn gain(&self) -> f64 {
         self.end - self.start
+    }
+
+    /// Whether it repeats, and so do all that pass the same torques.
+    fn is_neutral(&self) -> bool {
+        let Balance { work, size, rounding, is_even } = self.balance;
+        is_even
+            && work.abs() <= NO_WORK * size + rounding
+            && self.crossings.is_empty()
+            && self.slides.is_none()
     }
 
     /// Where Newton expects a start that repeats.
@@ -240,7 +298,8 @@ impl March<'_> {
             if which == MotionChoice::Fastest && self.found.iter().any(|motion| motion.slides.is_none()) {
                 return Ok(());
             }
-            let next = high.next_below();
+            let hints = self.hints.iter().copied().filter(|&hint| hint < high.start);
+            let next = hints.fold(high.next_below(), f64::max);
             if high.gain() >= 0.0 && next < SLOWEST * working {
                 return Ok(());
             }
@@ -302,6 +361,9 @@ impl March<'_> {
         }
         // Where both sides of a jump drive a motion away, the gain leaps over zero: nothing repeats there.
         if (nearest.end / nearest.start - 1.0).abs() <= CLOSES {
+            if let Err(neutral @ NoMotion::Neutral { .. }) = self.revolution((1.0 - BESIDE) * nearest.start) {
+                return Err(neutral);
+            }
             let Revolution { pieces, crossings, growth, slides, .. } = nearest;
             self.found.push(PeriodicMotion { pieces, crossings, growth, slides });
         }
@@ -334,14 +396,66 @@ impl March<'_> {
         })
     }
 
-    /// The motion from a start through one revolution.
+    /// The motion from a start through one revolution; an error where it is one of many that repeat.
     fn revolution(&mut self, start: f64) -> Result<Revolution, NoMotion> {
+        let turn = self.turn_from(start)?;
+        let omega = (2.0 * start).sqrt();
+        if turn.is_neutral() { Err(NoMotion::Neutral { slowest: omega, fastest: omega }) } else { Ok(turn) }
+    }
+
+    /// Adds the ends of the range of motions around a speed that all repeat; an error where none is faster, but for one that
+    /// is its end.
+    fn take_range(mut self, omega: f64) -> Result<Vec<PeriodicMotion>, NoMotion> {
+        let (slowest, fastest) = self.range(omega);
+        let end = (1.0 + 2.0 * BESIDE) * 0.5 * fastest * fastest;
+        self.found.retain(|motion| motion.u() > end);
+        if self.found.is_empty() {
+            return Err(NoMotion::Neutral { slowest, fastest });
+        }
+        for omega in [fastest, slowest] {
+            let Revolution { pieces, crossings, slides, .. } = self.turn_from(0.5 * omega * omega)?;
+            self.found.push(PeriodicMotion { pieces, crossings, growth: 1.0, slides });
+        }
+        Ok(self.found)
+    }
+
+    /// The range of speeds around one that all repeat.
+    fn range(&mut self, omega: f64) -> (f64, f64) {
+        (self.turns, self.steps) = (0, 0);
+        let [slowest, fastest] = [0.25, 4.0].map(|by| {
+            let (mut inside, mut beyond) = (0.5 * omega * omega, 0.5 * omega * omega * by);
+            for _ in 0..DOUBLINGS {
+                if !self.is_neutral_from(beyond) {
+                    break;
+                }
+                (inside, beyond) = (beyond, beyond * by);
+            }
+            if self.is_neutral_from(beyond) {
+                return if by < 1.0 { 0.0 } else { f64::INFINITY };
+            }
+            while (beyond / inside - 1.0).abs() > ENDS {
+                let middle = (inside * beyond).sqrt();
+                *if self.is_neutral_from(middle) { &mut inside } else { &mut beyond } = middle;
+            }
+            (2.0 * inside).sqrt()
+        });
+        (slowest, fastest)
+    }
+
+    fn is_neutral_from(&mut self, start: f64) -> bool {
+        self.turn_from(start).is_ok_and(|turn| turn.is_neutral())
+    }
+
+    /// The motion from a start through one revolution, whatever others do.
+    fn turn_from(&mut self, start: f64) -> Result<Revolution, NoMotion> {
         self.turns += 1;
         if self.turns > TURNS_MAX {
             return Err(NoMotion::Unknown);
         }
         let (pieces, crossings) = (Vec::new(), Vec::new());
-        let mut turn = Revolution { start, end: start, growth: 1.0, pieces, crossings, slides: None };
+        let balance = Balance { work: 0.0, size: 0.0, rounding: 0.0, is_even: true };
+        let mut turn =
+            Revolution { start, end: start, growth: 1.0, pieces, crossings, slides: None, balance };
         let longest = divide(&[0.0, std::f64::consts::TAU], LONGEST)[1];
         let mut h = 0.25 * longest;
         let mut next_break = 1;
@@ -399,6 +513,7 @@ impl March<'_> {
                 }
                 turn.end = found.X[S - 1];
                 turn.growth *= found.growth;
+                turn.balance.add(self.machine, &found);
                 phi += step;
                 h = (step * factor).min(longest);
                 let is_break = step >= left;

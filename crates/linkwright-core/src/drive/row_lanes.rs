@@ -264,6 +264,11 @@ impl<'a, R: Real> RowLanes<'a, R> {
             #[inline(always)]
             || coarse.may_have_faster(&machine),
         );
+        let may_be_neutral = R::out_of_line(
+            #[inline(always)]
+            || coarse.may_be_neutral(&machine),
+        );
+        let may_have_faster = may_have_faster.max(may_be_neutral);
         // A motion that the machine departs from, or that may not be the fastest, is no answer.
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
         let is_stable = turn.multiplier.select_lt(one, one, zero);

@@ -68,6 +68,8 @@ pub struct Steady {
     pub sweeps: u32,
     /// Whether there may be faster, and slower, motions that repeat.
     pub may_have: Rivals,
+    /// u at φ = 0 at levels of energy that tell of them.
+    pub hints: Vec<f64>,
     /// Those that there are, from the fastest down.
     pub others: Vec<OtherMotion>,
 }
@@ -79,6 +81,8 @@ pub struct Rivals {
     pub faster: bool,
     /// Below it.
     pub slower: bool,
+    /// Right beside it, since drive and loads do not tell speeds apart there.
+    pub beside: bool,
 }
 
 /// Another motion of the machine that repeats.
@@ -103,14 +107,17 @@ pub struct Failure {
     /// there is none.
     pub phi: f64,
     /// Speed from which it slows down, which it still exceeds, or at which it slides \[rad/s\]; NaN where there is none.
+    /// Of a range of speeds that all repeat the fastest at φ = 0, infinite where there is none.
     pub omega: f64,
+    /// The slowest of that range at φ = 0 \[rad/s\], 0 where it goes down to rest.
+    pub slowest: f64,
     /// Accuracy that was reached.
     pub reached: f64,
 }
 
 impl Failure {
     fn new(status: Status) -> Self {
-        Failure { status, phi: f64::NAN, omega: f64::NAN, reached: f64::NAN }
+        Failure { status, phi: f64::NAN, omega: f64::NAN, slowest: f64::NAN, reached: f64::NAN }
     }
 }
 
@@ -120,6 +127,9 @@ impl From<NoMotion> for Failure {
             NoMotion::Rests { omega, phi } => Failure { phi, omega, ..Failure::new(Status::NoSteadyMotion) },
             NoMotion::RunsAway { omega } => Failure { omega, ..Failure::new(Status::NoSteadyMotion) },
             NoMotion::DoesNotClose { phi } => Failure { phi, ..Failure::new(Status::DoesNotClose) },
+            NoMotion::Neutral { slowest, fastest } => {
+                Failure { omega: fastest, slowest, ..Failure::new(Status::Neutral) }
+            }
             NoMotion::Unknown => Failure::new(Status::Inaccurate),
         }
     }
@@ -162,13 +172,15 @@ fn fastest_and(which: MotionChoice, plan: &Plan, q: &[f64], accuracy: f64) -> Re
         _ => None,
     };
     if let Some(found) = &stable {
-        let Rivals { faster, slower } = found.may_have;
-        if !faster && (!slower || which == MotionChoice::Fastest) {
+        let Rivals { faster, slower, beside } = found.may_have;
+        if !faster && !beside && (!slower || which == MotionChoice::Fastest) {
             return stable.ok_or(Failure::new(Status::Inaccurate));
         }
     }
-    match (repeating(&machine, &breaks, which), stable) {
+    let hints = stable.as_ref().map_or(&[][..], |found| &found.hints);
+    match (repeating(&machine, &breaks, which, hints), stable) {
         (Ok(motions), stable) => fastest_of(&search, &motions, stable),
+        (Err(reason @ NoMotion::Neutral { .. }), _) => Err(reason.into()),
         (Err(_), Some(found)) => Ok(found),
         (Err(reason), None) => Err(reason.into()),
     }
@@ -189,6 +201,11 @@ fn fastest_of(
             failed = failed.or(Some(Failure { phi, omega, ..Failure::new(Status::Slides) }));
             continue;
         }
+        // One end of a range that repeats: Newton's equations are singular there.
+        if motion.growth == 1.0 {
+            others.push(OtherMotion::from(motion));
+            continue;
+        }
         let is_known = |found: &&Steady| (motion.u() / found.marks[0].u - 1.0).abs() <= SAME;
         let solved = match known.as_ref().filter(is_known) {
             Some(found) => Ok(found.clone()),
@@ -201,6 +218,15 @@ fn fastest_of(
                 others.push(OtherMotion::from(motion));
                 failed = failed.or(Some(failure));
             }
+        }
+    }
+    // The march goes from start to start, and may not have met what is solved already.
+    if let (Some(answer), Some(known)) = (&answer, &known) {
+        let u = known.marks[0].u;
+        let is_met = |motion: &PeriodicMotion| (motion.u() / u - 1.0).abs() <= SAME;
+        if (answer.marks[0].u / u - 1.0).abs() > SAME && !motions.iter().any(is_met) {
+            others.push(OtherMotion::from(known));
+            others.sort_by(|a, b| a.period.total_cmp(&b.period));
         }
     }
     match (answer.or(known), failed) {
@@ -334,6 +360,7 @@ impl Job for Search<'_> {
                 let (accuracy, scale) = (self.accuracy.max(reached), turn.acceleration_scale());
                 // Ends of steps lie beside kinks of the speed by up to a millionth of a step; with jumps they lie on them.
                 let corners = if may_jump { Vec::new() } else { events.corners(&pieces, &mut plain_motion) };
+                let hints = turn.hints(&machine);
                 let (between, off) = turn.between(&machine, accuracy, scale, &mut m).unzip();
                 return Ok(Steady {
                     marks: turn.marks(),
@@ -348,9 +375,11 @@ impl Job for Search<'_> {
                     reached: off.map_or(reached, |off| reached.max(off)),
                     sweeps,
                     may_have: Rivals {
-                        faster: first_lane(turn.may_have_faster(&machine)) > 0.5,
-                        slower: first_lane(turn.may_have_slower(&machine)) > 0.5,
+                        faster: first_lane(turn.may_have_faster(&machine)) > 0.5 || !hints[0].is_empty(),
+                        slower: first_lane(turn.may_have_slower(&machine)) > 0.5 || !hints[1].is_empty(),
+                        beside: first_lane(turn.may_be_neutral(&machine)) > 0.5,
                     },
+                    hints: hints.concat(),
                     others: Vec::new(),
                 });
             };
