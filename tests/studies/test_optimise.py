@@ -130,3 +130,29 @@ def test_a_front_of_two_goals(tmp_path: Path) -> None:
         lw.front(
             lw.read_study(tmp_path / "study.toml", ["study.goals.other=minimise", "study.goals.x=minimise"])
         )
+
+
+def test_entries_of_a_catalogue(tmp_path: Path) -> None:
+    """The weakest motor with enough torque; one that has not says so."""
+    text = (
+        TEXT[: TEXT.index("[responses]")]
+        + """
+[variables.motor]
+address = "drive.motor.catalogue"
+values = ["4A132M6U3", "4A160M6U3", "4A250M6U3"]
+[responses]
+power = { entry = "drive.motor.power_rated" }
+torque = { entry = "drive.motor.torque_rated" }
+radius = { entry = "mechanism.cranks.A1.radius" }
+[constraints]
+torque = { min = "85 N m" }
+radius = { max = "0.2 m" }
+[goals]
+power = "minimise"
+"""
+    )
+    found = optimum(tmp_path, text.replace("roller_two_carts", "roller_one_cart"), 20)
+    assert found.variables["motor"] == "4A160M6U3"
+    assert found.responses["power"] == 15e3
+    assert found.variables["r"] == found.responses["radius"] <= 0.2
+    assert [one["refused"] for one in found.tried] == ["torque 73.83 N m below 85", None, None]

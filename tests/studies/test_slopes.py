@@ -25,6 +25,8 @@ delta = "steady_state.unevenness"
 root = { formula = "sqrt(delta)*crank" }
 top = { curve = "steady_state.speed", extreme = "max" }
 scaled = { formula = "2*top" }
+power = { entry = "drive.motor.torque_rated" }
+long = { entry = "mechanism.sliders.cart1.rod" }
 """
 
 
@@ -34,8 +36,10 @@ def test_exact_ones_are_those_of_differences(tmp_path: Path) -> None:
     plan = lw.read_study(tmp_path / "study.toml")
     at, steps = np.array([0.2, 1.2]), np.array([2e-4, 1e-3])
     found, measured = slopes(plan, at, steps), _differences(plan, at, steps)
-    assert found.exact == {"delta", "root"}
+    assert found.exact == {"delta", "root", "power", "long"}
     for name in plan.responses:
         assert found.values[name] == pytest.approx(measured[name].value, rel=1e-8)
         assert found.slopes[name] == pytest.approx(measured[name].d, rel=1e-6), name
-    assert lw.tolerance(plan, 100).exact == ("delta", "root")
+    assert (found.values["power"], found.values["long"]) == (107.7, pytest.approx(0.8, rel=1e-15))
+    assert found.slopes["long"].tolist() == [4.0, 0.0]
+    assert lw.tolerance(plan, 100).exact == ("delta", "root", "power", "long")

@@ -25,7 +25,7 @@ from linkwright.machine.address import get, replace
 from linkwright.machine.machine import Machine
 from linkwright.machine.overrides import Override, apply
 from linkwright.studies.plan import Formula, StudyPlan
-from linkwright.studies.responses import MOTION, SAMPLES, StudyResponse, analysis, taken
+from linkwright.studies.responses import ENTRY, MOTION, SAMPLES, StudyResponse, analysis, entry_number, taken
 
 Floats = NDArray[np.float64]
 
@@ -181,7 +181,7 @@ def _solve(
     batch = [asked for asked in plan.asked if asked.is_batch and entries]
     single = [asked for asked in plan.asked if asked not in batch]
     own = {address: column[members] for address, column in entries.items()}
-    for name, solve in (("steady_state", _steady), (MOTION, _motion)):
+    for name, solve in (("steady_state", _steady), (MOTION, _motion), (ENTRY, _entry_numbers)):
         wanted = [asked for asked in batch if asked.analysis == name]
         if wanted:
             try:
@@ -238,6 +238,20 @@ def _motion(
         rows.fail(open_rows, FAILED, "The links do not close at every required crank angle.")
 
 
+def _entry_numbers(
+    machine: Machine,
+    entries: dict[str, Floats],
+    wanted: list[StudyResponse],
+    rows: Rows,
+    members: NDArray[np.intp],
+) -> None:
+    """Entries of all rows at once."""
+    for asked in wanted:
+        (address,) = asked.of
+        varied = entries.get(address)
+        rows.columns[asked.name][members] = entry_number(machine, address) if varied is None else varied
+
+
 def _one_by_one(
     machine: Machine,
     entries: dict[str, Floats],
@@ -276,6 +290,9 @@ def numbers(machine: Machine, wanted: list[StudyResponse]) -> list[float]:
     for asked in wanted:
         if asked.analysis == MOTION:
             answers.append(_place(machine, asked))
+            continue
+        if asked.analysis == ENTRY:
+            answers.append(entry_number(machine, *asked.of))
             continue
         if asked.key not in results:
             results[asked.key] = analysis(asked.analysis)(machine, *asked.of)

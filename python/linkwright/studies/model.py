@@ -89,7 +89,7 @@ class Variable(CheckedDescription):
 
 
 class Response(CheckedDescription):
-    """A number that is asked for: a scalar of an analysis, a number of a curve, or a formula of others."""
+    """A number that is asked for: a scalar of an analysis, a number of a curve, an entry, or a formula."""
 
     quantity: str | None = Field(None, description='Scalar of an analysis, "steady_state.unevenness".')
     curve: str | None = Field(None, description='Curve of an analysis, "steady_state.speed".')
@@ -98,13 +98,16 @@ class Response(CheckedDescription):
     )
     index: Whole | None = Field(None, ge=0, description="Place in a list, from 0.")
     at: Angle | None = Field(None, description="Crank angle at which a motion is taken.")
+    entry: str | None = Field(
+        None, description='Number of the machine, "drive.motor.power_rated", also one of a catalogue.'
+    )
     formula: str | None = Field(None, description="Formula of variables and other responses, in SI.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
-        ways = ("quantity", "curve", "formula")
+        ways = ("quantity", "curve", "entry", "formula")
         given = [way for way in ways if getattr(self, way) is not None]
         if len(given) != 1:
-            yield fault(found=" and ".join(given) or None, expected="one of quantity, curve, formula")
+            yield fault(found=" and ".join(given) or None, expected="one of quantity, curve, entry, formula")
         picks = [pick for pick in ("extreme", "index", "at") if getattr(self, pick) is not None]
         if self.curve is not None and len(picks) != 1:
             remedy = "a response is one number"

@@ -68,7 +68,10 @@ class Optimum(Result):
     worth: Annotated[tuple[str, ...], About("The same in words.")]
     tried: Annotated[
         tuple[dict[str, Any], ...],
-        About("Best value of each combination of choices; None if no limit is kept."),
+        About(
+            "Each combination of choices: its best value, and with None instead, under `refused`, what its "
+            "nearest machine passes or why it has no answer."
+        ),
     ]
     n_evaluations: Annotated[int, Label("machines that were computed", "", "")]
     n_failed: Annotated[int, Label("machines without a result", "", "")]
@@ -185,11 +188,13 @@ class _Search:
             self._evolve(shares, free, evaluations, seed)
             if method == "both" and self.best is not None and self.best[0][0] < 2:
                 self._descend([self.best[1]])
-        own = (3, 0.0) if self.best is None else self.best[0]
+        own_best = self.best
+        own = (3, 0.0) if own_best is None else own_best[0]
         if before is not None and (self.best is None or before[0] <= own):
             self.best = before
         chosen = {axis.name: _chosen(axis, fixed[axis.name]) for axis in self.plan.axes if axis.choices}
-        self.tried.append({**chosen, self.goal: self.sign * own[1] if own[0] == 0 else None})
+        best = self.sign * own[1] if own[0] == 0 else None
+        self.tried.append({**chosen, self.goal: best, "refused": self._against(own_best)})
 
     def _evolve(self, shares: Floats, free: list[int], evaluations: int, seed: int) -> None:
         """Populations of the evolution strategy."""
@@ -290,6 +295,24 @@ class _Search:
         assert self.best is not None
         plan, kept = numbers_alone(self.plan, self.best[1])
         return prices(plan, self.goal, self.sign, self.best[1][kept], _ACTIVE)
+
+    def _against(self, best: tuple[tuple[int, float], Floats] | None) -> str | None:
+        """Why no machine of a combination of choices serves; None if one does."""
+        if best is None:
+            return "no machine was computed"
+        (rank, _), shares = best
+        if rank == 0:
+            return None
+        rows = evaluate(self.plan, self.plan.values(shares[None]))
+        if rank > 1:
+            return str(rows.reasons[rows.reason[0]])
+        passed = []
+        for name, (low, high) in self.plan.limits.items():
+            number, unit = rows.columns[name][0], self.plan.units[name]
+            if not low <= number <= high:
+                limit, word = (low, "below") if number < low else (high, "above")
+                passed.append(f"{name} {number:.4g} {unit}".rstrip() + f" {word} {limit:.4g}")
+        return ", ".join(passed)
 
     def _refusal(self) -> str:
         if self.best is not None and self.best[0][0] == 1:

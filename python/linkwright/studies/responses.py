@@ -21,6 +21,7 @@ from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import FindingError, MachineError, Problem, show
 from linkwright.kernel.quantities import Label, declared, is_array
 from linkwright.kernel.result import Result
+from linkwright.machine.address import addresses, get, kind
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 from linkwright.studies.model import Response
@@ -47,8 +48,8 @@ ANALYSES = {
     "forced_vibration": "torsion.response.forced:forced_vibration",
 }
 
-# The analysis of points alone, which needs no drive.
-MOTION = "motion"
+# The analysis of points alone, which needs no drive; and what is no analysis, but stands in the machine.
+MOTION, ENTRY = "motion", "entry"
 
 # What the core gives of the steady motion of many machines.
 _OF_BATCH = {*SteadyStates.__dataclass_fields__, *vars(SteadyStates)}
@@ -69,7 +70,7 @@ class StudyResponse:
     analysis : str
         Analysis that it comes from.
     of : tuple of str
-        Name of the cam, or of the point, where there are several.
+        Name of the cam, or of the point, where there are several; address of an entry.
     quantity : str
         Attribute of the result; of a point ``"x"`` or ``"y"``.
     word, unit : str
@@ -101,7 +102,7 @@ class StudyResponse:
     def is_batch(self) -> bool:
         """Whether the core computes it for many machines at once."""
         is_scalar = self.extreme is None and self.index is None
-        return self.analysis == MOTION or (
+        return self.analysis in (MOTION, ENTRY) or (
             self.analysis == "steady_state" and is_scalar and self.quantity in _OF_BATCH
         )
 
@@ -149,6 +150,8 @@ def asked(machine: Machine, name: str, response: Response) -> StudyResponse:
 
     Raises `MachineError`: no such analysis or quantity, a curve where a number belongs, or the reverse.
     """
+    if response.entry is not None:
+        return _of_entry(machine, name, response.entry)
     text = response.quantity or response.curve or ""
     first, *rest = text.split(".")
     key = "quantity" if response.quantity is not None else "curve"
@@ -171,6 +174,27 @@ def asked(machine: Machine, name: str, response: Response) -> StudyResponse:
     return StudyResponse(
         name, first, tuple(of), quantity, mark.word, mark.unit, response.extreme, response.index
     )
+
+
+def _of_entry(machine: Machine, name: str, address: str) -> StudyResponse:
+    """A number of the machine, given or of a catalogue."""
+    try:
+        value, mark = get(machine, address), kind(machine, address)
+    except MachineError as error:
+        remedy = error.problems[0].remedy or suggestion(address, addresses(machine))
+        raise _wrong(name, "entry", address, "the address of an entry", remedy) from None
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        found = f"{address}, which is no number" if value is not None else f"{address}, which is not given"
+        raise _wrong(name, "entry", found, "the address of a number")
+    return StudyResponse(name, ENTRY, (address,), address, address, mark.unit if mark else "")
+
+
+def entry_number(machine: Machine, address: str) -> float:
+    """A number of a machine; a `FindingError` if this machine has none there."""
+    value = get(machine, address)
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise FindingError(f"{address} has no number in this machine")
+    return float(value)
 
 
 def _of_motion(machine: Machine, name: str, key: str, text: str, response: Response) -> StudyResponse:

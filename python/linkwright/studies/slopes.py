@@ -24,7 +24,7 @@ from linkwright.machine.machine import Machine
 from linkwright.sensitivity.sources import SOURCES, Source, source
 from linkwright.studies.engine import SOLVED, evaluate, sound_variant
 from linkwright.studies.plan import Formula, StudyPlan
-from linkwright.studies.responses import StudyResponse
+from linkwright.studies.responses import ENTRY, StudyResponse, entry_number
 
 Floats = NDArray[np.float64]
 
@@ -140,6 +140,11 @@ def _analysed(plan: StudyPlan, known: Mapping[str, Any]) -> tuple[dict[str, Tang
     tangents: dict[str, Tangent] = {}
     ties: dict[str, str] = {}
     for asked in plan.asked:
+        if asked.analysis == ENTRY:
+            given = entries.get(*asked.of)
+            tangents[asked.name] = _tangent(
+                entry_number(machine, *asked.of) if given is None else given, len(plan.axes)
+            )
         if asked.analysis not in SOURCES or asked.extreme is not None:
             continue
         if asked.analysis not in sources:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from linkwright.kernel.page.numbers import measured, number
 from linkwright.kernel.page.table import Row, Table
 from linkwright.studies.allocation import Allocation
@@ -85,16 +87,23 @@ def optimum_tables(optimum: Optimum, units: dict[str, str]) -> list[Table]:
         rows.append((name, "", measured(value, units[name]) if is_number else str(value)))
     tables = [Table("optimum", f"Best by {optimum.goal}", ("name", "", "value"), rows)]
     if optimum.tried:
-        heads = [*optimum.tried[0]]
+        names = [name for name in optimum.tried[0] if name != "refused"]
+
+        def cell(name: str, value: Any) -> str:
+            if value is None or isinstance(value, float):
+                return measured(value, units.get(name, ""))
+            return str(value)
+
         listed: list[Row] = [
             (
-                str(candidate[heads[0]]),
+                cell(names[0], one[names[0]]),
                 "",
-                *("–" if candidate[key] is None else str(candidate[key]) for key in heads[1:]),
+                *(cell(name, one[name]) for name in names[1:]),
+                one["refused"] or "",
             )
-            for candidate in optimum.tried
+            for one in optimum.tried
         ]
-        tables.append(Table("tried", "Choices", (heads[0], "", *heads[1:]), listed))
+        tables.append(Table("tried", "Choices", (names[0], "", *names[1:], "nearest"), listed))
     return tables
 
 
