@@ -1,4 +1,4 @@
-"""Which motor, gear ratio and flywheel are cheapest for a required evenness of motion, start and speed?
+"""Which motor, gear ratio and flywheel are cheapest for a required speed fluctuation, start and speed?
 
 Two active limits determine ratio and flywheel: two equations, solved on their own.
 """
