@@ -98,6 +98,21 @@ def test_out(file: str, tmp_path: Path) -> None:
     assert [each["name"] for each in parts] == ["fast", "slow", "stage"]
 
 
+def test_out_has_every_figure_of_the_report(file: str, tmp_path: Path) -> None:
+    """The manoeuvre too, as picture for a text."""
+    hit = "{ kind = 'torque', time = 0.05, on = 'motor', torque = 9 }"
+    out = tmp_path / "out"
+    assert (
+        run(
+            file, "--set", f"train.transient={{ duration = 0.2, events = [{hit}] }}", "--out", str(out)
+        ).exit_code
+        == 0
+    )
+    for name in ("scheme", "mode_shapes", "transient"):
+        assert (out / f"{name}.svg").read_text(encoding="utf-8").startswith("<svg")
+        assert (out / f"{name}.png").read_bytes().startswith(b"\x89PNG")
+
+
 def test_drive_study_with_stiffness(tmp_path: Path) -> None:
     text = (Path(__file__).parents[2] / "machines" / "roller_two_carts.toml").read_text(encoding="utf-8")
     path = tmp_path / "drive.toml"

@@ -72,13 +72,18 @@ def test_formulas_in_the_notation_of_typst(formula: str, written: str) -> None:
     assert typst(Formula("", formula, "").text) == written
 
 
-@pytest.mark.parametrize(("height", "millimetres"), [(400, 215.0), (100, 170.0)])
-def test_a_picture_fits_on_its_page(height: int, millimetres: float) -> None:
-    """A picture has the width of the text, 170 mm; one that would be longer than a page is made smaller."""
+@pytest.mark.parametrize(
+    ("width", "height", "millimetres"),
+    [(600, 2400, 215.0), (600, 600, 170.0), (600, 500, 104.0), (600, 300, 85.0), (200, 200, 25.4 * 200 / 72)],
+)
+def test_a_picture_fits_on_its_page(width: int, height: int, millimetres: float) -> None:
+    """A picture has the width of the text, 170 mm, at most; one that would be longer than a page is made
+    smaller, and one of somewhat more than half a page, so that two stand on it.
+    """
     typst = pytest.importorskip("typst")
     style = _STYLE.format(title='""', foot="", language='"en"')
     asked = '#layout(page => [#metadata(measure(..page, picture("a.svg")).height.mm()) <height>])'
-    drawn = f'<svg xmlns="http://www.w3.org/2000/svg" width="100" height="{height}"></svg>'
+    drawn = f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}pt" height="{height}pt"></svg>'
     files = {"main.typ": (style + asked).encode(), "a.svg": drawn.encode()}
     (found,) = json.loads(typst.query(files, "<height>", field="value"))
     assert found == pytest.approx(millimetres, abs=0.01)

@@ -16,6 +16,9 @@ from linkwright.kernel.page.table import Table
 # A table of more columns is set on a page that lies.
 _BROAD = 10
 
+# Letters of a cell from which on it holds a list of words, not a number with its unit and its place.
+_WORDY = 30
+
 
 def pdf(content: Content) -> bytes:
     """A report as a PDF file; the same content gives the same file. An `InputError` without Typst, or for a
@@ -142,8 +145,14 @@ def _table(table: Table) -> str:
     cells = ", ".join(
         f"[{_text(cell, indices=place == 1)}]" for row in table.rows for place, cell in enumerate(row)
     )
-    set_ = f"#data({n}, [{_text(table.title)}], table.header({heads}), {cells})"
+    wordy = "".join(f"{str(_is_wordy(table, place)).lower()}, " for place in range(1, n))
+    set_ = f"#data(({wordy}), [{_text(table.title)}], table.header({heads}), {cells})"
     return f"#page(flipped: true)[{set_}]" if n > _BROAD else set_
+
+
+def _is_wordy(table: Table, place: int) -> bool:
+    """Whether a column beside the first holds lists of words that are broken into lines."""
+    return any(len(row[place]) > _WORDY for row in table.rows)
 
 
 def _figure(captioned: CaptionedFigure) -> str:
@@ -197,7 +206,8 @@ def _repeat(content: Content) -> Iterator[str]:
     code = f"#code({_string(content.command)})"
     yield f"#block(breakable: false)[== {words('Reproduce this report')}\n{made}\n{code}]"
     if content.file:
-        yield words("The machine as computed, overrides included, as a machine file in SI:")
+        told = words("The machine as computed, overrides included, as a machine file in SI:")
+        yield f"#block(sticky: true)[{told}]"
         yield f"#code({_string(content.file)})"
 
 
@@ -242,19 +252,25 @@ _STYLE = """#set document(title: {title}, date: none)
 #let few(word, value, unit) = block(width: 100%, fill: rgb("#f4f6f8"), inset: 7pt, radius: 3pt)[
   #note(word) \\ #text(14pt, value) #note(unit)
 ]
-#let data(n, title, ..cells) = layout(page => {{
-  let set_in(letters, first) = {{
+#let data(wordy, title, ..cells) = layout(page => {{
+  let set_in(letters, first, other) = {{
     set text(letters)
-    table(columns: (first,) + (auto,) * (n - 1), stroke: none, inset: (x: 0pt, y: 3pt), column-gutter: 9pt,
+    let others = wordy.map(is => if is {{ other }} else {{ auto }})
+    table(columns: (first,) + others, stroke: none, inset: (x: 0pt, y: 3pt), column-gutter: 9pt,
       table.hline(stroke: 0.4pt + soft), ..cells, table.hline(stroke: 0.4pt + soft))
   }}
-  let fits(letters) = measure(set_in(letters, 38mm)).width <= page.width
+  let fits(letters) = measure(set_in(letters, 38mm, 38mm)).width <= page.width
   let letters = if fits(9pt) {{ 9pt }} else if fits(8pt) {{ 8pt }} else {{ 7pt }}
   block(above: 1.2em, below: 0.5em, sticky: true, text(letters, strong(title)))
-  set_in(letters, if fits(letters) {{ 1.6fr }} else {{ auto }})
+  let share(size) = if fits(letters) {{ size }} else {{ auto }}
+  set_in(letters, share(1.6fr), share(1fr))
 }})
 #let picture(place) = layout(page => {{
-  let tall = measure(image(place, width: page.width)).height
-  if tall > 215mm {{ align(center, image(place, height: 215mm)) }} else {{ image(place, width: page.width) }}
+  // One that is drawn for less than the width of the page is not made larger.
+  let wide = calc.min(page.width, measure(image(place)).width)
+  let tall = measure(image(place, width: wide)).height
+  // Two of those that take somewhat more than half a page stand on one.
+  let most = if tall <= 104mm {{ tall }} else if tall <= 160mm {{ 104mm }} else {{ 215mm }}
+  align(center, if tall > most {{ image(place, height: most) }} else {{ image(place, width: wide) }})
 }})
 """

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 Folder = Annotated[
     Path | None,
-    out_option("Write report.html, results.json, and scheme and mode shapes as SVG and PNG there."),
+    out_option("Write report.html, results.json, CSV of all curves, and all figures as SVG and PNG there."),
 ]
 Curves = Annotated[
     bool, Option("--curves", help="With --json: every order over the speed, and the manoeuvre over time.")
@@ -149,8 +149,10 @@ def _report(study: TorsionStudy) -> Content:
 
 
 def _figures(study: TorsionStudy) -> dict[str, Figure]:
-    """The scheme of the train and its mode shapes."""
-    from linkwright.torsion.figures.modes import modes_figure
-    from linkwright.torsion.figures.scheme import scheme_figure
+    """The figures of the report, under names that files may have."""
+    from linkwright.kernel.files.output import file_names
+    from linkwright.torsion.figures.captions import torsion_figures
 
-    return {"scheme": scheme_figure(study.scheme), "mode_shapes": modes_figure(study.free)}
+    drawn = {one.name: one.figure for one in torsion_figures(study)}
+    names = file_names(dict.fromkeys(drawn, ""))
+    return {names[name]: figure for name, figure in drawn.items()}
