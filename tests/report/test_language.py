@@ -8,11 +8,14 @@ from pathlib import Path
 
 import pytest
 
+import linkwright as lw
 from linkwright.app.commands.report import _content
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.figure.in_language import _said
 from linkwright.kernel.page.html import html
 from linkwright.kernel.page.language import ENGLISH, Language, in_language, language
+from linkwright.torsion.page import torsion_content
+from linkwright.torsion.study import torsion_study
 
 UKRAINIAN = language("uk")
 
@@ -56,6 +59,8 @@ class Watched(Language):
         ("Press #3", "Press #3"),
         ("The follower rises by 5.5 mm; derivatives are by the cam angle.", FOLLOWER),
         ("≥ 4.85 1/m", "≥ 4,85 1/м"),
+        ("Measured angle of front, order 8", "Виміряний кут front, порядок 8"),
+        ("trial: torque of line, order 4.5", "trial: момент line, порядок 4,5"),
         ("Motion of cart 2.5 and cart 3.5", "Рух cart 2.5 і cart 3.5"),
         ("2.5-axle at most 3.5 N", "2.5-axle — не більше 3,5 Н"),
         (
@@ -145,3 +150,13 @@ def test_names_of_the_machine_stay() -> None:
 def test_an_unknown_language_is_refused() -> None:
     with pytest.raises(InputError, match='--lang: found "xx", expected one of en, uk'):
         language("xx")
+
+
+def test_only_names_of_the_file_stay() -> None:
+    """A table of the file such as `limit` is no name; `coupling`, so named by the file, is one."""
+    told = in_language(torsion_content(torsion_study(lw.read("v8_survey"))), UKRAINIAN)
+    heads = [head for part in told.parts for table in part.tables for head in table.heads]
+    assert "межа" in heads
+    assert "limit" not in heads
+    rows = [row for part in told.parts for table in part.tables for row in table.rows]
+    assert any(row[0] == "coupling" for row in rows)

@@ -37,11 +37,12 @@ class Entry(NamedTuple):
 
 
 class Part(NamedTuple):
-    """A part of a machine: its group, its name, and its entries."""
+    """A part of a machine: its group, its name, its entries, and whether the file gives it that name."""
 
     group: str
     name: str
     entries: list[Entry]
+    is_named: bool = False
 
 
 def machine_parts(machine: Machine) -> list[Part]:
@@ -144,10 +145,12 @@ def _run_up(machine: Machine) -> Iterator[Part]:
 def _part(group: str, machine: Machine, place: Place) -> Part:
     """One part with all entries that it has."""
     node: Any = machine
+    around: Any = None
     for key in place:
-        node = look(node, key)
+        node, around = look(node, key), node
     entries = list(_entries(machine, place, node))
-    return Part(group, place[-1].replace("_", " ") if len(place) < 3 else place[-1], entries)
+    name = place[-1].replace("_", " ") if len(place) < 3 else place[-1]
+    return Part(group, name, entries, isinstance(around, dict))
 
 
 def _entries(machine: Machine, place: Place, node: object, before: str = "") -> Iterator[Entry]:

@@ -174,7 +174,7 @@ def in_language(content: Content, to: Language) -> Content:
     """A content in a language; its figures are changed in place, and names of the machine's parts stay."""
     if to.code == "en":
         return content
-    names = {part.name for _, parts in content.groups for part in parts}
+    names = {part.name for _, parts in content.groups for part in parts if part.is_named}
     texts = {text: words for text, words in to.texts.items() if text not in names}
     changed: Content = _changed(content, replace(to, texts=texts))
     return replace(changed, language=to)

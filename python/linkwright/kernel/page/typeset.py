@@ -206,8 +206,8 @@ def _repeat(content: Content) -> Iterator[str]:
     code = f"#code({_string(content.command)})"
     yield f"#block(breakable: false)[== {words('Reproduce this report')}\n{made}\n{code}]"
     if content.file:
-        told = words("The machine as computed, overrides included, as a machine file in SI:")
-        yield f"#block(sticky: true)[{told}]"
+        sentence = words("The machine as computed, overrides included, as a machine file in SI:")
+        yield f"#block(sticky: true)[{sentence}]"
         yield f"#code({_string(content.file)})"
 
 
