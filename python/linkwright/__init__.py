@@ -40,6 +40,7 @@ _HOME = {
     "shown_in": "kernel.page.out_units",
     "circuits": "linkages.circuits",
     "coupler_curve": "linkages.coupler_curve",
+    "centrodes": "linkages.centrodes",
     "period_turns": "linkages.period",
     "pose": "linkages.pose",
     "motion": "linkages.motion",
@@ -211,6 +212,7 @@ if TYPE_CHECKING:
     from linkwright.kinetostatics.envelope import load_cases as load_cases
     from linkwright.kinetostatics.forces import forces as forces
     from linkwright.kinetostatics.friction import Friction as Friction
+    from linkwright.linkages.centrodes import centrodes as centrodes
     from linkwright.linkages.circuits import circuits as circuits
     from linkwright.linkages.closure import closure as closure
     from linkwright.linkages.coupler_curve import coupler_curve as coupler_curve

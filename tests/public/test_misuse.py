@@ -65,6 +65,7 @@ def _calls() -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
         "kinematics": {"machine": cart, "angles": TURN, "third": False},
         "motions": {"machine": cart, "angles": TURN, "slides": ["cart1"], "out": None},
         "coupler_curve": {"machine": cart, "point": "A1", "straight": 0.001},
+        "centrodes": {"machine": cart, "link": "cart1.rod", "angles": [0.5, 1.0]},
         "pose": {"machine": cart, "crank_angle": 1.0, "speed": 2.0, "acceleration": 3.0},
         "motion": {"machine": cart, "law": (TURN, TURN), "times": TURN},
         "reduction": {"machine": cart, "n": 8},

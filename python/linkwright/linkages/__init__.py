@@ -2,6 +2,7 @@
 
 | module | |
 | --- | --- |
+| `centrodes` | About which point does a link turn, and what does that point trace on frame and link? |
 | `circuits` | In which assembly modes does it close, and which form one circuit? |
 | `closure` | At which crank angles does the mechanism close? |
 | `commands` | `linkwright motion FILE`: poses at one crank angle, over one revolution or over time |

@@ -25,6 +25,8 @@ from linkwright.app.report.scene import moving_scene
 from linkwright.drive.steady_state import SteadyState
 from linkwright.kernel.description.place import join
 from linkwright.kinetostatics.result import Forces
+from linkwright.linkages.centrodes import centrodes_of
+from linkwright.linkages.kinematics import Kinematics
 from linkwright.linkages.model.mechanism import Mechanism
 from linkwright.linkages.model.structure import structure
 from linkwright.linkages.model.topology import ORIGIN
@@ -55,7 +57,29 @@ def drawing(machine: Machine, steady: SteadyState | None, acting: Forces | None)
         "accelerations": {name: acceleration for name, (_, acceleration) in rates.items()},
         "forces": _acting(machine, scene, acting) if acting is not None else [],
         "handles": handles(machine),
+        "centres": dict(_centres(machine, motion)),
     }
+
+
+def _centres(machine: Machine, motion: Kinematics) -> Iterator[tuple[str, dict[str, Any]]]:
+    """Instant centres of links that turn about no fixed point.
+
+    ``fixed`` and ``moving``, the centrodes, (n, 2) each, the second along and across the link; ``at``, its
+    start, and ``angle``, its direction.
+    """
+    still = machine.linkage.fixed_points().keys() | {ORIGIN}
+    for name, link in machine.linkage.links().items():
+        if name in motion.links and link.start in motion.points and not {link.start, link.end} & still:
+            found = centrodes_of(machine, name, motion)
+            yield (
+                name,
+                {
+                    "at": link.start,
+                    "angle": motion.links[name].angle,
+                    "fixed": np.stack([found.x, found.y], axis=-1),
+                    "moving": np.stack([found.along, found.across], axis=-1),
+                },
+            )
 
 
 def _along(scene: dict[str, Any], steady: SteadyState) -> Floats:

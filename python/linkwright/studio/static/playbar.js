@@ -5,7 +5,7 @@ import * as state from "./state.js";
 import { between, placeOf } from "./timeline.js";
 
 const LAYERS = /** @type {[keyof typeof state.layers.value & string, string][]} */ ([
-  ["velocities", "Velocities"], ["accelerations", "Accelerations"], ["forces", "Joint forces"], ["paths", "Paths"], ["names", "Names"], ["handles", "Handles"],
+  ["velocities", "Velocities"], ["accelerations", "Accelerations"], ["forces", "Joint forces"], ["centres", "Instant centres"], ["paths", "Paths"], ["names", "Names"], ["handles", "Handles"],
 ]);
 
 /** @param {number} by steps of the scene */

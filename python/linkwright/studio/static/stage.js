@@ -5,6 +5,7 @@ import { effect } from "./vendor/signals-core.mjs";
 import "./vendor/signals.mjs";
 import { letBack, pull } from "./actions.js";
 import { paintArrows } from "./arrows.js";
+import { paintCentres } from "./centres.js";
 import { barLength, fit, toMachine, toScreen, zoomed } from "./frame.js";
 import { paintMoving, paintStill } from "./painter.js";
 import * as state from "./state.js";
@@ -100,6 +101,7 @@ function run(holder, canvas) {
     }
     ctx.drawImage(still, 0, 0, width, height);
     paintMoving(state.layers.value.names ? view : { ...view, scene: { ...scene, parts: scene.parts.map((part) => ({ ...part, slides: false })) } });
+    if (state.layers.value.centres) paintCentres(view);
     paintArrows(view, state.layers.value);
     if (gesture?.moved) ghost(view);
     bar(ink, height);

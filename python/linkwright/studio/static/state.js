@@ -69,7 +69,7 @@ export const warnings = computed(() => [...new Set(inOrder.value.flatMap((each) 
 export const units = kept("units", chosen(0));
 export const look = kept("look", "");
 export const language = kept("language", "en");
-export const layers = kept("layers", { names: true, paths: true, velocities: false, accelerations: false, forces: false, handles: true });
+export const layers = kept("layers", { names: true, paths: true, velocities: false, accelerations: false, forces: false, centres: false, handles: true });
 export const pace = kept("playback", 0);
 /** Addresses that hold their values in a drag. @type {Signal<Record<string, boolean>>} */
 export const locks = signal({});

@@ -12,7 +12,8 @@
  * @typedef {{ angles: Float64Array, times: Float64Array, speeds: Float64Array, points: Record<string, Float64Array>,
  *   headings: Record<string, Float64Array>, parts: Part[], box: number[], swings: boolean, true_speed: boolean,
  *   velocities: Record<string, Float64Array>, accelerations: Record<string, Float64Array>,
- *   forces: { name: string, point: string, force: Float64Array }[], handles: { point: string, entries: string[] }[] }} Scene
+ *   forces: { name: string, point: string, force: Float64Array }[], handles: { point: string, entries: string[] }[],
+ *   centres: Record<string, { at: string, angle: Float64Array, fixed: Float64Array, moving: Float64Array }> }} Scene
  */
 
 /**
