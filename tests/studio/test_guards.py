@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import socket
 import struct
 from pathlib import Path
@@ -203,3 +204,11 @@ def test_requests_without_sense_are_answered(tab: Tab, body: dict[str, object]) 
 def test_server_listens_on_this_computer_alone(served: Served) -> None:
     assert served.studio.socket.getsockname()[0] == "127.0.0.1"
     assert served.studio.socket.family == socket.AF_INET
+
+
+def test_the_page_asks_for_modules_that_exist(served: Served) -> None:
+    status, _, page = served.get("/", Cookie=served.cookie)
+    links = re.findall(r'modulepreload" href="([^"]+)"', page.decode())
+    assert status == 200
+    assert {"app.js", "stage.js", "vendor/preact.mjs"} <= set(links)
+    assert all(served.get(f"/{link}", Cookie=served.cookie)[0] == 200 for link in links)

@@ -46,6 +46,8 @@ function run(holder, canvas) {
   const ctx = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
   const still = document.createElement("canvas");
   let frame = { scale: 1, x: 0, y: 0 };
+  // Known from when it changed: asking for it while the page is written anew would lay the page out twice.
+  let [width, height] = [holder.clientWidth, holder.clientHeight];
   let own = /** @type {string} */ ("");
   let way = 1;
   let before = 0;
@@ -56,7 +58,7 @@ function run(holder, canvas) {
 
   function sized() {
     const ratio = devicePixelRatio || 1;
-    const { clientWidth: width, clientHeight: height } = holder;
+    [width, height] = [holder.clientWidth, holder.clientHeight];
     for (const each of [canvas, still]) {
       each.width = Math.max(1, Math.round(width * ratio));
       each.height = Math.max(1, Math.round(height * ratio));
@@ -74,7 +76,7 @@ function run(holder, canvas) {
       // A drawing stays where it is while a length is pulled; another machine is fitted anew.
       const name = `${state.machine.value} ${Object.keys(state.scene.value.points).length}`;
       if (name !== own) {
-        frame = fit(state.scene.value.box, holder.clientWidth, holder.clientHeight);
+        frame = fit(state.scene.value.box, width, height);
         own = name;
       }
     }
@@ -85,7 +87,6 @@ function run(holder, canvas) {
   function draw() {
     const scene = state.scene.value;
     const ratio = devicePixelRatio || 1;
-    const { clientWidth: width, clientHeight: height } = holder;
     ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
     ctx.clearRect(0, 0, width, height);
     if (!scene) return;
@@ -104,7 +105,7 @@ function run(holder, canvas) {
     if (state.layers.value.centres) paintCentres(view);
     paintArrows(view, state.layers.value);
     if (gesture?.moved) ghost(view);
-    bar(ink, height);
+    bar(ink);
     place(scene, k);
     const { unit, factor } = shownUnit("rad/s", state.units.value);
     const words = document.getElementById("instant");
@@ -132,8 +133,8 @@ function run(holder, canvas) {
     ctx.setLineDash([]);
   }
 
-  /** @param {Record<string, any>} ink @param {number} height */
-  function bar(ink, height) {
+  /** @param {Record<string, any>} ink */
+  function bar(ink) {
     const { unit, factor } = shownUnit("m", state.units.value);
     const length = barLength({ ...frame, scale: frame.scale * factor });
     const pixels = length * factor * frame.scale;
