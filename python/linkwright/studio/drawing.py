@@ -70,14 +70,14 @@ def _centres(machine: Machine, motion: Kinematics) -> Iterator[tuple[str, dict[s
     still = machine.linkage.fixed_points().keys() | {ORIGIN}
     for name, link in machine.linkage.links().items():
         if name in motion.links and link.start in motion.points and not {link.start, link.end} & still:
-            found = centrodes_of(machine, name, motion)
+            traced = centrodes_of(machine, name, motion)
             yield (
                 name,
                 {
                     "at": link.start,
                     "angle": motion.links[name].angle,
-                    "fixed": np.stack([found.x, found.y], axis=-1),
-                    "moving": np.stack([found.along, found.across], axis=-1),
+                    "fixed": np.stack([traced.x, traced.y], axis=-1),
+                    "moving": np.stack([traced.along, traced.across], axis=-1),
                 },
             )
 
