@@ -47,6 +47,10 @@ def prepared(page: Path, folder: Path) -> None:
     if "one_cart.toml" in text:
         machine = next(block for kind, block in _FENCED.findall(text) if kind == "toml")
         (folder / "one_cart.toml").write_text(machine, encoding="utf-8")
+    for kind, block in _FENCED.findall(text):
+        # A file whose first line is its name.
+        if kind == "toml" and (name := re.match(r"# (\w+\.toml)\n", block)):
+            (folder / name[1]).write_text(block, encoding="utf-8")
     if "flywheel.csv" in text:
         # Eight cylinders that fire at one strength, over two revolutions.
         rows = [f"{n}, {1500 * (1 + 0.01 * np.cos(n * np.pi / 90)):.6f}" for n in range(721)]

@@ -131,3 +131,20 @@ def test_wrong_input_is_exit_code_2(arguments: list[str]) -> None:
     done = run(*arguments)
     assert done.exit_code == 2
     assert "Traceback" not in done.output
+
+
+def test_units_of_the_reader(task: Path) -> None:
+    """Lengths and angles in wanted units; errors that are rounding are zero."""
+    task.write_text(POSES)
+    found = json.loads(run("motion", task, "--json").stdout)["results"]["pose_guide"]
+    text = run("motion", task, "--units", "mm").stdout
+    assert f"{1e3 * found['frame']:.6g} mm" in text
+    assert "pose error                 0 mm" in text
+    assert "angle error                0°" in text
+    assert "244 um" in run("line", "--list", "--length", "0.2 m", "--units", "µm").stdout
+
+
+def test_a_missing_task_is_no_machine_file() -> None:
+    done = run("path", "missing.toml")
+    assert done.exit_code == 2
+    assert "expected: a task file" in done.stderr

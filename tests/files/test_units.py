@@ -17,6 +17,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from linkwright.kernel import units
 from linkwright.kernel.errors import UnitError
+from linkwright.kernel.units.spellings import unknown
 
 REGISTRY: pint.UnitRegistry[Any] = pint.UnitRegistry()
 REGISTRY.define("@alias turn = rev")
@@ -222,3 +223,9 @@ def test_common_spellings_do_not_load_pint() -> None:
         "assert not {'pint', 'numpy'} & set(sys.modules)"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_letters_of_the_other_case_are_named() -> None:
+    assert "did you mean rpm?" in unknown("Rpm")
+    assert "did you mean kN?" in unknown("KN")
+    assert "did you mean" not in unknown("furlongs")

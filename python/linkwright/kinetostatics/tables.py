@@ -34,7 +34,9 @@ def _row(extent: Extent, forces: Forces, scale: float) -> Row:
     peak, rms, mean = (
         measured(value, extent.unit, scale) for value in (extent.peak, extent.rms, extent.mean)
     )
-    return word, symbol, peak, crank_angle(extent.peak_angle), rms, mean
+    # Rounding is largest somewhere, which says nothing.
+    at = "–" if peak == measured(0.0, extent.unit) else crank_angle(extent.peak_angle)
+    return word, symbol, peak, at, rms, mean
 
 
 def _scales(extents: Iterable[Extent]) -> dict[str, float]:

@@ -90,7 +90,9 @@ def read_as(
     `overrides`, `allow_outside` as for `read`. Raises `MachineFileError` with all problems if the file cannot
     be read or describes no such thing, `InputError` if an override is malformed.
     """
-    return loads_as(model, _text(Path(path)), overrides, path=str(path), allow_outside=allow_outside)
+    expected = "a machine file" if model is Machine else "a task file"
+    text = _text(Path(path), expected)
+    return loads_as(model, text, overrides, path=str(path), allow_outside=allow_outside)
 
 
 @public
@@ -153,16 +155,16 @@ def loads_as(
         raise MachineFileError(_located(error.problems, text, path, places, columns)) from None
 
 
-def _text(path: Path) -> str:
+def _text(path: Path, expected: str) -> str:
     """The text of a file, or the problem with it."""
     try:
         text = text_of(path, FILE_BYTES)
     except TextError as error:
         remedy = error.remedy or _similar(path)
-        raise _unreadable(path, error.found, remedy, error.expected or "a machine file") from None
+        raise _unreadable(path, error.found, remedy, error.expected or expected) from None
     if not text.strip():
         remedy = 'start from a template: "linkwright new --list" names them'
-        raise _unreadable(path, "an empty file", remedy)
+        raise _unreadable(path, "an empty file", remedy if expected == "a machine file" else "", expected)
     return text
 
 

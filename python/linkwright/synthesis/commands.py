@@ -273,8 +273,10 @@ def _finish(
 def _print(name: str, entries: dict[str, Any], warnings: list[str], out: Path | None) -> None:
     """A line for each entry, and where the machine file is."""
     click.echo(name)
+    lengths = (abs(value) for key, value in entries.items() if _unit(key, value) == "m")
+    size = max(lengths, default=0.0)
     for key, value in entries.items():
-        click.echo(f"  {key.replace('_', ' '):<26} {words(key, value)}")
+        click.echo(f"  {key.replace('_', ' '):<26} {words(key, value, size)}")
     for warning in warnings:
         click.echo(f"Warning: {warning}")
     click.echo(f"Written: {out}" if out else "--out FILE writes the machine file.")
@@ -298,28 +300,44 @@ _RATIOS = (
 )
 
 
-def words(name: str, value: Any) -> str:
-    """A value for people: angles in degrees, lengths in metres."""
+def _unit(name: str, value: Any) -> str | None:
+    """SI unit of an entry by its name; empty for a plain number, None for what is no number."""
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return None
+    if any(part in name for part in _RATIOS):
+        return ""
+    return "rad" if any(part in name for part in _ANGLES) else "m"
+
+
+def words(name: str, value: Any, size: float = 0.0) -> str:
+    """A value for people, in the units that they want: angles in degrees without others.
+
+    `size`: of the linkage [m]; lengths that are rounding beside it are zero, and angles beside half a
+    revolution.
+    """
+    from math import pi
+
+    from linkwright.kernel.page.numbers import quantity
+
     if value is None:
         return "–"
     if isinstance(value, tuple | list):
         return ", ".join(map(str, value)) or "–"
     if isinstance(value, bool):
         return "yes" if value else "no"
-    if not isinstance(value, int | float):
-        return str(value)
-    if any(part in name for part in _RATIOS):
-        return f"{value:.6g}"
-    if any(part in name for part in _ANGLES):
-        from math import degrees
-
-        return f"{degrees(value):.6g}°"
-    return f"{value:.6g} m"
+    unit = _unit(name, value)
+    if not unit:
+        return str(value) if unit is None else f"{value:.6g}"
+    if unit == "rad":
+        return quantity(value, unit, 6, pi, usual="deg")
+    return quantity(value, unit, 6, size)
 
 
 def print_catalogue(lines: tuple[Any, ...]) -> None:
     """The straight-line linkages with what their lines are like."""
     from math import degrees
+
+    from linkwright.kernel.page.numbers import quantity
 
     click.echo(
         f"{'kind':<14} {'exact':<6} {'links':>5} {'deviation':>11} {'crank range':>20} "
@@ -327,8 +345,8 @@ def print_catalogue(lines: tuple[Any, ...]) -> None:
     )
     for kind in lines:
         span = f"{degrees(kind.crank_angle_start):.1f}° to {degrees(kind.crank_angle_end):.1f}°"
-        deviation = "0" if kind.exact else f"{kind.deviation:.3g} m"
+        deviation = "0" if kind.exact else quantity(kind.deviation, "m", 3)
         click.echo(
             f"{kind.kind:<14} {words('', kind.exact):<6} {kind.links:>5} {deviation:>11} {span:>20} "
-            f"{kind.size:>7.3g} m  {words('', kind.turns_fully)}"
+            f"{quantity(kind.size, 'm', 3):>9}  {words('', kind.turns_fully)}"
         )

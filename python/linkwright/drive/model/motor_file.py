@@ -54,6 +54,8 @@ _RATIOS = {"torque_breakdown_ratio": "torque_breakdown", "torque_start_ratio": "
 # Columns for people.
 _WORDS = ("kind", "series", "frame", "poles", "efficiency", "mass", "current_rated", "remark")
 
+# A number with a unit behind it, no power of ten.
+_WITH_UNIT = re.compile(r"[-+.,\d]*\d\s*(?![eE][-+\d])[A-Za-z%°].*")
 _HEAD = re.compile(r"\s*(\w+)\s*(?:\[([^\]]*)\])?\s*")
 
 
@@ -212,6 +214,11 @@ def _entries(path: Path, line: int, heads: list[tuple[str, str]], cells: dict[st
     for name, unit in heads:
         if name not in kinds or not cells[name]:
             continue
+        if _WITH_UNIT.fullmatch(cells[name]):
+            remedy = (
+                f"the unit stands in the head, [{unit}]" if unit else "give the unit in the head, in brackets"
+            )
+            raise _wrong(path, line, show(cells[name]), f"a number in the column {name}", remedy)
         try:
             number = f"{cells[name]} {unit}".strip() if unit else float(cells[name])
             entries[name] = parse(number, kinds[name])

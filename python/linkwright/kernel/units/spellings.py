@@ -225,7 +225,9 @@ def unknown(unit: str) -> str:
         return f"{show(unit)}: a power is one whole number after a unit, as in m^2"
     if _BARE_POWER.search(text):
         return f"{show(unit)} is not a unit: write powers as m^2 or m²"
-    return f"{show(unit)} is not a known unit"
+    alike = [known for known in _FACTORS if known.casefold() == text.casefold()]
+    asked = f"; did you mean {' or '.join(alike)}?" if alike else ""
+    return f"{show(unit)} is not a known unit{asked}"
 
 
 def other_quantity(unit: str, dimension: Dimension, kind: Kind) -> str:
