@@ -295,7 +295,7 @@ def numbers(machine: Machine, wanted: list[StudyResponse]) -> list[float]:
             answers.append(entry_number(machine, *asked.of))
             continue
         if asked.key not in results:
-            results[asked.key] = analysis(asked.analysis)(machine, *asked.of)
+            results[asked.key] = analysis(asked.analysis)(machine, *asked.arguments)
         answers.append(asked.number(results[asked.key]))
     return answers
 

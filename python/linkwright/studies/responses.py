@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from linkwright.drive.batch import SteadyStates
 from linkwright.kernel.description.base import suggestion
-from linkwright.kernel.errors import FindingError, MachineError, Problem, show
+from linkwright.kernel.errors import FindingError, InputError, MachineError, Problem, show
 from linkwright.kernel.quantities import Label, declared, is_array
 from linkwright.kernel.result import Result
 from linkwright.machine.address import addresses, get, kind
@@ -38,8 +38,9 @@ ANALYSES = {
     "linkage": "linkages.cycle:linkage",
     "forces": "kinetostatics.forces:forces",
     "cam": "cam.profile.profile:cam_profile",
-    "cam_force": "cam.dynamics.loaded:loaded_cam",
+    "cam_force": "cam.dynamics.loaded:cam_force",
     "pumping_unit": "pumping.unit:pumping_unit",
+    "rotator": "pumping.rod_rotator:rod_rotator",
     "rod_rotator": "pumping.rod_rotator:rod_rotator",
     "turning_moment": "turning.diagram:turning_moment",
     "topper": "topping.topper:topper",
@@ -50,6 +51,12 @@ ANALYSES = {
 
 # The analysis of points alone, which needs no drive; and what is no analysis, but stands in the machine.
 MOTION, ENTRY = "motion", "entry"
+
+# Analyses of one part of the machine, by its name.
+OF_ONE_CAM = ("cam", "cam_force")
+
+# Parts of a train that a list of curves has a row for.
+_PARTS = ("discs", "shafts")
 
 # What the core gives of the steady motion of many machines.
 _OF_BATCH = {*SteadyStates.__dataclass_fields__, *vars(SteadyStates)}
@@ -70,7 +77,7 @@ class StudyResponse:
     analysis : str
         Analysis that it comes from.
     of : tuple of str
-        Name of the cam, or of the point, where there are several; address of an entry.
+        Name of the cam, the point, or the part of a train, where there are several; address of an entry.
     quantity : str
         Attribute of the result; of a point ``"x"`` or ``"y"``.
     word, unit : str
@@ -81,6 +88,8 @@ class StudyResponse:
         Place in a list.
     at : float or None
         Crank angle at which a motion is taken [rad].
+    parts : tuple of str
+        Axes of a list of curves: ``("shafts", "speeds")``.
     """
 
     name: str
@@ -92,11 +101,17 @@ class StudyResponse:
     extreme: str | None = None
     index: int | None = None
     at: float | None = None
+    parts: tuple[str, ...] = ()
+
+    @property
+    def arguments(self) -> tuple[str, ...]:
+        """What the analysis takes besides the machine."""
+        return self.of if self.analysis in OF_ONE_CAM else ()
 
     @property
     def key(self) -> tuple[str, tuple[str, ...]]:
         """Analysis and name: what is computed once for all responses that share it."""
-        return self.analysis, self.of
+        return self.analysis, self.arguments
 
     @property
     def is_batch(self) -> bool:
@@ -111,17 +126,30 @@ class StudyResponse:
         number.
         """
         value = getattr(result, self.quantity)
-        if value is not None and self.extreme is not None:
-            value = taken(np.asarray(value, dtype=float), self.extreme)
-        elif value is not None and self.index is not None:
-            if self.index >= len(value):
-                raise FindingError(
-                    f"{self.analysis}.{self.quantity} has {len(value)} values, none of number {self.index}"
-                )
-            value = value[self.index]
+        if value is not None and (self.extreme is not None or self.index is not None):
+            value = self._picked(result, np.asarray(value))
         if value is None or not math.isfinite(float(value)):
             raise FindingError(f"{self.word} has no value for this machine")
         return float(value)
+
+    def _picked(self, result: Any, values: NDArray[Any]) -> Any:
+        """One number of a curve, or of all curves of a list; of complex amplitudes their absolute values."""
+        values = np.abs(values) if np.iscomplexobj(values) else values.astype(float)
+        if self.of and not self.arguments:
+            axis = next(axis for axis, part in enumerate(self.parts) if part in _PARTS)
+            values = np.take(values, getattr(result, self.parts[axis]).index(self.of[0]), axis=axis)
+        if self.extreme is not None:
+            return taken(values.ravel(), self.extreme)
+        if values.ndim > 1:
+            raise InputError(
+                f"responses.{self.name}: found a list of curves, expected the name of one of {self.parts}"
+            )
+        assert self.index is not None
+        if self.index >= len(values):
+            raise FindingError(
+                f"{self.analysis}.{self.quantity} has {len(values)} values, none of number {self.index}"
+            )
+        return values[self.index]
 
 
 def taken(curve: Floats, extreme: str) -> Any:
@@ -171,9 +199,35 @@ def asked(machine: Machine, name: str, response: Response) -> StudyResponse:
     if wants_curve and not is_array(owner, quantity):
         raise _wrong(name, key, f"{text}, which is a number", "a curve", f'write "{text}" alone')
     mark = known[quantity]
-    return StudyResponse(
-        name, first, tuple(of), quantity, mark.word, mark.unit, response.extreme, response.index
+    parts = tuple(part.strip() for part in mark.shape.strip("()").split(",") if part.strip())
+    _require_part(
+        machine, first, of, parts, lambda remedy: _wrong(name, key, text, "a name that there is", remedy)
     )
+    picked = (response.extreme, response.index)
+    if response.index is not None and len(parts) - len(of) > 1:
+        place = next(part for part in parts if part in _PARTS)
+        raise _wrong(name, key, f"{text}, a list of curves", f"{first}.NAME.{quantity}, NAME of {place}")
+    return StudyResponse(name, first, tuple(of), quantity, mark.word, mark.unit, *picked, parts=parts)
+
+
+def _require_part(
+    machine: Machine, first: str, of: list[str], parts: tuple[str, ...], wrong: Callable[[str], MachineError]
+) -> None:
+    """Raise what is wrong, with a remedy, if a response names no part of the machine, or should name one."""
+    place = next((part for part in parts if part in _PARTS), None)
+    if first in OF_ONE_CAM:
+        known = [*machine.mechanism.cams]
+        if not of and len(known) == 1:
+            return
+    elif not of:
+        return
+    elif machine.train is not None and place is not None:
+        known = [*getattr(analysis("free_vibration")(machine), place)]
+    else:
+        raise wrong(f"leave out {'.'.join(of)}")
+    given = ".".join(of)
+    if given not in known:
+        raise wrong(suggestion(given, known) if of else f"name one of {', '.join(known) or 'no cams'}")
 
 
 def _of_entry(machine: Machine, name: str, address: str) -> StudyResponse:

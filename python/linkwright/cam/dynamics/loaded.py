@@ -31,7 +31,7 @@ from numpy.typing import NDArray
 from linkwright.cam.core import Extreme
 from linkwright.cam.dynamics.hertz import LineContact, Material, line_contact
 from linkwright.cam.dynamics.lift_off import speed_of_loss
-from linkwright.cam.profile.profile import CamProfile, Flank
+from linkwright.cam.profile.profile import CamProfile, Flank, cam_profile
 from linkwright.drive.steady_state import steady_state
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public import public
@@ -112,6 +112,11 @@ class LoadedCam(Result):
     def force_size(self) -> Annotated[float, Label("largest normal force in size", "", "N")]:
         """Largest normal force in size."""
         return max(abs(self.force_max), abs(self.force_min))
+
+
+def cam_force(machine: Machine, name: str | None = None) -> LoadedCam:
+    """`loaded_cam` by the name of the cam, which may be left out if there is one; errors as there."""
+    return loaded_cam(machine, cam_profile(machine, name))
 
 
 @public

@@ -1,0 +1,87 @@
+"""Every analysis that a study knows gives the numbers of its result."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.kernel.errors import MachineFileError
+from linkwright.studies.responses import ANALYSES, analysis
+
+DRIVE = ("roller_one_cart", "mechanism.cranks.A1.radius")
+ROTATOR = ("rod_rotator_continuous", "pumping_unit.A")
+TRAIN = ("v8_diesel", "train.discs.front.inertia")
+
+# Analysis → a machine that has it, an entry that is a variable, a quantity; names of cams stand between.
+CASES = {
+    "reduction": (*DRIVE, "inertia_max"),
+    "constant_energy": (*DRIVE, "unevenness"),
+    "steady_state": (*DRIVE, "cyclic_load_factor"),
+    "run_up": (*DRIVE, "time"),
+    "run_down": (*DRIVE, "time"),
+    "linkage": (*DRIVE, "period_turns"),
+    "forces": (*DRIVE, "shaking_force_max"),
+    "cam": ("roller_cam", "bodies.cart.mass", "cart.pressure_angle_max"),
+    "cam_force": ("roller_cam", "bodies.cart.mass", "cart.force_size"),
+    "pumping_unit": (*ROTATOR, "stroke"),
+    "rotator": (*ROTATOR, "transfer_max"),
+    "rod_rotator": (*ROTATOR, "lever_swing"),
+    "turning_moment": ("flywheel_four_stroke", "turning_moment.speed", "flywheel_inertia"),
+    "topper": ("topper", "topper.edge_length", "length_exact"),
+    "topper_field": ("topper", "topper.edge_length", "share_complete"),
+    "free_vibration": (*TRAIN, "natural_frequencies"),
+    "forced_vibration": (*TRAIN, "shaft_torque_vibratory"),
+}
+
+
+@pytest.mark.parametrize("name", ANALYSES)
+def test_a_study_gives_the_numbers_of_an_analysis(name: str, tmp_path: Path) -> None:
+    machine, address, quantity = CASES[name]
+    *of, attribute = quantity.split(".")
+    is_list = name.endswith("vibration")
+    asked = f"{name}.{quantity}"
+    response = f'{{ curve = "{asked}", extreme = "max" }}' if is_list else f'"{asked}"'
+    plan = lw.read_study(study(tmp_path, machine, address, response))
+    rows = lw.evaluate(plan, {"entry": np.array([lw.get(plan.machine, address)])})
+    assert rows.status.tolist() == [0], rows.reasons
+    by_itself = np.max(getattr(analysis(name)(lw.read(machine), *of), attribute))
+    # A batch and a single machine agree to the accuracy of the batch.
+    assert rows.columns["number"][0] == pytest.approx(by_itself, rel=1e-6)
+
+
+def study(tmp_path: Path, machine: str, address: str, response: str) -> Path:
+    path = tmp_path / "study.toml"
+    path.write_text(
+        f'machine = "{machine}"\n[variables.entry]\naddress = "{address}"\nvalues = [1.0]\n'
+        f"[responses]\nnumber = {response}\n",
+        encoding="utf-8",
+    )
+    return path
+
+
+def test_one_shaft_of_a_train(tmp_path: Path) -> None:
+    """Its curve alone, while without a name all shafts count."""
+    response = '{ curve = "forced_vibration.nose.shaft_torque_vibratory", extreme = "max" }'
+    plan = lw.read_study(study(tmp_path, *TRAIN, response))
+    rows = lw.evaluate(plan, {"entry": np.array([lw.get(plan.machine, TRAIN[1])])})
+    forced = lw.forced_vibration(lw.read(TRAIN[0]))
+    curve = forced.shaft_torque_vibratory[forced.shafts.index("nose")]
+    assert rows.columns["number"][0] == pytest.approx(curve.max(), rel=1e-12)
+    assert curve.max() < forced.shaft_torque_vibratory.max()
+
+
+WRONG = {
+    '"cam.valve.pressure_angle_max"': ("roller_cam", "bodies.cart.mass"),
+    '"steady_state.cart.unevenness"': DRIVE,
+    '{ curve = "forced_vibration.bow.shaft_torque_vibratory", extreme = "max" }': TRAIN,
+    '{ curve = "forced_vibration.shaft_torque_vibratory", index = 1 }': TRAIN,
+}
+
+
+@pytest.mark.parametrize("response", WRONG)
+def test_parts_that_do_not_exist_are_refused(response: str, tmp_path: Path) -> None:
+    with pytest.raises(MachineFileError, match=r"responses\.number"):
+        lw.read_study(study(tmp_path, *WRONG[response], response))
