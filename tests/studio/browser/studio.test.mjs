@@ -227,6 +227,23 @@ test("a problem stands beside its entry, and the text mends it", async () => {
   await page.getByRole("tab", { name: "Entries" }).click();
 });
 
+test("what was typed into the text counts when the tab is left at once, and when it is saved at once", async () => {
+  const text = () => page.evaluate(() => globalThis.studio.state.text.value);
+  const area = page.getByLabel("Text of the machine file");
+  const before = await text();
+  for (const [words, leave] of [["# left\n", () => page.getByRole("tab", { name: "Entries" }).click()], ["# saved\n", () => area.press("Control+s")]]) {
+    await page.getByRole("tab", { name: "File" }).click();
+    await area.fill(words + before);
+    await leave();
+    assert.equal(await text(), words + before);
+    await page.waitForFunction(() => !globalThis.studio.busy());
+  }
+  assert.ok(readFileSync(`${folder}/carts.toml`, "utf8").startsWith("# saved"));
+  await page.getByRole("tab", { name: "Entries" }).click();
+  await page.evaluate((words) => globalThis.studio.write(words), before);
+  await known();
+});
+
 test("plots have their data and their files", async () => {
   const panel = page.locator(".panel").first();
   await panel.hover();

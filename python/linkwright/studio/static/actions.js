@@ -252,6 +252,7 @@ export function start({ place, name }, text, saved) {
 
 /** @param {string} name @param {boolean} replace */
 export async function save(name, replace) {
+  state.typed.flush();
   const text = state.text.value;
   const body = await link.ask({ ask: "save", name, text, replace });
   if (body.of !== "saved") return HEAR.refused(body);

@@ -46,7 +46,7 @@ function kinds() {
 
 export function Build() {
   return html`
-    <details class="part build"><summary>Add an element</summary>
+    <details class="part build" open=${!state.place.value.name}><summary>Add an element</summary>
       <div class="kinds">${kinds().map(([word, made, needs]) => html`
         <button key=${word} disabled=${!made} title=${made ? `Adds ${made[0]}` : `Needs ${needs}`} onClick=${() => made && settle({ [made[0]]: made[1] })}>${word}</button>`)}</div>
       <p class="about">An element hangs on the point that was picked last, or on the first that fits; its entries say on which, and can be changed.</p>

@@ -11,19 +11,32 @@ export function Editor() {
   const area = useRef(/** @type {HTMLTextAreaElement | null} */ (null));
   const numbers = useRef(/** @type {HTMLPreElement | null} */ (null));
   const timer = useRef(0);
+  const typed = useRef("");
   const text = state.text.value;
   useEffect(() => {
     if (area.current && area.current.value !== text && !timer.current) area.current.value = text;
   }, [text]);
   const wrong = new Map(state.problems.value.filter(({ line }) => line).map((each) => [each.line, each]));
   const lines = text.split("\n").length;
-  const changed = () => {
+  const flush = () => {
+    if (!timer.current) return;
     clearTimeout(timer.current);
-    timer.current = setTimeout(() => {
-      timer.current = 0;
-      if (area.current) write(area.current.value);
-    }, QUIET);
+    timer.current = 0;
+    write(typed.current);
   };
+  const changed = () => {
+    typed.current = area.current?.value ?? "";
+    clearTimeout(timer.current);
+    timer.current = setTimeout(flush, QUIET);
+  };
+  // What was typed last counts when it is saved at once, or the tab is left.
+  useEffect(() => {
+    state.typed.flush = flush;
+    return () => {
+      flush();
+      state.typed.flush = () => {};
+    };
+  }, []);
   return html`
     <div class="editor">
       <pre class="lines" aria-hidden="true" ref=${numbers}>${Array.from({ length: lines }, (_, n) => html`<span class=${wrong.has(n + 1) ? "bad" : ""}>${n + 1}</span>`)}</pre>

@@ -1,7 +1,7 @@
 // All machines that can be opened, moving.
 import { html } from "./html.js";
 import { useEffect, useRef, useState } from "./vendor/hooks.mjs";
-import { list, open, thumbnail } from "./actions.js";
+import { list, open, start, thumbnail } from "./actions.js";
 import { fit } from "./frame.js";
 import { paintKnife } from "./knife.js";
 import { paintMoving, paintStill } from "./painter.js";
@@ -98,6 +98,9 @@ function Card({ listed: { place, name, title } }) {
     </button>`;
 }
 
+/** What a machine begins with that is built from nothing. */
+const EMPTY = 'format = 1\nname = "New machine"\n\n[mechanism]\n';
+
 export function Gallery() {
   const [wanted, setWanted] = useState("");
   useEffect(() => {
@@ -107,6 +110,7 @@ export function Gallery() {
   const found = state.listed.value.filter(({ title, name }) => `${title} ${name}`.toLowerCase().includes(seek));
   return html`
     <input type="search" class="seek" placeholder="Find a machine" aria-label="Find a machine" value=${wanted} onInput=${(/** @type {any} */ { target }) => setWanted(target.value)} />
+    <p class="sets"><button id="empty" onClick=${() => start({ place: "", name: "" }, EMPTY, "")}>Start with an empty machine</button></p>
     ${Object.entries(PLACES).map(([place, words]) => {
       const here = found.filter((each) => each.place === place);
       return here.length ? html`<h3>${words}</h3><div class="cards">${here.map((each) => html`<${Card} key="${place}/${each.name}" listed=${each} />`)}</div>` : null;

@@ -23,6 +23,9 @@ export const followers = new Set();
 /** Frames of the last seconds, for the tests. */
 export const frames = { count: 0 };
 
+/** Whether nothing was built yet. */
+const isEmpty = () => !(state.controls.value?.groups ?? []).some(({ key, groups }) => key !== "mechanism" || groups.length);
+
 export function Stage() {
   const holder = useRef(/** @type {HTMLDivElement | null} */ (null));
   const canvas = useRef(/** @type {HTMLCanvasElement | null} */ (null));
@@ -37,7 +40,7 @@ export function Stage() {
             aria-label="Joint ${point}" aria-pressed=${state.picked.value === point ? "true" : "false"}></button>`) : null}
       </div>
       ${state.reason.value ? html`<p class="reason" role="status">${state.reason.value}</p>` : null}
-      ${state.isDrawn.value ? null : html`<p class="nothing">${state.problems.value.length ? "The file has problems; they stand beside their entries." : state.machine.value ? "Nothing of this machine moves as a linkage; its answers are in the plots." : "Opening …"}</p>`}
+      ${state.isDrawn.value ? null : html`<p class="nothing">${state.problems.value.length ? "The file has problems; they stand beside their entries." : state.machine.value ? (isEmpty() ? "The machine is empty. Open Add an element, on the left, and begin with a crank." : "Nothing of this machine moves as a linkage; its answers are in the plots.") : "Opening …"}</p>`}
     </div>`;
 }
 

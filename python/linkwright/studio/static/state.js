@@ -27,6 +27,8 @@ function kept(key, usual) {
 // -- the file
 export const text = signal("");
 export const saved = signal("");
+/** Takes over what was typed into the text and not yet read. */
+export const typed = { flush: () => {} };
 export const place = signal({ place: "", name: "" });
 export const unsaved = computed(() => text.value !== saved.value);
 export const past = signal({ of: history(""), turn: 0 });
