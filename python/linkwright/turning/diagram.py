@@ -184,6 +184,12 @@ class TurningMomentDiagram(Result):
     acceleration_min: Annotated[
         float | None, Label("minimum acceleration", "ε_min", "rad/s²", "Of the shaft.", table="flywheel")
     ] = None
+    acceleration_max_angle: Annotated[
+        float | None, Label("angle of the maximum acceleration", "φ(ε_max)", "rad")
+    ] = None
+    acceleration_min_angle: Annotated[
+        float | None, Label("angle of the minimum acceleration", "φ(ε_min)", "rad")
+    ] = None
     rim_radius: Annotated[float | None, Label("mean radius of the rim", "R", "m", table="rim")] = None
     rim_speed: Annotated[float | None, Label("mean speed of the rim", "v", "m/s", table="rim")] = None
     rim_stress: Annotated[
@@ -300,7 +306,8 @@ def _of_curves(described: TurningMoment, n: int) -> TurningMomentDiagram:
     work = float(driver) * cycle
     highest, at_highest = curves.extreme(+1, DRIVER)
     lowest, at_lowest = curves.extreme(-1, DRIVER)
-    speeding, slowing = curves.extreme(+1)[0], curves.extreme(-1)[0]
+    speeding, at_speeding = curves.extreme(+1)
+    slowing, at_slowing = curves.extreme(-1)
     J = effect.inertia
     return TurningMomentDiagram(
         cycle=cycle,
@@ -320,6 +327,8 @@ def _of_curves(described: TurningMoment, n: int) -> TurningMomentDiagram:
         **rim_of(described, effect)._asdict(),
         acceleration_max=None if J is None else speeding / J,
         acceleration_min=None if J is None else slowing / J,
+        acceleration_max_angle=None if J is None else at_speeding,
+        acceleration_min_angle=None if J is None else at_slowing,
         accuracy=float(curves.error[EXCESS] / change) if change else 0.0,
         areas=_areas(curves, energy, cycle),
         crank_angle=phi,

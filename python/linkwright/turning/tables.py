@@ -81,9 +81,11 @@ def _rows(diagram: TurningMomentDiagram, table: str, *, without: Collection[str]
 def _areas(diagram: TurningMomentDiagram) -> Table:
     """Energies between the crossings, and the excess after each."""
     rows: list[Row] = []
+    # What is left after the last area is rounding.
+    scale = max(abs(area["energy"]) for area in diagram.areas)
     for n, area in enumerate(diagram.areas, start=1):
         start, end = area["start"], area["end"]
         place = "" if start is None or end is None else f", {degrees(start)} to {degrees(end)}"
-        energies = (measured(area[name], "J") for name in ("energy", "energy_after"))
+        energies = (measured(area[name], "J", scale) for name in ("energy", "energy_after"))
         rows.append((f"{n}{place}", "", *energies))
     return Table("areas", "Areas between driver and load", ("area", "", "energy", "excess after it"), rows)
