@@ -25,3 +25,10 @@ test("a typed number is in the unit that is shown, a text keeps its own", () => 
   assert.equal(typed("", 1), null);
   assert.equal(typed("lots", 1), "lots");
 });
+
+test("a number that is shown can be typed again, and has no hyphen for its minus", () => {
+  for (const value of [-350, 3.5e-5, -3.5e-5, -1.25e7, 0, 0.125]) {
+    assert.equal(typed(number(value), 1), value);
+    assert.ok(!number(value).includes("-"), number(value));
+  }
+});

@@ -36,7 +36,7 @@ function Quantity({ entry }) {
   const si = typeof pulled === "number" ? pulled : entry.si;
   const [draft, setDraft] = useState(/** @type {string | null} */ (null));
   const [low, high] = endsOf(entry);
-  const shown = si === null || si === undefined ? String(entry.written) : number(si / factor, 7).replaceAll("−", "-");
+  const shown = si === null || si === undefined ? String(entry.written) : number(si / factor, 7);
   const id = `at ${address}`;
 
   /** @param {any} target */
@@ -53,7 +53,7 @@ function Quantity({ entry }) {
     next[which] = value;
     if (Number.isFinite(value) && next[0] < next[1]) state.ends.value = { ...state.ends.value, [address]: next };
   };
-  const places = /** @param {number} value */ (value) => number(value / factor, 4).replaceAll("−", "-");
+  const places = /** @param {number} value */ (value) => number(value / factor, 4);
   return html`
     <div class="field">
       <input id=${id} class="number" inputmode="decimal" autocomplete="off" spellcheck=${false} value=${draft ?? shown} aria-label="${key}, ${word || said("number")}" data-address=${address}

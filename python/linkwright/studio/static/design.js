@@ -50,7 +50,7 @@ function Pull({ now }) {
   };
   return html`
     <div class="line"><span><${Sign} symbol=${now.symbol} /></span>
-      <input class="number" aria-label="Wanted value" inputmode="decimal" value=${number(now.value / factor, 6).replaceAll("−", "-")}
+      <input class="number" aria-label="Wanted value" inputmode="decimal" value=${number(now.value / factor, 6)}
         onChange=${(/** @type {any} */ { target }) => {
           const value = read(target.value);
           if (Number.isFinite(value)) to(value * factor, free, false);

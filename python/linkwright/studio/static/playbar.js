@@ -25,7 +25,7 @@ function Scrub() {
   const k = placeOf(scene.times, state.time.value);
   const degrees = (between(scene.angles, k) * 180) / Math.PI;
   return html`<input type="range" id="scrub" aria-label="Crank angle" min="0" max=${last} step="any" value=${k}
-    aria-valuetext=${`${degrees.toFixed(0)} degrees`}
+    aria-valuetext=${`${degrees.toFixed(0).replace("-", "−")} degrees`}
     onInput=${(/** @type {any} */ { target }) => {
       state.playing.value = false;
       const n = Math.min(Number(target.value), last - 1e-9);

@@ -114,7 +114,7 @@ function run(holder, canvas) {
     const words = document.getElementById("instant");
     if (words) {
       const degrees = (between(scene.angles, k) * 180) / Math.PI;
-      words.textContent = `φ ${decimal(degrees.toFixed(1)).padStart(6, "\u2007")}°  ${scene.true_speed ? `ω ${number(between(scene.speeds, k) / factor, 4)} ${unit}` : ""}`;
+      words.textContent = `φ ${decimal(degrees.toFixed(1).replace("-", "−")).padStart(6, "\u2007")}°  ${scene.true_speed ? `ω ${number(between(scene.speeds, k) / factor, 4)} ${unit}` : ""}`;
     }
   }
 
