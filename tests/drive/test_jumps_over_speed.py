@@ -160,3 +160,24 @@ def test_derivatives_agree_with_differences(case: str, tmp_path: Path) -> None:
         coarse, fine = difference(name, 4e-3), difference(name, 2e-3)
         value = float(gradient.derivatives[row, 0])
         assert value == pytest.approx((4.0 * fine - coarse) / 3.0, rel=1e-5, abs=1e-9), name
+
+
+@pytest.mark.parametrize("inertia", [4.998, 5.0, 5.003])
+@pytest.mark.parametrize("accuracy", [1e-9, 1e-11])
+def test_two_jumps_at_one_speed_are_one(inertia: float, accuracy: float) -> None:
+    """Written as two jumps of 3 N m that rounding alone keeps apart, a jump of 6 N m has the same motion,
+    Floquet multiplier and derivatives; the motor has its corner there too.
+    """
+    text = FILE.replace("where({switch} > {level}, {jump}, 0)", "{more}")
+
+    def motion(more: str) -> tuple:
+        machine = lw.loads(text.format(inertia=inertia, base=72, more=more))
+        names = ["steady_state.multiplier", "steady_state.period"]
+        found = lw.gradient(machine, names, ["bodies.A.inertia"])
+        return lw.steady_state(machine, accuracy=accuracy), found.derivatives[:, 0]
+
+    two, derivatives = motion("where(omega > 10, 3, 0) + where(omega*omega > 100, 3, 0)")
+    one, expected = motion("where(omega > 10, 6, 0)")
+    assert two.multiplier == pytest.approx(one.multiplier, rel=1e-8)
+    assert two.speed_min == pytest.approx(one.speed_min, rel=1e-9)
+    assert derivatives == pytest.approx(expected, rel=1e-6)

@@ -386,6 +386,12 @@ impl Events<'_, f64> {
                     [false, true] => (shares[1], ends[1]) = (C[REFERENCE], middle(piece, m)),
                     [false, false] => {}
                 }
+                // On the kink at its start and on either side of it around there: that end of a step is the kink's.
+                let before = &pieces[(k + pieces.len() - 1) % pieces.len()];
+                if values[k].abs() <= near && !is_at(piece.phi) && middle(before, m) * middle(piece, m) < 0.0
+                {
+                    crossings.push(Crossing { phi: piece.phi, nth });
+                }
                 if ends[0] * ends[1] < 0.0 && ends[0].abs() > near && ends[1].abs() > near {
                     let phi = piece.phi + self.within(event, piece, shares, ends, m);
                     crossings.extend((0.0 < phi && phi < cycle).then_some(Crossing { phi, nth }));

@@ -10,6 +10,10 @@ use crate::kernel::real::Real;
 /// A step shorter than this \[rad\] counts as that long where kinks are placed.
 const SHORTEST: f64 = 1e-4;
 
+/// Kinks nearer than the same share of this \[rad\], some steps, have one end: in a step between them rounding alone would
+/// tell the sides.
+const SHARED: f64 = 0.4;
+
 /// An end of a step that moves by more than this share of the shorter step beside it may have to pass other ends, which go.
 const FAR: f64 = 0.2;
 
@@ -132,7 +136,10 @@ impl Mesh {
             let cycle = self.edges[self.edges.len() - 1];
             let h = self.edges.get(at + 1).map_or(cycle, |next| next - crossing.phi);
             let h = if at > 0 { h.min(crossing.phi - self.edges[at - 1]) } else { h };
-            if by.is_some_and(|by| by.abs() <= kink_share * h.max(SHORTEST)) {
+            let shares_end =
+                self.crossings.iter().any(|other| other.phi == crossing.phi && other.nth != crossing.nth);
+            let near = if shares_end { SHARED.max(h) } else { h.max(SHORTEST) };
+            if by.is_some_and(|by| by.abs() <= kink_share * near) {
                 continue;
             }
             changes = true;
@@ -146,7 +153,7 @@ impl Mesh {
             if by.abs() > FAR * h {
                 self.drop_ordinary(phi, by.abs(), breaks);
             }
-            self.add_crossing(Crossing { phi, ..crossing }, 0.0);
+            self.add_crossing(Crossing { phi, ..crossing }, kink_share);
         }
         changes
     }
@@ -161,7 +168,14 @@ impl Mesh {
     }
 
     /// Makes a kink the end of a step: one that is there to the share `kink_share` of the step, or a new one. Whether it is new.
-    pub fn add_crossing(&mut self, found: Crossing, kink_share: f64) -> bool {
+    pub fn add_crossing(&mut self, mut found: Crossing, kink_share: f64) -> bool {
+        let is_beside = |other: &&Crossing| {
+            let apart = (other.phi - found.phi).abs();
+            other.nth != found.nth && apart <= kink_share * SHARED
+        };
+        if let Some(other) = self.crossings.iter().find(is_beside) {
+            found.phi = other.phi;
+        }
         let after = self.edges.partition_point(|&edge| edge <= found.phi).clamp(1, self.edges.len() - 1);
         let (low, high) = (self.edges[after - 1], self.edges[after]);
         let near = kink_share * (high - low).max(SHORTEST);
