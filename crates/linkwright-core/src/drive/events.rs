@@ -54,6 +54,9 @@ pub enum Event {
     Law(SpeedKink),
 }
 
+/// Share of the room beside an end of a step by which it goes towards a kink that lies beyond.
+const ON_THE_WAY: f64 = 0.5;
+
 /// Newton steps to the zero of an event: g is nearly linear in u.
 const LEVEL_SWEEPS: usize = 4;
 
@@ -269,7 +272,8 @@ impl Events<'_, f64> {
             if start * sides[1] < 0.0 {
                 self.within(event, behind, [0.0, C[REFERENCE]], [start, sides[1]], m)
             } else {
-                0.0
+                // u leaps over the kink here, by what the acceleration before it makes of a long way: some of that way.
+                late.clamp(ON_THE_WAY * room[0], ON_THE_WAY * room[1])
             }
         })
     }
@@ -537,6 +541,16 @@ impl<R: Real> Turn<R> {
         let pairs = bundle(&scale).into_iter().zip(bundle(&offset));
         self.passed = pairs.map(|(scale, offset)| [scale, offset]).collect();
     }
+}
+
+/// How far u leaps at ends of steps where the motion is taken through kinks, as a share of itself: what is left of the way
+/// from such an end to its kink.
+pub fn leap(mesh: &Mesh, pieces: &[Piece]) -> f64 {
+    let leaps = mesh.crossings.iter().map(|crossing| {
+        let [before, behind] = beside(crossing.phi, pieces);
+        (behind.u / before.X[S - 1] - 1.0).abs()
+    });
+    leaps.fold(0.0, f64::max)
 }
 
 /// Number of the step that ends at a crank angle: the last one for the start of the revolution.

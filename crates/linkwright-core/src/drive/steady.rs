@@ -13,7 +13,7 @@
 
 use crate::drive::between::Between;
 use crate::drive::cycle::{Machine, Turn, divide};
-use crate::drive::events::Events;
+use crate::drive::events::{Events, leap};
 use crate::drive::extremes::{Extreme, Extremes};
 use crate::drive::layout::unbundle;
 use crate::drive::march::{MotionChoice, NoMotion, PeriodicMotion, Sliding, repeating};
@@ -338,9 +338,13 @@ impl Job for Search<'_> {
                 (mesh, start, placements) = (next, Some(pieces), placements + 1);
                 continue;
             }
+            let leap = if may_jump { leap(&mesh, &pieces) } else { 0.0 };
+            if leap > USABLE.max(self.accuracy) {
+                break;
+            }
             let check = turn.check(&machine, self.accuracy, &mut m);
             let is_good = check.excess.iter().all(|excess| excess.error <= 1.0);
-            reached = check.reached;
+            reached = check.reached.max(leap);
             let next = (!is_good).then(|| mesh.refined(&check.excess));
             let next = next.filter(|next| next.edges.len() <= STEPS_MAX);
             let Some(next) = next else {
