@@ -221,8 +221,9 @@ torque = "-(25.54456861 + 29.22187053*cos(phi) + where(omega > 11.633067343, -12
 
 @pytest.mark.parametrize("accuracy", [1e-9, 1e-11])
 def test_speed_does_not_leap_at_a_jump(accuracy: float) -> None:
-    """Between two angles u changes by no more than the largest acceleration makes of it. SciPy's LSODA, stopped at
-    the jumps, follows the same curve with this period.
+    """Between two angles u changes by no more than the largest acceleration makes of it.
+
+    SciPy's LSODA, stopped at the jumps, follows the same curve with this period.
     """
     motion = lw.steady_state(lw.loads(FLAT), accuracy=accuracy, n=3600)
     most = max(motion.acceleration_max, -motion.acceleration_min) * 2 * np.pi / 3600
