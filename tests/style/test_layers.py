@@ -120,6 +120,8 @@ EDGES = {
     ("sensitivity", "torsion.gradient"),
     ("sensitivity", "kinetostatics"),
     ("sensitivity", "turning"),
+    ("sensitivity", "cam"),
+    ("sensitivity", "cam.profile"),
     ("sizing.commands", "drive.model"),
 }
 

@@ -6,6 +6,7 @@
 | `core` | The core's cam: one contact of a follower with a cam, its law and its dimensions |
 | `dynamics/` | What presses on a cam, and how its follower really moves |
 | `figures/` | Figures of cams |
+| `gradient` | Derivatives of motion and geometry of a cam by its sizes, sections and laws |
 | `law_factors` | How hard a motion law is on the follower: factors of a law of rest to rest |
 | `laws/` | Motion laws: how a follower moves from one place to another, as mathematics |
 | `manufacture/` | Drawings and tables for manufacture |

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright import _core
-from linkwright.cam.laws.motion_law import MotionLaw
+from linkwright.cam.laws.motion_law import MotionLaw, Side
 from linkwright.cam.model.follower import Sizes
 from linkwright.kernel.numerics.tangent_array import TangentArray, lifted, primal, variables_of
 from linkwright.machine.program.numbers import core_law
@@ -77,7 +77,7 @@ class CamKernel:
     def __post_init__(self) -> None:
         """Make the core's cam and its dimensions."""
         core = _core.Cam(
-            core_law(self.law),
+            core_law(self.law.primal),
             is_oscillating=self.is_oscillating,
             is_roller=self.is_roller,
             sense=-1.0 if self.is_opposite else 1.0,
@@ -112,16 +112,21 @@ class CamKernel:
         With derivatives where dimensions or angles have some.
         """
         rows = self.core.rows(self.size, _floats(primal(angle)), before)
-        return rows if variables_of((*self.sizes, angle)) is None else self._along(rows, angle, before)
+        return rows if self._variables(angle) is None else self._along(rows, angle, before)
+
+    def _variables(self, angle: Any) -> int | None:
+        """By how many variables rows at angles have derivatives."""
+        return variables_of((*self.sizes, angle)) or self.law.variables
 
     def _along(self, rows: dict[str, Floats], angle: Any, before: bool) -> dict[str, Any]:
         """Rows with derivatives."""
-        n = variables_of((*self.sizes, angle)) or 0
+        n = self._variables(angle) or 0
         sizes = np.stack([lifted(size, n).d for size in self.sizes])
         angles = lifted(angle, n).reshape(-1)
-        still = np.zeros(4 * angles.size * n)
+        side: Side = "before" if before else "after"
+        lift = [lifted(self.law.at(angles.value, order, side), n).d for order in range(4)]
         along = self.core.rows_along(
-            self.size, _floats(angles.value), before, sizes.ravel(), still, np.ravel(angles.d)
+            self.size, _floats(angles.value), before, sizes.ravel(), np.ravel(lift), np.ravel(angles.d)
         )
         return {name: TangentArray(row, along[name].reshape(-1, n)) for name, row in rows.items()}
 

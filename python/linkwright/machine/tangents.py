@@ -8,7 +8,7 @@ the core's program: the description is translated a second time.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -154,6 +154,12 @@ class Derivatives:
     ties: Mapping[str, str]
     missing: Mapping[str, str]
     refused: Mapping[str, str]
+
+    def only(self, entries: Sequence[str]) -> Derivatives:
+        """Those by some of the entries, in their order."""
+        at = [self.variables.index(entry) for entry in entries]
+        tangents = {name: Tangent(tangent.value, tangent.d[at]) for name, tangent in self.tangents.items()}
+        return replace(self, variables=tuple(entries), tangents=tangents)
 
 
 def followed(

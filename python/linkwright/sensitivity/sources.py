@@ -8,6 +8,7 @@
 | ``forced_vibration.shaft_torque_vibratory.SHAFT`` | the adjoint (`linkwright.torsion.gradient.forced`) |
 | ``forced_vibration.shaft_torque_max.SHAFT`` | there too |
 | ``turning_moment.…`` | integrals of the torques' derivatives (`linkwright.turning.gradient`) |
+| ``cam.CAM.…`` | the law and the contact in tangents (`linkwright.cam.gradient`) |
 | ``forces.…``, ``forces.reaction_max.PAIR`` | the equilibrium (`linkwright.kinetostatics.gradient`) |
 """
 
@@ -15,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 from linkwright.drive.gradient import steady_tangents
 from linkwright.drive.model.motor import ConstantSpeedMotor
@@ -161,6 +163,35 @@ def _turning(machine: Machine, variables: Sequence[str]) -> Source:
     return _of_scalars("turning_moment", TurningMomentDiagram, turning_tangents(machine, variables))
 
 
+def _cams(machine: Machine, variables: Sequence[str]) -> Source:
+    """Motion and geometry of all cams."""
+    from linkwright.cam.gradient import cam_tangents
+    from linkwright.cam.profile.profile import CamProfile, the_cam, unit_in
+
+    names = list(machine.mechanism.cams) or [the_cam(machine)[0]]
+    alone = {name: cam_tangents(machine, name, variables) for name in names}
+    refused = {entry: why for one in alone.values() for entry, why in one.refused.items()}
+    kept = tuple(entry for entry in variables if entry not in refused)
+    parts = []
+    for name, one in alone.items():
+        units = {
+            key: unit_in(shown(CamProfile, key).unit, machine.mechanism.cams[name]) for key in one.tangents
+        }
+        parts.append(_of_scalars(f"cam.{name}", CamProfile, one.only(kept), units=units))
+    return _joined(kept, parts, refused)
+
+
+def _joined(variables: tuple[str, ...], parts: Sequence[Source], refused: Mapping[str, str]) -> Source:
+    """Several results of one kind."""
+
+    def merged(field: str) -> dict[str, Any]:
+        return {name: value for part in parts for name, value in getattr(part, field).items()}
+
+    usual = [name for part in parts for name in part.usual]
+    tables = (merged(field) for field in ("tangents", "words", "units", "ties"))
+    return Source(variables, *tables, refused, usual, merged("missing"))
+
+
 def _of_scalars(
     prefix: str,
     kind: type,
@@ -190,14 +221,21 @@ SOURCES: dict[str, Callable[[Machine, Sequence[str]], Source]] = {
     "steady_state": _steady,
     "free_vibration": _free,
     "forced_vibration": _forced,
+    "cam": _cams,
     "forces": _forces,
     "turning_moment": _turning,
 }
 
 
 def chosen(listed: Collection[str], asked: str) -> list[str]:
-    """Responses that a name means: that of it alone, or all that begin with it. Empty if there is none."""
-    return [asked] if asked in listed else [name for name in listed if name.startswith(f"{asked}.")]
+    """Responses that a name means: that of it alone, or all that begin with it, or that of every cam where it
+    names none. Empty if there is none.
+    """
+    if asked in listed:
+        return [asked]
+    first, _, rest = asked.partition(".")
+    below = [name for name in listed if name.startswith(f"{asked}.")]
+    return below or [name for name in listed if rest and name.split(".")[::2] == [first, rest]]
 
 
 def analysis_of(response: str) -> str:

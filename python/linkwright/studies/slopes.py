@@ -21,7 +21,7 @@ from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.numerics.formula_value import value
 from linkwright.kernel.numerics.tangent import Tangent, primal
 from linkwright.machine.machine import Machine
-from linkwright.sensitivity.sources import SOURCES, Source, source
+from linkwright.sensitivity.sources import SOURCES, Source, chosen, source
 from linkwright.studies.engine import SOLVED, evaluate, sound_variant
 from linkwright.studies.plan import Formula, StudyPlan
 from linkwright.studies.responses import ENTRY, StudyResponse, entry_number
@@ -149,9 +149,11 @@ def _analysed(plan: StudyPlan, known: Mapping[str, Any]) -> tuple[dict[str, Tang
             continue
         if asked.analysis not in sources:
             sources[asked.analysis] = _source(machine, asked.analysis, tuple(entries))
-        own, name = sources[asked.analysis], _address(asked)
-        if own is None or name not in own.tangents:
+        own = sources[asked.analysis]
+        named = [] if own is None else chosen(own.tangents, _address(asked))
+        if own is None or len(named) != 1:
             continue
+        name = named[0]
         tangent = own.tangents[name]
         by = zip(own.variables, tangent.d, strict=True)
         slope = sum((d * entries[place].d for place, d in by), start=np.zeros(len(plan.axes)))

@@ -43,6 +43,7 @@ from linkwright.cam.laws.handbook import constant_velocity
 from linkwright.cam.laws.motion_law import MotionLaw, combined
 from linkwright.cam.laws.polynomial import polynomial
 from linkwright.kernel.errors import LawError, Problem
+from linkwright.kernel.numerics.tangent import moves
 
 
 @dataclass(frozen=True)
@@ -73,7 +74,7 @@ _REST = {0: 0.0, 1: 0.0, 2: 0.0}
 
 def half_law(law: MotionLaw) -> MotionLaw:
     """The first half of a symmetric law, stretched to a section and to an end velocity of one."""
-    middle = float(law.at(0.5, 1))
+    middle = law.value(0.5, 1)
     return law.stretch(0.0, 0.5).placed(0.0, 1.0).scaled(2 / middle)
 
 
@@ -83,14 +84,14 @@ def with_boundary(law: MotionLaw, task: Boundary) -> MotionLaw:
     ``task``: the boundary values. Accelerations that are None are those that come out.
     """
     moved = law.scaled(task.lift)
-    if task.velocity_start or task.velocity_end:
+    if moves(task.velocity_start) or moves(task.velocity_end):
         moved = _moved(law, task)
-    start, end = moved.at(0.0, 2), moved.at(1.0, 2, "before")
+    start, end = moved.value(0.0, 2), moved.value(1.0, 2, "before")
     missing = [
-        0.0 if wanted is None else wanted - float(there)
+        0.0 if wanted is None else wanted - there
         for wanted, there in ((task.acceleration_start, start), (task.acceleration_end, end))
     ]
-    if not any(missing):
+    if not any(map(moves, missing)):
         return moved
     bend = polynomial(_REST | {2: missing[0]}, _REST | {2: missing[1]})
     return combined((1.0, moved), (1.0, bend))
@@ -100,7 +101,7 @@ def _moved(law: MotionLaw, task: Boundary) -> MotionLaw:
     """The sum that meets lift and velocities."""
     v_0, change = task.velocity_start, task.velocity_end - task.velocity_start
     G = half_law(law)
-    left = task.lift - v_0 - change * float(G.at(1.0))
+    left = task.lift - v_0 - change * G.value(1.0)
     return combined((v_0, constant_velocity()), (change, G), (left, law))
 
 
@@ -127,11 +128,11 @@ def is_symmetric(law: MotionLaw) -> bool:
 def at_rest_only(law: MotionLaw, task: Boundary) -> MotionLaw:
     """A law that cannot but begin and end at rest."""
     own = law.scaled(task.lift)
-    ends = (float(own.at(0.0, 2)), float(own.at(1.0, 2, "before")))
+    ends = (own.value(0.0, 2), own.value(1.0, 2, "before"))
     wanted = (task.acceleration_start, task.acceleration_end)
     limit = _SAME * (1 + abs(task.lift) * max(map(abs, ends)))
     differs = any(a is not None and abs(a - b) > limit for a, b in zip(wanted, ends, strict=True))
-    if task.velocity_start or task.velocity_end or differs:
+    if moves(task.velocity_start) or moves(task.velocity_end) or differs:
         found = f"a law of rest to rest for the task {task.letters}"
         remedy = 'take law = "polynomial", or one of the symmetric laws'
         raise LawError(Problem("", found, "a law that begins and ends as the neighbours ask", remedy))
@@ -148,15 +149,20 @@ def by_conditions(
 
     ``task``: the boundary values; accelerations that are None are zero.
     """
-    start = (0.0, task.velocity_start, task.acceleration_start or 0.0)
-    end = (task.lift, task.velocity_end, task.acceleration_end or 0.0)
+    start = (0.0, task.velocity_start, or_none(task.acceleration_start))
+    end = (task.lift, task.velocity_end, or_none(task.acceleration_end))
     at_start = _conditions("continuity_start", start, continuity_start)
     return polynomial(at_start, _conditions("continuity_end", end, continuity_end), powers)
 
 
+def or_none(value: float | None) -> float:
+    """An acceleration, none where nothing is said."""
+    return 0.0 if value is None else value
+
+
 def _conditions(key: str, values: Sequence[float], order: int) -> dict[int, float]:
     """Order → value, up to the order that is wanted."""
-    left_out = [i for i in range(order + 1, len(values)) if values[i]]
+    left_out = [i for i in range(order + 1, len(values)) if moves(values[i])]
     if left_out:
         expected = f"{left_out[-1]} or more, as the section has a derivative of that order at this end"
         raise LawError(Problem(key, str(order), expected))

@@ -47,7 +47,7 @@ from linkwright.cam.laws.piece import Harmonic, Piece
 def rest_to_rest(*stretches: tuple[float, Piece]) -> MotionLaw:
     """The law f(z), z and f from 0 to 1."""
     law = MotionLaw.of(0.0, *stretches).integral().integral().placed(0.0, 1.0)
-    return law.scaled(1 / float(law.at(1.0)))
+    return law.scaled(1 / law.value(1.0))
 
 
 def constant_velocity() -> MotionLaw:

@@ -16,13 +16,15 @@ Source: Biagiotti and Melchiorri, *Trajectory Planning for Automatic Machines an
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import copysign, degrees, inf, sqrt
+from math import copysign, degrees, inf
+from typing import Any
 
 from linkwright.cam.laws.boundary import Boundary
 from linkwright.cam.laws.handbook import constant_velocity, rest_to_rest
 from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.cam.laws.piece import Piece
 from linkwright.kernel.errors import LawError, Problem
+from linkwright.kernel.numerics.tangent import Tangent, moves, primal, sqrt
 
 # Halvings after which an interval of floats is two neighbours.
 _HALVINGS = 100
@@ -45,9 +47,22 @@ class Limits:
 
     def ramp(self, v: float) -> float:
         """Minimum length in which the velocity v is reached from rest [rad]."""
-        if v * self.jerk <= self.acceleration**2:
+        if self._is_short(v):
             return 2 * sqrt(v / self.jerk)
         return v / self.acceleration + self.acceleration / self.jerk
+
+    def _is_short(self, v: float) -> bool:
+        """Whether the full acceleration is not reached on the way to a velocity."""
+        return bool(v * self.jerk <= self.acceleration**2)
+
+    def ramp_slope(self, v: float) -> float:
+        """By how much that length grows with the velocity."""
+        return 1 / sqrt(v * self.jerk) if self._is_short(v) else 1 / self.acceleration
+
+    @property
+    def primal(self) -> Limits:
+        """The limits without derivatives."""
+        return Limits(primal(self.velocity), primal(self.acceleration), primal(self.jerk))
 
     def fastest(self, lift: float) -> float:
         """Maximum velocity of the motion of minimum length over a lift [m/rad or –]."""
@@ -55,10 +70,13 @@ class Limits:
         low, high = 0.0, min(self.velocity, sqrt(self.acceleration * lift))
         if high * self.ramp(high) <= lift:
             return high
+        bare, high = self.primal, primal(high)
         for _ in range(_HALVINGS):
             middle = 0.5 * (low + high)
-            low, high = (middle, high) if middle * self.ramp(middle) <= lift else (low, middle)
-        return low
+            low, high = (middle, high) if middle * bare.ramp(middle) <= lift else (low, middle)
+        # One step of Newton's method leaves the root and gives its derivatives.
+        missing = low * self.ramp(low) - lift
+        return _moved(low, missing, bare.ramp(low) + low * bare.ramp_slope(low))
 
     def shortest(self, lift: float) -> float:
         """Minimum length of a section with a lift of this size [rad]."""
@@ -75,7 +93,7 @@ def limited_section(
     angle [m or rad, per rad, rad², rad³]; None without a limit.
     """
     ends = (task.velocity_start, task.velocity_end, task.acceleration_start, task.acceleration_end)
-    if any(ends):
+    if any(map(moves, ends)):
         expected = "rest at both ends, which the law goes from and to"
         raise LawError(Problem("", f"the task {task.letters}", expected, 'take law = "polynomial"'))
     if task.lift == 0:
@@ -83,11 +101,11 @@ def limited_section(
     limits = Limits(inf if velocity is None else velocity, acceleration, inf if jerk is None else jerk)
     shortest = limits.shortest(abs(task.lift))
     if shortest > angle * (1 + _ROUNDING):
-        found = f"limits that ask for at least {degrees(shortest):.10g} deg"
-        expected = f"limits with which the lift is done in {degrees(angle):.10g} deg"
+        found = f"limits that ask for at least {degrees(primal(shortest)):.10g} deg"
+        expected = f"limits with which the lift is done in {degrees(primal(angle)):.10g} deg"
         remedy = "give the section that angle, or raise the limits"
         raise LawError(Problem("", found, expected, remedy))
-    return limited(limits, abs(task.lift), max(angle, shortest)).scaled(copysign(1.0, task.lift))
+    return limited(limits, abs(task.lift), max(angle, shortest)).scaled(copysign(1.0, primal(task.lift)))
 
 
 def limited(limits: Limits, lift: float, length: float) -> MotionLaw:
@@ -98,11 +116,20 @@ def limited(limits: Limits, lift: float, length: float) -> MotionLaw:
     """
     least = limits.shortest(lift)
     low, high = lift / length, limits.fastest(lift)
-    for _ in range(_HALVINGS if length > least * (1 + _SHORTEST) else 0):
-        middle = 0.5 * (low + high)
-        slow = lift / middle + limits.ramp(middle) > length
-        low, high = (middle, high) if slow else (low, middle)
+    if length > least * (1 + _SHORTEST):
+        bare, low, high = limits.primal, primal(low), primal(high)
+        for _ in range(_HALVINGS):
+            middle = 0.5 * (low + high)
+            slow = primal(lift) / middle + bare.ramp(middle) > length
+            low, high = (middle, high) if slow else (low, middle)
+        missing = lift / high + limits.ramp(high) - length
+        high = _moved(high, missing, bare.ramp_slope(high) - primal(lift) / high**2)
     return _profile(limits, high, lift / high).scaled(lift)
+
+
+def _moved(root: float, missing: Any, slope: float) -> Any:
+    """A root with the derivatives of what is missing to zero there."""
+    return root - Tangent(0.0, missing.d) / slope if isinstance(missing, Tangent) else root
 
 
 def _profile(limits: Limits, v: float, fast: float) -> MotionLaw:

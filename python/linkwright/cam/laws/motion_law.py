@@ -6,17 +6,18 @@ its mirrored image: all of them are exact.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from linkwright.cam.laws.piece import Harmonic, Piece, zeros
+from linkwright.kernel.numerics.tangent import Tangent, total
+from linkwright.kernel.numerics.tangent_array import lifted, primal, variables_of
 
 __all__ = ["Extreme", "Harmonic", "MotionLaw", "Piece", "combined", "joined"]
 
@@ -64,9 +65,9 @@ class MotionLaw:
         """A law from pairs of length and piece, one after the other; those without length, but for rounding,
         are left out.
         """
-        least = _SAME * math.fsum(length for length, _ in stretches)
+        least = _SAME * total(length for length, _ in stretches)
         kept = [(length, piece) for length, piece in stretches if length > least]
-        ends = [math.fsum([start, *(length for length, _ in kept[:i])]) for i in range(len(kept) + 1)]
+        ends = [total([start, *(length for length, _ in kept[:i])]) for i in range(len(kept) + 1)]
         return cls(tuple(ends), tuple(piece for _, piece in kept))
 
     @property
@@ -89,21 +90,41 @@ class MotionLaw:
         for low, high, piece in zip(self.breaks, self.breaks[1:], self.pieces, strict=False):
             yield low, high - low, piece
 
-    def at(self, x: ArrayLike, order: int = 0, side: Side = "after") -> Floats:
+    def at(self, x: Any, order: int = 0, side: Side = "after") -> Any:
         """Value, or derivative of an order, of the shape of ``x``; beyond the ends the outer pieces go on.
 
-        `side`: which piece counts at a break, that ``"after"`` or ``"before"`` it.
+        `side`: which piece counts at a break, that ``"after"`` or ``"before"`` it. With derivatives where the
+        law or x has some.
         """
-        x = np.asarray(x, dtype=float)
+        n = variables_of((x,)) or self.variables
+        x = np.asarray(x, dtype=float) if n is None else lifted(x, n)
         law = self.derivative(order)
-        inner = np.array(self.breaks[1:-1])
-        index = np.searchsorted(inner, x, side="right" if side == "after" else "left")
-        value = np.zeros_like(x)
+        inner = np.array(self.primal.breaks[1:-1])
+        index = np.searchsorted(inner, primal(x), side="right" if side == "after" else "left")
+        value: Any = np.zeros_like(x) if n is None else lifted(np.zeros(x.shape), n)
         for i, (low, length, piece) in enumerate(law._stretches()):
             here = index == i
             if here.any():
                 value[here] = piece.at((x[here] - low) / length)
         return value
+
+    def value(self, x: Any, order: int = 0, side: Side = "after") -> Any:
+        """The value at one place, a number; with derivatives if it has some."""
+        value = self.at(x, order, side)
+        return float(value) if isinstance(value, np.ndarray | np.generic) else value.number()
+
+    @cached_property
+    def variables(self) -> int | None:
+        """By how many variables it has derivatives; None without any."""
+        numbers = (x for piece in self.pieces for x in piece.numbers)
+        return variables_of((*self.breaks, *numbers))
+
+    @cached_property
+    def primal(self) -> MotionLaw:
+        """The law without derivatives."""
+        if self.variables is None:
+            return self
+        return MotionLaw(tuple(map(primal, self.breaks)), tuple(piece.primal for piece in self.pieces))
 
     def derivative(self, order: int = 1) -> MotionLaw:
         """The law's derivative of any order, piece by piece; jumps at breaks are left out."""
@@ -122,7 +143,7 @@ class MotionLaw:
         pieces: list[Piece] = []
         for _, length, piece in self._stretches():
             pieces.append(piece.integral(length, start))
-            start = float(pieces[-1].at(1.0))
+            start = pieces[-1].value(1.0)
         return MotionLaw(self.breaks, tuple(pieces))
 
     # -- laws from laws ----------------------------------------------------------------------------------
@@ -158,12 +179,14 @@ class MotionLaw:
 
     def _cut(self, breaks: Sequence[float]) -> MotionLaw:
         """The same law with other breaks, of which none lies inside a piece unseen."""
-        own, pieces = np.array(self.breaks), []
+        own, pieces = np.array(self.primal.breaks), []
         for low, high in pairwise(breaks):
-            i = int(np.clip(np.searchsorted(own, 0.5 * (low + high)) - 1, 0, len(self.pieces) - 1))
+            i = int(np.clip(np.searchsorted(own, primal(0.5 * (low + high))) - 1, 0, len(self.pieces) - 1))
             start, length = self.breaks[i], self.breaks[i + 1] - self.breaks[i]
             ends = (low - start) / length, (high - start) / length
-            is_complete = abs(ends[0]) < _SAME and abs(ends[1] - 1) < _SAME
+            # An end that moves otherwise than that of the piece makes another one of it.
+            moves = any(isinstance(end, Tangent) and end.d.any() for end in ends)
+            is_complete = not moves and abs(ends[0]) < _SAME and abs(ends[1] - 1) < _SAME
             pieces.append(self.pieces[i] if is_complete else self.pieces[i].part(*ends))
         return MotionLaw(tuple(breaks), tuple(pieces))
 
@@ -171,12 +194,12 @@ class MotionLaw:
 
     def jumps(self, order: int) -> Floats:
         """By how much a derivative jumps at each inner break, (n − 1,)."""
-        inner = np.array(self.breaks[1:-1])
+        inner = np.array(self.primal.breaks[1:-1])
         return self.at(inner, order, "after") - self.at(inner, order, "before")
 
     def zeros(self, order: int = 0) -> list[float]:
         """Where a derivative is zero inside the pieces, increasing; a piece that is zero has none."""
-        law = self.derivative(order)
+        law = self.primal.derivative(order)
         scale = max((float(np.abs(p.at(np.linspace(0, 1, 9))).max()) for p in law.pieces), default=0.0)
         places: list[float] = []
         for low, length, piece in law._stretches():
@@ -192,10 +215,17 @@ class MotionLaw:
         for side in ("after", "before"):
             places = [x for x, which in ends if which == side]
             places += self.zeros(order + 1) if side == "after" else []
-            values = self.at(np.array(places), order, side)
-            listed += [Extreme(x, float(v), side) for x, v in zip(places, values, strict=True)]
+            values = self._values(places, order, side)
+            listed += [Extreme(primal(x), v, side) for x, v in zip(places, values, strict=True)]
         listed.sort(key=lambda extreme: extreme.at)
         return min(listed, key=lambda extreme: extreme.value), max(listed, key=lambda extreme: extreme.value)
+
+    def _values(self, places: Sequence[Any], order: int, side: Side) -> list[Any]:
+        """Values at places, which move if they are tangents; numbers."""
+        if self.variables is None:
+            return [float(v) for v in self.at(np.array(places), order, side)]
+        values = self.at(lifted(np.array(places, dtype=object), self.variables), order, side)
+        return [values[i].number() for i in range(len(places))]
 
     def peak(self, order: int = 0) -> Extreme:
         """The value of a derivative that is largest in size."""
@@ -207,12 +237,12 @@ class MotionLaw:
         Gauss–Legendre with as many nodes a piece as integrate its polynomial exactly, and its harmonics to
         rounding.
         """
-        total: list[float] = []
+        terms: list[float] = []
         for _, length, piece in self.derivative(order)._stretches():
             nodes = len(piece.polynomial) + 24 + int(2 * piece.waves)
             x, weight = np.polynomial.legendre.leggauss(nodes)
-            total += list(0.5 * length * weight * piece.at(0.5 * (x + 1)) ** 2)
-        return math.fsum(total)
+            terms += list(0.5 * length * weight * piece.at(0.5 * (x + 1)) ** 2)
+        return total(terms)
 
 
 def joined(laws: Sequence[MotionLaw]) -> MotionLaw:
@@ -227,7 +257,7 @@ def combined(*terms: tuple[float, MotionLaw]) -> MotionLaw:
     """A sum of laws over the same stretch, each times a factor: pairs of factor and law."""
     first = terms[0][1]
     breaks: list[float] = []
-    for x in sorted({x for _, law in terms for x in law.breaks}):
+    for x in sorted((x for _, law in terms for x in law.breaks), key=primal):
         if not breaks or x - breaks[-1] > _SAME * first.length:
             breaks.append(x)
     breaks[-1] = first.end

@@ -34,14 +34,15 @@ motion under a bound, with time and bound exchanged; the closed forms follow fro
 from __future__ import annotations
 
 from collections.abc import Collection
-from math import copysign, sqrt
+from math import copysign
 
-from linkwright.cam.laws.boundary import Boundary
+from linkwright.cam.laws.boundary import Boundary, or_none
 from linkwright.cam.laws.handbook import constant_velocity
 from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.cam.laws.piece import Piece
 from linkwright.cam.laws.polynomial import Conditions, polynomial
 from linkwright.kernel.errors import LawError, Problem
+from linkwright.kernel.numerics.tangent import moves, primal, sqrt
 
 
 def optimal(order: int, start: Conditions, end: Conditions) -> MotionLaw:
@@ -67,11 +68,11 @@ def optimal_section(
     task: Boundary, order: int = 3, free_start: Collection[int] = (), free_end: Collection[int] = ()
 ) -> MotionLaw:
     """The optimal law of a section."""
-    start = (0.0, task.velocity_start, task.acceleration_start or 0.0)
-    end = (task.lift, task.velocity_end, task.acceleration_end or 0.0)
+    start = (0.0, task.velocity_start, or_none(task.acceleration_start))
+    end = (task.lift, task.velocity_end, or_none(task.acceleration_end))
     sides = []
     for key, values, free in (("free_start", start, free_start), ("free_end", end, free_end)):
-        wanted = [i for i, value in enumerate(values) if value and i and (i in free or i >= order)]
+        wanted = [i for i, value in enumerate(values) if moves(value) and i and (i in free or i >= order)]
         if wanted:
             expected = (
                 f"a law that can have the derivative of order {wanted[0]} that is asked for at this end"
@@ -95,7 +96,7 @@ _NONE = 1e-9
 def minimum_acceleration(task: Boundary) -> MotionLaw:
     """The law of minimum peak acceleration."""
     q, change = _excess(task)
-    A = 2 * q + copysign(sqrt(4 * q * q + change * change), q)
+    A = 2 * q + copysign(1.0, primal(q)) * sqrt(4 * q * q + change * change)
     for wanted, sign in ((task.acceleration_start, 1), (task.acceleration_end, -1)):
         if wanted is not None and abs(wanted - sign * A) > _NONE * abs(A):
             expected = "no acceleration at the ends: the law begins and ends with its peak"
@@ -110,8 +111,8 @@ def minimum_acceleration(task: Boundary) -> MotionLaw:
 def minimum_jerk(task: Boundary) -> MotionLaw:
     """The law of minimum peak jerk without acceleration at the ends."""
     q, change = _excess(task)
-    J = 16 * q + copysign(sqrt(256 * q * q + 16 * change * change), q)
-    if task.acceleration_start or task.acceleration_end:
+    J = 16 * q + copysign(1.0, primal(q)) * sqrt(256 * q * q + 16 * change * change)
+    if moves(or_none(task.acceleration_start)) or moves(or_none(task.acceleration_end)):
         expected = "no acceleration at the ends, for which the law has a closed form"
         raise LawError(Problem("", "an acceleration at an end", expected, 'take law = "polynomial"'))
     if J == 0:

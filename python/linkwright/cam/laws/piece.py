@@ -16,11 +16,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.polynomial import chebyshev
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
+
+from linkwright.kernel.numerics.tangent import cos, primal, sin, total
+from linkwright.kernel.numerics.tangent_array import lifted, variables_of
 
 Floats = NDArray[np.float64]
 
@@ -89,15 +92,34 @@ class Piece(NamedTuple):
     polynomial: tuple[float, ...]
     harmonics: tuple[Harmonic, ...] = ()
 
-    def at(self, u: ArrayLike) -> Floats:
-        """Value over u, of the same shape."""
-        u = np.asarray(u, dtype=float)
-        value = np.zeros_like(u)
+    def at(self, u: Any) -> Any:
+        """Value over u, of the same shape; with derivatives where the piece or u has some."""
+        n = variables_of((u, *self.numbers))
+        u = np.asarray(u, dtype=float) if n is None else lifted(u, n)
+        value: Any = np.zeros_like(u) if n is None else lifted(np.zeros(u.shape), n)
         for coefficient in reversed(self.polynomial):
             value = value * u + coefficient
         for k, a, b in self.harmonics:
             value = value + a * np.cos(k * u) + b * np.sin(k * u)
         return value
+
+    def value(self, u: Any) -> Any:
+        """The value at one place, a number; with derivatives if it has some."""
+        value = self.at(u)
+        return float(value) if isinstance(value, np.ndarray | np.generic) else value.number()
+
+    @property
+    def numbers(self) -> tuple[Any, ...]:
+        """All coefficients."""
+        return (*self.polynomial, *(x for wave in self.harmonics for x in wave))
+
+    @property
+    def primal(self) -> Piece:
+        """The piece without derivatives."""
+        if variables_of(self.numbers) is None:
+            return self
+        harmonics = tuple(Harmonic(*map(primal, wave)) for wave in self.harmonics)
+        return Piece(tuple(map(primal, self.polynomial)), harmonics)
 
     def derivative(self, length: float) -> Piece:
         """Derivative by x = length·u."""
@@ -108,7 +130,7 @@ class Piece(NamedTuple):
     def integral(self, length: float, start: float = 0.0) -> Piece:
         """Integral over x = length·u that begins with a value."""
         harmonics = tuple(Harmonic(k, -b * length / k, a * length / k) for k, a, b in self.harmonics)
-        constant = start - math.fsum(harmonic.cosine for harmonic in harmonics)
+        constant = start - total(harmonic.cosine for harmonic in harmonics)
         return Piece((constant, *(c * length / (i + 1) for i, c in enumerate(self.polynomial))), harmonics)
 
     def scaled(self, factor: float, shift: float = 0.0) -> Piece:
@@ -124,7 +146,7 @@ class Piece(NamedTuple):
         width = high - low
         n = len(self.polynomial)
         shifted = tuple(
-            math.fsum(self.polynomial[j] * math.comb(j, i) * low ** (j - i) for j in range(i, n)) * width**i
+            total(self.polynomial[j] * math.comb(j, i) * low ** (j - i) for j in range(i, n)) * width**i
             for i in range(n)
         )
         return Piece(shifted, tuple(_shifted(harmonic, low, width) for harmonic in self.harmonics))
@@ -139,7 +161,7 @@ class Piece(NamedTuple):
     @property
     def waves(self) -> float:
         """The highest frequency [rad over the piece]."""
-        return max((abs(harmonic.frequency) for harmonic in self.harmonics), default=0.0)
+        return max((abs(primal(harmonic.frequency)) for harmonic in self.harmonics), default=0.0)
 
     def vanishes(self, scale: float) -> bool:
         """Whether all coefficients are zero within rounding of a scale."""
@@ -150,5 +172,5 @@ class Piece(NamedTuple):
 def _shifted(harmonic: Harmonic, low: float, width: float) -> Harmonic:
     """A harmonic over low + width·u."""
     k, a, b = harmonic
-    cos, sin = math.cos(k * low), math.sin(k * low)
-    return Harmonic(k * width, a * cos + b * sin, b * cos - a * sin)
+    c, s = cos(k * low), sin(k * low)
+    return Harmonic(k * width, a * c + b * s, b * c - a * s)

@@ -16,10 +16,12 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from math import perm
+from typing import Any
 
 from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.cam.laws.piece import Piece
 from linkwright.kernel.errors import LawError, Problem
+from linkwright.kernel.numerics.tangent import Tangent, primal
 
 Number = Fraction | int | float
 Row = list[Fraction]
@@ -57,17 +59,25 @@ def polynomial(start: Conditions, end: Conditions, powers: Sequence[int] | None 
         expected = f"{n} powers, as many as there are conditions at the two ends"
         raise LawError(Problem("powers", _listed(used), expected))
     rows = [*(_at_start(order, used) for order in start), *(_at_end(order, used) for order in end)]
-    solved = solve(rows, [*start.values(), *end.values()])
+    values = [*start.values(), *end.values()]
+    solved = solve(rows, [primal(value) for value in values])
     if solved is None:
         expected = "powers that can meet every condition: each order that is given at the start is one"
         raise LawError(Problem("powers", _listed(used), expected))
-    by_power = dict(zip(used, solved, strict=True))
+    by_power: dict[int, Any] = dict(zip(used, solved, strict=True))
+    for i, value in enumerate(values):
+        if isinstance(value, Tangent):
+            # The coefficients are linear in each condition.
+            unit = solve(rows, [float(i == k) for k in range(n)])
+            still = Tangent(0.0, value.d)
+            by_power = {p: by_power[p] + still * float(c) for p, c in zip(used, unit or (), strict=True)}
     return MotionLaw((0.0, 1.0), (Piece(coefficients(by_power)),))
 
 
-def coefficients(by_power: Mapping[int, Fraction]) -> tuple[float, ...]:
+def coefficients(by_power: Mapping[int, Any]) -> tuple[float, ...]:
     """All coefficients from the constant on, of power → coefficient."""
-    return tuple(float(by_power.get(p, 0)) for p in range(max(by_power) + 1))
+    given = (by_power.get(p, 0) for p in range(max(by_power) + 1))
+    return tuple(c if isinstance(c, Tangent) else float(c) for c in given)
 
 
 def polynomial_3_4_5() -> MotionLaw:

@@ -12,10 +12,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from linkwright.cam.laws.boundary import Boundary
+from linkwright.cam.laws.boundary import Boundary, or_none
 from linkwright.cam.laws.motion_law import MotionLaw, joined
 from linkwright.cam.laws.piece import Piece
 from linkwright.kernel.errors import InputError
+from linkwright.kernel.numerics.tangent import Tangent, primal, total
 
 TURN = 2 * math.pi
 
@@ -131,15 +132,15 @@ def programme(sections: Sequence[Section]) -> Programme:
     """
     closed = _closed(sections)
     tasks = boundaries(closed)
-    ends = [math.fsum(section.angle for section in closed[:i]) for i in range(len(closed))] + [TURN]
+    ends = [total(section.angle for section in closed[:i]) for i in range(len(closed))] + [TURN]
     laws = []
     for i, (section, task) in enumerate(zip(closed, tasks, strict=True)):
-        start = math.fsum(section.lift for section in closed[:i])
+        start = total(section.lift for section in closed[:i])
         law = section_law(section, task).scaled(1.0, start)
         laws.append(law.placed(ends[i], ends[i + 1] - ends[i]))
     law = joined(laws)
     full = MotionLaw((*law.breaks[:-1], TURN), law.pieces)
-    return Programme(full, joints(full, ends[:-1]), tuple(tasks))
+    return Programme(full, joints(full.primal, list(map(primal, ends[:-1]))), tuple(tasks))
 
 
 def section_law(section: Section, task: Boundary) -> MotionLaw:
@@ -154,7 +155,7 @@ def boundaries(sections: Sequence[Section]) -> list[Boundary]:
     for i, here in enumerate(sections):
         before, after = sections[i - 1], sections[(i + 1) % len(sections)]
         velocities = [
-            _said(here.velocity(a), other.velocity(b)) or 0.0 for a, other, b in _ends(before, after)
+            or_none(_said(here.velocity(a), other.velocity(b))) for a, other, b in _ends(before, after)
         ]
         bends = [_said(here.acceleration(a), other.acceleration(b)) for a, other, b in _ends(before, after)]
         tasks.append(
@@ -193,14 +194,25 @@ def _said(own: float | None, other: float | None) -> float | None:
 
 def _closed(sections: Sequence[Section]) -> list[Section]:
     """The sections with what rounding leaves of revolution and lift shared out."""
-    turn = math.fsum(section.angle for section in sections)
-    left = math.fsum(section.lift for section in sections)
+    turn = total(section.angle for section in sections)
+    left = total(section.lift for section in sections)
     largest = max(range(len(sections)), key=lambda i: abs(sections[i].lift))
     if abs(turn - TURN) > CLOSES * TURN:
-        raise InputError(f"the angles of a programme add to {math.degrees(turn):.10g}°, expected 360°")
+        raise InputError(
+            f"the angles of a programme add to {math.degrees(primal(turn)):.10g}°, expected 360°"
+        )
     if abs(left) > CLOSES * abs(sections[largest].lift):
         raise InputError(f"the lifts of a programme add to {left:.10g}, expected 0")
     closed = [replace(section, angle=section.angle * TURN / turn) for section in sections]
+    if isinstance(left, Tangent):
+        # Of a lift that an entry changes alone, all give way in proportion to their sizes.
+        whole, rest = sum(abs(section.lift) for section in sections), Tangent(0.0, left.d)
+        shares = [primal(abs(section.lift) / whole) if whole else 0.0 for section in sections]
+        closed = [
+            replace(section, lift=section.lift - share * rest)
+            for section, share in zip(closed, shares, strict=True)
+        ]
+        left = left.value
     if left:
         closed[largest] = replace(closed[largest], lift=closed[largest].lift - left)
     return closed

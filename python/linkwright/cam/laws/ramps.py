@@ -116,7 +116,7 @@ def _with_ramp(start: float, stop: float, ramp: MotionLaw) -> MotionLaw:
     if cruise < -_ROUNDING or min(start, stop) < 0:
         found = f"shares of {start:.6g} and {stop:.6g}"
         raise LawError(Problem("start", found, "shares of 0 or more, together at most 1"))
-    travel = float(ramp.at(1.0))
+    travel = ramp.value(1.0)
     v = 1 / (start * travel + cruise + stop * travel)
     before, after = v * start * travel, 1 - v * stop * travel
     parts = [

@@ -24,10 +24,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.cam.laws.boundary import Boundary
+from linkwright.cam.laws.boundary import Boundary, or_none
 from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.cam.laws.piece import Piece
 from linkwright.kernel.errors import LawError, Problem
+from linkwright.kernel.numerics.tangent import Tangent, primal
+from linkwright.kernel.numerics.tangent_array import variables_of
 
 
 def spline(places: Sequence[float], values: Sequence[float], task: Boundary, degree: int = 5) -> MotionLaw:
@@ -36,17 +38,29 @@ def spline(places: Sequence[float], values: Sequence[float], task: Boundary, deg
 
     x = np.asarray(places, dtype=float)
     orders = range(1, (degree + 1) // 2)
-    start = (task.velocity_start, task.acceleration_start or 0.0, 0.0)
-    end = (task.velocity_end, task.acceleration_end or 0.0, 0.0)
-    conditions: Any = (
-        ([*zip(orders, start, strict=False)], [*zip(orders, end, strict=False)]) if orders else None
-    )
+    start = (task.velocity_start, or_none(task.acceleration_start), 0.0)
+    end = (task.velocity_end, or_none(task.acceleration_end), 0.0)
+    # Values, and behind them their derivatives by entries: the spline is linear in both.
+    n = variables_of((*values, *start, *end)) or 0
+    rows = [_with_derivatives(value, n) for value in values]
+    ends = [[_with_derivatives(value, n) for value in side] for side in (start, end)]
+    conditions: Any = tuple([*zip(orders, side, strict=False)] for side in ends) if orders else None
     knots = np.concatenate([np.zeros(degree), x, np.ones(degree)])
-    curve = make_interp_spline(x, np.asarray(values, dtype=float), degree, knots, conditions)
+    curve = make_interp_spline(x, np.array(rows), degree, knots, conditions)
     # Powers of the distance from the start of each piece, the highest first; a piece counts from 0 to 1.
-    powers = PPoly.from_spline(curve.tck).c[:, degree : degree + len(x) - 1][::-1].T
-    scale = np.diff(x)[:, None] ** np.arange(degree + 1)
-    return MotionLaw(tuple(x.tolist()), tuple(Piece(tuple(row)) for row in (powers * scale).tolist()))
+    powers = [
+        PPoly.from_spline((curve.t, column, degree)).c[:, degree : degree + len(x) - 1][::-1].T
+        for column in curve.c.T
+    ]
+    table = np.stack(powers, axis=-1) * (np.diff(x)[:, None] ** np.arange(degree + 1))[..., None]
+    pieces = [tuple(c[0] if not n else Tangent(c[0], np.array(c[1:])) for c in row) for row in table.tolist()]
+    return MotionLaw(tuple(x.tolist()), tuple(map(Piece, pieces)))
+
+
+def _with_derivatives(value: Any, n: int) -> NDArray[np.float64]:
+    """A number and its derivatives by n variables, zero if it has none, (1 + n,)."""
+    d = value.d if isinstance(value, Tangent) else np.zeros(n)
+    return np.concatenate([[primal(value)], d])
 
 
 Floats = NDArray[np.float64]

@@ -20,7 +20,6 @@ The same sections give the same motion, which is worked out once.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from functools import cached_property
 from itertools import pairwise
@@ -34,6 +33,7 @@ from linkwright.cam.model.motion_section import Family, MotionSection, programme
 from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.description.place import arrays, join
 from linkwright.kernel.errors import ShapeError
+from linkwright.kernel.numerics.tangent import sqrt
 from linkwright.kernel.units import FORCE, MASS, RATIO, SPEED, STIFFNESS, Quantity, not_negative, positive
 
 if TYPE_CHECKING:
@@ -98,7 +98,7 @@ class FollowerTrain(CheckedDescription):
         if self.polydyne_speed is None:
             return wanted
         stiff = self.stiffness + self.spring_rate
-        slow = self.polydyne_speed / math.sqrt(stiff / self.mass)
+        slow = self.polydyne_speed / sqrt(stiff / self.mass)
         return polydyne_lift(wanted, slow, self.damping_ratio_frame, self.stiffness / stiff)
 
 
@@ -149,7 +149,7 @@ class FollowerMotion:
         """How smooth the lift is at segment boundaries, and where a law inside a section has a break."""
         from linkwright.cam.laws.programme import joints
 
-        return joints(self.lift, self.lift.breaks[:-1])
+        return joints(self.lift.primal, self.lift.primal.breaks[:-1])
 
     @cached_property
     def stretches(self) -> tuple[MotionLaw, ...]:
@@ -164,15 +164,19 @@ class FollowerMotion:
         orders = range(1, 4)
         return tuple(abs(self.lift.peak(n).value) if n <= smooth + 1 else None for n in orders)
 
-    @cached_property
+    @property
     def steady_velocity(self) -> float | None:
         """Largest velocity that is kept over a piece, by the cam angle; None if there is none."""
-        slopes = [
-            abs(float(piece.derivative(high - low).at(0.5)))
+        return max(map(abs, self.steady_velocities), default=0.0) or None
+
+    @cached_property
+    def steady_velocities(self) -> tuple[float, ...]:
+        """Velocities that are kept over a piece, by the cam angle."""
+        return tuple(
+            (piece.derivative(high - low).value(0.5))
             for piece, (low, high) in zip(self.lift.pieces, pairwise(self.lift.breaks), strict=True)
             if not piece.harmonics and not any(piece.polynomial[2:])
-        ]
-        return max(slopes, default=0.0) or None
+        )
 
 
 def follower_motion(

@@ -40,6 +40,7 @@ from linkwright.cam.laws.motion_law import MotionLaw, Side, combined
 from linkwright.cam.model.cam import Cam
 from linkwright.cam.model.follower import Sizes, sizes, start_of, to_arm_pivot
 from linkwright.kernel.errors import AssemblyError, ShapeError
+from linkwright.kernel.numerics.tangent import cos, primal
 from linkwright.linkages.model.element import FixedPoint
 from linkwright.linkages.model.topology import ORIGIN
 
@@ -222,14 +223,14 @@ class Opposite:
 
 def opposite(cam: Cam, contact: Contact) -> Opposite:
     """The diameter over the revolution, with its extremes located exactly."""
-    factor = 1.0 if cam.is_roller else float(np.cos(cam.face_tilt))
+    factor: Any = 1.0 if cam.is_roller else cos(cam.face_tilt)
     place = contact.law.scaled(factor, contact.start * factor)
     both = combined((1.0, place), (1.0, place.shifted(np.pi)))
     least, greatest = both.extremes()
     breadth = cam.breadth if cam.breadth is not None else 2 * contact.start + cam.stroke
     return Opposite(
-        float(breadth) * factor,
+        primal(breadth * factor),
         both,
-        Extreme(least.at % np.pi, least.value),
-        Extreme(greatest.at % np.pi, greatest.value),
+        Extreme(least.at % np.pi, primal(least.value)),
+        Extreme(greatest.at % np.pi, primal(greatest.value)),
     )

@@ -264,12 +264,17 @@ class CamProfile(Result):
 
     def unit_of(self, name: str) -> str:
         """SI unit of an attribute: a lift has metres, that of an oscillating follower radians."""
-        units = super().unit_of(name).split(" or ")
-        return units[-1 if self.cam.is_oscillating else 0].replace("–", "")
+        return unit_in(super().unit_of(name), self.cam)
 
     def _entries(self) -> dict[str, Any]:
         """What is written out: numbers and curves, not the parts that they are from."""
         return {key: value for key, value in super()._entries().items() if key not in _PARTS}
+
+
+def unit_in(units: str, cam: Cam) -> str:
+    """The unit of a cam's quantity out of two, "m or rad": that of a line or that of an angle."""
+    both = units.split(" or ")
+    return both[-1 if cam.is_oscillating else 0].replace("–", "")
 
 
 def the_cam(machine: Machine, name: str | None = None) -> tuple[str, Cam]:

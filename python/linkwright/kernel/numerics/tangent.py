@@ -103,7 +103,7 @@ class Tangent:
             return NotImplemented
         if isinstance(power, Tangent):
             return power.__mul__(self.log()).exp()
-        return self._by(self.value**power, power * self.value ** (power - 1))
+        return self._by(self.value**power, power * self.value ** (power - 1) if power else 0.0)
 
     def __rpow__(self, base: Any) -> Any:
         return self.__mul__(math.log(base)).exp()
@@ -184,7 +184,28 @@ def primal(x: Any) -> Any:
 def total(terms: Iterable[Any]) -> Any:
     """The sum, rounded once; with derivatives if a term has them."""
     listed = list(terms)
-    return sum(listed) if any(isinstance(value, Tangent) for value in listed) else math.fsum(listed)
+    value, slopes = math.fsum(map(primal, listed)), [x.d for x in listed if isinstance(x, Tangent)]
+    return Tangent(value, np.sum(slopes, axis=0)) if slopes else value
+
+
+def moves(x: Any) -> bool:
+    """Whether a number is other than zero, or does not stay zero."""
+    return bool(x) or (isinstance(x, Tangent) and bool(np.any(x.d)))
+
+
+def sqrt(x: Any) -> Any:
+    """√x of a number or a tangent."""
+    return x.sqrt() if isinstance(x, Tangent) else math.sqrt(x)
+
+
+def sin(x: Any) -> Any:
+    """sin x of a number or a tangent."""
+    return x.sin() if isinstance(x, Tangent) else math.sin(x)
+
+
+def cos(x: Any) -> Any:
+    """cos x of a number or a tangent."""
+    return x.cos() if isinstance(x, Tangent) else math.cos(x)
 
 
 def _held(x: Tangent) -> NDArray[Any]:

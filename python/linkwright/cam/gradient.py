@@ -1,0 +1,347 @@
+r"""Derivatives of what is known of a cam by the numbers of its description: sizes, sections and their laws.
+
+The law is worked out a second time with tangents, and with it the contact where a quantity is largest:
+
+.. math:: \frac{\mathrm d}{\mathrm dp} \max_\varphi f = \left.\frac{\partial f}{\partial p}\right|_{\varphi^*}
+
+at a fixed angle inside a piece, along the joint where the extreme sits on one (envelope theorem). Where two
+extremes tie and follow an entry differently, there is a derivative on either side only.
+
+The angles of the sections add to a revolution and their lifts to zero: by the entry of one section alone, the
+others give way in proportion to their sizes. A change of several entries that keeps both sums has the
+derivative that the sum of theirs says.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.cam.core import CamKernel
+from linkwright.cam.laws.motion_law import MotionLaw, Side
+from linkwright.cam.model.cam import Cam
+from linkwright.cam.profile.contact import Contact, contacts, opposite
+from linkwright.cam.profile.profile import CamProfile, cam_profile
+from linkwright.kernel.numerics.tangent import Tangent
+from linkwright.kernel.numerics.tangent_array import TangentArray, lifted, primal, variables_of
+from linkwright.machine.address import get
+from linkwright.machine.machine import Machine
+from linkwright.machine.tangents import Derivatives, columns
+
+Floats = NDArray[np.float64]
+
+# Extremes this near, as a share of the curve's range, tie.
+_TIE = 1e-7
+
+# Extremes that change by less than this share of the curve's size for an entry doubled do not differ.
+_SAME = 1e-8
+
+# Angles in a piece of the law at which a curve is looked at; the shortest pieces still show their extremes.
+_LOOK = 90
+
+# How far a rival may seem to stay below the extreme before it is looked at more closely, as a share of the
+# range: far more than the angles above leave.
+_DOUBT = 1e-2
+
+# Places of a level curve whose derivatives are compared.
+_COMPARED = 24
+
+# Rounds of Newton's method for the place of an extreme, and share of the interval for the bend there.
+_ROUNDS, _ASIDE = 8, 1e-3
+
+# An angle this near to a joint [rad] is the joint; joints are good to rounding.
+_AT_JOINT = 1e-11
+
+_PLACE = "it is the place of an extreme, of which the value has a derivative"
+
+
+def cam_tangents(machine: Machine, name: str, variables: Sequence[str]) -> Derivatives:
+    """Scalars of a cam by some entries of its machine. Raises what `cam_profile` raises."""
+    profile = cam_profile(machine, name)
+    refused: dict[str, str] = {}
+    ties: dict[str, str] = {}
+    # Only these have a part in the profile; the others leave it as it is.
+    own = [entry for entry in variables if entry.startswith(("mechanism.", "drive."))]
+    values = {key: getattr(profile, key) for key in _SCALARS if getattr(profile, key) is not None}
+
+    # What cannot be followed is found on the way to the contacts, which takes little.
+    columns(machine, own, lambda along: [_touching(along, name)[0].start], refused)
+    own = [entry for entry in own if entry not in refused]
+    scale = np.array([abs(float(get(machine, entry))) or 1.0 for entry in own])
+
+    def followed(along: Machine) -> list[Any]:
+        scalars = _Scalars(along, profile, ties, scale)
+        return [getattr(scalars, key)() for key in values]
+
+    by_entry = columns(machine, own, followed, refused)
+    listed = tuple(entry for entry in variables if entry not in refused)
+    still = np.zeros(len(values))
+    table = np.array([by_entry.get(entry, still) for entry in listed]).reshape(len(listed), len(values)).T
+    tangents = {key: Tangent(float(values[key]), row) for key, row in zip(values, table, strict=True)}
+    missing = {key: _PLACE for key in _PLACES if getattr(profile, key) is not None}
+    return Derivatives(listed, tangents, dict(ties), missing, refused)
+
+
+_PLACES = ("pressure_angle_max_angle", "curvature_radius_min_angle")
+
+_SCALARS = (
+    *("stroke", "velocity_max", "acceleration_max", "jerk_max", "speed_constant"),
+    *("base_radius", "prime_radius", "pressure_angle_max"),
+    *("curvature_radius_min", "curvature_radius_convex_min", "curvature_radius_concave_min"),
+    *("diameter_min", "diameter_max", "face_min", "face_max", "speed"),
+)
+
+
+def _touching(machine: Machine, name: str) -> tuple[Contact, ...]:
+    """The contacts of a cam."""
+    mechanism = machine.mechanism
+    return contacts(mechanism.cams[name], mechanism.fixed_points(), name)
+
+
+@dataclass(frozen=True)
+class _Curve:
+    """A quantity over the cam angle, on either side of joints, that is looked at for its maximum.
+
+    `of`: angles, fixed or moving, and side → its values with derivatives; `law`: whose joints it has;
+    `plain`, `plain_law`: the same of the cam without tangents. Their joints are one by one those of the law,
+    but for rounding.
+    """
+
+    of: Callable[[Any, Side], Any]
+    law: MotionLaw
+    plain: Callable[[Any, Side], Any]
+    plain_law: MotionLaw
+
+    def looked_at(self) -> tuple[Floats, NDArray[np.bool_], Floats]:
+        """Angles in every piece, its ends from inside, which are from before, and the values there."""
+        breaks = self.plain_law.breaks
+        angles = np.concatenate([np.linspace(*ends, _LOOK + 1) for ends in pairwise(breaks)])
+        before = np.tile(np.arange(_LOOK + 1) == _LOOK, len(breaks) - 1)
+        values = np.empty(len(angles))
+        for side, chosen in (("after", ~before), ("before", before)):
+            values[chosen] = self.plain(angles[chosen], side)
+        return angles, before, values
+
+    def slope(self, angles: Floats) -> Floats:
+        """Derivative by the cam angle inside the pieces."""
+        value = self.plain(TangentArray(angles, np.ones((len(angles), 1))), "after")
+        slope: Floats = value.d[:, 0]
+        return slope
+
+    def tangent(self, angle: float, side: Side) -> Tangent:
+        """The value at an angle with its derivatives; at a joint along with it."""
+        joints = np.array(self.plain_law.breaks)
+        k = int(np.argmin(np.abs(joints - angle)))
+        place = self.law.breaks[k] if abs(joints[k] - angle) < _AT_JOINT else angle
+        n = variables_of((place,)) or self.law.variables or 1
+        value = self.of(lifted(np.array([place], dtype=object), n), side)
+        return lifted(value, n)[0].number()
+
+
+class _Scalars:
+    """The scalars of a cam that is described with tangents; places of extremes are those of its profile."""
+
+    def __init__(self, machine: Machine, profile: CamProfile, ties: dict[str, str], scale: Floats) -> None:
+        self.cam: Cam = machine.mechanism.cams[profile.name]
+        self.touching = _touching(machine, profile.name)
+        self.profile, self.ties, self.scale = profile, ties, scale
+        self.design_speed: Any = None if machine.drive is None else machine.drive.speed
+
+    # -- motion ------------------------------------------------------------------------------------------
+
+    def stroke(self) -> Any:
+        """Maximum lift; both ends of it are dwells or turning points of the programme."""
+        lift = self.cam.lift
+        lowest, highest = (self._greatest("stroke", self._of_law(lift, 0), sign) for sign in (-1.0, 1.0))
+        return highest + lowest
+
+    def velocity_max(self) -> Any:
+        """Largest in size at the design speed."""
+        return self._peak("velocity_max", 1)
+
+    def acceleration_max(self) -> Any:
+        """Largest in size at the design speed."""
+        return self._peak("acceleration_max", 2)
+
+    def jerk_max(self) -> Any:
+        """Largest in size at the design speed."""
+        return self._peak("jerk_max", 3)
+
+    def _peak(self, name: str, order: int) -> Any:
+        return (
+            self._largest_in_size(name, [self._of_law(self.cam.lift, order)])
+            * abs(self.design_speed) ** order
+        )
+
+    def speed_constant(self) -> Any:
+        """Velocity that is kept over a section."""
+        slopes = [abs(slope) for slope in self.cam.motion.steady_velocities]
+        slopes.sort(key=lambda slope: -float(primal(slope)))
+        self._compare("speed_constant", slopes, "the velocities of two sections")
+        return slopes[0] * abs(self.design_speed)
+
+    def speed(self) -> Any:
+        """Design speed."""
+        return self.design_speed
+
+    # -- geometry ----------------------------------------------------------------------------------------
+
+    def base_radius(self) -> Any:
+        """Of the first cam."""
+        return self.touching[0].sizes.base_radius
+
+    def prime_radius(self) -> Any:
+        """Of the first cam."""
+        return self.touching[0].sizes.base_radius + self.touching[0].sizes.roller_radius
+
+    def pressure_angle_max(self) -> Any:
+        """Largest in size over all contacts."""
+        curves = [self._of_contact(k, "pressure_angle") for k in range(len(self.touching))]
+        return self._largest_in_size("pressure_angle_max", curves)
+
+    def curvature_radius_min(self) -> Any:
+        """Convex or concave, what is smaller."""
+        convex, concave = self.profile.curvature_radius_convex_min, self.profile.curvature_radius_concave_min
+        is_convex = convex is not None and (concave is None or convex <= concave)
+        if convex is not None and concave is not None and abs(convex - concave) <= _TIE * abs(convex):
+            self.ties["curvature_radius_min"] = "a convex and a concave part are as sharp"
+        return self._radius("curvature_radius_min", is_convex=is_convex)
+
+    def curvature_radius_convex_min(self) -> Any:
+        """Of the convex parts."""
+        return self._radius("curvature_radius_convex_min", is_convex=True)
+
+    def curvature_radius_concave_min(self) -> Any:
+        """Of the concave parts."""
+        return self._radius("curvature_radius_concave_min", is_convex=False)
+
+    def _radius(self, name: str, *, is_convex: bool) -> Any:
+        """Least radius of curvature of the profile, 1/κ − r_r beside the pitch curve."""
+        if not self.cam.is_roller:
+            return -self._greatest(name, self._of_contact(0, "bend"), -1.0)
+        sign, found = (1.0 if is_convex else -1.0), []
+        for k, contact in enumerate(self.touching):
+            # Most bent is where the radius is least; beyond inflections the part is of the other kind.
+            bend = self._greatest(name, self._of_contact(k, "bend"), sign)
+            if primal(bend) > 0:
+                found.append(1.0 / bend - sign * contact.sizes.roller_radius)
+        found.sort(key=lambda radius: float(primal(radius)))
+        self._compare(name, found, "the radii at both contacts")
+        return found[0]
+
+    def diameter_min(self) -> Any:
+        """Of the cam between two followers."""
+        return -self._greatest("diameter_min", self._diameter(), -1.0)
+
+    def diameter_max(self) -> Any:
+        """Of the cam between two followers."""
+        return self._greatest("diameter_max", self._diameter(), 1.0)
+
+    def _diameter(self) -> _Curve:
+        return self._of_law(opposite(self.cam, self.touching[0]).diameter, 0)
+
+    def face_min(self) -> Any:
+        """Place of the contact along a flat face."""
+        return -self._greatest("face_min", self._of_contact(0, "along"), -1.0)
+
+    def face_max(self) -> Any:
+        """Place of the contact along a flat face."""
+        return self._greatest("face_max", self._of_contact(0, "along"), 1.0)
+
+    # -- curves and their extremes -----------------------------------------------------------------------
+
+    def _of_law(self, law: MotionLaw, order: int) -> _Curve:
+        both = [(lambda phi, side, law=law: law.at(phi, order, side), law) for law in (law, law.primal)]
+        return _Curve(*both[0], *both[1])
+
+    def _of_contact(self, k: int, row: str) -> _Curve:
+        touching = (self.touching[k], self.profile.flanks[k].contact)
+        both = [(partial(_row, contact.kernel, row), contact.law) for contact in touching]
+        return _Curve(*both[0], *both[1])
+
+    def _largest_in_size(self, name: str, curves: Sequence[_Curve]) -> Any:
+        """The extreme of curves that is largest in size, positive."""
+        ends = [self._extreme(curve, sign) for curve in curves for sign in (1.0, -1.0)]
+        ends.sort(key=lambda end: -float(primal(end[0])))
+        if ends[0][1]:
+            self.ties[name] = ends[0][1]
+        self._compare(name, [value for value, _ in ends], "two peaks, of either sign or contact,")
+        return ends[0][0]
+
+    def _greatest(self, name: str, curve: _Curve, sign: float) -> Any:
+        """The maximum of sign times a curve with its derivatives; a tie is told under a name."""
+        value, tie = self._extreme(curve, sign)
+        if tie:
+            self.ties[name] = tie
+        return value
+
+    def _extreme(self, curve: _Curve, sign: float) -> tuple[Any, str]:
+        """The maximum of sign times a curve with its derivatives, and where else it is reached, in words."""
+        places = _peaks(curve, sign)
+        first = sign * curve.tangent(*places[0])
+        size = float(np.abs(curve.looked_at()[2]).max())
+        for phi, side in places[1:]:
+            if self._differ(first, sign * curve.tangent(phi, side), size):
+                both = " and ".join(f"{np.degrees(angle):.4g}°" for angle in (places[0][0], phi))
+                return first, f"it is reached at cam angles of {both}"
+        return first, ""
+
+    def _compare(self, name: str, found: Sequence[Any], what: str) -> None:
+        """A tie of the first of some extremes, which counts, with another one."""
+        top = float(primal(found[0]))
+        rivals = [other for other in found[1:] if abs(float(primal(other)) - top) <= _TIE * abs(top)]
+        if any(self._differ(found[0], other, abs(top)) for other in rivals):
+            self.ties[name] = f"{what} are as large"
+
+    def _differ(self, one: Any, other: Any, size: float) -> bool:
+        """Whether two extremes of a curve of some size follow an entry differently."""
+        d, e = (x.d if isinstance(x, Tangent) else np.zeros(1) for x in (one, other))
+        scale = self.scale if max(len(d), len(e)) == len(self.scale) else 1.0
+        return bool(np.any(np.abs(d - e) * scale > _SAME * size))
+
+
+def _row(kernel: CamKernel, name: str, phi: Any, side: Side) -> Any:
+    """A row of a contact at angles."""
+    return kernel.rows(phi, before=side == "before")[name]
+
+
+def _peaks(curve: _Curve, sign: float) -> list[tuple[float, Side]]:
+    """Places where sign times a curve is largest, the largest first, and those where it is as large."""
+    angles, before, values = curve.looked_at()
+    values = sign * values
+    span, top = float(np.ptp(values)), float(values.max())
+    places: list[tuple[float, float, Side]] = []
+    for i in np.flatnonzero(values >= top - _DOUBT * span):
+        near = [k for k in (i - 1, i + 1) if 0 <= k < len(values) and angles[k] != angles[i]]
+        if any(values[k] > values[i] for k in near):
+            continue
+        side: Side = "before" if before[i] else "after"
+        places.append((float(values[i]), float(angles[i]), side))
+        if len(near) == 2 and any(values[k] < values[i] for k in near):
+            place = _inside(curve, *(float(angles[k]) for k in (near[0], near[-1])), float(angles[i]))
+            places.append((sign * float(curve.plain(np.array([place]), "after")[0]), place, "after"))
+    top = max(value for value, _, _ in places)
+    high = [place for place in places if place[0] >= top - _TIE * span]
+    high.sort(key=lambda place: (-place[0], place[1]))
+    # Of a curve that is level some places stand for all.
+    level = high[1 :: max(1, len(high) // _COMPARED)]
+    return [(angle, side) for _, angle, side in (high[0], *level)]
+
+
+def _inside(curve: _Curve, low: float, high: float, start: float) -> float:
+    """Where the slope of a curve is zero between two angles inside a piece, by Newton's method."""
+    angle, aside = start, _ASIDE * (high - low)
+    for _ in range(_ROUNDS):
+        around = np.clip([angle - aside, angle, angle + aside], low, high)
+        slopes = curve.slope(around)
+        bend = (slopes[2] - slopes[0]) / (around[2] - around[0])
+        if bend == 0.0 or not np.isfinite(bend):
+            break
+        angle = float(np.clip(angle - slopes[1] / bend, low, high))
+    return angle
