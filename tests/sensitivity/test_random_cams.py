@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
-import pytest
 from random_parts import log_uniform
 from sizes import cases
 
@@ -99,7 +99,7 @@ def _ways(machine: lw.Machine, names: tuple[str, ...]) -> Iterator[dict[str, flo
         if value := lw.get(machine, name):
             yield {name: abs(value)}
     for names_of in paired:
-        for one, other in zip(names_of, names_of[1:], strict=False):
+        for one, other in pairwise(names_of):
             size = min(abs(lw.get(machine, one)), abs(lw.get(machine, other)))
             yield {one: size, other: -size}
 
@@ -107,6 +107,18 @@ def _ways(machine: lw.Machine, names: tuple[str, ...]) -> Iterator[dict[str, flo
 def _numbers(machine: lw.Machine, names: list[str]) -> np.ndarray:
     profile = lw.cam_profile(machine, "c", n=180)
     return np.array([getattr(profile, name) for name in names], dtype=float)
+
+
+def _difference(machine: lw.Machine, names: list[str], way: dict[str, float], step: float) -> np.ndarray:
+    """Central differences over h, 2h and 4h, extrapolated to sixth order."""
+    here = {name: lw.get(machine, name) for name in way}
+    near = {
+        n: _numbers(lw.replace(machine, {name: here[name] + n * step * x for name, x in way.items()}), names)
+        for n in (-4, -2, -1, 1, 2, 4)
+    }
+    once, twice, four = ((near[n] - near[-n]) / (2 * n * step) for n in (1, 2, 4))
+    found: np.ndarray = (64 * once - 20 * twice + four) / 45
+    return found
 
 
 def _check(machine: lw.Machine, what: object) -> tuple[int, int]:
@@ -119,20 +131,21 @@ def _check(machine: lw.Machine, what: object) -> tuple[int, int]:
     scales = np.abs(d * at).max(axis=1)
     compared = 0
     for way in _ways(machine, found.variables):
-        here = {name: lw.get(machine, name) for name in way}
+        exact = sum(d[:, found.variables.index(name)] * x for name, x in way.items())
+        sizes = np.maximum(scales, [abs(found.tangents[name].value) for name in listed])
         try:
-            near = {
-                n: _numbers(lw.replace(machine, {k: here[k] + n * _STEP * x for k, x in way.items()}), listed)
-                for n in (-4, -2, -1, 1, 2, 4)
-            }
+            errors = np.abs(exact - _difference(machine, listed, way, _STEP)) / sizes
+            # Where curvatures nearly go through zero differences need smaller steps: they come nearer then.
+            finer = (
+                errors
+                if (errors <= _TOLERANCE).all()
+                else (np.abs(exact - _difference(machine, listed, way, _STEP / 8)) / sizes)
+            )
         except (LinkwrightError, TypeError):
             continue
-        once, twice, four = ((near[n] - near[-n]) / (2 * n * _STEP) for n in (1, 2, 4))
-        difference = (64 * once - 20 * twice + four) / 45
-        exact = sum(d[:, found.variables.index(name)] * x for name, x in way.items())
         for row, name in enumerate(listed):
-            error = abs(exact[row] - difference[row]) / max(scales[row], abs(found.tangents[name].value))
-            assert error <= _TOLERANCE, (what, name, way, float(exact[row]), float(difference[row]))
+            is_nearer = finer[row] <= 1e-2 * errors[row]
+            assert min(errors[row], finer[row]) <= _TOLERANCE or is_nearer, (what, name, way, errors[row])
             compared += 1
     return compared, len(found.ties)
 

@@ -124,8 +124,8 @@ class _Curve:
         angles = np.concatenate([np.linspace(*ends, _LOOK + 1) for ends in pairwise(breaks)])
         before = np.tile(np.arange(_LOOK + 1) == _LOOK, len(breaks) - 1)
         values = np.empty(len(angles))
-        for side, chosen in (("after", ~before), ("before", before)):
-            values[chosen] = self.plain(angles[chosen], side)
+        values[~before] = self.plain(angles[~before], "after")
+        values[before] = self.plain(angles[before], "before")
         return angles, before, values
 
     def slope(self, angles: Floats) -> Floats:
@@ -324,7 +324,7 @@ def _peaks(curve: _Curve, sign: float) -> list[tuple[float, Side]]:
         side: Side = "before" if before[i] else "after"
         places.append((float(values[i]), float(angles[i]), side))
         if len(near) == 2 and any(values[k] < values[i] for k in near):
-            place = _inside(curve, *(float(angles[k]) for k in (near[0], near[-1])), float(angles[i]))
+            place = _inside(curve, float(angles[near[0]]), float(angles[near[-1]]), float(angles[i]))
             places.append((sign * float(curve.plain(np.array([place]), "after")[0]), place, "after"))
     top = max(value for value, _, _ in places)
     high = [place for place in places if place[0] >= top - _TIE * span]

@@ -188,8 +188,8 @@ def _joined(variables: tuple[str, ...], parts: Sequence[Source], refused: Mappin
         return {name: value for part in parts for name, value in getattr(part, field).items()}
 
     usual = [name for part in parts for name in part.usual]
-    tables = (merged(field) for field in ("tangents", "words", "units", "ties"))
-    return Source(variables, *tables, refused, usual, merged("missing"))
+    tangents, words, units, ties = (merged(field) for field in ("tangents", "words", "units", "ties"))
+    return Source(variables, tangents, words, units, ties, refused, usual, merged("missing"))
 
 
 def _of_scalars(

@@ -2,7 +2,7 @@
 
 A response is named by its analysis and its quantity, ``steady_state.unevenness``; where a machine has several
 of a kind the name stands between, ``cam.valve.pressure_angle_max``. ``motion.C.x`` is the place of a point
-over the crank angle, ``motion.C.y`` likewise.
+over the crank angle, ``motion.C.y`` likewise. ``forces.reaction_max.A`` is the largest force of a pair.
 """
 
 from __future__ import annotations
@@ -58,6 +58,9 @@ OF_ONE_CAM = ("cam", "cam_force")
 # Parts of a train that a list of curves has a row for.
 _PARTS = ("discs", "shafts")
 
+# The largest force of every pair, by its name.
+PAIRS = "forces.reaction_max"
+
 # What the core gives of the steady motion of many machines.
 _OF_BATCH = {*SteadyStates.__dataclass_fields__, *vars(SteadyStates)}
 
@@ -90,6 +93,8 @@ class StudyResponse:
         Crank angle at which a motion is taken [rad].
     parts : tuple of str
         Axes of a list of curves: ``("shafts", "speeds")``.
+    part : str or None
+        Pair of a mechanism whose force is taken.
     """
 
     name: str
@@ -102,6 +107,7 @@ class StudyResponse:
     index: int | None = None
     at: float | None = None
     parts: tuple[str, ...] = ()
+    part: str | None = None
 
     @property
     def arguments(self) -> tuple[str, ...]:
@@ -126,6 +132,8 @@ class StudyResponse:
         number.
         """
         value = getattr(result, self.quantity)
+        if self.part is not None:
+            value = value.get(self.part)
         if value is not None and (self.extreme is not None or self.index is not None):
             value = self._picked(result, np.asarray(value))
         if value is None or not math.isfinite(float(value)):
@@ -187,6 +195,8 @@ def asked(machine: Machine, name: str, response: Response) -> StudyResponse:
         return _of_motion(machine, name, key, text, response)
     if first not in ANALYSES or not rest:
         raise _wrong(name, key, text, "analysis.quantity", suggestion(first, (*ANALYSES, MOTION)))
+    if text.startswith(f"{PAIRS}."):
+        return _of_pair(machine, name, key, text, response)
     owner = get_type_hints(analysis(first))["return"]
     known = {attribute: mark for attribute, (_, mark) in declared(owner).items() if isinstance(mark, Label)}
     *of, quantity = rest
@@ -265,6 +275,22 @@ def _of_motion(machine: Machine, name: str, key: str, text: str, response: Respo
         raise _wrong(name, "index", str(response.index), "extreme or at, of a motion")
     word = f"{coordinate} of {point}"
     return StudyResponse(name, MOTION, (point,), coordinate, word, "m", response.extreme, at=response.at)
+
+
+def _of_pair(machine: Machine, name: str, key: str, text: str, response: Response) -> StudyResponse:
+    """The largest force of a pair."""
+    pair = text.removeprefix(f"{PAIRS}.")
+    if response.curve is not None:
+        raise _wrong(name, key, f"{text}, which is a number", "a curve", f'write "{text}" alone')
+    try:
+        # Which pairs there are does not depend on the motion.
+        found: Any = analysis("forces")(machine, speed=1.0, angles=np.array([0.0, 1.0]))
+        known = found.reaction_max
+    except FindingError:
+        known = {pair: 0.0}
+    if pair not in known:
+        raise _wrong(name, key, text, f"{PAIRS}.PAIR", suggestion(pair, known))
+    return StudyResponse(name, "forces", (), "reaction_max", f"maximum force of {pair}", "N", part=pair)
 
 
 def _wrong(name: str, key: str, found: str, expected: str, remedy: str = "") -> MachineError:

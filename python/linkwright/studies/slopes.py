@@ -177,7 +177,7 @@ def _source(machine: Any, analysis: str, entries: tuple[str, ...]) -> Source | N
 
 def _address(asked: StudyResponse) -> str:
     """The name of a response among the results that have derivatives."""
-    place = () if asked.index is None else (str(asked.index),)
+    place = (asked.part,) if asked.part else () if asked.index is None else (str(asked.index),)
     return ".".join((asked.analysis, *asked.of, asked.quantity, *place))
 
 

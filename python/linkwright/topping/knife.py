@@ -134,7 +134,8 @@ class Knife:
         """
         t = np.asarray(time, dtype=float)
         value = self.law.at(np.mod(np.asarray(phase) + self.rate * t, _TURN), order) * self.rate**order
-        return value + (self.drift * t, self.drift, 0.0)[order]
+        place: Floats = value + (self.drift * t, self.drift, 0.0)[order]
+        return place
 
     @cached_property
     def way(self) -> KnifeWay:

@@ -45,7 +45,7 @@ class Limits:
     acceleration: float  # maximum acceleration [m/rad² or 1/rad]
     jerk: float = inf  # maximum jerk [m/rad³ or 1/rad²]; infinite without a limit
 
-    def ramp(self, v: float) -> float:
+    def ramp(self, v: Any) -> Any:
         """Minimum length in which the velocity v is reached from rest [rad]."""
         if self._is_short(v):
             return 2 * sqrt(v / self.jerk)
@@ -55,7 +55,7 @@ class Limits:
         """Whether the full acceleration is not reached on the way to a velocity."""
         return bool(v * self.jerk <= self.acceleration**2)
 
-    def ramp_slope(self, v: float) -> float:
+    def ramp_slope(self, v: float) -> Any:
         """By how much that length grows with the velocity."""
         return 1 / sqrt(v * self.jerk) if self._is_short(v) else 1 / self.acceleration
 
@@ -64,7 +64,7 @@ class Limits:
         """The limits without derivatives."""
         return Limits(primal(self.velocity), primal(self.acceleration), primal(self.jerk))
 
-    def fastest(self, lift: float) -> float:
+    def fastest(self, lift: Any) -> Any:
         """Maximum velocity of the motion of minimum length over a lift [m/rad or –]."""
         # Without any other limit, acceleration and deceleration meet at this velocity.
         low, high = 0.0, min(self.velocity, sqrt(self.acceleration * lift))
@@ -78,7 +78,7 @@ class Limits:
         missing = low * self.ramp(low) - lift
         return _moved(low, missing, bare.ramp(low) + low * bare.ramp_slope(low))
 
-    def shortest(self, lift: float) -> float:
+    def shortest(self, lift: Any) -> Any:
         """Minimum length of a section with a lift of this size [rad]."""
         v = self.fastest(lift)
         return lift / v + self.ramp(v)

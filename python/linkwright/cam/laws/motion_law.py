@@ -195,7 +195,8 @@ class MotionLaw:
     def jumps(self, order: int) -> Floats:
         """By how much a derivative jumps at each inner break, (n − 1,)."""
         inner = np.array(self.primal.breaks[1:-1])
-        return self.at(inner, order, "after") - self.at(inner, order, "before")
+        jumps: Floats = self.at(inner, order, "after") - self.at(inner, order, "before")
+        return jumps
 
     def zeros(self, order: int = 0) -> list[float]:
         """Where a derivative is zero inside the pieces, increasing; a piece that is zero has none."""
@@ -242,7 +243,7 @@ class MotionLaw:
             nodes = len(piece.polynomial) + 24 + int(2 * piece.waves)
             x, weight = np.polynomial.legendre.leggauss(nodes)
             terms += list(0.5 * length * weight * piece.at(0.5 * (x + 1)) ** 2)
-        return total(terms)
+        return float(total(terms))
 
 
 def joined(laws: Sequence[MotionLaw]) -> MotionLaw:

@@ -74,7 +74,7 @@ def polynomial(start: Conditions, end: Conditions, powers: Sequence[int] | None 
     return MotionLaw((0.0, 1.0), (Piece(coefficients(by_power)),))
 
 
-def coefficients(by_power: Mapping[int, Any]) -> tuple[float, ...]:
+def coefficients(by_power: Mapping[int, Any]) -> tuple[Any, ...]:
     """All coefficients from the constant on, of power → coefficient."""
     given = (by_power.get(p, 0) for p in range(max(by_power) + 1))
     return tuple(c if isinstance(c, Tangent) else float(c) for c in given)

@@ -46,15 +46,18 @@ def spline(places: Sequence[float], values: Sequence[float], task: Boundary, deg
     ends = [[_with_derivatives(value, n) for value in side] for side in (start, end)]
     conditions: Any = tuple([*zip(orders, side, strict=False)] for side in ends) if orders else None
     knots = np.concatenate([np.zeros(degree), x, np.ones(degree)])
-    curve = make_interp_spline(x, np.array(rows), degree, knots, conditions)
+    curve: Any = make_interp_spline(x, np.array(rows), degree, knots, conditions)
     # Powers of the distance from the start of each piece, the highest first; a piece counts from 0 to 1.
     powers = [
         PPoly.from_spline((curve.t, column, degree)).c[:, degree : degree + len(x) - 1][::-1].T
         for column in curve.c.T
     ]
     table = np.stack(powers, axis=-1) * (np.diff(x)[:, None] ** np.arange(degree + 1))[..., None]
-    pieces = [tuple(c[0] if not n else Tangent(c[0], np.array(c[1:])) for c in row) for row in table.tolist()]
-    return MotionLaw(tuple(x.tolist()), tuple(map(Piece, pieces)))
+    pieces = [
+        Piece(tuple(c[0] if not n else Tangent(c[0], np.array(c[1:])) for c in row))  # type: ignore[misc]
+        for row in table.tolist()
+    ]
+    return MotionLaw(tuple(x.tolist()), tuple(pieces))
 
 
 def _with_derivatives(value: Any, n: int) -> NDArray[np.float64]:
