@@ -153,7 +153,7 @@ _EXTREMES = ("speed_min", "speed_max", "acceleration_min", "acceleration_max")
 
 def test_what_has_no_derivative_is_told():
     machine = lw.read(TWO_CARTS)
-    with pytest.raises(InputError, match="no response"):
+    with pytest.raises(InputError, match="expected one with a derivative"):
         lw.gradient(machine, ["steady_state.uneveness"])
     with pytest.raises(MachineError, match="no such entry"):
         lw.gradient(machine, None, ["mechanism.cranks.A2.phas"])
@@ -227,3 +227,27 @@ def test_an_analysis_without_any_derivative_is_said() -> None:
     """A press without masses or loads: every force is zero."""
     with pytest.raises(FindingError, match=r"^forces: nothing has a derivative: forces\.torque_drive_max: "):
         lw.gradient(lw.read("examples/press_motion/machine.toml"), ["forces"])
+
+
+@pytest.mark.parametrize(
+    ("of", "by", "told"),
+    [
+        ([], ["nix"], '--by: found "nix", expected the address of a number'),
+        ([], ["mechanism.cranks.A9.phase"], 'did you mean "mechanism.cranks.A2.phase"'),
+        ([], ["drive"], '--by: found "drive", expected the address of a number, such as drive.speed'),
+        (["steady_state.foo"], [], '--of: found "steady_state.foo", expected one with a derivative'),
+        (["nix.foo"], [], '--of: found "nix.foo"'),
+    ],
+)
+def test_the_command_names_its_option(of, by, told):
+    from click.testing import CliRunner
+
+    from linkwright.app.application import application
+
+    asked = [
+        *(word for name in of for word in ("--of", name)),
+        *(word for name in by for word in ("--by", name)),
+    ]
+    found = CliRunner().invoke(application(), ["sensitivity", TWO_CARTS, *asked])
+    assert found.exit_code == 2
+    assert told in " ".join(found.output.split())

@@ -88,7 +88,7 @@ def test_a_repeated_frequency_gives_its_invariant():
         return np.mean(lw.free_vibration(_twins(1 + k / 100)).angular_frequencies[1:3] ** 2)
 
     assert (mean(h) - mean(-h)) / (2 * h) == pytest.approx(1 / 3, rel=1e-6)
-    with pytest.raises(InputError, match="no response"):
+    with pytest.raises(InputError, match="expected one with a derivative"):
         lw.gradient(machine, ["free_vibration.mode_shapes.1.hub"])
 
 

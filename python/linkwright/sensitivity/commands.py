@@ -45,7 +45,7 @@ def sensitivity(
     set: Sets = None,
     allow_outside: Outside = False,
     responses: Of = None,
-    by: By = None,
+    variables: By = None,
     json: Json = False,
     out: Out = None,
     force: Force = False,
@@ -62,7 +62,7 @@ def sensitivity(
 
     folder = output_folder(out, force=force)
     machine = read(file, set or (), allow_outside=allow_outside)
-    derivatives = gradient(machine, responses, by)
+    derivatives = gradient(machine, responses, variables)
     shown = derivatives if responses else _few(derivatives)
     hand_over(
         Answer(

@@ -11,13 +11,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from numbers import Number
 from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.description.base import suggestion
-from linkwright.kernel.errors import FindingError, InputError
+from linkwright.kernel.errors import FindingError, InputError, MachineError, cut
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About
 from linkwright.kernel.result import Result
@@ -142,9 +143,7 @@ def gradient(
     >>> found.derivatives.shape
     (1, 1)
     """
-    names = tuple(addresses(machine)) if variables is None else tuple(dict.fromkeys(variables))
-    for name in names:
-        get(machine, name)
+    names = tuple(addresses(machine)) if variables is None else _entries(machine, variables)
     asked = [usual_analysis(machine)] if responses is None else list(dict.fromkeys(responses))
     if not asked:
         raise InputError("responses: found an empty list, expected one response or more")
@@ -152,7 +151,7 @@ def gradient(
     refused = {name: why for source in sources.values() for name, why in source.refused.items()}
     if variables is not None and refused:
         name, reason = next(iter(refused.items()))
-        raise InputError(f"{name}: it has no derivative: {reason}; leave it out")
+        raise InputError(f"variables: {name} has no derivative: {reason}; leave it out")
     known = tuple(name for name in names if name not in refused)
     asked_of = [
         (sources[analysis_of(name)], response)
@@ -173,6 +172,22 @@ def gradient(
     )
 
 
+def _entries(machine: Machine, variables: Sequence[str]) -> tuple[str, ...]:
+    """Addresses of numbers that were asked for, each once."""
+    known = addresses(machine)
+    for name in variables:
+        try:
+            value = get(machine, name)
+        except MachineError:
+            remedy = "; ".join(filter(None, ["the address of a number", suggestion(name, known)]))
+            raise InputError(f'variables: found "{cut(name)}", expected {remedy}') from None
+        if not isinstance(value, Number):
+            below = next((entry for entry in known if entry.startswith(f"{name}.")), "")
+            example = f", such as {below}" if below else ""
+            raise InputError(f'variables: found "{cut(name)}", expected the address of a number{example}')
+    return tuple(dict.fromkeys(variables))
+
+
 def _named(of: Source, name: str) -> list[str]:
     """The responses that a name means."""
     if name in SOURCES:
@@ -187,7 +202,8 @@ def _named(of: Source, name: str) -> list[str]:
     if without and not named:
         raise FindingError(f"{without[0]} has no derivative: {of.missing[without[0]]}")
     if not named:
-        raise InputError(f'no response "{name}" with a derivative: {suggestion(name, of.tangents)}')
+        remedy = "; ".join(filter(None, ["one with a derivative", suggestion(name, of.tangents)]))
+        raise InputError(f'responses: found "{cut(name)}", expected {remedy}')
     return named
 
 

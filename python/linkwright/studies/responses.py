@@ -282,14 +282,10 @@ def _of_pair(machine: Machine, name: str, key: str, text: str, response: Respons
     pair = text.removeprefix(f"{PAIRS}.")
     if response.curve is not None:
         raise _wrong(name, key, f"{text}, which is a number", "a curve", f'write "{text}" alone')
-    try:
-        # Which pairs there are does not depend on the motion.
-        found: Any = analysis("forces")(machine, speed=1.0, angles=np.array([0.0, 1.0]))
-        known = found.reaction_max
-    except FindingError:
-        known = {pair: 0.0}
-    if pair not in known:
-        raise _wrong(name, key, text, f"{PAIRS}.PAIR", suggestion(pair, known))
+    # Which pairs there are does not depend on the motion.
+    found: Any = analysis("forces")(machine, speed=1.0, angles=np.array([0.0, 1.0]))
+    if pair not in found.pairs:
+        raise _wrong(name, key, text, f"{PAIRS}.PAIR", suggestion(pair, found.pairs))
     return StudyResponse(name, "forces", (), "reaction_max", f"maximum force of {pair}", "N", part=pair)
 
 
