@@ -92,7 +92,7 @@ def test_derivatives_are_those_of_the_analysis(kind) -> None:
             measure(machine)
             one, wrong = check(machine, names, measure, cases(5, 1))
         except LinkwrightError:
-            # It closes nowhere, nothing drives it, or its kinks move without end, which is told.
+            # It closes nowhere, nothing drives it, or its kinks move without end, as the error says.
             continue
         assert not wrong, (case, wrong)
         compared += one

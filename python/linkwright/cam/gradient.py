@@ -222,18 +222,18 @@ class _Scalars:
         return self._radius("curvature_radius_concave_min", is_convex=False)
 
     def _radius(self, name: str, *, is_convex: bool) -> Any:
-        """Least radius of curvature of the profile, 1/κ − r_r beside the pitch curve."""
+        """Minimum radius of curvature of the profile, 1/κ − r_r beside the pitch curve."""
         if not self.cam.is_roller:
             return -self._greatest(name, self._of_contact(0, "bend"), -1.0)
-        sign, found = (1.0 if is_convex else -1.0), []
+        sign, radii = (1.0 if is_convex else -1.0), []
         for k, contact in enumerate(self.touching):
-            # Most bent is where the radius is least; beyond inflections the part is of the other kind.
+            # Curvature is largest where the radius is smallest; behind an inflection it has the other sign.
             bend = self._greatest(name, self._of_contact(k, "bend"), sign)
             if primal(bend) > 0:
-                found.append(1.0 / bend - sign * contact.sizes.roller_radius)
-        found.sort(key=lambda radius: float(primal(radius)))
-        self._compare(name, found, "the radii at both contacts")
-        return found[0]
+                radii.append(1.0 / bend - sign * contact.sizes.roller_radius)
+        radii.sort(key=lambda radius: float(primal(radius)))
+        self._compare(name, radii, "the radii at both contacts")
+        return radii[0]
 
     def diameter_min(self) -> Any:
         """Of the cam between two followers."""
@@ -275,7 +275,7 @@ class _Scalars:
         return ends[0][0]
 
     def _greatest(self, name: str, curve: _Curve, sign: float) -> Any:
-        """The maximum of sign times a curve with its derivatives; a tie is told under a name."""
+        """The maximum of sign times a curve with its derivatives; a tie is listed under a name."""
         value, tie = self._extreme(curve, sign)
         if tie:
             self.ties[name] = tie
@@ -292,11 +292,11 @@ class _Scalars:
                 return first, f"it is reached at cam angles of {both}"
         return first, ""
 
-    def _compare(self, name: str, found: Sequence[Any], what: str) -> None:
+    def _compare(self, name: str, extremes: Sequence[Any], what: str) -> None:
         """A tie of the first of some extremes, which counts, with another one."""
-        top = float(primal(found[0]))
-        rivals = [other for other in found[1:] if abs(float(primal(other)) - top) <= _TIE * abs(top)]
-        if any(self._differ(found[0], other, abs(top)) for other in rivals):
+        top = float(primal(extremes[0]))
+        rivals = [other for other in extremes[1:] if abs(float(primal(other)) - top) <= _TIE * abs(top)]
+        if any(self._differ(extremes[0], other, abs(top)) for other in rivals):
             self.ties[name] = f"{what} are as large"
 
     def _differ(self, one: Any, other: Any, size: float) -> bool:

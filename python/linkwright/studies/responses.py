@@ -283,9 +283,9 @@ def _of_pair(machine: Machine, name: str, key: str, text: str, response: Respons
     if response.curve is not None:
         raise _wrong(name, key, f"{text}, which is a number", "a curve", f'write "{text}" alone')
     # Which pairs there are does not depend on the motion.
-    found: Any = analysis("forces")(machine, speed=1.0, angles=np.array([0.0, 1.0]))
-    if pair not in found.pairs:
-        raise _wrong(name, key, text, f"{PAIRS}.PAIR", suggestion(pair, found.pairs))
+    forces: Any = analysis("forces")(machine, speed=1.0, angles=np.array([0.0, 1.0]))
+    if pair not in forces.pairs:
+        raise _wrong(name, key, text, f"{PAIRS}.PAIR", suggestion(pair, forces.pairs))
     return StudyResponse(name, "forces", (), "reaction_max", f"maximum force of {pair}", "N", part=pair)
 
 

@@ -206,8 +206,8 @@ def _closed(sections: Sequence[Section]) -> list[Section]:
     closed = [replace(section, angle=section.angle * TURN / turn) for section in sections]
     if isinstance(left, Tangent):
         # Of a lift that an entry changes alone, all give way in proportion to their sizes.
-        whole, rest = sum(abs(section.lift) for section in sections), Tangent(0.0, left.d)
-        shares = [primal(abs(section.lift) / whole) if whole else 0.0 for section in sections]
+        lifts, rest = sum(abs(section.lift) for section in sections), Tangent(0.0, left.d)
+        shares = [primal(abs(section.lift) / lifts) if lifts else 0.0 for section in sections]
         closed = [
             replace(section, lift=section.lift - share * rest)
             for section, share in zip(closed, shares, strict=True)
