@@ -10,6 +10,7 @@
 //! | [`formula`], [`formula_words`] | what a user writes as text, as a program; its words |
 //! | [`gauss`], [`radau`], [`rk`] | quadrature of order 8; collocation of order 9; Runge–Kutta of order 8 |
 //! | [`series`] | series over a step, and collocation by them |
+//! | [`nested`] | ten nodes of a step, five of them its stages, and one correction of Newton there |
 //! | [`turns`] | where the polynomial of a step turns, past a limit or not |
 //! | [`call`] | threads of a call, and how it is stopped |
 //! | [`error`], [`status`] | what is wrong with what crosses the border; why a machine has no answer |
@@ -27,6 +28,7 @@ pub mod gauss;
 pub mod jet;
 pub mod lanes;
 pub mod motion_law;
+pub mod nested;
 pub mod plane;
 pub mod radau;
 pub mod real;

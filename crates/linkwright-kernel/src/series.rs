@@ -150,6 +150,30 @@ pub fn value<R: Real>(terms: &[R; TERMS], share: R) -> R {
     next
 }
 
+/// The value of a series at a share of the step and its first three derivatives by the share, by
+/// P′_{k+1} = P′_{k−1} + (2k + 1) P_k.
+#[inline(always)]
+pub fn derivatives<R: Real>(terms: &[R; TERMS], share: R) -> [R; 4] {
+    let (zero, one) = (R::splat(0.0), R::splat(1.0));
+    let x = share.mul_add(R::splat(2.0), R::splat(-1.0));
+    // The polynomial and its derivatives, of the last degree and of the one before.
+    let (mut before, mut last) = ([one, zero, zero, zero], [x, one, zero, zero]);
+    let mut sums = [terms[1].mul_add(x, terms[0]), terms[1], zero, zero];
+    for k in 1..G {
+        let n = k as f64;
+        let mut next = before;
+        next[0] = (x * ((2.0 * n + 1.0) / (n + 1.0))).mul_add(last[0], before[0] * (-n / (n + 1.0)));
+        for i in 1..4 {
+            next[i] = last[i - 1].mul_add(R::splat(2.0 * n + 1.0), before[i]);
+        }
+        for i in 0..4 {
+            sums[i] = terms[k + 1].mul_add(next[i], sums[i]);
+        }
+        (before, last) = (last, next);
+    }
+    [sums[0], sums[1] * 2.0, sums[2] * 4.0, sums[3] * 8.0]
+}
+
 /// What may be missing in the integral of a series, seen by its last terms: those beyond are a hundredth of the last but
 /// one, and less than the last, where the function is resolved at all.
 #[inline(always)]
@@ -207,6 +231,13 @@ mod tests {
             // Some dozen roundings of numbers of size 1.
             assert!((value(&series, s) - 0.5 - 2.0 * rise(s)).abs() < 1e-14, "at {s}");
         }
+        let [u, first, second, third] = derivatives(&series, 0.3);
+        // f, its slope and its bend by the share; the third sums numbers of some hundred.
+        let exact = [value(&series, 0.3), 2.0 * f(0.3), 2.0 * (18.0 * 0.3_f64.powi(8) - 9.0 * 0.09)];
+        for (found, exact) in [u, first, second].into_iter().zip(exact) {
+            assert!((found - exact).abs() < 1e-12, "{found} for {exact}");
+        }
+        assert!((third - 2.0 * (144.0 * 0.3_f64.powi(7) - 18.0 * 0.3)).abs() < 1e-10, "{third}");
         for i in 0..G {
             let sum: f64 = (0..G).map(|j| RISES[i][j] * f(SHARES[j])).sum();
             assert!((sum - rise(SHARES[i])).abs() < 1e-15, "to node {i}");

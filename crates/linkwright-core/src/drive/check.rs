@@ -9,28 +9,20 @@
 
 use crate::drive::cycle::{Machine, Step, Turn, stages_of_part};
 use crate::drive::layout::{bundle, unbundle};
-use crate::drive::measures::{INTEGRALS, Totals};
-use crate::kernel::radau::{S, value};
+use crate::drive::measures::INTEGRALS;
+use crate::kernel::radau::S;
 use crate::kernel::real::Real;
 use crate::linkage::motion::Motion;
 
 /// Parts of a step that are looked at: the shortest is 2⁻²⁹ of it.
 const LEVELS: usize = 30;
 
-/// Parts of the coarsest step that are looked at in lanes with a machine each.
-const LEVELS_IN_LANES: usize = 3;
-
-/// By how much halving a step makes the error of its end less, at least and at most. It is 500 where the motion is as smooth
-/// as the method's order asks for. That shows where the end of a step is better than its middle, at which the order is 6 and
-/// not 9: so much better counts as won.
-const WON: [f64; 2] = [8.0, 64.0];
-
 /// Rounding of a value that a few dozen operations lead to, relative.
 const ROUNDING: f64 = 2e-15;
 
 /// Accelerations count against their peak, but at least against this share of ω², and torques and work
 /// against what makes it: at constant speed there is none, and rounding is all that there is.
-const EVEN: f64 = 1e-4;
+pub(super) const EVEN: f64 = 1e-4;
 
 /// What is wrong with a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -227,102 +219,6 @@ impl<R: Real> Turn<R> {
                 }
             }
         }
-    }
-}
-
-impl<R: Real> Turn<R> {
-    /// The relative error of each step of twice the length, in each lane: what this revolution differs by from that in
-    /// such steps at their ends, over what halving wins; and, in the step that differs most, the errors of the parts of its
-    /// first half from the start on, as in [`Turn::check`].
-    #[inline(always)]
-    pub fn errors_against(
-        &self,
-        coarse: &Self,
-        machine: &Machine<'_, R>,
-        m: &mut Motion<R>,
-    ) -> (Vec<R>, Totals<R>) {
-        let zero = R::splat(0.0);
-        let (mut epsilon, mut u) = (zero, zero);
-        for step in &self.steps {
-            for i in 0..S {
-                epsilon = epsilon.max(step.K[i].abs());
-                u = u.max(step.X[i]);
-            }
-        }
-        let epsilon = epsilon.max(u * (2.0 * EVEN));
-        let (mut worst, mut most) = (self.steps[0], R::splat(-1.0));
-        let (mut errors, mut sizes) = (Vec::with_capacity(coarse.steps.len()), Vec::new());
-        for (halves, whole) in self.steps.chunks_exact(2).zip(&coarse.steps) {
-            let du = size(halves[1].end() - whole.end());
-            let de = size(halves[1].K[S - 1] - whole.K[S - 1]);
-            let differs = size((du / whole.end() * 0.5).max(de / epsilon));
-            worst.replace_where(most, differs, &halves[0]);
-            most = most.max(differs);
-            let inside = size(halves[0].end() - value(&whole.quintic(), R::splat(0.5)));
-            let won = (inside / du).max(R::splat(WON[0])).min(R::splat(WON[1]));
-            errors.push(differs / won);
-            sizes.push(differs);
-        }
-        let of_parts = self.error_of_parts(worst, epsilon, machine, m);
-        for (error, differs) in errors.iter_mut().zip(sizes) {
-            *error = differs.select_lt(most, *error, error.max(of_parts));
-        }
-        let totals = self.add_integrals(coarse, machine, &mut errors);
-        (errors, totals)
-    }
-
-    /// Adds what the steps err in time and torque, both over the whole; the integrals over the revolution.
-    #[inline(always)]
-    fn add_integrals(&self, coarse: &Self, machine: &Machine<'_, R>, errors: &mut [R]) -> Totals<R> {
-        let mut sums = [R::splat(0.0); INTEGRALS];
-        let mut differences = Vec::with_capacity(errors.len());
-        for (k, whole) in coarse.steps.iter().enumerate() {
-            let mut parts = machine.integrals(whole, coarse.geometry_of(machine, k));
-            for half in [2 * k, 2 * k + 1] {
-                let of_half = machine.integrals(&self.steps[half], self.geometry_of(machine, half));
-                for i in 0..INTEGRALS {
-                    sums[i] = sums[i] + of_half[i];
-                    parts[i] = parts[i] - of_half[i];
-                }
-            }
-            differences.push(parts);
-        }
-        // A machine without torque has none to err in.
-        let heat = sums[5].max(R::splat(f64::MIN_POSITIVE));
-        let per_time = (sums[0] * WON[0]).recip();
-        let (per_heat, per_impulse) = ((heat * (2.0 * WON[0])).recip(), (heat * sums[0]).sqrt() * WON[0]);
-        for (error, parts) in errors.iter_mut().zip(&differences) {
-            let of_torque = (parts[5].abs() * per_heat).max(parts[4].abs() / per_impulse);
-            *error = error.max(size(parts[0] * per_time)).max(size(of_torque));
-        }
-        Totals::new(self.layout, sums)
-    }
-
-    /// Errors of a step and its parts from the start on against their halves, relative to u and to a size of ε.
-    #[inline(always)]
-    fn error_of_parts(
-        &self,
-        mut whole: Step<R>,
-        epsilon: R,
-        machine: &Machine<'_, R>,
-        m: &mut Motion<R>,
-    ) -> R {
-        let (mut x, mut share) = (whole.h, 1.0);
-        let quintic = whole.quintic();
-        let mut relative = R::splat(0.0);
-        for _ in 0..LEVELS_IN_LANES {
-            x = x * 0.5;
-            share *= 0.5;
-            let X = stages_of_part(&quintic, R::splat(0.0), R::splat(share));
-            let (first, _) = machine.advance_within(self.limit, whole.phi, whole.u, x, X, m);
-            let X = stages_of_part(&quintic, R::splat(share), R::splat(share));
-            let (second, _) = machine.advance_within(self.limit, whole.phi + x, first.end(), x, X, m);
-            let du = size(second.end() - whole.end());
-            let de = size(second.K[S - 1] - whole.K[S - 1]);
-            relative = relative.max(du / whole.u * 0.5).max(de / epsilon);
-            whole = first;
-        }
-        relative
     }
 }
 

@@ -236,11 +236,15 @@ impl<'a, R: Real> Machine<'a, R> {
     #[inline(always)]
     pub fn growth_on_side(&self, step: &Step<R>, geometry: &[LawGeometry<R>]) -> R {
         let (f, mut d) = self.accelerations(&step.rows, geometry, &step.X);
-        let u = OnBranch { value: Dual::variable(step.X[S - 1]), at: step.X[REFERENCE] };
-        let row = &step.rows[S - 1];
-        d[S - 1] =
-            d[S - 1] + (self.drive_acceleration(row, u).value.d - self.drive_acceleration(row, u.value).d);
+        d[S - 1] = d[S - 1] + self.slope_besides(&step.rows[S - 1], step.X[S - 1], step.X[REFERENCE]);
         stage_newton(step.u, step.h, &f, &d, &step.X).u[S - 1]
+    }
+
+    /// What the slope ∂ε/∂u by the drive has on the branch of a reference besides that which rounding chose, on a kink.
+    #[inline(always)]
+    pub(super) fn slope_besides(&self, row: &Row<R>, u: R, reference: R) -> R {
+        let on_branch = OnBranch { value: Dual::variable(u), at: reference };
+        self.drive_acceleration(row, on_branch).value.d - self.drive_acceleration(row, on_branch.value).d
     }
 
     /// Where the stages of a step lie on another branch than the one that the step keeps to: the most that this makes of
@@ -422,19 +426,6 @@ impl<R: Real> Step<R> {
         worst
     }
 
-    /// Takes the other step's place, length and solution in the lanes where its `value` is larger.
-    #[inline(always)]
-    pub fn replace_where(&mut self, value: R, larger: R, other: &Self) {
-        self.phi = value.select_lt(larger, other.phi, self.phi);
-        self.h = value.select_lt(larger, other.h, self.h);
-        self.u = value.select_lt(larger, other.u, self.u);
-        for i in 0..S {
-            self.X[i] = value.select_lt(larger, other.X[i], self.X[i]);
-            self.K[i] = value.select_lt(larger, other.K[i], self.K[i]);
-            self.D[i] = value.select_lt(larger, other.D[i], self.D[i]);
-        }
-    }
-
     /// Steepest ∂ε/∂u of its stages, in size \[1/rad\].
     #[inline(always)]
     pub fn steepness(&self) -> R {
@@ -497,24 +488,6 @@ impl<R: Real> Turn<R> {
         h.resize(filled, 0.0);
         let steps = bundle(&phi).into_iter().zip(bundle(&h)).collect();
         Self::tabulate(machine, steps, Layout::Steps, m)
-    }
-
-    /// The revolution in steps of half the length, to be solved from this solution on, in the place of another.
-    #[inline(always)]
-    pub fn halve_into(&self, halved: &mut Self, machine: &Machine<'_, R>, m: &mut Motion<R>) {
-        let mut steps = Vec::with_capacity(2 * self.steps.len());
-        for step in &self.steps {
-            let h = step.h * 0.5;
-            steps.extend([(step.phi, h), (step.phi + h, h)]);
-        }
-        halved.tabulate_again(machine, &steps, m);
-        let half = R::splat(0.5);
-        for (halves, whole) in halved.steps.chunks_exact_mut(2).zip(&self.steps) {
-            let quintic = whole.quintic();
-            halves[0].X = stages_of_part(&quintic, R::splat(0.0), half);
-            halves[1].X = stages_of_part(&quintic, half, half);
-            (halves[0].u, halves[1].u) = (whole.u, halves[0].end());
-        }
     }
 
     /// A revolution without steps.

@@ -10,7 +10,7 @@ use crate::drive::cycle::{Machine, REFERENCE, Turn, stages_of_part};
 use crate::drive::layout::{Layout, unbundle};
 use crate::kernel::radau::{AT, N, S, slope_and_bend, through};
 use crate::kernel::real::Real;
-use crate::kernel::series::{TERMS, value as on_series};
+use crate::kernel::series::{TERMS, derivatives, value as on_series};
 use crate::linkage::motion::Motion;
 
 /// An extreme and the crank angle where it is.
@@ -67,6 +67,12 @@ const ASIDE: [f64; 2] = [0.04, 0.004];
 
 /// How much farther than that the better place may lie.
 const LEAP: f64 = 4.0;
+
+/// Longest stride of Newton's method for a peak on a series, as a share of the step, and how many: the parabola's place is
+/// good to a tenth of the step, and from a hundredth on errors are squared.
+const STRIDE: f64 = 0.15;
+/// See [`STRIDE`].
+const STRIDES: usize = 6;
 
 /// u and ε at the samples of a step.
 type Samples<R> = [[R; N]; 2];
@@ -133,17 +139,19 @@ const QUANTITIES: [Quantity; 4] = [
 ];
 
 impl<R: Real> Turn<R> {
-    /// Extremes of speed and acceleration; read from series `between` the ends of the steps where there are any.
+    /// Extremes of speed and acceleration; read from series `between` the ends of the steps where there are any. `starts`
+    /// is ε at the starts of the steps where it is known.
     #[inline(always)]
     pub fn extremes(
         &self,
         machine: &Machine<'_, R>,
         between: Option<&[Between<R>]>,
+        starts: Option<&[R]>,
         m: &mut Motion<R>,
     ) -> Extremes<R> {
         let samples = R::out_of_line(
             #[inline(always)]
-            || self.samples(machine, m),
+            || self.samples(machine, starts, m),
         );
         let numbers = self.numbers(&samples, between);
         let hints = R::out_of_line(
@@ -155,7 +163,8 @@ impl<R: Real> Turn<R> {
                 let nothing = Extreme { value: R::splat(f64::NEG_INFINITY), phi: R::splat(0.0) };
                 let mut best = [nothing; QUANTITIES.len()];
                 for (quantity, hints) in hints.into_iter().enumerate() {
-                    best[quantity] = self.largest_of_machine(machine, &samples, &numbers, quantity, hints, m);
+                    let numbers = (&numbers[..], between.is_some());
+                    best[quantity] = self.largest_of_machine(machine, &samples, numbers, quantity, hints, m);
                 }
                 best
             }
@@ -175,18 +184,25 @@ impl<R: Real> Turn<R> {
 
     /// (u, ε) at start and stages of every step.
     #[inline(always)]
-    fn samples(&self, machine: &Machine<'_, R>, m: &mut Motion<R>) -> Vec<Samples<R>> {
+    fn samples(&self, machine: &Machine<'_, R>, starts: Option<&[R]>, m: &mut Motion<R>) -> Vec<Samples<R>> {
         let mut samples = Vec::with_capacity(self.steps.len());
         let mut geometry = Vec::with_capacity(machine.plan.laws.len());
         for (k, step) in self.steps.iter().enumerate() {
-            geometry.clear();
-            let row = machine.row(step.phi, m, &mut geometry);
             let (mut u, mut epsilon) = ([step.u; N], [step.u; N]);
-            epsilon[0] = if machine.keeps_branch {
-                let known = machine.geometry_at(self.geometry_of(machine, k), REFERENCE);
-                machine.acceleration_on_branch(&row, &geometry, step.u, (known, step.X[REFERENCE])).value
-            } else {
-                machine.acceleration(&row, &geometry, step.u).value
+            epsilon[0] = match starts {
+                Some(starts) => starts[k],
+                None => {
+                    geometry.clear();
+                    let row = machine.row(step.phi, m, &mut geometry);
+                    if machine.keeps_branch {
+                        let known = machine.geometry_at(self.geometry_of(machine, k), REFERENCE);
+                        machine
+                            .acceleration_on_branch(&row, &geometry, step.u, (known, step.X[REFERENCE]))
+                            .value
+                    } else {
+                        machine.acceleration(&row, &geometry, step.u).value
+                    }
+                }
             };
             u[1..].copy_from_slice(&step.X);
             epsilon[1..].copy_from_slice(&step.K);
@@ -221,7 +237,7 @@ impl<R: Real> Turn<R> {
         &self,
         machine: &Machine<'_, R>,
         samples: &[Samples<R>],
-        numbers: &[f64],
+        (numbers, has_series): (&[f64], bool),
         quantity: usize,
         mut hints: Vec<Hint<R>>,
         m: &mut Motion<R>,
@@ -246,7 +262,10 @@ impl<R: Real> Turn<R> {
             let asides = if QUANTITIES[quantity].is_speed { &ASIDE[..0] } else { &ASIDE[..1] };
             let found = R::out_of_line(
                 #[inline(always)]
-                || Promise::<R>::of_picks(&picks, numbers, false).read_around(machine, self.limit, asides, m),
+                || {
+                    Promise::<R>::of_picks(&picks, numbers, has_series)
+                        .read_around(machine, self.limit, asides, m)
+                },
             );
             // A lane whose step was not worth it takes nothing: its bits do not depend on its neighbours.
             let value = worth.select_lt(hint.value, found.value, lowest);
@@ -397,6 +416,9 @@ impl<R: Real> Promise<R> {
     fn read(&self, machine: &Machine<'_, R>, limit: f64, at: R, m: &mut Motion<R>) -> Extreme<R> {
         if let Some(series) = &self.series {
             let (u, phi) = (on_series(series, at), at.mul_add(self.h, self.phi));
+            if !self.is_speed.any_below(R::splat(0.5)) {
+                return Extreme { value: u * self.sign, phi };
+            }
             let mut geometry = Vec::new();
             let row = machine.row(phi, m, &mut geometry);
             let epsilon = machine.acceleration(&row, &geometry, u).value;
@@ -417,6 +439,9 @@ impl<R: Real> Promise<R> {
         asides: &[f64],
         m: &mut Motion<R>,
     ) -> Extreme<R> {
+        if let Some(series) = &self.series {
+            return self.read(machine, limit, self.peak_of_series(series), m);
+        }
         let mut place = self.peak();
         let mut best = Extreme { value: R::splat(f64::NEG_INFINITY), phi: place };
         for &aside in asides {
@@ -438,6 +463,25 @@ impl<R: Real> Promise<R> {
         }
         best.keep_larger(&self.read(machine, limit, place, m));
         best
+    }
+
+    /// Place of the peak on the series, of which ε is the derivative: from the promised place by Newton, uphill where the
+    /// curve is not concave. What the series miss displaces it, and the value falls short by the square of that.
+    #[inline(always)]
+    fn peak_of_series(&self, series: &[R; TERMS]) -> R {
+        let (zero, one, stride) = (R::splat(0.0), R::splat(1.0), R::splat(STRIDE));
+        let mut at = self.at;
+        for _ in 0..STRIDES {
+            let [_, first, second, third] = derivatives(series, at);
+            let slope = self.is_speed.select_lt(R::splat(0.5), second, first) * self.sign;
+            let bend = self.is_speed.select_lt(R::splat(0.5), third, second) * self.sign;
+            let uphill = slope.select_lt(zero, -stride, stride);
+            let newton = (-(slope / bend)).max(-stride).min(stride);
+            let next = (at + bend.select_lt(zero, newton, uphill)).max(zero).min(one);
+            // A NaN is not below the limit.
+            at = next.select_lt(R::splat(2.0), next, at);
+        }
+        at
     }
 
     /// Place of the peak of the quintic through the samples, from the promised place by Newton.

@@ -7,7 +7,7 @@ use crate::drive::law::LawGeometry;
 use crate::drive::layout::Layout;
 use crate::kernel::branch::OnBranch;
 use crate::kernel::radau::{B, S};
-use crate::kernel::real::Real;
+use crate::kernel::real::{Lift, Real};
 
 /// Integrals over a revolution, by the quadrature of the steps (order 9).
 #[derive(Clone, Copy, Debug)]
@@ -46,11 +46,11 @@ impl<R: Real> Machine<'_, R> {
 
     /// The same of a row at u, with laws as they are there.
     #[inline(always)]
-    pub fn torques_at(&self, row: &Row<R>, geometry: &[LawGeometry<R>], u: R) -> [R; 3] {
+    pub fn torques_at<N: Lift<R>>(&self, row: &Row<R>, geometry: &[LawGeometry<R>], u: N) -> [N; 3] {
         let (drive, tables) = (&self.plan.drive, &self.plan.tables);
         let omega = (u * 2.0).sqrt();
         let torque = drive.motor_torque(tables, self.q, omega);
-        let mut drag = row.viscous.mul_add(omega, row.load);
+        let mut drag = N::lift(row.viscous).mul_add(omega, N::lift(row.load));
         if !drive.speed_loads.is_empty() {
             drag = drag + drive.speed_load(tables, omega);
         }

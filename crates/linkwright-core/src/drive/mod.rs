@@ -14,6 +14,7 @@
 //! | [`mesh`], [`check`] | steps of one machine's turn; the error in each, measured |
 //! | [`events`] | kinks and jumps at angles that depend on the motion |
 //! | [`between`] | the solution inside the steps as series |
+//! | `nested` | the solution at ten nodes a step: corrected, and its error |
 //! | [`reading`], [`measures`], [`extremes`] | curves; work and torque of a revolution; its extremes |
 //! | [`levels`] | whether a machine may have other periodic motions than one that is known |
 //! | [`march`] | all motions over one revolution, from the fastest down: which repeat, and whether any does |
@@ -46,6 +47,7 @@ pub mod measures;
 pub mod mesh;
 pub mod motions;
 pub mod motor;
+mod nested;
 pub mod reading;
 pub mod reduce;
 mod row_lanes;

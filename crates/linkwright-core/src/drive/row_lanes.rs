@@ -2,6 +2,7 @@
 
 use crate::drive::cycle::{Machine, Turn};
 use crate::drive::layout::{Layout, unbundle};
+use crate::drive::nested::Nested;
 use crate::drive::row_mesh::RowMesh;
 use crate::drive::rows::{QUANTITIES, Rows, row_of};
 use crate::drive::structure::Plan;
@@ -11,9 +12,9 @@ use crate::kernel::status::Status;
 use crate::linkage::motion::Motion;
 use std::cmp::Ordering;
 
-/// Relative corrections after which a revolution, and the revolution in steps of half the length, have converged. The next
-/// would be about their squares, which measured errors do not notice.
-const CONVERGED: [f64; 2] = [1e-4, 1e-6];
+/// Relative correction after which a revolution has converged: the next is made at the nodes of the steps, is about its
+/// square, and what it leaves is measured.
+const CONVERGED: f64 = 1e-4;
 
 /// Most times that ends of steps are moved to the kinks that a motion passes.
 const PLACEMENTS: usize = 4;
@@ -43,9 +44,9 @@ pub(super) struct RowLanes<'a, R> {
     rows: &'a Rows<'a>,
     q: Vec<R>,
     m: Motion<R>,
-    coarse: Turn<R>,
-    /// The same in steps of half the length.
     turn: Turn<R>,
+    /// The same at the nodes of its steps.
+    nested: Nested<R>,
 }
 
 /// What becomes of a solved row.
@@ -66,9 +67,8 @@ impl<'a, R: Real> RowLanes<'a, R> {
     pub(super) fn new(plan: &'a Plan, rows: &'a Rows<'a>) -> Self {
         let q: Vec<R> = rows.base.iter().map(|&x| R::splat(x)).collect();
         let m = Motion::new(&plan.mechanism, &q);
-        let (mut coarse, mut turn) = (Turn::empty(Layout::Machines), Turn::empty(Layout::Machines));
-        (coarse.limit, turn.limit) = (CONVERGED[0], CONVERGED[1]);
-        RowLanes { plan, rows, q, m, coarse, turn }
+        let turn = Turn { limit: CONVERGED, ..Turn::empty(Layout::Machines) };
+        RowLanes { plan, rows, q, m, turn, nested: Nested::new() }
     }
 
     /// Solves rows of which nothing is known; returns the turns swept. Those that need other meshes are added to the list.
@@ -83,7 +83,7 @@ impl<'a, R: Real> RowLanes<'a, R> {
         let meshes: Vec<RowMesh> =
             rows.iter().zip(breaks).map(|(&row, breaks)| RowMesh::new(row, breaks)).collect();
         self.tabulate(&meshes);
-        let (machine, turn) = (Machine::new(self.plan, &self.q), &mut self.coarse);
+        let (machine, turn) = (Machine::new(self.plan, &self.q), &mut self.turn);
         R::out_of_line(
             #[inline(always)]
             || turn.start_from_balance(&machine),
@@ -103,7 +103,7 @@ impl<'a, R: Real> RowLanes<'a, R> {
         let rows: Vec<usize> = meshes.iter().map(|mesh| mesh.row).collect();
         self.load(&rows, to.first);
         self.tabulate(&meshes);
-        let (machine, turn, m) = (Machine::new(self.plan, &self.q), &mut self.coarse, &mut self.m);
+        let (machine, turn, m) = (Machine::new(self.plan, &self.q), &mut self.turn, &mut self.m);
         turn.start_from_samples(&meshes);
         turn.solve(&machine);
         let mut displaced = R::splat(0.0);
@@ -129,7 +129,7 @@ impl<'a, R: Real> RowLanes<'a, R> {
 
     #[inline(always)]
     fn tabulate(&mut self, meshes: &[RowMesh]) {
-        let (machine, turn, m) = (Machine::new(self.plan, &self.q), &mut self.coarse, &mut self.m);
+        let (machine, turn, m) = (Machine::new(self.plan, &self.q), &mut self.turn, &mut self.m);
         let mut edges: Vec<&[f64]> = meshes.iter().map(|mesh| &mesh.edges[..]).collect();
         edges.resize(R::LANES, &meshes[meshes.len() - 1].edges);
         R::out_of_line(
@@ -149,22 +149,30 @@ impl<'a, R: Real> RowLanes<'a, R> {
     ) -> u64 {
         let n = meshes.len() as u64;
         let kinks = self.kinks_passed(meshes.len());
-        let is_solved = unbundle(&[self.coarse.correction]);
+        let is_solved = unbundle(&[self.turn.correction]);
         let mut verdicts = vec![Verdict::Good; meshes.len()];
         let passes = kinks.iter().any(|kinks| !kinks.is_empty());
         if passes {
-            self.coarse.give_samples(&mut meshes);
+            let turn = &self.turn;
+            R::out_of_line(
+                #[inline(always)]
+                || turn.give_samples(&mut meshes),
+            );
         }
         for (lane, verdict) in verdicts.iter_mut().enumerate() {
-            if is_solved[lane].partial_cmp(&CONVERGED[0]) != Some(Ordering::Less) {
+            if is_solved[lane].partial_cmp(&CONVERGED) != Some(Ordering::Less) {
                 *verdict = Verdict::Refused;
             } else if !kinks[lane].iter().all(|&speed| meshes[lane].resolves(speed)) {
                 *verdict = Verdict::Kinks;
             }
         }
-        let (errors, sweeps) = self.judge(&meshes, displaced, &mut verdicts, to);
+        let errors = self.judge(&meshes, displaced, &mut verdicts, to);
         if !passes && verdicts.contains(&Verdict::Coarse) {
-            self.coarse.give_samples(&mut meshes);
+            let turn = &self.turn;
+            R::out_of_line(
+                #[inline(always)]
+                || turn.give_samples(&mut meshes),
+            );
         }
         for (lane, mut mesh) in meshes.into_iter().enumerate() {
             let goes_on = mesh.rounds < MESHES_MAX
@@ -186,14 +194,14 @@ impl<'a, R: Real> RowLanes<'a, R> {
                 to.status[mesh.row] = Status::Inaccurate;
             }
         }
-        u64::from(self.coarse.sweeps) * n + u64::from(sweeps) * n
+        u64::from(self.turn.sweeps) * n
     }
 
     /// Speeds of the drive's kinks between slowest and fastest, of each of some lanes.
     #[inline(always)]
     fn kinks_passed(&self, n: usize) -> Vec<Vec<f64>> {
         let (mut low, mut high) = (R::splat(f64::INFINITY), R::splat(0.0));
-        for step in &self.coarse.steps {
+        for step in &self.turn.steps {
             let mut before = 0.0;
             for i in 0..S {
                 // Between two stages a curve does not pass the tangent on the side to which it bends away from its chord.
@@ -217,7 +225,7 @@ impl<'a, R: Real> RowLanes<'a, R> {
     }
 
     /// Writes the results of rows that are good so far, or tells why they are not. Returns the errors of all steps, lane by
-    /// lane, and the turns swept.
+    /// lane.
     #[inline(always)]
     fn judge(
         &mut self,
@@ -225,44 +233,34 @@ impl<'a, R: Real> RowLanes<'a, R> {
         displaced: R,
         verdicts: &mut [Verdict],
         to: &mut Results<'_>,
-    ) -> (Vec<f64>, u32) {
+    ) -> Vec<f64> {
         if !verdicts.contains(&Verdict::Good) {
-            return (Vec::new(), 0);
+            return Vec::new();
         }
         let machine = Machine::new(self.plan, &self.q);
-        let (coarse, turn, m) = (&self.coarse, &mut self.turn, &mut self.m);
-        R::out_of_line(
-            #[inline(always)]
-            || coarse.halve_into(turn, &machine, m),
-        );
-        turn.solve(&machine);
-        turn.multiply_by_sides(&machine, meshes);
-        let (errors, totals) = R::out_of_line(
-            #[inline(always)]
-            || turn.errors_against(coarse, &machine, m),
-        );
+        let (turn, nested, m) = (&mut self.turn, &mut self.nested, &mut self.m);
+        let totals = nested.correct(turn, &machine, &kinks_at_ends(meshes, turn.steps.len()), m);
         let (mut worst, infinity) = (R::splat(0.0), R::splat(f64::INFINITY));
-        for &error in &errors {
+        for &error in &nested.errors {
             // A NaN is not below the limit.
             worst = worst.max(error.select_lt(R::splat(PROMISED), error, infinity));
         }
-        worst = turn.correction.select_lt(R::splat(turn.limit), worst, infinity);
         for (verdict, worst) in verdicts.iter_mut().zip(unbundle(&[worst])) {
             if *verdict == Verdict::Good && worst > PROMISED {
                 *verdict = Verdict::Coarse;
             }
         }
-        let errors = unbundle(&errors);
+        let errors = unbundle(&nested.errors);
         if !verdicts.contains(&Verdict::Good) {
-            return (errors, turn.sweeps);
+            return errors;
         }
         let extremes = R::out_of_line(
             #[inline(always)]
-            || turn.extremes(&machine, None, m),
+            || turn.extremes(&machine, Some(&nested.between), Some(&nested.starts), m),
         );
         let may_have_faster = R::out_of_line(
             #[inline(always)]
-            || coarse.may_have_faster(&machine),
+            || turn.may_have_faster(&machine),
         );
         let may_be_neutral = R::out_of_line(
             #[inline(always)]
@@ -294,24 +292,20 @@ impl<'a, R: Real> RowLanes<'a, R> {
                 verdicts[lane] = Verdict::Refused;
             }
         }
-        (errors, turn.sweeps)
+        errors
     }
 }
 
-impl<R: Real> Turn<R> {
-    /// Where a step ends on a kink its growth has the slope that rounding chose: the multiplier gets that of its own side.
-    #[inline(always)]
-    fn multiply_by_sides(&mut self, machine: &Machine<'_, R>, meshes: &[RowMesh]) {
-        for k in (1..self.steps.len() / 2).filter(|&k| meshes.iter().any(|mesh| mesh.is_kink(k))) {
-            // The end of a step is that of the second of its halves.
-            let step = &self.steps[2 * k - 1];
-            let side = machine.growth_on_side(step, self.geometry_of(machine, 2 * k - 1)) / step.growth;
-            let mut is_kink = vec![0.0; R::LANES];
-            for (lane, is_kink) in is_kink.iter_mut().enumerate() {
-                *is_kink = f64::from(u8::from(meshes[lane.min(meshes.len() - 1)].is_kink(k)));
-            }
-            let factor = R::load(&is_kink).select_lt(R::splat(0.5), R::splat(1.0), side);
-            self.multiplier = self.multiplier * factor;
+/// For each end of `n` steps the lanes in which a kink of the drive is passed there: 1 for these, 0 for others.
+#[inline(always)]
+fn kinks_at_ends<R: Real>(meshes: &[RowMesh], n: usize) -> Vec<R> {
+    let mut lanes = vec![0.0; R::LANES];
+    let mut ends = Vec::with_capacity(n + 1);
+    for k in 0..=n {
+        for (lane, is_kink) in lanes.iter_mut().enumerate() {
+            *is_kink = f64::from(u8::from(meshes[lane.min(meshes.len() - 1)].is_kink(k)));
         }
+        ends.push(R::load(&lanes));
     }
+    ends
 }

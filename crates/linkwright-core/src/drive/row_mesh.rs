@@ -12,7 +12,7 @@ use crate::kernel::real::Real;
 use crate::linkage::motion::Motion;
 
 /// Steps a revolution at least, before any is halved.
-const STEPS: usize = 14;
+const STEPS: usize = 16;
 
 /// A passage this near to another end of a step \[rad\] lies there.
 const APART: f64 = 1e-6;
@@ -155,6 +155,24 @@ fn hermite(from: Sample, to: Sample, x: f64) -> f64 {
     from.u + x * x * (3.0 - 2.0 * x) * rise + x * y * h * (y * from.after - x * to.epsilon)
 }
 
+/// The slope of a step's quintic at its start.
+#[inline(always)]
+fn slope_at_start<R: Real>(step: &Step<R>) -> R {
+    step.quintic()[1] / step.h
+}
+
+/// Gives the rows that have the step a sample in it.
+#[inline(always)]
+fn give<R: Real>(rows: &mut [RowMesh], numbers: [R; 4], step: usize, lanes: &mut [f64]) {
+    for (number, lanes) in numbers.iter().zip(lanes.chunks_exact_mut(R::LANES)) {
+        number.store(lanes);
+    }
+    for (lane, row) in rows.iter_mut().enumerate().filter(|(_, row)| step + 1 < row.edges.len()) {
+        let of = |number: usize| lanes[number * R::LANES + lane];
+        row.samples.push(Sample { phi: of(0), u: of(1), epsilon: of(2), after: of(3) });
+    }
+}
+
 impl<R: Real> Turn<R> {
     /// Gives the rows, one a lane, the solution at the starts and stages of their steps.
     #[inline(always)]
@@ -162,28 +180,18 @@ impl<R: Real> Turn<R> {
         let mut lanes = vec![0.0; 4 * R::LANES];
         for row in rows.iter_mut() {
             row.samples.clear();
+            row.samples.reserve(self.steps.len() * S + 1);
         }
-        let mut give = |numbers: [R; 4], k: usize| {
-            for (number, lanes) in numbers.iter().zip(lanes.chunks_exact_mut(R::LANES)) {
-                number.store(lanes);
-            }
-            for (lane, row) in rows.iter_mut().enumerate().filter(|(_, row)| k + 1 < row.edges.len()) {
-                let of = |number: usize| lanes[number * R::LANES + lane];
-                row.samples.push(Sample { phi: of(0), u: of(1), epsilon: of(2), after: of(3) });
-            }
-        };
-        // The slope of the quintic, over the share of the step.
-        let at_start = |step: &Step<R>| step.quintic()[1] / step.h;
         let first = &self.steps[0];
-        give([first.phi, first.u, first.K[0], at_start(first)], 0);
+        give(rows, [first.phi, first.u, first.K[0], slope_at_start(first)], 0, &mut lanes);
         for (k, step) in self.steps.iter().enumerate() {
             for i in 0..S - 1 {
                 let phi = step.h.mul_add(R::splat(C[i]), step.phi);
-                give([phi, step.X[i], step.K[i], step.K[i]], k);
+                give(rows, [phi, step.X[i], step.K[i], step.K[i]], k, &mut lanes);
             }
             // Behind the last step nothing follows.
-            let after = at_start(self.steps.get(k + 1).unwrap_or(step));
-            give([step.phi + step.h, step.X[S - 1], step.K[S - 1], after], k);
+            let after = slope_at_start(self.steps.get(k + 1).unwrap_or(step));
+            give(rows, [step.phi + step.h, step.X[S - 1], step.K[S - 1], after], k, &mut lanes);
         }
         // At φ = 0 the motion is that at the end of the cycle, which lies in another step in each lane.
         for row in rows {

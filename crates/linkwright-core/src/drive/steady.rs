@@ -372,7 +372,7 @@ impl Job for Search<'_> {
                     crossings: mesh.crossings,
                     multiplier,
                     extremes: turn
-                        .extremes(&machine, between.as_deref(), &mut m)
+                        .extremes(&machine, between.as_deref(), None, &mut m)
                         .first_lane()
                         .with_corners(&corners),
                     totals: turn.totals(&machine).first_lane(),
