@@ -28,6 +28,9 @@ use crate::linkage::motion::Motion;
 /// By how much more exact than at five stages an integral at ten nodes is, at least.
 const WON: f64 = 8.0;
 
+/// A kink is passed within this share of a step beside its end.
+const BESIDE: f64 = 0.01;
+
 /// A step at its nodes.
 #[derive(Clone, Copy)]
 struct NodeStep<R> {
@@ -75,8 +78,8 @@ impl<R: Real> Nested<R> {
         }
     }
 
-    /// Corrects a solved revolution and measures its error. `kinks` tells for each end of a step the lanes in which a kink of
-    /// the drive is passed there, 1 for these and 0 for others. Returns its integrals.
+    /// Corrects a solved revolution and measures its error. `kinks` has u at the kink of the drive that is passed at each end
+    /// of a step, 0 in lanes in which there is none. Returns its integrals.
     #[inline(always)]
     pub(super) fn correct(
         &mut self,
@@ -116,6 +119,11 @@ impl<R: Real> Nested<R> {
             exponent = exponent + grown;
         }
         turn.multiplier = exponent.exp();
+        for k in 0..turn.steps.len() {
+            if kinks[k + 1].max_lane() > 0.0 {
+                self.take_corner(turn, machine, k, kinks[k + 1], m);
+            }
+        }
         R::out_of_line(
             #[inline(always)]
             || self.measure(turn, machine, &growth, &sums),
@@ -233,6 +241,31 @@ impl<R: Real> Nested<R> {
         step.K.copy_from_slice(&at.f[..S]);
         step.D.copy_from_slice(&d[..S]);
         (sums, exponent)
+    }
+
+    /// The acceleration at the end of a step on a kink, where it has a corner that may be its extreme: at the angle at which
+    /// the corrected motion passes the kink.
+    #[inline(always)]
+    fn take_corner(
+        &mut self,
+        turn: &mut Turn<R>,
+        machine: &Machine<'_, R>,
+        k: usize,
+        kink: R,
+        m: &mut Motion<R>,
+    ) {
+        let (n, zero, mut geometry) = (turn.steps.len(), R::splat(0.0), Vec::new());
+        let step = &mut turn.steps[k];
+        let by = (kink - step.X[END]) / step.K[END];
+        // A NaN is not below the limit.
+        let by = by.abs().select_lt(step.h * BESIDE, by, zero);
+        let row = machine.row(step.h.mul_add(R::splat(SHARES[END]), step.phi) + by, m, &mut geometry);
+        let at = zero.select_lt(kink, kink, step.X[END]);
+        let [_, geared, drag] = machine.torques_at(&row, &geometry, at);
+        let epsilon = (geared - drag) * row.inverse - row.drift * at;
+        step.K[END] = zero.select_lt(kink, epsilon, step.K[END]);
+        let start = &mut self.starts[(k + 1) % n];
+        *start = zero.select_lt(kink, epsilon, *start);
     }
 
     /// The relative errors of the steps: of speed, of acceleration relative to its peak, of torque relative to its root mean

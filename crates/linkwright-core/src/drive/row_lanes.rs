@@ -264,7 +264,7 @@ impl<'a, R: Real> RowLanes<'a, R> {
         );
         let may_be_neutral = R::out_of_line(
             #[inline(always)]
-            || coarse.may_be_neutral(&machine),
+            || turn.may_be_neutral(&machine),
         );
         let may_have_faster = may_have_faster.max(may_be_neutral);
         // A motion that the machine departs from, or that may not be the fastest, is no answer.
@@ -296,14 +296,14 @@ impl<'a, R: Real> RowLanes<'a, R> {
     }
 }
 
-/// For each end of `n` steps the lanes in which a kink of the drive is passed there: 1 for these, 0 for others.
+/// u at the kink of the drive that is passed at each end of `n` steps; 0 in lanes in which there is none.
 #[inline(always)]
 fn kinks_at_ends<R: Real>(meshes: &[RowMesh], n: usize) -> Vec<R> {
     let mut lanes = vec![0.0; R::LANES];
     let mut ends = Vec::with_capacity(n + 1);
     for k in 0..=n {
-        for (lane, is_kink) in lanes.iter_mut().enumerate() {
-            *is_kink = f64::from(u8::from(meshes[lane.min(meshes.len() - 1)].is_kink(k)));
+        for (lane, kink) in lanes.iter_mut().enumerate() {
+            *kink = meshes[lane.min(meshes.len() - 1)].kink(k);
         }
         ends.push(R::load(&lanes));
     }

@@ -61,9 +61,9 @@ impl RowMesh {
         RowMesh { row, kinks: vec![0.0; edges.len()], edges, rounds: 0, breaks, samples: Vec::new() }
     }
 
-    /// Whether this end of a step lies on a kink.
-    pub(super) fn is_kink(&self, edge: usize) -> bool {
-        self.kinks.get(edge).is_some_and(|&u| u > 0.0)
+    /// u at the kink on which this end of a step lies; 0 where there is none.
+    pub(super) fn kink(&self, edge: usize) -> f64 {
+        self.kinks.get(edge).copied().unwrap_or(0.0)
     }
 
     /// Whether the speed is passed at an end of a step.
@@ -247,7 +247,7 @@ impl<R: Real> Turn<R> {
         let mut lanes = vec![0.0; R::LANES];
         for k in 1..n {
             for (lane, kink) in lanes.iter_mut().enumerate() {
-                *kink = rows[lane.min(rows.len() - 1)].kinks.get(k).copied().unwrap_or(0.0);
+                *kink = rows[lane.min(rows.len() - 1)].kink(k);
             }
             let (kink, before, step) = (R::load(&lanes), &self.steps[k - 1], &self.steps[k]);
             let (by, room) = ((kink - step.u) / before.K[S - 1], before.h.min(step.h) * ROOM);
@@ -272,7 +272,7 @@ impl<R: Real> Turn<R> {
         }
         for (k, by) in moves.iter().enumerate().take(n) {
             let by = unbundle(&[*by]);
-            for (row, by) in rows.iter_mut().zip(by).filter(|(row, _)| row.is_kink(k)) {
+            for (row, by) in rows.iter_mut().zip(by).filter(|(row, _)| row.kink(k) > 0.0) {
                 row.edges[k] += by;
             }
         }
