@@ -135,3 +135,19 @@ def test_acceleration_has_its_peak_in_a_corner_inside_a_step() -> None:
         order = np.argsort(curve.speed)
         corner = np.interp(speed, curve.speed[order], near[order])
         assert found.acceleration_max == pytest.approx(np.interp(corner, near, rolling), rel=3 * accuracy)
+
+
+def test_corners_of_the_acceleration_in_a_batch() -> None:
+    """A motor whose characteristic bends from −4 to −89 N m/(rad/s) at a speed that rows pass: their
+    acceleration has its maximum in the corner."""
+    speed = [0.0, 73.304, 103.149, 115.192]
+    motor = {"kind": "table", "speed": speed, "torque": [300.0, 280.0, 170.0, -900.0], "inertia": 0.138}
+    machine = lw.replace(lw.read("machines/roller_two_carts.toml"), {"drive.motor": motor})
+    masses = np.linspace(700.0, 1400.0, 24)
+    batch = lw.steady_states(machine, {"bodies.cart1.mass": masses})
+    for row, mass in enumerate(masses):
+        alone = lw.steady_state(lw.replace(machine, {"bodies.cart1.mass": mass}), accuracy=1e-11)
+        peak = max(-alone.acceleration_min, alone.acceleration_max)
+        for name in ("acceleration_min", "acceleration_max"):
+            # What a batch promises, of the peak.
+            assert abs(getattr(batch, name)[row] - getattr(alone, name)) < 1e-7 * peak, (row, name)
