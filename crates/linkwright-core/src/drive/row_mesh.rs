@@ -179,8 +179,7 @@ impl<R: Real> Turn<R> {
     pub(super) fn give_samples(&self, rows: &mut [RowMesh]) {
         let mut lanes = vec![0.0; 4 * R::LANES];
         for row in rows.iter_mut() {
-            row.samples.clear();
-            row.samples.reserve(self.steps.len() * S + 1);
+            row.samples = Vec::with_capacity(self.steps.len() * S + 1);
         }
         let first = &self.steps[0];
         give(rows, [first.phi, first.u, first.K[0], slope_at_start(first)], 0, &mut lanes);
