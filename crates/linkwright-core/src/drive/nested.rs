@@ -54,7 +54,7 @@ struct NodeStep<R> {
 
 /// A revolution at the nodes of its steps.
 #[derive(Clone)]
-pub(super) struct Nested<R> {
+pub(super) struct NodeSolution<R> {
     steps: Vec<NodeStep<R>>,
     /// What laws need to know at the nodes that are no stages.
     geometry: Vec<LawGeometry<R>>,
@@ -66,10 +66,10 @@ pub(super) struct Nested<R> {
     pub errors: Vec<R>,
 }
 
-impl<R: Real> Nested<R> {
+impl<R: Real> NodeSolution<R> {
     /// Of no revolution yet.
     pub(super) fn new() -> Self {
-        Nested {
+        NodeSolution {
             steps: Vec::new(),
             geometry: Vec::new(),
             between: Vec::new(),

@@ -2,7 +2,7 @@
 
 use crate::drive::cycle::{Machine, Turn};
 use crate::drive::layout::{Layout, unbundle};
-use crate::drive::nested::Nested;
+use crate::drive::nested::NodeSolution;
 use crate::drive::row_mesh::RowMesh;
 use crate::drive::rows::{QUANTITIES, Rows, row_of};
 use crate::drive::structure::Plan;
@@ -46,7 +46,7 @@ pub(super) struct RowLanes<'a, R> {
     m: Motion<R>,
     turn: Turn<R>,
     /// The same at the nodes of its steps.
-    nested: Nested<R>,
+    nested: NodeSolution<R>,
 }
 
 /// What becomes of a solved row.
@@ -68,7 +68,7 @@ impl<'a, R: Real> RowLanes<'a, R> {
         let q: Vec<R> = rows.base.iter().map(|&x| R::splat(x)).collect();
         let m = Motion::new(&plan.mechanism, &q);
         let turn = Turn { limit: CONVERGED, ..Turn::empty(Layout::Machines) };
-        RowLanes { plan, rows, q, m, turn, nested: Nested::new() }
+        RowLanes { plan, rows, q, m, turn, nested: NodeSolution::new() }
     }
 
     /// Solves rows of which nothing is known; returns the turns swept. Those that need other meshes are added to the list.
