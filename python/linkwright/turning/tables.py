@@ -82,7 +82,7 @@ def _areas(diagram: TurningMomentDiagram) -> Table:
     """Energies between the crossings, and the excess after each."""
     rows: list[Row] = []
     # What is left after the last area is rounding.
-    scale = max(abs(area["energy"]) for area in diagram.areas)
+    scale = max(abs(area["energy"] or 0.0) for area in diagram.areas)
     for n, area in enumerate(diagram.areas, start=1):
         start, end = area["start"], area["end"]
         place = "" if start is None or end is None else f", {degrees(start)} to {degrees(end)}"

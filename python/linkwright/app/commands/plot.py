@@ -163,8 +163,8 @@ def _write(
         elif ending in _PICTURES:
             write_file(place, bytes_of(curves_figure(curves, zero), ending), replace=force)
         elif ending:
-            listed = ", ".join((*_PICTURES, ".csv"))
-            raise InputError(f"--out: found {place}, expected a file that ends in {listed}, or a folder")
+            endings = ", ".join((*_PICTURES, ".csv"))
+            raise InputError(f"--out: found {place}, expected a file that ends in {endings}, or a folder")
         else:
             folder = output_folder(place, force=force)
             assert folder is not None
