@@ -61,7 +61,8 @@ def check(machine: lw.Machine, names: list[str], measure: Measure, every: int) -
     """How many derivatives were compared, and which are wrong."""
     found = lw.gradient(machine, names)
     exact = found.derivatives * found.at
-    scales = np.maximum(np.nanmax(np.abs(exact), axis=1), np.abs(found.values))
+    # What is zero throughout, as the torque of a motor without load, has a difference of zero.
+    scales = np.maximum(np.nanmax(np.abs(exact), axis=1), np.abs(found.values)) + 1e-300
     free = np.array([name not in found.ties for name in found.responses])
     compared, wrong = 0, []
     for at in np.flatnonzero(found.at)[::every]:
