@@ -127,3 +127,10 @@ def test_templates_are_sound(name: str, tmp_path: Path) -> None:
     path = tmp_path / "study.toml"
     path.write_text(template(name), encoding="utf-8")
     assert "delta" in [asked.name for asked in lw.read_study(path).asked]
+
+
+def test_a_study_of_an_example_by_its_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert "phase" in [axis.name for axis in lw.read_study("crank_phase_map").axes]
+    with pytest.raises(MachineFileError, match="crank_phase_map"):
+        lw.read_study("crank_phase_mop")

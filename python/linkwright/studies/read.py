@@ -11,7 +11,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError, MachineError, MachineFileError, Problem
+from linkwright.kernel.files.library import studies
 from linkwright.kernel.files.lines import located
 from linkwright.kernel.files.points import read_columns, require_below
 from linkwright.kernel.files.text_file import TextError, text_of
@@ -44,8 +46,8 @@ def read_study(
     Parameters
     ----------
     path : path
-        A study file, whose entry ``machine`` names the machine file; or a machine file with a table
-        ``study``.
+        A study file, whose entry ``machine`` names the machine file; a machine file with a table
+        ``study``; or the name of an example with a study.
     overrides : sequence of str or Mapping
         Entries that replace or add to those of the machine, texts ``PATH=VALUE`` or path → value; those that
         begin with ``study.`` are of the study.
@@ -64,7 +66,7 @@ def read_study(
     InputError
         An override is malformed.
     """
-    place = Path(path)
+    place = _found(Path(path))
     text = _text(place)
     tables = tables_of(text, str(place))
     is_machine = isinstance(tables.get(TABLE), Mapping)
@@ -112,13 +114,20 @@ def new_study(machine: Machine, tables: Mapping[str, Any]) -> StudyPlan:
     return plan(machine, StudyFile.model_validate(dict(tables)))
 
 
+def _found(path: Path) -> Path:
+    """The file; of a name alone that is no file, the study of the example."""
+    is_name = path == Path(path.name) and not path.suffix and not path.exists()
+    return studies().get(path.name, path) if is_name else path
+
+
 def _text(path: Path) -> str:
     """The text of the file."""
     try:
         return text_of(path, FILE_BYTES)
     except TextError as error:
         expected = error.expected or "a study file"
-        problem = Problem(found=error.found, expected=expected, remedy=error.remedy, path=str(path))
+        remedy = error.remedy or ("" if path.exists() else suggestion(path.name, studies()))
+        problem = Problem(found=error.found, expected=expected, remedy=remedy, path=str(path))
         raise MachineFileError([problem]) from None
 
 

@@ -8,6 +8,8 @@ from pathlib import Path
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError
 
+_PACKAGE = Path(__file__).parents[2]
+
 
 def library() -> tuple[str, ...]:
     """Names of the machines of the library, and of the examples, in order."""
@@ -26,14 +28,18 @@ def library_path(name: str) -> Path:
 @cache
 def _files() -> dict[str, Path]:
     """Files by name. They lie beside the modules, in a checkout by links to the folders of the clone."""
-    package = Path(__file__).parents[2]
-    machines = {path.stem: path for path in (package / "library").glob("*.toml")}
-    examples = {path.parent.name: path for path in (package / "examples").glob("*/machine.toml")}
+    machines = {path.stem: path for path in (_PACKAGE / "library").glob("*.toml")}
+    examples = {path.parent.name: path for path in (_PACKAGE / "examples").glob("*/machine.toml")}
     return machines | examples
 
 
+def studies() -> dict[str, Path]:
+    """Files of the studies of the examples, by the name of the example."""
+    return {path.parent.name: path for path in sorted((_PACKAGE / "examples").glob("*/study.toml"))}
+
+
 _MACHINES = Path(__file__).with_name("templates")
-_STUDIES = Path(__file__).parents[2] / "studies" / "templates"
+_STUDIES = _PACKAGE / "studies" / "templates"
 
 
 def templates() -> dict[str, str]:
