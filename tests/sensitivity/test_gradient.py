@@ -1,5 +1,7 @@
 """Derivatives of steady motion against extrapolated differences of the same analysis, and laws they obey."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -251,3 +253,20 @@ def test_the_command_names_its_option(of, by, told):
     found = CliRunner().invoke(application(), ["sensitivity", TWO_CARTS, *asked])
     assert found.exit_code == 2
     assert told in " ".join(found.output.split())
+
+
+def test_a_gearbox_without_losses_has_derivatives_by_its_factors() -> None:
+    """While the load drives the motor 1/η counts: at η = 1 the torque is smooth, its derivative by η leaps.
+
+    To 1e-7 as other derivatives; without an end of a step at the leap, numbers are off by up to 7e-4.
+    """
+    text = Path("machines/roller_one_cart.toml").read_text(encoding="utf-8")
+    text = text.replace("efficiency = 0.9", "efficiency = 1.0").replace('reverse = "same"', "")
+    machine = lw.loads(text)
+    state = lw.steady_state(machine)
+    assert state.torque_motor_min < 0.0 < state.torque_motor_max
+    found = lw.gradient(machine, [f"steady_state.{name}" for name in _NUMBERS], ["drive.gearbox.efficiency"])
+    # The work of dry friction depends on the path alone.
+    size = np.where(np.array(_NUMBERS) == "energy_load", found.values, 0.0)
+    error = found.derivatives[:, 0] - _difference(machine, "drive.gearbox.efficiency")
+    assert (np.abs(error) < 1e-7 * np.abs(found.derivatives[:, 0]) + 1e-11 * size).all()

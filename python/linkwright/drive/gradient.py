@@ -21,6 +21,7 @@ from linkwright.drive.steady_state import SteadyState, solved_state
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.linkages.closure import over_whole_cycle, turn_angles
+from linkwright.machine.address import exchanged
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import SteadyCurves, SteadySolution
@@ -42,6 +43,9 @@ _DOUBT = 1e-2
 # Rounds in which a peak is closed in on, and readings of each: an eighth of the interval, and a 64th of what
 # the height lacks, from round to round.
 _ROUNDS, _READINGS = 3, 17
+
+# Change of a gearbox's efficiency beside 1: of the order of the accuracy above.
+_NEXT_TO_NOTHING = 1e-11
 
 # Angles of a tie that a message lists.
 _TOLD = 4
@@ -77,6 +81,10 @@ def steady_tangents(machine: Machine, values: Floats) -> SteadyTangents:
     state, solution = solved_state(machine, _ACCURACY, _LOOK)
     assert solution is not None
     compiled = over_whole_cycle(compile_machine(machine))
+    moving = _telling_directions(machine, compiled, state)
+    if moving is not None:
+        _, solution = solved_state(moving, _ACCURACY, _LOOK)
+        assert solution is not None
     angles = np.array([state.speed_min_angle, state.speed_max_angle])
     gradient = solution.gradient(values, angles)
     # The core's works are those of a cycle.
@@ -87,6 +95,18 @@ def steady_tangents(machine: Machine, values: Floats) -> SteadyTangents:
     ratio = Tangent(compiled.gear_factors[0], values[compiled.ratio_slot])
     tangents |= _of_motor(compiled, state, gradient.curves, ratio)
     return SteadyTangents(replace(state, **tangents), _ties(compiled, state, solution))
+
+
+def _telling_directions(machine: Machine, compiled: CompiledMachine, state: SteadyState) -> Machine | None:
+    """The machine with a gearbox that tells the directions of power apart by next to nothing.
+
+    A gearbox that does not has no kink where the motor's torque changes sign, but derivatives by its factors
+    leap there: the solution needs ends of steps at it. None where there is no such place.
+    """
+    _, forward, reverse = compiled.gear_factors
+    if forward != reverse or not state.torque_motor_min < 0.0 < state.torque_motor_max:
+        return None
+    return exchanged(machine, {"drive.gearbox.efficiency": forward * (1.0 - _NEXT_TO_NOTHING)})
 
 
 def _of_motor(

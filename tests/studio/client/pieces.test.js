@@ -5,6 +5,7 @@ import { folded, unfolded } from "../../../python/linkwright/studio/static/folde
 import { barLength, fit, toMachine, toScreen, zoomed } from "../../../python/linkwright/studio/static/frame.js";
 import { history } from "../../../python/linkwright/studio/static/history.js";
 import { between, onward, pairAt, placeOf } from "../../../python/linkwright/studio/static/timeline.js";
+import { paintTrain } from "../../../python/linkwright/studio/static/twist.js";
 import { pack, unpack } from "../../../python/linkwright/studio/static/wire.js";
 
 test("a message holds words and arrays", () => {
@@ -85,4 +86,21 @@ test("files of a plot have its heads, its numbers and no markup", () => {
   const drawn = svg(sheet, ["red"]);
   assert.ok(drawn.includes("&lt;b&gt;") && !drawn.includes("<b>") && !drawn.includes("NaN"));
   assert.deepEqual(ticks(0, 10, 5), [0, 2, 4, 6, 8, 10]);
+});
+
+test("a train is drawn on paper of any size", () => {
+  const radii = [];
+  const call = (of) => (...given) => {
+    if (of === "ellipse") radii.push(given[2], given[3]);
+    if (of === "arc") radii.push(given[2]);
+    return { width: 60 };
+  };
+  const ctx = new Proxy({}, { get: (_, of) => call(of), set: () => true });
+  const disc = (name, x) => ({ name, x, row: 0, half: 0.4 });
+  const part = { name: "s", kind: "shaft", ends: [0, 1], from: [0, 0], to: [1, 0], turned: false };
+  const view = { kind: "train", discs: [disc("engine", 0), disc("generator", 1)], parts: [part], frequencies: [9], shapes: [1, -1], nodes: [[]], box: [0, 1, 1] };
+  const paper = { ctx, ink: {}, series: [], names: true };
+  for (const [width, height] of [[600, 400], [300, 60], [60, 20], [20, 6], [0, 0], [1, 400]]) paintTrain({ ...paper, width, height }, view, 0, 0.5);
+  assert.ok(radii.length > 10);
+  assert.ok(radii.every((radius) => radius > 0), String(radii));
 });

@@ -33,6 +33,8 @@ export function paintKnife(paper, view, t, names = true) {
   const [x0, y0, x1, y1] = view.box;
   const margin = names ? 22 : 6;
   const scale = Math.min((width - 2 * margin) / (x1 - x0), (height - 2 * margin) / (y1 - y0));
+  // Before a page has its size there is no room.
+  if (scale <= 0) return;
   const X = (/** @type {number} */ x) => width / 2 + scale * (x - (x0 + x1) / 2);
   const Y = (/** @type {number} */ y) => height / 2 - scale * (y - (y0 + y1) / 2);
   const [sin, cos] = [Math.sin(view.angle), Math.cos(view.angle)];

@@ -189,9 +189,12 @@ function nodes({ ctx, ink, view, mode, X, Y }) {
   }
 }
 
+/** Smallest room for a train [px]. */
+const LEAST = 12;
+
 /**
  * Draws a train; `swing`, −1 to 1, is where in the period of the mode it is.
- * @param {Paper} paper @param {Train} view @param {number} mode @param {number} swing @param {boolean} [names]
+ * @param {Paper} paper @param {Train} view @param {number} mode @param {number} swing @param {boolean} [names] @returns {void}
  */
 export function paintTrain(paper, view, mode, swing, names = true) {
   const { ctx, width, height } = paper;
@@ -201,6 +204,11 @@ export function paintTrain(paper, view, mode, swing, names = true) {
   const leans = longest > (0.8 * (width - 2 * MARGIN)) / (high - low + 0.5);
   const [left, right] = names ? [MARGIN, leans ? Math.max(MARGIN, longest * Math.cos(LEAN)) : MARGIN] : [8, 8];
   const foot = names ? (leans ? longest * Math.sin(LEAN) : 0) + 20 : 4;
+  // Without room for names, as before a page has its size, the train stands alone, or nothing.
+  if (Math.min(width - left - right, height - foot) < LEAST) {
+    if (names) paintTrain(paper, view, mode, swing, false);
+    return;
+  }
   const scale = Math.min((width - left - right) / (high - low + 0.5), 1.1 * height);
   // Of one row the shape of the mode stands below it.
   const isOne = rows === 1 && names && height > 3 * foot + 200;
