@@ -225,6 +225,45 @@ def test_kinks_under_a_steep_motor_have_derivatives(mass, inertia, rotor):
         assert of[address] == pytest.approx(difference, rel=1e-5, abs=1e-5 * abs(peak[1] / value))
 
 
+def test_jumps_one_after_another_under_a_stiff_drive():
+    """The motion passes the jump of a load four times: where it passes the second depends on how it passed
+    the first. The largest acceleration lies behind a jump. To 1e-6, or the rounding of differences, 1e-12
+    over their step."""
+    machine = lw.loads("""
+    format = 1
+    name = "press on a stiff motor, with a load that jumps over speed"
+    [drive.motor]
+    kind = "dc"
+    speed_no_load = 215.4
+    torque_stall = 12.8
+    inertia = 1e-5
+    [drive.gearbox]
+    ratio = 5
+    efficiency = 0.7
+    [mechanism.cranks]
+    A = { radius = 0.0639 }
+    A1 = { radius = 0.0553, phase = 1.914 }
+    [mechanism.sliders]
+    S0 = { crank = "A", rod = 0.13, angle = 1.5707963267948966 }
+    S1 = { crank = "A1", rod = 0.156, angle = 2.051 }
+    [bodies]
+    A = { inertia = 1.122e-4 }
+    S0 = { mass = 0.892 }
+    S1 = { mass = 2.077 }
+    [loads]
+    dry0 = { kind = "dry", on = "S0", force = 458.5 }
+    vis0 = { kind = "viscous", on = "S0", damping = 3.4 }
+    vis1 = { kind = "viscous", on = "S1", damping = 9.16 }
+    f = { kind = "formula", on = "A", torque = "-(10.09 + 0.764*cos(phi) + where(omega > 23.74, -14.95, 0))" }
+    """)
+    for address in ("bodies.A.inertia", "bodies.S0.mass", "drive.gearbox.ratio"):
+        found = lw.gradient(machine, [f"steady_state.{name}" for name in _NUMBERS], [address])
+        exact, measured = found.derivatives[:, 0] * found.at, _difference(machine, address) * found.at
+        assert np.all(np.abs(exact - measured) <= 1e-6 * np.abs(measured) + 1e-8 * np.abs(found.values)), (
+            address
+        )
+
+
 def test_an_analysis_without_any_derivative_is_said() -> None:
     """A press without masses or loads: every force is zero."""
     with pytest.raises(FindingError, match=r"^forces: nothing has a derivative: forces\.torque_drive_max: "):

@@ -109,11 +109,12 @@ impl<R: Real> Passage<R> {
     }
 
     /// What u at the end of the step becomes for the next one, as `[scale, offset]`: the acceleration before lasts to where
-    /// the kink is passed.
+    /// the kink is passed, so that u there, followed back to the end of the step, differs by (ε before − ε behind)·late. That
+    /// is linear in u with the slope `scale`: the pair does not depend on the u that it was made from.
     #[inline(always)]
     pub fn through(&self) -> [R; 2] {
         let scale = self.factor();
-        let carried = (self.behind - self.before).mul_add(self.late(), self.u);
+        let carried = (self.before - self.behind).mul_add(self.late(), self.u);
         [scale, self.where_continuous(R::splat(0.0), carried - scale * self.u)]
     }
 
@@ -563,4 +564,24 @@ fn before(phi: f64, pieces: &[Piece]) -> usize {
 fn beside(phi: f64, pieces: &[Piece]) -> [&Piece; 2] {
     let k = before(phi, pieces);
     [&pieces[k], &pieces[(k + 1) % pieces.len()]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A kink at u = 10 + ½φ on a motion with ε = 2 before and 5 behind, from u at φ = 0: passed at φ = (10 − u)/1.5.
+    #[test]
+    fn u_behind_a_jump_lies_on_the_motion_behind_it() {
+        for made_from in [9.0, 9.7, 10.4] {
+            let [before, behind] = [2.0, 5.0];
+            let passage = Passage { u: made_from, g: made_from - 10.0, slopes: [-0.5, 1.0], before, behind };
+            let [scale, offset] = passage.through();
+            for u in [9.0, 10.0, 11.0] {
+                let at = (10.0 - u) / 1.5;
+                let expected = u + before * at - behind * at;
+                assert!((scale * u + offset - expected).abs() < 1e-12, "{made_from} {u}");
+            }
+        }
+    }
 }

@@ -11,6 +11,7 @@
 
 use crate::drive::cycle::{Machine, REFERENCE, Turn, stages_of_part};
 use crate::drive::events::{Events, Passage};
+use crate::drive::extremes::Extreme;
 use crate::drive::layout::Layout;
 use crate::drive::reading::State;
 use crate::drive::steady::Steady;
@@ -37,6 +38,14 @@ const MOVED: f64 = 1e-8;
 /// The same where moves have stopped shrinking: rounding, which a steep drive enlarges. Against the move, and against the
 /// largest change of u by the parameter.
 const ROUNDING: f64 = 1e-8;
+
+/// The share of its move, and of the largest change of u, by which an end of a step may miss its kink in the solution that
+/// is read, which goes through the ends without [`Passage::through`]: far above rounding, below what anybody sees.
+const MISSED: f64 = 1e-5;
+
+/// Distance of the acceleration at a corner from its extreme, as a share, from which on it is that of the other side of a
+/// jump: the two are read from one solution, to its rounding.
+const SIDES: f64 = 1e-7;
 
 /// Share of a step to both sides of a peak of the acceleration at which it is read for its slope and bend.
 const ASIDE: f64 = 1e-3;
@@ -196,7 +205,7 @@ impl<'a, R: Real> DualRevolution<'a, R> {
                 }
             }
             self.differentiate(passed, m);
-            let change = self.turn.steps.iter().fold(R::splat(0.0), |most, step| most.max(step.u.d.abs()));
+            let change = self.change();
             let (mut most, mut excess, mut noise) = (R::splat(0.0), R::splat(0.0), R::splat(0.0));
             for (k, passage) in self.passages(&events, m) {
                 let (late, next) = (passage.late().d, (k + 1) % self.turn.steps.len());
@@ -220,8 +229,12 @@ impl<'a, R: Real> DualRevolution<'a, R> {
             }
         }
         self.differentiate(Vec::new(), m);
-        let mut factor = one;
+        let (mut factor, change) = (one, self.change());
         for (k, passage) in self.passages(&events, m) {
+            let (missed, moved) = (passage.late().d.abs(), self.edges[k + 1].d.abs());
+            let of_change = missed * self.turn.steps[k].K[S - 1].value.abs() - change * MISSED;
+            let is_missed = of_change.min(missed - moved * MISSED);
+            unsettled = R::splat(0.0).select_lt(is_missed, is_missed, unsettled);
             let (step, geometry) = (&self.turn.steps[k], self.turn.geometry_of(&self.machine, k));
             factor = factor * passage.factor() * (self.machine.growth_on_side(step, geometry) / step.growth);
         }
@@ -232,6 +245,12 @@ impl<'a, R: Real> DualRevolution<'a, R> {
         for step in &mut self.turn.steps {
             step.u.d = step.u.d + nothing;
         }
+    }
+
+    /// Largest change of u at the starts of steps.
+    #[inline(always)]
+    fn change(&self) -> R {
+        self.turn.steps.iter().fold(R::splat(0.0), |most, step| most.max(step.u.d.abs()))
     }
 
     /// How the motion passes the kinks at ends of steps, with the number of the step before each. Of several kinks at one
@@ -276,7 +295,7 @@ impl<'a, R: Real> DualRevolution<'a, R> {
             found[k] = if k < 2 {
                 self.state(extreme.phi, m).1.omega
             } else {
-                self.peak_of_acceleration(extreme.phi, m)
+                self.peak_of_acceleration(extreme, m)
             };
         }
         let totals = self.turn.totals(&self.machine);
@@ -298,17 +317,19 @@ impl<'a, R: Real> DualRevolution<'a, R> {
     /// An extreme of the acceleration. Its derivative is that at the place of the peak, from which the angle where it was
     /// read is off by some millionths of a step: −ε′/ε″.
     #[inline(always)]
-    fn peak_of_acceleration(&self, phi: f64, m: &mut Motion<Dual<R>>) -> Dual<R> {
+    fn peak_of_acceleration(&self, extreme: &Extreme<f64>, m: &mut Motion<Dual<R>>) -> Dual<R> {
+        let phi = extreme.phi;
         let epsilon = |phi: f64, m: &mut Motion<Dual<R>>| self.state(phi, m).1.epsilon;
         let there = epsilon(phi, m);
         let ends = |k: usize| self.edges[k].value.max_lane();
         let k = self.steady.marks.partition_point(|mark| mark.phi < phi - AT_END).max(1) - 1;
         let aside = ASIDE * (ends(k + 1) - ends(k));
-        for edge in [ends(k), ends(k + 1)] {
-            if (phi - edge).abs() < 2.0 * aside {
+        for edge in [k, k + 1] {
+            let off = (phi - ends(edge)).abs();
+            if off < 2.0 * aside {
                 // A corner is where it is, and moves with the end of the step that stands for it.
-                let is_corner = (phi - edge).abs() < 1e-3 * aside;
-                return if is_corner { epsilon(edge, m) } else { there };
+                let is_corner = off < 1e-3 * aside;
+                return if is_corner { self.corner(edge, extreme.value, m) } else { there };
             }
         }
         let [left, right] = [phi - aside, phi + aside].map(|phi| epsilon(phi, m));
@@ -318,6 +339,16 @@ impl<'a, R: Real> DualRevolution<'a, R> {
         // Where the acceleration is constant there is no peak.
         let off = off.abs().select_lt(R::splat(aside), off, R::splat(0.0));
         Dual { value: there.value, d: there.d - off * slope.d }
+    }
+
+    /// The acceleration at an end of a step, along its move. Where it jumps there, on the side that has the value.
+    #[inline(always)]
+    fn corner(&self, edge: usize, value: f64, m: &mut Motion<Dual<R>>) -> Dual<R> {
+        let before = self.state(self.edges[edge].value.max_lane(), m).1.epsilon;
+        let behind = self.start_of(edge % self.turn.steps.len(), m);
+        let far = |side: Dual<R>| (side.value - value).abs().max_lane();
+        // Where it is continuous rounding has no say.
+        if far(behind) < 0.5 * far(before) && far(before) > SIDES * value.abs() { behind } else { before }
     }
 
     /// The curves at a crank angle.
