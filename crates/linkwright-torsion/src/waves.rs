@@ -6,7 +6,8 @@
 //!
 //! Sampled at 8H places, f is nearly a parabola through three of them. Tops of these that may be the highest, as the bounds
 //! |f″| ≤ Σ h² |c_h| and |f‴| ≤ Σ h³ |c_h| of the derivatives have it, are taken to the last digit by Newton. Samples are
-//! taken in lanes, a wave each, many waves in threads.
+//! taken in lanes, a wave each, many waves in threads. Harmonics that no wave has are left out: orders of gears without a
+//! simple ratio have a base far below them.
 
 use super::forced::Complex;
 use linkwright_kernel::call::{in_threads, poll};
@@ -44,10 +45,11 @@ pub fn extremes(coefficients: &[Complex], waves: usize) -> Vec<Extremes> {
     }
     let harmonics = coefficients.len() / waves;
     let quarter = (FINE / 4 * harmonics.saturating_sub(1)).max(1);
-    let table = turns(4 * quarter, quarter, harmonics);
+    let numbers = present(coefficients, waves);
+    let table = turns(4 * quarter, quarter, &numbers);
     let part = |task: usize| {
         let range = task * TASK..((task + 1) * TASK).min(waves);
-        in_lanes(WaveJob { coefficients, waves, range, quarter, table: &table })
+        in_lanes(WaveJob { coefficients, waves, range, quarter, numbers: &numbers, table: &table })
     };
     let found: Vec<Vec<Extremes>> = in_threads(|crew| {
         (0..waves.div_ceil(TASK)).into_par_iter().map(|task| crew.task(|| part(task))).collect()
@@ -63,7 +65,20 @@ struct WaveJob<'a> {
     waves: usize,
     range: Range<usize>,
     quarter: usize,
+    numbers: &'a [usize],
     table: &'a [[[f64; 2]; BLOCK]],
+}
+
+/// Numbers of the harmonics that some wave has, even and odd ones in turn; a number that no wave has fills the shorter list.
+fn present(coefficients: &[Complex], waves: usize) -> Vec<usize> {
+    let filler = (coefficients.len() / waves).next_multiple_of(2);
+    let rows = coefficients.chunks_exact(waves).enumerate();
+    let (mut even, mut odd): (Vec<usize>, Vec<usize>) =
+        rows.filter(|(_, row)| row.iter().any(|c| *c != [0.0; 2])).map(|(h, _)| h).partition(|h| h % 2 == 0);
+    let pairs = even.len().max(odd.len()).max(1);
+    even.resize(pairs, filler);
+    odd.resize(pairs, filler + 1);
+    even.into_iter().zip(odd).flat_map(|(even, odd)| [even, odd]).collect()
 }
 
 impl Job for WaveJob<'_> {
@@ -71,11 +86,10 @@ impl Job for WaveJob<'_> {
 
     #[inline(always)]
     fn run<R: Real>(self) -> Vec<Extremes> {
-        let WaveJob { coefficients, waves, range, quarter, table } = self;
+        let WaveJob { coefficients, waves, range, quarter, numbers, table } = self;
         let (harmonics, places) = (coefficients.len() / waves, 4 * quarter);
         let zero = R::splat(0.0);
-        // Even and odd harmonics in turn: an odd number of them has one of zero at its end.
-        let mut c = vec![(zero, zero); harmonics.next_multiple_of(2)];
+        let mut c = vec![(zero, zero); numbers.len()];
         // The first and the last once more behind the other end, so that each has its neighbours.
         let mut samples = vec![0.0; (places + 2) * R::LANES];
         let mut buffer = vec![0.0; 2 * R::LANES];
@@ -89,14 +103,15 @@ impl Job for WaveJob<'_> {
             R::out_of_line(
                 #[inline(always)]
                 || {
-                    for (c, row) in c.iter_mut().zip(coefficients.chunks_exact(waves)) {
+                    for (c, &h) in c.iter_mut().zip(numbers).filter(|(_, h)| **h < harmonics) {
+                        let row = &coefficients[h * waves..][..waves];
                         let (re, im) = buffer.split_at_mut(R::LANES);
                         for (lane, (re, im)) in re.iter_mut().zip(im.iter_mut()).enumerate() {
                             [*re, *im] = row[(first + lane).min(end - 1)];
                         }
                         *c = (R::load(re), R::load(im));
                     }
-                    let [second, third] = bounds(&c[..harmonics]);
+                    let [second, third] = bounds(&c, numbers);
                     third.store(&mut thirds);
                     let range = sample(&c, table, quarter, &mut samples);
                     for (side, sign) in SIGNS.into_iter().enumerate() {
@@ -193,16 +208,15 @@ fn tops_of<R: Real>(samples: &[f64], sign: f64, least: R, side: usize, tops: &mu
 /// Places at which sums are taken beside each other: they do not wait for one another, and registers hold them.
 const BLOCK: usize = 2;
 
-/// cos hτ and sin hτ at the places of each block, harmonic by harmonic.
-fn turns(places: usize, quarter: usize, harmonics: usize) -> Vec<[[f64; 2]; BLOCK]> {
+/// cos hτ and sin hτ at the places of each block, for the numbers h one by one.
+fn turns(places: usize, quarter: usize, numbers: &[usize]) -> Vec<[[f64; 2]; BLOCK]> {
     let (sin, cos): (Vec<f64>, Vec<f64>) =
         (0..places).map(|j| (TAU * j as f64 / places as f64).sin_cos()).unzip();
     let blocks = (quarter + 1).div_ceil(BLOCK);
-    let harmonics = harmonics.next_multiple_of(2);
     let at = |block: usize, h: usize, b: usize| (BLOCK * block + b).min(quarter) * h % places;
-    (0..blocks * harmonics)
+    (0..blocks * numbers.len())
         .map(|row| {
-            let (block, h) = (row / harmonics, row % harmonics);
+            let (block, h) = (row / numbers.len(), numbers[row % numbers.len()]);
             std::array::from_fn(|b| [cos[at(block, h, b)], sin[at(block, h, b)]])
         })
         .collect()
@@ -239,9 +253,9 @@ fn wave_extremes(wave: &Wave, tops: &mut [Vec<Top>; 2], places: usize, third: f6
 
 /// What second and third derivative of waves do not exceed.
 #[inline(always)]
-fn bounds<R: Real>(c: &[(R, R)]) -> [R; 2] {
+fn bounds<R: Real>(c: &[(R, R)], numbers: &[usize]) -> [R; 2] {
     let (mut second, mut third) = (R::splat(0.0), R::splat(0.0));
-    for (h, &(re, im)) in c.iter().enumerate() {
+    for (&h, &(re, im)) in numbers.iter().zip(c) {
         let (h, size) = (h as f64, (re * re + im * im).sqrt());
         second = second + size * (h * h);
         third = third + size * (h * h * h);
@@ -364,6 +378,27 @@ mod tests {
             assert!(found.min <= low + 1e-12 && found.min > low - 1e-5, "{} {low}", found.min);
             assert!((evaluate(&wave, found.at_max)[0] - found.max).abs() < 1e-12);
         }
+    }
+
+    /// A base far below the orders: most harmonics are of no wave, of the others more are even than odd.
+    #[test]
+    fn harmonics_far_apart() {
+        let (waves, harmonics) = (3, 311);
+        let mut c = vec![[0.0, 0.0]; waves * harmonics];
+        for (n, h) in [0, 2, 62, 124, 155, 310].into_iter().enumerate() {
+            for w in 0..waves {
+                c[h * waves + w] = [1.0 / (n + w + 1) as f64, 0.3 * (n * w) as f64 - 0.5];
+            }
+        }
+        for (w, found) in extremes(&c, waves).iter().enumerate() {
+            let mut wave = Wave::default();
+            wave.set((0..harmonics).map(|h| c[h * waves + w]));
+            let fine = (0..1_000_000).map(|j| evaluate(&wave, TAU * f64::from(j) / 1e6)[0]);
+            let (low, high) = fine.fold((f64::MAX, f64::MIN), |(a, b), x| (a.min(x), b.max(x)));
+            assert!(found.max >= high - 1e-12 && found.max < high + 1e-5, "{} {high}", found.max);
+            assert!(found.min <= low + 1e-12 && found.min > low - 1e-5, "{} {low}", found.min);
+        }
+        assert_eq!(extremes(&[[0.0, 0.0], [0.0, 0.0]], 1)[0].max, 0.0);
     }
 
     #[test]

@@ -95,6 +95,10 @@ _NEAR = 0.8
 # Speeds that are looked at in one piece.
 _AT_ONCE = 256
 
+# Rounds in which a valley is closed in on, where two flanks meet: to 4⁻⁶ of what a limit changes by from
+# speed to speed. A dip below the limit by less than that is no range to run in.
+_VALLEY_ROUNDS = 6
+
 # Speeds about a speed, through which a cubic goes.
 _ABOUT = 4
 
@@ -160,6 +164,7 @@ class Survey:
                 for (n, low, up), k in zip(high, least, strict=True)
             ],
             [(speeds[k], -limits[n].ratio[k]) for (n, _, _), k in zip(high, least, strict=True)],
+            _VALLEY_ROUNDS,
         )
 
     def _joined(
