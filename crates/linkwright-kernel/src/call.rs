@@ -1,6 +1,6 @@
 //! A call of the core: whether it is still wanted, what went wrong in it, and the threads that work for it.
 //!
-//! Kernels [`poll`] now and then. The thread that made the call looks every [`PERIOD`] whether it is still wanted (a
+//! Kernels [`poll`] now and then. The thread that made the call looks every `PERIOD` whether it is still wanted (a
 //! signal may have come); if not, every thread of the call unwinds from where it is, without a message, and [`run`]
 //! returns the reason. Unwinding keeps kernels free of half results and of ways to return them.
 //!

@@ -1,7 +1,7 @@
 //! Many machines of one structure: rows into lanes, lanes over threads.
 //!
 //! A row is one machine: the base parameters with some slots replaced. Rows whose motion passes kinks of the drive's
-//! characteristic are collected and get ends of steps there ([`crate::drive::row_lanes`]). Rows that lanes cannot do to the
+//! characteristic are collected and get ends of steps there (`row_lanes`). Rows that lanes cannot do to the
 //! accuracy asked for (laws with kinks of their own, no convergence) are done again one by one by
 //! [`crate::drive::steady`], which also names the reason when there is no answer.
 

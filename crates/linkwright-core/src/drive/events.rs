@@ -194,7 +194,7 @@ impl<'a, R: Real> Events<'a, R> {
         [by_phi / (over_phi * 2.0), by_u / (over_u * 2.0)]
     }
 
-    /// The kink with a number in the order of [`Events::all`].
+    /// The kink with a number in the order of `all`.
     #[inline(always)]
     pub fn nth(&self, nth: usize) -> Event {
         let speeds = self.speeds.len();
