@@ -29,7 +29,8 @@ def influence_figure(gradient: Gradient, response: str) -> Figure:
     axes.barh(names, shares, color=[BLUE if share > 0 else RED for share in shares], height=0.62)
     axes.axvline(0.0, color=INK, linewidth=0.8)
     axes.grid(visible=False, axis="y")
-    axes.set_xlabel(f"change of the {gradient.words[row]} for 1 % more of the entry [%]")
+    # The axes stand to the right of long names: one line would leave the picture.
+    axes.set_xlabel(f"change of the {gradient.words[row]}\nfor 1 % more of the entry [%]")
     axes.margins(x=0.12)
     for place, share in enumerate(shares):
         side = "left" if share > 0 else "right"
