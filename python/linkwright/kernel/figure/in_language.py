@@ -27,11 +27,15 @@ def translated_figure(figure: Figure, to: Language) -> Figure:
 
 
 def _said(text: str, to: Language) -> str:
-    """Words of a figure: line by line, a paragraph as a whole in lines as long as they were."""
+    """Words of a figure, as a whole in as many lines, or line by line."""
     lines = text.split("\n")
-    if len(lines) == 1 or not text.rstrip().endswith("."):
-        return "\n".join(map(to.label, lines))
-    return "\n".join(wrap(to(" ".join(lines)), max(map(len, lines))))
+    joined = " ".join(lines)
+    said = to(joined) if text.rstrip().endswith(".") else to.label(joined)
+    if len(lines) > 1 and said != joined:
+        # Longer words in as many lines, with room for the last word of each.
+        width = max(*map(len, lines), len(said) // len(lines) + 8)
+        return "\n".join(wrap(said, width, break_long_words=False))
+    return "\n".join(map(to.label, lines))
 
 
 class _Marks(Formatter):
