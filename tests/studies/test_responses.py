@@ -78,6 +78,8 @@ WRONG = {
     '"steady_state.cart.unevenness"': DRIVE,
     '{ curve = "forced_vibration.bow.shaft_torque_vibratory", extreme = "max" }': TRAIN,
     '{ curve = "forced_vibration.shaft_torque_vibratory", index = 1 }': TRAIN,
+    '{ curve = "forced_vibration.nose.shaft_torques", index = 1 }': TRAIN,
+    '{ curve = "forces.shaking_force", index = 1 }': DRIVE,
 }
 
 

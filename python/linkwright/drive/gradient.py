@@ -81,7 +81,7 @@ def steady_tangents(machine: Machine, values: Floats) -> SteadyTangents:
     state, solution = solved_state(machine, _ACCURACY, _LOOK)
     assert solution is not None
     compiled = over_whole_cycle(compile_machine(machine))
-    moving = _telling_directions(machine, compiled, state)
+    moving = _telling_directions(machine, compiled, state, values)
     if moving is not None:
         _, solution = solved_state(moving, _ACCURACY, _LOOK)
         assert solution is not None
@@ -92,19 +92,27 @@ def steady_tangents(machine: Machine, values: Floats) -> SteadyTangents:
     tangents: dict[str, Any] = {
         name: Tangent(getattr(state, name), getattr(gradient, name) / turns) for name, turns in times.items()
     }
-    ratio = Tangent(compiled.gear_factors[0], values[compiled.ratio_slot])
+    ratio = Tangent(compiled.gear_factors[0], values[compiled.gear_slots[0]])
     tangents |= _of_motor(compiled, state, gradient.curves, ratio)
     return SteadyTangents(replace(state, **tangents), _ties(compiled, state, solution))
 
 
-def _telling_directions(machine: Machine, compiled: CompiledMachine, state: SteadyState) -> Machine | None:
+def _telling_directions(
+    machine: Machine, compiled: CompiledMachine, state: SteadyState, values: Floats
+) -> Machine | None:
     """The machine with a gearbox that tells the directions of power apart by next to nothing.
 
     A gearbox that does not has no kink where the motor's torque changes sign, but derivatives by its factors
-    leap there: the solution needs ends of steps at it. None where there is no such place.
+    leap there: the solution needs ends of steps at it. None where there is no such place, or no direction of
+    `values` moves the factors apart.
     """
     _, forward, reverse = compiled.gear_factors
-    if forward != reverse or not state.torque_motor_min < 0.0 < state.torque_motor_max:
+    _, *slots = compiled.gear_slots
+    if (
+        forward != reverse
+        or np.array_equal(*values[slots])
+        or not state.torque_motor_min < 0.0 < state.torque_motor_max
+    ):
         return None
     return exchanged(machine, {"drive.gearbox.efficiency": forward * (1.0 - _NEXT_TO_NOTHING)})
 

@@ -214,7 +214,7 @@ class RecordModel:
         curves = solution.gradient(parameters, angles).curves
         speed, torque = curves.speed[back], curves.torque_motor[back]
         compiled = compile_machine(machine)
-        ratio = compiled.gear_factors[0], parameters[compiled.ratio_slot]
+        ratio = compiled.gear_factors[0], parameters[compiled.gear_slots[0]]
         table = {"speed": state.speed[back], "torque": state.torque_motor[back]}
         slopes = {
             "speed": speed,

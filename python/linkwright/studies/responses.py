@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from linkwright.drive.batch import SteadyStates
 from linkwright.kernel.description.base import suggestion
-from linkwright.kernel.errors import FindingError, InputError, MachineError, Problem, show
+from linkwright.kernel.errors import FindingError, MachineError, Problem, show
 from linkwright.kernel.quantities import Label, declared, is_array
 from linkwright.kernel.result import Result
 from linkwright.machine.address import addresses, get, kind
@@ -148,10 +148,6 @@ class StudyResponse:
             values = np.take(values, getattr(result, self.parts[axis]).index(self.of[0]), axis=axis)
         if self.extreme is not None:
             return taken(values.ravel(), self.extreme)
-        if values.ndim > 1:
-            raise InputError(
-                f"responses.{self.name}: found a list of curves, expected the name of one of {self.parts}"
-            )
         assert self.index is not None
         if self.index >= len(values):
             raise FindingError(
@@ -214,10 +210,12 @@ def asked(machine: Machine, name: str, response: Response) -> StudyResponse:
         machine, first, of, parts, lambda remedy: _wrong(name, key, text, "a name that there is", remedy)
     )
     picked = (response.extreme, response.index)
-    if response.index is not None and len(parts) - len(of) > 1:
-        place = next(part for part in parts if part in _PARTS)
-        raise _wrong(name, key, f"{text}, a list of curves", f"{first}.NAME.{quantity}, NAME of {place}")
-    return StudyResponse(name, first, tuple(of), quantity, mark.word, mark.unit, *picked, parts=parts)
+    own = (".".join(of),) if of else ()
+    if response.index is not None and len(parts) - len(own) > 1:
+        place = next((part for part in parts if part in _PARTS and not of), None)
+        one = f", or {first}.NAME.{quantity} with NAME of {place}" if place else ""
+        raise _wrong(name, "index", f"{text}, a list of curves", f"extreme{one}")
+    return StudyResponse(name, first, own, quantity, mark.word, mark.unit, *picked, parts=parts)
 
 
 def _require_part(
@@ -247,16 +245,21 @@ def _of_entry(machine: Machine, name: str, address: str) -> StudyResponse:
     except MachineError as error:
         remedy = error.problems[0].remedy or suggestion(address, addresses(machine))
         raise _wrong(name, "entry", address, "the address of an entry", remedy) from None
-    if isinstance(value, bool) or not isinstance(value, int | float):
+    if not _is_number(value):
         found = f"{address}, which is no number" if value is not None else f"{address}, which is not given"
         raise _wrong(name, "entry", found, "the address of a number")
     return StudyResponse(name, ENTRY, (address,), address, address, mark.unit if mark else "")
 
 
+def _is_number(value: object) -> bool:
+    """Whether an entry is a number, and no switch."""
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
 def entry_number(machine: Machine, address: str) -> float:
     """A number of a machine; a `FindingError` if this machine has none there."""
     value = get(machine, address)
-    if isinstance(value, bool) or not isinstance(value, int | float):
+    if not _is_number(value):
         raise FindingError(f"{address} has no number in this machine")
     return float(value)
 

@@ -82,7 +82,7 @@ class CatalogueMotor:
     @property
     def breakdown(self) -> float | None:
         """Breakdown torque [N m]: as the source gives it, or `OVERLOAD`; None for kinds that have none."""
-        if self.torque_breakdown is None and self.kind == "induction":
+        if self.breakdown_is_minimum:
             return OVERLOAD * self.torque_rated
         return self.torque_breakdown
 

@@ -116,8 +116,8 @@ class CompiledMachine:
         Whether all motions repeat after one revolution of the crank by the kinds of the elements alone.
     speed_guess : float
         Crank speed from which steady motion is sought [rad/s].
-    ratio_slot : int
-        Which parameter is the ratio of the gearbox.
+    gear_slots : tuple of int
+        Which parameters `gear_factors` are.
     gear_factors : tuple of float
         Ratio, and the factor on torque times ratio while the motor drives and while the load does.
     speed_tables : tuple
@@ -145,7 +145,7 @@ class CompiledMachine:
     two_turns: NDArray[np.bool_]
     one_turn: bool
     speed_guess: float
-    ratio_slot: int
+    gear_slots: tuple[int, int, int]
     gear_factors: tuple[float, float, float]
     speed_tables: tuple[tuple[Sequence[float], Sequence[float]], ...]
     has_laws: bool
@@ -347,7 +347,7 @@ def _translate(machine: Machine, *, motor: bool, brake: bool) -> CompiledMachine
             assembly.odd.any() or any(isinstance(element, _RUNNING) for element in program.elements)
         ),
         speed_guess=float(parameters[drive.speed_start]),
-        ratio_slot=drive.ratio,
+        gear_slots=factors,
         gear_factors=(ratio, forward, reverse),
         speed_tables=tuple(
             (load.speed, load.torque) for load in machine.loads.values() if isinstance(load, TorqueSpeed)
