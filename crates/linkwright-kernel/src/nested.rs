@@ -13,7 +13,7 @@
 
 use crate::radau::{C, S};
 use crate::real::Real;
-use crate::series::{G, TERMS};
+use crate::series::{G, polynomials};
 
 /// How far behind the start of the step its node lies, as a share of the step: a load that jumps there has the value
 /// that it has in the step, as at the last stage.
@@ -53,26 +53,12 @@ pub const WEIGHTS: [f64; G] = weights();
 /// Values at the stages → the quartic through them at the other nodes.
 const OF_STAGES: [[f64; S]; MORE] = of_stages();
 
-/// P_0 … P_G at a share of the step, by Bonnet's recursion.
-const fn polynomials(share: f64) -> [f64; TERMS] {
-    let x = 2.0 * share - 1.0;
-    let mut p = [1.0; TERMS];
-    p[1] = x;
-    let mut k = 1;
-    while k < G {
-        let n = k as f64;
-        p[k + 1] = ((2.0 * n + 1.0) * x * p[k] - n * p[k - 1]) / (n + 1.0);
-        k += 1;
-    }
-    p
-}
-
 /// The inverse of the matrix of polynomials at the nodes, by Gauss and Jordan; the largest entry of a column is its pivot.
 const fn analysis() -> [[f64; G]; G] {
     let (mut a, mut b) = ([[0.0; G]; G], [[0.0; G]; G]);
     let mut i = 0;
     while i < G {
-        let p = polynomials(SHARES[i]);
+        let p = polynomials(2.0 * SHARES[i] - 1.0);
         let mut k = 0;
         while k < G {
             a[i][k] = p[k];
@@ -115,7 +101,7 @@ const fn analysis() -> [[f64; G]; G] {
 
 /// Integrals from the start to a share of the step of the polynomials that are 1 at one node each.
 const fn rises_to(share: f64) -> [f64; G] {
-    let (p, mut row, mut j) = (polynomials(share), [0.0; G], 0);
+    let (p, mut row, mut j) = (polynomials(2.0 * share - 1.0), [0.0; G], 0);
     while j < G {
         let (mut sum, mut k) = (ANALYSIS[0][j] * (p[1] + p[0]), 1);
         while k < G {

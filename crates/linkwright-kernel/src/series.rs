@@ -66,7 +66,7 @@ const fn shares() -> [f64; G] {
 }
 
 /// P_0 … P_G at a place, by Bonnet's recursion.
-const fn polynomials(x: f64) -> [f64; TERMS] {
+pub(crate) const fn polynomials(x: f64) -> [f64; TERMS] {
     let mut p = [1.0; TERMS];
     p[1] = x;
     let mut k = 1;

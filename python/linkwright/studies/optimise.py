@@ -188,13 +188,13 @@ class _Search:
             self._evolve(shares, free, evaluations, seed)
             if method == "both" and self.best is not None and self.best[0][0] < 2:
                 self._descend([self.best[1]])
-        found = self.best
-        own = (3, 0.0) if found is None else found[0]
+        nearest = self.best
+        own = (3, 0.0) if nearest is None else nearest[0]
         if before is not None and (self.best is None or before[0] <= own):
             self.best = before
         chosen = {axis.name: _chosen(axis, fixed[axis.name]) for axis in self.plan.axes if axis.choices}
         best = self.sign * own[1] if own[0] == 0 else None
-        self.tried.append({**chosen, self.goal: best, "refused": self._against(found)})
+        self.tried.append({**chosen, self.goal: best, "refused": self._against(nearest)})
 
     def _evolve(self, shares: Floats, free: list[int], evaluations: int, seed: int) -> None:
         """Populations of the evolution strategy."""
