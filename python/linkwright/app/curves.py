@@ -8,10 +8,10 @@ from io import BytesIO
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.app.study import Study
 from linkwright.drive.cycle_motion import CycleMotion
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.figure.style import LINES, legend_above, named, panels, roomy, styled, zero_line
@@ -23,9 +23,6 @@ from linkwright.linkages.motion import Motion
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-
-
-Floats = NDArray[np.float64]
 
 # What people say for the position of a slide.
 _OTHER_WORDS = {"position": "place", "displacement": "place"}

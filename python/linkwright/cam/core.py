@@ -16,10 +16,9 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright import _core
 from linkwright.cam.laws.motion_law import MotionLaw, Side
 from linkwright.cam.model.follower import Sizes
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.tangent_array import TangentArray, lifted, primal, variables_of
 from linkwright.machine.program.numbers import core_law
-
-Floats = NDArray[np.float64]
 
 CamOffset = _core.CamOffset
 CamSearch = _core.CamSearch

@@ -21,20 +21,18 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.cam.core import CamKernel
 from linkwright.cam.laws.motion_law import MotionLaw, Side
 from linkwright.cam.model.cam import Cam
 from linkwright.cam.profile.contact import Contact, contacts, opposite
 from linkwright.cam.profile.profile import CamProfile, cam_profile
+from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.kernel.numerics.tangent_array import TangentArray, lifted, primal, variables_of
 from linkwright.machine.address import get
 from linkwright.machine.machine import Machine
 from linkwright.machine.tangents import Derivatives, columns
-
-Floats = NDArray[np.float64]
 
 # Extremes this near, as a share of the curve's range, tie.
 _TIE = 1e-7
@@ -118,7 +116,7 @@ class _Curve:
     plain: Callable[[Any, Side], Any]
     plain_law: MotionLaw
 
-    def looked_at(self) -> tuple[Floats, NDArray[np.bool_], Floats]:
+    def looked_at(self) -> tuple[Floats, Bools, Floats]:
         """Angles in every piece, its ends from inside, which are from before, and the values there."""
         breaks = self.plain_law.breaks
         angles = np.concatenate([np.linspace(*ends, _LOOK + 1) for ends in pairwise(breaks)])

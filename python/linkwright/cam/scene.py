@@ -11,16 +11,15 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.cam.model.cam import Cam
 from linkwright.cam.model.follower import to_arm_pivot
 from linkwright.cam.profile.contact import CamCurve, Contact, contacts
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import LinkwrightError
 from linkwright.linkages.model.topology import ORIGIN
 from linkwright.machine.machine import Machine
 
-Floats = NDArray[np.float64]
 Scene = dict[str, Any]
 
 # Places of an outline: between them the page draws straight.

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from linkwright.cam.model.cam import Cam
 from linkwright.cam.model.follower import Sizes
@@ -19,6 +19,7 @@ from linkwright.cam.model.motion_law import PlainLaw
 from linkwright.cam.model.motion_section import ENDS, MotionSection
 from linkwright.cam.profile.contact import contacts
 from linkwright.cam.profile.profile import the_cam
+from linkwright.kernel.arrays import Bools, Floats, Indices
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError, ShapeError
 from linkwright.kernel.public import public
@@ -26,8 +27,6 @@ from linkwright.kernel.public.arguments import array
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
-
-Floats = NDArray[np.float64]
 
 # Entries of a cam that may vary, and the place of each among the dimensions; the factor on the lift comes
 # last.
@@ -50,7 +49,7 @@ class Cams(Result):
 
     entries: Annotated[dict[str, Floats], About("What was varied, by name.")]
     laws: Annotated[tuple[str, ...], About("Names of the laws.")]
-    law: Annotated[NDArray[np.intp], About("Number of the law of each cam.", "(n,)")]
+    law: Annotated[Indices, About("Number of the law of each cam.", "(n,)")]
     pressure_angle_max: Annotated[
         Floats, Label("maximum pressure angle in size", "", "rad", over="pressure_angle_max")
     ]
@@ -74,19 +73,19 @@ class Cams(Result):
             over="concave_radius_min",
         ),
     ]
-    is_sound: Annotated[NDArray[np.bool_], About("Whether it is neither undercut nor locked.", "(n,)")]
+    is_sound: Annotated[Bools, About("Whether it is neither undercut nor locked.", "(n,)")]
 
-    def keeps(self, pressure_angle: float, curvature_radius: float = 0.0) -> NDArray[np.bool_]:
+    def keeps(self, pressure_angle: float, curvature_radius: float = 0.0) -> Bools:
         """Which cams are sound and keep limits.
 
         ``pressure_angle``: largest pressure angle allowed [rad]; ``curvature_radius``: minimum convex radius
         of curvature allowed [m] → one for each cam, (n,).
         """
         steep = self.pressure_angle_max <= pressure_angle
-        keeps: NDArray[np.bool_] = self.is_sound & steep & (self.curvature_radius_min >= curvature_radius)
+        keeps: Bools = self.is_sound & steep & (self.curvature_radius_min >= curvature_radius)
         return keeps
 
-    def smallest(self, keeps: NDArray[np.bool_], count: int = 1) -> NDArray[np.intp]:
+    def smallest(self, keeps: Bools, count: int = 1) -> Indices:
         """The cams of minimum base radius among some, then of minimum pressure angle.
 
         ``keeps`` (n,): which may be chosen.
@@ -220,7 +219,7 @@ def _columns(entries: Mapping[str, ArrayLike], useful: Sequence[str]) -> tuple[d
     return columns, lengths.pop() if lengths else 1
 
 
-def _numbers(law: ArrayLike | None, n_laws: int, n: int) -> tuple[NDArray[np.intp], int]:
+def _numbers(law: ArrayLike | None, n_laws: int, n: int) -> tuple[Indices, int]:
     """Number of the law of each cam, and how often the variants are repeated."""
     if law is None:
         return np.repeat(np.arange(n_laws), n), n_laws
@@ -261,7 +260,7 @@ def _cams(
     cam: Cam,
     columns: dict[str, Floats],
     laws: tuple[str, ...],
-    numbers: NDArray[np.intp],
+    numbers: Indices,
     results: dict[str, Floats],
 ) -> Cams:
     """The results in the field's terms."""

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright.drive import evenness
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.sound_loads import require_same_turns
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError, MachineError, Problem, ShapeError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import array
@@ -25,8 +26,6 @@ from linkwright.machine.program.core import SENTENCES, Status
 
 if TYPE_CHECKING:
     import pandas as pd
-
-Floats = NDArray[np.float64]
 
 # Numbers of a steady motion that the core gives, and of which it gives the derivatives.
 COLUMNS = (

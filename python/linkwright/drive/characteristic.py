@@ -10,17 +10,15 @@ from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.drive.model.motor import ConstantSpeedMotor, DcMotor, InductionMotor, Motor
 from linkwright.drive.reduction import Reduction, mean_laws, reduction
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.quantities import Label
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
-
-Floats = NDArray[np.float64]
 
 # How far beyond the speed without torque the curve goes, as a share of that speed.
 _BEYOND = 0.04

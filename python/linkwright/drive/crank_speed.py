@@ -8,9 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from linkwright.kernel.command.common import option_value
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
+    from linkwright.kernel.arrays import Floats
     from linkwright.machine.machine import Machine
 
 _OPTION = "--speed"
@@ -45,7 +43,7 @@ def crank_speed(machine: Machine, text: str | None) -> CrankSpeed:
     return CrankSpeed(1.0, "the file has no drive.speed: rates are those for a radian per second")
 
 
-def speeds_of(speeds: NDArray[np.float64], machine: Machine, text: str | None) -> dict[str, Any]:
+def speeds_of(speeds: Floats, machine: Machine, text: str | None) -> dict[str, Any]:
     """The speeds (n,) [rad/s] at which something was computed along a motion, for JSON; `text`: after
     ``--speed``.
     """

@@ -15,10 +15,10 @@ from dataclasses import asdict, dataclass
 from typing import Annotated, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.drive.crank_speed import crank_speed
 from linkwright.drive.steady_state import SteadyState, steady_state
+from linkwright.kernel.arrays import Bools, Floats, Indices
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About
 from linkwright.kernel.result import Record
@@ -29,7 +29,6 @@ from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import SteadyMotion
 
-Floats = NDArray[np.float64]
 # Crank angles → time, speed, acceleration of the crank.
 CrankMotion = Callable[[Floats], tuple[Floats, Floats, Floats]]
 
@@ -290,7 +289,7 @@ class _Search:
         """Whether it is the angle of a link that goes on from one cycle to the next."""
         return name.endswith(".angle") and abs(rise) > np.pi and abs(np.sin(rise / 2)) < _NEAR
 
-    def _unlimited(self, limit: tuple[float, float] | None) -> NDArray[np.bool_]:
+    def _unlimited(self, limit: tuple[float, float] | None) -> Bools:
         """Which columns grow without limit towards the ends of a range of the crank."""
         if limit is None:
             return np.zeros(len(self.names), dtype=bool)
@@ -298,7 +297,7 @@ class _Search:
         inwards = np.array([_LIMIT_FAR, _LIMIT_NEAR, -_LIMIT_FAR, -_LIMIT_NEAR]) * (high - low)
         at = np.where(inwards > 0, low, high) + inwards
         far, near = (np.abs(self.values(np.sort(at)))[:, pair].max(axis=1) for pair in ([1, 2], [0, 3]))
-        unlimited: NDArray[np.bool_] = near > _GROWS * np.maximum(far, np.finfo(float).tiny)
+        unlimited: Bools = near > _GROWS * np.maximum(far, np.finfo(float).tiny)
         return unlimited
 
     def _peaks(self, looked: Floats, values: Floats, span: Floats) -> tuple[Floats, Floats, Floats, Floats]:
@@ -334,7 +333,7 @@ class _Search:
         return low, low_at, high, high_at
 
 
-def _candidates(signed: Floats, span: Floats) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def _candidates(signed: Floats, span: Floats) -> tuple[Indices, Indices]:
     """Row and column of the samples beside which the maximum of a row may be."""
     before = np.concatenate([np.full((len(signed), 1), -np.inf), signed[:, :-1]], axis=1)
     after = np.concatenate([signed[:, 1:], np.full((len(signed), 1), -np.inf)], axis=1)
@@ -347,7 +346,7 @@ def _candidates(signed: Floats, span: Floats) -> tuple[NDArray[np.intp], NDArray
     return row, column
 
 
-def _vertex(x: Floats, y: Floats, top: NDArray[np.intp]) -> tuple[Floats, Floats]:
+def _vertex(x: Floats, y: Floats, top: Indices) -> tuple[Floats, Floats]:
     """Place and value of the vertex of the parabola through the best of some points and its neighbours."""
     row = np.arange(len(x))
     middle = np.clip(top, 1, x.shape[1] - 2)

@@ -20,9 +20,9 @@ from dataclasses import dataclass
 from typing import Annotated, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.drive.reduction import NO_INERTIA, Reduction, reduction
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import SteadyStateError
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.public import public
@@ -31,7 +31,7 @@ from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 
-V = TypeVar("V", float, NDArray[np.float64])
+V = TypeVar("V", float, Floats)
 
 
 def mean_of_extremes(slow: V, fast: V) -> V:
@@ -54,9 +54,6 @@ def dynamism(least: V, greatest: V, mean: V) -> V:
 def motion_coefficient(delta: V, H: V) -> V:
     """k_p of δ and H [–]."""
     return delta**2 + H
-
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -39,7 +39,6 @@ from linkwright.kernel.page.out_units import reader
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-    from numpy.typing import NDArray
 
     from linkwright.drive.characteristic import Characteristic
     from linkwright.drive.motion_events import MotionExtreme
@@ -47,6 +46,7 @@ if TYPE_CHECKING:
     from linkwright.drive.run_up import RunUp
     from linkwright.drive.steady_state import SteadyState
     from linkwright.drive.transient import Transient
+    from linkwright.kernel.arrays import Floats
 
 # Turns drawn against time: two show that the motion repeats.
 _TURNS = 2
@@ -200,7 +200,7 @@ def attempt_figure(motion: Transient) -> Figure:
     return figure
 
 
-def _fine(motion: Transient, turns: float) -> tuple[NDArray[np.float64], ...]:
+def _fine(motion: Transient, turns: float) -> tuple[Floats, ...]:
     """Time, turns and speed at even times, through the solver's own interpolant."""
     travelled = (motion.crank_angle - motion.crank_angle[0]) / (2 * np.pi)
     end = float(np.interp(turns, travelled, motion.time))

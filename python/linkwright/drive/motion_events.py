@@ -12,14 +12,12 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import polynomial
-from numpy.typing import NDArray
 
 from linkwright.drive.transient import End, Transient
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.public import public
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
-
-Floats = NDArray[np.float64]
 
 # How close the end of a step is to a kink that it was ended at [rad]: the solver lands within 1e-3 of the
 # root of its accuracy, which is at most 1e-2.

@@ -13,9 +13,10 @@ from functools import partial
 from typing import Annotated
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from linkwright.drive.sound_loads import require_turn
+from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import Label
@@ -24,8 +25,6 @@ from linkwright.linkages.closure import turn_angles
 from linkwright.linkages.period import turns_to_repeat
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine
-
-Floats = NDArray[np.float64]
 
 # What is said of a machine that nothing keeps from infinite acceleration.
 NO_INERTIA = (
@@ -152,7 +151,7 @@ def mean_laws(compiled: CompiledMachine, speeds: ArrayLike) -> Floats:
     return mean
 
 
-def law_harmonics(compiled: CompiledMachine, speeds: ArrayLike, orders: Floats) -> NDArray[np.complex128]:
+def law_harmonics(compiled: CompiledMachine, speeds: ArrayLike, orders: Floats) -> Complexes:
     """Means of the torque of laws times e^{−iνφ} at constant speeds of the crank, (speeds, orders) [N m]."""
     omega = np.atleast_1d(np.asarray(speeds, dtype=np.float64))
     if not compiled.has_laws:

@@ -10,19 +10,17 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.drive.motion_events import largest
 from linkwright.drive.steady_state import SteadyState, steady_state
 from linkwright.drive.transient import End, MethodPart, Transient, transient
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError, StartError, SteadyStateError
 from linkwright.kernel.numerics.zeros import zeros
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
-
-Floats = NDArray[np.float64]
 
 # Relative accuracy of a step.
 _ACCURACY = 1e-9

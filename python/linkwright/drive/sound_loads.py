@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import FindingError, SteadyStateError
 from linkwright.kinetostatics.model.loads.between import GasSpring, TorsionalSpring
 from linkwright.kinetostatics.model.loads.force import FormulaLoad, Load
 from linkwright.linkages.closure import require_full_turn, turn_angles
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
-
-Floats = NDArray[np.float64]
 
 # Angles at which loads are looked at; a hole narrower than half a degree is met by the solver, which says so.
 _ANGLES = 720

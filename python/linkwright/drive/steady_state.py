@@ -14,12 +14,12 @@ from itertools import pairwise
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.drive import evenness
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.reduction import NO_INERTIA, mean_laws, mean_over_turn
 from linkwright.drive.sound_loads import require_same_turns, require_sound_loads, sliding
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import ConvergenceError, InputError, SteadyStateError
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.public import public
@@ -29,8 +29,6 @@ from linkwright.linkages.closure import over_whole_cycle, require_full_turn, tur
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import NoSteadyMotion, Status, SteadyMotion, SteadySolution
-
-Floats = NDArray[np.float64]
 
 # Speeds of a revolution at which the motor's torque is looked at for its extremes, and how often between the
 # neighbours of the best: an interval is a 32nd of that before.

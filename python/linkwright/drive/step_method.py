@@ -20,10 +20,10 @@ from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.drive import evenness
 from linkwright.drive.sound_loads import require_same_turns
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError, StartError, SteadyStateError, require_within
 from linkwright.kernel.limits import STEPS
 from linkwright.kernel.public import public
@@ -34,8 +34,6 @@ from linkwright.kernel.units import ANGLE, positive
 from linkwright.linkages.closure import over_whole_cycle, require_full_turn, turn_angles
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
-
-Floats = NDArray[np.float64]
 
 # Relative change of the speed from revolution to revolution below which the motion counts as steady.
 _STEADY = 1e-6

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.drive.motion_events import MotionEvent, MotionExtreme
 from linkwright.drive.transient import End, Transient
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.page.angle_zero import Zero
 from linkwright.kernel.page.numbers import degrees, number, quantity
 from linkwright.kernel.page.table import Row, Table
@@ -135,7 +135,7 @@ def _angle(angle: float, zero: Zero) -> str:
     return degrees(angle - zero.angle)
 
 
-def _column(curve: NDArray[np.float64], si: str) -> list[str]:
+def _column(curve: Floats, si: str) -> list[str]:
     """A curve as cells of a table."""
     most = float(np.abs(curve).max())
     return [_value(float(value), si, most) for value in curve]

@@ -9,11 +9,12 @@ from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 from numpy.polynomial import polynomial
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.reduction import NO_INERTIA
 from linkwright.drive.sound_loads import is_held, require_half_turns, require_sound_loads, sliding
+from linkwright.kernel.arrays import Bools, Floats, Indices
 from linkwright.kernel.errors import ConvergenceError, InputError, SteadyStateError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
@@ -23,8 +24,6 @@ from linkwright.kernel.units import ANGLE, COUNT, SPEED, TIME, Quantity, not_neg
 from linkwright.linkages.closure import require_full_turn
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
-
-Floats = NDArray[np.float64]
 
 
 class End(IntEnum):
@@ -72,7 +71,7 @@ class StepPolynomials:
 
     factors: Floats
 
-    def rises(self, z: Floats, step: NDArray[np.intp]) -> Floats:
+    def rises(self, z: Floats, step: Indices) -> Floats:
         """Change of angle and speed since the start of steps, (2, m), at shares z of the steps, 0 to 1.
 
         z (f₀ + (1 − z)(f₁ + z (f₂ + (1 − z)(f₃ + …)))).
@@ -126,7 +125,7 @@ class Transient(Result):
     evaluations: Annotated[int, Label("evaluations of the machine", "", "")]
     between: Annotated[StepPolynomials, About("What `at` reads between the ends of the steps.")]
     implicit: Annotated[
-        NDArray[np.bool_],
+        Bools,
         About("Whether a step is by the implicit method; False is the explicit one.", shape="(steps,)"),
     ]
 

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.formula import NUMBERS, parse
 from linkwright.kernel.errors import FindingError
 from linkwright.kernel.numerics.formula_value import value
@@ -44,8 +44,6 @@ from linkwright.kinetostatics.places import Scene, dot, unit
 from linkwright.kinetostatics.wrench import Wrenches, masses
 from linkwright.linkages.model.structure import FRAME
 from linkwright.machine.program.loads import gas_column
-
-Floats = NDArray[np.float64]
 
 
 def formula_wrenches(scene: Scene, load: FormulaLoad) -> Wrenches:

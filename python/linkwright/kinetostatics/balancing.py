@@ -16,8 +16,8 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import MachineError, Problem
 from linkwright.kernel.public import public
@@ -33,8 +33,6 @@ from linkwright.kinetostatics.result import Forces
 from linkwright.kinetostatics.wrench import masses
 from linkwright.linkages.model.structure import FRAME
 from linkwright.machine.machine import Machine
-
-Floats = NDArray[np.float64]
 
 # Moment of a counterweight, over the largest, that is not worth a body: rounding.
 _NOTHING = 1e-12

@@ -13,7 +13,8 @@ import numpy as np
 
 from linkwright.cam.model.follower import OscillatingFollower, TranslatingFollower
 from linkwright.cam.profile.contact import centre_of, contacts, touch, turned_by
-from linkwright.kinetostatics.places import Floats, Scene, dot, left
+from linkwright.kernel.arrays import Floats
+from linkwright.kinetostatics.places import Scene, dot, left
 from linkwright.kinetostatics.wrench import Wrenches
 from linkwright.linkages.model.structure import FRAME
 

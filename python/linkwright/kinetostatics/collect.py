@@ -7,8 +7,8 @@ from itertools import pairwise
 from operator import add
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import FindingError
 from linkwright.kernel.numerics.tangent_array import primal
 from linkwright.kinetostatics.applied import AppliedLoad, together
@@ -18,8 +18,6 @@ from linkwright.kinetostatics.pairs import PairModel
 from linkwright.kinetostatics.places import Scene, cross
 from linkwright.kinetostatics.result import Contribution, Forces, PairForce
 from linkwright.linkages.model.structure import FRAME
-
-Floats = NDArray[np.float64]
 
 # Share of the maximum tension that a cable may push by rounding.
 _SLACK = 1e-9

@@ -12,8 +12,9 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError, ShapeError
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
@@ -22,9 +23,6 @@ from linkwright.kinetostatics.forces import forces
 from linkwright.kinetostatics.result import Forces, PairForce
 from linkwright.machine.address import replace
 from linkwright.machine.machine import Machine
-
-Floats = NDArray[np.float64]
-
 
 _EXTENT_NAME = (
     "Of the quantity: ``torque_drive``, ``shaking_force``, ``shaking_moment``, a pair, or the "

@@ -14,15 +14,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Bools, Floats, Indices
 from linkwright.kernel.errors import FindingError
 from linkwright.kernel.limits import FORCES, grouped
 from linkwright.kinetostatics.pairs import PairModel
 from linkwright.kinetostatics.places import Scene
-
-Floats = NDArray[np.float64]
-Bools = NDArray[np.bool_]
 
 # Relative change of the forces at which the iteration over friction ends.
 _SETTLED = 1e-11
@@ -198,7 +195,7 @@ def _require_room(n: int, equations: int, unknowns: int) -> None:
         )
 
 
-def _rows(scene: Scene) -> tuple[NDArray[np.intp], Floats]:
+def _rows(scene: Scene) -> tuple[Indices, Floats]:
     """Equations among all components of the members, and their scale; the frame has none."""
     rows, scale = [], []
     for i, member in enumerate(scene.structure.members.values()):

@@ -15,11 +15,12 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from linkwright.drive.model.drive import Drive
 from linkwright.drive.steady_state import SteadyState
 from linkwright.drive.transient import Transient
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.units import ANGLE, Bound, Quantity
@@ -132,7 +133,7 @@ def equilibrium(scene: Scene, models: list[PairModel], columns: Mapping[str, App
 
 def solved(
     scene: Scene, models: list[PairModel], columns: Mapping[str, AppliedLoad]
-) -> tuple[Solution, NDArray[np.float64]]:
+) -> tuple[Solution, Floats]:
     """The unknowns, with second contacts of cams where the first would have to pull, and those without."""
     solution = equilibrium(scene, models, columns).solve()
     without = solution.x.sum(axis=-1)

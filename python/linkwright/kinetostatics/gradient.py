@@ -16,10 +16,10 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.steady_state import solved_state
+from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.kernel.numerics.tangent_array import TangentArray, lifted
 from linkwright.kinetostatics.applied import together
@@ -37,8 +37,6 @@ from linkwright.machine.address import get
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 from linkwright.machine.tangents import Derivatives, Directions, directions, followed, seeded
-
-Floats = NDArray[np.float64]
 
 # Relative accuracy of the steady motion, and its intervals per revolution: those of `forces`.
 _ACCURACY, _N = 1e-9, 360
@@ -168,19 +166,19 @@ class _Kinks:
         self.angles, self.cycle = compiled.kinks(), compiled.cycle
         at = np.array([float(get(machine, name)) for name in self.variables])
         along = compiled.kinks_along(program.values, self.angles) * np.where(at == 0.0, 1.0, at)
-        self.moves: NDArray[np.bool_] = np.abs(along) > _ROUNDING
+        self.moves: Bools = np.abs(along) > _ROUNDING
 
-    def on(self, angle: float) -> NDArray[np.bool_]:
+    def on(self, angle: float) -> Bools:
         """Which kinks are at a crank angle [rad]."""
         half = 0.5 * self.cycle
         apart = np.abs((self.angles - angle + half) % self.cycle - half)
         return np.asarray(apart <= _ON_KINK)
 
-    def moved_at(self, angle: float) -> NDArray[np.bool_]:
+    def moved_at(self, angle: float) -> Bools:
         """Which variables move a kink at a crank angle [rad], (variables,)."""
         return np.asarray(self.moves[self.on(angle)].any(axis=0))
 
-    def words(self, angle: float, moving: NDArray[np.bool_]) -> str:
+    def words(self, angle: float, moving: Bools) -> str:
         """Which entries have no derivative there."""
         names = [name for name, moves in zip(self.variables, moving, strict=True) if moves]
         kink = float(self.angles[self.on(angle)][0])

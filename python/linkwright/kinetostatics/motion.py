@@ -6,10 +6,11 @@ from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from linkwright.drive.steady_state import SteadyState, steady_state
 from linkwright.drive.transient import Transient
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import AssemblyError, InputError, ShapeError
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import Label
@@ -18,8 +19,6 @@ from linkwright.kernel.units import ANGULAR_ACCELERATION, SPEED, Quantity
 from linkwright.linkages.closure import closure, closure_error, turn_angles
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

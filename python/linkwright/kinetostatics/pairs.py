@@ -20,8 +20,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.tangent_array import variables_of
 from linkwright.kinetostatics.friction import FRICTIONLESS, Friction
 from linkwright.kinetostatics.places import Scene, dot, left
@@ -31,8 +31,6 @@ from linkwright.linkages.model.structure import FRAME, Drive, Pair
 
 if TYPE_CHECKING:
     from linkwright.kinetostatics.cam_contact import Push
-
-Floats = NDArray[np.float64]
 
 # Relative difference of speeds at a pitch point that counts as rounding.
 _ROLLS = 1e-9

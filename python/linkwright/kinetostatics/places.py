@@ -5,8 +5,8 @@ from __future__ import annotations
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError
 from linkwright.kinetostatics.motion import Motion
 from linkwright.linkages.kinematics import kinematics
@@ -14,8 +14,6 @@ from linkwright.linkages.model.element import Guide
 from linkwright.linkages.model.structure import FRAME, structure
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
-
-Floats = NDArray[np.float64]
 
 
 class Scene:

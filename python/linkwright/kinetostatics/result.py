@@ -6,14 +6,11 @@ from dataclasses import dataclass, field
 from typing import Annotated, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record, Result
 from linkwright.kinetostatics.motion import Motion
-
-Floats = NDArray[np.float64]
-
 
 _PAIR_FORCE_FRICTION = (
     "Share of friction: torque of a pin [N m], force along a guide or slot [N], on the second member."

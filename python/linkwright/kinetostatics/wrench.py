@@ -11,14 +11,12 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kinetostatics.places import Scene, cross, left, unit
 from linkwright.linkages.model.element import Guide
 from linkwright.linkages.model.structure import FRAME, Pair
 from linkwright.machine.program.loads import link_body
-
-Floats = NDArray[np.float64]
 
 
 class Wrenches:

@@ -20,8 +20,9 @@ from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import MachineError, Problem
 from linkwright.kernel.public import public
@@ -29,8 +30,6 @@ from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.linkages.kinematics import Kinematics, kinematics
 from linkwright.machine.machine import Machine
-
-Floats = NDArray[np.float64]
 
 # Turn of a link per radian of the crank below which it translates: rounding of a link that never turns.
 _TRANSLATES = 1e-12

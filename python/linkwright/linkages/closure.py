@@ -17,8 +17,8 @@ from functools import lru_cache
 from typing import Annotated
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.description.cycle import TURNS_MAX
 from linkwright.kernel.errors import AssemblyError, InputError
 from linkwright.kernel.numerics.zeros import minima, zeros
@@ -32,9 +32,6 @@ from linkwright.linkages.period import turns_to_repeat
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import Element
-
-Floats = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 
 # A radicand whose parabola through three angles dips below this share of its maximum is looked into.
 _CLOSE = 1e-3
@@ -257,13 +254,13 @@ class _Search:
         )
         return any(abs((at - point + np.pi) % turn - np.pi) < _BESIDE for point in known)
 
-    def _element(self, closes: NDArray[np.bool_]) -> str:
+    def _element(self, closes: Bools) -> str:
         """The first dyad in build order that does not close somewhere."""
         gaps = self.compiled.gaps(self.angles[~closes])
         fails = (gaps < -_ZERO * self.sizes).any(axis=1)
         return self.compiled.dyads[int(np.argmax(fails))]
 
-    def _ranges(self, closes: NDArray[np.bool_]) -> Iterator[tuple[float, float]]:
+    def _ranges(self, closes: Bools) -> Iterator[tuple[float, float]]:
         starts = np.flatnonzero(closes & ~np.roll(closes, 1))
         ends = np.flatnonzero(closes & ~np.roll(closes, -1))
         if not len(starts):
@@ -328,7 +325,7 @@ def _endless(compiled: CompiledMachine) -> Closure:
     return endless
 
 
-def _first_end(compiled: CompiledMachine, angles: Floats, closes: Flags) -> float | None:
+def _first_end(compiled: CompiledMachine, angles: Floats, closes: Bools) -> float | None:
     """Where a motion that starts at the first angle ends; None if it goes on to the last."""
     if closes.all():
         return None
@@ -341,10 +338,10 @@ def _first_end(compiled: CompiledMachine, angles: Floats, closes: Flags) -> floa
     return float(zeros(least, angles[first - 1 : first], angles[first : first + 1])[0][0])
 
 
-def _closing(gaps: Floats) -> Flags:
+def _closing(gaps: Floats) -> Bools:
     """At which angles every dyad closes, (n,). Links in line leave zero, or by rounding a little less."""
     sizes = np.nan_to_num(gaps).max(axis=1, keepdims=True)
-    closes: Flags = ((gaps >= -_ZERO * sizes) & (sizes > 0)).all(axis=0)
+    closes: Bools = ((gaps >= -_ZERO * sizes) & (sizes > 0)).all(axis=0)
     return closes
 
 
@@ -502,7 +499,7 @@ def _deg(angle: float) -> str:
 
 
 @lru_cache(maxsize=8)
-def turn_angles(n: int, turns: int = 1) -> NDArray[np.float64]:
+def turn_angles(n: int, turns: int = 1) -> Floats:
     """Crank angles over some revolutions from 0 on, ``n`` ≥ 1 intervals a revolution [rad].
 
     Both ends are included. They are shared by results, so read-only.

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from typing import Annotated, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import MachineError, Problem, ShapeError
 from linkwright.kernel.numerics.zeros import brackets, minima, zeros
 from linkwright.kernel.public import public
@@ -25,8 +25,6 @@ from linkwright.linkages.sweep import Cycle
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.motion import PointRows
-
-Floats = NDArray[np.float64]
 
 # Maximum distance from the chord, over its length, of what counts as straight.
 _STRAIGHT = 1e-3

@@ -21,8 +21,8 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record, Result
@@ -35,7 +35,6 @@ from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 
 if TYPE_CHECKING:
     from linkwright.linkages.sweep import LinkageSweep
-
 
 LIMIT = "limit of crank rotation"
 PASSED = "change point passed"
@@ -92,8 +91,6 @@ def _reversals(swept: LinkageSweep) -> Iterator[DeadPoint]:
         for angle in swept.reversals(k):
             yield DeadPoint(swept.cycle.named(angle), output.name, REVERSAL, 1)
 
-
-Floats = NDArray[np.float64]
 
 # Difference of the rates of two links that stay parallel: rounding, lost near change points.
 _PARALLEL = 1e-6

@@ -21,13 +21,11 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.machine.program.compiled import CompiledMachine
 from linkwright.machine.program.core import Channel, Element, Line
 from linkwright.machine.program.motion import LinkRows, Rows, SlideRows
-
-Floats = NDArray[np.float64]
 
 # What closes, and the dyad that it is.
 Closing = (

@@ -10,13 +10,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.linkages.dyads import dyads_of
 from linkwright.machine.program.compiled import CompiledMachine
 from linkwright.machine.program.core import Element
-
-Floats = NDArray[np.float64]
 
 # Share of s + l by which p + q may differ and still be the same: lengths given to all digits are.
 _SAME = 1e-9

@@ -8,8 +8,9 @@ from functools import partial
 from typing import Annotated, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import MachineError, Problem, ShapeError
 from linkwright.kernel.numerics.tangent_array import TangentArray
 from linkwright.kernel.public import public
@@ -22,8 +23,6 @@ from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import Channel
 from linkwright.machine.program.motion import WIDTHS
-
-Floats = NDArray[np.float64]
 
 # What the core takes for a point, a link and a slide, and how many numbers it gives at each angle.
 _CHANNELS = {"points": Channel.Point, "links": Channel.Link, "slides": Channel.Slide}
@@ -236,7 +235,7 @@ def motions(
     points: Iterable[str] = (),
     links: Iterable[str] = (),
     slides: Iterable[str] = (),
-    out: NDArray[np.float64] | None = None,
+    out: Floats | None = None,
 ) -> Floats:
     """Motions of one or many machines as one array, at the speed of the core.
 

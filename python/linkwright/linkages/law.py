@@ -15,15 +15,14 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import ShapeError
 from linkwright.kernel.numerics.taylor import Taylor
 from linkwright.kernel.public.arguments import rows, shown
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.units import ANGLE, TIME, Quantity
-
-Floats = NDArray[np.float64]
 
 
 class Law(Protocol):

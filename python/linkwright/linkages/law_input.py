@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.formula import NUMBERS, FormulaError, names, parse
 from linkwright.kernel.errors import InputError, MachineFileError, Problem, UnitError
 from linkwright.kernel.files.text_file import TextError, text_of
@@ -50,8 +50,6 @@ def _number(cell: str, kind: Kind, path: Path, line: int) -> float:
     except UnitError as error:
         raise MachineFileError([replace(error.problem, path=str(path), line=line)]) from None
 
-
-Floats = NDArray[np.float64]
 
 # Functions that a number with derivatives does not know, made of others that it does.
 _OPERATIONS: dict[str, Callable[..., Any]] = {

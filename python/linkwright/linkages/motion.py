@@ -13,8 +13,9 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import AssemblyError, ShapeError
 from linkwright.kernel.numerics.zeros import brackets, zeros
 from linkwright.kernel.public import public
@@ -27,9 +28,6 @@ from linkwright.linkages.kinematics import checked_angles, everything, kinematic
 from linkwright.linkages.law import Law, as_law
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
-
-Floats = NDArray[np.float64]
-
 
 _PATH_POSITION = "Of a point two columns [m], of a slide one [m], of a link one [rad]."
 

@@ -7,14 +7,12 @@ on the crank never comes back, and a group may close only after its branch has b
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.public import public
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import Channel
-
-Floats = NDArray[np.float64]
 
 # Turns after which a motion counts as one that does not repeat: trains of gears with up to so many teeth.
 _TURNS_MAX = 240

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
@@ -21,8 +21,6 @@ from linkwright.linkages.dyads import dyads_of, transmission, transmission_chann
 from linkwright.linkages.kinematics import everything, kinematics_of, motion_arrays
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
-
-Floats = NDArray[np.float64]
 
 # A dyad whose links are nearer than this to one line, as the sine of the angle between them, is near a limit;
 # so is a slotted lever whose pin is nearer to its pivot than this share of what it reaches.

@@ -11,8 +11,8 @@ from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kinetostatics.model.body import Body
 from linkwright.kinetostatics.model.loads.between import BetweenPoints
 from linkwright.linkages.kinematics import Kinematics
@@ -21,7 +21,6 @@ from linkwright.linkages.model.mechanism import Link, Mechanism
 from linkwright.linkages.model.topology import ORIGIN, Topology
 from linkwright.machine.machine import Machine
 
-Floats = NDArray[np.float64]
 Scene = dict[str, Any]
 
 

@@ -6,11 +6,10 @@ from collections.abc import Callable
 from itertools import product
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.linkages.sweep import Cycle
 
-Floats = NDArray[np.float64]
 Places = Callable[[Floats], Floats]
 
 # Portions of the path between which all straight ones are looked for.

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.zeros import brackets, zeros
 from linkwright.linkages.closure import Closure
 from linkwright.linkages.dyads import (
@@ -21,8 +21,6 @@ from linkwright.linkages.model.mechanism import Mechanism
 from linkwright.machine.program.compiled import CompiledMachine
 from linkwright.machine.program.core import Channel, Element
 from linkwright.machine.program.motion import LinkRows, PointRows
-
-Floats = NDArray[np.float64]
 
 # Intervals of a revolution between which at most one extreme of a kind is expected: a degree.
 _INTERVALS = 360

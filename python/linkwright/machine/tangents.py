@@ -12,16 +12,14 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import LinkwrightError
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.kernel.numerics.tangent_array import TangentArray
 from linkwright.machine.address import exchanged, get, is_given
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import Translation, compile_machine
-
-Floats = NDArray[np.float64]
 
 # What tells that an entry is not followed.
 _FAILURES = (TypeError, AttributeError, ValueError, ArithmeticError, LinkwrightError)

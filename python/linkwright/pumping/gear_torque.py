@@ -23,8 +23,8 @@ from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.errors import FindingError
 from linkwright.kernel.numerics.turn_curve import TurnCurve
 from linkwright.kernel.numerics.turn_fit import turn_curve
@@ -33,8 +33,6 @@ from linkwright.kernel.quantities import Label
 from linkwright.kernel.result import Result
 from linkwright.pumping.model.polished_rod_load import PolishedRodLoad
 from linkwright.pumping.model.unit import PumpingUnit
-
-Floats = NDArray[np.float64]
 
 # Angles of the revolution at which the counterbalance of equal peaks is bracketed.
 _ANGLES = 720
@@ -254,7 +252,7 @@ def _force(load: PolishedRodLoad, angles: Floats, position: Floats, factor: Floa
     return np.where(factor >= 0, up, down)
 
 
-def _equal_peaks(turn: _Stroke, is_up: NDArray[np.bool_]) -> float:
+def _equal_peaks(turn: _Stroke, is_up: Bools) -> float:
     """The counterbalance with which both strokes have equal peaks among samples."""
 
     def excess(size: float) -> float:

@@ -6,8 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import AssemblyError
 from linkwright.linkages.closure import require_full_turn
 from linkwright.linkages.kinematics import motion_arrays
@@ -17,8 +17,6 @@ from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.pumping.model.rod_rotator import LEVER, LINK, PIN, Lengths, RodRotator, lengths
 from linkwright.pumping.model.unit import ROD, PumpingUnit
 from linkwright.pumping.unit import PolishedRod, turn_extreme
-
-Floats = NDArray[np.float64]
 
 # Angles over which the motion of a stroke is looked at.
 _ANGLES = 1440

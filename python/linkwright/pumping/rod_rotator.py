@@ -22,8 +22,8 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
@@ -33,8 +33,6 @@ from linkwright.machine.machine import Machine
 from linkwright.pumping.lever import Lever, LeverMotion, swing_of, takes_along, turns_of, worm_turns_of
 from linkwright.pumping.model.rod_rotator import Lengths, RodRotator
 from linkwright.pumping.unit import PolishedRod, turn_extreme
-
-Floats = NDArray[np.float64]
 
 # Seconds of a day.
 _DAY = 86400.0

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.public import public
@@ -27,8 +27,6 @@ from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.pumping.gear_torque import GearTorque, gear_torque
 from linkwright.pumping.model.unit import BEAM_LINK, PumpingUnit
-
-Floats = NDArray[np.float64]
 
 # API tabulates torque factors and positions of rods at every 15°.
 _TABLE = 24

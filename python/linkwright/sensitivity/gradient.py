@@ -15,8 +15,8 @@ from numbers import Number
 from typing import Annotated, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import FindingError, InputError, MachineError, cut
 from linkwright.kernel.public import public
@@ -25,8 +25,6 @@ from linkwright.kernel.result import Result
 from linkwright.machine.address import addresses, get, kind
 from linkwright.machine.machine import Machine
 from linkwright.sensitivity.sources import SOURCES, Source, analysis_of, chosen, source, usual_analysis
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

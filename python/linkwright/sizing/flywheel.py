@@ -21,11 +21,11 @@ from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.run_up import RunUp, run_up
 from linkwright.drive.steady_state import SteadyState, steady_state
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import ConvergenceError, FindingError, InputError, SteadyStateError
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.public import public
@@ -38,8 +38,6 @@ from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.drive_line import drive_inertia
 from linkwright.sizing.motor_change import with_flywheel
-
-Floats = NDArray[np.float64]
 
 # Relative accuracy of the flywheel's speed fluctuation; four digits better than anything it is compared with.
 _CLOSE = 1e-9

@@ -24,8 +24,8 @@ from dataclasses import dataclass, replace
 from typing import Annotated, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import ConvergenceError, FindingError, InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
@@ -38,8 +38,6 @@ from linkwright.studies.local import limits
 from linkwright.studies.plan import StudyPlan
 from linkwright.studies.slopes import slopes
 from linkwright.studies.tolerance import yield_of
-
-Floats = NDArray[np.float64]
 
 # A tolerance is made wider or narrower by this factor at most.
 _FACTOR = 100.0

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import MachineError, Problem, UnitError, show
 from linkwright.kernel.units import COUNT, LENGTH, Kind, parse
@@ -17,8 +17,6 @@ from linkwright.machine.address import addresses, get, kind, known_place
 from linkwright.machine.machine import Machine
 from linkwright.studies import iso286
 from linkwright.studies.model import Distribution, Variable
-
-Floats = NDArray[np.float64]
 
 # Standard deviations between the limits of a tolerance: a centred process with a capability index of 1, of
 # which 0.27 % lie beyond and are sorted out (ISO 22514-2).

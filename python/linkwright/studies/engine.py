@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.drive.batch import STATUS, steady_states
+from linkwright.kernel.arrays import Floats, Indices, Integers
 from linkwright.kernel.description.formula import NUMBERS
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.numerics.formula_value import value
@@ -26,8 +27,6 @@ from linkwright.machine.machine import Machine
 from linkwright.machine.overrides import Override, apply
 from linkwright.studies.plan import Formula, StudyPlan
 from linkwright.studies.responses import ENTRY, MOTION, SAMPLES, StudyResponse, analysis, entry_number, taken
-
-Floats = NDArray[np.float64]
 
 # Status of a row.
 SOLVED, FAILED, IMPOSSIBLE = 0, 1, 2
@@ -54,7 +53,7 @@ class Rows:
 
     columns: dict[str, Floats]
     status: NDArray[np.uint8]
-    reason: NDArray[np.int32]
+    reason: Integers
     reasons: list[str]
 
     def __len__(self) -> int:
@@ -173,7 +172,7 @@ def _open(node: Any) -> Any:
 
 
 def _solve(
-    plan: StudyPlan, machine: Machine, entries: dict[str, Floats], rows: Rows, members: NDArray[np.intp]
+    plan: StudyPlan, machine: Machine, entries: dict[str, Floats], rows: Rows, members: Indices
 ) -> None:
     """All responses of the rows of one machine."""
     if not len(members):
@@ -208,7 +207,7 @@ def _steady(
     entries: dict[str, Floats],
     wanted: list[StudyResponse],
     rows: Rows,
-    members: NDArray[np.intp],
+    members: Indices,
 ) -> None:
     """Steady motion of all rows at once."""
     states = steady_states(machine, _with_first(machine, entries))
@@ -224,7 +223,7 @@ def _motion(
     entries: dict[str, Floats],
     wanted: list[StudyResponse],
     rows: Rows,
-    members: NDArray[np.intp],
+    members: Indices,
 ) -> None:
     """Points of all rows at once."""
     machines = replace(machine, _with_first(machine, entries))
@@ -243,7 +242,7 @@ def _entry_numbers(
     entries: dict[str, Floats],
     wanted: list[StudyResponse],
     rows: Rows,
-    members: NDArray[np.intp],
+    members: Indices,
 ) -> None:
     """Entries of all rows at once."""
     for asked in wanted:
@@ -257,7 +256,7 @@ def _one_by_one(
     entries: dict[str, Floats],
     wanted: list[StudyResponse],
     rows: Rows,
-    members: NDArray[np.intp],
+    members: Indices,
 ) -> None:
     """Analyses of each row by itself."""
     for nth, row in enumerate(members):

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats, Indices
 from linkwright.kernel.errors import FindingError
 from linkwright.kernel.figure.style import BLUE, INK, LINES, RED, SOFT, WIDTH, named, panels, roomy, styled
 from linkwright.studies.fit import Fit
@@ -21,9 +22,6 @@ from linkwright.studies.parquet import columns_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-
-Floats = NDArray[np.float64]
 
 # Rows in a scatter matrix and lines in parallel coordinates: more make one dark patch.
 _POINTS, _LINES = 4_000, 600
@@ -166,7 +164,7 @@ def _chosen(shown: StudyRows) -> Sequence[str]:
     return (*shown.variables[: _PANELS - len(responses)], *responses)
 
 
-def _spread(n: int, most: int) -> NDArray[np.intp]:
+def _spread(n: int, most: int) -> Indices:
     """Numbers of rows, spread evenly over all."""
     return np.unique(np.linspace(0, n - 1, min(n, most)).astype(np.intp)) if n else np.empty(0, np.intp)
 

@@ -20,8 +20,8 @@ from dataclasses import dataclass, replace
 from typing import Annotated, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.numerics.confidence import coverage_factor
 from linkwright.kernel.public import public
@@ -34,8 +34,6 @@ from linkwright.studies.plan import StudyPlan
 from linkwright.studies.predicted import RecordModel
 from linkwright.studies.record import MeasuredRecord
 from linkwright.studies.sought import Number
-
-Floats = NDArray[np.float64]
 
 # Singular values below this share of the largest are rounding of the motion.
 _ROUNDING = 1e-8

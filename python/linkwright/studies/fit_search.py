@@ -5,16 +5,14 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import ConvergenceError
 from linkwright.studies.model import FitOptions
 from linkwright.studies.plan import StudyPlan
 from linkwright.studies.predicted import RecordModel
 from linkwright.studies.record import MeasuredRecord
 from linkwright.studies.sought import numbers_of_record
-
-Floats = NDArray[np.float64]
 
 # Steps of differences as a share of the scale of a number.
 STEP = 1e-4

@@ -18,11 +18,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.studies.sought import Number
-
-Floats = NDArray[np.float64]
 
 # A combination that the record knows no better than to its own size is not determined.
 _WEAK = 1.0

@@ -26,14 +26,12 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import FindingError
 from linkwright.studies.axes import Axis
 from linkwright.studies.plan import StudyPlan
 from linkwright.studies.slopes import Slopes, slopes
-
-Floats = NDArray[np.float64]
 
 # Limits are kept by this share of their size: batches, which judge in the end, are computed to 1e-9.
 _MARGIN = 3e-9

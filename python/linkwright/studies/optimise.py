@@ -22,8 +22,8 @@ from itertools import product
 from typing import Annotated, Any, Literal, get_args
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
@@ -34,8 +34,6 @@ from linkwright.studies.axes import Axis
 from linkwright.studies.engine import SOLVED, Rows, evaluate, sound_variant, variant
 from linkwright.studies.local import Descent, Price, prices
 from linkwright.studies.plan import StudyPlan
-
-Floats = NDArray[np.float64]
 
 Method = Literal["both", "global", "gradient"]
 

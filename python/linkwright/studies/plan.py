@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.description.formula import NUMBERS, FormulaError, Node, names, parse
 from linkwright.kernel.errors import MachineError, Problem, UnitError, require_within, show
@@ -22,7 +22,6 @@ from linkwright.studies.axes import Axis, axis
 from linkwright.studies.model import StudyFile, Sweep
 from linkwright.studies.responses import StudyResponse, asked
 
-Floats = NDArray[np.float64]
 T = TypeVar("T")
 
 

@@ -10,10 +10,10 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.drive.steady_state import solved_state, steady_state
 from linkwright.drive.transient import Transient, transient
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.numerics.zeros import zeros
 from linkwright.linkages.closure import over_whole_cycle
@@ -25,8 +25,6 @@ from linkwright.studies.plan import StudyPlan
 from linkwright.studies.record import MeasuredRecord
 from linkwright.studies.slopes import entries_at, machine_at
 from linkwright.studies.sought import OWN, Number, number_of
-
-Floats = NDArray[np.float64]
 
 # Of motions whose differences are taken over steps of 1e-4.
 _ACCURACY = 1e-11

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError, MachineError, MachineFileError, Problem
 from linkwright.kernel.files.library import studies
@@ -27,8 +27,6 @@ from linkwright.machine.read import Overrides, read, tables_of
 from linkwright.studies.model import StudyFile
 from linkwright.studies.parquet import parquet_columns
 from linkwright.studies.plan import StudyPlan, plan
-
-Floats = NDArray[np.float64]
 
 # The table of a machine file that is a study.
 TABLE = "study"

@@ -9,15 +9,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.files.points import columns_of, read_columns
 from linkwright.kernel.public import public, public_type
 from linkwright.kernel.units import ANGLE, COUNT, SPEED, TIME, TORQUE, Kind
 from linkwright.machine.machine import Machine
-
-Floats = NDArray[np.float64]
 
 # What may be along the record, and what may have been measured of a drive. A current is in amperes.
 PLACES = {"time": TIME, "angle": ANGLE}

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.drive.batch import SteadyStates
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import FindingError, MachineError, Problem, show
 from linkwright.kernel.quantities import Label, declared, is_array
@@ -25,8 +26,6 @@ from linkwright.machine.address import addresses, get, kind
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 from linkwright.studies.model import Response
-
-Floats = NDArray[np.float64]
 
 # Analysis → the function that makes it of a machine, and a name where there are several.
 ANALYSES = {

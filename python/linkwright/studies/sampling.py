@@ -24,9 +24,8 @@ from collections.abc import Sequence
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from linkwright.kernel.arrays import Floats, Integers
 
 # Numbers that Philox gives a step of its counter.
 _BLOCK = 4
@@ -82,7 +81,7 @@ def _uniform(seed: int, column: int, start: int, stop: int) -> Floats:
 
 
 @lru_cache(maxsize=64)
-def _strata(rows: int, seed: int, column: int) -> NDArray[np.int32]:
+def _strata(rows: int, seed: int, column: int) -> Integers:
     """Stratum of each row in a column."""
     # The streams of the places in the strata have the numbers of the columns.
     stream = np.random.Generator(np.random.Philox(key=[seed, (1 << 32) + column]))

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.formula import NUMBERS
 from linkwright.kernel.description.formula import names as names_in
 from linkwright.kernel.errors import FindingError, InputError
@@ -25,8 +25,6 @@ from linkwright.sensitivity.sources import SOURCES, Source, chosen, source
 from linkwright.studies.engine import SOLVED, evaluate, sound_variant
 from linkwright.studies.plan import Formula, StudyPlan
 from linkwright.studies.responses import ENTRY, StudyResponse, entry_number
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -25,8 +25,8 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
@@ -36,8 +36,6 @@ from linkwright.studies.axes import Axis
 from linkwright.studies.engine import SOLVED, Rows, evaluate
 from linkwright.studies.plan import StudyPlan
 from linkwright.studies.slopes import slopes
-
-Floats = NDArray[np.float64]
 
 # Share of a standard deviation to both sides over which derivatives are taken: large against the accuracy of
 # responses, and its square over six is the relative error where the third derivative counts as much as the

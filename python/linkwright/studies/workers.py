@@ -26,10 +26,8 @@ from pathlib import Path
 from threading import Thread
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from linkwright import __version__
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError
 from linkwright.studies.engine import evaluate
 from linkwright.studies.folder import SweepFolder, plan_of
@@ -38,9 +36,6 @@ from linkwright.studies.plan import StudyPlan, plan
 
 if TYPE_CHECKING:
     from distributed import Client, Future
-
-
-Floats = NDArray[np.float64]
 
 # How often processes may be lost before it is no accident.
 _LOSSES = 10

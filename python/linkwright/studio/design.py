@@ -15,9 +15,9 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.drive.steady_state import SteadyState
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError, LinkwrightError
 from linkwright.kernel.quantities import shown
 from linkwright.machine.address import get
@@ -27,7 +27,6 @@ from linkwright.studies.engine import sound_variant
 from linkwright.studio.document import short
 from linkwright.studio.drag import Drag
 
-Floats = NDArray[np.float64]
 Limits = Mapping[str, tuple[float, float]]
 
 # Steps to the value; each doubles the digits once it is near.

@@ -16,8 +16,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import LinkwrightError
 from linkwright.linkages.closure import closure, closure_error
 from linkwright.linkages.kinematics import motions
@@ -25,8 +25,6 @@ from linkwright.machine.address import get, replace
 from linkwright.machine.machine import Machine
 from linkwright.studio.document import short
 from linkwright.studio.drawing import entries_of
-
-Floats = NDArray[np.float64]
 
 # Steps to the place: more change nothing that is seen.
 _STEPS = 8

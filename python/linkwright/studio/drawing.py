@@ -19,10 +19,10 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.app.report.scene import moving_scene
 from linkwright.drive.steady_state import SteadyState
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.place import join
 from linkwright.kinetostatics.result import Forces
 from linkwright.linkages.centrodes import centrodes_of
@@ -32,8 +32,6 @@ from linkwright.linkages.model.structure import structure
 from linkwright.linkages.model.topology import ORIGIN
 from linkwright.linkages.motion import rates_of
 from linkwright.machine.machine import Machine
-
-Floats = NDArray[np.float64]
 
 
 def drawing(machine: Machine, steady: SteadyState | None, acting: Forces | None) -> dict[str, Any] | None:

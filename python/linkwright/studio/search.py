@@ -7,7 +7,6 @@ from time import monotonic
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.kernel.errors import InputError
 from linkwright.machine.machine import Machine
@@ -17,7 +16,6 @@ from linkwright.studies.optimise import optimise
 from linkwright.studies.plan import StudyPlan, plan
 from linkwright.studio.document import short
 
-Floats = NDArray[np.float64]
 Body = dict[str, Any]
 Tell = Callable[[Body], None]
 

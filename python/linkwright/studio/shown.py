@@ -9,13 +9,11 @@ from functools import cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.quantities import DeclaredQuantity, Label, quantities_of
 from linkwright.kernel.quantities import declared as marks
 from linkwright.kernel.result import Result
-
-Floats = NDArray[np.float64]
 
 # A column of a result's part, "A1_x [N]".
 _COLUMN = re.compile(r"(.*) \[(.*)\]")

@@ -15,7 +15,8 @@ import struct
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+
+from linkwright.kernel.arrays import Floats
 
 _HEAD = struct.Struct("<II")
 _WORD = 8
@@ -29,7 +30,7 @@ def packed(number: int, body: Any) -> bytes:
     """A message that answers a request: tables, lists, words, finite numbers and arrays of one or two
     dimensions.
     """
-    arrays: list[NDArray[np.float64]] = []
+    arrays: list[Floats] = []
     size = 0
 
     def placed(value: Any) -> Any:

@@ -21,8 +21,8 @@ from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.errors import SynthesisError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
@@ -36,9 +36,6 @@ from linkwright.synthesis.verification import (
     require_met,
     require_transmission,
 )
-
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 # Values of the free parameter looked at before the best is refined; the transmission angle has one hill, or
 # two, over each family.

@@ -16,14 +16,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import close_match
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.units import show
 from linkwright.synthesis.task import FunctionTask
-
-Floats = NDArray[np.float64]
 
 FUNCTIONS: dict[str, Callable[[Any], Any]] = {
     "sin": np.sin,

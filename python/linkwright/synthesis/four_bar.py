@@ -19,12 +19,10 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.machine.machine import Machine
 
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 Assembly = Literal["left", "right"]
 
 # Lengths that differ by less than this share of the longest are taken as equal: a change point.

@@ -18,11 +18,9 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.numerics.least_squares import damped_step
-
-Floats = NDArray[np.float64]
 
 # Start angles tried for each one that is free: every 15° where two are, every 2.5° where one is.
 _GRID = {1: 144, 2: 24}
@@ -151,9 +149,7 @@ def _residuals(crank: Floats, rocker: Floats, K: Floats, starts: Floats) -> tupl
     return residual, np.stack(columns, axis=-1)
 
 
-def _refined(
-    crank: Floats, rocker: Floats, K: Floats, starts: Floats, free: NDArray[np.bool_]
-) -> tuple[Floats, Floats]:
+def _refined(crank: Floats, rocker: Floats, K: Floats, starts: Floats, free: Bools) -> tuple[Floats, Floats]:
     """Levenberg–Marquardt from every start at once."""
     moving = np.concatenate([np.ones(3, dtype=bool), free])
     x = np.concatenate([K, starts], axis=1)
@@ -177,7 +173,7 @@ def _refined(
     return x[:, :3], x[:, 3:]
 
 
-def _positive(K: Floats, starts: Floats, free: NDArray[np.bool_]) -> tuple[Floats, Floats]:
+def _positive(K: Floats, starts: Floats, free: Bools) -> tuple[Floats, Floats]:
     """The same linkages with positive lengths, where a start angle is free to turn by π instead."""
     K, starts = K.copy(), starts.copy()
     for i in (0, 1):

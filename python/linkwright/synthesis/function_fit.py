@@ -9,15 +9,13 @@ error: they may lie in a valley of ever longer links.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats, Indices
 from linkwright.synthesis.expression import Scale
 from linkwright.synthesis.freudenstein import Fit, begins, residual
 from linkwright.synthesis.function_refine import FunctionModel, Rows, level, refine
 from linkwright.synthesis.path_search import sequence
 from linkwright.synthesis.task import FunctionTask
-
-Floats = NDArray[np.float64]
 
 # Groups of trials, each of which gives its best to the refinement, and the trials of a group.
 _GROUPS, _TRIALS = 240, 40
@@ -70,7 +68,7 @@ def nearest(task: FunctionTask, scale: Scale) -> tuple[list[Fit], int]:
     return fits, len(rows.x)
 
 
-def _minima(rms: Floats, kept: NDArray[np.intp]) -> tuple[NDArray[np.intp], list[int]]:
+def _minima(rms: Floats, kept: Indices) -> tuple[Indices, list[int]]:
     """One linkage of each of the lowest minima, and how many ended there; ``kept`` in order of ``rms``."""
     minima: list[int] = []
     counts: list[int] = []

@@ -15,8 +15,8 @@ from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import SynthesisError
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
@@ -28,8 +28,6 @@ from linkwright.synthesis.freudenstein import EXACT, Fit, lengths, solve
 from linkwright.synthesis.function_fit import nearest
 from linkwright.synthesis.task import FunctionTask
 from linkwright.synthesis.verification import TransmissionResult, require_met
-
-Floats = NDArray[np.float64]
 
 # Starts that end at the minimum error before it counts as the global minimum.
 _SURE = 3

@@ -21,11 +21,9 @@ from dataclasses import dataclass, replace
 from itertools import permutations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Bools, Floats, Indices
 from linkwright.kernel.numerics.least_squares import damped_step
-
-Floats = NDArray[np.float64]
 
 # Steps at most, and those after which the shifts of the constraints grow and rest is looked for.
 _STEPS, _ROUND = 400, 20
@@ -75,9 +73,9 @@ class Rows:
 
     x: Floats
     side: Floats
-    turned: NDArray[np.bool_]
+    turned: Bools
 
-    def take(self, which: NDArray[np.intp] | NDArray[np.bool_]) -> Rows:
+    def take(self, which: Indices | Bools) -> Rows:
         """Some of them."""
         return Rows(self.x[which], self.side[which], self.turned[which])
 
@@ -103,7 +101,7 @@ class FunctionModel:
     crank: Floats
     rocker: Floats
     span: float
-    free: NDArray[np.bool_]
+    free: Bools
     ratio_max: float
     transmission_min: float
 
@@ -166,7 +164,7 @@ class FunctionModel:
         )
         return cosine, np.stack(columns, axis=-1)
 
-    def _extreme_angles(self, rows: Rows) -> tuple[Floats, NDArray[np.bool_]]:
+    def _extreme_angles(self, rows: Rows) -> tuple[Floats, Bools]:
         """Ends of the range, and where crank and frame are in line within it, else its start, (m, 4)."""
         start = rows.x[:, 3:4]
         ends = np.hstack([start, start + self.span])
@@ -257,11 +255,11 @@ class _Limits:
         """With the weights of the beginning."""
         return cls(shift, np.full((len(shift), 1), _WEIGHT), np.full(len(shift), np.inf))
 
-    def take(self, which: NDArray[np.intp]) -> _Limits:
+    def take(self, which: Indices) -> _Limits:
         """Those of some linkages."""
         return _Limits(self.shift[which], self.weight[which], self.left[which])
 
-    def adapt(self, which: NDArray[np.intp], excess: Floats) -> Floats:
+    def adapt(self, which: Indices, excess: Floats) -> Floats:
         """Add what is left to the shifts of some linkages; the weight doubles where that does not fall."""
         broken = np.maximum(excess + self.shift[which], 0.0)
         moved = np.abs(broken - self.shift[which]).max(axis=1)

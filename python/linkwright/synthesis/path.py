@@ -18,8 +18,8 @@ from time import perf_counter
 from typing import Annotated
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import SynthesisError
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
@@ -30,8 +30,6 @@ from linkwright.synthesis.path_model import Linkages, PathModel, shape
 from linkwright.synthesis.path_search import TRIALS, refine, starts
 from linkwright.synthesis.task import PathTask
 from linkwright.synthesis.verification import TransmissionResult
-
-Floats = NDArray[np.float64]
 
 # Stages of the refinement: weight of broken constraints, steps over the task's, share of the linkages that go
 # through it, the best first. A weight of 1 draws starts towards what is allowed; one of 0.1 lets them move

@@ -29,14 +29,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Bools, Complexes, Floats, Indices
 from linkwright.synthesis.four_bar import FourBar, worst_transmission
 from linkwright.synthesis.task import PathTask
-
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
-Bools = NDArray[np.bool_]
 
 # Minimum spare of the full revolution, over the frame: nearer to a change point the motion is not determined.
 SPARE = 1e-3
@@ -146,11 +142,11 @@ class Linkages:
     is_double: Bools
     side: Floats
 
-    def take(self, which: Bools | NDArray[np.intp]) -> Linkages:
+    def take(self, which: Bools | Indices) -> Linkages:
         """Some of them."""
         return Linkages(self.p[which], self.phi[which], self.is_double[which], self.side[which])
 
-    def put(self, which: Bools | NDArray[np.intp], others: Linkages) -> None:
+    def put(self, which: Bools | Indices, others: Linkages) -> None:
         """Put others of the same kinds in the place of some."""
         self.p[which], self.phi[which] = others.p, others.phi
 

@@ -32,21 +32,17 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Bools, Complexes, Floats, Indices
 from linkwright.kernel.numerics.least_squares import damped_step
 from linkwright.synthesis.path_model import (
     MARGIN,
-    Bools,
-    Complexes,
     Linkages,
     PathModel,
     free_numbers,
     pin_and_coupler,
     shape,
 )
-
-Floats = NDArray[np.float64]
 
 # Shapes and timings that are judged for each start that is refined.
 TRIALS = 160
@@ -97,7 +93,7 @@ def sequence(count: int, dimensions: int, seed: int) -> Floats:
     return np.asarray((shift + np.outer(np.arange(count), steps)) % 1)
 
 
-def _trials(model: PathModel, shares: Floats, number: NDArray[np.intp]) -> Linkages:
+def _trials(model: PathModel, shares: Floats, number: Indices) -> Linkages:
     """Linkages of the shares, each in its best pose."""
     side = np.where(number % 2 == 0, 1.0, -1.0)
     is_double = _doubles(model.task.linkage, number)
@@ -120,7 +116,7 @@ def _trials(model: PathModel, shares: Floats, number: NDArray[np.intp]) -> Linka
     return Linkages(p, phi, is_double, side)
 
 
-def _doubles(linkage: str, number: NDArray[np.intp]) -> Bools:
+def _doubles(linkage: str, number: Indices) -> Bools:
     """Which trials are double cranks."""
     if linkage == "any":
         return np.asarray(number // 4 % 2 == 1)

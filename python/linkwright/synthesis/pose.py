@@ -15,14 +15,14 @@ from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.errors import SynthesisError
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.linkages.kinematics import motions
 from linkwright.machine.machine import Machine
-from linkwright.synthesis.four_bar import Complexes, FourBar, cross, side_of
+from linkwright.synthesis.four_bar import FourBar, cross, side_of
 from linkwright.synthesis.slider_pose import guide_slider
 from linkwright.synthesis.task import FixedPivot, MovingPoint, PoseTask
 from linkwright.synthesis.verification import (
@@ -33,8 +33,6 @@ from linkwright.synthesis.verification import (
     travel,
     way,
 )
-
-Floats = NDArray[np.float64]
 
 # Three places whose triangle is flatter than this lie on a straight line: the circle through them is a
 # million times larger than they are apart.

@@ -16,14 +16,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.errors import SynthesisError
 from linkwright.machine.machine import Machine
-from linkwright.synthesis.four_bar import Complexes, cross, machine_of, plain_place, plain_point
+from linkwright.synthesis.four_bar import cross, machine_of, plain_place, plain_point
 from linkwright.synthesis.task import PoseTask
-
-Floats = NDArray[np.float64]
 
 # Terms of the circle below this share of their size are rounding.
 _ZERO = 1e-12

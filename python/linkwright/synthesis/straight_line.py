@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError, SynthesisError
 from linkwright.kernel.public import public
@@ -26,8 +26,6 @@ from linkwright.linkages.kinematics import motions
 from linkwright.machine.machine import Machine
 from linkwright.synthesis.four_bar import machine_of
 from linkwright.synthesis.line_kinds import KINDS, LineKind, Tables
-
-Floats = NDArray[np.float64]
 
 # Intervals of the crank's range at which the line is looked at.
 _STEPS = 1440
@@ -160,7 +158,7 @@ def narrowest_strip(x: Floats, y: Floats) -> tuple[float, float]:
     return float(widths[best]), float(np.angle(units[best])) % np.pi
 
 
-def _hull(x: Floats, y: Floats) -> NDArray[np.complex128]:
+def _hull(x: Floats, y: Floats) -> Complexes:
     """Corners of the convex hull counter-clockwise, by Andrew's chain."""
     points = sorted(set(zip(x.tolist(), y.tolist(), strict=True)))
     if len(points) < 3:

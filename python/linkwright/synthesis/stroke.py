@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError, SynthesisError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
@@ -29,8 +29,6 @@ from linkwright.synthesis.verification import (
     require_met,
     require_transmission,
 )
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

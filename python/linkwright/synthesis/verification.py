@@ -15,15 +15,13 @@ from collections.abc import Callable, Sequence
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import SynthesisError
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.result import Result
 from linkwright.linkages.cycle import ElementMotion, linkage
 from linkwright.machine.machine import Machine
-
-Floats = NDArray[np.float64]
 
 # Minimum transmission angles [rad]: of a linkage that runs fast or under load; of one that does not; and
 # where it is near its dead centre, as friction of the joints alone asks for some ten degrees.

@@ -19,8 +19,8 @@ from dataclasses import dataclass, replace
 from typing import Annotated
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.topping.coverage import coverage
@@ -35,8 +35,6 @@ from linkwright.topping.required_length import (
 from linkwright.topping.roots import head_diameter
 from linkwright.topping.verdict import PAPER, WAYS, Stroke, bands_of, lengths_over
 from linkwright.topping.worst_head import worst_head
-
-Floats = NDArray[np.float64]
 
 # Forward speeds of the chart over that of the machine; its ends along both axes likewise.
 _FORWARD = 0.85, 1.0, 1.15

@@ -6,13 +6,12 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from linkwright import _core
 from linkwright.cam.laws.motion_law import MotionLaw
+from linkwright.kernel.arrays import Floats
 from linkwright.machine.program.numbers import core_law
-
-Floats = NDArray[np.float64]
 
 
 class KnifeWay(NamedTuple):

@@ -24,15 +24,14 @@ from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from linkwright.kernel.arrays import Floats, Indices
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.quantities import Label
 from linkwright.kernel.result import Result
 from linkwright.topping.edge import Edge, hardly_goes_on
 from linkwright.topping.roots import Roots
-
-Floats = NDArray[np.float64]
 
 # Stations per revolution of the law for one machine: tops between them are then distinguished to 1e-9.
 FINE = 128
@@ -208,7 +207,7 @@ def require_advance(edges: Sequence[Edge], roots: Roots) -> None:
             raise FindingError(reason)
 
 
-def _shared(edges: Sequence[Edge], phase: Floats, diameter: Floats) -> list[tuple[Edge, NDArray[np.intp]]]:
+def _shared(edges: Sequence[Edge], phase: Floats, diameter: Floats) -> list[tuple[Edge, Indices]]:
     """Which heads each direction meets."""
     if len(edges) == 1:
         return [(edges[0], np.flatnonzero(diameter > 0))]

@@ -22,16 +22,15 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError
 from linkwright.machine.machine import Machine
 from linkwright.topping.core import KnifeKernel
 from linkwright.topping.knife import Knife, knives
 from linkwright.topping.model.topper import Topper
 from linkwright.topping.required_length import ALONG_ITSELF
-
-Floats = NDArray[np.float64]
 
 # Revolutions of the law over a head that are followed: for an edge that retreats the work grows with their
 # square, for any other the core runs out of stations.

@@ -23,8 +23,8 @@ from dataclasses import dataclass, replace
 from typing import Annotated, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
@@ -35,8 +35,6 @@ from linkwright.topping.intervals import QUANTILES, Clusters, Interval, ShareCur
 from linkwright.topping.model.topper import Topper
 from linkwright.topping.roots import Roots, draw_roots, field_of
 from linkwright.topping.slicing import slicing
-
-Floats = NDArray[np.float64]
 
 # Lengths of the curve, from zero to the maximum that a head needs.
 _LENGTHS = 201

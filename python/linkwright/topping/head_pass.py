@@ -18,14 +18,12 @@ from itertools import pairwise
 from typing import Annotated
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.topping.coverage import coverage
 from linkwright.topping.edge import Edge
-
-Floats = NDArray[np.float64]
 
 # A part of a chord that is left: number of the chord, its place p, and its ends along the edge.
 Part = tuple[int, float, float, float]

@@ -48,11 +48,9 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats, Indices
 from linkwright.kernel.numerics.confidence import coverage_factor
-
-Floats = NDArray[np.float64]
 
 
 class Interval(NamedTuple):
@@ -87,7 +85,7 @@ class Clusters:
         Number of independent pieces that shares of 0 and 1 are worth, where pieces depend on one another.
     """
 
-    of: NDArray[np.intp]
+    of: Indices
     count: int
     are_free: bool
     level: float = 0.95

@@ -24,9 +24,10 @@ from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from linkwright.cam.laws.motion_law import Harmonic, MotionLaw, Piece
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import FindingError
 from linkwright.kinetostatics.forces import forces
 from linkwright.linkages.closure import require_full_turn
@@ -36,7 +37,6 @@ from linkwright.machine.program.compiled import compile_machine
 from linkwright.topping.core import KnifeWay
 from linkwright.topping.model.topper import ConstantKnife, MemberKnife, Topper
 
-Floats = NDArray[np.float64]
 Ends = tuple[float, float, float]
 
 _TURN = 2 * np.pi

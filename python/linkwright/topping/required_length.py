@@ -69,12 +69,11 @@ from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-
-Floats = NDArray[np.float64]
 
 # Normal speed over the speed of the edge below which it moves along itself: the rounding of its terms.
 ALONG_ITSELF = 4e-16

@@ -35,16 +35,15 @@ from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from linkwright.kernel.arrays import Bools, Floats, Indices
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.topping.model.field import MeasuredField, RandomField, even_offset
 from linkwright.topping.model.scatter import ConstantScatter
 from linkwright.topping.model.topper import Topper
-
-Floats = NDArray[np.float64]
 
 
 def head_diameter(root_diameter: ArrayLike, cut_height: ArrayLike) -> Floats:
@@ -88,7 +87,7 @@ class Roots(Result):
             "share of a revolution of the knife's phase at the first root of the row", "", "–", over="start"
         ),
     ]
-    cluster: Annotated[NDArray[np.intp], About("Row of a random root, number of a measured one.", "(n,)")]
+    cluster: Annotated[Indices, About("Row of a random root, number of a measured one.", "(n,)")]
     n_clusters: Annotated[int, About("How many there are.")]
     are_free: Annotated[bool, About("Whether roots of a cluster are independent.")]
 
@@ -112,14 +111,14 @@ class Roots(Result):
     @property
     def is_missed(
         self,
-    ) -> Annotated[NDArray[np.bool_], About("Whether the knife passes above the root.", "(n,)")]:
+    ) -> Annotated[Bools, About("Whether the knife passes above the root.", "(n,)")]:
         """Whether the knife passes above the root."""
         return np.asarray(self.cut_height <= 0)
 
     @property
     def is_lost(
         self,
-    ) -> Annotated[NDArray[np.bool_], About("Whether the knife passes below the root.", "(n,)")]:
+    ) -> Annotated[Bools, About("Whether the knife passes below the root.", "(n,)")]:
         """Whether it passes below the root."""
         return np.asarray(self.cut_height >= self.root_diameter)
 

@@ -15,8 +15,8 @@ import math
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.machine.machine import Machine
 from linkwright.topping.edge import Edge, edges_of
 from linkwright.topping.head_pass import worse_edge
@@ -24,7 +24,6 @@ from linkwright.topping.model.topper import Topper
 from linkwright.topping.tables.topper import shown_head
 from linkwright.topping.topper import TopperStudy
 
-Floats = NDArray[np.float64]
 Scene = dict[str, Any]
 
 # Places of the law in one revolution of its phase: half a degree, so that ends of strokes at quarters are

@@ -20,11 +20,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.topping.edge import Edge
-
-Floats = NDArray[np.float64]
 
 # Phases over which means are taken, and times of a pass and places of the edge at which its use is counted.
 _PHASES, _TIMES, _PLACES = 2048, 400, 201

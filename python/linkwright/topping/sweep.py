@@ -11,8 +11,9 @@ from dataclasses import dataclass, replace
 from typing import Annotated, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import FindingError, InputError, require_within
 from linkwright.kernel.limits import FIELD_VARIANTS
@@ -28,8 +29,6 @@ from linkwright.topping.field import TopperField, field_result
 from linkwright.topping.knife import knives
 from linkwright.topping.model.topper import ConstantKnife, MemberKnife, Topper
 from linkwright.topping.roots import Roots, draw_roots
-
-Floats = NDArray[np.float64]
 
 # What may vary, and its quantity.
 ENTRIES: dict[str, Kind] = {

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
@@ -20,8 +20,6 @@ from linkwright.topping.required_length import constant_speed_lengths, every_pha
 from linkwright.topping.roots import cap_volume, head_diameter
 from linkwright.topping.slicing import edge_use, slicing
 from linkwright.topping.worst_head import every_head, unknown_heads
-
-Floats = NDArray[np.float64]
 
 # A share of the head that is rounding: ends of one that is cut all through differ from its rim by as much.
 NOTHING = 1e-12

@@ -17,8 +17,9 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
@@ -30,8 +31,6 @@ from linkwright.topping.required_length import (
     length_consistent,
     length_published,
 )
-
-Floats = NDArray[np.float64]
 
 # Ways to a length, and what they are called.
 WAYS = {

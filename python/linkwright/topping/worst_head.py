@@ -12,13 +12,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.topping.coverage import coverage
 from linkwright.topping.edge import Edge
 from linkwright.topping.model.topper import Topper
-
-Floats = NDArray[np.float64]
 
 # What is looked at: of an edge, for offsets [m] and phases [rad] of heads, (n,).
 Measure = Callable[[Edge, Floats, Floats], Floats]

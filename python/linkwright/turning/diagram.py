@@ -23,8 +23,8 @@ from dataclasses import dataclass, field
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import FindingError, InputError, require_within
 from linkwright.kernel.limits import ROWS_OUT
 from linkwright.kernel.numerics.turn_curve import TurnCurve
@@ -35,8 +35,6 @@ from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.turning.model import TurningMoment
 from linkwright.turning.rim import RimSize, rim_size
-
-Floats = NDArray[np.float64]
 
 # Works of driver and load that differ by less than this share are equal: printed torques have four digits or
 # more, and a difference of this size changes the speed by a hundredth of its fluctuation in a cycle.

@@ -14,8 +14,8 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.kernel.numerics.tangent_array import lifted, numbers, primal, variables_of
 from linkwright.kernel.numerics.turn_curve import TurnCurve
@@ -31,8 +31,6 @@ from linkwright.turning.diagram import (
     turning_moment,
 )
 from linkwright.turning.model import TurningMoment
-
-Floats = NDArray[np.float64]
 
 # Extremes of the energy that are this near, as a share of its fluctuation, tie.
 _TIE = 1e-9

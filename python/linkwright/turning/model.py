@@ -21,10 +21,10 @@ from collections.abc import Iterator
 from typing import Annotated, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.description.curve import curve_faults, unread_file
 from linkwright.kernel.description.cycle import ONE_TURN, CycleAngle, cycle_faults, cycle_turns
@@ -50,8 +50,6 @@ from linkwright.kernel.units import (
     Torques,
     positive,
 )
-
-Floats = NDArray[np.float64]
 
 # A table over the whole cycle may close exactly; printed degrees and π are rounded.
 _ROUNDED = 1e-9

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.app.report.sketch import Pose, paint
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.figure.style import WIDTH, styled
 
@@ -63,7 +64,7 @@ def mp4(scene: Scene, seconds: float) -> bytes:
 
 
 @styled
-def _drawn(scene: Scene, places: NDArray[np.float64]) -> Iterator[Bytes]:
+def _drawn(scene: Scene, places: Floats) -> Iterator[Bytes]:
     """Pictures at places of the motion, from 0 to 1; all show the same part of the plane."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure

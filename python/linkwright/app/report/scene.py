@@ -13,10 +13,10 @@ from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.app.study import Study
 from linkwright.drive.steady_state import SteadyState
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import AssemblyError
 from linkwright.kernel.page.angle_zero import zero_shown
 from linkwright.kernel.page.out_units import reader
@@ -26,7 +26,6 @@ from linkwright.linkages.model.topology import DRIVERS
 from linkwright.linkages.scene import arc_end, parts
 from linkwright.machine.machine import Machine
 
-Floats = NDArray[np.float64]
 Scene = dict[str, Any]
 
 # Every second degree; the page draws straight between them. Of a longer motion, so many revolutions as

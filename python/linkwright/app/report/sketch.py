@@ -6,15 +6,14 @@ from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.figure.style import INK, LINES, SOFT, WIDTH, named, styled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-Floats = NDArray[np.float64]
 Scene = dict[str, Any]
 
 # Width of the drawing in the units in which joints, blocks and hatches have their sizes, and the height that

@@ -14,11 +14,9 @@ from linkwright.kernel.errors import InputError, require_within
 from linkwright.kernel.limits import CAM_VARIANTS, SHOWN
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
     from linkwright.cam.profile.profile import CamProfile
     from linkwright.cam.search import Cams
+    from linkwright.kernel.arrays import Bools, Floats
     from linkwright.machine.machine import Machine
 
 Vary = Annotated[
@@ -108,7 +106,7 @@ def search(
     hand_over(answer, json=json)
 
 
-def _columns(wanted: list[str]) -> dict[str, NDArray[np.float64]]:
+def _columns(wanted: list[str]) -> dict[str, Floats]:
     """All combinations of what varies, as columns."""
     import numpy as np
 
@@ -123,7 +121,7 @@ def _columns(wanted: list[str]) -> dict[str, NDArray[np.float64]]:
     return {name: values.ravel() for name, values in zip(axes, grid, strict=True)}
 
 
-def _axis(text: str) -> tuple[str, NDArray[np.float64]]:
+def _axis(text: str) -> tuple[str, Floats]:
     """Name and values of one ``NAME=LOW:HIGH:N``."""
     import numpy as np
 
@@ -151,7 +149,7 @@ def _smallest(
     machine: Machine,
     name: str,
     cams: Cams,
-    keeps: NDArray[np.bool_],
+    keeps: Bools,
     count: int,
     is_kept: Callable[[CamProfile], bool],
 ) -> list[tuple[int, CamProfile]]:
@@ -195,7 +193,7 @@ def _row(cams: Cams, i: int, profile: CamProfile) -> dict[str, Any]:
     }
 
 
-def _results(cams: Cams, keeps: NDArray[np.bool_], best: list[Any]) -> dict[str, Any]:
+def _results(cams: Cams, keeps: Bools, best: list[Any]) -> dict[str, Any]:
     """How many there are of what kind, and the smallest."""
     return {
         "n_cams": len(keeps),
@@ -205,7 +203,7 @@ def _results(cams: Cams, keeps: NDArray[np.bool_], best: list[Any]) -> dict[str,
     }
 
 
-def _findings(keeps: NDArray[np.bool_], best: list[Any]) -> list[str]:
+def _findings(keeps: Bools, best: list[Any]) -> list[str]:
     """That there is no cam to show."""
     if best:
         return []
@@ -215,7 +213,7 @@ def _findings(keeps: NDArray[np.bool_], best: list[Any]) -> list[str]:
     return [f"None of the {looked} smallest keeps the limits between the angles too: widen ranges or limits."]
 
 
-def _print(cams: Cams, keeps: NDArray[np.bool_], best: list[Any]) -> None:
+def _print(cams: Cams, keeps: Bools, best: list[Any]) -> None:
     """The smallest cams as a table."""
     import numpy as np
     from rich.table import Table

@@ -18,11 +18,9 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.cam.dynamics.follower_load import CamCourse
-
-Floats = NDArray[np.float64]
+from linkwright.kernel.arrays import Floats
 
 # Share of a revolution within which the first and the last angle are one revolution apart.
 _TURN = 1e-9

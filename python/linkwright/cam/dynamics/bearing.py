@@ -29,15 +29,14 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from linkwright.cam.dynamics.follower_load import CamCourse, alike
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import FindingError
 from linkwright.kernel.public import public_type
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.units import LENGTH, RATIO, not_negative, positive
-
-Floats = NDArray[np.float64]
 
 
 class Push(NamedTuple):

@@ -21,11 +21,11 @@ from dataclasses import dataclass, replace
 from typing import Annotated, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.cam.dynamics.backlash import SideChange, side_changes
 from linkwright.cam.dynamics.bearing import ArmPivot, Bearing, BearingReaction, NoFriction, Push, pushes
 from linkwright.cam.dynamics.follower_load import CamCourse, FollowerLoad, force_along
+from linkwright.kernel.arrays import Bools, Floats, Indices
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.numerics.zeros import zero
 from linkwright.kernel.public import public
@@ -34,8 +34,6 @@ from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import LENGTH, RATIO, not_negative
 
-Floats = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 Closure = Literal["force", "form"]
 
 # Share of the largest s′ below which the follower rests, and friction has no direction.
@@ -93,8 +91,8 @@ class ContactForce(Result):
     torque: Annotated[Floats, Label("driving torque of the cam shaft for this follower", "", "N m")]
     power: Annotated[Floats, Label("power of the cam shaft", "", "W")]
     power_friction: Annotated[Floats, Label("power of friction", "", "W", "Never positive.")]
-    jammed: Annotated[Flags, About("Where no force of the cam moves the follower, shape (n,).")]
-    lost: Annotated[Flags, About("Where a force-closed follower leaves the cam, shape (n,).")]
+    jammed: Annotated[Bools, About("Where no force of the cam moves the follower, shape (n,).")]
+    lost: Annotated[Bools, About("Where a force-closed follower leaves the cam, shape (n,).")]
     normal_max: Annotated[float, Label("maximum normal force", "N_max", "N", "Largest size.")]
     normal_max_angle: Annotated[float, Label("cam angle of the maximum normal force", "φ(N_max)", "rad")]
     normal_min: Annotated[float, Label("minimum normal force", "N_min", "N")]
@@ -264,7 +262,7 @@ def _energy(course: CamCourse, follower: FollowerLoad) -> tuple[Floats, Floats]:
     return energy, force
 
 
-def _every_second(n: int) -> NDArray[np.intp]:
+def _every_second(n: int) -> Indices:
     """Every second of n places, with the last."""
     return np.unique(np.append(np.arange(0, n, 2), n - 1))
 
@@ -279,7 +277,7 @@ def _simpson(angle: Floats, values: Floats) -> float:
     return float(sum(simpson(y, x=x) for x, y in parts if len(x) > 1))
 
 
-def _stretches(flags: Flags) -> Iterator[tuple[int, int]]:
+def _stretches(flags: Bools) -> Iterator[tuple[int, int]]:
     """First and last row of each run of flags."""
     edges = np.diff(np.concatenate([[False], flags, [False]]).astype(int))
     yield from zip(np.flatnonzero(edges > 0), np.flatnonzero(edges < 0) - 1, strict=True)
@@ -291,7 +289,7 @@ def _from_to(course: CamCourse, low: int, high: int) -> str:
     return f"at {first:.4g}°" if low == high else f"from {first:.4g}° to {last:.4g}°"
 
 
-def _jams(course: CamCourse, bearing: Bearing, friction: float, side: Floats, jammed: Flags) -> Iterator[str]:
+def _jams(course: CamCourse, bearing: Bearing, friction: float, side: Floats, jammed: Bools) -> Iterator[str]:
     """Where friction locks the follower, and how much smaller the pressure angle must be."""
     for low, high in _stretches(jammed):
         gamma = course.pressure_angle[low : high + 1]
@@ -327,7 +325,7 @@ def _gain(
     return float(_held(there, bearing, friction, side[one])[0].gain[0])
 
 
-def _losses(course: CamCourse, force: Floats, lost: Flags) -> Iterator[str]:
+def _losses(course: CamCourse, force: Floats, lost: Bools) -> Iterator[str]:
     """Where the closing force does not suffice."""
     for low, high in _stretches(lost):
         k = low + int(np.argmin(force[low : high + 1]))

@@ -16,8 +16,9 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError, ShapeError
 from linkwright.kernel.public import public, public_type
 from linkwright.kernel.public.in_range import in_range
@@ -35,8 +36,6 @@ from linkwright.kernel.units import (
     not_negative,
     positive,
 )
-
-Floats = NDArray[np.float64]
 
 
 def alike(**values: ArrayLike) -> dict[str, Floats]:

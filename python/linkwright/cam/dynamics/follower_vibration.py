@@ -18,12 +18,10 @@ from dataclasses import dataclass
 from typing import Annotated, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.cam.dynamics.one_mass import OneMass
 from linkwright.cam.dynamics.oscillator import (
     Ends,
-    Indices,
     Oscillation,
     in_pieces,
     oscillation,
@@ -32,6 +30,7 @@ from linkwright.cam.dynamics.oscillator import (
     without_steps,
 )
 from linkwright.cam.laws.motion_law import Extreme, MotionLaw, combined
+from linkwright.kernel.arrays import Bools, Floats, Indices
 from linkwright.kernel.errors import require_within
 from linkwright.kernel.limits import VIBRATIONS
 from linkwright.kernel.public import public
@@ -41,7 +40,6 @@ from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import COUNT, SPEED, positive
 
-Floats = NDArray[np.float64]
 # Values and their first two derivatives by the cam angle or the time, (m,) each.
 Derivatives = tuple[Floats, Floats, Floats]
 
@@ -266,7 +264,7 @@ class VibrationSweep(Result):
     force_min: Annotated[Floats, Label("minimum force of the train on the cam", "", "N")]
     acceleration_max: Annotated[Floats, Label("maximum acceleration of the mass", "", "m/s²")]
     departure_max: Annotated[Floats, Label("maximum departure from the lift", "", "m", "Of e = x − κs.")]
-    keeps_contact: Annotated[NDArray[np.bool_], About("Whether the train presses all the time, shape (n,).")]
+    keeps_contact: Annotated[Bools, About("Whether the train presses all the time, shape (n,).")]
 
 
 @public

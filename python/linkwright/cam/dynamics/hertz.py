@@ -20,17 +20,16 @@ from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from linkwright.cam.dynamics.follower_load import alike
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public import public, public_type
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import FORCE, LENGTH, PRESSURE, Quantity, positive
-
-Floats = NDArray[np.float64]
 
 # Depth of the largest shear: τ(ζ) = ζ − ζ²/√(1+ζ²) has its extreme where (1+q)³ = q(2+q)² with q = ζ²,
 # that is q² + q − 1 = 0, the golden section.

@@ -24,19 +24,18 @@ from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from linkwright.cam.dynamics.follower_load import FollowerLoad
 from linkwright.cam.dynamics.oscillator import steps, without_steps
 from linkwright.cam.laws.motion_law import Extreme, MotionLaw, combined
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import FORCE, MASS, SPEED, not_negative, positive
-
-Floats = NDArray[np.float64]
 
 # Steps to the minimum speed: each about doubles the number of digits.
 _ROUNDS = 60

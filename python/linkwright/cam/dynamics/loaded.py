@@ -26,13 +26,13 @@ from functools import partial
 from typing import Annotated
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.cam.core import Extreme
 from linkwright.cam.dynamics.hertz import LineContact, Material, line_contact
 from linkwright.cam.dynamics.lift_off import speed_of_loss
 from linkwright.cam.profile.profile import CamProfile, Flank, cam_profile
 from linkwright.drive.steady_state import steady_state
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
@@ -42,8 +42,6 @@ from linkwright.kernel.units import SPEED, positive
 from linkwright.kinetostatics.forces import forces
 from linkwright.kinetostatics.result import Forces
 from linkwright.machine.machine import Machine
-
-Floats = NDArray[np.float64]
 
 # A force below this share of the largest is none: rounding must not decide which side carries.
 _NOTHING = 1e-9

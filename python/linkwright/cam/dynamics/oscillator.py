@@ -19,15 +19,12 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.cam.laws.motion_law import Extreme, MotionLaw
+from linkwright.kernel.arrays import Complexes, Floats, Indices
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.numerics import zeros
 
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
-Indices = NDArray[np.intp]
 Value = Callable[[Indices, Floats], Floats]
 
 # Rotation of the pole over one step [rad].

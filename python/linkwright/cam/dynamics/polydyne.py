@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.cam.dynamics.one_mass import OneMass
 from linkwright.cam.dynamics.oscillator import Ends, continuity, steps
@@ -23,8 +22,6 @@ from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import SPEED, positive
-
-Floats = NDArray[np.float64]
 
 # Share of the lift below which the cam's reaching under its base circle is rounding.
 _ROUNDING = 1e-12

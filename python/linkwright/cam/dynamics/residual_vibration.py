@@ -19,12 +19,12 @@ from dataclasses import dataclass
 from typing import Annotated, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.cam.dynamics.follower_vibration import Train
 from linkwright.cam.dynamics.one_mass import OneMass
 from linkwright.cam.dynamics.oscillator import in_pieces, nodes_for, pole, steps, without_steps
 from linkwright.cam.laws.motion_law import MotionLaw
+from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.numerics import zeros
 from linkwright.kernel.public import public
@@ -33,9 +33,6 @@ from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import FRACTION, RATIO, SPEED, Quantity, positive
-
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 # Grid on which minima of the residual are bracketed: they are about 1 apart in τ.
 _GRID = 0.02

@@ -12,11 +12,11 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.cam.dynamics.loaded import LoadedCam
 from linkwright.cam.profile.contact import CamCurve
 from linkwright.cam.profile.profile import CamProfile, Flank
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.figure.style import (
     BLUE,
     GREEN,
@@ -39,9 +39,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from linkwright.cam.laws.motion_law import MotionLaw
-
-
-Floats = NDArray[np.float64]
 
 # Value, words and colour of a line that is not to be passed.
 Limit = tuple[float, str, str]

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.figure.style import (
     BLUE,
     DRIVE,
@@ -34,8 +34,6 @@ if TYPE_CHECKING:
     from linkwright.cam.dynamics.follower_vibration import FollowerVibration
     from linkwright.cam.dynamics.hertz import LineContact
     from linkwright.cam.dynamics.residual_vibration import ResidualSpectrum
-
-Floats = NDArray[np.float64]
 
 
 @styled

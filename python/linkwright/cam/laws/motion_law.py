@@ -13,15 +13,14 @@ from itertools import pairwise
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.cam.laws.piece import Harmonic, Piece, zeros
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.tangent import Tangent, total
 from linkwright.kernel.numerics.tangent_array import lifted, primal, variables_of
 
 __all__ = ["Extreme", "Harmonic", "MotionLaw", "Piece", "combined", "joined"]
 
-Floats = NDArray[np.float64]
 Side = Literal["after", "before"]
 
 # Share of the whole domain below which two breaks are one.

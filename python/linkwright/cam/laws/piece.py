@@ -20,12 +20,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.polynomial import chebyshev
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.tangent import cos, primal, sin, total
 from linkwright.kernel.numerics.tangent_array import lifted, variables_of
-
-Floats = NDArray[np.float64]
 
 # Points beyond the degree of the polynomial, and for each radian of the fastest harmonic: its series falls
 # like Bessel functions J_n(k/2), which are below rounding from n = k/2 + 20 on for the frequencies of motion

@@ -22,11 +22,11 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.cam.laws.boundary import Boundary, or_none
 from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.cam.laws.piece import Piece
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import LawError, Problem
 from linkwright.kernel.numerics.tangent import Tangent, primal
 from linkwright.kernel.numerics.tangent_array import variables_of
@@ -60,13 +60,11 @@ def spline(places: Sequence[float], values: Sequence[float], task: Boundary, deg
     return MotionLaw(tuple(x.tolist()), tuple(pieces))
 
 
-def _with_derivatives(value: Any, n: int) -> NDArray[np.float64]:
+def _with_derivatives(value: Any, n: int) -> Floats:
     """A number and its derivatives by n variables, zero if it has none, (1 + n,)."""
     d = value.d if isinstance(value, Tangent) else np.zeros(n)
     return np.concatenate([[primal(value)], d])
 
-
-Floats = NDArray[np.float64]
 
 # Share of the largest second derivative by which that of the polynomials may be off between the ends.
 _ACCURACY = 1e-9

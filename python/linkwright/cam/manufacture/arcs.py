@@ -34,13 +34,11 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.cam.manufacture.curve import Stretch, Track
 from linkwright.cam.manufacture.outline import Outline, Sides, angle_between, dot
+from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.errors import ConvergenceError
-
-Floats = NDArray[np.float64]
 
 # Rounds with one number of pieces before there is one more, and at most of pieces.
 _ROUNDS, _MOST = 6, 200_000
@@ -202,7 +200,7 @@ def _biarcs(part: Stretch, cuts: Floats) -> tuple[Sides, Sides]:
     )
 
 
-def _single_arcs(part: Stretch, cuts: Floats) -> tuple[Sides, NDArray[np.bool_]]:
+def _single_arcs(part: Stretch, cuts: Floats) -> tuple[Sides, Bools]:
     """The arc over each piece, and whether it has the tangents at both ends."""
     p, t = part.points(cuts), part.directions(cuts)
     v = np.diff(p, axis=0)

@@ -17,11 +17,10 @@ from functools import cached_property
 from typing import Literal, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import ExchangeError
 
-Floats = NDArray[np.float64]
 Side = Literal["after", "before"]
 
 TURN = 2 * math.pi

@@ -22,12 +22,12 @@ from functools import cached_property
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.cam.manufacture.curve import ClosedCurve, Side, Track
 from linkwright.cam.manufacture.fit import Deviation
 from linkwright.cam.manufacture.outline import turned
 from linkwright.cam.profile.profile import CamProfile, Flank
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.public import public
 
@@ -90,7 +90,7 @@ class Drawing:
         return _CROSS * self.radius
 
     @property
-    def mark(self) -> NDArray[np.float64]:
+    def mark(self) -> Floats:
         """Ends of the zero mark, (2, 2) [m]."""
         direction = np.array([np.cos(self.zero_angle), np.sin(self.zero_angle)])
         return np.outer(np.multiply(_MARK, self.radius), direction)
@@ -132,9 +132,6 @@ class WrittenFile:
 
     path: Path
     outlines: tuple[MeasuredOutline, ...]
-
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -13,20 +13,18 @@ from pathlib import Path as File
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.cam.manufacture.drawing import CENTRE, CUTTER_PATH, PITCH_CURVE, TEXT, ZERO_ANGLE, Drawing
 from linkwright.cam.manufacture.fit import FileOutline
 from linkwright.cam.manufacture.outline import Outline
 from linkwright.cam.manufacture.spline import EvaluatedSpline, Spline
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import ExchangeError
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing as Document
     from ezdxf.layouts.layout import Modelspace
     from ezdxf.math import BSpline
-
-Floats = NDArray[np.float64]
 
 # AutoCAD 2010: the oldest format with all that is used here that programs still agree on.
 _VERSION = "R2010"

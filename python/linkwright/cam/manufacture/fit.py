@@ -14,18 +14,16 @@ from dataclasses import dataclass
 from typing import Literal, NamedTuple, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.cam.manufacture.arcs import arcs, polyline
 from linkwright.cam.manufacture.curve import Track, size
 from linkwright.cam.manufacture.outline import Outline
 from linkwright.cam.manufacture.spline import Spline, spline
+from linkwright.kernel.arrays import Floats, Indices
 from linkwright.kernel.errors import ConvergenceError, ExchangeError, InputError
 
-Floats = NDArray[np.float64]
-Whole = NDArray[np.intp]
 # Sides (k,) and shares (k, m) of them → distances and τ, (k, m) each.
-Distances = Callable[[Whole, Floats], tuple[Floats, Floats]]
+Distances = Callable[[Indices, Floats], tuple[Floats, Floats]]
 
 # Intervals of a side, and rounds of looking closer round its largest distance, each eight times finer. At a
 # smooth largest distance the error falls with the square: (1/16 · 1/8 · 1/8)² of the distance is left.
@@ -49,10 +47,10 @@ class Path(Protocol):
     def vertices(self) -> Floats:
         """Where the sides begin, (n, 2) [m]."""
 
-    def at(self, which: Whole, u: Floats) -> Floats:
+    def at(self, which: Indices, u: Floats) -> Floats:
         """Places on sides (k,) at shares (k, m) of them, (k, m, 2) [m]."""
 
-    def distances(self, which: Whole, places: Floats) -> Floats:
+    def distances(self, which: Indices, places: Floats) -> Floats:
         """Distance of places (k, m, 2) from sides (k,), (k, m) [m]."""
 
 
@@ -87,12 +85,12 @@ def deviation(path: Path, track: Track) -> Deviation:
     """The largest distance between a path and a curve, both ways."""
     low, high = _intervals(path.vertices, track)
 
-    def from_path(which: Whole, u: Floats) -> tuple[Floats, Floats]:
+    def from_path(which: Indices, u: Floats) -> tuple[Floats, Floats]:
         """From places of the path to the nearest of the curve."""
         tau, distance = track.project(path.at(which, u), *_between(low[which], high[which], u))
         return distance, tau
 
-    def from_curve(which: Whole, u: Floats) -> tuple[Floats, Floats]:
+    def from_curve(which: Indices, u: Floats) -> tuple[Floats, Floats]:
         """From places of the curve to the nearest of the path."""
         tau, _, end = _between(low[which], high[which], u)
         return path.distances(which, track.points(tau, end)), tau
@@ -139,7 +137,7 @@ def _largest(distances: Distances, n: int) -> tuple[float, float]:
     return best, at
 
 
-def _sampled(distances: Distances, which: Whole) -> tuple[Floats, Floats, Floats]:
+def _sampled(distances: Distances, which: Indices) -> tuple[Floats, Floats, Floats]:
     """The largest distance of each side among its samples, with its share and τ."""
     u = np.broadcast_to(np.linspace(0, 1, _INTERVALS + 1), (len(which), _INTERVALS + 1))
     return _most(*distances(which, u), u)

@@ -16,9 +16,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from linkwright.kernel.arrays import Floats, Indices
 
 # Below this angle the area between arc and chord is taken from its series, which then errs by 3e-12 of it
 # [rad].
@@ -70,7 +69,7 @@ class Sides:
         """Unit tangents where each ends, (n, 2)."""
         return turned(self.along, 0.5 * self.turns)
 
-    def chosen(self, which: NDArray[np.intp]) -> Sides:
+    def chosen(self, which: Indices) -> Sides:
         """Some of them, by number."""
         return Sides(self.starts[which], self.chords[which], self.bulges[which])
 
@@ -164,14 +163,14 @@ class Outline:
         before = np.roll(self.sides.end_directions, 1, axis=0)
         return angle_between(before, self.sides.start_directions)
 
-    def at(self, which: NDArray[np.intp], u: Floats) -> Floats:
+    def at(self, which: Indices, u: Floats) -> Floats:
         """Places on sides.
 
         ``which`` (k,): numbers of the sides; ``u`` (k, m): how far along each, from 0 to 1 → [m], (k, m, 2).
         """
         return self.sides.chosen(which).at(u)
 
-    def distances(self, which: NDArray[np.intp], places: Floats) -> Floats:
+    def distances(self, which: Indices, places: Floats) -> Floats:
         """Distance of places from sides.
 
         ``which`` (k,): numbers of the sides; ``places`` (k, m, 2): for each side its places [m] → [m],

@@ -26,15 +26,12 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.cam.manufacture.arcs import equal_errors
 from linkwright.cam.manufacture.curve import Stretch, Track
 from linkwright.cam.manufacture.outline import cross
+from linkwright.kernel.arrays import Floats, Indices
 from linkwright.kernel.errors import InputError
-
-Floats = NDArray[np.float64]
-Whole = NDArray[np.intp]
 
 # Samples of a piece from which a place finds the nearest, and rounds of Gauss–Newton from there.
 _SAMPLES, _ROUNDS = 9, 4
@@ -73,11 +70,11 @@ class Spline:
         curve = BSpline(self.knots, self.controls, self.degree)
         return curve, curve.derivative()
 
-    def at(self, which: Whole, u: Floats) -> Floats:
+    def at(self, which: Indices, u: Floats) -> Floats:
         """Places on pieces (k,) at shares (k, m) of them, (k, m, 2) [m]."""
         return self.evaluated.at(which, u)
 
-    def distances(self, which: Whole, places: Floats) -> Floats:
+    def distances(self, which: Indices, places: Floats) -> Floats:
         """Distance of places (k, m, 2) from pieces (k,), (k, m) [m]."""
         return self.evaluated.distances(which, places)
 
@@ -100,12 +97,12 @@ class EvaluatedSpline:
         """Where the pieces begin, (n, 2) [m]."""
         return self.values(self.cuts[:-1])[0]
 
-    def at(self, which: Whole, u: Floats) -> Floats:
+    def at(self, which: Indices, u: Floats) -> Floats:
         """Places on pieces (k,) at shares (k, m) of them, (k, m, 2) [m]."""
         low = self.cuts[which][:, None]
         return self.values(low + u * (self.cuts[which + 1][:, None] - low))[0]
 
-    def distances(self, which: Whole, places: Floats) -> Floats:
+    def distances(self, which: Indices, places: Floats) -> Floats:
         """Distance of places from pieces, by Gauss–Newton from the nearest of samples.
 
         ``which`` (k,): numbers of pieces; ``places`` (k, m, 2): for each its places [m] → never too small
@@ -201,7 +198,7 @@ def _smoothness(before: Stretch, after: Stretch) -> int:
     return 2
 
 
-def _joined(ends: Floats, pieces: Floats, multiplicity: NDArray[np.intp], degree: int) -> Spline:
+def _joined(ends: Floats, pieces: Floats, multiplicity: Indices, degree: int) -> Spline:
     """One spline of pieces between ends, with so many knots at each inner end."""
     knots = np.concatenate(
         [

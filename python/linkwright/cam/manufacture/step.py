@@ -15,13 +15,11 @@ from pathlib import Path as File
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.cam.manufacture.fit import FileOutline
 from linkwright.cam.manufacture.spline import EvaluatedSpline, Spline
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import ExchangeError, InputError
-
-Floats = NDArray[np.float64]
 
 # How far above its plane the kernel may put the lower face [mm].
 _PLANE = 1e-6

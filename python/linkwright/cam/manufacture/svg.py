@@ -15,15 +15,12 @@ from xml.etree import ElementTree
 from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.cam.manufacture.drawing import CENTRE, CUTTER_PATH, PITCH_CURVE, ZERO_ANGLE, Drawing
 from linkwright.cam.manufacture.fit import FileOutline
 from linkwright.cam.manufacture.outline import Outline
 from linkwright.kernel.errors import ExchangeError
 from linkwright.kernel.files.output import write_file
-
-Floats = NDArray[np.float64]
 
 _NAMESPACE = "{http://www.w3.org/2000/svg}"
 

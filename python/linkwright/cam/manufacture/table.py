@@ -13,16 +13,15 @@ from pathlib import Path as File
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.cam.manufacture.curve import Track
 from linkwright.cam.manufacture.outline import cross, dot
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import ExchangeError, InputError, require_within
 from linkwright.kernel.files.output import write_file
 from linkwright.kernel.limits import ROWS_OUT
 from linkwright.kernel.page.table import csv_text
 
-Floats = NDArray[np.float64]
 By = Literal["cam", "polar"]
 
 COLUMNS = ("phi_deg", "x_mm", "y_mm", "radius_mm", "polar_angle_deg", "curvature_per_mm")

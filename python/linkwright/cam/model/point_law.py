@@ -6,11 +6,11 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
 from linkwright.cam.model.motion_law import Law
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import fault
 from linkwright.kernel.description.curve import curve_faults, unread_file
 from linkwright.kernel.description.formula import NUMBERS, parse
@@ -117,7 +117,7 @@ class FormulaLaw(Law):
         yield from constant_faults(self.constants, text)
         yield from text_faults(key, text, self.constants, ("z", "theta"))
 
-    def _taylor(self, text: str, z: NDArray[np.float64], angle: float) -> NDArray[np.float64]:
+    def _taylor(self, text: str, z: Floats, angle: float) -> Floats:
         """Value and three derivatives by z at each place, (4, n)."""
         at = Taylor.variable(z)
         names = {**NUMBERS, **self.constants, "z": at, "theta": at * angle}
@@ -125,7 +125,7 @@ class FormulaLaw(Law):
             series = value(parse(text), names)
         if not isinstance(series, Taylor):
             series = at * 0.0 + series
-        derivatives: NDArray[np.float64] = series.derivatives
+        derivatives: Floats = series.derivatives
         return derivatives
 
     def over(self, task: Boundary, angle: float, *, swing: bool) -> MotionLaw:

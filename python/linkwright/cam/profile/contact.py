@@ -33,18 +33,16 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.cam.core import CamKernel, CamOffset, Extreme, cam_kernel
 from linkwright.cam.laws.motion_law import MotionLaw, Side, combined
 from linkwright.cam.model.cam import Cam
 from linkwright.cam.model.follower import Sizes, sizes, start_of, to_arm_pivot
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import AssemblyError, ShapeError
 from linkwright.kernel.numerics.tangent import cos, primal
 from linkwright.linkages.model.element import FixedPoint
 from linkwright.linkages.model.topology import ORIGIN
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -16,17 +16,15 @@ from dataclasses import dataclass, replace
 from typing import Annotated
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.cam.core import CamSearch, crossings
 from linkwright.cam.model.cam import Cam
 from linkwright.cam.profile.contact import CamCurve, Contact
 from linkwright.cam.profile.profile import CamProfile
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-
-Floats = NDArray[np.float64]
 
 # Base radii that are scanned, each some 3 % larger than the one before: from a fiftieth of the size to twenty
 # times.

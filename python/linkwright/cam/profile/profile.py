@@ -13,13 +13,13 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.cam.core import Extreme, Shape
 from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.cam.model.cam import Cam
 from linkwright.cam.model.motion_section import MotionSection
 from linkwright.cam.profile.contact import CamCurve, Contact, Opposite, contacts, opposite
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.public import public
@@ -27,8 +27,6 @@ from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import show
 from linkwright.machine.machine import Machine
-
-Floats = NDArray[np.float64]
 
 # Angles per revolution at which a cam is looked at; between them extremes are found exactly.
 ANGLES = 720

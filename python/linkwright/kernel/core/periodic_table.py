@@ -24,9 +24,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Floats = NDArray[np.float64]
+from linkwright.kernel.arrays import Floats
 
 # Knots between which a quintic of a function with the harmonics of a slider-crank errs by less than 1e-12.
 _KNOTS = 512

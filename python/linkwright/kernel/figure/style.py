@@ -8,8 +8,8 @@ from functools import wraps
 from typing import TYPE_CHECKING, Any, NamedTuple, ParamSpec, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.page.angle_zero import zero_shown
 from linkwright.kernel.page.out_units import reader
 
@@ -17,10 +17,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-
 P = ParamSpec("P")
 R = TypeVar("R")
-Floats = NDArray[np.float64]
 
 # Okabe and Ito's colours, distinguished by all kinds of colour vision (jfly.uni-koeln.de/color, 2008); yellow
 # is left out, it is too faint for lines on white, and the purple is darker for the same reason.

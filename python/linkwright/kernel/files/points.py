@@ -18,8 +18,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.place import join
 from linkwright.kernel.errors import MachineFileError, Problem, UnitError
 from linkwright.kernel.files.text_file import TextError, text_of
@@ -194,7 +194,7 @@ def _with_unit(number: str, unit: str | None) -> Any:
     return f"{number} {unit}" if unit else float(number)
 
 
-def read_columns(path: str | os.PathLike[str], kinds: Mapping[str, Kind]) -> dict[str, NDArray[np.float64]]:
+def read_columns(path: str | os.PathLike[str], kinds: Mapping[str, Kind]) -> dict[str, Floats]:
     """Columns of a file, (n,) each [SI], by name and kind; others in it are passed over.
 
     Raises `MachineFileError`, with file and line, if it cannot be read, lacks a column, or holds something
@@ -211,9 +211,7 @@ def read_columns(path: str | os.PathLike[str], kinds: Mapping[str, Kind]) -> dic
     return {name: _values(columns[name], kind, name, place, lines[1:]) for name, kind in kinds.items()}
 
 
-def _values(
-    entries: Sequence[Any], kind: Kind, name: str, path: Path, lines: Sequence[int]
-) -> NDArray[np.float64]:
+def _values(entries: Sequence[Any], kind: Kind, name: str, path: Path, lines: Sequence[int]) -> Floats:
     """The entries of a column in SI."""
     values = []
     for entry, line in zip(entries, lines, strict=True):

@@ -17,9 +17,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from linkwright.kernel.arrays import Bools, Floats
 
 # Singular values below this share of the largest are rounding, also of columns that are differences.
 _ROUNDING = 1e-9
@@ -51,7 +50,7 @@ class Fit(NamedTuple):
     values: Floats
     deviation: Floats
     covariance: Floats
-    is_open: NDArray[np.bool_]
+    is_open: Bools
     condition: float
     misfit: float
     freedom: int

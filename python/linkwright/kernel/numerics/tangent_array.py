@@ -12,11 +12,9 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.tangent import Tangent
-
-Floats = NDArray[np.float64]
 
 
 class TangentArray:

@@ -11,9 +11,8 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from linkwright.kernel.arrays import Floats
 
 # Coefficients: value and three derivatives.
 TERMS = 4

@@ -12,9 +12,8 @@ from functools import cache
 
 import numpy as np
 from numpy.polynomial import chebyshev
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from linkwright.kernel.arrays import Complexes, Floats
 
 # Values that differ by less than this share of the peak are equal.
 _SAME = 1e-13
@@ -62,11 +61,11 @@ class TurnCurve:
         rms: Floats = np.sqrt(np.einsum("pkn,pn->k", values**2, weights) / (self.ends[-1] - self.ends[0]))
         return rms
 
-    def harmonics(self, orders: Floats) -> NDArray[np.complex128]:
+    def harmonics(self, orders: Floats) -> Complexes:
         r"""Means :math:`\overline{f_k e^{-i\nu\varphi}}` over the revolution for orders ν, (k, orders)."""
         values, weights, phi = self._gauss(float(np.abs(orders).max(initial=0.0)))
         waves = np.exp(-1j * np.multiply.outer(orders, phi)) * weights / (self.ends[-1] - self.ends[0])
-        harmonics: NDArray[np.complex128] = np.einsum("pkn,opn->ko", values, waves, optimize=True)
+        harmonics: Complexes = np.einsum("pkn,opn->ko", values, waves, optimize=True)
         return harmonics
 
     def at(self, phi: Floats) -> Floats:

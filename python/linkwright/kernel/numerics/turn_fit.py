@@ -19,12 +19,10 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import chebyshev
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.errors import ConvergenceError, FindingError
 from linkwright.kernel.numerics.turn_curve import TurnCurve
-
-Floats = NDArray[np.float64]
 
 # Values of k quantities at crank angles (n,), shape (k, n).
 Quantities = Callable[[Floats], Floats]
@@ -121,11 +119,11 @@ class _Fit:
         self.low, self.high, self.series = low[~good].ravel(), high[~good].ravel(), _flat(series[~good])
         self.left = np.repeat((off * width)[~good] / 2, 2, axis=0)
 
-    def _is_good(self, off: Floats, width: Floats, rounding: Floats) -> NDArray[np.bool_]:
+    def _is_good(self, off: Floats, width: Floats, rounding: Floats) -> Bools:
         """Whether a deviation is rounding, or small beside the peak and, times the width, beside the mean."""
         share = off * width <= np.maximum(_CLOSE * self.size, rounding * width)
         near = off <= np.maximum(_CLOSE * self.peak, rounding)
-        good: NDArray[np.bool_] = (share & near).all(axis=1)
+        good: Bools = (share & near).all(axis=1)
         return good
 
     def _rounding(self, low: Floats, width: Floats) -> Floats:

@@ -9,9 +9,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from linkwright.kernel.arrays import Floats, Indices
+
 Function = Callable[[Floats], Floats]
 
 # Rounds at most: bisection alone, from 0.02 rad to rounding, needs 50.
@@ -89,7 +89,7 @@ def minima(function: Function, low: Floats, high: Floats) -> tuple[Floats, Float
     return np.where(fx < fy, x, y), np.minimum(fx, fy)
 
 
-def brackets(values: Floats) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def brackets(values: Floats) -> tuple[Indices, Indices]:
     """Where functions sampled at n angles, (k, n), change their sign: function and sample before it, (m,)
     each.
 

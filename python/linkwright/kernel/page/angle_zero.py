@@ -13,10 +13,7 @@ from math import isfinite, pi
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
-    Floats = NDArray[np.float64]
+    from linkwright.kernel.arrays import Floats
 
 # An angle as near as this to the end of its cycle is its beginning [rad]: rounding of a root.
 _ROUNDING = 2e-8

@@ -16,9 +16,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING, NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.units.kinds import Dimension
@@ -26,8 +24,6 @@ from linkwright.kernel.units.spellings import factor_of, is_energy, normal, unkn
 
 if TYPE_CHECKING:
     from pydantic import BaseModel
-
-Floats = NDArray[np.float64]
 
 _RAISED = re.compile(r"\^([234])")
 _RAISE = {"2": "²", "3": "³", "4": "⁴"}

@@ -18,9 +18,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from io import StringIO
 from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.page.angle_zero import counted_columns
 from linkwright.kernel.page.numbers import measured
 from linkwright.kernel.page.out_units import shown_columns
@@ -110,9 +108,6 @@ def _cell(entry: str | float) -> str | float:
     if isinstance(entry, str):
         return f"'{entry}" if entry.startswith(_FORMULA) else entry
     return "" if entry != entry else entry
-
-
-Floats = NDArray[np.float64]
 
 
 def curves_csv(result: Result) -> str:

@@ -32,9 +32,9 @@ from typing import Any, Literal, NamedTuple, get_args, get_origin
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError, ShapeError
 
-Floats = NDArray[np.float64]
 Check = Callable[[str, Any], Any]
 
 # A number or a list of numbers, not a table.

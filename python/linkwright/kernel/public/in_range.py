@@ -9,12 +9,10 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.units import Quantity, show
-
-Floats = NDArray[np.float64]
 
 
 def in_range(**arguments: tuple[Any, Quantity]) -> None:

@@ -7,12 +7,10 @@ smoothly (`docs/theory/folding.md`). Where lengths do not tell how, a machine is
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright import _core
+from linkwright.kernel.arrays import Floats, Integers
 from linkwright.kernel.errors import AssemblyError
-
-Floats = NDArray[np.float64]
 
 # Numbers of a change point and of an arm that are out of reach, in the order of the fields of `ChangePoint`
 # and `Arm` in `crates/linkwright-core/src/linkage`.
@@ -40,7 +38,7 @@ def undecided_error(name: str, point: _core.InLine) -> AssemblyError:
 
 
 def in_line(
-    plan: _core.Plan, parameters: Floats, slots: NDArray[np.int32], values: Floats, element: int
+    plan: _core.Plan, parameters: Floats, slots: Integers, values: Floats, element: int
 ) -> list[list[_core.InLine]]:
     """Where the links of an element come into line over the revolution, by crank angle, in each machine.
 

@@ -8,9 +8,10 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from linkwright import _core
+from linkwright.kernel.arrays import Bools, Floats, Integers
 from linkwright.kernel.description.place import arrays, join
 from linkwright.kernel.errors import InputError, MachineError, Problem, ShapeError
 from linkwright.kernel.numerics.tangent import primal
@@ -24,8 +25,6 @@ from linkwright.machine.program.initial_assembly import InitialAssembly
 from linkwright.machine.program.loads import Loads, bodies_of
 from linkwright.machine.program.mechanism import MechanismProgram
 from linkwright.machine.program.motion import LinkRows, PointRows, Rows, link_motion, motion, point_motion
-
-Floats = NDArray[np.float64]
 
 
 class Translation:
@@ -81,7 +80,7 @@ def _row_count(machine: Machine) -> int:
     return shapes.pop()[0] if shapes else 1
 
 
-def _columns(parameters: list[Any], varying: list[int], n: int) -> tuple[Floats, NDArray[np.int32], Floats]:
+def _columns(parameters: list[Any], varying: list[int], n: int) -> tuple[Floats, Integers, Floats]:
     """First row of all parameters; which vary; their values (k, n)."""
     columns = [np.asarray(parameters[slot], dtype=np.float64) for slot in varying]
     first = [primal(value) for value in parameters]
@@ -136,13 +135,13 @@ class CompiledMachine:
 
     plan: _core.Plan
     parameters: Floats
-    slots: NDArray[np.int32]
+    slots: Integers
     values: Floats
     points: dict[str, int]
     links: dict[str, int]
     slides: dict[str, int]
     dyads: tuple[str, ...]
-    two_turns: NDArray[np.bool_]
+    two_turns: Bools
     one_turn: bool
     speed_guess: float
     gear_slots: tuple[int, int, int]

@@ -17,9 +17,9 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright import _core
+from linkwright.kernel.arrays import Floats, Integers
 from linkwright.kernel.errors import AssemblyError
 from linkwright.kernel.numerics.tangent import primal
 from linkwright.machine.program.change_points import folding, in_line, stored, undecided, undecided_error
@@ -27,8 +27,6 @@ from linkwright.machine.program.mechanism import MechanismProgram
 from linkwright.machine.program.motion import link_motion, motion, point_motion
 from linkwright.machine.program.numbers import table
 from linkwright.machine.program.places import Continuous, Foldable, Pending, PendingGroup, Side
-
-Floats = NDArray[np.float64]
 
 # Intervals of the revolution that are looked at.
 _LOOK = 720
@@ -85,7 +83,7 @@ def _error(name: str, text: str, at: float, what: str, remedy: str) -> AssemblyE
 
 
 # First row of all parameters, which of them vary, and their values over the rows.
-Columns = tuple[Floats, NDArray[np.int32], Floats]
+Columns = tuple[Floats, Integers, Floats]
 
 
 # Largest swing of a link about its mean turning that leaves its angle unambiguous, in radians.
@@ -242,7 +240,7 @@ class InitialAssembly:
                 line[row], signs[row] = [], np.nan
         self._give_change_points(dyad, line, signs)
 
-    def _mechanisms(self) -> tuple[NDArray[np.int32], Floats]:
+    def _mechanisms(self) -> tuple[Integers, Floats]:
         """What varies from one mechanism to the next: where masses and the like vary, nothing."""
         if any(slot < self.program.n_own or slot >= self.n_described for slot in self.slots):
             return self.slots, self.values

@@ -7,11 +7,9 @@ from itertools import accumulate, pairwise
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright import _core
-
-Floats = NDArray[np.float64]
+from linkwright.kernel.arrays import Floats
 
 _NO_SLOTS = np.empty(0, dtype=np.int32)
 _NO_VALUES = np.empty((0, 1))

@@ -20,17 +20,15 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.drive.evenness import ConstantEnergy, constant_energy_of
 from linkwright.drive.model.motor import InductionMotor
 from linkwright.drive.reduction import Reduction
 from linkwright.drive.step_method import StepMotion, by_steps, whole_steps
+from linkwright.kernel.arrays import Floats
 from linkwright.linkages.closure import turn_angles
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -13,11 +13,11 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.cam.profile.profile import cam_profile
 from linkwright.drive.steady_state import SteadyState, steady_state
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.files.library import library_path
 from linkwright.kinetostatics.model.loads.force import DryFriction
 from linkwright.linkages.kinematics import SlideMotion, kinematics
@@ -25,8 +25,6 @@ from linkwright.machine.machine import Machine
 from linkwright.machine.read import read
 from linkwright.papers.page import filled
 from linkwright.papers.paper2.formulas import SECTIONS, Formulas, fraction
-
-Floats = NDArray[np.float64]
 
 CART, ROLLING = "cart", "rolling"
 

@@ -20,13 +20,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.cam.laws.optimal import optimal
 from linkwright.cam.laws.piece import Piece
 from linkwright.cam.profile.least_sizes import base_for_pressure_angle, largest_roller
 from linkwright.cam.profile.profile import CamProfile, cam_profile, the_cam
+from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.files.library import library_path
 from linkwright.kinetostatics.forces import forces
 from linkwright.machine.read import read
@@ -83,9 +83,6 @@ def starts(formulas: Formulas) -> dict[str, Start]:
     }
 
 
-Floats = NDArray[np.float64]
-
-
 @dataclass(frozen=True)
 class Course:
     """The cart over one revolution of steady motion.
@@ -112,7 +109,7 @@ class Course:
     speed: Floats
     speed_mean: float
     speed_design: float
-    steady: NDArray[np.bool_]
+    steady: Bools
     speed_constant: float
 
     @property

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.figure.style import (
     BLUE,
     GREEN,
@@ -33,8 +33,6 @@ if TYPE_CHECKING:
 
     from linkwright.papers.paper2.alternatives import Alternative
     from linkwright.papers.paper2.paper import Paper2
-
-Floats = NDArray[np.float64]
 
 LINES_OF_MOTION = ("x [m]", "ẋ [m/s]", "ẍ [m/s²]", "jerk [m/s³]")
 

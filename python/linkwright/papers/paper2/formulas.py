@@ -15,11 +15,10 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.cam.profile.profile import CamProfile
+from linkwright.kernel.arrays import Floats
 
-Floats = NDArray[np.float64]
 SECTIONS = ("start", "steady", "stop")
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.machine.address import replace
 from linkwright.machine.machine import Machine
 from linkwright.papers.paper3.crank_train import TrialEngine
@@ -19,9 +19,6 @@ from linkwright.torsion.response.excited_train import ExcitedTrain, excited_trai
 from linkwright.torsion.response.forced import ForcedVibration, forced_vibration, responded
 from linkwright.torsion.response.harmonics import span
 from linkwright.torsion.response.unevenness_along import UnevennessAlong, unevenness_along
-
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 
 @dataclass(frozen=True)

@@ -9,8 +9,8 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.machine import address
 from linkwright.machine.machine import Machine
 from linkwright.torsion.model.engine import pendulum
@@ -34,8 +34,6 @@ from linkwright.torsion.model.engine.throw import CrankThrow
 from linkwright.torsion.model.engine.throw_compliance import compliances, restraint_length
 from linkwright.torsion.model.engine.throw_inertia import published_inertia
 from linkwright.torsion.modes.free import FreeVibration, free_vibration
-
-Floats = NDArray[np.float64]
 
 # Modes that are looked at: that of the coupling, and the first two of the crankshaft.
 MODES = (1, 2, 3)

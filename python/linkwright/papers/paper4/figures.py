@@ -10,8 +10,8 @@ from linkwright.kernel.figure.style import BLUE, MATH, ORANGE, RED, SOFT, panels
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-    from numpy.typing import NDArray
 
+    from linkwright.kernel.arrays import Floats
     from linkwright.papers.paper4.paper import Paper4
 
 
@@ -77,14 +77,14 @@ def _rate(paper: Paper4, *, continuous: bool) -> Figure:
     return figure
 
 
-def _printed(paper: Paper4) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _printed(paper: Paper4) -> tuple[Floats, Floats]:
     """φ_5 and its derivative with the printed lengths; the crank of the paper stands at 90° at 12 o'clock."""
     angle, rate = paper.printed_intermittent.rocking(paper.intermittent.crank_angle + np.pi / 2, -1.0)
     turns = np.round((paper.intermittent.lever_angle.mean() - np.nanmean(angle)) / (2 * np.pi))
     return angle + 2 * np.pi * turns, rate
 
 
-def _shown(rate: NDArray[np.float64], beside: NDArray[np.float64]) -> NDArray[np.float64]:
+def _shown(rate: Floats, beside: Floats) -> Floats:
     """The rate as far as it fits beside another: it grows beyond bounds where the lengths cease to close."""
     limit = 3 * np.abs(beside).max()
     return np.where(np.abs(rate) > limit, np.nan, rate)

@@ -15,9 +15,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from linkwright.kernel.arrays import Bools, Floats
 
 
 @dataclass(frozen=True)
@@ -97,7 +96,7 @@ class LeverFormula:
     l_4: float
     l_5: float
 
-    def closes(self, phi: Floats) -> NDArray[np.bool_]:
+    def closes(self, phi: Floats) -> Bools:
         """Where link and lever can meet."""
         l_d = self.unit.diagonal_rates(phi)[0]
         return (l_d <= self.l_4 + self.l_5) & (l_d >= abs(self.l_4 - self.l_5))

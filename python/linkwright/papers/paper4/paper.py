@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import ConvergenceError
 from linkwright.kernel.files.library import library_path
 from linkwright.kernel.numerics.zeros import zero
@@ -21,8 +21,6 @@ from linkwright.machine.read import read
 from linkwright.papers.paper import Paper, printed_values
 from linkwright.papers.paper4.formulas import LeverFormula, Unit
 from linkwright.pumping.rod_rotator import RodRotatorMotion, rod_rotator
-
-Floats = NDArray[np.float64]
 
 # What a unit takes as printed.
 _PRINTED = ("r", "L", "k", "l_K", "l_3")

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.figure.style import (
     BLUE,
     GREEN,
@@ -33,8 +33,6 @@ if TYPE_CHECKING:
 
     from linkwright.papers.paper5.paper import Paper5
     from linkwright.papers.paper5.steps import Surface
-
-Floats = NDArray[np.float64]
 
 # Steps of the lines of equal length [mm].
 _STEP = 20

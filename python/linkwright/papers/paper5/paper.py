@@ -13,8 +13,8 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.result import finite
 from linkwright.papers.claim import tolerance
 from linkwright.papers.page import shown
@@ -39,8 +39,6 @@ from linkwright.topping.verdict import (
     length_verdict,
     lengths_over,
 )
-
-Floats = NDArray[np.float64]
 
 # Angles of the scans: hundredths of a degree.
 _ANGLES = np.radians(np.arange(0.0, 85.0, 0.01))

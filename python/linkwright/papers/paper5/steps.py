@@ -34,8 +34,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.topping.required_length import (
     PublishedLengths,
     constant_speed_lengths,
@@ -45,8 +45,6 @@ from linkwright.topping.required_length import (
 )
 from linkwright.topping.roots import cap_volume, head_diameter
 from linkwright.topping.verdict import Claim
-
-Floats = NDArray[np.float64]
 
 # Points of the scan over v_h/v, α and the share of the offsets in the band.
 _RATIOS, _ANGLES, _SHARES = 141, 281, 21

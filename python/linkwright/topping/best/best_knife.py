@@ -27,8 +27,8 @@ from dataclasses import dataclass
 from typing import Annotated, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
@@ -41,7 +41,6 @@ from linkwright.topping.field import TopperField, field_result
 from linkwright.topping.model.topper import MemberKnife, TopperLimits
 from linkwright.topping.roots import draw_roots, field_of
 
-Floats = NDArray[np.float64]
 Objective = Literal["shortest", "fastest"]
 
 # Roots that the search looks at.

@@ -6,13 +6,11 @@ import math
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.topping.best.knife_trial import Trial, Trials
 from linkwright.topping.coverage import Watch
 from linkwright.topping.model.topper import MemberKnife
-
-Floats = NDArray[np.float64]
 
 # Grid of angles and knife speeds: for the map, for each of several forward speeds, and about the best.
 MAP, _COARSE, _CLOSE = (25, 21), (13, 11), 7

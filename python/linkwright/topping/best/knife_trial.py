@@ -12,7 +12,6 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.machine.machine import Machine
 from linkwright.topping.coverage import pass_over
@@ -22,8 +21,6 @@ from linkwright.topping.model.topper import Topper, TopperLimits
 from linkwright.topping.roots import Roots
 from linkwright.topping.slicing import slicing
 from linkwright.topping.sweep import edges_with
-
-Floats = NDArray[np.float64]
 
 # The haulm that an edge leaves falls with its length: halvings to 1e-4 of the maximum length.
 _HALVINGS = 14

@@ -10,8 +10,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.figure.style import (
     BLUE,
     GREEN,
@@ -34,9 +34,6 @@ if TYPE_CHECKING:
     from linkwright.topping.best.best_knife import KnifeSearch
     from linkwright.topping.field import TopperField
     from linkwright.topping.sweep import FieldSweep
-
-
-Floats = NDArray[np.float64]
 
 # Shares whose lengths are marked: more would not stand apart.
 _MARKED = (0.5, 0.9, 0.95, 0.99)

@@ -12,8 +12,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.figure.style import (
     BLUE,
     GREEN,
@@ -41,9 +41,6 @@ if TYPE_CHECKING:
 
     from linkwright.topping.charts import LengthChart, Lines, VerdictChart
     from linkwright.topping.topper import TopperStudy
-
-
-Floats = NDArray[np.float64]
 
 _MILLI = 1e3
 
@@ -261,9 +258,7 @@ def edge_use_figure(place: Floats, use: Floats, edge_length: float, diameter: fl
     return figure
 
 
-def _shade(
-    axes: Axes, x: Floats, y: Floats, parts: Sequence[NDArray[np.bool_]], colour: str, words: str
-) -> None:
+def _shade(axes: Axes, x: Floats, y: Floats, parts: Sequence[Bools], colour: str, words: str) -> None:
     """Areas under the curve, with one entry in the legend."""
     for part in parts:
         if part.any() and y[part].any():

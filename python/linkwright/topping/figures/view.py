@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.figure.style import BLUE, GREEN, INK, RED, SKY, SOFT, panels, styled
 
 if TYPE_CHECKING:
@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from matplotlib.patches import PathPatch
 
     from linkwright.topping.head_pass import HeadPass
-
-Floats = NDArray[np.float64]
 
 _MILLI = 1e3
 

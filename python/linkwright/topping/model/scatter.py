@@ -24,10 +24,11 @@ from functools import cache
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from pydantic import BeforeValidator, Field
 from pydantic_core import InitErrorDetails
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.units import LENGTH, Length, Quantity, not_negative
 from linkwright.linkages.model.element import PositiveLength
@@ -35,7 +36,6 @@ from linkwright.linkages.model.element import PositiveLength
 if TYPE_CHECKING:
     from statistics import NormalDist
 
-Floats = NDArray[np.float64]
 Deviation = Annotated[float, not_negative(LENGTH)]
 
 _PLAIN = Quantity(LENGTH)

@@ -11,15 +11,13 @@ import math
 from collections.abc import Iterator, Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.page.numbers import number, quantity
 from linkwright.kernel.page.table import Row, Table, columns_csv
 from linkwright.topping.best.best_knife import BestKnife, KnifeSearch
 from linkwright.topping.field import TopperField
 from linkwright.topping.sweep import FieldSweep
-
-Floats = NDArray[np.float64]
 
 # Variants in a table; the others are in the CSV file.
 _ROWS = 40

@@ -25,11 +25,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.torsion.core.rod import Ends, Rod, ends, energies
 from linkwright.torsion.core.train import HELD, ReferredTrain
-
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 # Largest β of a piece of which a shape is made: a quarter of that at which it could swing between its ends.
 _SHAPE = math.pi / 8

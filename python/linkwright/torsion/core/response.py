@@ -14,12 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright import _core
+from linkwright.kernel.arrays import Complexes, Floats, Integers
 from linkwright.torsion.core.distributed import dynamic
 from linkwright.torsion.core.train import HELD, ReferredTrain
-
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
-Ints = NDArray[np.int32]
 
 # Numbers in a block of matrices that are solved at once: some 30 MB.
 _BLOCK = 2_000_000
@@ -29,11 +26,11 @@ _BLOCK = 2_000_000
 class Tree:
     """Masses in an order in which each hangs on an earlier one."""
 
-    order: Ints  # (masses,) the masses
-    parent: Ints  # (masses,) place in the order of the mass that each hangs on; of the first, its own
+    order: Integers  # (masses,) the masses
+    parent: Integers  # (masses,) place in the order of the mass that each hangs on; of the first, its own
     # (shafts,) place in the order of the mass that each shaft holds; the number of masses if it joins one
     # with itself.
-    row: Ints
+    row: Integers
 
     @property
     def is_in_order(self) -> bool:
@@ -85,7 +82,7 @@ class ModalLosses:
     """Damping of given ratios, with the modes that a train has at each speed."""
 
     matrices: Floats  # (kinds, masses, masses) C [N m s/rad]
-    kind: Ints  # (speeds,) matrix of each speed
+    kind: Integers  # (speeds,) matrix of each speed
 
     def torques(self, velocity: Complexes) -> Complexes:
         """C q̇, (orders, masses, speeds) [N m]. `velocity`: likewise [rad/s]."""

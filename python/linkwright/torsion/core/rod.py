@@ -38,8 +38,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
+from linkwright.kernel.arrays import Complexes, Floats
 
 
 @dataclass(frozen=True)

@@ -17,17 +17,14 @@ from functools import cached_property
 from numbers import Real
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright import _core
+from linkwright.kernel.arrays import Floats, Integers
 from linkwright.kernel.errors import MachineError, Problem
 from linkwright.kernel.numerics.tangent import primal
 from linkwright.torsion.core.rod import Rod
 from linkwright.torsion.model.train import GROUND, ModalDamping, Shaft, Train, TrainGear
 from linkwright.torsion.model.whole_train import RodShaft, parts_of, speeds, whole_train
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int32]
 
 # The mass that is held, in `ReferredTrain.ends`.
 HELD = -1
@@ -40,9 +37,9 @@ class ReferredTrain:
     discs: tuple[str, ...]  # in the order of the file
     shafts: tuple[str, ...]  # what twists: shafts, then elastic meshes, in the order of the file
     speed: Floats  # (discs,) n, speed of each disc over that of the first, without its sense
-    mass: Ints  # (discs,) mass that each disc belongs to
-    ends: Ints  # (shafts, 2) masses that each shaft joins; `HELD` for the ground
-    tip: Ints  # (shafts, 2) discs that each shaft joins, likewise
+    mass: Integers  # (discs,) mass that each disc belongs to
+    ends: Integers  # (shafts, 2) masses that each shaft joins; `HELD` for the ground
+    tip: Integers  # (shafts, 2) discs that each shaft joins, likewise
     inertia: Floats  # (masses,) referred [kg m²]
     stiffness: Floats  # (shafts,) Referred; zero for a fluid [N m/rad]
     disc_damping: Floats  # (masses,) Viscous, against the ground, referred [N m s/rad]
@@ -217,6 +214,6 @@ def _require_numbers(train: Train) -> None:
         raise MachineError(wrong)
 
 
-def _indices(pairs: list[tuple[str, str]], place: Mapping[str, int]) -> Ints:
+def _indices(pairs: list[tuple[str, str]], place: Mapping[str, int]) -> Integers:
     """Places of both ends of each shaft."""
     return np.array([[place.get(end, HELD) for end in pair] for pair in pairs], np.int32).reshape(-1, 2)

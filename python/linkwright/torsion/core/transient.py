@@ -25,17 +25,15 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from linkwright import _core
+from linkwright.kernel.arrays import Floats, Integers
 from linkwright.kernel.core.curve import Curve
 from linkwright.kernel.core.periodic_table import PeriodicTable, smooth
 from linkwright.kernel.errors import InputError, ShapeError
 from linkwright.torsion.core.torque import DecayingTorque, GovernorTorque, OverSpeed, Power, TrainTorque
 from linkwright.torsion.core.train import HELD, ReferredTrain
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int32]
 
 # Share of the largest slope by which given slopes may differ from those of the samples.
 _SLOPES_AGREE = 1e-3
@@ -134,7 +132,7 @@ class MovingTrain:
 
     discs: tuple[str, ...]  # names
     speed: Floats  # (discs,) n, speed of each disc over that of the first, without its sense
-    mass: Ints  # (discs,) discs of one number move as one
+    mass: Integers  # (discs,) discs of one number move as one
     # `inertia`, `damping`, `swing_damping`: (discs,) constant part of the inertia [kg m²], damping against
     # the ground, and damping that resists only what goes beyond the speed of the train as a whole [N m
     # s/rad].
@@ -142,7 +140,7 @@ class MovingTrain:
     damping: Floats
     swing_damping: Floats
     shafts: tuple[str, ...]  # names of what twists
-    tip: Ints  # (shafts, 2) discs that each joins; `HELD` for the ground
+    tip: Integers  # (shafts, 2) discs that each joins; `HELD` for the ground
     # `stiffness`, `shaft_damping`: (shafts,) at the first end that is a disc [N m/rad, N m s/rad].
     stiffness: Floats
     shaft_damping: Floats

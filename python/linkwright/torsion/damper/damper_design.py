@@ -28,8 +28,8 @@ from dataclasses import dataclass
 from typing import Annotated, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public import public
@@ -46,8 +46,6 @@ from linkwright.torsion.damper.damper_rules import (
     viscous_rule,
 )
 from linkwright.torsion.modes.free import FreeVibration, free_vibration
-
-Floats = NDArray[np.float64]
 
 # Frequencies at which the response is looked at, closest about that of the mode: with a light ring and a
 # fluid the best peak is half as wide as the ratio of inertias, in shares of the frequency.

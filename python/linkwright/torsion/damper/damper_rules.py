@@ -40,9 +40,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError
 
-Floats = NDArray[np.float64]
 Complex = NDArray[np.complexfloating[Any, Any]]
 
 

@@ -34,8 +34,8 @@ from dataclasses import dataclass, replace
 from typing import Annotated
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Bools, Complexes, Floats, Indices
 from linkwright.kernel.errors import InputError, ShapeError
 from linkwright.kernel.numerics.confidence import coverage_factor
 from linkwright.kernel.numerics.least_squares import Fit, least_squares
@@ -44,8 +44,6 @@ from linkwright.kernel.result import Result
 from linkwright.torsion.diagnosis.engine_speed import cylinder_response
 from linkwright.torsion.diagnosis.measured_speed import MeasuredSpeed
 from linkwright.torsion.response.excited_train import ExcitedTrain
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -246,8 +244,6 @@ class Diagnosis(Result):
         return relative
 
 
-Complexes = NDArray[np.complex128]
-
 # Cosine between responses from which on two cylinders are called alike.
 _ALIKE = 0.99
 # Orders that differ by a smaller share are one.
@@ -318,7 +314,7 @@ def _delay_and_compression(fit: Fit, n: int) -> list[tuple[Floats, Floats] | tup
     return [(fit.values[at : at + n], fit.deviation[at : at + n]) for at in (n, 2 * n)]
 
 
-def _warnings(diagnosis: Diagnosis, A: Floats, open_part: NDArray[np.bool_]) -> list[str]:
+def _warnings(diagnosis: Diagnosis, A: Floats, open_part: Bools) -> list[str]:
     """What limits a diagnosis."""
     names = np.array(diagnosis.cylinders)
     listed = []
@@ -361,12 +357,12 @@ def _names(at: ExcitedTrain, sources: Complexes, cylinders: Sequence[str] | None
     return names
 
 
-def places(orders: Floats, measured: MeasuredSpeed) -> NDArray[np.intp]:
+def places(orders: Floats, measured: MeasuredSpeed) -> Indices:
     """Where the measured orders stand among others. One for each measured order. `orders`: (orders,)."""
     place = np.abs(orders[:, None] - measured.orders).argmin(axis=0)
     apart = np.abs(orders[place] - measured.orders) > _EQUAL * measured.orders
     if apart.any():
         order = measured.orders[apart][0]
         raise InputError(f"nothing in the train has the order {order:.6g}: leave it out of the measurement")
-    at: NDArray[np.intp] = place
+    at: Indices = place
     return at

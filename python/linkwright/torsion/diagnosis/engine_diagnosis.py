@@ -18,8 +18,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats, Indices
 from linkwright.kernel.errors import ConvergenceError
 from linkwright.kernel.numerics.confidence import chance_of_ratio
 from linkwright.kernel.numerics.least_squares import Fit, least_squares, scaled
@@ -28,8 +28,6 @@ from linkwright.machine.machine import Machine
 from linkwright.torsion.diagnosis.diagnosis import Diagnosis, diagnosed, equations, places
 from linkwright.torsion.diagnosis.engine_speed import EngineSpeed
 from linkwright.torsion.diagnosis.measured_speed import MeasuredSpeed
-
-Floats = NDArray[np.float64]
 
 # Steps of the method: a few, and some dozens where curves of couplings bend at the operating point.
 _ROUNDS = 60
@@ -143,7 +141,7 @@ def _linear_fit(model: EngineSpeed, measured: MeasuredSpeed, values: Floats) -> 
     return least_squares(A, left + A @ values, is_known=measured.noise is not None), A
 
 
-def _without_delay(values: Floats, n: int) -> NDArray[np.intp]:
+def _without_delay(values: Floats, n: int) -> Indices:
     """Delays of cylinders that hardly burn, which mean nothing and stay as they are."""
     return n + np.flatnonzero(values[:n] < _HARDLY - 1) if len(values) > n else np.empty(0, np.intp)
 

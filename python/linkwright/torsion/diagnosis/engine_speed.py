@@ -8,8 +8,8 @@ mean torques, stiffness and damping. The gas is computed once.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError
 from linkwright.machine.machine import Machine
@@ -20,8 +20,6 @@ from linkwright.torsion.modes.free import train_of
 from linkwright.torsion.response.engine_torques import CylinderStates, cylinder_torques, throw_sources
 from linkwright.torsion.response.excited_train import ExcitedTrain, highest_order, under
 from linkwright.torsion.response.forced import responses
-
-Complexes = NDArray[np.complex128]
 
 
 def disc_speed(at: ExcitedTrain, disc: str, *, rigid: bool = False) -> Complexes:
@@ -70,7 +68,7 @@ def _place(referred: ReferredTrain, disc: str) -> int:
 
 
 def _rigid(
-    referred: ReferredTrain, operating: OperatingState, orders: NDArray[np.float64], torques: Complexes
+    referred: ReferredTrain, operating: OperatingState, orders: Floats, torques: Complexes
 ) -> Complexes:
     """Amplitude of a train that does not twist, (orders, speeds)."""
     if not referred.is_free:
@@ -81,7 +79,6 @@ def _rigid(
     return q
 
 
-Floats = NDArray[np.float64]
 # Step by which derivatives are taken. Harmonics are linear in what cylinders burn and compress but for what
 # operating points change, so that it may be large against rounding; by a delay of this the highest orders
 # turn by some thousandths [–, rad].

@@ -15,17 +15,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.errors import InputError, ShapeError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import Column
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.result import PlainRecord
 from linkwright.kernel.units import COUNT, SPEED, Quantity, positive
-
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 # How close waves in the time of the samples must be to a whole number.
 _EQUAL = 1e-9

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.figure.style import (
     BLUE,
     INK,
@@ -34,9 +34,6 @@ if TYPE_CHECKING:
     from linkwright.torsion.response.forced import ForcedVibration
     from linkwright.torsion.response.mesh_torque import MeshTorque
     from linkwright.torsion.response.stress import ShaftStress
-
-
-Floats = NDArray[np.float64]
 
 # Lines that can be distinguished in one panel.
 _LINES_MAX = len(LINES)

@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.figure.style import (
     INK,
     LINES,
@@ -29,7 +29,6 @@ if TYPE_CHECKING:
 
     from linkwright.torsion.modes.campbell import CampbellDiagram
     from linkwright.torsion.modes.free import FreeVibration, ShaftShapes
-
 
 # Modes in one picture, which is then a page high.
 _MODES_MAX = 6
@@ -113,8 +112,6 @@ def _from(end: str, about: Mapping[str, Sequence[str]]) -> list[str]:
         row.append(after[0])
     return row
 
-
-Floats = NDArray[np.float64]
 
 _RPM = 30 / math.pi
 

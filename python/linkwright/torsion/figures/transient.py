@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.figure.style import INK, LINES, SOFT, legend_above, panels, styled, zero_line
 
 if TYPE_CHECKING:
@@ -16,8 +16,6 @@ if TYPE_CHECKING:
 
     from linkwright.torsion.in_time.transient import TorsionTransient
     from linkwright.torsion.in_time.waterfall import Waterfall
-
-Floats = NDArray[np.float64]
 
 _RPM = 30 / np.pi
 

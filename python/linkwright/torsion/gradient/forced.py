@@ -23,8 +23,8 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.machine.machine import Machine
@@ -37,9 +37,6 @@ from linkwright.torsion.modes.free import lead_speeds
 from linkwright.torsion.response.excited_train import ExcitedTrain, excited_train, mean_shaft_torques
 from linkwright.torsion.response.forced import response_by_amplitudes, responses
 from linkwright.torsion.response.harmonics import coefficients, orders_together, waveform
-
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 # Entries of an engine that change its train, but none of its torques.
 _OF_TRAIN = ("stiffness", "loss_factor", "damping", "throw_inertia")

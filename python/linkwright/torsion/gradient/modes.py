@@ -24,14 +24,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.train import HELD, ReferredTrain
 from linkwright.torsion.gradient.train import TrainTangents, train_tangents
-
-Floats = NDArray[np.float64]
 
 # Squares of frequencies that differ by a smaller share of the largest of a train are one: rounding of the
 # modes leaves about 1e-14 of it, and a shape's derivative has lost all its digits.

@@ -12,8 +12,8 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError
 from linkwright.machine.machine import Machine
 from linkwright.machine.tangents import columns
@@ -22,8 +22,6 @@ from linkwright.torsion.model.drive_train import drive_train
 from linkwright.torsion.model.train import Train
 from linkwright.torsion.model.whole_train import whole_train
 from linkwright.torsion.response.drive_line import drive_line, mean_inertia
-
-Floats = NDArray[np.float64]
 
 _MECHANISM = "the mean inertia of a mechanism has no derivative here; it is that of the disc `crank`"
 

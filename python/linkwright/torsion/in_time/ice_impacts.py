@@ -15,16 +15,14 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.core.curve import switched
 from linkwright.kernel.core.periodic_table import spline
 from linkwright.kernel.errors import InputError
 from linkwright.torsion.core.torque import TrainTorque
 from linkwright.torsion.model.ice_impacts import IceImpacts
 from linkwright.torsion.model.train_transient import TrainTransient
-
-Floats = NDArray[np.float64]
 
 # Samples of a revolution: pulses of the rules begin and end at whole multiples of a quarter of a degree.
 _SAMPLES = 1440

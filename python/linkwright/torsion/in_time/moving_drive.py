@@ -16,9 +16,9 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.drive.model.motor import ConstantSpeedMotor
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.core.curve import Curve, straight
 from linkwright.kernel.core.periodic_table import spline
 from linkwright.kernel.errors import InputError
@@ -30,8 +30,6 @@ from linkwright.torsion.in_time.moving_train import moving_train
 from linkwright.torsion.model.drive_train import CRANK, MOTOR
 from linkwright.torsion.model.train_transient import TrainMotor, TrainTransient
 from linkwright.torsion.response.drive_line import drive_line, mean_inertia, mechanism_alone
-
-Floats = NDArray[np.float64]
 
 # Samples of a revolution of the crank: kinks at dead centres are rounded over a few tenths of a degree.
 _SAMPLES = 2048

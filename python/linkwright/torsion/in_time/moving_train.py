@@ -15,8 +15,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.core.curve import Curve, odd, product, straight, switched
 from linkwright.kernel.core.periodic_table import PeriodicTable, smooth, waves
 from linkwright.kernel.errors import InputError, MachineError, Problem
@@ -53,8 +53,6 @@ from linkwright.torsion.model.whole_train import whole_train
 from linkwright.torsion.modes.free import lead_speeds
 from linkwright.torsion.response.engine_torques import cylinder_torques
 from linkwright.torsion.response.excited_train import highest_order
-
-Floats = NDArray[np.float64]
 
 # Share of the energy of a mode from which on a shaft counts in it.
 _COUNTS = 0.05
@@ -349,7 +347,7 @@ def _gas_tables(
     gas = cylinder_torques(engine, np.array([speed]), highest)
     turns = engine.strokes // 2
 
-    def table(harmonics: NDArray[np.complex128]) -> PeriodicTable:
+    def table(harmonics: Complexes) -> PeriodicTable:
         wave = harmonics[1:]
         return waves(gas.orders[1:].tolist(), np.abs(wave), np.angle(wave), turns, float(harmonics[0].real))
 

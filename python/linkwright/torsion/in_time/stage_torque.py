@@ -14,13 +14,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.torsion.core.transient import MovingTrain
 from linkwright.torsion.model.train import TrainGear
 from linkwright.torsion.response.mesh_torque import passed_on
-
-Floats = NDArray[np.float64]
 
 
 def stage_torques(

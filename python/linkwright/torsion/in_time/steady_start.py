@@ -21,16 +21,14 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import ConvergenceError
 from linkwright.torsion.core.torque import TrainTorque
 from linkwright.torsion.core.transient import MovingTrain
 from linkwright.torsion.in_time.moving_train import COMBUSTION
 from linkwright.torsion.model.train import Train
 from linkwright.torsion.model.train_transient import TrainTransient
-
-Floats = NDArray[np.float64]
 
 # Angles of two revolutions at which mean torques are taken: some twenty a wave of order 24.
 _MEAN_ANGLES = 1024

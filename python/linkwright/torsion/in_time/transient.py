@@ -19,8 +19,9 @@ from dataclasses import asdict, dataclass, field, replace
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import ConvergenceError, InputError
 from linkwright.kernel.limits import SAMPLES
 from linkwright.kernel.public import public
@@ -47,8 +48,6 @@ from linkwright.torsion.limits.peak_judgement import PeakJudgement, judged, unju
 from linkwright.torsion.model.train import Train
 from linkwright.torsion.model.train_transient import TrainTransient
 from linkwright.torsion.model.whole_train import whole_train
-
-Floats = NDArray[np.float64]
 
 # Samples of a motion where nothing is said, and their maximum distance [s]: order 24 at 2500 rpm is a
 # kilohertz.

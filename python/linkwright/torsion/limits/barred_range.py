@@ -20,8 +20,8 @@ from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
@@ -35,8 +35,6 @@ from linkwright.torsion.limits.criteria import (
 )
 from linkwright.torsion.model.permitted_stress import barred_speeds
 from linkwright.torsion.response.survey import Survey, survey
-
-Floats = NDArray[np.float64]
 
 # Even speeds at which a range is looked at for the peaks in it.
 _POINTS = 100
@@ -211,7 +209,7 @@ def joined_ranges(ranges: Iterable[tuple[float, float]]) -> list[tuple[float, fl
     return joined
 
 
-def not_barred(speeds: Floats, ranges: list[tuple[float, float]]) -> NDArray[np.bool_]:
+def not_barred(speeds: Floats, ranges: list[tuple[float, float]]) -> Bools:
     """Which speeds lie in no barred range, (n,). All where all would be barred."""
     kept = np.ones(len(speeds), bool)
     for low, high in joined_ranges(ranges):

@@ -32,8 +32,8 @@ from dataclasses import dataclass
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
@@ -56,8 +56,6 @@ from linkwright.torsion.model.engine.throw import CrankThrow, Journal
 from linkwright.torsion.model.train_torques import InstalledEngine
 from linkwright.torsion.response.crank_bending import bending, pin_forces, rod_places, shear
 from linkwright.torsion.response.survey import Survey, survey
-
-Floats = NDArray[np.float64]
 
 # Minimum Q of M53.7.
 ACCEPTABLE = 1.15

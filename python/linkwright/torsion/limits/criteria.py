@@ -19,6 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.units import POWER, PRESSURE, TORQUE, Kind
 from linkwright.machine.machine import Machine
 from linkwright.torsion.model.coupling import Coupling, Damper
@@ -28,8 +29,6 @@ from linkwright.torsion.response.excited_train import ExcitedTrain
 from linkwright.torsion.response.forced import TorsionResponse
 from linkwright.torsion.response.mesh_torque import MeshTorque, meshed
 from linkwright.torsion.response.stress import ShaftStress, shaft_stress
-
-Floats = NDArray[np.float64]
 
 VIBRATORY_STRESS = "vibratory stress"
 PASSING_STRESS = "vibratory stress in transient passage"
@@ -198,7 +197,7 @@ def exceedances(curves: Curves, speeds: Floats, values: Floats) -> list[Exceedan
     ]
 
 
-def _runs(above: NDArray[np.bool_]) -> Iterator[tuple[int, int]]:
+def _runs(above: Bools) -> Iterator[tuple[int, int]]:
     """First and last place of each run of true values."""
     steps = np.flatnonzero(np.diff(np.concatenate([[0], above.astype(np.int8), [0]])))
     yield from zip(steps[::2].tolist(), (steps[1::2] - 1).tolist(), strict=True)

@@ -17,8 +17,8 @@ from dataclasses import dataclass, replace
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.quantities import About
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import Kind
@@ -37,8 +37,6 @@ from linkwright.torsion.response.forced import torsion_response
 from linkwright.torsion.response.harmonics import Source
 from linkwright.torsion.response.mesh_torque import MeshTorque, meshed
 from linkwright.torsion.response.survey import Survey, in_a_row
-
-Floats = NDArray[np.float64]
 
 
 class MisfireCase(NamedTuple):

@@ -20,9 +20,9 @@ from pathlib import Path
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import ValidationError
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError, MachineFileError, Problem, UnitError
 from linkwright.kernel.files.points import columns_of, read_columns
@@ -37,8 +37,6 @@ from linkwright.torsion.response.forced import TorsionResponse, torsion_response
 from linkwright.torsion.response.harmonics import span
 from linkwright.torsion.response.stress import shaft_stress
 from linkwright.torsion.response.survey import Survey, between
-
-Floats = NDArray[np.float64]
 
 # Share of the largest measured value from which on a maximum is a peak.
 _PEAK = 1 / 3

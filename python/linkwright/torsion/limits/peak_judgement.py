@@ -18,8 +18,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.units import PRESSURE, TORQUE, Kind
 from linkwright.machine.machine import Machine
 from linkwright.torsion.limits.criteria import PASSING_STRESS, shown_quantity
@@ -28,8 +28,6 @@ from linkwright.torsion.response.stress import service_speed, stressed
 
 if TYPE_CHECKING:
     from linkwright.torsion.in_time.transient import TorsionTransient
-
-Floats = NDArray[np.float64]
 
 # Angle of the first disc within which a torque is taken to vibrate about one mean [rad].
 _WINDOW = 4 * np.pi

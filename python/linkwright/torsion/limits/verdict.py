@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.quantities import About
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import Kind
@@ -29,8 +29,6 @@ from linkwright.torsion.limits.criteria import (
     shown_quantity,
 )
 from linkwright.torsion.response.survey import Survey, survey
-
-Floats = NDArray[np.float64]
 
 State = Literal["ok", "bar", "exceeds"]
 _RPM = math.pi / 30

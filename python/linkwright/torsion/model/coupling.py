@@ -14,17 +14,15 @@ from itertools import pairwise
 from typing import Annotated, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.description.curve import curve_faults, not_rising
 from linkwright.kernel.numerics.zeros import zeros
 from linkwright.kernel.units import INERTIA, POWER, Angles, Torques, positive
 from linkwright.torsion.model.train_base import Damping, LossFactor, PositiveStiffness, PositiveTorque
-
-Floats = NDArray[np.float64]
 
 
 class Coupling(CheckedDescription):

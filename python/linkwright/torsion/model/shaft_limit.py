@@ -16,10 +16,10 @@ from collections.abc import Iterator, Sequence
 from typing import Annotated, Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.units import FRACTION, PRESSURE, RATIO, SECTION_MODULUS, Quantity, positive
 from linkwright.linkages.model.element import PositiveLength
@@ -37,8 +37,6 @@ from linkwright.torsion.model.permitted_stress import (
 from linkwright.torsion.model.shaft_flexibility import polar_moment
 from linkwright.torsion.model.shaft_section import Bore, ShaftSection
 from linkwright.torsion.model.train_base import PositiveTorque
-
-Floats = NDArray[np.float64]
 
 Stress = Annotated[float, positive(PRESSURE)]
 Kind = Literal["given", "iacs_m68", "kr_crankshaft"]

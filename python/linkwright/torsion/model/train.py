@@ -26,10 +26,10 @@ from collections.abc import Iterator
 from typing import Annotated, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import CheckedDescription, Description, Name, Whole, fault
 from linkwright.kernel.numerics.tangent import total
 from linkwright.kernel.units import COUNT, INERTIA, RATIO, Bound, Quantity, QuantityList, positive
@@ -86,8 +86,6 @@ _ORDER = Bound(
     {"minimum": 1, "maximum": _HIGHEST},
     lambda value: 1 <= value <= _HIGHEST,
 )
-
-Floats = NDArray[np.float64]
 
 ShaftInertia = Literal["ends", "distributed"]
 

@@ -38,8 +38,8 @@ from dataclasses import dataclass
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Complexes, Floats, Indices
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
@@ -49,9 +49,6 @@ from linkwright.kernel.units import COUNT, RATIO, SPEED, not_negative, positive
 from linkwright.machine.machine import Machine
 from linkwright.torsion.modes.free import FreeVibration
 from linkwright.torsion.modes.modes_over_speed import ModesAt, constant, over_speed
-
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 # Secant steps to a critical speed: from neighbours on a grid, or exact where frequencies do not change.
 _STEPS = 8
@@ -210,7 +207,7 @@ def _ratios(given: float | Floats | None, modes: int) -> Floats | None:
 
 def _crossings(
     modes: ModesAt, speeds: Floats, omega: Floats, orders: Floats
-) -> tuple[Floats, NDArray[np.intp], NDArray[np.intp]]:
+) -> tuple[Floats, Indices, Indices]:
     """Speeds at which ω_n − νΩ is zero, with mode and order."""
     gap = omega[:, :, None] - speeds[:, None, None] * orders
     above = np.greater(gap, 0.0)
@@ -236,7 +233,7 @@ def _crossings(
 def _judged(
     modes: ModesAt,
     at: Floats,
-    mode: NDArray[np.intp],
+    mode: Indices,
     orders: Floats,
     given: Complexes | None,
     ratios: Floats | None,

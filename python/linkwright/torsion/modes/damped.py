@@ -39,8 +39,8 @@ from dataclasses import dataclass, replace
 from typing import Annotated, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
@@ -51,9 +51,6 @@ from linkwright.torsion.core.distributed import cut_up, dynamic, natural_frequen
 from linkwright.torsion.core.train import ReferredTrain, refer
 from linkwright.torsion.modes.free import modes_wanted, train_of
 from linkwright.torsion.response.excited_train import prepared
-
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 
 @dataclass(frozen=True)

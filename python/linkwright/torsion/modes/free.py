@@ -27,8 +27,8 @@ from dataclasses import dataclass, replace
 from typing import Annotated, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
@@ -39,8 +39,6 @@ from linkwright.torsion.core.train import HELD, ReferredTrain, refer
 from linkwright.torsion.model.train import Train
 from linkwright.torsion.model.whole_train import RodShaft, whole_train
 from linkwright.torsion.response.drive_line import drive_line
-
-Floats = NDArray[np.float64]
 
 # Share of the largest amplitude below which a disc is at rest: rounding of a mode leaves less.
 _AT_REST = 1e-9

@@ -24,8 +24,8 @@ from dataclasses import dataclass, replace
 from typing import Annotated
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import FindingError, InputError, UnitError, cut
 from linkwright.kernel.public import public
@@ -38,8 +38,6 @@ from linkwright.torsion.core.distributed import lossless
 from linkwright.torsion.core.train import HELD, ReferredTrain, refer
 from linkwright.torsion.model.train import Train
 from linkwright.torsion.modes.free import FreeVibration, own_stiffness, train_of, twists_of
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

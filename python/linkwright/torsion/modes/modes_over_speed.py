@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Complexes, Floats, Indices
 from linkwright.kernel.errors import InputError
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.distributed import RodShape
@@ -16,10 +16,6 @@ from linkwright.torsion.core.rod import energies
 from linkwright.torsion.core.train import ReferredTrain
 from linkwright.torsion.modes.free import FreeVibration, modes_wanted, train_modes, train_of
 from linkwright.torsion.response.excited_train import ExcitedTrain, prepared
-
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
-Indices = NDArray[np.intp]
 
 # Orders that differ by a smaller share are one but for rounding of ratios.
 _EQUAL = 1e-9

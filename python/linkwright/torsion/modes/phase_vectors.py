@@ -20,16 +20,13 @@ from dataclasses import dataclass, replace
 from typing import Annotated, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.torsion.modes.campbell import CampbellDiagram
 from linkwright.torsion.modes.free import FreeVibration, train_modes
 from linkwright.torsion.response.excited_train import ExcitedTrain
-
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 # Share of the largest torque of an order below which a disc is not excited by it.
 _ROUNDING = 1e-9

@@ -21,8 +21,8 @@ from dataclasses import dataclass
 from typing import Annotated, Any, Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
@@ -32,8 +32,6 @@ from linkwright.machine.machine import Machine
 from linkwright.torsion.core.train import HELD, ReferredTrain, refer
 from linkwright.torsion.model.train import GROUND, Train
 from linkwright.torsion.modes.free import own_stiffness, train_of
-
-Floats = NDArray[np.float64]
 
 Kind = Literal["shaft", "coupling", "mesh", "gears", "damper"]
 

@@ -21,6 +21,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.torsion.core.rod import along
 from linkwright.torsion.core.train import HELD
 from linkwright.torsion.model.shaft_limit import StressedSection
@@ -30,9 +31,6 @@ from linkwright.torsion.model.whole_train import RodShaft
 from linkwright.torsion.modes.free import lead_speeds
 from linkwright.torsion.response.excited_train import ExcitedTrain
 from linkwright.torsion.response.harmonics import orders_together, span
-
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 # Largest β between two stations: the torque between them is at most 1/cos(β/2) of theirs.
 _STATION = 0.15

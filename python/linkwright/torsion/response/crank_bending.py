@@ -28,16 +28,13 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.torsion.model.engine.cylinder import Cylinder
 from linkwright.torsion.model.engine.engine import ReciprocatingEngine, firing_angles
 from linkwright.torsion.model.engine.engine_motion import piston_positions, running_gears
 from linkwright.torsion.model.engine.running_gear import throw_motion
 from linkwright.torsion.model.engine.throw import CrankThrow
-
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 # Angles in a revolution: half a degree apart, where a cycle's peak is good to 1e-4.
 _STEPS = 720

@@ -24,12 +24,13 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.reduction import law_harmonics, mean_laws, mean_over_turn
 from linkwright.drive.sound_loads import require_same_turns, require_sound_loads
 from linkwright.drive.steady_state import steady_state
+from linkwright.kernel.arrays import Bools, Complexes, Floats
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.public import public
@@ -42,9 +43,6 @@ from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.torsion.model.drive_train import CRANK, MOTOR, STIFFNESS_KEYS, drive_train
 from linkwright.torsion.model.train import Train
 from linkwright.torsion.response.harmonics import Source
-
-Floats = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 # Relative step of a central difference: its error is of second order, 1e-10, rounding over it likewise.
 _STEP = 1e-5
@@ -90,7 +88,7 @@ def mean_inertia(machine: Machine) -> float:
 
 
 @public
-def mechanism_harmonics(machine: Machine, speed: ArrayLike, orders: ArrayLike) -> Complex:
+def mechanism_harmonics(machine: Machine, speed: ArrayLike, orders: ArrayLike) -> Complexes:
     r"""Harmonics of the torque with which a mechanism acts on its crank at constant speed.
 
     Parameters
@@ -123,7 +121,7 @@ def mechanism_harmonics(machine: Machine, speed: ArrayLike, orders: ArrayLike) -
     omega, compiled = _positive(speed), mechanism_alone(machine)
     nu = _orders(orders, compiled.turns)
     size = np.where(nu == 0, 1.0, 2.0) * _is_whole(nu * compiled.turns)
-    M: Complex = -size[:, None] * _resistance_harmonics(compiled, nu, omega)
+    M: Complexes = -size[:, None] * _resistance_harmonics(compiled, nu, omega)
     M[nu == 0] -= compiled.speed_load(omega)
     return M[:, 0] if np.ndim(speed) == 0 else M
 
@@ -173,11 +171,11 @@ def mechanism_alone(machine: Machine) -> CompiledMachine:
     return over_whole_cycle(compiled)
 
 
-def _resistance_harmonics(compiled: CompiledMachine, nu: Floats, omega: Floats) -> Complex:
+def _resistance_harmonics(compiled: CompiledMachine, nu: Floats, omega: Floats) -> Complexes:
     """Mean of what resists at constant speeds, inertia included, times e^{−iνφ}, (orders, speeds) [N m]."""
     turn = turn_curve(lambda phi: _parts(compiled, phi), compiled.kinks(), "torque of the mechanism")
     # Each part has its power of the speed.
-    M: Complex = turn.harmonics(nu).T @ np.array([omega**0, omega, omega**2])
+    M: Complexes = turn.harmonics(nu).T @ np.array([omega**0, omega, omega**2])
     M += law_harmonics(compiled, omega, nu).T
     return M
 
@@ -214,9 +212,9 @@ def _orders(orders: ArrayLike, turns: int) -> Floats:
     return nu
 
 
-def _is_whole(values: Floats) -> NDArray[np.bool_]:
+def _is_whole(values: Floats) -> Bools:
     """Which numbers are whole but for rounding."""
-    is_whole: NDArray[np.bool_] = np.abs(values - np.round(values)) <= _WHOLE * np.maximum(values, 1.0)
+    is_whole: Bools = np.abs(values - np.round(values)) <= _WHOLE * np.maximum(values, 1.0)
     return is_whole
 
 

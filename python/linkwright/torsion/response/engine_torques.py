@@ -15,8 +15,8 @@ from dataclasses import dataclass
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
@@ -35,9 +35,6 @@ from linkwright.torsion.model.engine.engine_motion import (
 from linkwright.torsion.model.engine.equivalent_inertia import published_throw_inertia
 from linkwright.torsion.model.engine.throw_compliance import compliances
 from linkwright.torsion.response.harmonics import Source
-
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 
 @dataclass(frozen=True)

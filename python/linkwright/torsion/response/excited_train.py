@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.errors import InputError, require_within
 from linkwright.kernel.limits import RESPONSE
 from linkwright.machine.machine import Machine
@@ -30,9 +30,6 @@ from linkwright.torsion.modes.free import lead_speeds, train_of
 from linkwright.torsion.response.drive_line import mechanism_sources, steady_speed
 from linkwright.torsion.response.engine_torques import EnginePlace, engine_sources
 from linkwright.torsion.response.harmonics import Source, Torques, torques_of
-
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 # Speeds of a driveline over its steady speed, and how many: where a motor works, not where it runs up.
 _ABOUT = (0.8, 1.2)

@@ -30,6 +30,7 @@ from typing import Annotated, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
@@ -40,8 +41,6 @@ from linkwright.torsion.response.along_shaft import worst_place
 from linkwright.torsion.response.excited_train import ExcitedTrain, excited_train
 from linkwright.torsion.response.harmonics import Orders, orders_together, span
 
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 Places = NDArray[np.int64]
 
 

@@ -21,13 +21,11 @@ from math import lcm
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Bools, Complexes, Floats
 from linkwright.kernel.errors import require_within
 from linkwright.kernel.limits import RESPONSE
 from linkwright.torsion.core.response import extremes
 from linkwright.torsion.model.train import Train
-
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 # Orders that differ by a smaller share are one but for rounding of ratios.
 _EQUAL = 1e-9
@@ -170,7 +168,7 @@ class Orders:
     harmonic: NDArray[np.int64]
 
     @cached_property
-    def together(self) -> NDArray[np.bool_]:
+    def together(self) -> Bools:
         """Which of them have a common base."""
         return self.harmonic > 0
 

@@ -31,8 +31,8 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Bools, Complexes, Floats
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
@@ -43,9 +43,6 @@ from linkwright.torsion.modes.free import lead_speeds
 from linkwright.torsion.response.excited_train import ExcitedTrain, excited_train
 from linkwright.torsion.response.forced import TorsionResponse, shaft_flow, torsion_response
 from linkwright.torsion.response.harmonics import span
-
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 # Share of a stage's torque that statics leaves open before it is called undetermined.
 _OPEN = 1e-9
@@ -133,16 +130,16 @@ class MeshTorque(Result):
     @property
     def contact_lost(
         self,
-    ) -> Annotated[NDArray[np.bool_], About("Where teeth lose contact, shape (stages, speeds).")]:
+    ) -> Annotated[Bools, About("Where teeth lose contact, shape (stages, speeds).")]:
         """Where teeth lose contact, shape (stages, speeds)."""
         # Rounding of torques that cancel is no vibration.
         size = np.maximum(np.abs(self.greatest), np.abs(self.least))
-        parted: NDArray[np.bool_] = self.drop > np.abs(self.mean) + 1e-12 * size
+        parted: Bools = self.drop > np.abs(self.mean) + 1e-12 * size
         parted &= np.array(self.toothed, bool)[:, None]
         return parted
 
 
-def _runs(speeds: Floats, lost: NDArray[np.bool_]) -> Iterator[tuple[float, float]]:
+def _runs(speeds: Floats, lost: Bools) -> Iterator[tuple[float, float]]:
     """Lowest and highest speed of each run of speeds."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], lost, [False]]).astype(int)))
     for first, after in zip(edges[::2], edges[1::2], strict=True):

@@ -21,8 +21,8 @@ from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
@@ -38,8 +38,6 @@ from linkwright.torsion.modes.free import train_of
 from linkwright.torsion.response.drive_line import steady_speed
 from linkwright.torsion.response.excited_train import excited_train
 from linkwright.torsion.response.forced import TorsionResponse, torsion_response
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -14,8 +14,8 @@ from functools import cached_property
 from typing import Annotated, NamedTuple, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Complexes, Floats, Indices
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
@@ -24,8 +24,6 @@ from linkwright.torsion.limits.criteria import Criterion, Exceedance, criteria, 
 from linkwright.torsion.response.excited_train import ExcitedTrain, excited_train, loaded
 from linkwright.torsion.response.forced import TorsionResponse, torsion_response
 from linkwright.torsion.response.stress import service_speed
-
-Floats = NDArray[np.float64]
 
 # Share of the largest ω² below which a motion is without stiffness.
 _FREE = 1e-13
@@ -84,7 +82,7 @@ def _zeros(x: Floats, y: Floats) -> list[float]:
     return [*between, *x[y == 0].tolist()]
 
 
-Values = TypeVar("Values", NDArray[np.float64], NDArray[np.complex128])
+Values = TypeVar("Values", Floats, Complexes)
 
 # Speeds that differ by a smaller share are one.
 _EQUAL = 1e-9
@@ -285,7 +283,7 @@ def between(machine: Machine, at: ExcitedTrain, speeds: Floats) -> ExcitedTrain:
     return loaded(machine, at.train, at.referred, torques)
 
 
-def _about(known: Floats, wanted: Floats) -> tuple[NDArray[np.intp], Floats]:
+def _about(known: Floats, wanted: Floats) -> tuple[Indices, Floats]:
     """Places of four known speeds about each wanted one, and what they count, (4, wanted): Lagrange's."""
     first = np.clip(np.searchsorted(known, wanted) - _ABOUT // 2, 0, len(known) - _ABOUT)
     about = first + np.arange(_ABOUT)[:, None]

@@ -23,16 +23,13 @@ from itertools import pairwise
 from typing import Annotated
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.torsion.response.excited_train import ExcitedTrain
 from linkwright.torsion.response.forced import ForcedVibration
-
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 # Points a wave of the highest order; Newton refines extremes from them.
 _POINTS = 12

@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.page.numbers import number, quantity
 from linkwright.kernel.page.table import Row, Table, columns_csv
 from linkwright.torsion.in_time.transient import TorsionTransient
@@ -15,9 +15,6 @@ from linkwright.torsion.modes.phase_vectors import PhaseVectors
 from linkwright.torsion.response.excited_train import ExcitedTrain
 from linkwright.torsion.response.forced import ForcedVibration
 from linkwright.torsion.tables.limits import per_minute, rpm
-
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 # Share of the largest torque of a disc below which an order is rounding.
 _ROUNDING = 1e-9

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.page.numbers import number, quantity
 from linkwright.kernel.page.table import Row, Table
 from linkwright.torsion.limits.critical_response import CriticalResponse
@@ -32,8 +32,6 @@ from linkwright.torsion.tables.limits import (
 from linkwright.torsion.tables.manoeuvre import manoeuvre_tables
 from linkwright.torsion.tables.orders import excitation_tables, star_table
 from linkwright.torsion.tables.system import system_tables
-
-Floats = NDArray[np.float64]
 
 # Parts that share most of the energy, as far as they have a twentieth of it.
 _NAMED, _SHARE = 2, 0.05

@@ -37,13 +37,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import ConvergenceError, FindingError, MachineError, Problem
 from linkwright.torsion.model.engine.cycle_pressure import CycleMesh
 from linkwright.torsion.model.engine.heat import GasState, WallHeat
-
-Array = NDArray[np.float64]
 
 # Range of the polynomials, and where their halves meet [K].
 _COLD, _MIDDLE, _HOT = 200.0, 1000.0, 3500.0
@@ -90,7 +88,7 @@ HEATING_VALUE = 42.7e6
 GAS_CONSTANT = 8314.462618 / (_AIR_MASS / _MOLES)
 
 
-def burnable(mass_times_constant: Array) -> Array:
+def burnable(mass_times_constant: Floats) -> Floats:
     """Heat that the oxygen of a charge of air can release, of the shape given [J], (n, 1).
 
     Heating value of the fuel for which the air just suffices. `mass_times_constant`: (n, 1) mR = pV/T of the
@@ -99,7 +97,7 @@ def burnable(mass_times_constant: Array) -> Array:
     return np.asarray(mass_times_constant / GAS_CONSTANT / STOICHIOMETRIC * HEATING_VALUE)
 
 
-def heat_ratio(temperature: Array, used: Array) -> Array:
+def heat_ratio(temperature: Floats, used: Floats) -> Floats:
     """Ratio of the specific heats γ, shape (n, m).
 
     γ = c_p/c_v. `temperature`: (n, m) [K]; `used`: (n, m) share b of the oxygen that is used, 0 to 1.
@@ -112,7 +110,7 @@ def heat_ratio(temperature: Array, used: Array) -> Array:
     return np.asarray(c / (c - 1))
 
 
-def _polynomial(a: Array, T: Array) -> Array:
+def _polynomial(a: Floats, T: Floats) -> Floats:
     """Horner's scheme."""
     return np.asarray(a[0] + T * (a[1] + T * (a[2] + T * (a[3] + T * a[4]))))
 
@@ -132,26 +130,26 @@ class ClosedGas:
 
     mesh: CycleMesh  # crank angles from closing to opening
     # `volume`, `volume_d1`: (m,) V [m³], V′ [m³/rad].
-    volume: Array
-    volume_d1: Array
+    volume: Floats
+    volume_d1: Floats
     # `released`, `release`: (m,) share x of the fuel that is burnt, and its derivative x′ [1/rad].
-    released: Array
-    release: Array
+    released: Floats
+    release: Floats
     kept: float  # share of the heat that stays in the gas as it is released
     # `bore`, `swept_volume`, `volume_closing`: of the cylinder [m], [m³], and its volume at closing [m³].
     bore: float
     swept_volume: float
     volume_closing: float
-    pressure_closing: Array  # (n, 1) p_r [Pa]
+    pressure_closing: Floats  # (n, 1) p_r [Pa]
     temperature_closing: float  # T_r [K]
     # `speed`, `piston_speed`: (n, 1) ω [rad/s], and mean speed of the piston [m/s].
-    speed: Array
-    piston_speed: Array
+    speed: Floats
+    piston_speed: Floats
     exponent: float | None  # γ; None for that of air and burnt gas
     wall: WallHeat | None  # loss by convection
 
     @property
-    def charge(self) -> Array:
+    def charge(self) -> Floats:
         """mR of the gas, shape (n, 1) [J/K]."""
         return np.asarray(self.pressure_closing * self.volume_closing / self.temperature_closing)
 
@@ -161,12 +159,12 @@ class ClosedTrace:
     """The closed gas, as it follows from a rule for the heat."""
 
     # `pressure`, `temperature`: (n, m) p [Pa], T [K].
-    pressure: Array
-    temperature: Array
-    opening: Array  # (n, 1) pressure as the exhaust opens [Pa]
+    pressure: Floats
+    temperature: Floats
+    opening: Floats  # (n, 1) pressure as the exhaust opens [Pa]
     # `heat`, `wall_heat`: (n, 1) heat Q of a cycle, and what of it goes to the walls [J].
-    heat: Array
-    wall_heat: Array
+    heat: Floats
+    wall_heat: Floats
 
 
 @dataclass(frozen=True, eq=False)
@@ -174,23 +172,23 @@ class Split:
     """Pressure as a linear function of the heat, p_a + Q p_b."""
 
     # `without`, `per_heat`: (n, m) p_a [Pa], p_b [Pa/J].
-    without: Array
-    per_heat: Array
+    without: Floats
+    per_heat: Floats
     # `opening_without`, `opening_per_heat`: (n, 1) the same as the exhaust opens.
-    opening_without: Array
-    opening_per_heat: Array
-    last: Array  # (n, m) pressure of the last iterate [Pa]
+    opening_without: Floats
+    opening_per_heat: Floats
+    last: Floats  # (n, m) pressure of the last iterate [Pa]
 
 
-Rule = Callable[[Split], Array]
+Rule = Callable[[Split], Floats]
 
 
-def no_heat(split: Split) -> Array:
+def no_heat(split: Split) -> Floats:
     """The motored cylinder: no heat at any load, shape (n, 1) [J]."""
     return np.zeros_like(split.opening_without)
 
 
-def closed_trace(gas: ClosedGas, rule: Rule, motored: Array | None = None) -> ClosedTrace:
+def closed_trace(gas: ClosedGas, rule: Rule, motored: Floats | None = None) -> ClosedTrace:
     """Pressure from closing to opening. `rule`: [J]; `motored`: (n, m) [Pa]."""
     p = gas.pressure_closing * (gas.volume_closing / gas.volume) ** _FIRST
     change, Q = np.inf, np.zeros_like(gas.pressure_closing)
@@ -214,7 +212,7 @@ def closed_trace(gas: ClosedGas, rule: Rule, motored: Array | None = None) -> Cl
     )
 
 
-def _check_positive(gas: ClosedGas, p: Array) -> None:
+def _check_positive(gas: ClosedGas, p: Floats) -> None:
     """Refuse a pressure that no gas has."""
     if not (p > 0).all():
         load, place = np.unravel_index(int(np.argmin(np.where(p > 0, np.inf, p))), p.shape)
@@ -225,14 +223,14 @@ def _check_positive(gas: ClosedGas, p: Array) -> None:
         )
 
 
-def _exponent(gas: ClosedGas, T: Array, Q: Array) -> Array:
+def _exponent(gas: ClosedGas, T: Floats, Q: Floats) -> Floats:
     """γ, given or of air and burnt gas."""
     if gas.exponent is not None:
         return np.full_like(T, gas.exponent)
     return heat_ratio(T, np.clip(gas.released * (Q / burnable(gas.charge)), 0.0, 1.0))
 
 
-def _check_air(gas: ClosedGas, Q: Array) -> None:
+def _check_air(gas: ClosedGas, Q: Floats) -> None:
     """Refuse heat that the air in the cylinder cannot release."""
     share = Q / burnable(gas.charge)
     if gas.exponent is None and share.max() > _RICHEST:
@@ -243,7 +241,7 @@ def _check_air(gas: ClosedGas, Q: Array) -> None:
         raise MachineError([Problem("train.engine.gas", found, expected, remedy)])
 
 
-def _conductance(gas: ClosedGas, p: Array, T: Array, motored: Array) -> Array | None:
+def _conductance(gas: ClosedGas, p: Floats, T: Floats, motored: Floats) -> Floats | None:
     """Conductance of the walls per speed [J/(K rad)]; None without walls."""
     if gas.wall is None:
         return None
@@ -256,7 +254,7 @@ def _conductance(gas: ClosedGas, p: Array, T: Array, motored: Array) -> Array | 
 _FASTEST = 300.0
 
 
-def _split(gas: ClosedGas, p: Array, gamma: Array, C: Array | None) -> Split:
+def _split(gas: ClosedGas, p: Floats, gamma: Floats, C: Floats | None) -> Split:
     """Pressure as a linear function of the heat, with γ and conductance of an iterate."""
     V, w = gas.volume, gas.mesh.weight
     decay = gamma * (gas.volume_d1 / V)
@@ -280,7 +278,7 @@ def _split(gas: ClosedGas, p: Array, gamma: Array, C: Array | None) -> Split:
     return Split(a / E, gas.mesh.integrals(released) / E, a_end / E_end, (released @ w)[:, None] / E_end, p)
 
 
-def _trace(gas: ClosedGas, split: Split, Q: Array, C: Array | None) -> ClosedTrace:
+def _trace(gas: ClosedGas, split: Split, Q: Floats, C: Floats | None) -> ClosedTrace:
     """The settled pressure with what belongs to it."""
     p = split.without + Q * split.per_heat
     T = p * gas.volume / gas.charge

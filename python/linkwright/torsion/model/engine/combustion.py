@@ -29,10 +29,10 @@ from itertools import pairwise
 from typing import Annotated, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import fault
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.units import ENERGY, TEMPERATURE, positive
@@ -48,8 +48,6 @@ from linkwright.torsion.model.engine.cylinder import Cylinder
 from linkwright.torsion.model.engine.gas import Exponent, Gas, PositivePressure, below
 from linkwright.torsion.model.engine.heat import AnyWallHeat, HeatShare, WallHeat, Wiebe
 from linkwright.torsion.model.engine.working_cycle import Timing, Valves, WorkingCycle
-
-Array = NDArray[np.float64]
 
 # Any one of them sets the heat of a cycle.
 _HEATS = ("heat", "mean_effective_pressure", "peak_pressure")
@@ -132,7 +130,7 @@ class Combustion(Gas):
                     f"{math.degrees(timing.opens):.6g} deg, while the cylinder is closed",
                 )
 
-    def cycle_pressure(self, cylinder: Cylinder, speeds: Array) -> CyclePressure:
+    def cycle_pressure(self, cylinder: Cylinder, speeds: Floats) -> CyclePressure:
         speeds = np.asarray(speeds, dtype=float)
         if isinstance(self.walls, WallHeat) and not (speeds > 0).all():
             raise InputError(
@@ -155,14 +153,14 @@ class Combustion(Gas):
             self.crankcase_pressure,
         )
 
-    def _points(self, speeds: Array) -> tuple[Array, Array]:
+    def _points(self, speeds: Floats) -> tuple[Floats, Floats]:
         """Speeds to compute at, and the share of each in what is asked for."""
         if self.load is None and not isinstance(self.walls, WallHeat):
             # Nothing depends on the speed.
             return speeds[:1], np.ones((len(speeds), 1))
         return speed_points(speeds, self.load.kinks() if self.load else ())
 
-    def operating_points(self, cylinder: Cylinder, speeds: Array) -> tuple[WorkingCycle, Array | None]:
+    def operating_points(self, cylinder: Cylinder, speeds: Floats) -> tuple[WorkingCycle, Floats | None]:
         """The cycle at given speeds, computed for each.
 
         The cycle, and the mean effective pressure that the load map asks for, shape (n, 1) [Pa]; None without
@@ -193,7 +191,7 @@ class Combustion(Gas):
         fired = cycle.fired(self._rule(cycle, None), cycle.motored())
         return float(cycle.mean_effective(fired)[0, 0])
 
-    def _rule(self, cycle: WorkingCycle, wanted: Array | None) -> Rule:
+    def _rule(self, cycle: WorkingCycle, wanted: Floats | None) -> Rule:
         """How the heat of a cycle follows."""
         if wanted is not None:
             return cycle.heat_for_load(wanted)
@@ -204,7 +202,7 @@ class Combustion(Gas):
         heat = np.full_like(cycle.charge_pressure, self.heat)
         return lambda split: heat
 
-    def _cycle(self, cylinder: Cylinder, speeds: Array, charge: Array) -> WorkingCycle:
+    def _cycle(self, cylinder: Cylinder, speeds: Floats, charge: Floats) -> WorkingCycle:
         """The cycle at speeds with their charge pressures."""
         timing = self.valves.timing(cylinder.strokes)
         spans = [(release.start, release.duration) for release in self.releases]
@@ -221,7 +219,7 @@ class Combustion(Gas):
         )
 
     def _closed_gas(
-        self, cylinder: Cylinder, timing: Timing, closed: CycleMesh, speed: Array, charge: Array
+        self, cylinder: Cylinder, timing: Timing, closed: CycleMesh, speed: Floats, charge: Floats
     ) -> ClosedGas:
         """The gas between closing and opening."""
         kept = 1.0 - self.walls.share if isinstance(self.walls, HeatShare) else 1.0
@@ -252,7 +250,7 @@ _ALONE = 7
 _AMONG = 4
 
 
-def speed_points(speeds: Array, kinks: tuple[float, ...]) -> tuple[Array, Array]:
+def speed_points(speeds: Floats, kinks: tuple[float, ...]) -> tuple[Floats, Floats]:
     """Speeds to compute at, and how the others follow from them.
 
     Speeds, shape (k,), and the share of each in what is asked for, shape (n, k); rows sum to one. `speeds`:
@@ -275,12 +273,12 @@ def speed_points(speeds: Array, kinks: tuple[float, ...]) -> tuple[Array, Array]
     return points, share
 
 
-def _between(start: float, end: float, unit: Array) -> Array:
+def _between(start: float, end: float, unit: Floats) -> Floats:
     """Chebyshev's points of a piece, with its very ends."""
     return np.asarray(np.r_[start, (start + end) / 2 + (end - start) / 2 * unit[1:-1], end])
 
 
-def _shares(x: Array, points: Array) -> Array:
+def _shares(x: Floats, points: Floats) -> Floats:
     """Share of the value at each point in the polynomial at x, shape (n, k)."""
     w = np.where(np.arange(len(points)) % 2, -1.0, 1.0)
     w[[0, -1]] *= 0.5

@@ -20,9 +20,8 @@ from itertools import pairwise
 
 import numpy as np
 from numpy.polynomial import legendre
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from linkwright.kernel.arrays import Floats
 
 # Gauss points of a panel: integrals of polynomials up to degree 11 are exact.
 _POINTS = 6
@@ -37,11 +36,11 @@ _OPEN = math.radians(10.0)
 class CycleMesh:
     """Crank angles and what they count in integrals."""
 
-    angle: Array  # (m,) increasing [rad]
-    weight: Array  # (m,) what each counts in an integral [rad]
-    half_width: Array  # (m/6,) of the panels [rad]
+    angle: Floats  # (m,) increasing [rad]
+    weight: Floats  # (m,) what each counts in an integral [rad]
+    half_width: Floats  # (m/6,) of the panels [rad]
 
-    def integrals(self, values: Array) -> Array:
+    def integrals(self, values: Floats) -> Floats:
         """Integrals from the start to every angle, (n, m).
 
         Integrals of the polynomials through the points of each panel. `values`: (n, m) rows of values.
@@ -54,7 +53,7 @@ class CycleMesh:
 
 
 @cache
-def _gauss() -> tuple[Array, Array, Array]:
+def _gauss() -> tuple[Floats, Floats, Floats]:
     """Gauss points, weights on −1 … 1, and integrals of Lagrange's polynomials from −1 to each point."""
     x, w = legendre.leggauss(_POINTS)
     k = np.arange(_POINTS)
@@ -64,7 +63,7 @@ def _gauss() -> tuple[Array, Array, Array]:
     return np.asarray(x), np.asarray(w), np.asarray(S)
 
 
-def mesh(edges: Array) -> CycleMesh:
+def mesh(edges: Floats) -> CycleMesh:
     """Gauss points between given edges.
 
     Six points a panel. `edges`: (k,) ends of panels, increasing [rad].
@@ -74,7 +73,7 @@ def mesh(edges: Array) -> CycleMesh:
     return CycleMesh((middle[:, None] + half[:, None] * x).ravel(), np.outer(half, w).ravel(), half)
 
 
-def closed_edges(start: float, end: float, releases: list[tuple[float, float]]) -> Array:
+def closed_edges(start: float, end: float, releases: list[tuple[float, float]]) -> Floats:
     """Ends of panels between closing and opening, (k,).
 
     Increasing [rad]. `start`, `end`: crank angles of closing and of opening [rad]; `releases`: [rad].
@@ -87,7 +86,7 @@ def closed_edges(start: float, end: float, releases: list[tuple[float, float]]) 
     return _apart(edges, {start, end, *(edge for b, d in releases for edge in (b, b + d))})
 
 
-def open_edges(start: float, end: float, corners: tuple[float, ...]) -> Array:
+def open_edges(start: float, end: float, corners: tuple[float, ...]) -> Floats:
     """Ends of panels between opening and closing, (k,).
 
     Increasing [rad]. `start`, `end`: crank angles of opening and of closing [rad]; `corners`: where the
@@ -97,18 +96,18 @@ def open_edges(start: float, end: float, corners: tuple[float, ...]) -> Array:
     return np.unique(np.concatenate([_even(a, b, _OPEN) for a, b in pairwise(ends)]))
 
 
-def _even(start: float, end: float, width: float) -> Array:
+def _even(start: float, end: float, width: float) -> Floats:
     return np.linspace(start, end, math.ceil((end - start) / width) + 1)
 
 
-def _apart(edges: Array, corners: set[float]) -> Array:
+def _apart(edges: Floats, corners: set[float]) -> Floats:
     """The edges without those that lie close before another and are no corner."""
     keep = np.r_[np.diff(edges) > 0.05 * _CLOSED, True]
     first_of_release = np.isin(edges, list(corners))
     return np.asarray(edges[keep | first_of_release])
 
 
-def periodic_cubic(knots: Array, values: Array, period: float, at: Array) -> Array:
+def periodic_cubic(knots: Floats, values: Floats, period: float, at: Floats) -> Floats:
     """Value of the monotone cubic through points of one period, (m,).
 
     Values there. `knots`: (k,); `values`: (k,) value at each; `at`: (m,) arguments of any size.
@@ -126,7 +125,7 @@ def periodic_cubic(knots: Array, values: Array, period: float, at: Array) -> Arr
     return np.asarray(y[i] + u * (d[:-1][i] + u * (square[i] + u * cube[i])))
 
 
-def _one_period(knots: Array, values: Array, period: float) -> tuple[Array, Array]:
+def _one_period(knots: Floats, values: Floats, period: float) -> tuple[Floats, Floats]:
     """The points with the first repeated at the end of the period."""
     # Knots closer than a millionth of the period are the same.
     if abs(knots[-1] - knots[0] - period) < 1e-6 * period:
@@ -134,7 +133,7 @@ def _one_period(knots: Array, values: Array, period: float) -> tuple[Array, Arra
     return np.r_[knots, knots[0] + period], np.r_[values, values[0]]
 
 
-def _slopes(h: Array, s: Array) -> Array:
+def _slopes(h: Floats, s: Floats) -> Floats:
     """Slopes at all points, the last the same as the first."""
     before, after = np.roll(h, 1), h
     left, right = np.roll(s, 1), s
@@ -153,20 +152,20 @@ class CyclePressure:
     Torque is linear in the pressure, so its harmonics are found for the traces alone and then summed.
     """
 
-    speeds: Array  # (n,) of the crank [rad/s]
-    angle: Array  # (m,) crank angles from the top dead centre of firing, increasing over one cycle [rad]
-    weight: Array  # (m,) what each angle counts in an integral over the cycle [rad]
-    traces: Array  # (k, m) absolute pressures [Pa]
-    firing: Array  # (n, k) share of each trace in the pressure at each speed
-    motored: Array  # (n, k) the same without combustion
+    speeds: Floats  # (n,) of the crank [rad/s]
+    angle: Floats  # (m,) crank angles from the top dead centre of firing, increasing over one cycle [rad]
+    weight: Floats  # (m,) what each angle counts in an integral over the cycle [rad]
+    traces: Floats  # (k, m) absolute pressures [Pa]
+    firing: Floats  # (n, k) share of each trace in the pressure at each speed
+    motored: Floats  # (n, k) the same without combustion
     crankcase_pressure: float  # under the piston [Pa]
 
     @cached_property
-    def pressure(self) -> Array:
+    def pressure(self) -> Floats:
         """Absolute pressure, shape (n, m) [Pa]."""
         return self.firing @ self.traces
 
-    def at(self, angle: Array) -> tuple[Array, Array]:
+    def at(self, angle: Floats) -> tuple[Floats, Floats]:
         """Pressure at any crank angles, by the monotone cubic through the points.
 
         Absolute pressure with combustion and without, shape (n, j) each [Pa]. `angle`: (j,) [rad].
@@ -176,12 +175,12 @@ class CyclePressure:
         return self.firing @ traces, self.motored @ traces
 
     @property
-    def peak_pressure(self) -> Array:
+    def peak_pressure(self) -> Floats:
         """Maximum pressure at each speed, shape (n,) [Pa]."""
         return np.asarray(peak(self.angle, self.pressure))
 
 
-def peak(angle: Array, pressure: Array) -> Array:
+def peak(angle: Floats, pressure: Floats) -> Floats:
     """Maximum value of each row, by the parabola through its maximum point and the two beside it, (n,).
 
     The maximum values [Pa]. `angle`: (m,) crank angles [rad]; `pressure`: (n, m) rows of pressures [Pa].

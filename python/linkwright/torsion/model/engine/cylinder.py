@@ -33,13 +33,10 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.errors import MachineError, Problem, ShapeError
 from linkwright.torsion.model.engine.cycle_pressure import CyclePressure
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 # Share of the stroke below which a harmonic of the motion is rounding.
 _NEGLIGIBLE = 1e-15
@@ -55,7 +52,7 @@ class Cylinder:
     strokes: int  # of a working cycle, 2 or 4
     # (n,) distance x of the piston from the axis of the crank [m], along the cylinder, at n crank angles
     # 2πi/n from where the crank points along the cylinder.
-    position: Array
+    position: Floats
 
     def __post_init__(self) -> None:
         size = np.abs(self._spectrum)
@@ -66,20 +63,20 @@ class Cylinder:
             )
 
     @cached_property
-    def _spectrum(self) -> Complex:
+    def _spectrum(self) -> Complexes:
         """Coefficients c_k of x = Re Σ c_k e^{ikφ}."""
         c = np.fft.rfft(self.position) / len(self.position)
         c[1:] *= 2.0
         return c
 
     @cached_property
-    def _series(self) -> Complex:
+    def _series(self) -> Complexes:
         """The coefficients up to the last that is more than rounding."""
         c = self._spectrum
         kept = np.flatnonzero(np.abs(c) > _NEGLIGIBLE * np.abs(c[1:]).max())
         return c[: kept[-1] + 1]
 
-    def motion(self, crank_angle: Array) -> tuple[Array, Array]:
+    def motion(self, crank_angle: Floats) -> tuple[Floats, Floats]:
         """Position of the piston [m] and its derivative by the crank angle [m/rad].
 
         x and x′, shape (m,) each. `crank_angle`: (m,) crank angles φ [rad].
@@ -141,7 +138,7 @@ class Cylinder:
         """Crank angle of a working cycle [rad]."""
         return math.pi * self.strokes
 
-    def volume(self, angle: Array, compression_ratio: float) -> tuple[Array, Array]:
+    def volume(self, angle: Floats, compression_ratio: float) -> tuple[Floats, Floats]:
         """Volume above the piston and its derivative.
 
         V [m³] and V′ [m³/rad], shape (m,) each. `angle`: (m,) crank angles from the top dead centre [rad];
@@ -152,7 +149,7 @@ class Cylinder:
         return self.area * (self.highest - x) + clearance, -self.area * x_d1
 
 
-def powers(angle: Array, n: int) -> Complex:
+def powers(angle: Floats, n: int) -> Complexes:
     """The rotations e^{ikφ} for k = 0 … n − 1, shape (n, m).
 
     Each the product of the one before with e^{iφ}, which costs a tenth of as many exponentials and loses n
@@ -173,26 +170,26 @@ _HIGHEST = 48.0
 class GasTorque:
     """Harmonics of the gas torque of one cylinder at n speeds, for o orders."""
 
-    speeds: Array  # (n,) of the crank [rad/s]
-    orders: Array  # (o,) per revolution of the crank, from 0
+    speeds: Floats  # (n,) of the crank [rad/s]
+    orders: Floats  # (o,) per revolution of the crank, from 0
     # (n, o) M_ν of a sound cylinder, complex [N m]; φ = 0 is where the crank points along the cylinder, near
     # the firing.
-    firing: Complex
+    firing: Complexes
     # (n, o) the same of a cylinder that misfires: it compresses and expands without combustion.
-    motored: Complex
-    mean_effective_pressure: Array  # (n,) Indicated, of a sound cylinder [Pa]
+    motored: Complexes
+    mean_effective_pressure: Floats  # (n,) Indicated, of a sound cylinder [Pa]
     pressure: CyclePressure  # what it is from
 
     @property
-    def peak_pressure(self) -> Array:
+    def peak_pressure(self) -> Floats:
         """Maximum pressure of a sound cylinder, shape (n,) [Pa]."""
         return self.pressure.peak_pressure
 
-    def of(self, factor: float) -> Complex:
+    def of(self, factor: float) -> Complexes:
         """Harmonics of a cylinder whose combustion is weaker or stronger, (n, o). M_ν, complex [N m]."""
         return self.motored + factor * (self.firing - self.motored)
 
-    def waveform(self, crank_angle: Array, factor: float = 1.0) -> Array:
+    def waveform(self, crank_angle: Floats, factor: float = 1.0) -> Floats:
         """Torque over the crank angle, summed from the harmonics, (n, m).
 
         M [N m]. `crank_angle`: (m,) φ [rad].
@@ -201,7 +198,7 @@ class GasTorque:
         return np.asarray((self.of(factor) @ turns).real)
 
 
-def torque_orders(strokes: int, highest: float = 24.0) -> Array:
+def torque_orders(strokes: int, highest: float = 24.0) -> Floats:
     """Orders of a cylinder's torque, shape (o,). From 0, in steps of ½ with four strokes, of 1 with two."""
     if not 0 <= highest <= _HIGHEST:
         expected = f"a number from 0 to {_HIGHEST:.6g}"

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.tangent import primal
 from linkwright.torsion.model.engine.engine import ReciprocatingEngine
 from linkwright.torsion.model.engine.equivalent_inertia import mean_inertia
@@ -18,8 +18,6 @@ from linkwright.torsion.model.engine.running_gear import (
 )
 from linkwright.torsion.model.engine.throw_compliance import compliance
 from linkwright.torsion.model.engine.throw_inertia import throw_inertia
-
-Floats = NDArray[np.float64]
 
 # Angles over one revolution at which pistons are placed: far beyond the harmonics of any rod that closes with
 # room to spare.

@@ -66,8 +66,9 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import AssemblyError, ConvergenceError
 from linkwright.torsion.model.engine.rod import Rod
 from linkwright.torsion.model.engine.running_gear import RunningGear, throw_reduction
@@ -137,22 +138,20 @@ def central_mean_inertia(
     return own_inertia + crank_radius**2 * (rod.mass_pin + (rod.mass_piston + piston_mass) * S + missed)
 
 
-Array = NDArray[np.float64]
-
 # The paper's rounding of 1/(2·981) [s²/cm].
 PRINTED_FACTOR = 0.00051
 
 
 def published_piston_speed(
     crank_radius: float, rod_length: float, speed: float, crank_angle: ArrayLike
-) -> Array:
+) -> Floats:
     """Speed of the piston by its first two harmonics, (3).
 
     v, positive towards the crank [m/s]. `crank_radius`, `rod_length`: r, l [m]; `speed`: ω of the crank
     [rad/s]; `crank_angle`: [rad].
     """
     phi = np.asarray(crank_angle, dtype=np.float64)
-    v: Array = speed * crank_radius * (np.sin(phi) + 0.5 * crank_radius / rod_length * np.sin(2.0 * phi))
+    v: Floats = speed * crank_radius * (np.sin(phi) + 0.5 * crank_radius / rod_length * np.sin(2.0 * phi))
     return v
 
 

@@ -16,10 +16,10 @@ from collections.abc import Iterator
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.description.curve import curve_faults, unread_file
 from linkwright.kernel.errors import MachineError, Problem
@@ -37,7 +37,6 @@ from linkwright.kernel.units import (
 from linkwright.torsion.model.engine.cycle_pressure import CyclePressure
 from linkwright.torsion.model.engine.cylinder import Cylinder
 
-Array = NDArray[np.float64]
 PositivePressure = Annotated[float, positive(PRESSURE)]
 
 
@@ -45,7 +44,7 @@ class GasLoad(CheckedDescription):
     """Indicated mean effective pressure of all cylinders against the speed."""
 
     @abstractmethod
-    def mean_effective(self, speeds: Array, rated: float) -> Array:
+    def mean_effective(self, speeds: Floats, rated: float) -> Floats:
         """Mean effective pressure at each speed, (n,).
 
         p_i [Pa]. `speeds`: (n,) [rad/s]; `rated`: that of the gas as described [Pa].
@@ -61,7 +60,7 @@ class GasLoad(CheckedDescription):
         """Speed at which the gas is as described [rad/s]."""
         raise NotImplementedError
 
-    def charge(self, speeds: Array) -> Array | None:
+    def charge(self, speeds: Floats) -> Floats | None:
         """Charge pressure at each speed, shape (n,) [Pa]; None where the map does not say.
 
         `speeds`: (n,) [rad/s].
@@ -83,7 +82,7 @@ class ConstantGasLoad(GasLoad):
     def rated(self) -> float:
         return self.mean_effective_pressure
 
-    def mean_effective(self, speeds: Array, rated: float) -> Array:
+    def mean_effective(self, speeds: Floats, rated: float) -> Floats:
         return np.full(len(speeds), self.mean_effective_pressure)
 
 
@@ -115,10 +114,10 @@ class TableGasLoad(GasLoad):
     def rated(self) -> float:
         return max(self.mean_effective_pressure)
 
-    def mean_effective(self, speeds: Array, rated: float) -> Array:
+    def mean_effective(self, speeds: Floats, rated: float) -> Floats:
         return np.asarray(np.interp(speeds, self.speed, self.mean_effective_pressure))
 
-    def charge(self, speeds: Array) -> Array | None:
+    def charge(self, speeds: Floats) -> Floats | None:
         if self.charge_pressure is None:
             return None
         return np.asarray(np.interp(speeds, self.speed, self.charge_pressure))
@@ -148,7 +147,7 @@ class PropellerGasLoad(GasLoad):
     def rated_speed(self) -> float:
         return self.speed
 
-    def mean_effective(self, speeds: Array, rated: float) -> Array:
+    def mean_effective(self, speeds: Floats, rated: float) -> Floats:
         top = rated if self.mean_effective_pressure is None else self.mean_effective_pressure
         rise: Any = (speeds / self.speed) ** self.exponent
         return np.asarray(self.friction_pressure + (top - self.friction_pressure) * rise)
@@ -178,7 +177,7 @@ class Gas(CheckedDescription):
         """What does not go with the strokes of the engine."""
 
     @abstractmethod
-    def cycle_pressure(self, cylinder: Cylinder, speeds: Array) -> CyclePressure:
+    def cycle_pressure(self, cylinder: Cylinder, speeds: Floats) -> CyclePressure:
         """Pressure in a cylinder over the cycle. `speeds`: (n,) [rad/s]."""
 
 
@@ -187,7 +186,7 @@ def below(wrong: InitErrorDetails, *place: str | int) -> InitErrorDetails:
     return InitErrorDetails(type=wrong["type"], loc=(*place, *wrong.get("loc", ())), input=wrong["input"])
 
 
-def check_reach(wanted: Array, motored: Array, speeds: Array) -> None:
+def check_reach(wanted: Floats, motored: Floats, speeds: Floats) -> None:
     """Refuse mean effective pressures below that of the motored cylinder.
 
     `wanted`, `motored`: (n,) mean effective pressures [Pa]; `speeds`: (n,) [rad/s].

@@ -37,9 +37,9 @@ from dataclasses import dataclass
 from typing import Annotated, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import Description
 from linkwright.kernel.units import (
     ANGLE,
@@ -52,8 +52,6 @@ from linkwright.kernel.units import (
     not_negative,
     positive,
 )
-
-Array = NDArray[np.float64]
 
 # Of the heat, 99.9 % is released within the duration: -ln 0.001.
 _COMPLETE = -math.log(0.001)
@@ -79,19 +77,19 @@ class Wiebe(Description):
         """Crank angle at which all is released [rad]."""
         return self.start + self.duration
 
-    def released(self, angle: Array) -> Array:
+    def released(self, angle: Floats) -> Floats:
         """Share of the whole heat that is released, shape (m,). `angle`: (m,) crank angles [rad]."""
         a, y = self.efficiency_factor, self._progress(angle)
         return np.asarray(self.share * np.expm1(-a * y ** (self.form_factor + 1)) / math.expm1(-a))
 
-    def rate(self, angle: Array) -> Array:
+    def rate(self, angle: Floats) -> Floats:
         """Its derivative by the crank angle, shape (m,) [1/rad]. `angle`: (m,) crank angles [rad]."""
         a, m, y = self.efficiency_factor, self.form_factor, self._progress(angle)
         inside = (angle >= self.start) & (angle <= self.end)
         scale = self.share * a * (m + 1) / (-math.expm1(-a) * self.duration)
         return np.asarray(inside * scale * y**m * np.exp(-a * y ** (m + 1)))
 
-    def _progress(self, angle: Array) -> Array:
+    def _progress(self, angle: Floats) -> Floats:
         """y, held before the start and after the end."""
         return np.clip((angle - self.start) / self.duration, 0.0, 1.0)
 
@@ -103,13 +101,13 @@ class GasState:
     # `bore`, `swept_volume`: of the cylinder [m, m³].
     bore: float
     swept_volume: float
-    volume: Array  # (m,) V [m³]
+    volume: Floats  # (m,) V [m³]
     # `pressure`, `temperature`: (n, m) p [Pa], T [K].
-    pressure: Array
-    temperature: Array
-    motored: Array  # (n, m) pressure of the motored cylinder [Pa]
-    closing: Array  # (n, 1) T_r/(p_r V_r) where the cylinder closes [K/J]
-    piston_speed: Array  # (n, 1) mean speed of the piston [m/s]
+    pressure: Floats
+    temperature: Floats
+    motored: Floats  # (n, m) pressure of the motored cylinder [Pa]
+    closing: Floats  # (n, 1) T_r/(p_r V_r) where the cylinder closes [K/J]
+    piston_speed: Floats  # (n, 1) mean speed of the piston [m/s]
 
 
 class WallHeat(Description):
@@ -123,10 +121,10 @@ class WallHeat(Description):
     )
 
     @abstractmethod
-    def coefficient(self, gas: GasState) -> Array:
+    def coefficient(self, gas: GasState) -> Floats:
         """Heat transfer coefficient without the factor, shape (n, m) [W/(m² K)]."""
 
-    def conductance(self, gas: GasState) -> Array:
+    def conductance(self, gas: GasState) -> Floats:
         """Heat flow per temperature difference, shape (n, m) [W/K]."""
         walls = math.pi / 2 * gas.bore**2 + 4 / gas.bore * gas.volume
         return self.factor * walls * self.coefficient(gas)
@@ -137,7 +135,7 @@ class Woschni(WallHeat):
 
     kind: Literal["woschni"]
 
-    def coefficient(self, gas: GasState) -> Array:
+    def coefficient(self, gas: GasState) -> Floats:
         combustion = 3.24e-3 * gas.swept_volume * gas.closing * (gas.pressure - gas.motored)
         # Below the motored pressure, late in the expansion, nothing is left that stirs the gas.
         w = 2.28 * gas.piston_speed + np.maximum(combustion, 0.0)
@@ -150,7 +148,7 @@ class Hohenberg(WallHeat):
 
     kind: Literal["hohenberg"]
 
-    def coefficient(self, gas: GasState) -> Array:
+    def coefficient(self, gas: GasState) -> Floats:
         p = gas.pressure / 1e5
         w = gas.piston_speed + 1.4
         return np.asarray(130.0 * gas.volume**-0.06 * (p * w) ** 0.8 * gas.temperature**-0.4)

@@ -31,10 +31,10 @@ from collections.abc import Iterator
 from typing import Annotated, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.description.curve import curve_faults, unread_file
 from linkwright.kernel.errors import MachineError, Problem
@@ -42,8 +42,6 @@ from linkwright.kernel.units import ANGLE, Angle, Angles, Pressures, positive
 from linkwright.torsion.model.engine.cycle_pressure import CyclePressure, periodic_cubic
 from linkwright.torsion.model.engine.cylinder import Cylinder
 from linkwright.torsion.model.engine.gas import Exponent, Gas, TableGasLoad, below, check_reach
-
-Array = NDArray[np.float64]
 
 # Textbooks print pressures at steps of 10 or 15 degrees; more than this says nothing about combustion.
 _LARGEST_STEP = math.radians(16.0)
@@ -96,7 +94,7 @@ def diagram_faults(angle: tuple[float, ...], pressure: tuple[float, ...]) -> Ite
         yield _hole(angle[i], angle[i + 1])
 
 
-def _holes(steps: Array) -> list[int]:
+def _holes(steps: Floats) -> list[int]:
     """Steps that are too large, alone or beside their neighbours."""
     beside = np.maximum(np.r_[steps[1:2], steps[:-1]], np.r_[steps[1:], steps[-2:-1]])
     lone = (steps > _HOLE * beside) & (steps > _SMALL_STEP) if len(steps) > 1 else np.zeros(len(steps), bool)
@@ -147,7 +145,7 @@ def _wrong_span(angle: tuple[float, ...], cycle: float, how: str) -> InitErrorDe
     )
 
 
-def _end_faults(pressure: Array, closing: float) -> Iterator[InitErrorDetails]:
+def _end_faults(pressure: Floats, closing: float) -> Iterator[InitErrorDetails]:
     """Ends of the cycle whose pressures do not go over into each other."""
     jump, top = abs(pressure[0] - pressure[-1]), pressure.max()
     # Points one step apart may differ as any two neighbours of the diagram do.
@@ -191,7 +189,7 @@ _NO_COMBUSTION = 2e-3
 _FADE = math.radians(50.0)
 
 
-def _fitted(volume: Array, pressure: Array) -> float:
+def _fitted(volume: Floats, pressure: Floats) -> float:
     """Exponent of a polytropic line through points."""
     n = -float(np.polyfit(np.log(volume), np.log(pressure), 1)[0])
     if not _LEAST < n < _GREATEST:
@@ -202,7 +200,7 @@ def _fitted(volume: Array, pressure: Array) -> float:
     return n
 
 
-def _check_combustion(fired: Array, motored: Array, peak: float) -> None:
+def _check_combustion(fired: Floats, motored: Floats, peak: float) -> None:
     """Refuse diagrams of motored cylinders where a load is asked for."""
     for mean, without in zip(fired, motored, strict=True):
         if mean - without < _NO_COMBUSTION * peak:
@@ -239,7 +237,7 @@ class Diagram(CheckedDescription):
         wrong = list(curve_faults(self, "angle", ("pressure",)))
         yield from wrong or diagram_faults(self.angle, self.pressure)
 
-    def over(self, angle: Array, cycle: float) -> Array:
+    def over(self, angle: Floats, cycle: float) -> Floats:
         """Pressure at any angles of the cycle, (m,).
 
         Absolute pressure [Pa]. `angle`: (m,) [rad]; `cycle`: crank angle of a working cycle [rad].
@@ -290,7 +288,7 @@ class Indicator(Diagram, Gas):
             for problem in whole_cycle_faults(other_load.angle, other_load.pressure, cycle):
                 yield below(problem, "other_loads", i)
 
-    def cycle_pressure(self, cylinder: Cylinder, speeds: Array) -> CyclePressure:
+    def cycle_pressure(self, cylinder: Cylinder, speeds: Floats) -> CyclePressure:
         angle = self._angles(cylinder.cycle)
         weight = np.full(len(angle), cylinder.cycle / len(angle))
         fired = np.array([other_load.over(angle, cylinder.cycle) for other_load in (self, *self.other_loads)])
@@ -302,13 +300,13 @@ class Indicator(Diagram, Gas):
             np.asarray(speeds), angle, weight, np.vstack([fired, motored]), *shares, self.crankcase_pressure
         )
 
-    def _angles(self, cycle: float) -> Array:
+    def _angles(self, cycle: float) -> Floats:
         """Even angles of a cycle, as close as the finest diagram has them."""
         steps = [cycle / len(other_load.angle) for other_load in (self, *self.other_loads)]
         n = round(cycle / max(_FINEST, min(_STEP, *steps)))
         return np.asarray(np.arange(n) * (cycle / n) - cycle / 2)
 
-    def _motored(self, pressure: Array, angle: Array, cylinder: Cylinder) -> Array:
+    def _motored(self, pressure: Floats, angle: Floats, cylinder: Cylinder) -> Floats:
         """The diagram without its combustion."""
         start, opens = self.combustion_start, self.exhaust_opens or default_opening(cylinder.strokes)
         V, _ = cylinder.volume(angle, self.compression_ratio)
@@ -320,7 +318,7 @@ class Indicator(Diagram, Gas):
         combustion = np.where(angle > angle[at], 0.5 * (1 + np.cos(np.pi * fades)), 0.0)
         return np.asarray(pressure - combustion * (pressure - line))
 
-    def _shares(self, fired: Array, motored: Array, speeds: Array) -> tuple[Array, Array]:
+    def _shares(self, fired: Floats, motored: Floats, speeds: Floats) -> tuple[Floats, Floats]:
         """Shares of the traces at each speed, from the mean effective pressures of the diagrams."""
         k, n = len(fired), len(speeds)
         if self.load is None:

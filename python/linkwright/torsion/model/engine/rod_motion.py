@@ -36,12 +36,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.errors import AssemblyError
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -49,30 +47,30 @@ class PinMotion:
     """A pin in the plane of the engine over the crank angle."""
 
     # p, complex, in the shape of the crank angles: up the vertical, and a quarter of a revolution on [m].
-    position: Complex
+    position: Complexes
     # `d1`, `d2`: p′, p″ [m/rad, m/rad²].
-    d1: Complex
-    d2: Complex
+    d1: Complexes
+    d2: Complexes
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class RodMotion:
     """A rod and its piston over the crank angle."""
 
-    crank_angle: Array  # φ of the throw, from the vertical [rad]
+    crank_angle: Floats  # φ of the throw, from the vertical [rad]
     pin: PinMotion  # the pin of the big end
     bank_angle: float  # β, from the vertical to the axis of the cylinder [rad]
     # `piston`, `piston_d1`, `piston_d2`: x of the piston pin from the axis of the crank, along the cylinder,
     # x′ and x″ [m, m/rad, m/rad²].
-    piston: Array
-    piston_d1: Array
-    piston_d2: Array
-    direction: Complex  # unit vector from big to small end, complex as the pins: :math:`e^{i(β + ψ)}`
+    piston: Floats
+    piston_d1: Floats
+    piston_d2: Floats
+    direction: Complexes  # unit vector from big to small end, complex as the pins: :math:`e^{i(β + ψ)}`
     # `angle`, `angle_d1`, `angle_d2`: ψ of the rod from the axis of the cylinder in the sense of rotation,
     # ψ′, ψ″ [rad, –, 1/rad].
-    angle: Array
-    angle_d1: Array
-    angle_d2: Array
+    angle: Floats
+    angle_d1: Floats
+    angle_d2: Floats
 
     def point(self, along: float, across: float = 0.0) -> PinMotion:
         """Motion of a point of the rod. The point, complex as the pins. `along`: [m]; `across`: [m]."""
@@ -149,7 +147,7 @@ def slider_crank(
     return rod_motion(crank_pin(crank_radius, crank_angle), crank_angle, rod_length, 0.0, offset)
 
 
-def _open(phi: Array, sine: Array, rod_length: float, name: str) -> AssemblyError:
+def _open(phi: Floats, sine: Floats, rod_length: float, name: str) -> AssemblyError:
     """The error of a rod that does not reach its cylinder."""
     wrong = ~(np.abs(sine) < 1.0)
     at = int(np.flatnonzero(wrong)[0])

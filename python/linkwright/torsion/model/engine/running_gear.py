@@ -40,8 +40,9 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import ConvergenceError, InputError
 from linkwright.torsion.model.engine.pendulum import FREE_FALL
 from linkwright.torsion.model.engine.rod import ArticulatedRod, Rod
@@ -100,20 +101,17 @@ def _master(gears: Sequence[RunningGear], at: int) -> int:
     return place
 
 
-Array = NDArray[np.float64]
-
-
 @dataclass(frozen=True, eq=False, slots=True)
 class ThrowReduction:
     """A throw reduced to its crank, over the crank angle."""
 
-    crank_angle: Array  # φ of this throw, from the vertical [rad]
+    crank_angle: Floats  # φ of this throw, from the vertical [rad]
     # `inertia_reduced`, `inertia_reduced_d1`: J and J′ [kg m², kg m²/rad].
-    inertia_reduced: Array
-    inertia_reduced_d1: Array
-    weight_torque: Array  # M_g of all weights on the crank, positive where they drive [N m]
+    inertia_reduced: Floats
+    inertia_reduced_d1: Floats
+    weight_torque: Floats  # M_g of all weights on the crank, positive where they drive [N m]
 
-    def inertia_torque(self, speed: float) -> Array:
+    def inertia_torque(self, speed: float) -> Floats:
         """Torque of the inertia on the crank at constant speed, positive where it drives, as ``crank_angle``.
 
         −½J′ω² [N m]. `speed`: ω of the crank [rad/s].
@@ -185,7 +183,7 @@ def dead_centres(crank_radius: float, gears: Sequence[RunningGear]) -> tuple[Dea
     return tuple(map(_counted, angle, piston, (gear.bank_angle for gear in gears)))
 
 
-def _refined(crank_radius: float, gears: Sequence[RunningGear], start: Array) -> tuple[Array, Array]:
+def _refined(crank_radius: float, gears: Sequence[RunningGear], start: Floats) -> tuple[Floats, Floats]:
     """Angles where the pistons rest, and their places there, (gears, 2); Newton within a sample's reach."""
     angle, reach = start, 2.0 * math.pi / _SAMPLES
     for _ in range(_STEPS):
@@ -208,14 +206,14 @@ def _refined(crank_radius: float, gears: Sequence[RunningGear], start: Array) ->
     return angle, piston
 
 
-def _own_rows(crank_radius: float, gears: Sequence[RunningGear], angle: Array) -> tuple[Array, ...]:
+def _own_rows(crank_radius: float, gears: Sequence[RunningGear], angle: Floats) -> tuple[Floats, ...]:
     """x, x′, x″ of each gear at its own angles, (gears, 2) each."""
     motion = throw_motion(crank_radius, gears, angle)
     rows = [(row.piston[at], row.piston_d1[at], row.piston_d2[at]) for at, row in enumerate(motion)]
     return tuple(np.array(row) for row in zip(*rows, strict=True))
 
 
-def _counted(angle: Array, piston: Array, bank_angle: float) -> DeadCentres:
+def _counted(angle: Floats, piston: Floats, bank_angle: float) -> DeadCentres:
     """Dead centres with their angles counted from the cylinder's axis."""
     top = bank_angle + math.remainder(float(angle[0]) - bank_angle, 2.0 * math.pi)
     bottom = top + (float(angle[1]) - top) % (2.0 * math.pi)

@@ -25,10 +25,10 @@ from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import Description, fault
 from linkwright.kernel.errors import FindingError, MachineError, Problem
 from linkwright.kernel.units import ANGLE, positive
@@ -43,7 +43,6 @@ from linkwright.torsion.model.engine.closed_cycle import (
 from linkwright.torsion.model.engine.cycle_pressure import CycleMesh, peak
 from linkwright.torsion.model.engine.gas import check_reach
 
-Array = NDArray[np.float64]
 PositiveAngle = Annotated[float, positive(ANGLE)]
 
 # Usual timing, in degrees after the dead centre of firing, by strokes.
@@ -74,14 +73,14 @@ class Timing:
         """Where the pressure of the open cylinder has corners [rad]."""
         return (self.blown_down, self.intake_opens, self.charged)
 
-    def blowdown(self, angle: Array) -> Array:
+    def blowdown(self, angle: Floats) -> Floats:
         """Share b of the pressure at opening that is left, shape (m,).
 
         `angle`: (m,) crank angles while the cylinder is open [rad].
         """
         return 1.0 - _rise(angle, self.opens, self.blown_down)
 
-    def charging(self, angle: Array) -> Array:
+    def charging(self, angle: Floats) -> Floats:
         """Share s of the charge in the pressure, shape (m,).
 
         `angle`: (m,) crank angles while the cylinder is open [rad].
@@ -89,7 +88,7 @@ class Timing:
         return _rise(angle, self.intake_opens, self.charged)
 
 
-def _rise(angle: Array, start: float, end: float) -> Array:
+def _rise(angle: Floats, start: float, end: float) -> Floats:
     """From 0 to 1 in the course of a cosine."""
     return np.asarray(0.5 - 0.5 * np.cos(np.pi * np.clip((angle - start) / (end - start), 0.0, 1.0)))
 
@@ -151,43 +150,43 @@ class WorkingCycle:
 
     closed: ClosedGas  # between closing and opening
     open: CycleMesh  # crank angles while the cylinder is open
-    open_volume_d1: Array  # (m,) V′ there [m³/rad]
+    open_volume_d1: Floats  # (m,) V′ there [m³/rad]
     timing: Timing  # of valves or ports
     # `exhaust_pressure`, `charge_pressure`: (n, 1) absolute [Pa].
-    exhaust_pressure: Array
-    charge_pressure: Array
+    exhaust_pressure: Floats
+    charge_pressure: Floats
 
     @property
-    def angle(self) -> Array:
+    def angle(self) -> Floats:
         """Crank angles of the cycle, shape (k,) [rad]."""
         return np.concatenate([self.closed.mesh.angle, self.open.angle])
 
     @property
-    def weight(self) -> Array:
+    def weight(self) -> Floats:
         """What each angle counts in an integral, shape (k,) [rad]."""
         return np.concatenate([self.closed.mesh.weight, self.open.weight])
 
-    def pressure(self, trace: ClosedTrace) -> Array:
+    def pressure(self, trace: ClosedTrace) -> Floats:
         """Pressure over the cycle, shape (n, k) [Pa]."""
         return np.hstack([trace.pressure, self._exchange + self._blowdown * trace.opening])
 
     @property
-    def _blowdown(self) -> Array:
+    def _blowdown(self) -> Floats:
         """Pressure of the open cylinder per pressure at opening."""
         return np.asarray(self.timing.blowdown(self.open.angle))
 
     @property
-    def _exchange(self) -> Array:
+    def _exchange(self) -> Floats:
         """Pressure of the open cylinder besides."""
         s = self.timing.charging(self.open.angle)
         p_e = self.exhaust_pressure
         return np.asarray(p_e + (self.charge_pressure - p_e) * s - p_e * self._blowdown)
 
-    def mean_effective(self, trace: ClosedTrace) -> Array:
+    def mean_effective(self, trace: ClosedTrace) -> Floats:
         """Mean effective pressure, shape (n, 1) [Pa]."""
         return self._mean_effective(trace.pressure, trace.opening, self._exchange)
 
-    def _mean_effective(self, closed: Array, opening: Array, exchange: Array) -> Array:
+    def _mean_effective(self, closed: Floats, opening: Floats, exchange: Floats) -> Floats:
         """The same from the pressure while closed, at opening, and while open besides what is left of it."""
         gas = self.closed
         work = closed @ (gas.volume_d1 * gas.mesh.weight)
@@ -202,12 +201,12 @@ class WorkingCycle:
         """The closed gas with heat."""
         return closed_trace(self.closed, rule, motored.pressure)
 
-    def heat_for_load(self, wanted: Array) -> Rule:
+    def heat_for_load(self, wanted: Floats) -> Rule:
         """The rule that gives a mean effective pressure. `wanted`: (n, 1) p_i [Pa]."""
         exchange = self._exchange
         none = np.zeros_like(exchange)
 
-        def rule(split: Split) -> Array:
+        def rule(split: Split) -> Floats:
             p_a = self._mean_effective(split.without, split.opening_without, exchange)
             p_b = self._mean_effective(split.per_heat, split.opening_per_heat, none)
             _check_work(p_b)
@@ -220,7 +219,7 @@ class WorkingCycle:
         """The rule that gives a peak pressure. `wanted`: [Pa]."""
         angle = self.closed.mesh.angle
 
-        def rule(split: Split) -> Array:
+        def rule(split: Split) -> Floats:
             least = float(peak(angle, split.without).max())
             if wanted <= least:
                 expected = f"more than {least:.6g} Pa, the pressure of compression alone"
@@ -235,7 +234,7 @@ class WorkingCycle:
         return rule
 
 
-def _check_work(work: Array) -> None:
+def _check_work(work: Floats) -> None:
     """Refuse heat that does no work, or raises no pressure, so that no heat gives what is wanted."""
     if not (work > 0).all():
         raise FindingError(
