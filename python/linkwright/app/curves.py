@@ -32,28 +32,15 @@ CRANK_ANGLE = "crank_angle"
 
 @dataclass(frozen=True)
 class Curve:
-    """A curve of a study.
+    """A curve of a study."""
 
-    Attributes
-    ----------
-    name : str
-        With the analysis before it: ``"motion.ram.place.velocity"``.
-    values : ndarray, shape (n,)
-        [unit].
-    unit : str
-        SI unit; empty for a plain number.
-    over, over_unit : str
-        Name of what it runs over, without the analysis, and its SI unit.
-    x : ndarray, shape (n,)
-        What it runs over.
-    """
-
-    name: str
-    values: Floats
-    unit: str
+    name: str  # with the analysis before it: `"motion.ram.place.velocity"`
+    values: Floats  # (n,): [unit]
+    unit: str  # SI unit; empty for a plain number
+    # Name of what it runs over, without the analysis, and its SI unit.
     over: str
     over_unit: str
-    x: Floats
+    x: Floats  # (n,): what it runs over
 
 
 def curves_of(study: Study) -> dict[str, Curve]:
@@ -191,21 +178,14 @@ def _at(curve: Curve, places: Floats) -> Curve:
 
 
 class CurveExtremes(NamedTuple):
-    """Minimum and maximum of a curve, and where.
+    """Minimum and maximum of a curve, and where."""
 
-    Attributes
-    ----------
-    minimum, minimum_at, maximum, maximum_at : float
-        In SI; what the curve runs over.
-    is_exact : bool
-        Whether they are those of the motion itself, not of the points of the curve.
-    """
-
+    # In SI; what the curve runs over.
     minimum: float
     minimum_at: float
     maximum: float
     maximum_at: float
-    is_exact: bool
+    is_exact: bool  # whether they are those of the motion itself, not of the points of the curve
 
 
 def extremes(study: Study, curve: Curve, zero: float = 0.0) -> CurveExtremes:

@@ -42,18 +42,10 @@ _SPEEDS = 200
 
 @dataclass(frozen=True)
 class Soundness:
-    """What was looked at, and what was found.
+    """What was looked at, and what was found."""
 
-    Attributes
-    ----------
-    looked_at : tuple of str
-        What was looked at, in words.
-    findings : tuple of str
-        What the machine cannot do, in sentences.
-    """
-
-    looked_at: tuple[str, ...]
-    findings: tuple[str, ...]
+    looked_at: tuple[str, ...]  # what was looked at, in words
+    findings: tuple[str, ...]  # what the machine cannot do, in sentences
 
 
 def soundness(machine: Machine) -> Soundness:

@@ -25,18 +25,10 @@ CamSearch = _core.CamSearch
 
 
 class Extreme(NamedTuple):
-    """A maximum or minimum value.
+    """A maximum or minimum value."""
 
-    Attributes
-    ----------
-    angle : float
-        Cam angle from the start of the programme [rad].
-    value : float
-        How much.
-    """
-
-    angle: float
-    value: float
+    angle: float  # cam angle from the start of the programme [rad]
+    value: float  # how much
 
 
 class Passes(NamedTuple):

@@ -41,35 +41,20 @@ class End(IntEnum):
 
 
 class MethodPart(NamedTuple):
-    """A part of a motion in time whose steps are all by one method.
+    """A part of a motion in time whose steps are all by one method."""
 
-    Attributes
-    ----------
-    method : str
-        ``"explicit"`` (DOP853) or ``"implicit"`` (Radau IIA, where the drive is stiff).
-    time_start, time_end : float
-        [s].
-    steps : int
-        Steps of the solver [–].
-    """
-
-    method: str
+    method: str  # `"explicit"` (DOP853) or `"implicit"` (Radau IIA, where the drive is stiff)
+    # Where it begins and ends [s].
     time_start: float
     time_end: float
-    steps: int
+    steps: int  # steps of the solver [–]
 
 
 @dataclass(frozen=True)
 class StepPolynomials:
-    """Motion between the ends of the solver's steps.
+    """Motion between the ends of the solver's steps."""
 
-    Attributes
-    ----------
-    factors : ndarray, shape (steps, 2, 7)
-        Of the angle [rad] and the speed [rad/s] in each step.
-    """
-
-    factors: Floats
+    factors: Floats  # (steps, 2, 7): of the angle [rad] and the speed [rad/s] in each step
 
     def rises(self, z: Floats, step: Indices) -> Floats:
         """Change of angle and speed since the start of steps, (2, m), at shares z of the steps, 0 to 1.

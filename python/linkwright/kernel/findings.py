@@ -19,17 +19,10 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class Findings:
-    """Collects sentences; the same one counts once.
+    """Collects sentences; the same one counts once."""
 
-    Attributes
-    ----------
-    subject : str
-        What stands before each sentence that is collected, such as ``"cam valve: "``.
-    said, beside : list of str
-        The findings and the warnings, in their order.
-    """
-
-    subject: str = ""
+    subject: str = ""  # what stands before each sentence that is collected, such as `"cam valve: "`
+    # The findings and the warnings, in their order.
     said: list[str] = field(default_factory=list)
     beside: list[str] = field(default_factory=list)
 

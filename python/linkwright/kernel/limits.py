@@ -11,21 +11,11 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Limit:
-    """The maximum number of something.
+    """The maximum number of something."""
 
-    Attributes
-    ----------
-    most : int
-        How many there may be.
-    of : str
-        What is counted, after "at most 500".
-    reason : str
-        Why no more.
-    """
-
-    most: int
-    of: str
-    reason: str
+    most: int  # how many there may be
+    of: str  # what is counted, after "at most 500"
+    reason: str  # why no more
 
     @property
     def words(self) -> str:

@@ -91,18 +91,10 @@ _STANDS = 1e-12
 
 @dataclass
 class AppliedLoad:
-    """A load at all crank angles.
+    """A load at all crank angles."""
 
-    Attributes
-    ----------
-    wrenches : Wrenches
-        On members and frame.
-    resisting : ndarray, shape (n,)
-        Torque against the crankshaft itself [N m].
-    """
-
-    wrenches: Wrenches
-    resisting: Floats
+    wrenches: Wrenches  # on members and frame
+    resisting: Floats  # (n,): torque against the crankshaft itself [N m]
 
 
 def applied(scene: Scene, load: Any) -> AppliedLoad:

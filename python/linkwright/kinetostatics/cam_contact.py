@@ -30,21 +30,11 @@ def follower_at(scene: Scene, name: str) -> Follower:
 
 @dataclass
 class Push:
-    """What a unit of force at a contact does.
+    """What a unit of force at a contact does."""
 
-    Attributes
-    ----------
-    normal : Wrenches
-        1 N along the normal on the follower, and on the frame through the cam's bearings.
-    along : Wrenches
-        1 N along the surface, to the left of the normal.
-    slip : ndarray, shape (n,)
-        How fast the follower slides over the cam that way, by the crank angle [m/rad].
-    """
-
-    normal: Wrenches
-    along: Wrenches
-    slip: Floats
+    normal: Wrenches  # 1 N along the normal on the follower, and on the frame through the cam's bearings
+    along: Wrenches  # 1 N along the surface, to the left of the normal
+    slip: Floats  # (n,): how fast the follower slides over the cam that way, by the crank angle [m/rad]
 
     def taken_over(self, other: Push, force: Floats) -> Push:
         """This one where a force (n,) is positive, another elsewhere."""

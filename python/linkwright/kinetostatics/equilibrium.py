@@ -39,25 +39,15 @@ _PROBES = 3
 
 @dataclass
 class Solution:
-    """The unknowns, and where there are none.
+    """The unknowns, and where there are none."""
 
-    Attributes
-    ----------
-    x : ndarray, shape (n, unknowns, sources)
-        Share of each source in each unknown [N, N m]; NaN where there is no answer.
-    slopes : ndarray, shape (n, unknowns)
-        Extra force of its pair by each unknown.
-    singular, locked : ndarray of bool, shape (n,)
-        Where forces are unbounded or not determined; where friction lets nothing move.
-    iterations : int
-        Linear systems solved at each angle, at most.
-    """
-
+    # (n, unknowns, sources): share of each source in each unknown [N, N m]; NaN where there is no answer.
     x: Floats
-    slopes: Floats
+    slopes: Floats  # (n, unknowns): extra force of its pair by each unknown
+    # (n,): where forces are unbounded or not determined; where friction lets nothing move.
     singular: Bools
     locked: Bools
-    iterations: int
+    iterations: int  # linear systems solved at each angle, at most
 
 
 class Equilibrium:

@@ -50,42 +50,20 @@ class Sliding(NamedTuple):
 
 @dataclass
 class PairModel:
-    """A pair, or a drive, at all crank angles.
+    """A pair, or a drive, at all crank angles."""
 
-    Attributes
-    ----------
-    name, kind : str
-        Those of the pair; a drive is a ``"torque"``, a ``"force"``, or the ``"contact"`` with a cam.
-    second : str
-        The member that forces are reported on.
-    unknowns : list of Wrenches
-        What one unit of each unknown does [1 N or 1 N m].
-    moments : tuple of bool
-        Which unknowns are moments.
-    extra : Wrenches or None
-        What one unit of friction, or of the force that parts teeth, does.
-    rate : ndarray, shape (n,)
-        Relative angular speed of a pin, relative velocity in a guide or slot [rad/s, m/s].
-    sense : ndarray
-        Its sign; zero where the pair stands.
-    friction : Friction
-        As given.
-    spread : float
-        Tangent of the pressure angle.
-    push, pull : Push or None
-        What the contacts of a cam do to its follower.
-    """
-
+    # Those of the pair; a drive is a `"torque"`, a `"force"`, or the `"contact"` with a cam.
     name: str
     kind: str
-    second: str
-    unknowns: list[Wrenches]
-    moments: tuple[bool, ...]
-    extra: Wrenches | None
-    rate: Floats
-    sense: Floats
-    friction: Friction | Sliding
-    spread: float = 0.0
+    second: str  # the member that forces are reported on
+    unknowns: list[Wrenches]  # what one unit of each unknown does [1 N or 1 N m]
+    moments: tuple[bool, ...]  # which unknowns are moments
+    extra: Wrenches | None  # what one unit of friction, or of the force that parts teeth, does
+    rate: Floats  # (n,): relative angular speed of a pin, relative velocity in a guide or slot [rad/s, m/s]
+    sense: Floats  # its sign; zero where the pair stands
+    friction: Friction | Sliding  # as given
+    spread: float = 0.0  # tangent of the pressure angle
+    # What the contacts of a cam do to its follower.
     push: Push | None = None
     pull: Push | None = None
 

@@ -48,24 +48,13 @@ _KINDS: dict[type[Element], Literal["RRR", "RRP", "RPR", "PRP", "group"]] = {
 
 @dataclass(frozen=True)
 class Dyad:
-    """One dyad, or a group.
+    """One dyad, or a group."""
 
-    Attributes
-    ----------
-    name : str
-        Of its element, or of its joint.
-    kind : str
-        ``"RRR"``, ``"RRP"``, ``"RPR"``, ``"PRP"`` (RPP too) or ``"group"``.
-    element : Element
-        What it is in the core's program.
-    change_points : tuple of float
-        Crank angles at which it passes a change point [rad].
-    """
-
-    name: str
+    name: str  # of its element, or of its joint
+    # `"RRR"`, `"RRP"`, `"RPR"`, `"PRP"` (RPP too) or `"group"`.
     kind: Literal["RRR", "RRP", "RPR", "PRP", "group"]
-    element: Closing
-    change_points: tuple[float, ...] = ()
+    element: Closing  # what it is in the core's program
+    change_points: tuple[float, ...] = ()  # crank angles at which it passes a change point [rad]
 
 
 def dyads_of(compiled: CompiledMachine) -> list[Dyad]:

@@ -41,21 +41,11 @@ _FLAT = 1e-11
 
 @dataclass(frozen=True)
 class Cycle:
-    """The crank angles that are looked at.
+    """The crank angles that are looked at."""
 
-    Attributes
-    ----------
-    angles : ndarray, shape (n,)
-        [rad].
-    ends : ndarray, shape (2,)
-        The first and the last; of a linkage with limits those themselves [rad].
-    repeats : bool
-        Whether the motion at the last is that at the first.
-    """
-
-    angles: Floats
-    ends: Floats
-    repeats: bool
+    angles: Floats  # (n,): [rad]
+    ends: Floats  # (2,): the first and the last; of a linkage with limits those themselves [rad]
+    repeats: bool  # whether the motion at the last is that at the first
 
     @classmethod
     def of(cls, where: Closure, period: int | None) -> Cycle:
@@ -233,24 +223,12 @@ def sweep(compiled: CompiledMachine, mechanism: Mechanism, cycle: Cycle) -> Link
 
 
 class Output(NamedTuple):
-    """One coordinate that is moved.
+    """One coordinate that is moved."""
 
-    Attributes
-    ----------
-    element : str
-        Name of the element, or of a joint held by bars.
-    name : str
-        Name of the link or slide.
-    kind : str
-        ``"swing"`` of a link or ``"stroke"`` along a guide.
-    channel : Channel
-        What the core calls it.
-    """
-
-    element: str
-    name: str
-    kind: Literal["swing", "stroke"]
-    channel: Channel
+    element: str  # name of the element, or of a joint held by bars
+    name: str  # name of the link or slide
+    kind: Literal["swing", "stroke"]  # `"swing"` of a link or `"stroke"` along a guide
+    channel: Channel  # what the core calls it
 
 
 def outputs_of(compiled: CompiledMachine, mechanism: Mechanism) -> list[Output]:

@@ -54,27 +54,13 @@ def tolerance(name: str) -> Tolerance:
 
 @dataclass(frozen=True)
 class Cell:
-    """A published and a computed value.
+    """A published and a computed value."""
 
-    Attributes
-    ----------
-    published : float
-        As printed, in SI.
-    computed : float or None
-        None where a way of computing has no such value.
-    because : str
-        Why it differs, if it does.
-    given : bool
-        Whether the computation takes the published value, so that agreement says nothing.
-    allowed : str
-        Name of the tolerance.
-    """
-
-    published: float
-    computed: float | None
-    because: str
-    given: bool = False
-    allowed: str = "digits"
+    published: float  # as printed, in SI
+    computed: float | None  # None where a way of computing has no such value
+    because: str  # why it differs, if it does
+    given: bool = False  # whether the computation takes the published value, so that agreement says nothing
+    allowed: str = "digits"  # name of the tolerance
 
     @property
     def deviation(self) -> float | None:
@@ -120,23 +106,15 @@ class Cell:
 
 @dataclass(frozen=True)
 class Row:
-    """One claim, judged.
+    """One claim, judged."""
 
-    Attributes
-    ----------
-    name, printed, computed, verdict : str
-        In words, with units.
-    kind : str
-        ``"reproduced"``, ``"near"``, ``"far"`` or ``"none"``.
-    where, why : str
-        Where it is printed; the reason for its tolerance.
-    """
-
+    # In words, with units.
     name: str
     printed: str
     computed: str
     verdict: str
-    kind: str
+    kind: str  # `"reproduced"`, `"near"`, `"far"` or `"none"`
+    # Where it is printed; the reason for its tolerance.
     where: str
     why: str
 

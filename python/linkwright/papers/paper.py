@@ -49,15 +49,9 @@ class Table(NamedTuple):
 
 @dataclass(frozen=True)
 class Paper:
-    """What is published in a paper, and what comes out.
+    """What is published in a paper, and what comes out."""
 
-    Attributes
-    ----------
-    published : dict
-        The file of data.
-    """
-
-    published: dict[str, Any]
+    published: dict[str, Any]  # the file of data
 
     @property
     def number(self) -> int:

@@ -136,21 +136,11 @@ def _shown(value: float, unit: str) -> str:
 
 @dataclass(frozen=True)
 class MotorChecks:
-    """All checks of a machine with its motor, and the analyses that they rest on.
+    """All checks of a machine with its motor, and the analyses that they rest on."""
 
-    Attributes
-    ----------
-    checks : tuple of Check
-        In the order of `DECISIVE`.
-    steady : SteadyState or None
-        None if there is no steady motion.
-    run_up : RunUp or None
-        None if the machine does not run up.
-    """
-
-    checks: tuple[Check, ...]
-    steady: SteadyState | None = None
-    run_up: RunUp | None = None
+    checks: tuple[Check, ...]  # in the order of `DECISIVE`
+    steady: SteadyState | None = None  # None if there is no steady motion
+    run_up: RunUp | None = None  # None if the machine does not run up
 
 
 def rating_checks(

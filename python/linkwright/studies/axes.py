@@ -29,38 +29,21 @@ _UNEVEN = re.compile(r"\s*([+-]\s*[\d.]+)\s+([+-]\s*[\d.]+)\s*(.*)", re.DOTALL)
 
 @dataclass(frozen=True)
 class Axis:
-    """A variable.
-
-    Attributes
-    ----------
-    name : str
-    addresses : tuple of str
-        Entries of the machine that take its value.
-    unit : str
-        SI unit of its values; empty for a number without one.
-    low, high : float
-        Ends of a range [SI]; of a list the first and last place, of a distribution its ends, which may be
-        infinite.
-    steps : int
-        How many levels a grid takes.
-    choices : tuple
-        The values of a list: numbers in SI, or whatever stands at the address.
-    is_log, is_whole : bool
-        Whether a range is divided evenly in the logarithm, whether it holds whole numbers alone.
-    distribution : tuple of str and float, or None
-        Kind, mean and deviation of a scatter.
-    """
+    """A variable."""
 
     name: str
-    addresses: tuple[str, ...]
-    unit: str
+    addresses: tuple[str, ...]  # entries of the machine that take its value
+    unit: str  # SI unit of its values; empty for a number without one
+    # Ends of a range [SI]; of a list the first and last place, of a distribution its ends, which may be
+    # infinite.
     low: float = 0.0
     high: float = 1.0
-    steps: int = 0
-    choices: tuple[Any, ...] = ()
+    steps: int = 0  # how many levels a grid takes
+    choices: tuple[Any, ...] = ()  # the values of a list: numbers in SI, or whatever stands at the address
+    # Whether a range is divided evenly in the logarithm, whether it holds whole numbers alone.
     is_log: bool = False
     is_whole: bool = False
-    distribution: tuple[str, float, float] | None = None
+    distribution: tuple[str, float, float] | None = None  # kind, mean and deviation of a scatter
 
     @property
     def is_number(self) -> bool:

@@ -32,25 +32,14 @@ _PANELS = 7
 
 @dataclass(frozen=True)
 class StudyRows:
-    """Rows to be drawn.
+    """Rows to be drawn."""
 
-    Attributes
-    ----------
-    columns : dict of str to ndarray, shape (n,)
-        Variables and responses; angles in degrees.
-    labels : dict of str to str
-        Name with unit.
-    variables, responses : tuple of str
-        Which are which.
-    is_grid : bool
-        Whether the rows are all combinations of the values of two variables or one.
-    """
-
-    columns: dict[str, Floats]
-    labels: dict[str, str]
+    columns: dict[str, Floats]  # (n,): variables and responses; angles in degrees
+    labels: dict[str, str]  # name with unit
+    # Which are which.
     variables: tuple[str, ...]
     responses: tuple[str, ...]
-    is_grid: bool
+    is_grid: bool  # whether the rows are all combinations of the values of two variables or one
 
 
 @styled

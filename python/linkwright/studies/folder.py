@@ -38,18 +38,10 @@ _ROWS, _ROWS_SINGLE = 10_000, 500
 
 @dataclass(frozen=True)
 class SweepFolder:
-    """A folder of results.
+    """A folder of results."""
 
-    Attributes
-    ----------
-    path : Path
-        The folder.
-    manifest : dict
-        What stands in its description.
-    """
-
-    path: Path
-    manifest: dict[str, Any] = field(repr=False)
+    path: Path  # the folder
+    manifest: dict[str, Any] = field(repr=False)  # what stands in its description
 
     @property
     def n_rows(self) -> int:

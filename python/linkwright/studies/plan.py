@@ -27,20 +27,11 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class Formula:
-    """A number that follows from others.
-
-    Attributes
-    ----------
-    name : str
-    tree : Node
-        The formula.
-    addresses : tuple of str
-        Entries of the machine that take its value; none of a response.
-    """
+    """A number that follows from others."""
 
     name: str
-    tree: Node
-    addresses: tuple[str, ...] = ()
+    tree: Node  # the formula
+    addresses: tuple[str, ...] = ()  # entries of the machine that take its value; none of a response
 
 
 @dataclass(frozen=True)

@@ -35,30 +35,14 @@ _PLACE = 1e-6
 
 @dataclass
 class RecordModel:
-    """What a machine would have recorded, by the numbers that are sought.
+    """What a machine would have recorded, by the numbers that are sought."""
 
-    Attributes
-    ----------
-    plan : StudyPlan
-        Its variables are the first of the numbers.
-    record : MeasuredRecord
-        What was measured.
-    options : FitOptions
-        Of which motion.
-    own : tuple of Number
-        Numbers that belong to the record: where it began, torque over current.
-    count : int
-        Motions computed so far.
-    reasons : dict of str to int
-        Why trials of the search had no answer → how many.
-    """
-
-    plan: StudyPlan
-    record: MeasuredRecord
-    options: FitOptions
-    own: tuple[Number, ...] = ()
-    count: int = 0
-    reasons: dict[str, int] = field(default_factory=dict)
+    plan: StudyPlan  # its variables are the first of the numbers
+    record: MeasuredRecord  # what was measured
+    options: FitOptions  # of which motion
+    own: tuple[Number, ...] = ()  # numbers that belong to the record: where it began, torque over current
+    count: int = 0  # motions computed so far
+    reasons: dict[str, int] = field(default_factory=dict)  # why trials of the search had no answer → how many
     _known: dict[bytes, Floats] = field(default_factory=dict, repr=False)
 
     def machine(self, x: Floats) -> Machine:

@@ -70,43 +70,21 @@ SAMPLES = 360
 
 @dataclass(frozen=True)
 class StudyResponse:
-    """One response of a study.
+    """One response of a study."""
 
-    Attributes
-    ----------
-    name : str
-        Its name in the study.
-    analysis : str
-        Analysis that it comes from.
-    of : tuple of str
-        Name of the cam, the point, or the part of a train, where there are several; address of an entry.
-    quantity : str
-        Attribute of the result; of a point ``"x"`` or ``"y"``.
-    word, unit : str
-        What it is called, SI unit.
-    extreme : str or None
-        What is taken of a curve.
-    index : int or None
-        Place in a list.
-    at : float or None
-        Crank angle at which a motion is taken [rad].
-    parts : tuple of str
-        Axes of a list of curves: ``("shafts", "speeds")``.
-    part : str or None
-        Pair of a mechanism whose force is taken.
-    """
-
-    name: str
-    analysis: str
+    name: str  # its name in the study
+    analysis: str  # analysis that it comes from
+    # Name of the cam, the point, or the part of a train, where there are several; address of an entry.
     of: tuple[str, ...]
-    quantity: str
+    quantity: str  # attribute of the result; of a point `"x"` or `"y"`
+    # What it is called, SI unit.
     word: str
     unit: str
-    extreme: str | None = None
-    index: int | None = None
-    at: float | None = None
-    parts: tuple[str, ...] = ()
-    part: str | None = None
+    extreme: str | None = None  # what is taken of a curve
+    index: int | None = None  # place in a list
+    at: float | None = None  # crank angle at which a motion is taken [rad]
+    parts: tuple[str, ...] = ()  # axes of a list of curves: `("shafts", "speeds")`
+    part: str | None = None  # pair of a mechanism whose force is taken
 
     @property
     def arguments(self) -> tuple[str, ...]:

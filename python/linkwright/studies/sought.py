@@ -24,24 +24,16 @@ _IN_TIME, _WITHOUT_MOTOR = ("run_up", "run_down", "coast"), ("run_down", "coast"
 
 @dataclass(frozen=True)
 class Number:
-    """A number that is sought.
+    """A number that is sought."""
 
-    Attributes
-    ----------
-    name, unit : str
-        Name of the variable, or of the record's own; SI unit as it is printed.
-    start, low, high : float
-        First value and limits [SI].
-    scale : float
-        What counts as a large change of it [SI].
-    """
-
+    # Name of the variable, or of the record's own; SI unit as it is printed.
     name: str
     unit: str
+    # First value and limits [SI].
     start: float
     low: float
     high: float
-    scale: float
+    scale: float  # what counts as a large change of it [SI]
 
 
 def numbers_of_record(

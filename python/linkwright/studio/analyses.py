@@ -48,21 +48,11 @@ _BRAKE = {"drive.brake": {"torque": "100 N m"}}
 
 @dataclass(frozen=True)
 class Obstacle:
-    """What stands in the way of an analysis.
+    """What stands in the way of an analysis."""
 
-    Attributes
-    ----------
-    words : str
-        What is missing.
-    mend : str
-        Words of the button that mends it; empty if nothing simple does.
-    entries : dict
-        Entries that the button sets.
-    """
-
-    words: str
-    mend: str = ""
-    entries: dict[str, Any] | None = None
+    words: str  # what is missing
+    mend: str = ""  # words of the button that mends it; empty if nothing simple does
+    entries: dict[str, Any] | None = None  # entries that the button sets
 
 
 def chips(machine: Machine) -> list[dict[str, Any]]:
@@ -131,28 +121,16 @@ def has_train(machine: Machine) -> bool:
 
 @dataclass(frozen=True)
 class Answers:
-    """What one lane has found.
+    """What one lane has found."""
 
-    Attributes
-    ----------
-    results : list of dict
-        Of `shown`.
-    findings, warnings : tuple of str
-        In sentences.
-    scene : dict or None
-        Of `drawing`, of the fast lane.
-    figures : list of dict
-        Diagrams that are no curves, as SVG: ``name``, ``title``, ``caption``, ``svg``.
-    views : list of dict
-        Pictures beside the drawing, of `views`.
-    """
-
-    results: list[dict[str, Any]]
+    results: list[dict[str, Any]]  # of `shown`
+    # In sentences.
     findings: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()
-    scene: dict[str, Any] | None = None
+    scene: dict[str, Any] | None = None  # of `drawing`, of the fast lane
+    # Diagrams that are no curves, as SVG: `name`, `title`, `caption`, `svg`.
     figures: tuple[dict[str, str], ...] = ()
-    views: tuple[dict[str, Any], ...] = ()
+    views: tuple[dict[str, Any], ...] = ()  # pictures beside the drawing, of `views`
 
     def body(self) -> dict[str, Any]:
         """All of it for a message."""

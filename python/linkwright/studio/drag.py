@@ -46,18 +46,10 @@ _HALVINGS = 13
 
 @dataclass(frozen=True)
 class Drag:
-    """Where a drag leads.
+    """Where a drag leads."""
 
-    Attributes
-    ----------
-    entries : dict of str to float
-        Address → SI value.
-    reason : str
-        Why it stops before the place; empty if it does not.
-    """
-
-    entries: dict[str, float]
-    reason: str = ""
+    entries: dict[str, float]  # address → SI value
+    reason: str = ""  # why it stops before the place; empty if it does not
 
 
 def drag(

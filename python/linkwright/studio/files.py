@@ -23,15 +23,9 @@ _FILES = 500
 
 @dataclass(frozen=True)
 class Folder:
-    """The folder that the studio was started in.
+    """The folder that the studio was started in."""
 
-    Attributes
-    ----------
-    root : Path
-        Its real path.
-    """
-
-    root: Path
+    root: Path  # its real path
 
     @classmethod
     def of(cls, path: Path) -> Folder:

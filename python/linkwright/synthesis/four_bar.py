@@ -31,27 +31,17 @@ _EQUAL = 1e-9
 
 @dataclass(frozen=True)
 class FourBar:
-    """A four-bar linkage with its place in the plane.
+    """A four-bar linkage with its place in the plane."""
 
-    Attributes
-    ----------
-    crank_pivot, rocker_pivot : complex
-        The fixed pivots A₀ and B₀, x + i y [m].
-    crank, coupler, rocker : float
-        Lengths [m].
-    assembly : str
-        Side of the joint B, seen from A to B₀: ``"left"`` or ``"right"``.
-    phase : float
-        Direction of the crank at crank angle zero [rad].
-    """
-
+    # The fixed pivots A₀ and B₀, x + i y [m].
     crank_pivot: complex
     rocker_pivot: complex
+    # Lengths [m].
     crank: float
     coupler: float
     rocker: float
-    assembly: Assembly = "left"
-    phase: float = 0.0
+    assembly: Assembly = "left"  # side of the joint B, seen from A to B₀: `"left"` or `"right"`
+    phase: float = 0.0  # direction of the crank at crank angle zero [rad]
 
     @property
     def frame(self) -> float:

@@ -37,25 +37,14 @@ _SAME = 1e-6
 
 @dataclass(frozen=True)
 class Fit:
-    """A solution of Freudenstein's equation.
+    """A solution of Freudenstein's equation."""
 
-    Attributes
-    ----------
-    K : ndarray, shape (3,)
-        K₁, K₂, K₃ [–].
-    crank_start, rocker_start : float
-        φ₀ and ψ₀ [rad].
-    residual : float
-        Root of the mean square of the equation's residuals [–].
-    found_by : int
-        Starts that ended there.
-    """
-
-    K: Floats
+    K: Floats  # (3,): K₁, K₂, K₃ [–]
+    # φ₀ and ψ₀ [rad].
     crank_start: float
     rocker_start: float
-    residual: float
-    found_by: int = 1
+    residual: float  # root of the mean square of the equation's residuals [–]
+    found_by: int = 1  # starts that ended there
 
 
 def lengths(K: Floats, frame: float = 1.0) -> tuple[float, float, float] | None:

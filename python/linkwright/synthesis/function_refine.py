@@ -59,21 +59,12 @@ _PAIRS = np.array(list(permutations(range(4), 2)))
 
 @dataclass(frozen=True)
 class Rows:
-    """Many linkages for one function, m of them.
+    """Many linkages for one function, m of them."""
 
-    Attributes
-    ----------
-    x : ndarray, shape (m, 5)
-        Logarithms of crank, coupler and rocker over the frame; start angles φ₀ and ψ₀ [rad].
-    side : ndarray, shape (m,)
-        +1 for the joint to the left of the way from the pin to the rocker's pivot, −1 to the right.
-    turned : ndarray of bool, shape (m, 2)
-        Whether crank and rocker point against the angles that describe them.
-    """
-
-    x: Floats
+    x: Floats  # (m, 5): logarithms of crank, coupler and rocker over the frame; start angles φ₀ and ψ₀ [rad]
+    # (m,): +1 for the joint to the left of the way from the pin to the rocker's pivot, −1 to the right.
     side: Floats
-    turned: Bools
+    turned: Bools  # (m, 2): whether crank and rocker point against the angles that describe them
 
     def take(self, which: Indices | Bools) -> Rows:
         """Some of them."""
@@ -82,28 +73,15 @@ class Rows:
 
 @dataclass(frozen=True)
 class FunctionModel:
-    """What the linkages shall do, and keep.
+    """What the linkages shall do, and keep."""
 
-    Attributes
-    ----------
-    crank, rocker : ndarray, shape (n,)
-        Crank and rocker angles of the points, from their start angles [rad].
-    span : float
-        Crank angle of the whole range, signed [rad].
-    free : ndarray of bool, shape (5,)
-        Which numbers of a row may change.
-    ratio_max : float
-        Maximum ratio of longest to shortest link.
-    transmission_min : float
-        Minimum transmission angle over the range [rad].
-    """
-
+    # (n,): crank and rocker angles of the points, from their start angles [rad].
     crank: Floats
     rocker: Floats
-    span: float
-    free: Bools
-    ratio_max: float
-    transmission_min: float
+    span: float  # crank angle of the whole range, signed [rad]
+    free: Bools  # (5,): which numbers of a row may change
+    ratio_max: float  # maximum ratio of longest to shortest link
+    transmission_min: float  # minimum transmission angle over the range [rad]
 
     def over(self, crank: Floats, rocker: Floats) -> FunctionModel:
         """The same limits at other points."""

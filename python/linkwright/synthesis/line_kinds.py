@@ -21,36 +21,17 @@ Tables = dict[str, Any]
 
 @dataclass(frozen=True)
 class LineKind:
-    """A kind of straight-line linkage.
+    """A kind of straight-line linkage."""
 
-    Attributes
-    ----------
-    kind : str
-        Its name in commands.
-    title : str
-        Its name in words.
-    exact : bool
-        Whether its line is straight by a theorem.
-    links : int
-        Links, the frame among them.
-    proportions : dict of str to float
-        Lengths that may be chosen, with their usual values.
-    span : callable
-        Proportions → first and last crank angle of the usual range [rad].
-    build : callable
-        Proportions → tables of the mechanism.
-    source : str
-        Who found it, and the proportions.
-    """
-
-    kind: str
-    title: str
-    exact: bool
-    links: int
-    proportions: dict[str, float]
+    kind: str  # its name in commands
+    title: str  # its name in words
+    exact: bool  # whether its line is straight by a theorem
+    links: int  # links, the frame among them
+    proportions: dict[str, float]  # lengths that may be chosen, with their usual values
+    # Proportions → first and last crank angle of the usual range [rad].
     span: Callable[[dict[str, float]], tuple[float, float]]
-    build: Callable[[dict[str, float]], Tables]
-    source: str
+    build: Callable[[dict[str, float]], Tables]  # proportions → tables of the mechanism
+    source: str  # who found it, and the proportions
 
 
 def _bar_tables(bar: FourBar, point: complex) -> Tables:

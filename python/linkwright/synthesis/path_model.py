@@ -123,24 +123,12 @@ MARGIN = 1e-9
 
 @dataclass(frozen=True)
 class Linkages:
-    """Rows of one search, m linkages.
+    """Rows of one search, m linkages."""
 
-    Attributes
-    ----------
-    p : ndarray, shape (m, k)
-        Their numbers; see the module.
-    phi : ndarray, shape (m, n)
-        Crank angle from the frame at each point [rad].
-    is_double : ndarray of bool, shape (m,)
-        Whether it is a double crank, or a crank-rocker.
-    side : ndarray, shape (m,)
-        +1 for the joint to the left, −1 to the right.
-    """
-
-    p: Floats
-    phi: Floats
-    is_double: Bools
-    side: Floats
+    p: Floats  # (m, k): their numbers; see the module
+    phi: Floats  # (m, n): crank angle from the frame at each point [rad]
+    is_double: Bools  # (m,): whether it is a double crank, or a crank-rocker
+    side: Floats  # (m,): +1 for the joint to the left, −1 to the right
 
     def take(self, which: Bools | Indices) -> Linkages:
         """Some of them."""

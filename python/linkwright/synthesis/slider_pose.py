@@ -29,27 +29,17 @@ _ZERO = 1e-12
 
 @dataclass(frozen=True)
 class SliderGuide:
-    """A slider-crank with its place in the plane.
+    """A slider-crank with its place in the plane."""
 
-    Attributes
-    ----------
-    crank_pivot, slider : complex
-        The fixed pivot, and the slider at crank angle zero [m].
-    crank, rod, offset : float
-        Lengths [m].
-    angle : float
-        Direction of the guide [rad].
-    phase : float
-        Direction of the crank at crank angle zero [rad].
-    """
-
+    # The fixed pivot, and the slider at crank angle zero [m].
     crank_pivot: complex
     slider: complex
+    # Lengths [m].
     crank: float
     rod: float
     offset: float
-    angle: float
-    phase: float
+    angle: float  # direction of the guide [rad]
+    phase: float  # direction of the crank at crank angle zero [rad]
 
     @property
     def type(self) -> str:

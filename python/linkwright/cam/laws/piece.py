@@ -77,18 +77,10 @@ class Harmonic(NamedTuple):
 
 
 class Piece(NamedTuple):
-    """A stretch of a law, over u from 0 to 1.
+    """A stretch of a law, over u from 0 to 1."""
 
-    Attributes
-    ----------
-    polynomial : tuple of float
-        Coefficients from the constant on; none is zero.
-    harmonics : tuple of Harmonic
-        What is added to the polynomial.
-    """
-
-    polynomial: tuple[float, ...]
-    harmonics: tuple[Harmonic, ...] = ()
+    polynomial: tuple[float, ...]  # coefficients from the constant on; none is zero
+    harmonics: tuple[Harmonic, ...] = ()  # what is added to the polynomial
 
     def at(self, u: Any) -> Any:
         """Value over u, of the same shape; with derivatives where the piece or u has some."""

@@ -41,57 +41,31 @@ def _nothing(curves: bool) -> Mapping[str, Any]:
 
 @dataclass(frozen=True, kw_only=True)
 class Answer:
-    """What a command found.
+    """What a command found."""
 
-    Attributes
-    ----------
-    machine : str or None
-        Name of the machine; None where there is none.
-    results : callable
-        Whether curves are wanted → results by name, in SI: plain numbers, texts, tables and lists.
-    findings : sequence of str
-        What the machine cannot do, in sentences; with any, the command ends with exit code 1.
-    warnings : sequence of str
-        What its designer should know besides.
-    extra : mapping
-        Further keys of the JSON object.
-    head, tables, tail : callable
-        What people are shown: words, tables, and below them such as lines of a machine file.
-    show : callable or None
-        Prints all of it for people, where that is no head and tables.
-    machine_file : callable or None
-        Text of the machine file that ``--out FILE`` asks for.
-    results_file : str
-        Name of the file with the JSON object; empty if none is written.
-    files, figures : callable
-        Further files by name; figures by name without ending.
-    report : callable or None
-        What a report of it says, where that is more than the tables and figures.
-    remarks : mapping of str to str
-        Name of a file → words beside it where the files are listed.
-    units : description or None
-        The table ``[units]`` of the machine file.
-    zero : Zero
-        From where crank angles are counted for people; JSON counts as the file does.
-    """
-
-    machine: str | None
+    machine: str | None  # name of the machine; None where there is none
+    # Whether curves are wanted → results by name, in SI: plain numbers, texts, tables and lists.
     results: Callable[[bool], Mapping[str, Any]] = _nothing
+    # What the machine cannot do, in sentences; with any, the command ends with exit code 1.
     findings: Sequence[str] = ()
-    warnings: Sequence[str] = ()
-    extra: Mapping[str, Any] = field(default_factory=dict)
+    warnings: Sequence[str] = ()  # what its designer should know besides
+    extra: Mapping[str, Any] = field(default_factory=dict)  # further keys of the JSON object
+    # What people are shown: words, tables, and below them such as lines of a machine file.
     head: Callable[[], str] = str
     tables: Callable[[], Sequence[Table]] = tuple
     tail: Callable[[], str] = str
-    show: Callable[[], None] | None = None
-    machine_file: Callable[[], str] | None = None
-    results_file: str = "results.json"
+    show: Callable[[], None] | None = None  # prints all of it for people, where that is no head and tables
+    machine_file: Callable[[], str] | None = None  # text of the machine file that `--out FILE` asks for
+    results_file: str = "results.json"  # name of the file with the JSON object; empty if none is written
+    # Further files by name; figures by name without ending.
     files: Callable[[], Mapping[str, str | bytes]] = dict
     figures: Callable[[], Mapping[str, Figure]] = dict
+    # What a report of it says, where that is more than the tables and figures.
     report: Callable[[], Content] | None = None
+    # Name of a file → words beside it where the files are listed.
     remarks: Mapping[str, str] = field(default_factory=dict)
-    units: BaseModel | None = None
-    zero: Zero = _FILE_ZERO
+    units: BaseModel | None = None  # the table `[units]` of the machine file
+    zero: Zero = _FILE_ZERO  # from where crank angles are counted for people; JSON counts as the file does
 
 
 # Who takes the answer of a command instead of the terminal: a report.

@@ -35,48 +35,22 @@ HELP = {"help_option_names": ["-h", "--help"]}
 
 
 class Option(NamedTuple):
-    """Mark of a parameter that is an option.
+    """Mark of a parameter that is an option."""
 
-    Attributes
-    ----------
-    name : str
-        As it is written, such as ``"--json"``.
-    metavar : str or None
-        What its value is called in the help.
-    help : str
-        What it does, in sentences.
-    show_default : bool
-        Whether the help says what holds without it.
-    min : int or None
-        Of a whole number, the smallest.
-    parser : callable or None
-        Makes the value of the word that is given.
-    """
-
-    name: str
-    metavar: str | None = None
-    help: str = ""
-    show_default: bool = True
-    min: int | None = None
-    parser: Callable[[str], Any] | None = None
+    name: str  # as it is written, such as `"--json"`
+    metavar: str | None = None  # what its value is called in the help
+    help: str = ""  # what it does, in sentences
+    show_default: bool = True  # whether the help says what holds without it
+    min: int | None = None  # of a whole number, the smallest
+    parser: Callable[[str], Any] | None = None  # makes the value of the word that is given
 
 
 class Argument(NamedTuple):
-    """Mark of a parameter that is given by its place.
+    """Mark of a parameter that is given by its place."""
 
-    Attributes
-    ----------
-    metavar : str
-        What it is called in usage and help.
-    help : str
-        What it is, in sentences.
-    takes_rest : bool
-        Whether it takes all words from here on, options too.
-    """
-
-    metavar: str
-    help: str
-    takes_rest: bool = False
+    metavar: str  # what it is called in usage and help
+    help: str  # what it is, in sentences
+    takes_rest: bool = False  # whether it takes all words from here on, options too
 
 
 def command(

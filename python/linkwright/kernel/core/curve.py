@@ -16,18 +16,12 @@ Beyond = Literal["held", "straight"]
 
 @dataclass(frozen=True)
 class Curve:
-    """Points with the slopes at both their sides; two points at one place are a step.
+    """Points with the slopes at both their sides; two points at one place are a step."""
 
-    Attributes
-    ----------
-    x, y : ndarray, shape (points,)
-        Places, never decreasing, and values.
-    before, after : ndarray, shape (points,)
-        Slopes just before and just after each point; the first and the last go on outside.
-    """
-
+    # (points,): places, never decreasing, and values.
     x: Floats
     y: Floats
+    # (points,): slopes just before and just after each point; the first and the last go on outside.
     before: Floats
     after: Floats
 

@@ -37,17 +37,10 @@ _KNOTS_A_WAVE = 32
 
 @dataclass(frozen=True)
 class PeriodicTable:
-    """Value, slope and bend at even knots over a period, the first at angle zero.
+    """Value, slope and bend at even knots over a period, the first at angle zero."""
 
-    Attributes
-    ----------
-    period : float
-        [rad].
-    value, slope, bend : ndarray, shape (knots,)
-        The function and its first and second derivatives by the angle.
-    """
-
-    period: float
+    period: float  # [rad]
+    # (knots,): the function and its first and second derivatives by the angle.
     value: Floats
     slope: Floats
     bend: Floats

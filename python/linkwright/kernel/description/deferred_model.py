@@ -12,18 +12,10 @@ from pydantic_core import CoreSchema, SchemaValidator, core_schema
 
 @dataclass(frozen=True)
 class DeferredModel:
-    """Mark of an entry that a model in another room describes.
+    """Mark of an entry that a model in another room describes."""
 
-    Attributes
-    ----------
-    module : str
-        Name of the module below the package.
-    name : str
-        Name of the model in it.
-    """
-
-    module: str
-    name: str
+    module: str  # name of the module below the package
+    name: str  # name of the model in it
 
     def model(self) -> type[BaseModel]:
         """The model, imported now."""

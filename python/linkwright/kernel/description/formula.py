@@ -53,24 +53,12 @@ _COMPARISONS = ("<", "<=", ">", ">=")
 
 
 class Node(NamedTuple):
-    """A part of a formula.
+    """A part of a formula."""
 
-    Attributes
-    ----------
-    op : str
-        ``number``, ``name``, ``negative``, ``+ - * / ^``, a comparison, or the name of a function.
-    args : tuple of Node
-        What it works on.
-    value : float or str
-        Of a number, or a name.
-    position : int
-        Of its first character, from 1.
-    """
-
-    op: str
-    args: tuple[Node, ...] = ()
-    value: float | str = ""
-    position: int = 0
+    op: str  # `number`, `name`, `negative`, `+ - * / ^`, a comparison, or the name of a function
+    args: tuple[Node, ...] = ()  # what it works on
+    value: float | str = ""  # of a number, or a name
+    position: int = 0  # of its first character, from 1
 
 
 # An instruction and what it works with.

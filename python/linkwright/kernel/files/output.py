@@ -84,17 +84,10 @@ def trial(path: Path) -> Iterator[Path]:
 
 @dataclass(frozen=True)
 class OutputFolder:
-    """A folder of results: new, empty, or written by an earlier run.
+    """A folder of results: new, empty, or written by an earlier run."""
 
-    Attributes
-    ----------
-    path : Path
-        The folder; made when it is written to.
-    force : bool
-        Whether files of others may lie in it, and are replaced where the names are the same.
-    """
-
-    path: Path
+    path: Path  # the folder; made when it is written to
+    # Whether files of others may lie in it, and are replaced where the names are the same.
     force: bool = False
 
     def require(self) -> None:

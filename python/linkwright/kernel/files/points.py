@@ -40,24 +40,12 @@ _HEAD = re.compile(r"\s*(\w+)\s*(?:\[([^\]]*)\])?\s*")
 
 @dataclass(frozen=True, slots=True)
 class Column:
-    """Where the values of a list are from.
+    """Where the values of a list are from."""
 
-    Attributes
-    ----------
-    place : tuple of str
-        Keys down to the list.
-    path : Path
-        The file of points.
-    head : int
-        Its line with the names of the columns.
-    lines : tuple of int
-        The line of each value.
-    """
-
-    place: tuple[str, ...]
-    path: Path
-    head: int
-    lines: tuple[int, ...]
+    place: tuple[str, ...]  # keys down to the list
+    path: Path  # the file of points
+    head: int  # its line with the names of the columns
+    lines: tuple[int, ...]  # the line of each value
 
     def holds(self, key: tuple[str, ...]) -> bool:
         """Whether an entry is the list, or one of its values."""

@@ -27,33 +27,15 @@ _OPEN = 1e-6
 
 
 class Fit(NamedTuple):
-    """Parameters that fit some equations best.
+    """Parameters that fit some equations best."""
 
-    Attributes
-    ----------
-    values : ndarray, shape (parameters,)
-        The smallest of all that fit equally well.
-    deviation : ndarray, shape (parameters,)
-        Standard deviations; infinite for what is open.
-    covariance : ndarray, shape (parameters, parameters)
-        As far as it can be determined.
-    is_open : ndarray of bool, shape (parameters,)
-        What the equations do not tell.
-    condition : float
-        Largest over smallest singular value; infinite where something is open.
-    misfit : float
-        Root of what is left over for each degree of freedom; NaN without any.
-    freedom : int
-        Equations less parameters told.
-    """
-
-    values: Floats
-    deviation: Floats
-    covariance: Floats
-    is_open: Bools
-    condition: float
-    misfit: float
-    freedom: int
+    values: Floats  # (parameters,): the smallest of all that fit equally well
+    deviation: Floats  # (parameters,): standard deviations; infinite for what is open
+    covariance: Floats  # (parameters, parameters): as far as it can be determined
+    is_open: Bools  # (parameters,): what the equations do not tell
+    condition: float  # largest over smallest singular value; infinite where something is open
+    misfit: float  # root of what is left over for each degree of freedom; NaN without any
+    freedom: int  # equations less parameters told
 
 
 def least_squares(A: Floats, y: Floats, *, is_known: bool) -> Fit:

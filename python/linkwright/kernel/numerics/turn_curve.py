@@ -21,26 +21,13 @@ _SAME = 1e-13
 
 @dataclass(frozen=True)
 class TurnCurve:
-    """k quantities over the crank angle.
+    """k quantities over the crank angle."""
 
-    Attributes
-    ----------
-    ends : ndarray, shape (p + 1,)
-        Ends of the pieces, increasing [rad].
-    series : ndarray, shape (p, k, N)
-        Chebyshev coefficients of each piece over its own width.
-    peak : ndarray, shape (k,)
-        Peak absolute value of each quantity among the nodes.
-    size : ndarray, shape (k,)
-        Integral of the absolute values, to some digits.
-    error : ndarray, shape (k,)
-        Error of the integrals, measured: deviation of each piece from the one that it is half of.
-    """
-
-    ends: Floats
-    series: Floats
-    peak: Floats
-    size: Floats
+    ends: Floats  # (p + 1,): ends of the pieces, increasing [rad]
+    series: Floats  # (p, k, N): Chebyshev coefficients of each piece over its own width
+    peak: Floats  # (k,): peak absolute value of each quantity among the nodes
+    size: Floats  # (k,): integral of the absolute values, to some digits
+    # (k,): error of the integrals, measured: deviation of each piece from the one that it is half of.
     error: Floats
 
     def integral(self) -> Floats:

@@ -66,63 +66,31 @@ _NO_HEADING = Heading()
 
 @dataclass(frozen=True, kw_only=True)
 class Content:
-    """What a report says.
+    """What a report says."""
 
-    Attributes
-    ----------
-    heading : Heading
-        What stands at its head.
-    title, lead, source : str
-        Name of the machine, one sentence about it, where its numbers are from.
-    notes : sequence of tuple of str
-        What must be read first, heading and text.
-    findings, warnings : sequence of str
-        What the machine cannot do; what its designer should know besides.
-    headline : sequence of Few
-        The few numbers that one looks for first.
-    scenes : mapping of str to dict
-        Data of the moving drawings, by what they show: ``"mechanism"``, ``"topper"``.
-    sketch : callable or None
-        Draws the machine at one instant, for paper.
-    printed : str
-        Results that are lines of a terminal.
-    parts : sequence of Part
-        The results.
-    formulas : sequence of Formula
-        What the numbers rest on.
-    papers : str
-        Where the formulas are from.
-    groups : sequence
-        Data of the machine: heading → parts of `linkwright.machine.table`.
-    assumptions : sequence of str
-        What was taken for granted.
-    file : str
-        The machine as a machine file in SI; empty without one.
-    command : str
-        The command line that gives the same.
-    language : Language
-        That it is written in, by `linkwright.kernel.page.language.in_language`.
-    """
-
+    # Name of the machine, one sentence about it, where its numbers are from.
     title: str
-    heading: Heading = _NO_HEADING
+    heading: Heading = _NO_HEADING  # what stands at its head
     lead: str = ""
     source: str = ""
-    notes: Sequence[tuple[str, str]] = ()
+    notes: Sequence[tuple[str, str]] = ()  # what must be read first, heading and text
+    # What the machine cannot do; what its designer should know besides.
     findings: Sequence[str] = ()
     warnings: Sequence[str] = ()
-    headline: Sequence[Few] = ()
+    headline: Sequence[Few] = ()  # the few numbers that one looks for first
+    # Data of the moving drawings, by what they show: `"mechanism"`, `"topper"`.
     scenes: Mapping[str, dict[str, Any]] = field(default_factory=dict)
-    sketch: Callable[[], Figure] | None = None
-    printed: str = ""
-    parts: Sequence[Part] = ()
-    formulas: Sequence[Formula] = ()
-    papers: str = ""
+    sketch: Callable[[], Figure] | None = None  # draws the machine at one instant, for paper
+    printed: str = ""  # results that are lines of a terminal
+    parts: Sequence[Part] = ()  # the results
+    formulas: Sequence[Formula] = ()  # what the numbers rest on
+    papers: str = ""  # where the formulas are from
+    # Data of the machine: heading → parts of `linkwright.machine.table`.
     groups: Sequence[tuple[str, Sequence[Any]]] = ()
-    assumptions: Sequence[str] = ()
-    file: str = ""
-    command: str = ""
-    language: Language = ENGLISH
+    assumptions: Sequence[str] = ()  # what was taken for granted
+    file: str = ""  # the machine as a machine file in SI; empty without one
+    command: str = ""  # the command line that gives the same
+    language: Language = ENGLISH  # that it is written in, by `linkwright.kernel.page.language.in_language`
 
     @property
     def has_figures(self) -> bool:

@@ -14,35 +14,19 @@ from typing import NamedTuple
 
 
 class Term(NamedTuple):
-    """A term of the field.
+    """A term of the field."""
 
-    Attributes
-    ----------
-    key : str
-        Name of the term for programs.
-    term, definition : str
-        The term and one sentence that defines it, in the language asked for.
-    subject : str
-        The heading that it stands under.
-    source : str
-        The standard or the handbook that it is taken from.
-    symbol, unit : str
-        As formulas write it, and its SI unit; empty where there is none.
-    names : tuple of str
-        Keys of files and attributes of results that mean the same.
-    retired : tuple of str
-        Regular expressions of words that texts use no longer for it.
-    """
-
-    key: str
+    key: str  # name of the term for programs
+    # The term and one sentence that defines it, in the language asked for.
     term: str
     definition: str
-    subject: str
-    source: str
+    subject: str  # the heading that it stands under
+    source: str  # the standard or the handbook that it is taken from
+    # As formulas write it, and its SI unit; empty where there is none.
     symbol: str = ""
     unit: str = ""
-    names: tuple[str, ...] = ()
-    retired: tuple[str, ...] = ()
+    names: tuple[str, ...] = ()  # keys of files and attributes of results that mean the same
+    retired: tuple[str, ...] = ()  # regular expressions of words that texts use no longer for it
 
 
 @cache

@@ -39,22 +39,13 @@ _KEPT = frozenset({"name", "file", "command", "scenes", "text", "source", "headi
 
 @dataclass(frozen=True)
 class Language:
-    """A language that reports are written in.
+    """A language that reports are written in."""
 
-    Attributes
-    ----------
-    code : str
-        As of ISO 639-1: ``"en"``, ``"uk"``.
-    texts, units : mapping of str to str
-        English text or unit → the language's own.
-    decimal : str
-        Decimal sign.
-    """
-
-    code: str = "en"
+    code: str = "en"  # as of ISO 639-1: `"en"`, `"uk"`
+    # English text or unit → the language's own.
     texts: Mapping[str, str] = field(default_factory=dict)
     units: Mapping[str, str] = field(default_factory=dict)
-    decimal: str = "."
+    decimal: str = "."  # decimal sign
 
     def __call__(self, text: str) -> str:
         """A text in this language; the text itself where it has no translation."""

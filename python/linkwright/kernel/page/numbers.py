@@ -77,27 +77,13 @@ def pretty_unit(unit: str) -> str:
 
 
 class QuantityText(str):
-    """Text of a number with its SI unit; an angle is in degrees.
+    """Text of a number with its SI unit; an angle is in degrees."""
 
-    Attributes
-    ----------
-    value : float
-        In SI.
-    unit : str
-        SI unit as it is printed.
-    digits : int
-        Significant digits.
-    is_crank_angle : bool
-        Whether it is an angle of the crank, which may be counted from a dead centre.
-    before : str
-        What stands before the number.
-    """
-
-    value: float
-    unit: str
-    digits: int
-    is_crank_angle: bool
-    before: str
+    value: float  # in SI
+    unit: str  # SI unit as it is printed
+    digits: int  # significant digits
+    is_crank_angle: bool  # whether it is an angle of the crank, which may be counted from a dead centre
+    before: str  # what stands before the number
 
 
 # Units in which people read a quantity, where they want no other.

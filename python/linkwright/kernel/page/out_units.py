@@ -57,15 +57,9 @@ def _unit(text: str) -> _Unit | None:
 
 @dataclass(frozen=True)
 class OutUnits:
-    """Units for what is shown.
+    """Units for what is shown."""
 
-    Attributes
-    ----------
-    chosen : tuple
-        The units, one of a kind.
-    """
-
-    chosen: tuple[_Unit, ...] = ()
+    chosen: tuple[_Unit, ...] = ()  # the units, one of a kind
 
     @classmethod
     def of(cls, text: str, where: str = "--units") -> OutUnits:

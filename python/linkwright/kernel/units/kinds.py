@@ -58,30 +58,16 @@ _SYMBOLS = {
 
 @dataclass(frozen=True)
 class Kind:
-    """A physical quantity: its word, its SI unit, and an example for messages.
+    """A physical quantity: its word, its SI unit, and an example for messages."""
 
-    Attributes
-    ----------
-    word : str
-        What it is called, with its article: "a length".
-    unit : str
-        The coherent SI unit in a spelling that `parse` reads.
-    unit_word : str
-        The same in words, in the plural.
-    example : str
-        A text that is valid for it.
-    least, most : float
-        Smallest size that counts, and largest [SI unit].
-    angle_free : bool
-        The radian may be written or left out: N·m/rad and N·m are the same torque per angle.
-    """
-
-    word: str
-    unit: str
-    unit_word: str
-    example: str
+    word: str  # what it is called, with its article: "a length"
+    unit: str  # the coherent SI unit in a spelling that `parse` reads
+    unit_word: str  # the same in words, in the plural
+    example: str  # a text that is valid for it
+    # Smallest size that counts, and largest [SI unit].
     least: float
     most: float
+    # The radian may be written or left out: N·m/rad and N·m are the same torque per angle.
     angle_free: bool = False
 
     @cached_property

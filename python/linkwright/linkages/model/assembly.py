@@ -14,61 +14,32 @@ from typing import Literal, NamedTuple
 
 
 class Part(NamedTuple):
-    """One element as the assembly sees it.
+    """One element as the assembly sees it."""
 
-    Attributes
-    ----------
-    role : str
-        ``"element"``, ``"joint"``, ``"bar"`` or ``"carried"`` (a point fixed to a link).
-    needs : tuple of str
-        Points and links that must be placed before: the ends of a bar, what the guide of a joint hangs on.
-    makes : tuple of str
-        Points and links that it places.
-    """
-
+    # `"element"`, `"joint"`, `"bar"` or `"carried"` (a point fixed to a link).
     role: Literal["element", "joint", "bar", "carried"]
+    # Points and links that must be placed before: the ends of a bar, what the guide of a joint hangs on.
     needs: tuple[str, ...]
-    makes: tuple[str, ...]
+    makes: tuple[str, ...]  # points and links that it places
 
 
 class Step(NamedTuple):
-    """One step of the build.
+    """One step of the build."""
 
-    Attributes
-    ----------
-    kind : str
-        ``"element"``, ``"dyad"`` or ``"group"``.
-    names : tuple of str
-        The element, or the joints.
-    conditions : tuple of str
-        Bars, and joints in place of their guides, that hold the joints.
-    """
-
-    kind: Literal["element", "dyad", "group"]
-    names: tuple[str, ...]
-    conditions: tuple[str, ...] = ()
+    kind: Literal["element", "dyad", "group"]  # `"element"`, `"dyad"` or `"group"`
+    names: tuple[str, ...]  # the element, or the joints
+    conditions: tuple[str, ...] = ()  # bars, and joints in place of their guides, that hold the joints
 
 
 @dataclass(frozen=True, slots=True)
 class Build:
-    """The steps, and what stands in the way.
+    """The steps, and what stands in the way."""
 
-    Attributes
-    ----------
-    steps : list of Step
-        In order.
-    loose : list of str
-        Joints that can still move.
-    surplus : list of str
-        Bars, and joints in place of their guides, that are too many.
-    stuck : list of str
-        Elements that could not be placed.
-    """
-
-    steps: list[Step] = field(default_factory=list)
-    loose: list[str] = field(default_factory=list)
+    steps: list[Step] = field(default_factory=list)  # in order
+    loose: list[str] = field(default_factory=list)  # joints that can still move
+    # Bars, and joints in place of their guides, that are too many.
     surplus: list[str] = field(default_factory=list)
-    stuck: list[str] = field(default_factory=list)
+    stuck: list[str] = field(default_factory=list)  # elements that could not be placed
 
 
 def build(parts: Mapping[str, Part], placed: Iterable[str], ignored: Iterable[str] = ()) -> Build:

@@ -40,25 +40,15 @@ _ORIGIN = FixedPoint(x=0.0, y=0.0)
 
 
 class Link(NamedTuple):
-    """A link of a mechanism: the rigid body between two of its points.
+    """A link of a mechanism: the rigid body between two of its points."""
 
-    Attributes
-    ----------
-    role : str
-        ``"crank"``, ``"rod"``, ``"coupler"``, ``"rocker"``, ``"lever"``, ``"bar"``, ``"gear"`` or ``"yoke"``.
-    element : str
-        Name of the element that makes it.
-    start, end : str
-        Names of the points that it runs between; the same for a gear or a yoke, which has one point.
-    length : float
-        Distance between them [m]; zero where it is not given.
-    """
-
+    # `"crank"`, `"rod"`, `"coupler"`, `"rocker"`, `"lever"`, `"bar"`, `"gear"` or `"yoke"`.
     role: Literal["crank", "rod", "coupler", "rocker", "lever", "bar", "gear", "yoke"]
-    element: str
+    element: str  # name of the element that makes it
+    # Names of the points that it runs between; the same for a gear or a yoke, which has one point.
     start: str
     end: str
-    length: float
+    length: float  # distance between them [m]; zero where it is not given
 
 
 class Mechanism(Description):

@@ -92,65 +92,35 @@ def _columns(parameters: list[Any], varying: list[int], n: int) -> tuple[Floats,
 
 @dataclass(frozen=True, slots=True)
 class CompiledMachine:
-    """A machine in the core's terms.
+    """A machine in the core's terms."""
 
-    Attributes
-    ----------
-    plan : _core.Plan
-        Its structure.
-    parameters : ndarray, shape (n_parameters,)
-        Its numbers in SI; of the first row where they vary.
-    slots : ndarray of int32, shape (k,)
-        Which parameters vary from row to row.
-    values : ndarray, shape (k, n)
-        Their values over n rows; n is 1 for a single machine.
-    points, links, slides : dict of str to int
-        Index of each point, link and slide by name.
-    dyads : tuple of str
-        Names of the elements that must close.
-    two_turns : ndarray of bool, shape (1,) or (n,)
-        Machines in which a dyad passes an odd number of change points, so that it repeats after two
-        revolutions.
-    one_turn : bool
-        Whether all motions repeat after one revolution of the crank by the kinds of the elements alone.
-    speed_guess : float
-        Crank speed from which steady motion is sought [rad/s].
-    gear_slots : tuple of int
-        Which parameters `gear_factors` are.
-    gear_factors : tuple of float
-        Ratio, and the factor on torque times ratio while the motor drives and while the load does.
-    speed_tables : tuple
-        Tables of load torque over crank speed.
-    has_laws : bool
-        Whether loads depend on both angle and speed in their own way, or on time.
-    resisting : _core.Plan
-        The structure without its conservative loads, whose work over a closed cycle is zero.
-    ground : tuple of _core.GroundPoint
-        Points at rest.
-    elements : tuple of _core.Element
-        The core's program in build order: indices of what each makes and hangs on, slots of its numbers.
-    kept : dict
-        What has been found out about the machine once and for all, by name.
-    """
-
-    plan: _core.Plan
-    parameters: Floats
-    slots: Integers
-    values: Floats
+    plan: _core.Plan  # its structure
+    parameters: Floats  # (n_parameters,): its numbers in SI; of the first row where they vary
+    slots: Integers  # (k,): which parameters vary from row to row
+    values: Floats  # (k, n): their values over n rows; n is 1 for a single machine
+    # Index of each point, link and slide by name.
     points: dict[str, int]
     links: dict[str, int]
     slides: dict[str, int]
-    dyads: tuple[str, ...]
+    dyads: tuple[str, ...]  # names of the elements that must close
+    # (1,): machines in which a dyad passes an odd number of change points, so that it repeats after two
+    # revolutions.
     two_turns: Bools
+    # Whether all motions repeat after one revolution of the crank by the kinds of the elements alone.
     one_turn: bool
-    speed_guess: float
-    gear_slots: tuple[int, int, int]
+    speed_guess: float  # crank speed from which steady motion is sought [rad/s]
+    gear_slots: tuple[int, int, int]  # which parameters `gear_factors` are
+    # Ratio, and the factor on torque times ratio while the motor drives and while the load does.
     gear_factors: tuple[float, float, float]
+    # Tables of load torque over crank speed.
     speed_tables: tuple[tuple[Sequence[float], Sequence[float]], ...]
-    has_laws: bool
+    has_laws: bool  # whether loads depend on both angle and speed in their own way, or on time
+    # The structure without its conservative loads, whose work over a closed cycle is zero.
     resisting: _core.Plan
-    ground: tuple[_core.GroundPoint, ...] = ()
+    ground: tuple[_core.GroundPoint, ...] = ()  # points at rest
+    # The core's program in build order: indices of what each makes and hangs on, slots of its numbers.
     elements: tuple[_core.Element, ...] = ()
+    # What has been found out about the machine once and for all, by name.
     kept: dict[str, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     @property

@@ -97,27 +97,18 @@ def recompute(row: Mapping[str, float]) -> list[ValueCheck]:
 
 @dataclass(frozen=True)
 class Drive:
-    """One drive: what is published, and what comes out.
+    """One drive: what is published, and what comes out."""
 
-    Attributes
-    ----------
-    published, machine : PublishedDrive, Machine
-        The printed row and its file.
-    reduced, steady, up, scheme : Reduction, SteadyState, RunUp, StepMotion
-        The analyses.
-    fit : Fit
-        The inertia with which the limit comes nearest to the row.
-    choice : MotorChoice
-        The motor that passes all checks of `linkwright.sizing`, and those of the one that it has.
-    """
-
+    # The printed row and its file.
     published: PublishedDrive
     machine: Machine
+    # The analyses.
     reduced: Reduction
     steady: SteadyState
     up: RunUp
     scheme: StepMotion
-    fit: Fit
+    fit: Fit  # the inertia with which the limit comes nearest to the row
+    # The motor that passes all checks of `linkwright.sizing`, and those of the one that it has.
     choice: MotorChoice
 
     @property

@@ -25,24 +25,12 @@ _OPPOSED = np.pi
 
 @dataclass(frozen=True)
 class Paper1(Paper):
-    """Paper 1, published against computed.
+    """Paper 1, published against computed."""
 
-    Attributes
-    ----------
-    drives : tuple of Drive
-        The four drives.
-    power : RequiredPower
-        Values that the paper prints on the way, for two carts.
-    trials : dict of float to StepMotion
-        Step of the angle in degrees → two carts by the published scheme.
-    opposed : Fit
-        Row 4 by four carts at 180° between neighbours, two against two.
-    """
-
-    drives: tuple[Drive, ...]
-    power: RequiredPower
-    trials: dict[float, StepMotion]
-    opposed: Fit
+    drives: tuple[Drive, ...]  # the four drives
+    power: RequiredPower  # values that the paper prints on the way, for two carts
+    trials: dict[float, StepMotion]  # step of the angle in degrees → two carts by the published scheme
+    opposed: Fit  # row 4 by four carts at 180° between neighbours, two against two
 
     @property
     def steps(self) -> dict[float, float]:

@@ -33,22 +33,13 @@ from linkwright.machine.program.compiled import compile_machine
 
 @dataclass(frozen=True)
 class Fit:
-    """The inertia of the drive with which the constant-energy limit comes nearest to a published row.
+    """The inertia of the drive with which the constant-energy limit comes nearest to a published row."""
 
-    Attributes
-    ----------
-    inertia : float
-        I_0 i², at the crank [kg m²].
-    unevenness, dynamism : float
-        δ and H with it [–].
-    misfit : float
-        Root of the mean square of their relative deviations from the published ones [–].
-    """
-
-    inertia: float
+    inertia: float  # I_0 i², at the crank [kg m²]
+    # δ and H with it [–].
     unevenness: float
     dynamism: float
-    misfit: float
+    misfit: float  # root of the mean square of their relative deviations from the published ones [–]
 
     @property
     def fits(self) -> bool:

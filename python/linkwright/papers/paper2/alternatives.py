@@ -35,44 +35,30 @@ _ANGLES = 7200
 
 @dataclass(frozen=True)
 class Alternative:
-    """A drive of the cart.
+    """A drive of the cart."""
 
-    Attributes
-    ----------
-    name, short : str
-        What it is; a word or two for figures.
-    machine, steady : Machine, SteadyState
-        The machine and its steady motion.
-    crank_angle : ndarray, shape (n,)
-        Of the curves [rad].
-    velocity, acceleration : ndarray, shape (n,)
-        Of the cart at the design speed [m/s, m/s²].
-    force, torque : ndarray, shape (n,)
-        On the cart, and from there on the shaft, in steady motion [N, N m].
-    velocity_max, acceleration_max, jerk_max, jerk_step : float
-        Largest in size at the design speed, exact for a cam; largest step [m/s, m/s², m/s³].
-    pressure_angle_max, concave_radius : float or None
-        Of a cam [rad]; minimum concave radius of curvature, if there are hollows [m].
-    steady_share : float
-        Share of the stroke at constant speed [–].
-    """
-
+    # What it is; a word or two for figures.
     name: str
     short: str
+    # The machine and its steady motion.
     machine: Machine
     steady: SteadyState
-    crank_angle: Floats
+    crank_angle: Floats  # (n,): of the curves [rad]
+    # (n,): of the cart at the design speed [m/s, m/s²].
     velocity: Floats
     acceleration: Floats
+    # (n,): on the cart, and from there on the shaft, in steady motion [N, N m].
     force: Floats
     torque: Floats
+    # Largest in size at the design speed, exact for a cam; largest step [m/s, m/s², m/s³].
     velocity_max: float
     acceleration_max: float
     jerk_max: float
     jerk_step: float
+    # Of a cam [rad]; minimum concave radius of curvature, if there are hollows [m].
     pressure_angle_max: float | None
     concave_radius: float | None
-    steady_share: float
+    steady_share: float  # share of the stroke at constant speed [–]
 
     @property
     def force_max(self) -> float:

@@ -85,32 +85,18 @@ def starts(formulas: Formulas) -> dict[str, Start]:
 
 @dataclass(frozen=True)
 class Course:
-    """The cart over one revolution of steady motion.
+    """The cart over one revolution of steady motion."""
 
-    Attributes
-    ----------
-    time : ndarray, shape (n,)
-        From the start of the revolution [s].
-    velocity, intended : ndarray, shape (n,)
-        Of the cart, and by the law at the mean speed over time [m/s].
-    speed : ndarray, shape (n,)
-        Of the shaft [rad/s].
-    speed_mean, speed_design : float
-        Of the shaft over time, and as designed [rad/s].
-    steady : ndarray of bool, shape (n,)
-        Where the law has constant speed.
-    speed_constant : float
-        That speed at the mean speed of the shaft [m/s].
-    """
-
-    time: Floats
+    time: Floats  # (n,): from the start of the revolution [s]
+    # (n,): of the cart, and by the law at the mean speed over time [m/s].
     velocity: Floats
     intended: Floats
-    speed: Floats
+    speed: Floats  # (n,): of the shaft [rad/s]
+    # Of the shaft over time, and as designed [rad/s].
     speed_mean: float
     speed_design: float
-    steady: Bools
-    speed_constant: float
+    steady: Bools  # (n,): where the law has constant speed
+    speed_constant: float  # that speed at the mean speed of the shaft [m/s]
 
     @property
     def period(self) -> float:
@@ -176,29 +162,19 @@ _ANGLES = 1440
 
 @dataclass(frozen=True)
 class Rollers:
-    """Rollers on the printed profile, and on a profile inside of it.
+    """Rollers on the printed profile, and on a profile inside of it."""
 
-    Attributes
-    ----------
-    radius, largest_in_hollow, largest_inside : float
-        Of the rollers looked at; what a roller must stay below that runs on the printed profile, its minimum
-        concave radius, and whose centre runs on it, its minimum convex radius [m].
-    play, lift_error : float
-        By how much the distance of two rollers on the printed profile changes over one revolution, and the
-        place of a roller's centre differs from ρ + r at most [m].
-    offset : CamProfile
-        The cam whose rollers' centres run on the printed curve.
-    breadth_for_limit : float
-        Minimum b at which the pressure angle keeps the limit of the cam [m].
-    """
-
+    # Of the rollers looked at; what a roller must stay below that runs on the printed profile, its minimum
+    # concave radius, and whose centre runs on it, its minimum convex radius [m].
     radius: float
     largest_in_hollow: float | None
     largest_inside: float | None
+    # By how much the distance of two rollers on the printed profile changes over one revolution, and the
+    # place of a roller's centre differs from ρ + r at most [m].
     play: float
     lift_error: float
-    offset: CamProfile
-    breadth_for_limit: float
+    offset: CamProfile  # the cam whose rollers' centres run on the printed curve
+    breadth_for_limit: float  # minimum b at which the pressure angle keeps the limit of the cam [m]
 
 
 def rollers(profile: CamProfile, machine: str, radius: float) -> Rollers:

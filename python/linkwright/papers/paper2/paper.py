@@ -28,33 +28,15 @@ _NOTHING = 1e-9
 
 @dataclass(frozen=True)
 class Paper2(Paper):
-    """Paper 2, published against computed.
+    """Paper 2, published against computed."""
 
-    Attributes
-    ----------
-    formulas : Formulas
-        The printed formulas.
-    profile : CamProfile
-        The cam by the general synthesis.
-    starts : dict of str to Start
-        The start section, and those of minimum ∫ jerk².
-    rollers : Rollers
-        Rollers on the printed profile.
-    pair : dict of str to float
-        Forces of one cam against two [N].
-    alternatives : tuple of Alternative
-        The printed law, the crank drive, other laws.
-    course : Course
-        The cart in steady motion.
-    """
-
-    formulas: Formulas
-    profile: CamProfile
-    starts: dict[str, Start]
-    rollers: Rollers
-    pair: dict[str, float]
-    alternatives: tuple[Alternative, ...]
-    course: Course
+    formulas: Formulas  # the printed formulas
+    profile: CamProfile  # the cam by the general synthesis
+    starts: dict[str, Start]  # the start section, and those of minimum ∫ jerk²
+    rollers: Rollers  # rollers on the printed profile
+    pair: dict[str, float]  # forces of one cam against two [N]
+    alternatives: tuple[Alternative, ...]  # the printed law, the crank drive, other laws
+    course: Course  # the cart in steady motion
 
     def quantities(self) -> dict[str, Any]:
         """Checks of the formulas, drives by name, and one beside another [–]."""

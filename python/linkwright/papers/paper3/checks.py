@@ -23,24 +23,15 @@ from linkwright.torsion.response.unevenness_along import UnevennessAlong, uneven
 
 @dataclass(frozen=True)
 class WeakChecks:
-    """Shares of the combustion of all cylinders as they come out where one is weak.
+    """Shares of the combustion of all cylinders as they come out where one is weak."""
 
-    Attributes
-    ----------
-    cylinder : int
-        The weak one, from 1.
-    discs : tuple of str
-        Whose speed is looked at.
-    elastic, rigid : ndarray, shape (discs, cylinders)
-        Shares by least squares over the orders, with the elastic train, and with one taken as rigid.
-    against_sound : ndarray, shape (discs, cylinders)
-        By the rigid train, from what has changed since the engine was sound.
-    """
-
-    cylinder: int
-    discs: tuple[str, ...]
+    cylinder: int  # the weak one, from 1
+    discs: tuple[str, ...]  # whose speed is looked at
+    # (discs, cylinders): shares by least squares over the orders, with the elastic train, and with one taken
+    # as rigid.
     elastic: Floats
     rigid: Floats
+    # (discs, cylinders): by the rigid train, from what has changed since the engine was sound.
     against_sound: Floats
 
 
@@ -88,35 +79,21 @@ _TOLD = 3
 
 @dataclass(frozen=True)
 class UnevennessChecks:
-    """Speed fluctuation of the discs at the speed of service.
+    """Speed fluctuation of the discs at the speed of service."""
 
-    Attributes
-    ----------
-    speed : float
-        Of service [rad/s].
-    discs, places : tuple of str, list of int
-        Along the shaft, from its free end, and where they stand in results.
-    sound : UnevennessAlong
-        N of the sound engine, cylinder by cylinder.
-    delta, delta_rigid : ndarray, shape (discs,), and float
-        δ of the sound engine, with torsion, and if nothing twisted.
-    swing : ndarray, shape (discs,)
-        Half the peak-to-peak angle of vibration, all orders in phase [rad].
-    orders, by_order : tuple of float, ndarray, shape (orders, discs)
-        Those that swing most, and their amplitudes [rad].
-    weak, weak_rigid : ndarray, shape (cylinders, discs) and (cylinders,)
-        δ with each cylinder weak in turn, with torsion, and if nothing twisted.
-    """
-
-    speed: float
+    speed: float  # of service [rad/s]
+    # Along the shaft, from its free end, and where they stand in results.
     discs: tuple[str, ...]
     places: list[int]
-    sound: UnevennessAlong
+    sound: UnevennessAlong  # n of the sound engine, cylinder by cylinder
+    # (discs,): δ of the sound engine, with torsion, and if nothing twisted.
     delta: Floats
     delta_rigid: float
-    swing: Floats
+    swing: Floats  # (discs,): half the peak-to-peak angle of vibration, all orders in phase [rad]
+    # (orders, discs): those that swing most, and their amplitudes [rad].
     orders: tuple[float, ...]
     by_order: Floats
+    # (cylinders, discs): δ with each cylinder weak in turn, with torsion, and if nothing twisted.
     weak: Floats
     weak_rigid: Floats
 

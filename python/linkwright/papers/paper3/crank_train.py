@@ -41,27 +41,18 @@ MODES = (1, 2, 3)
 
 @dataclass(frozen=True)
 class Shift:
-    """What a formula makes of the natural frequencies.
+    """What a formula makes of the natural frequencies."""
 
-    Attributes
-    ----------
-    name, what : str
-        The formula, in words; ``"J"`` of the disc of a throw, or ``"k"`` of the shaft between throws.
-    value, deviation : float
-        By the formula [kg m²] or [N m/rad]; from the exact mean inertia or the stiffness by (17) [–].
-    frequencies, changes : ndarray, shape (modes,)
-        Of `MODES` [Hz], and shares of those of the exact train [–].
-    critical : float
-        Speed at which the order of the firing meets the first mode of the crankshaft [rad/s].
-    """
-
+    # The formula, in words; `"J"` of the disc of a throw, or `"k"` of the shaft between throws.
     name: str
     what: str
+    # By the formula [kg m²] or [N m/rad]; from the exact mean inertia or the stiffness by (17) [–].
     value: float
     deviation: float
+    # (modes,): of `MODES` [Hz], and shares of those of the exact train [–].
     frequencies: Floats
     changes: Floats
-    critical: float
+    critical: float  # speed at which the order of the firing meets the first mode of the crankshaft [rad/s]
 
 
 @dataclass(frozen=True)

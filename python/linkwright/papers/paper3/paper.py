@@ -29,26 +29,15 @@ from linkwright.papers.paper3.crank_train import (
 
 @dataclass(frozen=True)
 class Paper3(Paper):
-    """Paper 3, printed against exact.
+    """Paper 3, printed against exact."""
 
-    Attributes
-    ----------
-    trial : TrialEngine
-        The V-12.
-    inertia, swing, throw : dict
-        (1) to (12), (13) to (15), (16) and (17), each against the exact value.
-    uneven : UnevennessChecks
-        Speed fluctuation along the shaft.
-    weak : WeakChecks
-        Which cylinder is weak, by the elastic and by a rigid train.
-    """
-
-    trial: TrialEngine
+    trial: TrialEngine  # the V-12
+    # (1) to (12), (13) to (15), (16) and (17), each against the exact value.
     inertia: dict[str, Any]
     swing: dict[str, Any]
     throw: dict[str, Any]
-    uneven: UnevennessChecks
-    weak: WeakChecks
+    uneven: UnevennessChecks  # speed fluctuation along the shaft
+    weak: WeakChecks  # which cylinder is weak, by the elastic and by a rigid train
 
     @property
     def shifts(self) -> tuple[Shift, ...]:

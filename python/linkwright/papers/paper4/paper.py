@@ -31,20 +31,12 @@ _STEPS = 50
 
 @dataclass(frozen=True)
 class Place:
-    """A place of the crankshaft that the printed lengths allow.
+    """A place of the crankshaft that the printed lengths allow."""
 
-    Attributes
-    ----------
-    unit : Unit
-        The unit with it.
-    least_angle : float
-        Minimum angle between pitman and rear arm, or its supplement, over the revolution [rad].
-    upstroke : float
-        Angle that the crank turns in the upstroke, counter-clockwise with the well to the right [rad].
-    """
-
-    unit: Unit
+    unit: Unit  # the unit with it
+    # Minimum angle between pitman and rear arm, or its supplement, over the revolution [rad].
     least_angle: float
+    # Angle that the crank turns in the upstroke, counter-clockwise with the well to the right [rad].
     upstroke: float
 
 
@@ -135,28 +127,18 @@ _NEARLY = np.radians(1.0)
 
 @dataclass(frozen=True)
 class Paper4(Paper):
-    """Paper 4, published against computed.
+    """Paper 4, published against computed."""
 
-    Attributes
-    ----------
-    places : tuple of Place
-        Places of the crankshaft, the chosen one first.
-    rounded : tuple of float
-        Link and lever with k_1 = 3 m, the beam placed so that the link comes out [m].
-    continuous, intermittent : RodRotatorMotion
-        The rotators of the library.
-    straightness : float
-        Maximum distance of φ_5 from the straight line of one revolution in one revolution, continuous regime
-        [rad].
-    closing : tuple of float
-        Crank angles of the machine file between which the printed intermittent lengths close [rad].
-    """
-
-    places: tuple[Place, ...]
+    places: tuple[Place, ...]  # places of the crankshaft, the chosen one first
+    # Link and lever with k_1 = 3 m, the beam placed so that the link comes out [m].
     rounded: tuple[float, float]
+    # The rotators of the library.
     continuous: RodRotatorMotion
     intermittent: RodRotatorMotion
+    # Maximum distance of φ_5 from the straight line of one revolution in one revolution, continuous regime
+    # [rad].
     straightness: float
+    # Crank angles of the machine file between which the printed intermittent lengths close [rad].
     closing: tuple[float, float]
 
     @property

@@ -46,39 +46,19 @@ _ANGLES = np.radians(np.arange(0.0, 85.0, 0.01))
 
 @dataclass(frozen=True)
 class ClaimVerdict:
-    """For which angles and heads the published lengths hold.
+    """For which angles and heads the published lengths hold."""
 
-    Attributes
-    ----------
-    claim : Claim
-        As printed.
-    stroke : Stroke
-        Chosen.
-    diameters : tuple of float
-        d of the minimum and the largest head chosen [m].
-    offset : float
-        Δ chosen [m].
-    angles : tuple of LengthVerdict
-        One for each angle of the table.
-    offsets : dict of str to ndarray
-        Way → offsets Δ of that head, one row for each angle, whose maximum lengths are those of the claim
-        [m]; negative where the head alone needs more, NaN where no edge does.
-    chosen : LengthVerdict
-        At the angle chosen.
-    least_band : float
-        Minimum band for which (10) gives the shorter length of the claim at any angle [m].
-    throughout : dict of str to tuple of float
-        Way → minimum and maximum angle at which one band of heads has all its lengths within the claim [rad].
-    """
-
-    claim: Claim
-    stroke: Stroke
-    diameters: tuple[float, float]
-    offset: float
-    angles: tuple[LengthVerdict, ...]
+    claim: Claim  # as printed
+    stroke: Stroke  # chosen
+    diameters: tuple[float, float]  # d of the minimum and the largest head chosen [m]
+    offset: float  # Δ chosen [m]
+    angles: tuple[LengthVerdict, ...]  # one for each angle of the table
+    # Way → offsets Δ of that head, one row for each angle, whose maximum lengths are those of the claim [m];
+    # negative where the head alone needs more, NaN where no edge does.
     offsets: dict[str, Floats]
-    chosen: LengthVerdict
-    least_band: float
+    chosen: LengthVerdict  # at the angle chosen
+    least_band: float  # minimum band for which (10) gives the shorter length of the claim at any angle [m]
+    # Way → minimum and maximum angle at which one band of heads has all its lengths within the claim [rad].
     throughout: dict[str, tuple[float, float]]
 
     @property
@@ -158,25 +138,14 @@ _NAMES = {"published": "(10)", "consistent": "(4)", "constant_speed": "the exact
 
 @dataclass(frozen=True)
 class Paper5(Paper):
-    """Paper 5, published against computed.
+    """Paper 5, published against computed."""
 
-    Attributes
-    ----------
-    head : float
-        Discs of the printed diameter against the cap that they fill [–].
-    step, short : dict
-        From (4) to (5), and the exact length over those of the paper.
-    surfaces : tuple of Surface
-        Figure 3.
-    verdict : ClaimVerdict
-        On the result.
-    """
-
-    head: float
+    head: float  # discs of the printed diameter against the cap that they fill [–]
+    # From (4) to (5), and the exact length over those of the paper.
     step: dict[str, Any]
     short: dict[str, Any]
-    surfaces: tuple[Surface, ...]
-    verdict: ClaimVerdict
+    surfaces: tuple[Surface, ...]  # figure 3
+    verdict: ClaimVerdict  # on the result
 
     def quantities(self) -> dict[str, Any]:
         """Numbers of the step, of the result, and what the statements of the paper come to."""

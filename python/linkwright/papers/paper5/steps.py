@@ -92,21 +92,13 @@ _POINTS = 61
 
 @dataclass(frozen=True)
 class Surface:
-    """Lengths at one forward speed.
+    """Lengths at one forward speed."""
 
-    Attributes
-    ----------
-    forward_speed : float
-        v [m/s].
-    root_diameters, knife_speeds : ndarray
-        D [m] and v_h [m/s], shape (n,).
-    published, exact : ndarray
-        By (10), and exact for constant speed [m], shape (n, n): a row for each v_h.
-    """
-
-    forward_speed: float
+    forward_speed: float  # v [m/s]
+    # D [m] and v_h [m/s], shape (n,).
     root_diameters: Floats
     knife_speeds: Floats
+    # By (10), and exact for constant speed [m], shape (n, n): a row for each v_h.
     published: Floats
     exact: Floats
 
