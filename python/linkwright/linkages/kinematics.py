@@ -8,7 +8,7 @@ from functools import partial
 from typing import Annotated, Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import MachineError, Problem, ShapeError
@@ -235,7 +235,8 @@ def motions(
     points: Iterable[str] = (),
     links: Iterable[str] = (),
     slides: Iterable[str] = (),
-    out: Floats | None = None,
+    # Not `Floats`, which an argument of a public function is one list of.
+    out: NDArray[np.float64] | None = None,
 ) -> Floats:
     """Motions of one or many machines as one array, at the speed of the core.
 
