@@ -11,8 +11,15 @@ import pytest
 import linkwright as lw
 from linkwright.kernel.errors import AssemblyError, InputError, ShapeError
 from linkwright.kernel.numerics.taylor import Taylor
-from linkwright.linkages.law import FunctionLaw, PolynomialLaw, RampLaw, TableLaw, as_law, constant_speed
-from linkwright.linkages.law_input import FormulaLaw
+from linkwright.linkages.law import (
+    FormulaLaw,
+    FunctionLaw,
+    PolynomialLaw,
+    RampLaw,
+    TableLaw,
+    as_law,
+    constant_speed,
+)
 
 # One of each dyad, gear, planet, rack, cable and a bar, all in one machine.
 ALL = """

@@ -14,7 +14,6 @@
 | `grashof` | Four-bar loops of a mechanism and their class after Grashof |
 | `kinematics` | How do points, links and slides move? |
 | `law` | Laws of the driver: the crank angle over time with three derivatives |
-| `law_input` | Laws of the crank from a user: a table of times and angles, a formula of the time |
 | `model/` | Elements of a mechanism, how they refer to each other, and in which order they are built |
 | `motion` | Where is everything under a law of time? |
 | `obstacle` | Why an element does not close, in words, and what to change |

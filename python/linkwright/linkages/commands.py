@@ -316,10 +316,9 @@ def _is_table(law: str) -> bool:
 def _law(text: str) -> Law:
     """A formula, or the table in a file."""
     if _is_table(text):
-        from linkwright.linkages.law import TableLaw
-        from linkwright.linkages.law_input import read_law_table
+        from linkwright.linkages.law import TableLaw, read_law_table
 
         return TableLaw(*read_law_table(Path(text)))
-    from linkwright.linkages.law_input import FormulaLaw
+    from linkwright.linkages.law import FormulaLaw
 
     return FormulaLaw(text)

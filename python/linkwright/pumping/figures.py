@@ -1,9 +1,4 @@
-"""Figures of pumping units and rod rotators.
-
-Pumping units and rotators: polished rod, torque of the gearbox, and lever over one revolution.
-
-The figures of pumping units and rotators with their captions.
-"""
+"""Figures of pumping units and rod rotators over one revolution, with their captions."""
 
 from __future__ import annotations
 

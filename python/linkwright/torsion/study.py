@@ -18,9 +18,8 @@ from linkwright.torsion.in_time.transient import TorsionTransient, torsion_trans
 from linkwright.torsion.limits.crank_fatigue import CrankshaftFatigue, surveyed_fatigue
 from linkwright.torsion.limits.critical_response import CriticalResponse, critical_responses
 from linkwright.torsion.limits.misfire import MisfireVerdict, misfire_verdict
-from linkwright.torsion.limits.operation import operation
 from linkwright.torsion.limits.overlay import Overlay, overlay
-from linkwright.torsion.limits.verdict import Verdict, verdict
+from linkwright.torsion.limits.verdict import Verdict, operation, verdict
 from linkwright.torsion.model.engine.engine import firing_angles
 from linkwright.torsion.model.engine.throw_compliance import compliance_remarks
 from linkwright.torsion.model.measured_response import MeasuredResponse

@@ -127,8 +127,8 @@ def _files(study: TorsionStudy) -> dict[str, str]:
     from linkwright.kernel.command.console import progress
     from linkwright.kernel.command.out import command_line
     from linkwright.torsion.page import torsion_html
-    from linkwright.torsion.tables.gears import gear_csv
     from linkwright.torsion.tables.orders import manoeuvre_csv, order_files
+    from linkwright.torsion.tables.system import gear_csv
 
     with progress("drawing"):
         files = {"report.html": torsion_html(study, command=command_line())}

@@ -7,8 +7,7 @@
 | `criteria` | What is asked of the parts of a train, and where over the speed it is exceeded |
 | `critical_response` | Synthesis at the critical speeds |
 | `misfire` | The worst single misfire |
-| `operation` | How a train may be operated, in sentences |
 | `overlay` | A measured curve laid over the computed one |
 | `peak_judgement` | Whether shafts and couplings bear a manoeuvre |
-| `verdict` | Whether all limits are kept |
+| `verdict` | Whether all limits are kept, and how a train may be operated |
 """

@@ -1,14 +1,15 @@
 """Whether a train bears its vibration: each limit with what was found, where, and what follows.
 
 A state is `ok`, `bar` (speeds are to be barred, and may be passed quickly), or `exceeds`. Speeds may be
-barred for vibratory stresses of shafts; all else that is above its limit exceeds it, with the speeds at which
-it does.
+barred for vibratory stresses of shafts; all else that is above its limit exceeds it, with the speeds at
+which it does. What follows for the operation is said in a few sentences: exceeded limits first, then barred
+speed ranges, then speeds to be avoided with a cylinder misfiring.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal
 
@@ -19,7 +20,7 @@ from linkwright.kernel.quantities import About
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import Kind
 from linkwright.machine.machine import Machine
-from linkwright.torsion.limits.barred_range import BarredRange, surveyed_ranges
+from linkwright.torsion.limits.barred_range import BarredRange, joined_ranges, surveyed_ranges, together
 from linkwright.torsion.limits.criteria import (
     CONTACT,
     PASSING_STRESS,
@@ -28,6 +29,7 @@ from linkwright.torsion.limits.criteria import (
     Exceedance,
     shown_quantity,
 )
+from linkwright.torsion.limits.misfire import MisfireVerdict
 from linkwright.torsion.response.survey import Survey, survey
 
 State = Literal["ok", "bar", "exceeds"]
@@ -211,3 +213,57 @@ def _lists(ranges: tuple[tuple[float, float], ...]) -> list[list[float]]:
 def _rpm(speed: float) -> str:
     """A speed for people."""
     return f"{speed / _RPM:.5g} rpm"
+
+
+_RPM = math.pi / 30
+
+
+def operation(speeds: tuple[float, float], verdict: Verdict, misfire: MisfireVerdict | None) -> str:
+    """Restrictions of the operation in words. `speeds`: lowest and highest looked at [rad/s]."""
+    if not verdict.judgements:
+        return ""
+    return " ".join((*_normal(speeds, verdict), *_misfiring(misfire)))
+
+
+def _normal(speeds: tuple[float, float], verdict: Verdict) -> Iterator[str]:
+    """With all cylinders firing."""
+    exceeded = [row for row in verdict.judgements if row.state == "exceeds"]
+    span = _between(*speeds)
+    if exceeded:
+        parts = ", ".join(f"{row.part} {row.what}" for row in exceeded)
+        places = _listed(low_high for row in exceeded for low_high in row.ranges)
+        yield f"Continuous operation is not permitted at {places}: limits are exceeded ({parts})."
+    barred = together(one for one in verdict.barred if one.may_be_barred and one.is_passable)
+    if barred and exceeded:
+        yield f"Barred speed range, to be passed quickly: {_listed(barred)}."
+    elif barred:
+        yield (
+            f"Continuous operation is permitted from {span} but for the barred speed range "
+            f"{_listed(barred)}, to be passed quickly."
+        )
+    elif not exceeded:
+        yield f"Continuous operation is permitted from {span} without restriction."
+
+
+def _misfiring(misfire: MisfireVerdict | None) -> Iterator[str]:
+    """With one cylinder misfiring."""
+    if misfire is None:
+        return
+    over = [(row.above, row.part) for row in misfire.judgements if row.above is not None]
+    if not over:
+        yield "With one cylinder misfiring, all limits are kept."
+        return
+    parts = ", ".join(dict.fromkeys(part for _, part in over))
+    yield f"With one cylinder misfiring, avoid {_listed(above for above, _ in over)} ({parts})."
+
+
+def _listed(ranges: Iterable[tuple[float, float]]) -> str:
+    """Ranges of speeds, those that meet taken as one."""
+    return ", ".join(_between(low, high) for low, high in joined_ranges(ranges))
+
+
+def _between(low: float, high: float) -> str:
+    """A range of speeds."""
+    if high == low:
+        return f"{low / _RPM:.5g} rpm"
+    return f"{low / _RPM:.5g} to {high / _RPM:.5g} rpm"

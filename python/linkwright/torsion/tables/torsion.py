@@ -19,7 +19,6 @@ from linkwright.torsion.response.forced import ForcedVibration
 from linkwright.torsion.response.stress import stressed
 from linkwright.torsion.study import TorsionStudy
 from linkwright.torsion.tables.engine import engine_tables
-from linkwright.torsion.tables.gears import gear_tables, misfire_gear_table
 from linkwright.torsion.tables.limits import (
     critical_table,
     fatigue_table,
@@ -31,7 +30,7 @@ from linkwright.torsion.tables.limits import (
 )
 from linkwright.torsion.tables.manoeuvre import manoeuvre_tables
 from linkwright.torsion.tables.orders import excitation_tables, star_table
-from linkwright.torsion.tables.system import system_tables
+from linkwright.torsion.tables.system import gear_tables, misfire_gear_table, system_tables
 
 # Parts that share most of the energy, as far as they have a twentieth of it.
 _NAMED, _SHARE = 2, 0.05
