@@ -1,9 +1,4 @@
-"""Tables of cams, of laws compared, and their theoretical bounds.
-
-A cam as tables of text: sizes and extremes, joints of its sections, forces, its laws beside others.
-
-Tables of motion laws: their factors, and the bounds from below.
-"""
+"""Tables of a cam, its sizes, joints, forces and laws, and of motion laws: factors and theoretical bounds."""
 
 from __future__ import annotations
 

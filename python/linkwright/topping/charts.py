@@ -1,15 +1,11 @@
-"""Curves of required length over speed and diameter.
-
-Lengths of the edge over the diameter of roots and over the speed of the knife, for some forward speeds.
+"""Lengths of the edge over the diameter of roots and over the speed of the knife, for some forward speeds.
 
 The chart of paper 5, its figure 3, for the angle, cut height and offset of any topper, with the exact lengths
-beside the printed bound.
+beside the printed bound; where lengths that are said to do for ranges of speeds lie.
 
 References
 ----------
 .. [1] Paper 5, figure 3 and (10).
-
-Where lengths that are said to do for ranges of speeds lie, about a machine's own angle, cut and offset.
 """
 
 from __future__ import annotations

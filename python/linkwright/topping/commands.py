@@ -1,9 +1,4 @@
-"""``linkwright topper``: field, sweep, best knife.
-
-``linkwright topper field FILE``: a topper over a field of roots.
-
-``linkwright topper best FILE``: the best knife of a topper within its limits.
-"""
+"""``linkwright topper field FILE``: a topper over a field of roots; ``topper best FILE``: its best knife."""
 
 from __future__ import annotations
 

@@ -1,6 +1,4 @@
-r"""What a head leaves uncut, of one pass and of many roots.
-
-What a knife cuts of heads, by any law: the length that each needs, and what a shorter edge leaves.
+r"""What a knife cuts of heads, by any law: the length that each needs, and what a shorter edge leaves.
 
 With the middle of the edge at q along itself and p normal to itself, seen from the centre of a head (`edge`),
 it crosses the chord :math:`\pm\sqrt{d^2/4 - p^2}` of the disc and cuts of it what lies within
@@ -13,8 +11,6 @@ A retreating edge crosses some chords again; any crossing counts.
 References
 ----------
 .. [1] Derived here.
-
-One pass of an edge over many roots, in portions, so that somebody may watch.
 """
 
 from __future__ import annotations

@@ -1,6 +1,4 @@
-r"""Confidence intervals of clustered samples, and of the share of roots over a limit.
-
-Shares and means of a sample in clusters, and the intervals that hold the true ones.
+r"""Shares and means of a sample in clusters, and the confidence intervals that hold the true ones.
 
 Roots of a row are not independent where their phases follow one another, nor are the looks at one root in
 many phases: the row, or the root, is what was drawn at random. With the sum :math:`y_c` and the number
@@ -21,22 +19,16 @@ each piece is counted or is not. Of exactly 0 and 1 the variance says nothing: t
 if they are independent, else what other shares of the same pieces are worth (`ShareCurve.worth`), or without
 such the number of clusters.
 
+The share of heads cut through, against the length of the edge, is the distribution function of the lengths
+needed; the interval of a quantile is that of the share at its length, read off the same curve [4].
+
 References
 ----------
 .. [1] Cochran, *Sampling Techniques*, 3rd ed. 1977, 2.11 and 9A.
 .. [2] Wilson, Probable inference, J. Amer. Statist. Assoc. 22 (1927) 209-212.
 .. [3] Korn, Graubard, Confidence intervals for proportions with small expected number of positive counts
    estimated from survey data, Survey Methodology 24 (1998) 193-201.
-
-The share of heads cut through, against the length of the edge, and its quantiles.
-
-It is the distribution function of the lengths needed.
-
-The interval of a quantile is that of the share at its length, read off the same curve.
-
-References
-----------
-.. [1] Woodruff, Confidence intervals for medians and other position measures, J. Amer. Statist. Assoc. 47
+.. [4] Woodruff, Confidence intervals for medians and other position measures, J. Amer. Statist. Assoc. 47
    (1952) 635-646.
 """
 

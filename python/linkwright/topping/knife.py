@@ -1,6 +1,4 @@
-r"""Motion of a knife, and the force and power that drive it.
-
-The law y(t) by which the knife of a topper goes back and forth across the row.
+r"""The law y(t) by which a knife goes back and forth across the row, and what it takes to move it.
 
 The mean speed v_h counts the way in both senses, :math:`v_h = 2 S f` for one stroke S back and forth a cycle;
 so a sine of stroke S has :math:`2\pi f = \pi v_h/S` and its maximum speed is :math:`\tfrac{\pi}{2} v_h`. The
@@ -11,9 +9,8 @@ Smooth laws are sums of harmonics, all others laws in pieces: those of a mechani
 of degree 5 through position, velocity and acceleration at each degree and at every joint of a cam, which
 leaves rounding of a smooth stretch. The follower of a cam has the lift of its cam.
 
-What it takes to move the knife: its inertia force, and the torque of its drive at the design speed.
-
-Inertia and loads are those of the machine file; `linkwright.kinetostatics.forces` balances all members.
+It takes its inertia force, and the torque of its drive at the design speed. Inertia and loads are those of
+the machine file; `linkwright.kinetostatics.forces` balances all members.
 """
 
 from __future__ import annotations

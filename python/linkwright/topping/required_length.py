@@ -1,9 +1,7 @@
-r"""Required edge length: published formulas, constant speed, every phase.
+r"""Required length of the edge: exact at constant speed and for every phase, and by the published formulas.
 
-The exact length of the edge for a knife that keeps its speed over the head.
-
-The edge, along :math:`(\sin\alpha, \cos\alpha)`, moves with the velocity :math:`(v, \pm v_h)`. It sweeps a
-band whose width is its length seen along the way:
+**A knife that keeps its speed over the head.** The edge, along :math:`(\sin\alpha, \cos\alpha)`, moves with
+the velocity :math:`(v, \pm v_h)`. It sweeps a band whose width is its length seen along the way:
 
 .. math:: w = L\,\frac{|v\cos\alpha \mp v_h\sin\alpha|}{\sqrt{v^2 + v_h^2}}.
 
@@ -17,29 +15,20 @@ The worse direction is that in which the knife moves towards its leading end. Th
 if :math:`v_h\tan|\alpha|` comes near v: no length does for equality, and beyond it the edge runs backwards
 over the head.
 
-References
-----------
-.. [1] Derived here.
-
-The exact length of the edge for every phase of a knife that goes back and forth.
-
-Heads meet the knife as they may. A point of a head lies within d/2 + Δ of the axis of the row, the middle of
-the edge within half of the stroke S; where the edge crosses the point, both differ by the way from the middle
-of the edge, seen across the row. If the edge never retreats it crosses each point once, and at some head the
-knife is at one end of its stroke just as it crosses the point farthest to the other side:
+**Every phase of a knife that goes back and forth.** Heads meet the knife as they may. A point of a head lies
+within d/2 + Δ of the axis of the row, the middle of the edge within half of the stroke S; where the edge
+crosses the point, both differ by the way from the middle of the edge, seen across the row. If the edge never
+retreats it crosses each point once, and at some head the knife is at one end of its stroke just as it crosses
+the point farthest to the other side:
 
 .. math:: L = \frac{S + d + 2\Delta}{\cos\alpha}.
 
 The speeds do not count. A retreating edge never needs more.
 
-References
-----------
-.. [1] Derived here.
+Both are derived here.
 
-The working length of the edge by paper 5, and the bound that its own condition gives.
-
-While the machine goes on, the knife has to travel across the head; it must not be done before the head has
-been cut along the row, :math:`t_y \ge t_x` (1). With
+**Paper 5, and the bound that its own condition gives.** While the machine goes on, the knife has to travel
+across the head; it must not be done before the head has been cut along the row, :math:`t_y \ge t_x` (1). With
 
 .. math:: S_x = b(\cos\alpha + \sin^2\alpha), \qquad S_y = (L - b\sin\alpha)\cos\alpha,
 

@@ -1,17 +1,9 @@
-r"""A field of roots, drawn once; head diameter and volume.
+r"""The roots of a field, one by one, and in which phases of the knife they stand.
 
-The head of a root: a sphere of diameter D cut at the height h_p below its top.
-
-The plane of the cut meets the sphere in a disc of diameter d, above which lies a cap of volume V:
+The head of a root is cut off a sphere of diameter D at the height h_p below its top. The plane of the cut
+meets the sphere in a disc of diameter d, above which lies a cap of volume V:
 
 .. math:: d = 2\sqrt{h_p (D - h_p)}, \qquad V = \frac{\pi h_p^2}{3}\left(\frac{3D}{2} - h_p\right).
-
-References
-----------
-.. [1] Paper 5, d from D and h_p.
-.. [2] Bronshtein, Semendyayev, *Handbook of Mathematics*: spherical segment.
-
-The roots of a field, one by one, and in which phases of the knife they stand.
 
 Random numbers depend on the seed alone: the i-th root has the same share of each distribution whatever else
 is changed, so that variants of a knife are compared over the same roots.
@@ -26,7 +18,8 @@ knife in one phase.
 
 References
 ----------
-.. [1] Derived here.
+.. [1] Paper 5, d from D and h_p; phases are derived here.
+.. [2] Bronshtein, Semendyayev, *Handbook of Mathematics*: spherical segment.
 """
 
 from __future__ import annotations

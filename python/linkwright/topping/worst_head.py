@@ -1,9 +1,4 @@
-"""The worst place of a head, and all heads of the range.
-
-The worst of the heads that a knife may meet: over offsets on both sides of the row and over phases.
-
-One edge over all heads that it may meet: what they need, and what it leaves of them.
-"""
+"""One edge over all heads that it may meet: offsets on both sides of the row, phases, and the worst head."""
 
 from __future__ import annotations
 

@@ -1,12 +1,8 @@
-r"""Torques and the turning-moment diagram in a file.
+r"""The turning-moment diagram of a machine file: driving and load torques, required speed fluctuation.
 
-Torques on a shaft by its angle: constant, a table, a formula.
-
-The turning-moment diagram of a machine file: driving and load torques, required speed fluctuation.
-
-Both torques act on one shaft and depend on its angle φ alone, over a cycle of one or two revolutions. Who
-knows one of them leaves the other out: it is then constant, at the mean of the one that is given. Who has
-the areas of a diagram between its crossings gives these instead.
+A torque is constant, a table or a formula. Both act on one shaft and depend on its angle φ alone, over a
+cycle of one or two revolutions. Who knows one of them leaves the other out: it is then constant, at the mean
+of the one that is given. Who has the areas of a diagram between its crossings gives these instead.
 
 References
 ----------

@@ -1,6 +1,4 @@
-r"""Arrays that belong together, brought to one length.
-
-What acts on a follower along its way, other than the cam and friction.
+r"""What acts on a follower along its way, other than the cam and friction.
 
 .. math:: F = m\ddot s + c\dot s + ks + F_0 + F_\mathrm{load}, \qquad
     \ddot s = s''\omega^2 + s'\varepsilon

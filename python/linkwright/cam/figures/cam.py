@@ -1,9 +1,4 @@
-"""Figures of a cam over one revolution, its drawing with its follower, and motion laws compared.
-
-A cam: lift diagrams, profile with its followers, pressure angle, curvature, contact force.
-
-Motion laws in one picture: lift, velocity, acceleration and jerk.
-"""
+"""Figures of a cam over one revolution, its drawing with its follower, and motion laws compared."""
 
 from __future__ import annotations
 

@@ -1,9 +1,7 @@
-r"""Velocities and accelerations at the ends of a section, and laws that meet them.
+r"""Velocities and accelerations at the ends of a section: the tasks of VDI 2143, and laws that meet them.
 
-What a section of a programme has to do, counted over its own z from 0 to 1: the task of VDI 2143.
-
-Derivatives count by z: a section over the angle β with the slope s′ has the velocity s′ β and the
-acceleration s″ β² here. The ends of VDI 2143 are
+A section counts over its own z from 0 to 1, and its derivatives by z: a section over the angle β with the
+slope s′ has the velocity s′ β and the acceleration s″ β² here. The ends of VDI 2143 are
 
 | letter | end | velocity | acceleration |
 | --- | --- | --- | --- |
@@ -12,12 +10,8 @@ acceleration s″ β² here. The ends of VDI 2143 are
 | U | turning point (Umkehr) | 0 | a |
 | B | any motion (Bewegung) | v | a |
 
-Source: VDI 2143 Blatt 1 (1980).
-
-Any symmetric law of rest to rest, used for any boundary values.
-
-The first half of a law f brings a follower from rest to its maximum velocity. Stretched over a section it
-changes the velocity there,
+Any symmetric law of rest to rest serves for any boundary values. The first half of a law f brings a follower
+from rest to its maximum velocity. Stretched over a section it changes the velocity there,
 
 .. math:: x(z) = v_0 z + (v_1 - v_0)\,G(z) + \bigl(s - v_0 - (v_1 - v_0)\,G(1)\bigr) f(z), \qquad
           G'(z) = \frac{f'(z/2)}{f'(1/2)}
@@ -28,8 +22,6 @@ harmonics, and no jump that f has not.
 
 Source: VDI 2143 Blatt 1 (1980) takes halves of symmetric laws for the tasks R-G and G-R; the sum for
 two velocities is the same formula once for each.
-
-From a law of rest to rest to a section with any boundary values, in the way that suits the law.
 """
 
 from __future__ import annotations

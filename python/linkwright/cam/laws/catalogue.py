@@ -1,13 +1,9 @@
-r"""All laws by name, with their sources, and the theoretical bounds of their factors.
-
-The catalogue of motion laws: each described once, for the machine file, the command line and the pages.
+r"""The catalogue of motion laws, each described once with its source; theoretical bounds of their factors.
 
 A law without parameters of its own is here in full; a law with some has them as arguments of ``law``, with
 their usual values.
 
-What no law of rest to rest can go below, with the law that gets there.
-
-For x from 0 to 1 over a length of one:
+What no law of rest to rest from 0 to 1 over a length of one can go below:
 
 .. math:: C_v \ge 1, \quad C_a \ge 4, \quad C_j \ge 32, \quad \int \ddot x^2 \ge 12,
           \quad \int \dddot x^2 \ge 720

@@ -1,17 +1,11 @@
 r"""Laws in closed form: parabola, harmonics, sine series, modified sine and trapezoid.
 
-A law from rest to rest by the course of its acceleration.
+Most are given by the course of their acceleration, which is integrated twice and brought to a lift of one
+over a length of one; only its shape counts.
 
-The course is integrated twice and brought to a lift of one over a length of one; only its shape counts.
-
-Laws of one power a piece: constant velocity, and the parabola of constant acceleration.
-
-Source: VDI 2143 Blatt 1 (1980); Rothbart (ed.), *Cam Design Handbook* (2004), chapter 2.
-
-Simple and double harmonic: accelerations of one and of two cosines.
-
-Source: Rothbart (ed.), *Cam Design Handbook* (2004), chapter 2; VDI 2143 Blatt 1 (1980), "einfache
-Sinoide".
+Constant velocity, and the parabola of constant acceleration; simple and double harmonic, with accelerations
+of one and of two cosines. Source: VDI 2143 Blatt 1 (1980), "einfache Sinoide"; Rothbart (ed.), *Cam Design
+Handbook* (2004), chapter 2.
 
 Laws of a straight line and a few sines: cycloidal, Gutman, Freudenstein.
 
@@ -25,15 +19,11 @@ this new cam profile", *Product Engineering* 32 (1961); Freudenstein, "On the dy
 profiles", *Int. J. Mech. Sci.* 1 (1960) 342–349; the latter two as printed in Rothbart (ed.), *Cam Design
 Handbook* (2004), section 4, equations (4.12), (4.13).
 
-Modified sine: the acceleration is a slow cosine between two quick quarter sines.
+Modified sine: the acceleration is a slow cosine between two quick quarter sines. Modified trapezoid: constant
+acceleration with ramps of quarter sines.
 
 Source: Neklutin, *Mechanisms and Cams for Automatic Machines* (1969); VDI 2143 Blatt 1 (1980), "modifizierte
-Sinuslinie"; Norton, *Cam Design and Manufacturing Handbook* (2002).
-
-Modified trapezoid: constant acceleration with ramps of quarter sines.
-
-Source: Neklutin, *Mechanisms and Cams for Automatic Machines* (1969); VDI 2143 Blatt 1 (1980), "modifiziertes
-Beschleunigungstrapez"; Norton, *Cam Design and Manufacturing Handbook* (2002).
+Sinuslinie", "modifiziertes Beschleunigungstrapez"; Norton, *Cam Design and Manufacturing Handbook* (2002).
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 r"""Laws with minimum mean square or minimum peak of a derivative.
 
-Optimal polynomials: the minimum integral of the square of a derivative.
+The minimum integral of the square is that of a polynomial.
 
 .. math:: \int_0^1 \bigl(x^{(n)}\bigr)^2 dz \to \min
 
@@ -15,11 +15,9 @@ For rest to rest, n = 1 gives constant velocity, n = 2 the cubic, n = 3 the poly
 Source: Gelfand and Fomin, *Calculus of Variations* (1963), sections 6 and 11 (higher derivatives, natural
 boundary conditions).
 
-Laws with the minimum peak of acceleration, and of jerk.
-
-What has the minimum peak is at its peak throughout, and only changes its sign: once for the acceleration,
-twice for the jerk. With the velocities v₀, v₁ at the ends, Δ = v₁ − v₀ and the lift s over a section of
-length one, q = s − (v₀ + v₁)/2,
+What has the minimum peak of acceleration, or of jerk, is at its peak throughout, and only changes its sign:
+once for the acceleration, twice for the jerk. With the velocities v₀, v₁ at the ends, Δ = v₁ − v₀ and the
+lift s over a section of length one, q = s − (v₀ + v₁)/2,
 
 .. math:: A = 2q \pm \sqrt{4q^2 + \Delta^2}, \qquad J = 16q \pm \sqrt{256q^2 + 16\Delta^2}
 

@@ -1,15 +1,11 @@
-"""One stretch of a law, polynomial and harmonics, and where it is zero.
-
-All zeros of a smooth function between 0 and 1, from its Chebyshev series.
-
-The function is interpolated in so many Chebyshev points that nothing but rounding is left over; the zeros of
-the series are eigenvalues of its colleague matrix.
-
-Source: Trefethen, *Approximation Theory and Approximation Practice* (2013), chapter 18.
-
-A piece of a motion law: a polynomial and harmonics over its own u from 0 to 1.
+"""One stretch of a law, polynomial and harmonics over its own u from 0 to 1, and where it is zero.
 
 .. math:: s(u) = \\sum_i c_i u^i + \\sum_j (a_j \\cos k_j u + b_j \\sin k_j u)
+
+For its zeros the function is interpolated in so many Chebyshev points that nothing but rounding is left over;
+the zeros of the series are eigenvalues of its colleague matrix.
+
+Source: Trefethen, *Approximation Theory and Approximation Practice* (2013), chapter 18.
 """
 
 from __future__ import annotations

@@ -1,12 +1,10 @@
 r"""Polynomials by conditions at their ends.
 
-Linear equations in exact fractions, for the few unknowns of a motion law.
-
-A float is a fraction, so the coefficients of a polynomial come out as they are, rounded once: 10, −15, 6.
-
 .. math:: x(z) = \sum_p c_p z^p
 
 with as many powers p as derivatives are given at the two ends. Without a choice the powers are 0, 1, 2, … .
+The linear equations are solved in exact fractions, as floats are: the coefficients come out as they are,
+rounded once: 10, −15, 6.
 
 Source: VDI 2143 Blatt 1 (1980); Rothbart (ed.), *Cam Design Handbook* (2004), chapter 4.
 """

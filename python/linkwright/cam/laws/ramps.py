@@ -1,9 +1,7 @@
 r"""Ramps of the velocity, and laws that start, keep a velocity and stop.
 
-Ramps: from rest to a velocity of one over a length of one.
-
-Halves of the symmetric laws, and two of minimum :math:`\int \dddot x^2`: for the travel of 3/5, which makes
-the jerk end in zero,
+Ramps go from rest to a velocity of one over a length of one: halves of the symmetric laws, and two of minimum
+:math:`\int \dddot x^2`: for the travel of 3/5, which makes the jerk end in zero,
 
 .. math:: G = 2u^3 - 2u^4 + \tfrac35 u^5, \qquad \int \dddot x^2 = 19.2
 
@@ -15,14 +13,13 @@ ends in zero:
 Source: the first is the start of paper 2, *Synthesis of the cam drive mechanism of a roller-forming
 installation with a combined mode of motion*, equations (1)–(3); the second follows from `optimal`.
 
-Start, constant velocity, braking: the velocity goes up a ramp, stays, and comes down a ramp.
-
-With the share p of the start, g of the braking, and ramps of the travel S (the velocity one reached over a
-length of one), the constant velocity for a lift of one over a length of one is
+The velocity goes up a ramp, stays, and comes down a ramp. With the share p of the start, g of the braking,
+and ramps of the travel S (the velocity one reached over a length of one), the constant velocity for a lift of
+one over a length of one is
 
 .. math:: v = \frac{1}{p S_p + (1 - p - g) + g S_g}
 
-With straight ramps it is the trapezoidal velocity, with rounded ones the S-curve.
+With straight ramps this is the trapezoidal velocity, with rounded ones the S-curve.
 
 Source: paper 2, *Synthesis of the cam drive mechanism of a roller-forming installation with a combined mode
 of motion*, equations (4)–(10): p = g = 1/6, S = 3/5, v = 15/13; Biagiotti and Melchiorri, *Trajectory

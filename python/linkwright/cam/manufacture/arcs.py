@@ -1,6 +1,4 @@
-r"""A closed curve as arcs or chords, division with equal errors.
-
-Where to cut a smooth stretch so that few pieces keep a tolerance: all pieces err alike.
+r"""A closed curve as arcs or chords, cut so that few pieces keep a tolerance: all pieces err alike.
 
 If the error of a piece of length h goes with hᵖ, then (e/tolerance)^(1/p) is how many pieces that piece
 should have been. These shares add up to the number needed, and cutting at equal shares makes the errors
@@ -8,10 +6,8 @@ alike. As errors go with hᵖ only for short pieces, this is done over and over,
 
 Source: de Boor, *A Practical Guide to Splines* (1978), chapter XII (NEWNOT).
 
-A curve as a polygon with its corners on the curve: a chord of length s errs by κ s²/8.
-
-A curve as circular arcs and lines that meet without kinks: biarcs through places of the curve, with its
-tangents.
+A polygon has its corners on the curve: a chord of length s errs by κ s²/8. Circular arcs and lines that meet
+without kinks are biarcs through places of the curve, with its tangents.
 
 Between two places with unit tangents :math:`t_0, t_1`, the two arcs meet in the middle of the side between
 :math:`p_0 + d\,t_0` and :math:`p_1 - d\,t_1`, with equal lengths d of the tangents:

@@ -1,12 +1,10 @@
 """The closed curve of a cam, and points on it by arc length.
 
-What is to be manufactured: a closed curve over the cam angle, smooth from break to break.
+It is smooth over the cam angle from break to break. It may turn its direction suddenly at a break (a corner),
+and it may stand still over a whole stretch: a corner too. What it may not do is turn back on itself inside a
+stretch: there a profile is undercut, and has no outline.
 
-A curve may turn its direction suddenly at a break (a corner), and it may stand still over a whole stretch: a
-corner too. What it may not do is turn back on itself inside a stretch: there a profile is undercut, and has
-no outline.
-
-A closed curve with its standstills left out, so that each of its places has one angle.
+With its standstills left out, each of its places has one angle.
 """
 
 from __future__ import annotations

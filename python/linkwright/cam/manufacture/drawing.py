@@ -1,8 +1,4 @@
-"""Drawings of a cam: outlines, marks and notes.
-
-What is drawn of a cam, and what was measured of a written file.
-
-The drawings of a cam: one for each part that is made.
+"""Drawings of a cam, one for each part that is made: outlines, marks, notes, what was measured of the file.
 
 | closure | parts | outlines |
 | --- | --- | --- |

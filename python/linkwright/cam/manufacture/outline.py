@@ -1,13 +1,9 @@
-"""Outlines of arcs and chords, and the geometry of their sides.
-
-Arcs and lines by start, chord and bulge.
+"""Closed outlines of arcs and lines, by vertices and bulges as drawings keep them.
 
 The bulge is b = tan(θ/4), where θ is the angle that the arc turns, positive to the left; a line
 has none. With the chord c, the arc has the length c θ/(2 sin(θ/2)) and the curvature 2 sin(θ/2)/c.
 
 Source: Autodesk, *DXF Reference*, LWPOLYLINE, group code 42.
-
-A closed outline of arcs and lines, by vertices and bulges as drawings keep it.
 """
 
 from __future__ import annotations

@@ -1,10 +1,4 @@
-r"""A closed curve as a B-spline.
-
-A closed B-spline in the plane: degree, knots, control points.
-
-Source: de Boor, *A Practical Guide to Splines* (1978), chapter X.
-
-The B-spline of a curve, from Hermite pieces over the cam angle.
+r"""A closed curve as a B-spline, by degree, knots and control points, from Hermite pieces over the cam angle.
 
 A quintic piece has the curve's place, first and second derivative at both ends, a cubic one place and first
 derivative. So the spline is as smooth as the curve, up to curvature (degree 5) or tangent (degree 3), and
@@ -14,7 +8,8 @@ knots.
 
 The errors are the remainder of Hermite interpolation with k values at either end, h²ᵏ p⁽²ᵏ⁾/(4ᵏ (2k)!).
 
-Source: Ramshaw, *Blossoms are polar forms*, Computer Aided Geometric Design 6 (1989) 323–358.
+Source: de Boor, *A Practical Guide to Splines* (1978), chapter X; Ramshaw, *Blossoms are polar forms*,
+Computer Aided Geometric Design 6 (1989) 323–358.
 """
 
 from __future__ import annotations

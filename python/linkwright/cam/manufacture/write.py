@@ -1,9 +1,4 @@
-"""Write a drawing, read it back, compare it with the profile.
-
-Files of manufacture, read again and compared with what they are to hold.
-
-Write a drawing for manufacture: each file is read back before it gets its name.
-"""
+"""Write a drawing: each file is read back and compared with the profile before it gets its name."""
 
 from __future__ import annotations
 

@@ -1,21 +1,14 @@
-r"""The motion of a follower: sections as one law, and the lift of its elastic train.
+r"""How the follower of a cam moves: its programme over one revolution, from the base circle, and its peaks.
 
-The lift that moves an elastic follower exactly by a wanted law at one speed.
-
-For one mass on a train of stiffness k without damper of its own, with a closing spring k_r and a damper to
-the frame,
+The same sections give the same motion, which is worked out once. A lift may move an elastic follower exactly
+by a wanted law at one speed: for one mass on a train of stiffness k without damper of its own, with a closing
+spring k_r and a damper to the frame,
 
 .. math:: s = \frac1\kappa\left(x + 2\zeta_f\frac{\omega}{\Omega}\,x' + \frac{\omega^2}{\Omega^2}\,x''\right),
     \qquad \kappa = \frac{k}{k + k_r}, \qquad \Omega^2 = \frac{k + k_r}{m}
 
 Source: W. M. Dudley, *New methods in valve cam design*, SAE Quarterly Transactions 2, 1948, 19–33;
 D. A. Stoddart, *Polydyne cam design*, Machine Design 25, 1953.
-
-The train between a cam and the mass that it moves, as one mass on one stiffness; the lift made for it.
-
-How the follower of a cam moves: its programme over one revolution, from the base circle, and its peaks.
-
-The same sections give the same motion, which is worked out once.
 """
 
 from __future__ import annotations

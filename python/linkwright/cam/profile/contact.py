@@ -1,6 +1,4 @@
-r"""Which followers touch which cam, with their curves; the distance of two on opposite sides.
-
-Contacts of a cam: each a follower that touches a cam, with the curves that follow from it.
+r"""Contacts of a cam: each a follower that touches a cam, with the curves that follow from it.
 
 | closure | contacts |
 | --- | --- |
@@ -12,9 +10,8 @@ The second follower is fixed to the first, so it falls as that rises: its lift i
 first. Each contact has its own frame: its follower on the x axis, the cam as it stands where the programme
 begins.
 
-Two followers fixed to one another that touch one cam on opposite sides at every angle.
-
-With d(φ) the distance of the follower from the cam's centre, the two touch if the cam has the same diameter
+With d(φ) the distance of the follower from the cam's centre, two on opposite sides touch one cam at every
+angle if the cam has the same diameter
 
 .. math:: d(\varphi) + d(\varphi + \pi) = b
 

@@ -1,12 +1,8 @@
-"""Minimum base circle and maximum roller within the limits of a cam.
-
-How small the base circle may be, and how large the roller.
+"""How small a cam might be: the smallest base circle for each of its limits, and the largest roller.
 
 Sound profiles, pressure angles and radii of curvature get better as the base circle grows, but for
 oscillating followers, whose arm starts from another angle then; so base radii are scanned from small to
 large, all at once, and the first that will do is located between its neighbours with exact extremes.
-
-How small a cam might be: the smallest base circle for each of its limits, and the largest roller.
 """
 
 from __future__ import annotations

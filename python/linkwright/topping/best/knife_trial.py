@@ -1,10 +1,4 @@
-"""Trials of knives on one field, and the limit that fails.
-
-One knife of a topper that may be the best: the minimum edge that does what is asked of it, and how it
-slices.
-
-Why no knife of a topper keeps its limits, with by how much.
-"""
+"""One knife that may be the best: the minimum edge that does what is asked, how it slices, what fails."""
 
 from __future__ import annotations
 

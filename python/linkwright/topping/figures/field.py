@@ -1,9 +1,4 @@
-"""Figures of a field, of sweeps and of the best knife.
-
-A topper over a field of roots: share of heads and what is left against the length, what roots lose.
-
-A topper over a field of roots with its knife varied: curves, maps, and the best knife.
-"""
+"""Figures of a topper over a field of roots: shares and losses, its knife varied, and the best knife."""
 
 from __future__ import annotations
 

@@ -1,10 +1,4 @@
-"""Figures of required lengths, phases, slicing and use of the edge.
-
-Lengths of the edge of a topper over root and knife speed, and for which heads published ones do.
-
-Toppers over the phase of the knife: length that heads need, what is left of them, how the edge slices; and
-the use of the edge along its length.
-"""
+"""Figures of required lengths over root, knife speed and phase, of slicing, and of the use of the edge."""
 
 from __future__ import annotations
 

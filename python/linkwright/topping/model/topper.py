@@ -1,10 +1,6 @@
-r"""The topper in a file: heads, knife, limits.
+r"""The topper of a root-crop harvester: a knife that reciprocates across the row and slices heads off.
 
-What a knife of a topper shall reach, and the bounds within which the best is sought.
-
-How the knife of a topper is moved back and forth across the row.
-
-The topper of a root-crop harvester: a knife that reciprocates across the row and slices heads off.
+It has the heads, the way in which the knife is moved, what the knife shall reach, and bounds of the best one.
 
 | letter of paper 5 | is | key |
 | --- | --- | --- |

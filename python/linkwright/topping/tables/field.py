@@ -1,9 +1,4 @@
-"""Tables of a field, a sweep and the best knife.
-
-Tables of a topper over a field of roots, and its curves as CSV.
-
-The best knife of a topper: table, warnings, lines of a machine file, map as CSV.
-"""
+"""Tables of a topper over a field of roots, of a sweep and of the best knife; curves and maps as CSV."""
 
 from __future__ import annotations
 
