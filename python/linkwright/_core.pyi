@@ -1304,13 +1304,17 @@ def motor_torques(plan: Plan, q: _Floats, omega: _Floats) -> MotorTorques:
 def transient(
     plan: Plan,
     q: _Floats,
-    phi: float,
-    omega: float,
+    start: tuple[float, float],
+    turning: tuple[int, int],
     duration: float,
     turns: float,
     accuracy: float,
 ) -> MotionInTime:
-    """Motion in time from an angle and a speed until duration, turns or an event end it."""
+    """Motion in time from an angle and a speed until duration, turns or an event end it.
+
+    Turning: the direction in which the crank turns, +1 counter-clockwise or −1, and that of the motor;
+    the speed at the start is in the direction of the former.
+    """
 
 def kinks(plan: Plan, q: _Floats) -> _Floats:
     """Crank angles between which the reduced machine is smooth, from 0 to 2π."""

@@ -79,7 +79,7 @@ def test_a_stall_is_a_finding_and_a_run_down_is_none() -> None:
         (("--units", "smoot"), "smoot"),
         (("--revolutions", "0"), "more than 0"),
         (("--from-angle", "30"), "30 deg"),
-        (("--from-speed=-3 rpm",), "0 or more"),
+        (("--from-speed=-3",), "may be rpm or rad/s"),
     ],
 )
 def test_wrong_input(words: tuple[str, ...], said: str) -> None:

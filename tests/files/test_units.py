@@ -17,7 +17,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from linkwright.kernel import units
 from linkwright.kernel.errors import UnitError
-from linkwright.kernel.units.spellings import unknown
+from linkwright.kernel.units.spellings import factor_of, unknown
 
 REGISTRY: pint.UnitRegistry[Any] = pint.UnitRegistry()
 REGISTRY.define("@alias turn = rev")
@@ -104,6 +104,52 @@ def test_texts_give_si(text: object, kind: units.Kind, value: float | None) -> N
 
 
 @pytest.mark.parametrize(
+    ("given", "same"),
+    [
+        ("kg m2", "kg m^2"),
+        ("kgm2", "kg m^2"),
+        ("kg-m2", "kg m^2"),
+        ("g cm2", "g cm^2"),
+        ("lb ft2", "lb ft^2"),
+        ("N/mm2", "N/mm^2"),
+        ("kg/m3", "kg/m^3"),
+        ("m/s2", "m/s^2"),
+        ("m s-2", "m s^-2"),
+        ("rad s-1", "rad/s"),
+        ("cmH2O", "cmH2O"),
+        ("lbft", "ft lbf"),
+        ("ftlb", "ft lbf"),
+        ("in-lb", "in lbf"),
+        ("oz in", "ozf in"),
+        ("daNm", "daN m"),
+        ("r.p.m.", "rpm"),
+        ("lbm", "lb"),
+        ("kp", "kgf"),
+        ("PS", "metric_horsepower"),
+        ("мм", "mm"),
+        ("кг", "kg"),
+        ("кг·м²", "kg m^2"),
+        ("кг м2", "kg m^2"),
+        ("Нм", "N m"),
+        ("кНм", "kN m"),
+        ("кН·м/рад", "kN m/rad"),
+        ("Н·с/м", "N s/m"),
+        ("об/хв", "rpm"),
+        ("рад/с", "rad/s"),
+        ("кВт", "kW"),
+        ("МПа", "MPa"),
+    ],
+)
+def test_spellings_of_one_unit(given: str, same: str) -> None:
+    found, wanted = factor_of(given), factor_of(same)
+    assert found is not None
+    assert wanted is not None
+    # The same factor but for the order of its products.
+    assert found[0] == pytest.approx(wanted[0], rel=1e-12)
+    assert found[1] == wanted[1]
+
+
+@pytest.mark.parametrize(
     ("value", "kind", "word"),
     [
         ("0.2 kg", units.LENGTH, "unit of mass"),
@@ -118,7 +164,14 @@ def test_texts_give_si(text: object, kind: units.Kind, value: float | None) -> N
         ("", units.LENGTH, "a length"),
         ("m", units.LENGTH, "a length"),
         ("1 m m", units.LENGTH, "something else"),
-        ("1 kg m2", units.INERTIA, "m^2"),
+        ("1 kg m22", units.INERTIA, "not a known unit"),
+        ("1 NM", units.TORQUE, "did you mean N m?"),
+        ("1 KG M2", units.INERTIA, "did you mean kg m^2?"),
+        ("3000 min-1", units.SPEED, "revolutions or radians"),
+        ("1 000 mm", units.LENGTH, "thousands"),
+        ("1'000 mm", units.LENGTH, "thousands"),
+        ("1 кг", units.LENGTH, "unit of mass"),
+        ("1 обертань", units.SPEED, "not a known unit"),
         ("1 wobble", units.LENGTH, "not a known unit"),
         ("1 N/m s", units.STIFFNESS, "two ways"),
         ("50 Hz", units.SPEED, "revolutions or radians"),

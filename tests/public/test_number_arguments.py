@@ -49,7 +49,7 @@ ROWS: tuple[Row, ...] = (
     ("pose", "acceleration", (), lambda x: lw.pose(CART, 1.0, acceleration=x)),
     ("steady_state", "accuracy", (0, -1, 1e-16, 0.1), lambda x: lw.steady_state(CART, accuracy=x)),
     ("transient", "angle", (), lambda x: lw.transient(CART, angle=x, duration=0.1)),
-    ("transient", "speed", (-1,), lambda x: lw.transient(CART, speed=x, duration=0.1)),
+    ("transient", "speed", (), lambda x: lw.transient(CART, speed=x, duration=0.1)),
     ("transient", "duration", (0, -1), lambda x: lw.transient(CART, duration=x)),
     ("transient", "turns", (0, -1), lambda x: lw.transient(CART, turns=x)),
     ("transient", "accuracy", (0, -1, 1e-16, 0.1), lambda x: lw.transient(CART, duration=0.1, accuracy=x)),

@@ -8,7 +8,7 @@ use linkwright_core::drive::cycle::Machine;
 use linkwright_core::drive::loads::Load;
 use linkwright_core::drive::motor::Motor;
 use linkwright_core::drive::steady::steady;
-use linkwright_core::drive::transient::{End, Start, follow};
+use linkwright_core::drive::transient::{End, Start, Turning, follow};
 use linkwright_core::kernel::status::Status;
 use linkwright_core::linkage::mechanism::Element;
 use linkwright_core::linkage::motion::Motion;
@@ -17,7 +17,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 const FOREVER: f64 = 1e9;
 
 fn from_rest(duration: f64, turns: f64) -> Start {
-    Start { phi: 0.0, omega: 0.0, duration, turns, accuracy: 1e-10 }
+    Start { phi: 0.0, omega: 0.0, turning: Turning::FORWARD, duration, turns, accuracy: 1e-10 }
 }
 
 /// Published data of two carts: ω = 9.919…10.799 rad/s, δ = 0.0850, H = 0.1254 (recomputation, method 1).
@@ -100,7 +100,14 @@ fn run_up_ends_in_steady_motion() {
     assert!((last / omega - 1.0).abs() < 1e-8, "{last} rad/s after the run-up, {omega} in steady motion");
 
     let disturbed = |by: f64| {
-        let start = Start { phi: 0.0, omega: omega + by, duration: FOREVER, turns: 1.0, accuracy: 1e-12 };
+        let start = Start {
+            phi: 0.0,
+            omega: omega + by,
+            turning: Turning::FORWARD,
+            duration: FOREVER,
+            turns: 1.0,
+            accuracy: 1e-12,
+        };
         *follow(&built.plan, &built.q, &start).omega.last().expect("a motion")
     };
     let shrinks = (disturbed(1e-3) - disturbed(-1e-3)) / 2e-3;
@@ -122,7 +129,14 @@ fn free_motion_keeps_its_energy() {
     b.rod(rocker, pivot, 0.3, 4.0);
     b.rod(crank, 0, 0.1, 1.0);
     let built = b.finish(Motor::Off, [1.0, 1.0, 1.0, 0.3, 20.0]);
-    let start = Start { phi: 0.3, omega: 20.0, duration: FOREVER, turns: 50.0, accuracy: 1e-12 };
+    let start = Start {
+        phi: 0.3,
+        omega: 20.0,
+        turning: Turning::FORWARD,
+        duration: FOREVER,
+        turns: 50.0,
+        accuracy: 1e-12,
+    };
     let path = follow(&built.plan, &built.q, &start);
     let machine = Machine::new(&built.plan, &built.q);
     let mut m = Motion::new(&built.plan.mechanism, &built.q);
@@ -201,7 +215,14 @@ fn dry_brake_stops_after_its_closed_form() {
     let torque = b.number(7.0);
     b.load(Load::DryCrank { torque });
     let built = b.finish(Motor::Off, [1.0, 1.0, 1.0, 2.0, 10.0]);
-    let start = Start { phi: 0.0, omega: 9.0, duration: FOREVER, turns: FOREVER, accuracy: 1e-10 };
+    let start = Start {
+        phi: 0.0,
+        omega: 9.0,
+        turning: Turning::FORWARD,
+        duration: FOREVER,
+        turns: FOREVER,
+        accuracy: 1e-10,
+    };
     let path = follow(&built.plan, &built.q, &start);
     let angle = 9.0_f64.powi(2) * 2.0 / (2.0 * 7.0);
     assert_eq!(path.end, End::Stall, "how it ended");

@@ -6,7 +6,7 @@ use linkwright_core::drive::gradient::{CURVES, Gradient, NUMBERS};
 use linkwright_core::drive::kinks as core_kinks;
 use linkwright_core::drive::reading::{Curves, ReadCurves};
 use linkwright_core::drive::steady::{Failure, Steady, steady_with_others};
-use linkwright_core::drive::transient::{End, Start, follow};
+use linkwright_core::drive::transient::{End, Start, Turning, follow};
 use numpy::{PyArray1, PyArray2, PyArrayDyn, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
@@ -373,14 +373,16 @@ pub(crate) fn transient(
     py: Python<'_>,
     plan: &Plan,
     q: Floats<'_>,
-    phi: f64,
-    omega: f64,
+    start: (f64, f64),
+    turning: (i8, i8),
     duration: f64,
     turns: f64,
     accuracy: f64,
 ) -> PyResult<MotionInTime> {
     let q = plan.parameters(&q)?;
-    let start = Start { phi, omega, duration, turns, accuracy };
+    let (phi, omega) = start;
+    let turning = Turning { crank: f64::from(turning.0), motor: f64::from(turning.1) };
+    let start = Start { phi, omega, turning, duration, turns, accuracy };
     let path = guarded(py, "motion in time", || follow(&plan.0, q, &start))?;
     let steps = path.between.len();
     let factors = |which: usize| -> PyResult<_> {

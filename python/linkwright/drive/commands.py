@@ -28,7 +28,12 @@ FromAngle = Annotated[
     str, Option("--from-angle", metavar="ANGLE", help='Crank angle at the start, such as "90 deg".')
 ]
 FromSpeed = Annotated[
-    str, Option("--from-speed", metavar="SPEED", help='Crank speed at the start, such as "30 rpm".')
+    str,
+    Option(
+        "--from-speed",
+        metavar="SPEED",
+        help='Crank speed at the start, such as "30 rpm"; negative clockwise: --from-speed="-30 rpm".',
+    ),
 ]
 Duration = Annotated[
     str | None,
@@ -44,6 +49,10 @@ Revolutions = Annotated[
     ),
 ]
 NoMotor = Annotated[bool, Option("--no-motor", help="Switch the motor off.")]
+Clockwise = Annotated[
+    bool,
+    Option("--clockwise", help="Let the motor drive the crank clockwise; a start from rest goes that way."),
+]
 WithBrake = Annotated[bool, Option("--brake", help="Apply the brake of the file.")]
 Accuracy = Annotated[float, Option("--accuracy", metavar="X", help="Relative accuracy of a step.")]
 Steps = Annotated[
@@ -94,6 +103,7 @@ def transient(
     turns: Revolutions = None,
     no_motor: NoMotor = False,
     brake: WithBrake = False,
+    clockwise: Clockwise = False,
     zero: ZeroAt = None,
     accuracy: Accuracy = 1e-8,
     steps: Steps = 500,
@@ -131,6 +141,7 @@ def transient(
         accuracy=accuracy,
         motor=not no_motor,
         brake=brake,
+        clockwise=clockwise,
         **until,
     )
     followed = _MotionReport(machine, motion, counted, steps, not no_motor)

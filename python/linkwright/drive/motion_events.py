@@ -112,9 +112,10 @@ def motion_events(machine: Machine, motion: Transient) -> tuple[MotionEvent, ...
     scale = float(np.abs([before, after]).max()) if len(before) else 0.0
     away = _from_kink(motion.crank_angle, *_kinks(machine))
     events = [_event(motion, 0, "start", None, _at(after, 0))]
+    sense = np.sign(motion.crank_angle[-1] - motion.crank_angle[0])
     for first, last in _passages(motion, away):
         # A short step may lead over the kink itself: what comes after is read behind it.
-        behind = next((k for k in range(first, last + 1) if away[k] > 0), last)
+        behind = next((k for k in range(first, last + 1) if sense * away[k] > 0), last)
         jumps = abs(after[behind] - before[first - 1]) > _JUMP * scale
         is_kink = abs(away[first]) < _AT_KINK and not _at_full_turn(motion.crank_angle[first])
         kind = "jump of the acceleration" if jumps else "kink" if is_kink else ""
@@ -208,10 +209,12 @@ def _passages(motion: Transient, away: Floats) -> Iterator[tuple[int, int]]:
     while k < count:
         last, start = k, motion.crank_angle[k]
         while (
-            abs(away[k]) < _AT_KINK and last + 1 < count and motion.crank_angle[last + 1] - start < _AT_KINK
+            abs(away[k]) < _AT_KINK
+            and last + 1 < count
+            and abs(motion.crank_angle[last + 1] - start) < _AT_KINK
         ):
             last += 1
-        if motion.crank_angle[k] - motion.crank_angle[0] > _AT_KINK:
+        if abs(motion.crank_angle[k] - motion.crank_angle[0]) > _AT_KINK:
             yield k, last
         k = last + 1
 

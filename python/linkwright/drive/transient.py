@@ -11,7 +11,7 @@ import numpy as np
 from numpy.polynomial import polynomial
 from numpy.typing import ArrayLike
 
-from linkwright.drive.model.motor import ConstantSpeedMotor
+from linkwright.drive.model.motor import ConstantSpeedMotor, ConstantTorqueMotor
 from linkwright.drive.reduction import NO_INERTIA
 from linkwright.drive.sound_loads import is_held, require_half_turns, require_sound_loads, sliding
 from linkwright.kernel.arrays import Bools, Floats, Indices
@@ -20,7 +20,7 @@ from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-from linkwright.kernel.units import ANGLE, COUNT, SPEED, TIME, Quantity, not_negative, positive
+from linkwright.kernel.units import ANGLE, COUNT, SPEED, TIME, Quantity, positive
 from linkwright.linkages.closure import require_full_turn
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
@@ -120,8 +120,8 @@ class Transient(Result):
 
     @property
     def turns(self) -> Annotated[float, Label("revolutions of the crank", "n", "")]:
-        """Revolutions of the crank from start to end."""
-        return float(self.crank_angle[-1] - self.crank_angle[0]) / (2 * np.pi)
+        """Revolutions of the crank from start to end, in whichever direction."""
+        return abs(float(self.crank_angle[-1] - self.crank_angle[0])) / (2 * np.pi)
 
     @property
     def steps(self) -> Annotated[int, Label("steps", "", "")]:
@@ -190,6 +190,7 @@ def transient(
     accuracy: float = 1e-8,
     motor: bool = True,
     brake: bool = False,
+    clockwise: bool = False,
 ) -> Transient:
     """Compute the motion in time.
 
@@ -197,7 +198,7 @@ def transient(
     ----------
     machine : Machine
     angle, speed : float
-        Crank angle [rad] and speed [rad/s] at the start; the speed is not negative.
+        Crank angle [rad] and speed [rad/s] at the start; a clockwise motion has a negative speed.
     duration : float
         Longest time [s].
     turns : float
@@ -206,6 +207,8 @@ def transient(
         Relative accuracy of a step, at its end and on the way there.
     motor, brake : bool
         Whether the motor is on and the brake applied.
+    clockwise : bool
+        Whether the motor drives the crank clockwise; from rest the machine is to start that way.
 
     Returns
     -------
@@ -232,7 +235,7 @@ def transient(
         raise InputError("duration, turns: found neither, expected one of them as the end of the motion")
     in_range(
         angle=(angle, Quantity(ANGLE)),
-        speed=(speed, not_negative(SPEED)),
+        speed=(speed, Quantity(SPEED)),
         duration=(None if duration == np.inf else duration, positive(TIME)),
         turns=(None if turns == np.inf else turns, positive(COUNT)),
     )
@@ -242,7 +245,8 @@ def transient(
         raise InputError("a motor of constant speed has no run-up: it turns at its speed under any load")
     compiled = compile_machine(machine, motor=motor, brake=brake)
     require_half_turns(compiled, machine)
-    motion = compiled.transient((angle, speed), duration, turns, accuracy)
+    turning = _turning(machine, speed, clockwise)
+    motion = compiled.transient((angle, abs(speed)), turning, duration, turns, accuracy)
     end = End[motion.end]
     if end == End.DOES_NOT_CLOSE:
         require_full_turn(compiled, machine)
@@ -251,7 +255,7 @@ def transient(
     if not np.isfinite([motion.torque_drive_end, motion.torque_load_end]).all():
         require_sound_loads(compiled, machine)
     last = float(motion.crank_angle[-1]), float(motion.speed[-1])
-    if end == End.SLIDES or (end == End.INACCURATE and is_held(compiled, *last)):
+    if end == End.SLIDES or (end == End.INACCURATE and last[1] > 0 and is_held(compiled, *last)):
         raise sliding(machine, *last)
     if end == End.INACCURATE:
         raise ConvergenceError(
@@ -272,3 +276,13 @@ def transient(
         between=StepPolynomials(np.stack((motion.angle_factors, motion.speed_factors), axis=1)),
         implicit=motion.implicit,
     )
+
+
+def _turning(machine: Machine, speed: float, clockwise: bool) -> tuple[int, int]:
+    """Directions, +1 or −1, in which the crank turns, or is to from rest, and in which the motor drives."""
+    motor = -1 if clockwise else 1
+    if speed != 0:
+        return (1 if speed > 0 else -1), motor
+    characteristic = machine.drive.motor if machine.drive else None
+    backwards = isinstance(characteristic, ConstantTorqueMotor) and characteristic.torque < 0
+    return (-motor if backwards else motor), motor

@@ -108,20 +108,44 @@ impl Drive {
         if self.speed_loads.is_empty() { torque } else { torque - self.speed_load(tables, omega) }
     }
 
+    /// The same in the direction in which the crank turns, at its speed in that direction; `along` is +1 where the motor
+    /// drives that way, −1 where it drives the other way. Loads over speed resist in both directions alike.
+    pub fn torque_turning<N: Lift<f64>>(&self, tables: &[Table], q: &[f64], speed: N, along: f64) -> N {
+        let sense = N::splat(along);
+        let torque = self.geared_torque(q, self.motor_torque(tables, q, speed * sense) * sense);
+        if self.speed_loads.is_empty() { torque } else { torque - self.speed_load(tables, speed) }
+    }
+
+    /// Crank speeds at which [`Drive::torque_turning`] has a kink.
+    pub fn kinks_turning(&self, tables: &[Table], q: &[f64], along: f64) -> Vec<f64> {
+        let motor = self.motor_kinks(tables, q).into_iter().map(|speed| along * speed);
+        positive_in_order(motor.chain(self.load_kinks::<f64>(tables)).collect())
+    }
+
     /// Crank speeds at which the drive's torque has a kink: points of tables, breakdown where the catalogue
     /// curve begins, and where the motor's torque changes sign when the gearbox tells the directions apart.
     #[inline(always)]
     pub fn speed_kinks<R: Real>(&self, tables: &[Table], q: &[R]) -> Vec<R> {
-        let mut kinks = self.kinks_of_lanes(tables, q);
-        kinks.retain(|speed| speed.max_lane() > 0.0);
-        kinks.sort_by(|a, b| a.max_lane().total_cmp(&b.max_lane()));
-        kinks.dedup_by(|a, b| a.max_lane() == b.max_lane());
-        kinks
+        positive_in_order(self.kinks_of_lanes(tables, q))
     }
 
     /// The same of machines in lanes, in any order; not a number, or not above zero, in a lane without the kink.
     #[inline(always)]
     pub(super) fn kinks_of_lanes<R: Real>(&self, tables: &[Table], q: &[R]) -> Vec<R> {
+        let mut kinks = self.motor_kinks(tables, q);
+        kinks.extend(self.load_kinks::<R>(tables));
+        kinks
+    }
+
+    /// Points of the loads over speed.
+    fn load_kinks<R: Real>(&self, tables: &[Table]) -> impl Iterator<Item = R> {
+        let knots = self.speed_loads.iter().flat_map(|&table| tables[table].knots());
+        knots.map(|&knot| R::splat(knot))
+    }
+
+    /// Those of the motor, as crank speeds.
+    #[inline(always)]
+    fn motor_kinks<R: Real>(&self, tables: &[Table], q: &[R]) -> Vec<R> {
         let ratio = q[self.ratio];
         // Where the gearbox does not tell the directions apart a change of sign is no kink.
         let if_apart = |speed: R| {
@@ -151,13 +175,17 @@ impl Drive {
         for speed in &mut at_motor {
             *speed = *speed / ratio;
         }
-        for &table in &self.speed_loads {
-            for &knot in tables[table].knots() {
-                at_motor.push(R::splat(knot));
-            }
-        }
         at_motor
     }
+}
+
+/// Speeds above zero, each once, in their order.
+#[inline(always)]
+fn positive_in_order<R: Real>(mut speeds: Vec<R>) -> Vec<R> {
+    speeds.retain(|speed| speed.max_lane() > 0.0);
+    speeds.sort_by(|a, b| a.max_lane().total_cmp(&b.max_lane()));
+    speeds.dedup_by(|a, b| a.max_lane() == b.max_lane());
+    speeds
 }
 
 /// Zeros of a table between its knots.

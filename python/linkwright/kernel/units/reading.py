@@ -24,6 +24,8 @@ _VALUES = re.compile(rf"({_NUMBER}(?:[\s,;]+{_NUMBER})*)\s*(.*)", re.DOTALL)
 _DECIMAL_COMMA = re.compile(
     r"[+-]?(?:\d+(?:,\d+)+(?:\.\d*)?|\d+(?:\.\d+)+,\d+)(?:[eE][+-]?\d+)?(?:\s*[^\d\s,;].*)?", re.DOTALL
 )
+# 1 000 mm, 1'000 mm: thousands by a space or an apostrophe.
+_THOUSANDS = re.compile(r"[+-]?\d{1,3}(?:[ '’\u00a0\u202f]\d{3})+(?![\d^/]).*", re.DOTALL)
 # In a list: beside semicolons or commas with spaces, or as its one comma.
 _COMMA_IN_LIST = re.compile(r"(?=.*\d,\d)(?=.*(?:;|,\s)).*|[+-]?\d+,\d+(?:\s*[^\d\s,;].*)?", re.DOTALL)
 
@@ -92,7 +94,7 @@ def _split(text: str, kind: Kind) -> tuple[str, str]:
     """The number and the unit of a text."""
     stripped = text.strip().replace("−", "-")
     match = _VALUE.fullmatch(stripped)
-    if _DECIMAL_COMMA.fullmatch(stripped):
+    if _DECIMAL_COMMA.fullmatch(stripped) or _THOUSANDS.fullmatch(stripped):
         raise wrong(text, kind, _NO_COMMA)
     if match is None:
         raise wrong(text, kind)

@@ -102,7 +102,17 @@ _TOGETHER = {
     "gcm": "g cm",
     "gmm": "g mm",
     "tm": "t m",
+    "daNm": "daN m",
     "kgfm": "kgf m",
+    "kpm": "kgf m",
+    "kp": "kgf",
+    "ftlb": "ft lb",
+    "lbft": "lb ft",
+    "inlb": "in lb",
+    "lbin": "lb in",
+    "ftlbf": "ft lbf",
+    "inlbf": "in lbf",
+    "lbm": "lb",
     "Ws": "W s",
     "Wh": "W h",
     "kWh": "kW h",
@@ -115,6 +125,10 @@ _OTHERWISE = {
     "r/min": "rev/min",
     "r/s": "rev/s",
     "U/min": "rev/min",
+    "r.p.m.": "rpm",
+    "oz in": "ozf in",
+    "in oz": "ozf in",
+    "PS": "metric_horsepower",
     "ft lb": "ft lbf",
     "lb ft": "ft lbf",
     "lbf ft": "ft lbf",
@@ -135,7 +149,8 @@ _UNIT = re.compile(r"[A-Za-z_%0-9^/() .-]{1,60}")
 _TWO_READINGS = re.compile(r"/\s*[^\s/()]+\s+[^\s/]")
 # A power belongs to a unit and is a digit or two, once: pint would work out 9^9^9, and with it a day.
 _POWERS = re.compile(r"(?:[^^]|[A-Za-z_%)] ?\^ ?\(?-?\d{1,2}\)?(?![\d^.(]))*")
-_BARE_POWER = re.compile(r"[A-Za-z]\d")
+# m2, s-1: a power without its sign, behind a unit and before no further letter (which H2O has).
+_BARE_POWER = re.compile(r"(?<=[A-Za-z])([2-4]|-[1-4])(?![\dA-Za-z.])")
 # Scales of temperature with a zero of their own.
 _OTHER_ZERO = re.compile(r"(deg ?)?[CF]|celsius|fahrenheit|degree_[a-z]+", re.IGNORECASE)
 
@@ -152,10 +167,45 @@ _HYPHEN = re.compile(r"(?<=[A-Za-z])-(?=[A-Za-z])")
 def normal(unit: str) -> str:
     """One spelling for the many ways to write a product and a power."""
     text = _SUPERSCRIPT_RUN.sub(lambda run: "^" + run[0].translate(_SUPERSCRIPTS), unit)
-    text = _HYPHEN.sub(" ", text.replace("**", "^").translate(_MULTIPLY))
+    text = _HYPHEN.sub(" ", _in_latin(text).replace("**", "^").translate(_MULTIPLY))
+    text = _BARE_POWER.sub(r"^\1", text)
     text = re.sub(r"\s*([/^])\s*", r"\1", " ".join(text.split()))
     text = _WORD.sub(lambda word: _TOGETHER.get(word[0], word[0]), text)
     return _OTHERWISE.get(text, text)
+
+
+# Words of Ukrainian letters, of which its units are.
+_CYRILLIC = re.compile(r"[А-Яа-яІіЇїЄєҐґ]+")
+
+
+def _in_latin(text: str) -> str:
+    """A unit in Ukrainian letters as SI writes it: кг м², кН·м, Нм, об/хв."""
+    if not _CYRILLIC.search(text):
+        return text
+    symbols = _ukrainian()
+    for written, symbol in symbols.items():
+        if "/" in written:
+            text = text.replace(written, symbol)
+    return _CYRILLIC.sub(lambda word: _product(word[0], symbols), text)
+
+
+@cache
+def _ukrainian() -> dict[str, str]:
+    """Symbols of units by how Ukrainian reports write them."""
+    from linkwright.kernel.page.language import language
+
+    return {written: symbol for symbol, written in language("uk").units.items() if symbol != "per"}
+
+
+def _product(word: str, symbols: dict[str, str]) -> str:
+    """A word as one symbol, or as two that are run together; as it is if it is neither."""
+    if word in symbols:
+        return symbols[word]
+    for at in range(1, len(word)):
+        first, second = symbols.get(word[:at]), symbols.get(word[at:])
+        if first and second:
+            return f"{first} {second}"
+    return word
 
 
 def factor_of(unit: str) -> tuple[float, Dimension] | None:
@@ -223,9 +273,8 @@ def unknown(unit: str) -> str:
         return f"{show(unit)} can be read in two ways: write N m s, with spaces"
     if not _POWERS.fullmatch(text):
         return f"{show(unit)}: a power is one whole number after a unit, as in m^2"
-    if _BARE_POWER.search(text):
-        return f"{show(unit)} is not a unit: write powers as m^2 or m²"
-    alike = [known for known in _FACTORS if known.casefold() == text.casefold()]
+    letters = text.replace(" ", "").casefold()
+    alike = [known for known in _FACTORS if known.replace(" ", "").casefold() == letters]
     asked = f"; did you mean {' or '.join(alike)}?" if alike else ""
     return f"{show(unit)} is not a known unit{asked}"
 

@@ -231,10 +231,15 @@ class CompiledMachine:
         return torque_drive / (ratio * np.where(torque_drive < 0, reverse, forward))
 
     def transient(
-        self, start: tuple[float, float], duration: float, turns: float, accuracy: float
+        self,
+        start: tuple[float, float],
+        turning: tuple[int, int],
+        duration: float,
+        turns: float,
+        accuracy: float,
     ) -> _core.MotionInTime:
         """Motion in time from angle [rad] and speed [rad/s]; see `_core.transient`."""
-        return _core.transient(self.plan, self.one, *start, duration, turns, accuracy)
+        return _core.transient(self.plan, self.one, start, turning, duration, turns, accuracy)
 
     def steady(self, angles: Floats, accuracy: float) -> _core.SteadyMotion | _core.NoSteadyMotion:
         """Steady motion with curves at crank angles within the cycle; see `_core.steady_state`."""

@@ -7,11 +7,30 @@ use crate::kernel::plane::Angle;
 use crate::kernel::real::Lift;
 use crate::linkage::motion::Motion;
 
-/// Angle and speed of the crank.
+/// Angle and speed of the crank in the direction in which it turns.
 pub type Y = [f64; 2];
 
 /// Difference of speeds, as a share of the working speed, that rounding may leave.
 pub(super) const AT_REST: f64 = 1e-11;
+
+/// Directions of rotation: +1 counter-clockwise, −1 clockwise.
+#[derive(Clone, Copy, Debug)]
+pub struct Turning {
+    /// In which the crank turns, or starts to from rest.
+    pub crank: f64,
+    /// In which the motor drives the crank.
+    pub motor: f64,
+}
+
+impl Turning {
+    /// The crank turns counter-clockwise, and the motor drives it so.
+    pub const FORWARD: Turning = Turning { crank: 1.0, motor: 1.0 };
+
+    /// +1 where the crank turns as the motor drives it, −1 where it turns against it.
+    pub fn with_motor(self) -> f64 {
+        self.crank * self.motor
+    }
+}
 
 /// A machine with room for what its equation of motion needs.
 pub struct Equation<'a> {
@@ -19,6 +38,7 @@ pub struct Equation<'a> {
     pub motion: Motion<f64>,
     pub geometry: Vec<LawGeometry<f64>>,
     pub speed_scale: f64,
+    pub turning: Turning,
     pub evaluations: usize,
 }
 
@@ -27,28 +47,31 @@ impl Equation<'_> {
     pub fn derivative(&mut self, t: f64, y: &Y) -> Y {
         let Machine { plan, q, .. } = self.machine;
         self.evaluations += 1;
-        let [phi, omega] = *y;
-        let r = plan.reduce::<f64, 2>(q, Angle::new(phi), 1.0, &mut self.motion);
-        let mut resisting = r.load + r.dry + r.viscous * omega;
+        let (sense, along) = (self.turning.crank, self.turning.with_motor());
+        let (phi, speed) = (sense * y[0], y[1]);
+        let r = plan.reduce::<f64, 2>(q, Angle::new(phi), sense, &mut self.motion);
+        let mut resisting = sense * r.load + r.dry + r.viscous * speed;
         if !plan.laws.is_empty() {
-            resisting += self.laws(t, phi, omega);
+            resisting += sense * self.laws(t, phi, sense * speed);
         }
-        let net = plan.drive.torque(&plan.tables, q, omega) - resisting - 0.5 * r.J_d1 * omega * omega;
-        [omega, net / r.J]
+        let drive = plan.drive.torque_turning(&plan.tables, q, speed, along);
+        let net = drive - resisting - 0.5 * sense * r.J_d1 * speed * speed;
+        [speed, net / r.J]
     }
 
     /// ε, and ∂ε/∂ω.
     pub fn acceleration(&mut self, t: f64, y: &Y) -> (f64, f64) {
         let Machine { plan, q, .. } = self.machine;
         self.evaluations += 1;
-        let (phi, omega) = (y[0], Dual::variable(y[1]));
-        let r = plan.reduce::<f64, 2>(q, Angle::new(phi), 1.0, &mut self.motion);
-        let mut net = plan.drive.torque(&plan.tables, q, omega)
-            - Dual::constant(r.load + r.dry)
-            - omega * r.viscous
-            - omega * omega * (0.5 * r.J_d1);
+        let (sense, along) = (self.turning.crank, self.turning.with_motor());
+        let (phi, speed) = (sense * y[0], Dual::variable(y[1]));
+        let r = plan.reduce::<f64, 2>(q, Angle::new(phi), sense, &mut self.motion);
+        let mut net = plan.drive.torque_turning(&plan.tables, q, speed, along)
+            - Dual::constant(sense * r.load + r.dry)
+            - speed * r.viscous
+            - speed * speed * (0.5 * sense * r.J_d1);
         if !plan.laws.is_empty() {
-            net = net - self.laws(Dual::constant(t), phi, omega);
+            net = net - self.laws(Dual::constant(t), phi, speed * sense) * sense;
         }
         (net.value / r.J, net.d / r.J)
     }
@@ -62,16 +85,18 @@ impl Equation<'_> {
         plan.law_torque::<f64, f64, N>(q, &self.geometry, omega, t)
     }
 
-    /// Drive's and needed torque at standstill, and which way the machine goes from there: +1, 0 or −1. Laws
-    /// count as at a vanishing speed in that direction, so that one with a jump at rest holds there.
-    pub fn balance_at_rest(&mut self, t: f64, phi: f64) -> (f64, f64, i8) {
+    /// Drive's and needed torque at standstill, and which way the machine goes from there: +1 as it turned, 0
+    /// or −1 back. Laws count as at a vanishing speed in that direction, so that one with a jump at rest holds there.
+    pub fn balance_at_rest(&mut self, t: f64, angle: f64) -> (f64, f64, i8) {
         let Machine { plan, q, .. } = self.machine;
+        let (sense, along) = (self.turning.crank, self.turning.with_motor());
+        let phi = sense * angle;
         let slow = AT_REST * self.speed_scale;
-        let mut ahead = plan.reduce::<f64, 1>(q, Angle::new(phi), 1.0, &mut self.motion);
-        ahead.load += self.laws(t, phi, slow);
-        let mut back = plan.reduce::<f64, 1>(q, Angle::new(phi), -1.0, &mut self.motion);
-        back.load += self.laws(t, phi, -slow);
-        let drive = plan.drive.geared_torque(q, plan.drive.motor_torque(&plan.tables, q, 0.0));
+        let mut ahead = plan.reduce::<f64, 1>(q, Angle::new(phi), sense, &mut self.motion);
+        ahead.load = sense * (ahead.load + self.laws(t, phi, sense * slow));
+        let mut back = plan.reduce::<f64, 1>(q, Angle::new(phi), -sense, &mut self.motion);
+        back.load = sense * (back.load + self.laws(t, phi, -sense * slow));
+        let drive = plan.drive.geared_torque(q, along * plan.drive.motor_torque(&plan.tables, q, 0.0));
         // At rest a load over speed holds in either direction, like a dry one; a driving one drives.
         let over_speed: f64 = plan.drive.speed_load(&plan.tables, 0.0);
         let holding = over_speed.max(0.0);

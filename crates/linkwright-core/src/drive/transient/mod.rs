@@ -4,7 +4,7 @@
 //! dφ/dt = ω,   dω/dt = ε = [M_d(ω) − M_r(φ, ω) − ½ J′(φ) ω²] / J(φ)
 //! ```
 //!
-//! by [`crate::kernel::rk`], or by [`crate::kernel::radau`] where the drive is so steep that stability would limit the steps of the
+//! counted in the direction in which the crank turns, by [`crate::kernel::rk`], or by [`crate::kernel::radau`] where the drive is so steep that stability would limit the steps of the
 //! former and not their error, with these events met exactly by the end of a step: kinks over the angle (dead centres
 //! under dry friction, knots of tables), speeds at which the drive's characteristic has a kink, standstill. A step whose
 //! speed passes such a speed and comes back inside is cut where the speed turns.
@@ -21,6 +21,7 @@ pub mod equation;
 pub mod stiff;
 
 use self::attempt::{Attempts, ExplicitAttempt, Piece};
+pub use self::equation::Turning;
 use self::equation::{AT_REST, Equation, Y};
 use self::stiff::StiffAttempt;
 use crate::drive::cycle::Machine;
@@ -38,8 +39,9 @@ use std::f64::consts::TAU;
 pub struct Start {
     /// Crank angle at the start \[rad\].
     pub phi: f64,
-    /// Speed at the start \[rad/s\], not negative.
+    /// Speed at the start in the direction in which the crank turns \[rad/s\], not negative.
     pub omega: f64,
+    pub turning: Turning,
     /// Longest time \[s\].
     pub duration: f64,
     /// Most revolutions of the crank.
@@ -99,6 +101,18 @@ pub struct Trajectory {
     pub evaluations: usize,
 }
 
+impl Trajectory {
+    /// From the direction in which the crank turned to counter-clockwise.
+    fn count_counter_clockwise(&mut self, sense: f64) {
+        let curves = [&mut self.phi, &mut self.omega, &mut self.epsilon];
+        let values = curves.into_iter().flatten().chain(self.between.iter_mut().flatten().flatten());
+        // Zero has no sign.
+        values.for_each(|value| *value = sense * *value + 0.0);
+        self.drive_torque *= sense;
+        self.load_torque *= sense;
+    }
+}
+
 /// Steps after which the motion is given up: a run-up of a thousand turns takes a tenth of them.
 const STEPS_MAX: usize = 400_000;
 
@@ -122,9 +136,14 @@ const NEAR_JUMP: f64 = 1e-5;
 pub fn follow(plan: &Plan, q: &[f64], start: &Start) -> Trajectory {
     let machine = Machine::new(plan, q);
     let mut motion = Motion::new(&plan.mechanism, q);
-    let kinks = machine.breaks(&mut motion).swap_remove(0);
+    let mut kinks = machine.breaks(&mut motion).swap_remove(0);
+    if start.turning.crank < 0.0 {
+        kinks = kinks.iter().rev().map(|kink| plan.cycle() - kink).collect();
+    }
     let speed_scale = q[plan.drive.speed_start].max(start.omega);
-    let mut follower = Equation { machine, motion, geometry: Vec::new(), speed_scale, evaluations: 0 };
+    let turning = start.turning;
+    let mut follower =
+        Equation { machine, motion, geometry: Vec::new(), speed_scale, turning, evaluations: 0 };
     let mut path = Path::new(plan, q, start, kinks);
     path.run(&mut follower);
     path.finish(&mut follower)
@@ -162,9 +181,10 @@ const LOOK: usize = 8;
 
 impl Path {
     fn new(plan: &Plan, q: &[f64], start: &Start, kinks: Vec<f64>) -> Self {
+        let first = start.turning.crank * start.phi;
         let trajectory = Trajectory {
             t: vec![0.0],
-            phi: vec![start.phi],
+            phi: vec![first],
             omega: vec![start.omega],
             epsilon: Vec::new(),
             between: Vec::new(),
@@ -177,9 +197,9 @@ impl Path {
         Path {
             trajectory,
             kinks,
-            speeds: plan.drive.speed_kinks(&plan.tables, q),
+            speeds: plan.drive.kinks_turning(&plan.tables, q, start.turning.with_motor()),
             cycle: plan.cycle(),
-            last_angle: start.phi + start.turns * TAU,
+            last_angle: first + start.turns * TAU,
             last_time: start.duration,
             accuracy: start.accuracy,
             speed_scale: q[plan.drive.speed_start].max(start.omega),
@@ -410,6 +430,7 @@ impl Path {
         }
         (path.drive_torque, path.load_torque, _) = follower.balance_at_rest(t, y[0]);
         path.evaluations = follower.evaluations;
+        path.count_counter_clockwise(follower.turning.crank);
         self.trajectory
     }
 }
@@ -418,7 +439,10 @@ impl Equation<'_> {
     /// Whether the motion is held on a jump of a law here.
     fn slides(&mut self, y: &Y) -> bool {
         let u = 0.5 * y[1] * y[1];
-        u > 0.0 && Events::new(self.machine).held(y[0], u, NEAR_JUMP, &mut self.motion).is_some()
+        // A jump is looked for at positive speeds only: a motion held on one at negative speeds is given up.
+        self.turning.crank > 0.0
+            && u > 0.0
+            && Events::new(self.machine).held(y[0], u, NEAR_JUMP, &mut self.motion).is_some()
     }
 }
 
