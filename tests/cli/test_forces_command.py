@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 from pathlib import Path
 
@@ -90,6 +91,60 @@ def test_angles_are_those_asked_for(press: Path) -> None:
     assert code == 0
     found = json.loads(text)["results"]["Press"]["crank_angle"]
     assert [found[0], found[-1]] == pytest.approx([-0.5235987755982988, 0.6981317007977318])
+
+
+def test_a_pose_has_the_components_of_every_force(press: Path) -> None:
+    """At rest the rod carries F/cos β, the guide F tan β, the crank F sin(φ + β)/cos β times its radius."""
+    words = ("forces", press, "--speed", "0 rad/s", "--at", "50 deg")
+    code, text = run(*words, "--json")
+    assert code == 0
+    found = json.loads(text)["results"]["Press"]
+    beta = math.asin(0.1 / 0.24 * math.sin(math.radians(50)))
+    wanted = 200 * 0.1 * math.sin(math.radians(50) + beta) / math.cos(beta)
+    # The slider is pushed towards the shaft and drives the crank onwards.
+    assert found["torque_drive"] == pytest.approx([-wanted], rel=1e-12)
+    assert found["reactions"]["A"][0] == pytest.approx([200, -200 * math.tan(beta)], rel=1e-12)
+    assert found["reactions"]["S.guide"][0] == pytest.approx([0, 200 * math.tan(beta)], rel=1e-12, abs=1e-12)
+    table = run(*words)[1]
+    assert f"{200 / math.cos(beta):.5g} N" in table
+    assert f"{-math.degrees(beta):.5g}°".replace("-", "−") in table
+    assert "at φ = 50°" in table
+
+
+def test_a_pose_takes_the_acceleration_of_the_crank(press: Path) -> None:
+    """The torque grows by the reduced inertia times the acceleration."""
+    words = ("forces", press, "--speed", "10 rad/s", "--json", "--zero", "outer", "--at", "-30 deg")
+    torques = [
+        json.loads(run(*words, "--acceleration", given)[1])["results"]["Press"]["torque_drive"][0]
+        for given in ("0", "20 rad/s^2")
+    ]
+    machine = lw.read(press)
+    inertia = lw.reduction(machine, n=360).inertia_reduced[330]
+    assert torques[1] - torques[0] == pytest.approx(20 * inertia, rel=1e-12)
+
+
+def test_load_cases_of_a_pose_stand_one_below_the_other(press: Path, tmp_path: Path) -> None:
+    words = ("forces", press, "--speed", "10 rad/s", "--at", "1 rad", "--out", tmp_path / "found")
+    code, text = run(*words, "--case", "idle: loads.work.force=0", "--case", "full:")
+    assert code == 0
+    assert "Forces at φ = 57.296°, idle" in text
+    assert "Forces at φ = 57.296°, full" in text
+    # One angle has no curve.
+    assert not list((tmp_path / "found").glob("forces*.png"))
+
+
+WRONG_POSES = {
+    "--at": ("--at", "1 rad", "--angles", "0 deg, 1 deg", "--speed", "1 rad/s"),
+    "--acceleration": ("--acceleration", "1 rad/s^2"),
+    "unit of acceleration": ("--at", "1 rad", "--speed", "1 rad/s", "--acceleration", "1 m/s^2"),
+}
+
+
+@pytest.mark.parametrize(("named", "words"), WRONG_POSES.items())
+def test_wrong_words_of_a_pose(press: Path, named: str, words: tuple[str, ...]) -> None:
+    code, text = run("forces", press, *words)
+    assert code == 2
+    assert named in text
 
 
 def test_cases_stand_in_columns(press: Path) -> None:

@@ -39,6 +39,20 @@ def test_a_pose() -> None:
     assert run("--at", "30 deg", "--csv").stdout.startswith("name,quantity,position,velocity,acceleration\n")
 
 
+def test_a_pose_takes_the_acceleration_of_the_crank() -> None:
+    """a = p″ω² + p′ε: what ε adds is the velocity times ε/ω."""
+    words = ("--at", "30 deg", "--speed", "2 rad/s", "--json")
+    plain, driven = (
+        json.loads(run(*words, *more).stdout)["results"]["pose"]
+        for more in ((), ("--acceleration", "5 rad/s^2"))
+    )
+    for name, link in driven["links"].items():
+        before = plain["links"][name]
+        wanted = before["acceleration"] + link["velocity"] * 5 / 2
+        assert link["acceleration"] == pytest.approx(wanted, rel=1e-12)
+    assert run("--acceleration", "5 rad/s^2").exit_code == 2
+
+
 def test_a_turn() -> None:
     found = columns(run("--csv", "--steps", 36).stdout)
     assert len(found["time [s]"]) == 37

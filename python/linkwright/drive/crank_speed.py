@@ -43,12 +43,12 @@ def crank_speed(machine: Machine, text: str | None) -> CrankSpeed:
     return CrankSpeed(1.0, "the file has no drive.speed: rates are those for a radian per second")
 
 
-def speeds_of(speeds: Floats, machine: Machine, text: str | None) -> dict[str, Any]:
-    """The speeds (n,) [rad/s] at which something was computed along a motion, for JSON; `text`: after
-    ``--speed``.
+def speeds_of(speeds: Floats, machine: Machine, text: str | None, *, is_pose: bool = False) -> dict[str, Any]:
+    """The speeds (n,) [rad/s] at which something was computed along a motion, or in one pose, for JSON;
+    `text`: after ``--speed``.
     """
     has_motor = machine.drive is not None and machine.drive.motor is not None
-    source = _OPTION if text is not None else "steady motion" if has_motor else _DESIGN
+    source = _OPTION if text is not None else "steady motion" if has_motor and not is_pose else _DESIGN
     low, high = float(speeds.min()), float(speeds.max())
     return {"speed_min": low, "speed_max": high, "speed_source": source}
 

@@ -43,6 +43,24 @@ Span = Annotated[
         show_default=False,
     ),
 ]
+At = Annotated[
+    str | None,
+    Option(
+        "--at",
+        metavar="ANGLE",
+        help="Components of all forces at this one crank angle, at --speed or at the design speed.",
+        show_default=False,
+    ),
+]
+Acceleration = Annotated[
+    str | None,
+    Option(
+        "--acceleration",
+        metavar="ACCELERATION",
+        help='Of the crank, such as "20 rad/s^2", with --speed or --at. Default: none.',
+        show_default=False,
+    ),
+]
 Curves = Annotated[bool, Option("--curves", help="With --json: include curves.")]
 Folder = Annotated[
     Path | None, out_option("Write results.json, forces.csv and figures as SVG and PNG there.")
@@ -77,7 +95,9 @@ def forces(
     file: File,
     set: Sets = None,
     allow_outside: Outside = False,
+    at: At = None,
     speed: Speed = None,
+    acceleration: Acceleration = None,
     angles: Span = None,
     zero: ZeroAt = None,
     case: Cases = None,
@@ -91,19 +111,36 @@ def forces(
     """Compute the forces in a machine.
 
     Joint reactions of all pins, guides, slots, teeth and cables, driving torque, shaking force and moment;
-    along the steady motion, or at a constant speed.
+    along the steady motion, or at a constant speed; in one pose with --at.
     """
     from linkwright.machine.read import read
 
     folder = output_folder(out, force=force)
+    if at is not None and angles is not None:
+        raise InputError("--at and --angles: one crank angle or a range, not both")
+    options = _motion(speed, acceleration, angles, pressure_angle, is_pose=at is not None)
 
     def read_with(entries: list[str]) -> Machine:
         return read(file, [*(set or []), *entries], allow_outside=allow_outside)
 
-    cases, machine = _cases(read_with, case or [], friction or [], _motion(speed, angles, pressure_angle))
-    speeds = {name: speeds_of(result.speed, machine, speed) for name, result in cases.items()}
+    if at is not None:
+        options["angles"] = [_angle_at(read_with([]), at, zero)]
+    cases, machine = _cases(read_with, case or [], friction or [], options)
+    speeds = {
+        name: speeds_of(result.speed, machine, speed, is_pose=at is not None)
+        for name, result in cases.items()
+    }
     counted = _zero(machine, zero, cases)
     hand_over(_answer(machine, cases, speeds, counted), json=json, curves=curves, folder=folder)
+
+
+def _angle_at(machine: Machine, at: str, zero: str | None) -> float:
+    """The crank angle of --at [rad], as the file counts it."""
+    from linkwright.kernel.units import ANGLE
+    from linkwright.linkages.zero import zero_angle
+
+    start = zero_angle(machine, zero).angle if zero is not None else 0.0
+    return option_value("--at", at, ANGLE) + start
 
 
 def _zero(machine: Machine, where: str | None, cases: dict[str, Forces]) -> Zero:
@@ -150,8 +187,15 @@ def _head(speeds: dict[str, dict[str, Any]]) -> str:
 
 def _tables(cases: dict[str, Forces]) -> list[Table]:
     """The cases beside each other, or all about the one."""
-    from linkwright.kinetostatics.tables import cases_table, contribution_table, envelope_table
+    from linkwright.kinetostatics.tables import (
+        cases_table,
+        contribution_table,
+        envelope_table,
+        pose_tables,
+    )
 
+    if all(len(result.crank_angle) == 1 for result in cases.values()):
+        return pose_tables(cases)
     if len(cases) > 1:
         return [cases_table(cases)]
     (only,) = cases.values()
@@ -163,13 +207,19 @@ def _named(name: str, finding: str, cases: dict[str, Forces]) -> str:
     return finding if len(cases) == 1 else f"{name}: {finding}"
 
 
-def _motion(speed: str | None, span: str | None, pressure_angle: str) -> dict[str, Any]:
+def _motion(
+    speed: str | None, acceleration: str | None, span: str | None, pressure_angle: str, *, is_pose: bool
+) -> dict[str, Any]:
     """What the options say about motion and teeth."""
-    from linkwright.kernel.units import ANGLE, SPEED
+    from linkwright.kernel.units import ANGLE, ANGULAR_ACCELERATION, SPEED
 
     options: dict[str, Any] = {"pressure_angle": option_value("--pressure-angle", pressure_angle, ANGLE)}
     if speed is not None:
         options["speed"] = option_value("--speed", speed, SPEED)
+    if acceleration is not None:
+        if speed is None and not is_pose:
+            raise InputError("--acceleration: it belongs to --speed or --at; a steady motion has its own")
+        options["acceleration"] = option_value("--acceleration", acceleration, ANGULAR_ACCELERATION)
     if span is not None:
         ends = [option_value("--angles", end.strip(), ANGLE) for end in span.split(",")]
         if len(ends) != 2 or ends[0] >= ends[1] or speed is None:
@@ -243,7 +293,9 @@ def _results(
         rows = {
             extent.name: {k: v for k, v in vars(extent).items() if k != "name"} for extent in envelope(result)
         }
-        results[name] = result.to_dict(curves=curves) | speeds[name] | {"envelope": rows}
+        # A pose has no course: what its table shows are curves of one point.
+        with_curves = curves or len(result.crank_angle) == 1
+        results[name] = result.to_dict(curves=with_curves) | speeds[name] | {"envelope": rows}
     return results
 
 
@@ -266,7 +318,7 @@ def _figures(cases: dict[str, Forces]) -> dict[str, Figure]:
 
     drawn = {}
     for end, result in _numbered(cases):
-        if not has_reactions(result):
+        if not has_reactions(result) or len(result.crank_angle) == 1:
             continue
         drawn[f"forces{end}"] = forces_figure(result)
         drawn[f"hodograph{end}"] = hodograph_figure(result)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.page.numbers import crank_angle, degrees, measured, number
 from linkwright.kernel.page.table import Row, Table
 from linkwright.kernel.quantities import declared, shown
@@ -74,6 +76,52 @@ def cases_table(cases: Mapping[str, Forces]) -> Table:
     return Table("load_cases", "Peaks by load case", ("quantity", "", *cases), rows)
 
 
+def pose_tables(cases: Mapping[str, Forces]) -> list[Table]:
+    """Components of every force at one crank angle, and the share of each source; for each load case."""
+    tables = []
+    for case, forces in cases.items():
+        part = "" if len(cases) == 1 else case
+        tables += [pose_table(forces, part), _pose_shares(forces, part)]
+    return tables
+
+
+def pose_table(forces: Forces, case: str = "") -> Table:
+    """Size, components, direction and moment of every force at the only crank angle of `forces`."""
+    scales = _scales(envelope(forces))
+    newtons, torques = scales.get("N", 0.0), scales.get("N m", 0.0)
+    rows: list[Row] = []
+    for name in ("torque_drive", "shaking_moment"):
+        moment = measured(float(getattr(forces, name)[0]), "N m", torques)
+        rows.append((*_words(name, forces), "", "", "", "", moment))
+    rows.append((*_words("shaking_force", forces), *_components(forces.shaking_force[0], newtons), ""))
+    for name, pair in forces.pairs.items():
+        turning = pair.normal if pair.kind == "mesh" and not pair.force.any() else pair.moment
+        moment = measured(float(turning[0]), "N m", torques) if turning[0] else ""
+        word = f"{_KINDS[pair.kind].partition(',')[0]}, {pair.first} on {pair.second}"
+        rows.append((word, name, *_components(pair.force[0], newtons), moment))
+    heads = ("force", "", "size", "x", "y", "direction", "moment")
+    title = f"Forces at φ = {crank_angle(forces.crank_angle[0])}" + (f", {case}" if case else "")
+    return Table("forces_at", title, heads, rows)
+
+
+def _components(force: Floats, scale: float) -> Row:
+    """Size, components and direction of a force (2,) [N]; rounding is zero and has no direction."""
+    x, y = force.tolist()
+    size = measured(math.hypot(x, y), "N", scale)
+    has_direction = size != measured(0.0, "N")
+    # A component that is rounding beside the force itself is zero in the direction too.
+    near = [0.0 if abs(part) < 1e-9 * math.hypot(x, y) else part for part in (x, y)]
+    direction = degrees(math.atan2(near[1], near[0])) if has_direction else "–"
+    return size, *(measured(part, "N", max(scale, math.hypot(x, y))) for part in (x, y)), direction
+
+
+def _pose_shares(forces: Forces, case: str) -> Table:
+    """Share of each source in the driving torque and in the shaking force."""
+    shares = contribution_table(forces)
+    title = "Contributions" + (f", {case}" if case else "")
+    return shares._replace(title=title, heads=("source", "", "of M_d", "of the shaking force"))
+
+
 def contribution_table(forces: Forces) -> Table:
     """Share of each source in the peaks of torque and of the shaking force, at its angle; they add up to the
     peak.
@@ -89,9 +137,10 @@ def contribution_table(forces: Forces) -> Table:
     along = {
         name: float(share.shaking_force[at[1]] @ total) / size for name, share in forces.contributions.items()
     }
-    largest = [max(map(abs, shares.values()), default=0.0) for shares in (torques, along)]
+    # Where the shares cancel, what is left of them is rounding of the reactions.
+    scales = _scales(extents.values())
     rows: list[Row] = [
-        (name, "", measured(torques[name], "N m", largest[0]), measured(along[name], "N", largest[1]))
+        (name, "", measured(torques[name], "N m", scales["N m"]), measured(along[name], "N", scales["N"]))
         for name in forces.contributions
     ]
     heads = ("source", "", "of the peak of M_d", "of the peak shaking force")

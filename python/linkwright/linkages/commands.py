@@ -40,6 +40,15 @@ Speed = Annotated[
         show_default=False,
     ),
 ]
+Acceleration = Annotated[
+    str | None,
+    Option(
+        "--acceleration",
+        metavar="ACCELERATION",
+        help='With --at: acceleration of the crank, such as "20 rad/s^2". Default: none.',
+        show_default=False,
+    ),
+]
 LawText = Annotated[
     str | None,
     Option(
@@ -71,6 +80,7 @@ def motion(
     allow_outside: Outside = False,
     at: At = None,
     speed: Speed = None,
+    acceleration: Acceleration = None,
     law: LawText = None,
     duration: Duration = None,
     zero: ZeroAt = None,
@@ -93,6 +103,8 @@ def motion(
     require_within(ROWS_OUT, steps, "--steps", "take fewer")
     if at is not None and law is not None:
         raise InputError("--at and --law: one pose or a motion, not both")
+    if acceleration is not None and at is None:
+        raise InputError("--acceleration: it belongs to --at; a --law has its own")
     if speed is not None and law is not None:
         raise InputError("--speed and --law: the law gives the speed; expected one of them")
     if zero is not None and law is not None:
@@ -105,20 +117,25 @@ def motion(
         if law is not None:
             text = _under_law(machine, law, duration or "1 s", steps, json=json, csv=csv)
         elif at is not None:
-            text = _pose(machine, at, crank_speed(machine, speed), counted, json=json, csv=csv)
+            rates = crank_speed(machine, speed), acceleration or "0"
+            text = _pose(machine, at, *rates, counted, json=json, csv=csv)
         else:
             text = _turn(machine, crank_speed(machine, speed), counted, steps, json=json, csv=csv)
     put(text, out, force=force)
 
 
-def _pose(machine: Machine, at: str, speed: CrankSpeed, zero: Zero, *, json: bool, csv: bool) -> str:
+def _pose(
+    machine: Machine, at: str, speed: CrankSpeed, acceleration: str, zero: Zero, *, json: bool, csv: bool
+) -> str:
     """One pose as a table, CSV or JSON."""
     from linkwright.kernel.page.numbers import number
     from linkwright.kernel.page.table import csv_text
-    from linkwright.kernel.units import ANGLE
+    from linkwright.kernel.units import ANGLE, ANGULAR_ACCELERATION
     from linkwright.linkages.pose import pose
 
-    placed = pose(machine, option_value("--at", at, ANGLE) + zero.angle, speed=speed.value)
+    epsilon = option_value("--acceleration", acceleration, ANGULAR_ACCELERATION)
+    phi = option_value("--at", at, ANGLE) + zero.angle
+    placed = pose(machine, phi, speed=speed.value, acceleration=epsilon)
     if json:
         results = placed.to_dict() | {"speed_source": speed.source} | _zero_data(zero)
         return json_text(Answer(machine=machine.name, results=lambda _: {"pose": results}))
