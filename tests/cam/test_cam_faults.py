@@ -20,7 +20,7 @@ from linkwright.cam.profile.least_sizes import (
     least_sound_base,
 )
 from linkwright.cam.profile.profile import CamProfile, cam_profile
-from linkwright.kernel.errors import FindingError
+from linkwright.kernel.errors import FindingError, InputError
 
 DENSE = np.linspace(0.0, TURN, 20001)
 
@@ -386,6 +386,38 @@ def test_least_base_against_a_scan(kind: str) -> None:
         return float(1 - (touching.sizes.roller_radius + 0.005) * r["bend"].max())
 
     assert tight == pytest.approx(scan(touching.sizes, radius, 0.004, 0.4), rel=2e-3)
+
+
+# Without undercut at any base radius.
+GENTLE = """
+sections = [
+  { angle = "120 deg", lift = "40 mm", law = "harmonic" },
+  { angle = "30 deg" },
+  { angle = "150 deg", lift = "-40 mm", law = "cycloidal" },
+  { angle = "60 deg" },
+]
+"""
+BARELY_REACHED = {
+    "offset": ('roller_radius = "10 mm"\noffset = "12 mm"\n', GENTLE, "", 0.002),
+    "arm": (
+        'follower = "oscillating"\nroller_radius = "8 mm"\narm_pivot = "P"\narm_length = "70 mm"\n',
+        GENTLE.replace("lift", "swing").replace("40 mm", "20 deg").replace("harmonic", "cycloidal"),
+        '[mechanism.points]\nP = { x = "80 mm" }\n',
+        0.002,
+    ),
+}
+
+
+@pytest.mark.parametrize("kind", BARELY_REACHED)
+def test_least_base_lets_the_follower_reach_the_cam(kind: str) -> None:
+    """An offset within the prime circle, an arm that spans to it: a smaller base radius has no cam at all."""
+    lines, sections, rest, bound = BARELY_REACHED[kind]
+    base = lw.least_sizes(profile(f'base_radius = "30 mm"\n{lines}', sections, rest)).base_radius_sound
+    # Halvings end at rounding above the bound.
+    assert base == pytest.approx(bound, rel=1e-9)
+    profile(f"base_radius = {1.0001 * base}\n{lines}", sections, rest)
+    with pytest.raises(InputError, match="base_radius"):
+        profile(f"base_radius = {0.9999 * base}\n{lines}", sections, rest)
 
 
 def test_limits_are_cautions_with_the_size_that_keeps_them() -> None:

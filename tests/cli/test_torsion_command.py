@@ -40,6 +40,34 @@ def run(*words: str) -> Result:
     return CliRunner().invoke(application(), ["torsion", *words])
 
 
+BAR = """
+format = 1
+name = "Held bar"
+[train]
+inertia = "distributed"
+modes = 2
+[train.discs]
+tip = { inertia = 1e-9 }
+[train.shafts.bar]
+between = ["ground", "tip"]
+density = "7850 kg/m^3"
+shear_modulus = "80 GPa"
+sections = [{ length = "2 m", diameter = "50 mm" }]
+"""
+
+
+def test_a_bar_that_moves_alone_names_no_disc(tmp_path: Path) -> None:
+    """f = c/4l, and only the shaft has energy."""
+    path = tmp_path / "bar.toml"
+    path.write_text(BAR, encoding="utf-8")
+    found = json.loads(run(str(path), "--json").stdout)["results"]["free"]["natural_frequencies"]
+    # The disc at the tip has a ten-millionth of the bar's inertia, and lowers them by as much.
+    assert found == pytest.approx([np.sqrt(80e9 / 7850) / 8, 3 * np.sqrt(80e9 / 7850) / 8], rel=2e-7)
+    text = run(str(path)).stdout
+    assert "bar 100 %" in text
+    assert ";  " not in text
+
+
 def test_json(file: str) -> None:
     result = run(file, "--json")
     assert result.exit_code == 0

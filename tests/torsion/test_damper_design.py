@@ -290,3 +290,12 @@ def test_wrong_input(entries: dict[str, object], words: str) -> None:
 def test_wrong_mass_ratio(value: float, rule_of: object) -> None:
     with pytest.raises(InputError, match="mass_ratio"):
         rule_of(value)  # type: ignore[operator]
+
+
+def test_the_first_mode_that_twists_is_taken() -> None:
+    """Of a train that is held it is mode 0, of a free one mode 1."""
+    for file, on, first in ((ONE, "a", 0), (TRAIN, "hub", 1)):
+        machine = lw.loads(file)
+        assert lw.design_damper(machine, on, 0.4).mode == first
+    with pytest.raises(InputError, match="found 1, expected 0, its only mode"):
+        lw.design_damper(lw.loads(ONE), "a", 0.4, mode=1)

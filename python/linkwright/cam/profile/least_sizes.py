@@ -9,12 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 
 from linkwright.cam.core import CamSearch, crossings
 from linkwright.cam.model.cam import Cam
+from linkwright.cam.model.follower import Sizes, start_of
 from linkwright.cam.profile.contact import CamCurve, Contact
 from linkwright.cam.profile.profile import CamProfile
 from linkwright.kernel.arrays import Floats
@@ -117,13 +118,15 @@ def _first(
     radii = np.geomspace(_FROM * scale, _TO * scale, _SCANNED)
     with np.errstate(invalid="ignore"):
         margin = coarse(contact.kernel.search(size._replace(base_radius=radii), 1.0, _COARSE))
-    sound = np.flatnonzero(margin >= 0)
+    sound = np.flatnonzero((margin >= 0) & _is_reached(cam, size._replace(base_radius=radii)))
     if not len(sound):
         return None
     high = float(radii[sound[0]])
     low = float(radii[sound[0] - 1]) if sound[0] else 0.0
 
     def is_sound(base: float) -> bool:
+        if not _is_reached(cam, size._replace(base_radius=base)):
+            return False
         kernel = contact.kernel.with_sizes(size._replace(base_radius=base))
         return exact(Contact(contact.name, contact.law, size, kernel, contact.start)) >= 0
 
@@ -137,6 +140,15 @@ def _first(
         low, high = (low, middle) if is_sound(middle) else (middle, high)
     # Where any will do, halving ends some 2⁻⁴⁶ above nothing.
     return high if high > 2.0 ** (2 - _HALVINGS) * scale else 0.0
+
+
+def _is_reached(cam: Cam, size: Sizes) -> Any:
+    """Whether the follower has a place on the base circle: an offset within the prime circle, an arm that
+    is neither too short nor too long.
+    """
+    start = start_of(cam, size)
+    # An oscillating follower may start on either side of its zero; NaN is no place.
+    return np.isfinite(start) if cam.is_oscillating else start > 0
 
 
 @dataclass(frozen=True)

@@ -32,7 +32,15 @@ Ring = Annotated[
     str,
     Option("--ring-inertia", metavar="J", help='Of its ring, such as "0.4 kg m^2".', show_default=False),
 ]
-Mode = Annotated[int, Option("--mode", metavar="N", help="Number of the mode, as f_N in the table.")]
+Mode = Annotated[
+    int | None,
+    Option(
+        "--mode",
+        metavar="N",
+        help="Number of the mode, as f_N in the table. Default: the first that twists.",
+        show_default=False,
+    ),
+]
 Kinds = Annotated[Kind, Option("--kind", help="viscous: fluid; tuned: spring and fluid; rubber: elastomer.")]
 Loss = Annotated[
     float | None,
@@ -47,7 +55,7 @@ def damper(
     file: File,
     on: On,
     ring_inertia: Ring,
-    mode: Mode = 1,
+    mode: Mode = None,
     kind: Kinds = Kind.viscous,
     loss_factor: Loss = None,
     set: Sets = None,

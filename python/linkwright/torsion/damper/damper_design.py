@@ -215,7 +215,7 @@ def design_damper(
     on: str,
     ring_inertia: float,
     *,
-    mode: int = 1,
+    mode: int | None = None,
     kind: Kind = "viscous",
     loss_factor: float | None = None,
 ) -> DamperDesign:
@@ -229,8 +229,9 @@ def design_damper(
         Disc that carries the damper; its housing counts with the disc.
     ring_inertia : float
         [kg m²].
-    mode : int
-        Number of the mode as in `FreeVibration`; of a free train 1 is the first that twists.
+    mode : int, optional
+        Number of the mode as in `FreeVibration`. Default: the first that twists, 1 of a free train, 0 of one
+        that is held.
     kind : str
         ``"viscous"``: a fluid; ``"tuned"``: a spring and a fluid; ``"rubber"``: a spring that loses.
     loss_factor : float, optional
@@ -254,7 +255,8 @@ def design_damper(
     """
     _require(ring_inertia, kind, loss_factor)
     free = free_vibration(_without_dampers(machine))
-    train = RingOnTrain(free, _disc(free, on), _twisting(free, mode), ring_inertia)
+    mode = _twisting(free, mode)
+    train = RingOnTrain(free, _disc(free, on), mode, ring_inertia)
     mu = ring_inertia / train.modal_inertia
     rule = _RULES[kind](mu)
     first = train.holding(rule)
@@ -300,11 +302,16 @@ def _disc(free: FreeVibration, on: str) -> int:
     return free.discs.index(on)
 
 
-def _twisting(free: FreeVibration, mode: int) -> int:
-    """The number of a mode that twists the train."""
-    twisting = np.flatnonzero(free.natural_frequencies > 0)
+def _twisting(free: FreeVibration, mode: int | None) -> int:
+    """The number of a mode that twists the train; the first of them where none is asked for."""
+    twisting = np.flatnonzero(free.natural_frequencies > 0).tolist()
+    if not twisting:
+        raise InputError("mode: found none that twists the train, expected a train with an elastic mode")
+    if mode is None:
+        return int(twisting[0])
     if mode not in twisting:
-        known = f"one of {twisting[0]} to {twisting[-1]}" if len(twisting) else "a train with an elastic mode"
+        low, high = twisting[0], twisting[-1]
+        known = f"{low}, its only mode" if low == high else f"one of {low} to {high}"
         raise InputError(f"mode: found {mode}, expected {known}")
     return mode
 

@@ -272,7 +272,8 @@ def _energy(free: FreeVibration, k: int) -> str:
         _most(free.shafts, free.potential_shares[k]),
         _most(free.discs, free.kinetic_shares[k]),
     )
-    return "; ".join(parts)
+    # Where inertia is distributed, it may be the shafts that move.
+    return "; ".join(filter(None, parts))
 
 
 def _most(names: tuple[str, ...], shares: Floats) -> str:
