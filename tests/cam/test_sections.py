@@ -5,19 +5,18 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, Self
 
 import numpy as np
 import pytest
-from pydantic import Field, ModelWrapValidatorHandler, ValidationError, model_validator
+from pydantic import Field
 from pydantic_core import InitErrorDetails
 
 import linkwright as lw
 from linkwright.cam.laws.programme import Programme
 from linkwright.cam.model.motion_section import Family, MotionSection, programme, section_faults
-from linkwright.kernel.description.base import CheckedDescription, Description
-from linkwright.kernel.description.problems import problems
-from linkwright.kernel.errors import MachineError, MachineFileError, Problem
+from linkwright.kernel.description.base import CheckedDescription
+from linkwright.kernel.description.problems import WholeDescription
+from linkwright.kernel.errors import MachineFileError, Problem
 from linkwright.machine.read import loads_as, read_as
 
 
@@ -32,18 +31,10 @@ class SomeCam(CheckedDescription):
         yield from section_faults(self.sections, family)
 
 
-class SomeFile(Description):
+class SomeFile(WholeDescription):
     """A file with cams, that tells its problems as a machine does."""
 
     cams: dict[str, SomeCam] = Field(description="Cams.")
-
-    @model_validator(mode="wrap")
-    @classmethod
-    def _all_problems(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
-        try:
-            return handler(data)
-        except ValidationError as error:
-            raise MachineError(problems(error, cls, data)) from None
 
 
 def cam(sections: str, overrides: tuple[str, ...] = (), follower: str = "lift") -> SomeCam:

@@ -11,7 +11,7 @@ import pytest
 import linkwright as lw
 from linkwright.app.commands.report import _content
 from linkwright.kernel.errors import InputError
-from linkwright.kernel.figure.in_language import _said
+from linkwright.kernel.figure.for_reader import _said
 from linkwright.kernel.page.html import html
 from linkwright.kernel.page.language import ENGLISH, Language, in_language, language
 from linkwright.torsion.page import torsion_content

@@ -52,6 +52,16 @@ def test_a_study_gives_the_numbers_of_an_analysis(name: str, tmp_path: Path) -> 
     assert rows.columns["number"][0] == pytest.approx(by_itself, rel=1e-6)
 
 
+def test_reasons_are_those_of_rows(tmp_path: Path) -> None:
+    """The third row has no machine, and nothing else is wrong with any."""
+    plan = lw.read_study(study(tmp_path, *DRIVE, '"reduction.inertia_max"'))
+    assert lw.evaluate(plan, {"entry": np.array([0.1, 0.2])}).reasons == [""]
+    rows = lw.evaluate(plan, {"entry": np.array([0.1, 0.2, 50.0])})
+    assert rows.status.tolist() == [0, 0, 1]
+    assert rows.reasons == ["", rows.why(2)]
+    assert rows.failures() == {rows.why(2): 1}
+
+
 def study(tmp_path: Path, machine: str, address: str, response: str) -> Path:
     path = tmp_path / "study.toml"
     path.write_text(

@@ -5,16 +5,15 @@ from __future__ import annotations
 import math
 from itertools import pairwise
 from pathlib import Path
-from typing import Any, Self
+from typing import Any
 
 import numpy as np
 import pytest
 from cylinders import cylinder, diesel, measured, told
-from pydantic import Field, ModelWrapValidatorHandler, ValidationError, model_validator
+from pydantic import Field
 from scipy.interpolate import PchipInterpolator
 
-from linkwright.kernel.description.base import Description
-from linkwright.kernel.description.problems import problems
+from linkwright.kernel.description.problems import WholeDescription
 from linkwright.kernel.errors import MachineError
 from linkwright.machine.read import read_as
 from linkwright.torsion.model.engine.cycle_pressure import periodic_cubic
@@ -277,18 +276,10 @@ def test_a_motored_diagram_cannot_be_scaled() -> None:
         torque(Indicator(**entries, load={"kind": "constant", "mean_effective_pressure": 5e5}))
 
 
-class SomeFile(Description):
+class SomeFile(WholeDescription):
     """A file with a gas, that tells its problems as a machine does."""
 
     gas: AnyGas = Field(description="The gas.")
-
-    @model_validator(mode="wrap")
-    @classmethod
-    def _all_problems(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
-        try:
-            return handler(data)
-        except ValidationError as error:
-            raise MachineError(problems(error, cls, data)) from None
 
 
 def test_a_diagram_from_a_file(tmp_path: Path) -> None:

@@ -21,7 +21,7 @@ from linkwright.kernel.errors import InputError, MachineError, Problem
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import array, number, shown
 from linkwright.kernel.public.immutable import held
-from linkwright.kernel.units import COUNT, Kind, Quantity, QuantityList
+from linkwright.kernel.units import COUNT, Kind, Quantity, QuantityList, is_number
 from linkwright.machine.machine import Machine
 
 
@@ -221,7 +221,7 @@ def _rebuilt(node: Any, tree: dict[str, Any] | _Leaf) -> Any:
 
 def _numbers(node: object, place: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], float]]:
     """All numbers below a node."""
-    if isinstance(node, int | float) and not isinstance(node, bool):
+    if is_number(node):
         yield place, node
     for key in keys(node):
         yield from _numbers(look(node, key), (*place, key))

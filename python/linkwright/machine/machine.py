@@ -3,15 +3,14 @@
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
-from pydantic import BaseModel, Field, ModelWrapValidatorHandler, ValidationError, model_validator
+from pydantic import BaseModel, Field, ModelWrapValidatorHandler, ValidationError
 from pydantic_core import InitErrorDetails
 
 from linkwright.drive.model.drive import Drive
 from linkwright.kernel.description.base import Description, Name, Title, fault, faults_of, raise_faults
 from linkwright.kernel.description.deferred_model import deferred_model
 from linkwright.kernel.description.place import look
-from linkwright.kernel.description.problems import problems
-from linkwright.kernel.errors import MachineError
+from linkwright.kernel.description.problems import WholeDescription
 from linkwright.kernel.units import INSIDE_ONE, RATIO, SPEED, Angle, Quantity, not_negative, positive
 from linkwright.kinetostatics.model.body import Body, body_faults
 from linkwright.kinetostatics.model.loads import AnyLoad
@@ -57,7 +56,7 @@ class RunUp(Description):
     )
 
 
-class Machine(Description):
+class Machine(WholeDescription):
     """A machine, complete: everything that an analysis needs to know, in SI.
 
     Raises
@@ -135,18 +134,9 @@ class Machine(Description):
         """Whether a crank moves a mechanism: not so in a train, a topper or a diagram that stands alone."""
         return not (self.is_train_alone or self.is_topper_alone or self.is_diagram_alone)
 
-    @model_validator(mode="wrap")
-    @classmethod
-    def _all_problems(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
-        """Collect wrong values and wrong names, and report them in the words of the field."""
-        try:
-            return cls._checked(data, handler)
-        except ValidationError as error:
-            raise MachineError(problems(error, cls, data)) from None
-
     @classmethod
     def _checked(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
-        """The machine, or all faults in one error."""
+        """The machine; wrong values and wrong names are reported together."""
         if isinstance(data, Mapping) and data.get("drawing") is not None:
             from linkwright.linkages.model.drawing import with_drawing
 

@@ -12,7 +12,7 @@ import numpy as np
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import MachineError, Problem, UnitError, show
-from linkwright.kernel.units import COUNT, LENGTH, Kind, parse
+from linkwright.kernel.units import COUNT, LENGTH, Kind, is_number, parse
 from linkwright.machine.address import addresses, get, kind, known_place
 from linkwright.machine.machine import Machine
 from linkwright.studies import iso286
@@ -137,7 +137,7 @@ def _kind(machine: Machine, name: str, address: str) -> Kind | None:
     if mark is not None:
         return mark
     value = get(machine, address)
-    return COUNT if isinstance(value, int | float) and not isinstance(value, bool) else None
+    return COUNT if is_number(value) else None
 
 
 def _choices(machine: Machine, name: str, variable: Variable, kind: Kind | None) -> tuple[Any, ...]:

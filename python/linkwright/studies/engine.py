@@ -7,7 +7,8 @@ of the study stands in front of every batch, so that they are the same however r
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -61,13 +62,28 @@ class Rows:
 
     def fail(self, rows: Any, status: int, text: str) -> None:
         """Let rows fail that have not failed yet."""
-        if text not in self.reasons:
-            self.reasons.append(text)
         which = np.zeros(len(self.status), dtype=bool)
         which[rows] = True
         which &= self.status == SOLVED
+        if not which.any():
+            return
+        if text not in self.reasons:
+            self.reasons.append(text)
         self.status[which] = status
         self.reason[which] = self.reasons.index(text)
+
+    def why(self, row: int) -> str:
+        """Why a row failed; empty if it did not."""
+        return self.reasons[int(self.reason[row])]
+
+    def failures(self) -> Counter[str]:
+        """How many rows failed for each reason."""
+        return Counter(self.reasons[place] for place in self.reason[self.status != SOLVED])
+
+    def require_solved(self, place: Callable[[int], str]) -> None:
+        """Raise a `FindingError` if a row failed, with the place of the first one in words."""
+        for row in np.flatnonzero(self.status != SOLVED)[:1].tolist():
+            raise FindingError(f"the machine {place(row)} has no answer: {self.why(row)}")
 
 
 @public

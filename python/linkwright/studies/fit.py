@@ -211,7 +211,7 @@ class _FitJudgement:
             jacobian_error=self.error,
             freedom=self.freedom,
             n_evaluations=model.count,
-            reasons=model.reasons,
+            reasons=dict(model.reasons),
         )
 
     def _limit_warnings(self, limits: tuple[str, ...]) -> list[str]:

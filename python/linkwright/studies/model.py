@@ -7,14 +7,13 @@ entries that they stand for.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field, ModelWrapValidatorHandler, ValidationError, model_validator
+from pydantic import BeforeValidator, Field
 from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import CheckedDescription, Description, Name, Whole, fault
-from linkwright.kernel.description.problems import problems
-from linkwright.kernel.errors import MachineError
+from linkwright.kernel.description.problems import WholeDescription
 from linkwright.kernel.limits import SWEEP_ROWS
 from linkwright.kernel.units import Angle, Speed
 
@@ -201,7 +200,7 @@ class FitOptions(Description):
     )
 
 
-class StudyFile(Description):
+class StudyFile(WholeDescription):
     """A study: beside its machine in a file of its own, or the table ``study`` of a machine file."""
 
     machine: str | None = Field(None, description="The machine file, from the folder of this one.")
@@ -221,12 +220,3 @@ class StudyFile(Description):
     )
     sweep: Sweep = Field(default_factory=Sweep, description="Rows of a sweep.")
     fit: FitOptions | None = Field(None, description="A measured record that the variables are fitted to.")
-
-    @model_validator(mode="wrap")
-    @classmethod
-    def _all_problems(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
-        """Report problems in the words of the file."""
-        try:
-            return handler(data)
-        except ValidationError as error:
-            raise MachineError(problems(error, cls, data)) from None

@@ -16,6 +16,7 @@ References
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from itertools import product
@@ -169,7 +170,7 @@ class _Search:
         self.best: tuple[tuple[int, float], Floats] | None = None
         self.tried: list[dict[str, Any]] = []
         self.count = self.failed = 0
-        self.reasons: dict[str, int] = {}
+        self.reasons: Counter[str] = Counter()
 
     def run(
         self, fixed: Mapping[str, float], evaluations: int, seed: int, method: Method, starts: int
@@ -238,9 +239,7 @@ class _Search:
         """How good machines are, the smaller the better: by limits kept, then by goal or violation."""
         rows = evaluate(self.plan, self.plan.values(points))
         self.count += len(rows)
-        for place in rows.reason[rows.status != SOLVED]:
-            text = rows.reasons[place]
-            self.reasons[text] = self.reasons.get(text, 0) + 1
+        self.reasons.update(rows.failures())
         keys = [self._key(rows, i) for i in range(len(rows))]
         at = min(range(len(keys)), key=keys.__getitem__)
         if self.best is None or keys[at] < self.best[0]:
@@ -285,7 +284,7 @@ class _Search:
             tried=tuple(self.tried) if kind else (),
             n_evaluations=self.count,
             n_failed=sum(self.reasons.values()),
-            reasons=self.reasons,
+            reasons=dict(self.reasons),
         )
 
     def _prices(self) -> list[Price]:
@@ -303,7 +302,7 @@ class _Search:
             return None
         rows = evaluate(self.plan, self.plan.values(shares[None]))
         if rank > 1:
-            return str(rows.reasons[rows.reason[0]])
+            return rows.why(0)
         passed = []
         for name, (low, high) in self.plan.limits.items():
             number, unit = rows.columns[name][0], self.plan.units[name]

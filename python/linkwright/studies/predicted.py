@@ -6,6 +6,7 @@ differenced, and the error of that is measured by halving the steps.
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -42,7 +43,7 @@ class RecordModel:
     options: FitOptions  # of which motion
     own: tuple[Number, ...] = ()  # numbers that belong to the record: where it began, torque over current
     count: int = 0  # motions computed so far
-    reasons: dict[str, int] = field(default_factory=dict)  # why trials of the search had no answer → how many
+    reasons: Counter[str] = field(default_factory=Counter)  # why trials had no answer → how many
     _known: dict[bytes, Floats] = field(default_factory=dict, repr=False)
 
     def machine(self, x: Floats) -> Machine:
@@ -58,7 +59,7 @@ class RecordModel:
             except (FindingError, InputError) as error:
                 # The search takes a shorter step; how often that was so is reported with the result.
                 text = " ".join(str(error).split())
-                self.reasons[text] = self.reasons.get(text, 0) + 1
+                self.reasons[text] += 1
                 self._known[key] = np.full(self.record.size, np.nan)
         return self._known[key]
 

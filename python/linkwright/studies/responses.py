@@ -22,6 +22,7 @@ from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import FindingError, MachineError, Problem, show
 from linkwright.kernel.quantities import Label, declared, is_array
 from linkwright.kernel.result import Result
+from linkwright.kernel.units import is_number
 from linkwright.machine.address import addresses, get, kind
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
@@ -222,21 +223,16 @@ def _of_entry(machine: Machine, name: str, address: str) -> StudyResponse:
     except MachineError as error:
         remedy = error.problems[0].remedy or suggestion(address, addresses(machine))
         raise _wrong(name, "entry", address, "the address of an entry", remedy) from None
-    if not _is_number(value):
+    if not is_number(value):
         found = f"{address}, which is no number" if value is not None else f"{address}, which is not given"
         raise _wrong(name, "entry", found, "the address of a number")
     return StudyResponse(name, ENTRY, (address,), address, address, mark.unit if mark else "")
 
 
-def _is_number(value: object) -> bool:
-    """Whether an entry is a number, and no switch."""
-    return isinstance(value, int | float) and not isinstance(value, bool)
-
-
 def entry_number(machine: Machine, address: str) -> float:
     """A number of a machine; a `FindingError` if this machine has none there."""
     value = get(machine, address)
-    if not _is_number(value):
+    if not is_number(value):
         raise FindingError(f"{address} has no number in this machine")
     return float(value)
 

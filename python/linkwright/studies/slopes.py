@@ -17,12 +17,12 @@ import numpy as np
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.formula import NUMBERS
 from linkwright.kernel.description.formula import names as names_in
-from linkwright.kernel.errors import FindingError, InputError
+from linkwright.kernel.errors import InputError
 from linkwright.kernel.numerics.formula_value import value
 from linkwright.kernel.numerics.tangent import Tangent, primal
 from linkwright.machine.machine import Machine
 from linkwright.sensitivity.sources import SOURCES, Source, chosen, source
-from linkwright.studies.engine import SOLVED, evaluate, sound_variant
+from linkwright.studies.engine import evaluate, sound_variant
 from linkwright.studies.plan import Formula, StudyPlan
 from linkwright.studies.responses import ENTRY, StudyResponse, entry_number
 
@@ -188,10 +188,7 @@ def _differences(plan: StudyPlan, at: Floats, steps: Floats) -> dict[str, Tangen
     n = len(at)
     points = np.vstack([at, *(at + k * np.diag(steps) for k in (1, -1, 2, -2))])
     rows = evaluate(plan, {axis.name: points[:, i].copy() for i, axis in enumerate(plan.axes)})
-    if (rows.status != SOLVED).any():
-        worst = int(np.flatnonzero(rows.status)[0])
-        place = "there" if not worst else f"a step beside in {plan.axes[(worst - 1) % n].name}"
-        raise FindingError(f"the machine {place} has no answer: {rows.reasons[rows.reason[worst]]}")
+    rows.require_solved(lambda row: f"a step beside in {plan.axes[(row - 1) % n].name}" if row else "there")
     differences = {}
     for name in plan.responses:
         f = rows.columns[name]

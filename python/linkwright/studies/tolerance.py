@@ -141,7 +141,10 @@ def tolerance(
     names = [axis.name for axis in plan.axes]
     solved = drawn.status == SOLVED
     if solved.sum() < 2:
-        raise FindingError(f"only {int(solved.sum())} of {rows} machines have an answer: {drawn.reasons[-1]}")
+        ((reason, _),) = drawn.failures().most_common(1)
+        raise FindingError(
+            f"only {int(solved.sum())} of {rows} machines have an answer; most often: {reason}"
+        )
     return Tolerance(
         n_rows=rows,
         n_failed=int((~solved).sum()),
@@ -177,14 +180,11 @@ def _bends(plan: StudyPlan) -> tuple[dict[str, float], dict[str, Floats]]:
     n = len(middles)
     points = np.vstack([middles, middles + np.diag(steps), middles - np.diag(steps)])
     rows = evaluate(plan, {axis.name: points[:, i].copy() for i, axis in enumerate(plan.axes)})
-    if (rows.status != SOLVED).any():
-        worst = int(np.flatnonzero(rows.status)[0])
-        place = (
-            "in the middle of the tolerances"
-            if not worst
-            else f"beside it in {plan.axes[(worst - 1) % n].name}"
+    rows.require_solved(
+        lambda row: (
+            f"beside it in {plan.axes[(row - 1) % n].name}" if row else "in the middle of the tolerances"
         )
-        raise FindingError(f"the machine {place} has no answer: {rows.reasons[rows.reason[worst]]}")
+    )
     values = {name: rows.columns[name] for name in plan.responses}
     second = {name: (f[1 : n + 1] - 2 * f[0] + f[n + 1 :]) / steps**2 for name, f in values.items()}
     return {name: float(f[0]) for name, f in values.items()}, second

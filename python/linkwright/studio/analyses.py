@@ -214,7 +214,7 @@ def _torsion(machine: Machine, to: Language) -> Answers:
 
 
 def _svg(drawn: CaptionedFigure, to: Language) -> dict[str, str]:
-    from linkwright.kernel.figure.in_language import translated_figure
+    from linkwright.kernel.figure.for_reader import translated_figure
     from linkwright.kernel.figure.svg import svg
 
     text = svg(drawn.figure if to is ENGLISH else translated_figure(drawn.figure, to), transparent=True)

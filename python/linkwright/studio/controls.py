@@ -94,7 +94,7 @@ def _holds(annotation: Any, value: Any) -> Control:
         return {"holds": "choice", "choices": choices}
     if isinstance(value, bool):
         return {"holds": "switch"}
-    if isinstance(value, int) and not isinstance(value, bool):
+    if isinstance(value, int):
         return {"holds": "count"}
     return {"holds": "text" if isinstance(value, str) else "data", "expected": words_of(annotation)}
 

@@ -13,7 +13,7 @@ from tomlkit.items import InlineTable, Item, Table
 
 from linkwright.kernel.description.schema_walk import annotation_at, mark_of
 from linkwright.kernel.errors import InputError
-from linkwright.kernel.units import Quantity, to_text
+from linkwright.kernel.units import Quantity, is_number, to_text
 from linkwright.kernel.units.spellings import factor_of
 from linkwright.machine.address import resolve
 from linkwright.machine.machine import Machine
@@ -47,7 +47,7 @@ def changed(text: str, entries: Mapping[str, Any]) -> str:
 
 def written(raw: Mapping[str, Any], place: tuple[str, ...], value: Any) -> Any:
     """A new value at a place of the file as it writes it: an SI number in the unit of the old one."""
-    if isinstance(value, bool) or not isinstance(value, int | float):
+    if not is_number(value):
         return value
     mark = mark_of(annotation_at(Machine, place, raw))
     if not isinstance(mark, Quantity):

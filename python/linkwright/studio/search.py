@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable
 from time import monotonic
 from typing import Any
@@ -10,7 +11,7 @@ import numpy as np
 
 from linkwright.kernel.errors import InputError
 from linkwright.machine.machine import Machine
-from linkwright.studies.engine import SOLVED, evaluate
+from linkwright.studies.engine import evaluate
 from linkwright.studies.model import StudyFile
 from linkwright.studies.optimise import optimise
 from linkwright.studies.plan import StudyPlan, plan
@@ -63,7 +64,7 @@ def _sweep(machine: Machine, asked: Body, tell: Tell) -> Body:
         raise InputError(f"steps: expected 2 to {most} of each of at most two entries")
     study = _plan(machine, asked)
     values = np.full(study.n_rows, np.nan)
-    reasons: dict[str, int] = {}
+    reasons: Counter[str] = Counter()
     axes = [
         {"address": entry["address"], "values": np.linspace(entry["low"], entry["high"], int(entry["steps"]))}
         for entry in entries
@@ -71,15 +72,14 @@ def _sweep(machine: Machine, asked: Body, tell: Tell) -> Body:
     done = 0
     while True:
         sweep = {"of": "search", "kind": "sweep", "response": asked["response"], "axes": axes}
-        sweep |= {"values": values, "done": done, "rows": len(values), "reasons": reasons}
+        sweep |= {"values": values, "done": done, "rows": len(values), "reasons": dict(reasons)}
         if done == len(values):
             return sweep
         tell(sweep)
         end = min(done + _ROWS, len(values))
         rows = evaluate(study, study.rows(done, end))
         values[done:end] = rows.columns["y"]
-        for place in rows.reason[rows.status != SOLVED]:
-            reasons[rows.reasons[place]] = reasons.get(rows.reasons[place], 0) + 1
+        reasons.update(rows.failures())
         done = end
 
 

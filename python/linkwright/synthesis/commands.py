@@ -302,7 +302,9 @@ _RATIOS = (
 
 def _unit(name: str, value: Any) -> str | None:
     """SI unit of an entry by its name; empty for a plain number, None for what is no number."""
-    if isinstance(value, bool) or not isinstance(value, int | float):
+    from linkwright.kernel.units import is_number
+
+    if not is_number(value):
         return None
     if any(part in name for part in _RATIOS):
         return ""

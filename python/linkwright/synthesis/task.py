@@ -9,12 +9,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import Field, ModelWrapValidatorHandler, ValidationError, model_validator
+from pydantic import Field, ModelWrapValidatorHandler
 from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import Description, Whole, fault, raise_faults
-from linkwright.kernel.description.problems import problems
-from linkwright.kernel.errors import MachineError
+from linkwright.kernel.description.problems import WholeDescription
 from linkwright.kernel.limits import PATH_POINTS, TRIALS
 from linkwright.kernel.units import (
     ANGLE,
@@ -34,20 +33,16 @@ PositiveLength = Annotated[float, positive(LENGTH)]
 Ratios = Annotated[tuple[float, ...], QuantityList(RATIO)]
 
 
-class Task(Description):
+class Task(WholeDescription):
     """What all tasks share: a task is checked as a whole, and all its problems are reported."""
 
     name: str = Field("", description="Purpose of the linkage; name of the machine.")
 
-    @model_validator(mode="wrap")
     @classmethod
-    def _all_problems(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
-        """Report problems in the words of the file."""
-        try:
-            task = handler(data)
-            raise_faults(cls.__name__, task._faults())
-        except ValidationError as error:
-            raise MachineError(problems(error, cls, data)) from None
+    def _checked(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
+        """The task, or entries that do not go together."""
+        task = handler(data)
+        raise_faults(cls.__name__, task._faults())
         return task
 
     def _faults(self) -> Iterator[InitErrorDetails]:

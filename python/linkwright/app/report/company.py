@@ -5,12 +5,12 @@ from __future__ import annotations
 import datetime
 import os
 from pathlib import Path
-from typing import Annotated, Any, Self
+from typing import Annotated
 
-from pydantic import BeforeValidator, Field, ModelWrapValidatorHandler, ValidationError, model_validator
+from pydantic import BeforeValidator, Field
 
-from linkwright.kernel.description.base import Description, Title
-from linkwright.kernel.description.problems import problems
+from linkwright.kernel.description.base import Title
+from linkwright.kernel.description.problems import WholeDescription
 from linkwright.kernel.errors import InputError, MachineError, MachineFileError, Problem
 from linkwright.kernel.files.lines import located
 from linkwright.kernel.files.text_file import TextError, data_of, text_of
@@ -28,7 +28,7 @@ def _as_text(value: object) -> object:
     return value.isoformat() if isinstance(value, datetime.date) else value
 
 
-class CompanyFile(Description):
+class CompanyFile(WholeDescription):
     """What a company file says; each entry may be left out."""
 
     company: Title = Field("", description="Name of the company.")
@@ -40,15 +40,6 @@ class CompanyFile(Description):
     author: Title = Field("", description="Author.")
     checked: Title = Field("", description="Checked by.")
     date: Annotated[Title, BeforeValidator(_as_text)] = Field("", description="Date of the document.")
-
-    @model_validator(mode="wrap")
-    @classmethod
-    def _all_problems(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
-        """Report problems in the words of the file."""
-        try:
-            return handler(data)
-        except ValidationError as error:
-            raise MachineError(problems(error, cls, data)) from None
 
 
 @public

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import Any
+from typing import Any, Self
 
-from pydantic import BaseModel, ValidationError
+from pydantic import BaseModel, ModelWrapValidatorHandler, ValidationError, model_validator
 from pydantic_core import ErrorDetails
 
-from linkwright.kernel.description.base import close_match
+from linkwright.kernel.description.base import Description, close_match
 from linkwright.kernel.description.place import field_names, join, look
 from linkwright.kernel.description.schema_walk import annotation_at, kinds_at, model_of, words_of
-from linkwright.kernel.errors import Problem
+from linkwright.kernel.errors import MachineError, Problem
 from linkwright.kernel.units import show
 
 
@@ -106,3 +106,21 @@ def _wrong_kind(place: tuple[str, ...], model: type[BaseModel], data: object) ->
     if entry is None:
         return Problem(join(place), "nothing", expected)
     return Problem(join(place), show(entry), expected, close_match(str(entry), known))
+
+
+class WholeDescription(Description):
+    """A description that stands for itself, as a file: what is wrong in it is a `MachineError`."""
+
+    @model_validator(mode="wrap")
+    @classmethod
+    def _all_problems(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
+        """Report all that is wrong in the words of the file."""
+        try:
+            return cls._checked(data, handler)
+        except ValidationError as error:
+            raise MachineError(problems(error, cls, data)) from None
+
+    @classmethod
+    def _checked(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
+        """The description, or all its faults in one error."""
+        return handler(data)

@@ -105,8 +105,7 @@ def _for_reader(drawing: object) -> None:
     """Count crank angles of a figure from the zero, and mark its axes in the units, that the reader wants."""
     from matplotlib.figure import Figure
 
-    from linkwright.kernel.figure.from_zero import from_zero_of_reader
-    from linkwright.kernel.figure.in_units import in_units_of_reader
+    from linkwright.kernel.figure.for_reader import from_zero_of_reader, in_units_of_reader
 
     if isinstance(drawing, Figure):
         from_zero_of_reader(drawing)

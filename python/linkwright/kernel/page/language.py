@@ -174,7 +174,7 @@ def in_language(content: Content, to: Language) -> Content:
 def _changed(value: Any, to: Language) -> Any:
     from matplotlib.figure import Figure
 
-    from linkwright.kernel.figure.in_language import translated_figure
+    from linkwright.kernel.figure.for_reader import translated_figure
 
     if isinstance(value, str):
         return to.label(value)

@@ -8,6 +8,7 @@ from typing import Any
 
 from linkwright.kernel.page.numbers import parted
 from linkwright.kernel.quantities import quantities_of
+from linkwright.kernel.units import is_number
 
 
 def table_html(title: str, rows: Iterable[Sequence[str]]) -> str:
@@ -33,7 +34,7 @@ def result_html(result: Any, title: str = "") -> str:
     rows = []
     for quantity in declared:
         value = getattr(result, quantity.name, None) if quantity.kind == "scalar" else None
-        if isinstance(value, int | float) and not isinstance(value, bool):
+        if is_number(value):
             rows.append((quantity.word, quantity.symbol, *parted(value, result.unit_of(quantity.name))))
     drawn = result.curves()
     curves = [

@@ -88,6 +88,7 @@ from linkwright.kernel.units.marks import (
 )
 from linkwright.kernel.units.reading import (
     NUMBER,
+    is_number,
     parse,
     parse_any,
     parse_list,
@@ -170,6 +171,7 @@ __all__ = [
     "TorsionalStiffness",
     "Velocities",
     "Velocity",
+    "is_number",
     "not_negative",
     "parse",
     "parse_any",

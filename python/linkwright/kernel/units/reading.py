@@ -10,6 +10,7 @@ import math
 import re
 from collections.abc import Sequence
 from numbers import Real
+from typing import TypeGuard
 
 from linkwright.kernel.errors import Problem, UnitError, show
 from linkwright.kernel.units.kinds import ANGLE, OF_ANY_KIND, Kind, range_words
@@ -50,6 +51,11 @@ def parse(value: object, kind: Kind) -> float:
         return _in_range(float(value), value, kind)
     except OverflowError:
         raise wrong(value, kind, range_words(kind)) from None
+
+
+def is_number(value: object) -> TypeGuard[float]:
+    """Whether an entry is a number: no switch, which Python counts as one, and no text."""
+    return isinstance(value, int | float) and not isinstance(value, bool)
 
 
 def parse_any(value: object) -> float:

@@ -30,7 +30,7 @@ from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import CheckedDescription, fault
-from linkwright.kernel.units import LENGTH, Length, Quantity, not_negative
+from linkwright.kernel.units import LENGTH, Length, Quantity, is_number, not_negative
 from linkwright.linkages.model.element import PositiveLength
 
 if TYPE_CHECKING:
@@ -246,7 +246,7 @@ def _or(value: float | None, other: float) -> float:
 
 def _as_table(value: object) -> object:
     """The table that a bare length stands for."""
-    if isinstance(value, str | int | float) and not isinstance(value, bool):
+    if isinstance(value, str) or is_number(value):
         return {"kind": "constant", "value": _PLAIN.read(value)}
     return value
 
