@@ -67,8 +67,6 @@ _SAME = 1e-7
 # Doublings of the revolutions looked at in a motion that never repeats: some 8000 revolutions either way.
 _DOUBLINGS = 13
 
-# Number of a link among what the core can give the motion of.
-
 
 _CLOSURE_RANGES = (
     "Ranges of crank angle in which every element closes [rad]; one range of a full revolution, "

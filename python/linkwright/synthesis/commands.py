@@ -211,9 +211,6 @@ def line(
     _finish("straight_line", straight, json, out, force, curves=curves)
 
 
-# In the order of the help.
-
-
 def _proportions(texts: list[str]) -> dict[str, float]:
     """Name → value, of ``NAME=X``."""
     proportions = {}

@@ -62,9 +62,6 @@ def laws(law: Names = None, json: Json = False, out: Folder = None, force: Force
     hand_over(answer, json=json, folder=folder)
 
 
-# In the order of the help.
-
-
 class _LawChoice(NamedTuple):
     """A law that is asked for: in what words, its name, and its parameters that are not the usual ones."""
 

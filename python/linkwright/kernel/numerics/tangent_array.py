@@ -286,23 +286,21 @@ _SLOPES_OF_TWO: dict[str, Callable[[Floats, Floats], tuple[Any, Any, Any]]] = {
 }
 
 
-def _stack(arrays: Sequence[Any], axis: int = 0) -> TangentArray:
-    n = _lanes(arrays)
-    all_of = [_lifted(x, n) for x in arrays]
-    place = axis if axis >= 0 else axis - 1
-    return TangentArray(
-        np.stack([x.value for x in all_of], axis=axis), np.stack([x.d for x in all_of], axis=place)
-    )
+def _joining(function: Callable[..., Any]) -> Callable[..., TangentArray]:
+    """A function of NumPy that joins arrays along an axis, for arrays with derivatives."""
+
+    def joined(arrays: Sequence[Any], axis: int = 0) -> TangentArray:
+        n = _lanes(arrays)
+        listed = [_lifted(x, n) for x in arrays]
+        place = axis if axis >= 0 else axis - 1
+        return TangentArray(
+            function([x.value for x in listed], axis=axis), function([x.d for x in listed], axis=place)
+        )
+
+    return joined
 
 
-def _concatenate(arrays: Sequence[Any], axis: int = 0) -> TangentArray:
-    n = _lanes(arrays)
-    all_of = [_lifted(x, n) for x in arrays]
-    place = axis if axis >= 0 else axis - 1
-    return TangentArray(
-        np.concatenate([x.value for x in all_of], axis=axis),
-        np.concatenate([x.d for x in all_of], axis=place),
-    )
+_stack, _concatenate = _joining(np.stack), _joining(np.concatenate)
 
 
 def _where(condition: Any, first: Any, second: Any) -> TangentArray:

@@ -76,9 +76,6 @@ def damper(
     hand_over(_answer(machine, design), json=json, folder=folder)
 
 
-# In the order of the help.
-
-
 def _answer(machine: Machine, design: DamperDesign) -> Answer:
     """The damper, also as lines of a machine file."""
     from linkwright.torsion.tables.engine import damper_lines, damper_table

@@ -49,7 +49,7 @@ from linkwright.kernel.units import SPEED, positive
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.distributed import cut_up, dynamic, natural_frequencies
 from linkwright.torsion.core.train import ReferredTrain, refer
-from linkwright.torsion.modes.free import modes_wanted, train_of
+from linkwright.torsion.modes.free import modes_wanted, scaled, train_of
 from linkwright.torsion.response.excited_train import prepared
 
 
@@ -184,7 +184,7 @@ def damped_vibration(machine: Machine, speed: float | None = None) -> DampedVibr
         eigenvalues, masses = eigenvalues[:count], masses[:count]
         swings = zip(eigenvalues.tolist(), masses, strict=True)
         eigenvalues = np.array([_exact(referred, s, q) for s, q in swings])
-    shapes = _scaled(referred.speed * masses[:, referred.mass])
+    shapes = scaled(referred.speed * masses[:, referred.mass])
     size = np.abs(shapes).max(axis=1) / np.abs(referred.speed * masses[:, referred.mass]).max(axis=1)
     inertia = 2 * size**2 * (referred.inertia * np.abs(masses) ** 2).sum(axis=1)
     shafts = _of_shafts(train, referred, size[:, None] * masses, eigenvalues.imag)
@@ -270,15 +270,6 @@ def _dynamic_matrix(referred: ReferredTrain, s: complex) -> Complexes:
     D: Complexes = (referred.joins.T * at.stiffness[:, 0]) @ referred.joins + s * referred.modal_damping
     D += np.diag(s**2 * at.inertia[:, 0] + s * referred.disc_damping)
     return D
-
-
-def _scaled(shapes: Complexes) -> Complexes:
-    """Rows whose largest entry is 1, without phase."""
-    size = np.abs(shapes)
-    # Of entries that are equal but for rounding the first counts.
-    largest = np.argmax(size > (1 - 1e-9) * size.max(axis=1, keepdims=True), axis=1)
-    scaled: Complexes = shapes / shapes[np.arange(len(shapes)), largest][:, None]
-    return scaled
 
 
 # Share of the damping of its parts below which a motion as a whole is not damped but for rounding.

@@ -24,9 +24,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import Annotated, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.public import public
@@ -280,7 +281,7 @@ def _sized(referred: ReferredTrain, modes: TrainModes) -> tuple[Floats, Floats]:
     """Shapes of the discs, the largest amplitude 1, and what each mode was multiplied by."""
     angles = referred.speed * modes.masses[:, referred.mass]
     if not modes.exact:
-        return _scaled(angles), np.ones(len(angles))
+        return scaled(angles), np.ones(len(angles))
     lead = lead_speeds(referred)
     inside = [[lead[one.rod.shaft] * np.abs(one.angles).max() for one in mode.rods] for mode in modes.exact]
     largest = np.maximum(np.abs(angles).max(axis=1), np.max(inside, axis=1))
@@ -369,13 +370,12 @@ def _at_ends(referred: ReferredTrain, amplitudes: Floats) -> tuple[Floats, Float
     return angles[..., first], angles[..., second] * np.where(second == HELD, 1.0, lead / speed[second])
 
 
-def _scaled(shapes: Floats) -> Floats:
-    """Rows whose largest entry is 1."""
+def scaled(shapes: NDArray[Any]) -> NDArray[Any]:
+    """Rows whose largest entry is 1, without phase."""
     size = np.abs(shapes)
     # Of entries that are equal but for rounding the first counts.
     largest = np.argmax(size > (1 - 1e-9) * size.max(axis=1, keepdims=True), axis=1)
-    scaled: Floats = shapes / shapes[np.arange(len(shapes)), largest][:, None]
-    return scaled
+    return np.asarray(shapes / shapes[np.arange(len(shapes)), largest][:, None])
 
 
 def _nodes(train: Train, referred: ReferredTrain, shape: Floats, modes: TrainModes, k: int) -> Iterator[Node]:
