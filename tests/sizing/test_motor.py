@@ -138,6 +138,9 @@ def test_a_missing_breakdown_torque_is_the_minimum_of_standards() -> None:
     assert "IEC 60034-1" in peak.note
     assert any("breakdown torque" in text and "308.8 N m" in text for text in choice.warnings)
     assert choice.chosen.to_dict()["torque_breakdown_is_minimum"] is True
+    # Four poles, 30 kW, design N of IEC 60034-12: 1.3 times the rated torque at standstill.
+    assert choice.chosen.to_dict()["torque_start"] == pytest.approx(1.3 * 193.0, rel=1e-12)
+    assert any("starting torque" in text and "250.9 N m" in text for text in choice.warnings)
     machine = choice.chosen.machine
     assert machine is not None
     assert next(c for c in motion_checks(machine).checks if c.name == "torque_peak") == peak

@@ -45,7 +45,7 @@ def cautions(machine: Machine, reduced: Reduction, steady: SteadyState | None) -
     sentences += _start_by_kloss(machine, drive)
     sentences += _start_by_line(drive)
     sentences += _without_rotor(drive)
-    sentences += _least_breakdown(drive)
+    sentences += [*_least_breakdown(drive), *_least_start(drive)]
     if steady is not None:
         sentences += [*_cycle(steady), *_design_speed(drive, steady), *_overload(drive, steady)]
         sentences += [*_breakdown(drive, steady), *_generator(drive, steady), *_gear_gain(drive, steady)]
@@ -82,6 +82,18 @@ def _least_breakdown(drive: Drive) -> Iterator[str]:
             f"The catalogue gives no breakdown torque for {motor.catalogue}: the minimum of IEC 60034-1 "
             f"is used, {OVERLOAD:g} times the rated torque, {motor.torque_breakdown:.4g} N m; most "
             f"motors have more: give drive.motor.torque_breakdown."
+        )
+
+
+def _least_start(drive: Drive) -> Iterator[str]:
+    """A type of the catalogue whose source prints no starting torque."""
+    motor = drive.motor
+    if isinstance(motor, InductionMotor) and motor.start_is_minimum:
+        yield (
+            f"The catalogue gives no starting torque for {motor.catalogue}: the minima of IEC 60034-12 for "
+            f"design N are used, {motor.torque_start:.4g} N m at standstill and {motor.torque_pull_up:.4g} "
+            "N m at pull-up, which is assumed at a seventh of the synchronous speed; most motors have more, "
+            "so the computed run-up is conservative: give drive.motor.torque_start."
         )
 
 

@@ -46,6 +46,9 @@ PEAK_SHARE = 0.9**2
 # What counts as breakdown torque where the source gives none.
 LEAST_BREAKDOWN = f"the minimum of IEC 60034-1, {OVERLOAD:g} times the rated torque; the catalogue gives none"
 
+# What counts as starting torque where the source gives none.
+LEAST_START = "the minimum of IEC 60034-12 for design N; the catalogue gives none"
+
 # Intervals of the revolution over which maximum torques are looked for: the largest of 1440 samples of a
 # smooth curve misses its peak by some 1e-5.
 _ANGLES = 1440
@@ -190,8 +193,9 @@ def motion_checks(machine: Machine, known: CatalogueMotor | None = None) -> Moto
     `machine`: the machine with an induction, a DC or a servo motor in it; `known`: what the catalogue gives
     of it. Returns: the checks, with steady motion and run-up.
 
-    Where the catalogue gives no starting torque, Kloss's formula holds down to standstill. It gives less than
-    real motors have, so a start by it is sure and a failure to start proves nothing.
+    Where the catalogue gives no starting torque, the minimum of a standard counts, or else Kloss's formula
+    holds down to standstill. Both give less than real motors have, so a start by them is sure and a failure
+    to start proves nothing.
 
     Source: Effective torque and overload: any handbook of electric drives, choice of motors for varying load.
     """
@@ -201,14 +205,14 @@ def motion_checks(machine: Machine, known: CatalogueMotor | None = None) -> Moto
         assert known is not None
         return _servo_checks(machine, known)
     assert isinstance(motor, InductionMotor | DcMotor)
-    by_kloss = isinstance(motor, InductionMotor) and motor.torque_start is None
-    starts = _start_checks(machine, by_kloss)
+    doubt = _start_doubt(motor)
+    starts = _start_checks(machine, doubt)
     try:
         steady = steady_state(machine, n=_ANGLES)
     except FindingError as error:
         lost = tuple(Check(name, None, None, "", False, note=str(error)) for name in DECISIVE["all"][3:])
         return MotorChecks((starts[0], lost[0], starts[1], *lost[2:]))
-    up, check = _run_up_check(machine, steady, by_kloss)
+    up, check = _run_up_check(machine, steady, doubt)
     return MotorChecks((starts[0], check, starts[1], *torque_checks(motor, steady)), steady, up)
 
 
@@ -239,7 +243,7 @@ def _servo_checks(machine: Machine, known: CatalogueMotor) -> MotorChecks:
     except FindingError as error:
         lost = tuple(Check(name, None, None, "", False, note=str(error)) for name in DECISIVE["all"][2:])
         return MotorChecks(lost)
-    starts = _start_checks(machine, False, known.torque_max)
+    starts = _start_checks(machine, "", known.torque_max)
     up = Check("run_up", None, None, "s", True, note="by the controller")
     torques = _torque_limits(steady, known.torque_rated, known.torque_max)
     own = float(machine.drive.motor.inertia) if machine.drive.motor else 0.0
@@ -265,7 +269,16 @@ def _at_most(name: str, value: float, limit: float | None, lacking: str) -> Chec
     return Check(name, value, limit, "N m", value <= limit, at_most=True)
 
 
-def _start_checks(machine: Machine, by_kloss: bool, torque: float | None = None) -> tuple[Check, Check]:
+def _start_doubt(motor: InductionMotor | DcMotor) -> str:
+    """Why the start of a motor is known from below only; empty if it is known."""
+    if not isinstance(motor, InductionMotor):
+        return ""
+    if motor.torque_start is None:
+        return "the catalogue gives no starting torque, Kloss's formula is used"
+    return f"the starting torque is {LEAST_START}" if motor.start_is_minimum else ""
+
+
+def _start_checks(machine: Machine, doubt: str, torque: float | None = None) -> tuple[Check, Check]:
     """Torque of the drive at standstill, or by a motor torque, against the load at the start and at worst."""
     compiled = compile_machine(machine)
     if torque is None:
@@ -279,32 +292,31 @@ def _start_checks(machine: Machine, by_kloss: bool, torque: float | None = None)
     worst = reduction_of(compiled, _ANGLES).torque_load_max
     turn = turn_angles(_ANGLES, compiled.turns)
     laws = compiled.law_torques(np.append(at, turn), _SLOW)[0]
-    here = _start("starting_torque", drive, float(start.load[0] + start.dry[0] + laws[0]) + still, by_kloss)
+    here = _start("starting_torque", drive, float(start.load[0] + start.dry[0] + laws[0]) + still, doubt)
     if compiled.has_laws:
         there = compiled.reductions(turn)
         worst = float((there.load + there.dry + laws[1:]).max())
-    return here, _start("starting_torque_worst", drive, worst + still, by_kloss)
+    return here, _start("starting_torque_worst", drive, worst + still, doubt)
 
 
-def _start(name: str, drive: float, load: float, by_kloss: bool) -> Check:
-    passed, note = _unsure(drive > load, by_kloss)
+def _start(name: str, drive: float, load: float, doubt: str) -> Check:
+    passed, note = _unsure(drive > load, doubt)
     return Check(name, drive, load, "N m", passed, note=note)
 
 
-def _unsure(passed: bool, by_kloss: bool) -> tuple[bool | None, str]:
-    """A start by Kloss's formula: sure if it succeeds, not checkable if it fails."""
-    if not by_kloss:
+def _unsure(passed: bool, doubt: str) -> tuple[bool | None, str]:
+    """A start by a torque that is known from below: sure if it succeeds, not checkable if it fails."""
+    if not doubt:
         return passed, ""
-    note = "the catalogue gives no starting torque, Kloss's formula is used"
-    return (True, note) if passed else (None, f"not checkable: {note}")
+    return (True, doubt) if passed else (None, f"not checkable: {doubt}")
 
 
-def _run_up_check(machine: Machine, steady: SteadyState, by_kloss: bool) -> tuple[RunUp | None, Check]:
+def _run_up_check(machine: Machine, steady: SteadyState, doubt: str) -> tuple[RunUp | None, Check]:
     """Whether the machine reaches its steady motion."""
     try:
         up = run_up(machine, steady=steady)
     except FindingError as error:
-        passed, note = _unsure(False, by_kloss)
+        passed, note = _unsure(False, doubt)
         return None, Check("run_up", None, None, "s", passed, note=note or str(error))
     note = f"{up.time:.3g} s, {up.turns:.3g} revolutions"
     return up, Check("run_up", up.time, None, "s", True, note=note)

@@ -380,8 +380,8 @@ def motors(poles: Poles = None, power_min: PowerMin = "0 W", series: Series = ""
     """List the motors of the catalogue.
 
     An inertia with ~ is estimated by similarity, since its source prints none; a breakdown torque with ≥ is
-    the minimum of IEC 60034-1; a dash is a number that the source does not give. A machine file takes
-    one by drive.motor.catalogue.
+    the minimum of IEC 60034-1, a starting torque with ≥ that of IEC 60034-12 for design N; a dash is a number
+    that the source does not give. A machine file takes one by drive.motor.catalogue.
     """
     chosen = _chosen(poles, power_min, series)
     hand_over(
@@ -441,6 +441,8 @@ def _entries(motor: CatalogueMotor) -> dict[str, Any]:
         **asdict(motor),
         "torque_breakdown": motor.breakdown,
         "torque_breakdown_is_minimum": motor.breakdown_is_minimum,
+        "torque_start": motor.start.get("torque_start"),
+        "torque_start_is_minimum": motor.start_is_minimum,
         "inertia": inertia,
         "inertia_is_estimated": estimated,
     }
@@ -468,11 +470,12 @@ def _row(motor: CatalogueMotor) -> Row:
 
     entries = _entries(motor)
     mark = "~" if entries["inertia_is_estimated"] else ""
-    start = motor.torque_start
+    start = motor.start.get("torque_start")
+    surely = "≥ " if motor.start_is_minimum else ""
     least = "≥ " if motor.breakdown_is_minimum else ""
     over = (
         "–" if motor.breakdown is None else f"{least}{number(motor.breakdown / motor.torque_rated, 3)} ×",
-        "–" if start is None else f"{number(start / motor.torque_rated, 3)} ×",
+        "–" if start is None else f"{surely}{number(start / motor.torque_rated, 3)} ×",
     )
     return (
         motor.type,

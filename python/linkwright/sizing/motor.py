@@ -21,6 +21,7 @@ from linkwright.machine.machine import Machine
 from linkwright.sizing.checks import (
     DECISIVE,
     LEAST_BREAKDOWN,
+    LEAST_START,
     Check,
     MotorChecks,
     motion_checks,
@@ -95,6 +96,8 @@ class Candidate(Record):
             "inertia_estimated": self.inertia_estimated,
             "torque_breakdown": self.known.breakdown,
             "torque_breakdown_is_minimum": self.known.breakdown_is_minimum,
+            "torque_start": self.known.start.get("torque_start"),
+            "torque_start_is_minimum": self.known.start_is_minimum,
             "flywheel": self.flywheel,
             "passes": self.passes,
             "reason": self.reason,
@@ -295,10 +298,12 @@ def _rank(candidate: Candidate) -> tuple[bool, float, str]:
     return not candidate.passes, candidate.known.power_rated, candidate.type
 
 
-def _least_breakdown(known: CatalogueMotor) -> Iterator[str]:
-    """A breakdown torque that the catalogue does not give."""
+def _least_torques(known: CatalogueMotor) -> Iterator[str]:
+    """Torques of breakdown and start that the catalogue does not give."""
     if known.breakdown_is_minimum:
         yield f"the breakdown torque of {known.type}, {known.breakdown:.4g} N m, is {LEAST_BREAKDOWN}"
+    if known.start_is_minimum:
+        yield f"the starting torque of {known.type}, {known.start['torque_start']:.4g} N m, is {LEAST_START}"
 
 
 @dataclass(frozen=True)
@@ -360,7 +365,7 @@ class _Judge:
         """What the choice rests on without being known."""
         if chosen is None:
             return []
-        return [*_least_breakdown(chosen.known), *self._rotor(chosen)]
+        return [*_least_torques(chosen.known), *self._rotor(chosen)]
 
     def _rotor(self, chosen: Candidate) -> list[str]:
         """Whether the choice rests on an estimated inertia."""

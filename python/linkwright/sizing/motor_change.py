@@ -43,6 +43,8 @@ def _motor_table(known: CatalogueMotor, ratio: float, speed: float | None) -> di
     entries = {name: getattr(known, name) for name in _ENTRIES[known.kind]}
     if known.breakdown_is_minimum:
         entries["torque_breakdown"] = known.breakdown
+    if known.start_is_minimum:
+        entries |= known.start
     return {"kind": known.kind} | {name: value for name, value in entries.items() if value is not None}
 
 

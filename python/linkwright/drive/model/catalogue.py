@@ -25,6 +25,19 @@ _EXPONENT = 5 / 3
 # Torque over rated torque that every induction motor bears for 15 s without stalling: IEC 60034-1, 9.4.1.
 OVERLOAD = 1.6
 
+# Rated power up to [kW] → minimum torques at standstill and at pull-up, over the rated torque, of motors with
+# four poles above 4 kW: IEC 60034-12, table of design N, which motors of standard series have.
+_DESIGN_N = {6.3: (1.6, 1.1), 10: (1.6, 1.1), 16: (1.5, 1.1), 25: (1.4, 1.0), 40: (1.3, 1.0), 63: (1.2, 0.9)}
+_DESIGN_N_ABOVE = 4.0
+
+# Share of the synchronous speed at which the torque dips between standstill and breakdown: the saddle of the
+# seventh harmonic of the field, which runs at a seventh of its speed (Fischer, Elektrische Maschinen,
+# asynchronous torques of harmonics).
+_SADDLE = 1 / 7
+
+# Entries that a minimum by design N stands for, and that a file may give in its place.
+START = ("torque_start", "torque_pull_up", "speed_pull_up")
+
 
 @dataclass(frozen=True, slots=True)
 class CatalogueMotor:
@@ -90,6 +103,32 @@ class CatalogueMotor:
     def breakdown_is_minimum(self) -> bool:
         """Whether the source gives no breakdown torque, so that the minimum of standards counts."""
         return self.torque_breakdown is None and self.kind == "induction"
+
+    @property
+    def start_is_minimum(self) -> bool:
+        """Whether the source gives no starting torque, so that the minimum of standards counts."""
+        return self.torque_start is None and self._design_n is not None
+
+    @property
+    def start(self) -> dict[str, float]:
+        """Entries of a motor: torque at standstill, and the pull-up point where the minimum counts.
+
+        Empty where neither the source nor a standard gives them.
+        """
+        if self.torque_start is not None:
+            return {"torque_start": self.torque_start}
+        if self._design_n is None or self.speed_synchronous is None:
+            return {}
+        values = [share * self.torque_rated for share in self._design_n]
+        return dict(zip(START, (*values, _SADDLE * self.speed_synchronous), strict=True))
+
+    @property
+    def _design_n(self) -> tuple[float, float] | None:
+        """Minimum torques at standstill and pull-up over the rated one."""
+        power = self.power_rated / 1e3
+        if self.kind != "induction" or self.poles != 4 or power <= _DESIGN_N_ABOVE:
+            return None
+        return next((torques for most, torques in _DESIGN_N.items() if power <= most), None)
 
 
 def motors() -> tuple[CatalogueMotor, ...]:
@@ -162,7 +201,7 @@ def checked_name(type: str) -> str:
 def entries(type: str) -> dict[str, Any]:
     """What the catalogue gives for the entries of a motor in a machine file. Returns: entry → value in SI.
     The rated torque is left out where it is only power over speed; a breakdown torque that the source does
-    not give is the minimum of IEC 60034-1.
+    not give is the minimum of IEC 60034-1, a starting torque that of IEC 60034-12 for design N.
     """
     known = _given(_row(type))
     names = (
@@ -178,7 +217,7 @@ def entries(type: str) -> dict[str, Any]:
     values = {name: known[name] for name in names if name in known}
     if motor(type).breakdown is not None:
         values["torque_breakdown"] = motor(type).breakdown
-    return values
+    return values | motor(type).start
 
 
 @cache

@@ -187,13 +187,26 @@ class InductionMotor(Motor):
         given = self.catalogue is None or "torque_breakdown" in self.model_fields_set
         return not given and catalogue.motor(str(self.catalogue)).breakdown_is_minimum
 
+    @property
+    def start_is_minimum(self) -> bool:
+        """Whether neither file nor catalogue gives the starting torque, so that the minimum of standards
+        counts.
+        """
+        from linkwright.drive.model import catalogue
+
+        given = self.catalogue is None or any(name in self.model_fields_set for name in catalogue.START)
+        return not given and catalogue.motor(str(self.catalogue)).start_is_minimum
+
     @classmethod
     def _completed(cls, given: Values) -> Values:
         values = with_rated_point(given)
         if "catalogue" in given:
             from linkwright.drive.model import catalogue
 
-            values = with_rated_point(catalogue.entries(given["catalogue"]) | values)
+            known = catalogue.entries(given["catalogue"])
+            if any(name in given for name in catalogue.START):
+                known = {name: value for name, value in known.items() if name not in catalogue.START[1:]}
+            values = with_rated_point(known | values)
         return with_breakdown_speed(values)
 
     def _faults(self) -> Iterator[InitErrorDetails]:
