@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ import pytest
 import linkwright as lw
 from linkwright.drive.figures import in_time_figure
 from linkwright.drive.motion_events import course
-from linkwright.kernel.errors import AssemblyError, InputError
+from linkwright.kernel.errors import AssemblyError, InputError, LinkwrightError
 from linkwright.machine.program.compiled import compile_machine
 
 ROOT = Path(__file__).parents[2]
@@ -77,6 +78,22 @@ def test_kinks_are_where_the_force_of_the_press_changes(press) -> None:
     ends = np.array([0.42, 0.56, 0.562, 0.578, 0.58])
     assert np.abs(places[:, None] - ends).min(axis=1).max() < 1e-8
     assert {int(np.abs(ends - place).argmin()) for place in places} == {0, 1, 2, 3, 4}
+
+
+@pytest.mark.parametrize(
+    "time", [-0.1, 2.1, 1e308, np.nan, None, "x", 1 + 2j, [1, [2, 3]], 10**400, [0.5, 2.5], object()]
+)
+def test_times_that_the_motion_does_not_have_are_refused(time: Any) -> None:
+    """Beyond its ends the polynomial of a step is no motion."""
+    motion = lw.transient(lw.loads(FLYWHEEL), duration=2.0)
+    with pytest.raises(LinkwrightError, match="time"):
+        motion.at(time)
+
+
+def test_a_time_that_rounding_puts_beyond_the_end_is_the_end() -> None:
+    motion = lw.transient(lw.loads(FLYWHEEL), duration=2.0)
+    angle, speed = motion.at(np.nextafter(2.0, 3.0))
+    assert (float(angle), float(speed)) == (motion.crank_angle[-1], motion.speed[-1])
 
 
 def test_a_jump_of_the_acceleration() -> None:

@@ -17,6 +17,7 @@ from linkwright.drive.sound_loads import is_held, require_half_turns, require_so
 from linkwright.kernel.arrays import Bools, Floats, Indices
 from linkwright.kernel.errors import ConvergenceError, InputError, SteadyStateError
 from linkwright.kernel.public import public
+from linkwright.kernel.public.arguments import array
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
@@ -86,6 +87,9 @@ def _powers() -> Floats:
 
 
 _POWERS = _powers()
+
+# Share of the duration by which a sum of times may miss the end of the motion.
+_ROUNDING = 1e-12
 
 
 @dataclass(frozen=True)
@@ -163,20 +167,36 @@ class Transient(Result):
         tuple of ndarray, shape (m,)
             Angle [rad] and speed [rad/s], as exact as at the ends of the steps.
 
+        Raises
+        ------
+        InputError
+            A time is before the start or after the end of the motion.
+
         References
         ----------
         .. [1] Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, II.6: the polynomial of
         order 7 of DOP853; II.7: that of collocation.
         """
-        t = np.asarray(time, dtype=np.float64)
+        t = self._within(array("time", time))
         if len(self.time) == 1:
             return np.full_like(t, self.crank_angle[0]), np.full_like(t, self.speed[0])
-        # Of times beyond the ends the first and the last step.
         k = self.time[1:-1].searchsorted(t.ravel(), side="right")
         begin = self.time[k]
         rises = self.between.rises((t.ravel() - begin) / (self.time[k + 1] - begin), k)
         angle, speed = self.crank_angle[k] + rises[0], self.speed[k] + rises[1]
         return angle.reshape(t.shape), speed.reshape(t.shape)
+
+    def _within(self, time: Floats) -> Floats:
+        """Times of the motion; those that rounding put beyond an end are at that end."""
+        first, last = float(self.time[0]), float(self.time[-1])
+        inside = np.clip(time, first, last)
+        beyond = np.abs(time - inside) > _ROUNDING * last
+        if beyond.any():
+            wrong = f"found {time[beyond].flat[0]:.6g} s"
+            raise InputError(
+                f"time: {wrong}, expected times from {first:g} s to {last:.6g} s, when the motion ends"
+            )
+        return inside
 
 
 @public
