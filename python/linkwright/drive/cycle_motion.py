@@ -151,9 +151,7 @@ def cycle_motion(machine: Machine, *, accuracy: float = 1e-10) -> CycleMotion:
 def cycle_motion_of(
     machine: Machine, known: Linkage, steady: SteadyState | None, accuracy: float = 1e-10
 ) -> CycleMotion:
-    """`cycle_motion` of a machine whose linkage and steady motion are known; without the latter, at constant
-    speed.
-    """
+    """`cycle_motion` of a known linkage and steady motion; without the latter, at constant speed."""
     compiled = compile_machine(machine).first()
     turns = known.period_turns or 1
     if steady is None:

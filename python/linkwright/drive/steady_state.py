@@ -147,9 +147,7 @@ class SteadyState(Result):
     others: Annotated[tuple[OtherMotion, ...], About(_OTHERS)] = ()
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
-        """As `Result.to_dict`, other motions as tables with names. Returns: plain numbers, texts and lists,
-        ready for JSON.
-        """
+        """As `Result.to_dict`, ready for JSON; other motions as tables with names."""
         return super().to_dict(curves=curves) | {"others": [other._asdict() for other in self.others]}
 
     @property

@@ -72,9 +72,7 @@ class Problem:
 
 
 def printable(text: str) -> str:
-    """A text in which control characters, and those that turn the direction of writing, are written as
-    escapes.
-    """
+    """A text with escapes for control characters and those that turn the direction of writing."""
     if text.isprintable():
         return text
     return "".join(

@@ -51,9 +51,7 @@ class Push:
 
 
 def pushes(scene: Scene, follower: Follower, name: str) -> tuple[Push, Push | None]:
-    """What the contacts of a cam do to its follower. Returns: pull: of the second, its normal force counted
-    as negative; None if there is none.
-    """
+    """What the contacts of a cam do; of the second, if any, with its normal force counted as negative."""
     cam, points = follower.cam, scene.mechanism.fixed_points()
     centre = np.stack(centre_of(cam, points))
     sense = turned_by(cam, np.ones(1))

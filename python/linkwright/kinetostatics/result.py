@@ -154,9 +154,7 @@ class Forces(Result):
         return columns | {f"loads.{name} [N m]": values for name, values in self.load_torques.items()}
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
-        """Scalars and maximum forces by name, with ``curves`` also all forces as lists. Returns: plain
-        numbers, texts and lists, ready for JSON.
-        """
+        """Scalars and maximum forces by name, ready for JSON; with ``curves`` also all forces as lists."""
         results = super().to_dict(curves=curves) | {"reaction_max": self.reaction_max}
         if curves:
             results["reactions"] = {name: pair.force.tolist() for name, pair in self.pairs.items()}

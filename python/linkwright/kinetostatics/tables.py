@@ -123,9 +123,7 @@ def _pose_shares(forces: Forces, case: str) -> Table:
 
 
 def contribution_table(forces: Forces) -> Table:
-    """Share of each source in the peaks of torque and of the shaking force, at its angle; they add up to the
-    peak.
-    """
+    """Shares of the sources in the peaks of torque and shaking force; they add up to the peak."""
     extents = {extent.name: extent for extent in envelope(forces)}
     at = [
         int(abs(forces.crank_angle - extents[name].peak_angle).argmin())

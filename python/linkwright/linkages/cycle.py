@@ -194,9 +194,7 @@ class Linkage(Result):
     ]
 
     def element(self, name: str) -> ElementMotion:
-        """The first entry of an element, or of the link or slide with this name; a `KeyError` if there is
-        none.
-        """
+        """The first entry of an element, or of the link or slide with this name; else a `KeyError`."""
         for element in self.elements:
             if name in (element.element, element.output):
                 return element

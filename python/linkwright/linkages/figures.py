@@ -38,9 +38,7 @@ _POOR = 40.0
 
 @styled
 def transmission_figure(linkage: Linkage) -> Figure:
-    """Draw the transmission angle of every dyad over the crank angle. Returns: one panel; dashed where a
-    linkage begins to run badly, at 40° and 140°.
-    """
+    """Draw the transmission angle of every dyad over the crank angle, with limits at 40° and 140°."""
     figure, (axes,) = panels(1, height=2.9)
     angles = np.degrees(linkage.crank_angle)
     for k, (name, mu) in enumerate(linkage.transmission_angles.items()):

@@ -38,9 +38,7 @@ class Law(Protocol):
     """What moves the crank."""
 
     def at(self, times: Floats) -> Floats:
-        """Angle, speed, acceleration and jerk of the crank at times (n,) [s]: (4, n) [rad, rad/s, rad/s²,
-        rad/s³].
-        """
+        """Crank angle and three derivatives at times (n,) [s]: (4, n) [rad, rad/s, rad/s², rad/s³]."""
 
 
 @dataclass(frozen=True)

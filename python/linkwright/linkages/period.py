@@ -43,9 +43,7 @@ def period_turns(machine: Machine) -> int | None:
 
 
 def turns_to_repeat(compiled: CompiledMachine) -> int | None:
-    """Revolutions of the crank after which all points and links are where they were; None if not within
-    240.
-    """
+    """Revolutions of the crank after which all points and links are as before; None if not within 240."""
     if compiled.one_turn:
         return 1
     turns = np.arange(_TURNS_MAX + 1)

@@ -232,9 +232,7 @@ class Output(NamedTuple):
 
 
 def outputs_of(compiled: CompiledMachine, mechanism: Mechanism) -> list[Output]:
-    """The outputs of a machine in build order; for a rocker its link on the pivot. Returns: none of the
-    drivers.
-    """
+    """The outputs of a machine in build order, without drivers; for a rocker its link on the pivot."""
     names = _Names(compiled, mechanism)
     return [name for element in compiled.elements for name in names.of(element)]
 

@@ -188,9 +188,7 @@ def _similar(path: Path) -> str:
 
 
 def tables_of(text: str, path: str) -> dict[str, Any]:
-    """The tables of a TOML text as they stand there; a `MachineFileError`, with the name `path`, if it is
-    none.
-    """
+    """The tables of a TOML text as they stand there; else a `MachineFileError` with the name `path`."""
     if (line := deep_line(text)) is not None:
         found, remedy = "keys or brackets inside one another", "remove what is inside"
         raise MachineFileError([Problem("", found, DEPTH.words, remedy, path, line)])

@@ -46,9 +46,7 @@ class Part(NamedTuple):
 
 
 def machine_parts(machine: Machine) -> list[Part]:
-    """All parts of a machine: turning moments, topper, drive, train, pumping unit, mechanism, bodies, loads,
-    run-up.
-    """
+    """All parts of a machine, from turning moments and topper to bodies, loads and run-up."""
     parts = (_diagram, _topper, _drive, _train, _unit, _mechanism, _tables, _run_up)
     return [part for one in parts for part in one(machine)]
 

@@ -228,9 +228,7 @@ SOURCES: dict[str, Callable[[Machine, Sequence[str]], Source]] = {
 
 
 def chosen(listed: Collection[str], asked: str) -> list[str]:
-    """Responses that a name means: that of it alone, or all that begin with it, or that of every cam where it
-    names none. Empty if there is none.
-    """
+    """Responses that a name means: its own, all that begin with it, or of every cam where it names none."""
     if asked in listed:
         return [asked]
     first, _, rest = asked.partition(".")

@@ -180,9 +180,7 @@ def classical_flywheel(machine: Machine, unevenness: float) -> tuple[float, floa
 
 
 def constant_inertia(machine: Machine) -> float:
-    """Inertia of what turns in a constant ratio to the crank: drive, and bodies of constant reduced inertia.
-    Returns: at the crank [kg m²].
-    """
+    """Inertia at the crank [kg m²] of drive and bodies that turn in a constant ratio to it."""
     total = 0.0 if machine.drive is None else float(drive_inertia(machine.drive))
     phi = turn_angles(_ANGLES)
     for name, body in machine.bodies.items():

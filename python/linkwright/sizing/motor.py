@@ -275,9 +275,7 @@ def own_inertia(machine: Machine) -> dict[str, float]:
 
 
 def present_checks(machine: Machine, required: RequiredPower, reserve: float) -> tuple[Check, ...]:
-    """The checks of the motor that the machine has. Returns: empty without an induction or DC motor whose
-    rated point is known.
-    """
+    """The checks of the machine's own motor; empty without an induction or DC motor of known rated point."""
     motor = machine.drive.motor if machine.drive else None
     if not isinstance(motor, InductionMotor | DcMotor) or None in (motor.power_rated, motor.speed_rated):
         return ()

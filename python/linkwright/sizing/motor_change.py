@@ -9,9 +9,7 @@ from linkwright.machine.machine import Machine
 
 
 def rotor_inertia(known: CatalogueMotor) -> tuple[float, bool]:
-    """Inertia of a type's rotor [kg m²], and whether it is an estimate from the rated torque, not in the
-    catalogue.
-    """
+    """Inertia of a type's rotor [kg m²], and whether it is estimated from the rated torque."""
     if known.inertia is not None:
         return known.inertia, False
     return estimated_inertia(known.torque_rated), True

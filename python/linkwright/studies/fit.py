@@ -86,9 +86,7 @@ class Fit(Result):
         return all(direction.is_determined for direction in self.directions)
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
-        """Numbers by name, ready for JSON; with `curves` the record and what the machine would have
-        recorded.
-        """
+        """Numbers by name, ready for JSON; with `curves` the record and what the machine has instead."""
         names = ("values", "units", "deviations", "intervals", "correlations", "noise", "reasons")
         results = {**super().to_dict(), **{name: dict(getattr(self, name)) for name in names}}
         results["directions"] = [

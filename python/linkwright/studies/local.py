@@ -235,9 +235,7 @@ def _rate(axis: Axis, value: float) -> float:
 
 @dataclass(frozen=True)
 class Price:
-    """What an active limit of `of`, a response or a variable, costs: `multiplier` [goal per unit of the
-    limit, SI].
-    """
+    """What an active limit of a response or variable costs: `multiplier` [goal per unit of the limit, SI]."""
 
     what: str
     of: str

@@ -64,9 +64,7 @@ class RecordModel:
         return self._known[key]
 
     def require(self, x: Floats) -> Floats:
-        """Likewise; a `FindingError` if the machine cannot do it, an `InputError` if there is no such
-        machine.
-        """
+        """Likewise; a `FindingError` if the machine cannot do it, an `InputError` if there is none."""
         self.count += 1
         machine, start = self.machine(x), self._of_record(x)
         match self.options.motion:

@@ -106,9 +106,7 @@ class StudyResponse:
         )
 
     def number(self, result: Any) -> float:
-        """The number that is asked for, out of a result; a `FindingError` if the machine has no such
-        number.
-        """
+        """The number that is asked for, out of a result; a `FindingError` if the machine has none."""
         value = getattr(result, self.quantity)
         if self.part is not None:
             value = value.get(self.part)

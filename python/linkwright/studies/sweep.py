@@ -47,9 +47,7 @@ class Sweep(Result):
         return self.n_done == self.n_rows
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
-        """Counts, reasons and extremes by name, ready for JSON; `curves` is without effect: rows are in the
-        folder.
-        """
+        """Counts, reasons and extremes by name, ready for JSON; no `curves`: rows are in the folder."""
         return {**super().to_dict(), "reasons": self.reasons, "extremes": self.extremes}
 
 

@@ -40,9 +40,7 @@ from linkwright.topping.model.topper import Topper
 
 
 def head_diameter(root_diameter: ArrayLike, cut_height: ArrayLike) -> Floats:
-    """Diameter d of the disc that is cut of D at h_p, (...) [m]; zero where the cut passes above or below the
-    root.
-    """
+    """Diameter d of the disc cut of D at h_p, (...) [m]; zero where the cut passes above or below."""
     D, h = np.asarray(root_diameter, dtype=float), np.asarray(cut_height, dtype=float)
     return np.asarray(2 * np.sqrt(np.clip(h * (D - h), 0.0, None)))
 

@@ -51,9 +51,7 @@ class Slicing:
 
 
 def slicing(edges: Sequence[Edge]) -> Slicing:
-    """Extremes and mean of draw-cut ratio and cutting speed of an edge; each direction counts for half of the
-    time.
-    """
+    """Extremes and mean of draw-cut ratio and cutting speed of an edge, half of the time each way."""
     slow, fast = zip(*(_speeds(edge) for edge in edges), strict=True)
     least, greatest = zip(*(_ratios(edge) for edge in edges), strict=True)
     phases = np.asarray((np.arange(_PHASES) + 0.5) * (2 * np.pi / _PHASES), dtype=np.float64)

@@ -68,9 +68,7 @@ class Entry:
     parameters: dict[str, Any] = field(default_factory=dict)
 
     def normalised(self, **parameters: Any) -> MotionLaw:
-        """f(z) from rest to rest, z and f from 0 to 1; parameters that are missing have their usual
-        values.
-        """
+        """f(z) from rest to rest, z and f from 0 to 1; missing parameters have their usual values."""
         if self.law is not None:
             return self.law(**self.parameters | parameters)
         return self.section(REST_TO_REST, **parameters)

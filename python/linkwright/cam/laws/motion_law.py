@@ -61,9 +61,7 @@ class MotionLaw:
 
     @classmethod
     def of(cls, start: float, *stretches: tuple[float, Piece]) -> MotionLaw:
-        """A law from pairs of length and piece, one after the other; those without length, but for rounding,
-        are left out.
-        """
+        """A law from pairs of length and piece, one after the other, without those of no length."""
         least = _SAME * total(length for length, _ in stretches)
         kept = [(length, piece) for length, piece in stretches if length > least]
         ends = [total([start, *(length for length, _ in kept[:i])]) for i in range(len(kept) + 1)]

@@ -96,9 +96,7 @@ def _crosses(contact: Contact, base: float) -> bool:
 
 
 def largest_roller(contact: Contact) -> float | None:
-    """Radius of the largest roller on the same pitch curve without undercut [m]; None where that is nowhere
-    convex.
-    """
+    """Radius of the largest roller without undercut on the pitch curve [m]; None where it is never convex."""
     bend = contact.kernel.shape(_FINE).greatest["bend"].value
     return 1.0 / bend if bend > 0 else None
 
@@ -143,9 +141,7 @@ def _first(
 
 
 def _is_reached(cam: Cam, size: Sizes) -> Any:
-    """Whether the follower has a place on the base circle: an offset within the prime circle, an arm that
-    is neither too short nor too long.
-    """
+    """Whether the follower has a place on the base circle: a small enough offset, an arm that fits."""
     start = start_of(cam, size)
     # An oscillating follower may start on either side of its zero; NaN is no place.
     return np.isfinite(start) if cam.is_oscillating else start > 0

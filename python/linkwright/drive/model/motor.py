@@ -179,9 +179,7 @@ class InductionMotor(Motor):
 
     @property
     def breakdown_is_minimum(self) -> bool:
-        """Whether neither file nor catalogue gives the breakdown torque, so that the minimum of standards
-        counts.
-        """
+        """Whether the breakdown torque is the minimum of standards, as neither file nor catalogue has it."""
         from linkwright.drive.model import catalogue
 
         given = self.catalogue is None or "torque_breakdown" in self.model_fields_set

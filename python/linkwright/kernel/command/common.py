@@ -132,9 +132,7 @@ def _by_options(error: LinkwrightError) -> str:
 
 
 def named_entries(option: str, text: str, example: str) -> tuple[str, list[str]]:
-    """Name and overrides of ``"NAME: PATH=VALUE; …"``; an `InputError` without a colon, or a name
-    before it.
-    """
+    """Name and overrides of ``"NAME: PATH=VALUE; …"``; an `InputError` without colon, or name before it."""
     name, colon, entries = text.partition(":")
     if not colon or not name.strip():
         raise InputError(f'{option}: found "{text}", expected a name, a colon and entries, as in "{example}"')

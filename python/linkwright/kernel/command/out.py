@@ -25,9 +25,7 @@ def _place(text: str) -> Path:
 
 
 def out_option(words: str, metavar: str = "DIR") -> Any:
-    """The option for a folder (``"DIR"``) or ``"FILE"`` to write; `words`: what is written there, for the
-    help.
-    """
+    """The option for a folder (``"DIR"``) or ``"FILE"`` to write; `words`: what is written, for the help."""
     return Option("--out", metavar=metavar, help=words, show_default=False, parser=_place)
 
 
@@ -36,9 +34,7 @@ Force = Annotated[bool, Option("--force", help="Replace files that exist.")]
 
 
 def output_folder(out: Path | None, *, force: bool) -> OutputFolder | None:
-    """The folder of ``--out``; an `InputError` before anything is computed if it is none, or holds files of
-    others.
-    """
+    """The folder of ``--out``; an `InputError` before computing if it is none, or holds files of others."""
     if out is None:
         return None
     from linkwright.kernel.files.output import OutputFolder
@@ -96,9 +92,7 @@ def say_written(paths: Sequence[Path], *, quiet: bool, remarks: Mapping[str, str
 
 
 def put(text: str, out: Path | None, *, force: bool = False) -> None:
-    """Print a text, or write it to a file; an `InputError` if that exists and is not forced, or cannot be
-    written.
-    """
+    """Print a text, or write it to a file; an `InputError` if it exists, not forced, or cannot be written."""
     if out is None:
         click.echo(text, nl=False)
         return

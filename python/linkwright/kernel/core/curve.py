@@ -51,9 +51,7 @@ def smooth(x: ArrayLike, y: ArrayLike, slope: ArrayLike, beyond: Beyond = "strai
 
 
 def odd(x: ArrayLike, y: ArrayLike, slope: ArrayLike) -> Curve:
-    """A curve from x = 0, y = 0 upwards, turned about zero: the torque of a coupling over its twist; straight
-    beyond.
-    """
+    """A curve from x = 0, y = 0 upwards, turned about zero, as of a coupling's torque; straight beyond."""
     places, values, slopes = (np.asarray(values, dtype=float) for values in (x, y, slope))
     return smooth(
         np.concatenate([-places[:0:-1], places]),
@@ -82,9 +80,7 @@ def switched(changes: Iterable[tuple[float, float, float]], start: float = 1.0) 
 
 
 def product(first: Curve, second: Curve) -> Curve:
-    """The product of two factors over time, straight lines and steps with ends held, where one of both is
-    level.
-    """
+    """The product of two factors over time, straight lines and steps with ends held, one of them level."""
     places = np.union1d(first.x, second.x)
     left, right = (_at(first, places, side) * _at(second, places, side) for side in ("left", "right"))
     return straight(np.repeat(places, 2), np.column_stack([left, right]).ravel())

@@ -43,9 +43,7 @@ def wrong(found: str, expected: str, remedy: str = "") -> PydanticCustomError:
 
 
 def fault(*place: str | int, found: object = None, expected: str, remedy: str = "") -> InitErrorDetails:
-    """One fault at a place, keys from the reporting description down; what was found, belongs there, and a
-    remedy.
-    """
+    """One fault at a place, keys from the reporting description down: found, expected, and a remedy."""
     text = "nothing" if found is None else show(found)
     return InitErrorDetails(type=wrong(text, expected, remedy), loc=place, input=found)
 

@@ -33,9 +33,7 @@ def curve_faults(owner: BaseModel, argument: str, values: Iterable[str]) -> Iter
 def not_rising(
     owner: BaseModel, name: str, place: int, before: float, here: float, apart: float = 0.0
 ) -> InitErrorDetails:
-    """The fault of a value, at a place of the list `name`, that is not `apart` [SI] above the one
-    before it.
-    """
+    """The fault of a value, at a place of the list `name`, that is not `apart` [SI] above the last one."""
     mark = mark_of(annotation_at(type(owner), (name,)))
     least = f"{before:.6g}" if mark is None else worded(before, mark.kind)
     by = f" by {apart:g} or more" if here > before else ""

@@ -77,9 +77,7 @@ class FormulaError(Exception):
 
 @lru_cache(maxsize=256)
 def parse(text: str) -> Node:
-    """The tree of a formula such as ``1200*max(0, sin(phi))^2``; a `FormulaError` says at which character it
-    fails.
-    """
+    """The tree of a formula such as ``12*max(0, sin(phi))^2``; a `FormulaError` says where it fails."""
     return _Reader(text).formula()
 
 

@@ -27,9 +27,7 @@ _NAME = re.compile(r"[A-Za-z_]\w*")
 
 
 def constant_faults(constants: dict[str, Any], text: str) -> Iterator[InitErrorDetails]:
-    """Constants with a meaning of their own, with names that are none, and such as the formula does not ask
-    for.
-    """
+    """Constants with a meaning of their own, names that are none, and those that the formula lacks."""
     taken = VARIABLES | FUNCTIONS.keys() | NUMBERS.keys()
     for name, value in constants.items():
         if name in taken:

@@ -59,9 +59,7 @@ def _described(folder: Path) -> dict[str, str]:
 
 
 def template(name: str) -> str:
-    """The text of a template such as ``"slider-crank"``; an `InputError` names close ones if there is
-    none.
-    """
+    """The text of a template such as ``"slider-crank"``; an `InputError` names close ones if none has it."""
     known = templates() | study_templates()
     if name not in known:
         raise InputError(f'there is no template "{name}": {suggestion(name, known)}')

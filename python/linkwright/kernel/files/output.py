@@ -91,9 +91,7 @@ class OutputFolder:
     force: bool = False
 
     def require(self) -> None:
-        """Refuse what is no folder, cannot be read, or holds files that are not of an earlier run
-        (`InputError`).
-        """
+        """Refuse by an `InputError` what is no folder, cannot be read, or holds files of no earlier run."""
         try:
             names = sorted(path.name for path in self.path.iterdir() if not path.name.startswith(_PART))
         except FileNotFoundError:
@@ -157,9 +155,7 @@ class OutputFolder:
 
 
 def file_name(words: str) -> str:
-    """A name that every file system takes: letters, digits, points, ``-`` and ``_``, others as ``_``; no
-    ending.
-    """
+    """A name that every file system takes: letters, digits, points, ``-``, others as ``_``; no ending."""
     kept = "".join(letter if letter.isalnum() or letter in "-_." else "_" for letter in words.strip())
     name = kept.encode()[:_NAME_BYTES].decode(errors="ignore").strip("_. ")
     head, point, rest = name.partition(".")

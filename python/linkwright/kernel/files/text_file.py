@@ -116,9 +116,7 @@ def long_number_line(text: str) -> int | None:
 
 
 def size_problems(tables: dict[str, Any]) -> list[Problem]:
-    """Lists, tables, names, texts and numbers that are too large, with their keys; not all, if they are
-    many.
-    """
+    """Lists, tables, names, texts and numbers that are too large, with their keys; some, if they are many."""
     problems: list[Problem] = []
     places: list[tuple[tuple[str, ...], Any]] = [((), tables)]
     while places and len(problems) < _ENOUGH:

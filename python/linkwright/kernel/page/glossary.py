@@ -58,9 +58,7 @@ def allowed() -> tuple[str, ...]:
 
 
 def matching(word: str) -> tuple[Term, ...]:
-    """Terms in which a word occurs, in upper or lower case: in the term, its names, its symbol, words it
-    replaces.
-    """
+    """Terms in which a word occurs, in either case: in the term, its names, symbol, words it replaces."""
     wanted = word.casefold()
 
     def meant(term: Term) -> bool:

@@ -12,9 +12,7 @@ from linkwright.kernel.units import is_number
 
 
 def table_html(title: str, rows: Iterable[Sequence[str]]) -> str:
-    """A small table as HTML, the first cell of each row its head; letters of machine files are letters
-    there.
-    """
+    """A small table as HTML, the first cell of each row its head; nothing in a cell is taken for HTML."""
     lines = [
         f'<tr><th scope="row" style="text-align:left">{escape(head)}</th>'
         + "".join(f'<td style="text-align:left">{escape(cell)}</td>' for cell in cells)
@@ -26,9 +24,7 @@ def table_html(title: str, rows: Iterable[Sequence[str]]) -> str:
 
 
 def result_html(result: Any, title: str = "") -> str:
-    """The scalars of a result as HTML, and which curves it has; the title is the name of the class without
-    one.
-    """
+    """The scalars of a result as HTML, and which curves it has; its class is the title without another."""
     owner: type = type(result)
     declared = list(quantities_of(owner))
     rows = []

@@ -161,9 +161,7 @@ class Topology:
 
     @classmethod
     def of(cls, mechanism: object) -> Topology:
-        """Topology of a `Mechanism`, or of the table of a file; entries that are no tables are passed
-        over.
-        """
+        """Topology of a `Mechanism`, or of the table of a file without entries that are no tables."""
         known = _known.get(id(mechanism))
         if known is not None and known[0] is mechanism:
             return known[1]

@@ -10,9 +10,7 @@ FORMAT = 20
 
 
 def check_format(core: object) -> None:
-    """Refuse a core that was built from other sources: a `CoreError` if its number is another one, or
-    missing.
-    """
+    """Refuse a core that was built from other sources: a `CoreError` if its number differs or is missing."""
     number = getattr(core, "FORMAT", None)
     if number != FORMAT:
         raise CoreError(number, FORMAT, str(getattr(core, "__file__", "linkwright._core")))

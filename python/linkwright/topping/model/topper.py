@@ -192,9 +192,7 @@ class Topper(CheckedDescription):
 
 
 def topper_faults(machine: object, slides: Sequence[str]) -> Iterator[InitErrorDetails]:
-    """What is wrong with a topper: its knife follows none of the slides of the mechanism, or the crank has no
-    speed.
-    """
+    """What is wrong with a topper: its knife follows no slide of the mechanism, or no speed is known."""
     motion = look(look(machine, "topper"), "motion")
     if look(motion, "kind") != "member":
         return

@@ -22,9 +22,7 @@ _NO_BOUND = 1e9
 
 
 def topper_tables(described: Topper, study: TopperStudy) -> Iterator[Table]:
-    """Tables of lengths, of what is left, of the motion of the knife, of slicing, of its drive, and of the
-    published lengths.
-    """
+    """Tables of lengths, what is left, motion and drive of the knife, slicing, and published lengths."""
     yield _lengths(study, described)
     yield _head(study, described)
     yield _motion(study)

@@ -50,9 +50,7 @@ _NUMBERS = tuple(field.name for field in fields(TrainTangents))[1:]
 def train_tangents(
     machine: Machine, variables: Sequence[str], refused: dict[str, str]
 ) -> tuple[Train, ReferredTrain, TrainTangents]:
-    """A train, the same referred to its first disc, and its derivatives; what has none goes into
-    `refused`.
-    """
+    """A train, also referred to its first disc, and its derivatives; what has none goes into `refused`."""
     train = whole_train(_described(machine))
     referred = refer(train)
     if referred.rods:

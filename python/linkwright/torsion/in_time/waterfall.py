@@ -56,9 +56,7 @@ class Waterfall(Result):
     turns: Annotated[int, Label("revolutions of a window", "", "")]
 
     def order(self, wanted: float) -> Floats:
-        """Amplitudes of the order nearest to the one wanted, over the windows, (windows,), in the unit of the
-        signal.
-        """
+        """Amplitudes of the order nearest to the wanted one, (windows,), in the unit of the signal."""
         amplitudes: Floats = self.amplitudes[:, int(np.abs(self.orders - wanted).argmin())]
         return amplitudes
 
