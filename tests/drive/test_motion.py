@@ -18,6 +18,7 @@ from linkwright.kernel.errors import (
     StartError,
     SteadyStateError,
 )
+from linkwright.machine.program.compiled import compile_machine
 
 MACHINES = Path(__file__).parents[2] / "machines"
 
@@ -229,6 +230,22 @@ def test_out_is_checked(two_carts: lw.Machine) -> None:
             lw.motions(two_carts, angles, points=["cart1"], out=bad)
     with pytest.raises(MachineError, match="cart1"):
         lw.motions(two_carts, angles, points=["cart7"])
+
+
+def test_a_batch_is_translated_once(two_carts: lw.Machine) -> None:
+    """A batch is translated anew if another came between, or if its entries were changed in place."""
+    batch = lw.replace(two_carts, {"mechanism.sliders.cart1.rod": np.array([0.81, 0.82])})
+    before = compile_machine(batch)
+    assert compile_machine(batch) is before
+    lengths = batch.linkage.sliders["cart1"].rod
+    assert isinstance(lengths, np.ndarray)
+    lengths.flags.writeable = True
+    lengths[1] = 0.83
+    after = compile_machine(batch)
+    assert after is not before
+    assert 0.83 in after.values and 0.83 not in before.values
+    compile_machine(lw.replace(two_carts, {"mechanism.sliders.cart1.rod": np.array([0.81, 0.84])}))
+    assert compile_machine(batch) is not after
 
 
 def test_a_change_point_is_passed(two_carts: lw.Machine) -> None:

@@ -272,13 +272,19 @@ def compile_machine(machine: Machine, *, motor: bool = True, brake: bool = False
         raise _not_usable(machine, str(error)) from None
     if not np.isfinite(compiled.parameters).all():
         raise _not_usable(machine, "a number that follows from them is not finite")
-    if compiled.n_rows > 1 or len(compiled.slots):
-        # Arrays are large, and may change in place.
-        return compiled
-    if len(_known) >= _KNOWN_MAX:
+    is_batch = compiled.n_rows > 1 or len(compiled.slots) > 0
+    if is_batch:
+        # Its arrays are large: only the last is kept.
+        for of_batch in [key for key, known in list(_known.items()) if known.columns]:
+            _known.pop(of_batch, None)
+    elif len(_known) >= _KNOWN_MAX:
         _known.pop(next(iter(_known)), None)
     _known[key] = _CacheEntry(
-        machine, tuple((constant, dict(constant)) for constant in _constants(machine)), compiled
+        machine,
+        tuple((constant, dict(constant)) for constant in _constants(machine)),
+        # Arrays may change in place.
+        tuple((array, array.copy()) for _, array in arrays(machine)) if is_batch else (),
+        compiled,
     )
     return compiled
 
@@ -357,15 +363,23 @@ _SIZE_MAX = 1e100
 
 
 class _CacheEntry(NamedTuple):
-    """A machine translated before: it is frozen, and the constants of its formulas are as they were then."""
+    """A machine translated before.
+
+    It is frozen; constants of its formulas, and entries over the machines of a batch, are as they were then.
+    """
 
     machine: Machine
     constants: tuple[tuple[Mapping[str, float], dict[str, float]], ...]
+    columns: tuple[tuple[Floats, Floats], ...]
     compiled: CompiledMachine
 
     def is_of(self, machine: Machine) -> bool:
-        """Whether a machine is the same, and its constants too."""
-        return self.machine is machine and all(now == then for now, then in self.constants)
+        """Whether a machine is the same, and its constants and arrays too."""
+        return (
+            self.machine is machine
+            and all(now == then for now, then in self.constants)
+            and all(np.array_equal(now, then) for now, then in self.columns)
+        )
 
 
 # Machines translated last. A few suffice for analyses that follow one another on one machine.
