@@ -102,17 +102,21 @@ def replace(machine: Machine, entries: Mapping[str, Any]) -> Machine:
         An address does not exist; the remedy names close ones. A table has no such entries, or a value is no
         number where a number belongs.
     """
-    checked = {
-        address: _checked(machine, known_place(machine, address), value) for address, value in entries.items()
-    }
-    return exchanged(machine, checked)
+    places = {address: known_place(machine, address) for address in entries}
+    return _exchanged(
+        machine, {place: _checked(machine, place, entries[address]) for address, place in places.items()}
+    )
 
 
 def exchanged(machine: Machine, entries: Mapping[str, Any]) -> Machine:
     """Copy of a machine with numbers of any kind at some addresses, unchecked."""
+    return _exchanged(machine, {known_place(machine, address): value for address, value in entries.items()})
+
+
+def _exchanged(machine: Machine, entries: Mapping[tuple[str, ...], Any]) -> Machine:
+    """The same at known places."""
     tree: dict[str, Any] = {}
-    for address, value in entries.items():
-        place = known_place(machine, address)
+    for place, value in entries.items():
         branch = tree
         for key in place[:-1]:
             branch = branch.setdefault(key, {})

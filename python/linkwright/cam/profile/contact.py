@@ -122,6 +122,10 @@ def _turned(x: Floats, y: Floats, angle: Floats) -> Floats:
     return np.stack((cos * x - sin * y, sin * x + cos * y), axis=-1)
 
 
+# Kinds of entries of one machine: nearly all.
+_PLAIN = frozenset((float, int, str, bool, type(None)))
+
+
 def contacts(cam: Cam, points: dict[str, FixedPoint], name: str = "cam") -> tuple[Contact, ...]:
     """The one or two contacts of a cam; `name` for errors.
 
@@ -130,7 +134,7 @@ def contacts(cam: Cam, points: dict[str, FixedPoint], name: str = "cam") -> tupl
     """
     size = sizes(cam, points)
     if any(
-        np.ndim(dimension)
+        type(dimension) not in _PLAIN and np.ndim(dimension)
         for dimension in (*size, *(value for _, value in cam if not isinstance(value, tuple)))
     ):
         raise ShapeError(

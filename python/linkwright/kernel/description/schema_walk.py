@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import types
 from collections.abc import Sequence
+from functools import cache
 from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
 from pydantic import BaseModel
@@ -27,6 +28,7 @@ def annotation_at(model: type[BaseModel], place: Sequence[str], data: object = N
     return annotation
 
 
+@cache
 def mark_of(annotation: Any) -> Mark | None:
     """The quantity that an entry holds; None if it holds something else."""
     marked = [branch for branch in (annotation, *_branches(annotation)) if get_origin(branch) is Annotated]
@@ -36,10 +38,9 @@ def mark_of(annotation: Any) -> Mark | None:
 
 def model_of(annotation: Any, data: object = None) -> type[BaseModel] | None:
     """The model of a table; of several, the one whose ``kind`` the table has."""
-    models = [branch for branch in map(_bare, _branches(annotation)) if _is_model(branch)]
+    models = _tables(annotation)
     if len(models) == 1:
-        only: type[BaseModel] = models[0]
-        return only
+        return models[0]
     return next((model for model in models if look(data, "kind") in kinds_of(model)), None)
 
 
@@ -102,10 +103,22 @@ def _below(annotation: Any, key: str, data: object) -> Any:
     name = field_names(model).get(key) if model else None
     if model is None or name is None:
         return None
+    return _of_field(model, name)
+
+
+@cache
+def _of_field(model: type[BaseModel], name: str) -> Any:
     field = model.model_fields[name]
     return Annotated[field.annotation, *field.metadata] if field.metadata else field.annotation
 
 
+@cache
+def _tables(annotation: Any) -> list[type[BaseModel]]:
+    """The models of the tables that an entry may be. Shared: read only."""
+    return [branch for branch in map(_bare, _branches(annotation)) if _is_model(branch)]
+
+
+@cache
 def _branches(annotation: Any) -> tuple[Any, ...]:
     """The alternatives of a union but for None; the annotation itself if it is none."""
     bare = _bare(annotation)
@@ -114,6 +127,7 @@ def _branches(annotation: Any) -> tuple[Any, ...]:
     return () if bare is types.NoneType else (annotation,)
 
 
+@cache
 def _bare(annotation: Any) -> Any:
     """The annotation without its marks; the model of a table that is described elsewhere."""
     if get_origin(annotation) is not Annotated:
@@ -129,5 +143,4 @@ def _is_model(annotation: Any) -> bool:
 
 def kinds_at(annotation: Any) -> list[str]:
     """All words for ``kind`` that a table may have."""
-    models = [branch for branch in map(_bare, _branches(annotation)) if _is_model(branch)]
-    return [word for model in models for word in kinds_of(model)]
+    return [word for model in _tables(annotation) for word in kinds_of(model)]

@@ -79,10 +79,12 @@ def freeze(result: Any) -> None:
     """Make the arrays and tables that a dataclass, a tuple or a dictionary of such holds read-only."""
     if isinstance(result, tuple):
         for member in result:
-            _inside(member)
+            if type(member) not in _PLAIN:
+                _inside(member)
     elif isinstance(result, dict):
         for member in result.values():
-            _inside(member)
+            if type(member) not in _PLAIN:
+                _inside(member)
     elif is_dataclass(result) and not isinstance(result, type):
         _fields(result)
 
@@ -90,12 +92,12 @@ def freeze(result: Any) -> None:
 def _inside(value: Any) -> Any:
     """The value with what it holds read-only."""
     kind = type(value)
-    if kind in _PLAIN:
-        return value
     if isinstance(value, np.ndarray):
         value.flags.writeable = False
     elif kind is dict:
-        return Table({key: _inside(entry) for key, entry in value.items()})
+        return Table(
+            {key: entry if type(entry) in _PLAIN else _inside(entry) for key, entry in value.items()}
+        )
     else:
         freeze(value)
     return value
@@ -117,7 +119,7 @@ def _fields(result: Any) -> None:
 
 
 # Kinds of values that hold nothing.
-_PLAIN = frozenset((float, int, str, bool, type(None)))
+_PLAIN = frozenset((float, int, str, bool, type(None), np.float64, np.int64, np.bool_))
 
 
 def _names(kind: type) -> tuple[str, ...]:
