@@ -204,6 +204,15 @@ def test_wrong_input_is_named(press: Path, words: tuple[str, ...], said: str) ->
     assert said in text
 
 
+def test_balance_of_a_symmetric_machine_shows_no_rounding(press: Path) -> None:
+    """The shaking moment of a central slider-crank about its shaft is zero, with a counterweight too."""
+    words = ("--slider", "S", "--speed", "10 rad/s", "--set", "loads.work.force=0")
+    code, text = run("balance", press, *words)
+    assert code == 0
+    (row,) = (line for line in text.splitlines() if line.startswith("shaking moment"))
+    assert row.split()[-7:] == ["0", "N", "m", "0", "N", "m", "–"]
+
+
 def test_balance_writes_a_machine(press: Path, tmp_path: Path) -> None:
     out = tmp_path / "balanced.toml"
     code, text = run(

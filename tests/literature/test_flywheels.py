@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.kernel.errors import InputError
 from linkwright.turning.diagram import TurningMomentDiagram
 from linkwright.turning.tables import turning_tables
 
@@ -60,6 +61,52 @@ def test_example_16_2() -> None:
     assert found.flywheel_mass is not None
     # The book rounds the speed to 31.42 m/s and the energy to 29.6 m before it divides.
     assert found.flywheel_mass == pytest.approx(183, abs=0.7)
+
+
+THREE = {"kind": "table", "angle": "0, 60, 180 deg", "torque": "0, 90, 0 N m"}
+
+
+def test_example_16_7() -> None:
+    """Three cylinders, triangles of 90 N m at 60°, 600 rpm, 12 kg at 80 mm.
+
+    4.24 kW, 4 %, 2.78 % and 293 rad/s² are printed.
+    """
+    one = {**THREE, "angle": "0, 60, 180, 360 deg", "torque": "0, 90, 0, 0 N m"}
+    found = diagram(speed="600 rpm", inertia=12 * 0.08**2, driver={**one, "phases": "0, 120, 240 deg"})
+    assert found.power_mean == pytest.approx(4.24e3, abs=5)
+    # 11.78 N m is printed; the areas of the triangles are exact.
+    assert found.energy_fluctuation == pytest.approx(math.pi * 3.75, rel=1e-12)
+    assert found.unevenness == pytest.approx(0.04, abs=0.002)
+    assert found.energy_coefficient == pytest.approx(0.0278, abs=5e-5)
+    assert found.acceleration_max == pytest.approx(293, abs=0.5)
+    # The same diagram, added up by hand.
+    by_hand = diagram(
+        speed="600 rpm",
+        inertia=12 * 0.08**2,
+        driver={
+            "kind": "table",
+            "angle": "0, 60, 120, 180, 240, 300, 360 deg",
+            "torque": "45, 90, 45, 90, 45, 90, 45 N m",
+        },
+    )
+    assert found.energy_fluctuation == pytest.approx(by_hand.energy_fluctuation, rel=1e-12)
+
+
+def test_even_cylinders_leave_the_orders_of_their_number() -> None:
+    """Σ cos(k(φ − 2πi/n)) is n cos kφ where n divides k, else 0."""
+    wave = "+".join(f"{a}*cos({k}*phi)" for k, a in ((1, 70), (2, 50), (3, 30), (4, 20), (5, 10)))
+    common: dict[str, object] = {"speed": "300 rpm", "inertia": 2.0}
+    four = diagram(
+        **common, driver={"kind": "formula", "torque": f"100+{wave}", "phases": "0, 90, 180, 270 deg"}
+    )
+    left = diagram(**common, driver={"kind": "formula", "torque": "400+80*cos(4*phi)"})
+    assert four.energy_fluctuation == pytest.approx(left.energy_fluctuation, rel=1e-12)
+    assert four.energy_fluctuation == pytest.approx(40, rel=1e-12)
+
+
+def test_a_cylinder_beyond_the_cycle_is_refused() -> None:
+    with pytest.raises(InputError, match="720 deg"):
+        diagram(speed="300 rpm", inertia=2.0, driver={**THREE, "phases": "0, 240, 480 deg"})
 
 
 def test_two_stroke_engine() -> None:

@@ -7,6 +7,7 @@ import pytest
 from sizes import cases
 
 import linkwright as lw
+from linkwright.kernel.errors import InputError
 
 # Share of an entry by which it is varied, and what differences are good for.
 _STEP, _TOLERANCE = 2e-4, 1e-7
@@ -108,3 +109,51 @@ def test_rounding_errors_are_no_influence() -> None:
     found = lw.gradient(machine, ["turning_moment.speed_max"])
     named = {found.variables[at] for at in ranked(found, "turning_moment.speed_max")}
     assert named == {"turning_moment.speed", "turning_moment.unevenness"}
+
+
+def _energy(text: str, address: str, change: float) -> float | None:
+    machine = lw.loads(f'format = 1\nname = "shaft"\n[turning_moment]\nspeed = 25\n{text}\n')
+    varied = lw.replace(machine, {address: float(lw.get(machine, address)) + change})
+    return lw.turning_moment(varied, n=1).energy_fluctuation
+
+
+CYLINDERS = {
+    "flanks": 'kind = "table"\nangle = [0, 1, 3.1]\ntorque = [0, 90, 0]\nphases = [0, 1.9, 4]',
+    "waves": 'kind = "formula"\ntorque = "max(0, 90*sin(phi)) + 20*cos(3*phi)"\nphases = [0, 1.9]',
+}
+
+
+@pytest.mark.parametrize("kind", CYLINDERS)
+def test_derivative_by_the_angle_of_a_cylinder(kind: str) -> None:
+    text = f"inertia = 2\n[turning_moment.driver]\n{CYLINDERS[kind]}"
+    address, name = "turning_moment.driver.phases.1", "turning_moment.energy_fluctuation"
+    machine = lw.loads(f'format = 1\nname = "shaft"\n[turning_moment]\nspeed = 25\n{text}\n')
+    found = lw.gradient(machine, [name], [address]).derivatives[0, 0]
+    low, high = (_energy(text, address, sign * 1e-4) for sign in (-1, 1))
+    assert low is not None
+    assert high is not None
+    assert abs(found) > 1
+    # Differences of second order.
+    assert found == pytest.approx((high - low) / 2e-4, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("torque", "entry"),
+    [
+        ('torque = "where(phi < a, 100, 20)"\nconstants = { a = 1.0 }', "constants.a"),
+        ('torque = "30 + 50*step(sin(phi) - a)"\nconstants = { a = 0.2 }', "constants.a"),
+        ('torque = "100*phi"\nphases = [0, 1.9]', "phases.1"),
+    ],
+)
+def test_what_moves_a_jump_is_refused(torque: str, entry: str) -> None:
+    """The work changes by the height of the jump; the derivative at fixed angles was 0, or missed it."""
+    text = f'inertia = 2\n[turning_moment.driver]\nkind = "formula"\n{torque}'
+    address, name = f"turning_moment.driver.{entry}", "turning_moment.energy_fluctuation"
+    machine = lw.loads(f'format = 1\nname = "shaft"\n[turning_moment]\nspeed = 25\n{text}\n')
+    low, high = (_energy(text, address, sign * 1e-4) for sign in (-1, 1))
+    assert low is not None
+    assert high is not None
+    assert abs(high - low) > 1e-4
+    assert "jumps" in lw.gradient(machine, [name]).refused[address]
+    with pytest.raises(InputError, match="jumps"):
+        lw.gradient(machine, [name], [address])

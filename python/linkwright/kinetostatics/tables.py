@@ -160,11 +160,18 @@ def balance_tables(balance: Balance) -> list[Table]:
     ]
     heads = ("link", "", "mass", "radius", "direction from the link", "moment")
     rows: list[Row] = []
-    for name, (before, after) in balance.measures().items():
+    measures = balance.measures()
+    scales: dict[str, float] = {}
+    for name, values in measures.items():
+        unit = shown(Forces, name).unit
+        scales[unit] = max(scales.get(unit, 0.0), *values)
+    for name, values in measures.items():
         mark = shown(Forces, name)
-        change = "–" if before == 0 else f"{number(100 * (after / before - 1), 4)} %"
-        values = (measured(value, mark.unit, max(before, after)) for value in (before, after))
-        rows.append((f"{mark.word}, rms", mark.symbol, *values, change))
+        before, after = (measured(value, mark.unit, scales[mark.unit]) for value in values)
+        # The share by which rounding changes says nothing.
+        is_zero = before == measured(0.0, mark.unit)
+        change = "–" if is_zero else f"{number(100 * (values[1] / values[0] - 1), 4)} %"
+        rows.append((f"{mark.word}, rms", mark.symbol, before, after, change))
     return [
         Table("counterweights", "Counterweights", heads, weights),
         Table("balance", "Effect of the counterweights", ("quantity", "", "before", "after", "change"), rows),

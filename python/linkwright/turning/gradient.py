@@ -41,6 +41,9 @@ _MORE = 8
 # Share of the cycle beside a jump at which its sides are looked at.
 _BESIDE = 1e-10
 
+# A difference between its sides that is a larger share of the torque is a jump; a steep flank is none.
+_JUMP = 1e-6
+
 
 def turning_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     """Scalars of a turning-moment diagram by some entries. Raises what `turning_moment` raises."""
@@ -50,7 +53,8 @@ def turning_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     work: Any = (
         _OfAreas(machine.turning_moment) if machine.turning_moment.areas else _OfCurves(machine, result)
     )
-    refused: dict[str, str] = {}
+    refused = dict.fromkeys(_jump_movers(machine.turning_moment) & set(own), _MOVES_JUMP)
+    own = [name for name in own if name not in refused]
     known, numbers_of = followed(machine, own, lambda along: work.scalars(along.turning_moment), refused)
     place = {name: at for at, name in enumerate(known)}
     listed = tuple(name for name in variables if name not in refused)
@@ -65,6 +69,27 @@ def turning_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     made_of_energy = dict.fromkeys(_OF_ENERGY & set(tangents), work.tie) if work.tie else {}
     ties = made_of_energy | work.ties | _lost(tangents, listed)
     return Derivatives(listed, tangents, {name: ties[name] for name in tangents if name in ties}, {}, refused)
+
+
+_MOVES_JUMP = "it moves the angle at which a torque jumps"
+
+
+def _jump_movers(described: TurningMoment) -> set[str]:
+    """Entries that move jumps, at which the work of a torque changes by more than its derivative says."""
+    if described.areas:
+        return set()
+    ends = fitted_curves(described).ends
+    aside = _BESIDE * described.cycle
+    moved = set()
+    for key, torque in (("driver", described.driver), ("load", described.load)):
+        if torque is None:
+            continue
+        before, after = (
+            torque.at(np.mod(ends + side, described.cycle), described.cycle) for side in (-aside, aside)
+        )
+        if np.abs(after - before).max() > _JUMP * max(np.abs(before).max(), np.abs(after).max()):
+            moved |= {f"turning_moment.{key}.{entry}" for entry in torque.jump_movers()}
+    return moved
 
 
 _OF_ENERGY = {

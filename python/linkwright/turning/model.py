@@ -1,8 +1,9 @@
 r"""The turning-moment diagram of a machine file: driving and load torques, required speed fluctuation.
 
-A torque is constant, a table or a formula. Both act on one shaft and depend on its angle φ alone, over a
-cycle of one or two revolutions. Who knows one of them leaves the other out: it is then constant, at the mean
-of the one that is given. Who has the areas of a diagram between its crossings gives these instead.
+A torque is constant, a table or a formula; equal cylinders give the same diagram one after the other. Driver
+and load act on one shaft and depend on its angle φ alone, over a cycle of one or two revolutions. Who knows
+one of them leaves the other out: it is then constant, at the mean of the one that is given. Who has the areas
+of a diagram between its crossings gives these instead.
 
 References
 ----------
@@ -24,7 +25,7 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.description.curve import curve_faults, unread_file
 from linkwright.kernel.description.cycle import ONE_TURN, CycleAngle, cycle_faults, cycle_turns
-from linkwright.kernel.description.formula import NUMBERS, parse
+from linkwright.kernel.description.formula import NUMBERS, conditions, parse
 from linkwright.kernel.description.formula_faults import constant_faults, text_faults
 from linkwright.kernel.numerics.formula_value import value
 from linkwright.kernel.numerics.tangent_array import numbers
@@ -54,12 +55,41 @@ _ROUNDED = 1e-9
 class ShaftTorque(CheckedDescription):
     """A torque on the shaft, positive against what it stands for: drive or resistance."""
 
-    @abstractmethod
     def at(self, phi: Floats, cycle: float) -> Floats:
-        """Torque at shaft angles within the cycle, shape (n,) [N m]."""
+        """Torque of all cylinders at shaft angles within the cycle, shape (n,) [N m]."""
+        shares = [self.one_at(self._own(phi, start, cycle), cycle) for start in self.starts]
+        total = shares[0]
+        for share in shares[1:]:
+            total = total + share
+        return total
 
     def kinks(self, cycle: float) -> Floats:
         """Angles within the cycle at which it has a corner or a jump [rad]."""
+        corners = [np.mod(self.one_kinks(cycle) + start, cycle) for start in self.starts]
+        # A diagram that begins later may be broken where it begins.
+        begun = [[start % cycle] for start in self.starts if start % cycle]
+        return np.unique(np.concatenate([*corners, *begun])) if begun else corners[0]
+
+    def jump_movers(self) -> tuple[str, ...]:
+        """Entries that decide at which angle the torque jumps, if it does."""
+        return ()
+
+    @property
+    def starts(self) -> tuple[float, ...]:
+        """Angles at which the diagram of each cylinder begins [rad]."""
+        return (0.0,)
+
+    @staticmethod
+    def _own(phi: Floats, start: float, cycle: float) -> Floats:
+        """Angle of one cylinder within its own cycle."""
+        return phi if start == 0 else np.mod(phi - start, cycle)
+
+    @abstractmethod
+    def one_at(self, phi: Floats, cycle: float) -> Floats:
+        """Torque of one cylinder at its own angles within the cycle, shape (n,) [N m]."""
+
+    def one_kinks(self, cycle: float) -> Floats:
+        """Corners and jumps of one cylinder within its own cycle [rad]."""
         return np.empty(0)
 
     def cycle_faults(self, cycle: float) -> Iterator[InitErrorDetails]:
@@ -73,11 +103,36 @@ class ConstantShaftTorque(ShaftTorque):
     kind: Literal["constant"]
     torque: Torque = Field(description="Torque.")
 
-    def at(self, phi: Floats, cycle: float) -> Floats:
+    def one_at(self, phi: Floats, cycle: float) -> Floats:
         return self.torque * np.ones(len(phi))
 
 
-class FormulaShaftTorque(ShaftTorque):
+class CylinderTorque(ShaftTorque):
+    """A torque over the angle that several equal cylinders, or strokes, give one after the other."""
+
+    phases: Angles = Field(
+        (),
+        description="Angle at which the diagram of each of several equal cylinders begins; their torques "
+        "add up. Default: one, at 0.",
+    )
+
+    @property
+    def starts(self) -> tuple[float, ...]:
+        return tuple(self.phases) or (0.0,)
+
+    def jump_movers(self) -> tuple[str, ...]:
+        return tuple(f"phases.{place}" for place in range(len(self.phases)))
+
+    def cycle_faults(self, cycle: float) -> Iterator[InitErrorDetails]:
+        for place, start in enumerate(self.phases):
+            if not 0 <= start < cycle:
+                found = f"{math.degrees(start):.6g} deg"
+                expected = f"an angle from 0 to below the cycle of {math.degrees(cycle):.6g} deg"
+                remedy = "set turning_moment.cycle to 720 deg if a cycle takes two revolutions"
+                yield fault("phases", place, found=found, expected=expected, remedy=remedy)
+
+
+class FormulaShaftTorque(CylinderTorque):
     """A torque by a formula of the angle."""
 
     kind: Literal["formula"]
@@ -90,7 +145,11 @@ class FormulaShaftTorque(ShaftTorque):
         yield from constant_faults(self.constants, self.torque)
         yield from text_faults("torque", self.torque, self.constants, ("phi",))
 
-    def at(self, phi: Floats, cycle: float) -> Floats:
+    def jump_movers(self) -> tuple[str, ...]:
+        deciding = conditions(parse(self.torque))
+        return (*super().jump_movers(), *(f"constants.{name}" for name in self.constants if name in deciding))
+
+    def one_at(self, phi: Floats, cycle: float) -> Floats:
         # Where a formula has no value the fit says so, with the angle.
         with np.errstate(all="ignore"):
             values = value(parse(self.torque), {**NUMBERS, **self.constants, "phi": phi})
@@ -98,7 +157,7 @@ class FormulaShaftTorque(ShaftTorque):
         return torques
 
 
-class TableShaftTorque(ShaftTorque):
+class TableShaftTorque(CylinderTorque):
     """A torque by points of a diagram: linear between them, or in steps."""
 
     kind: Literal["table"]
@@ -121,6 +180,7 @@ class TableShaftTorque(ShaftTorque):
         yield from curve_faults(self, "angle", ("torque",))
 
     def cycle_faults(self, cycle: float) -> Iterator[InitErrorDetails]:
+        yield from super().cycle_faults(cycle)
         span = self.angle[-1] - self.angle[0]
         if span > cycle * (1 + _ROUNDED):
             remedy = "set turning_moment.cycle to 720 deg if a cycle takes two revolutions"
@@ -133,11 +193,11 @@ class TableShaftTorque(ShaftTorque):
     def _closes(self, cycle: float) -> bool:
         return self.angle[-1] - self.angle[0] >= cycle * (1 - _ROUNDED)
 
-    def kinks(self, cycle: float) -> Floats:
+    def one_kinks(self, cycle: float) -> Floats:
         corners: Floats = np.mod(np.asarray(self.angle), cycle)
         return corners
 
-    def at(self, phi: Floats, cycle: float) -> Floats:
+    def one_at(self, phi: Floats, cycle: float) -> Floats:
         angle, torque = numbers(self.angle), numbers(self.torque)
         if self._closes(cycle):
             angle, torque = angle[:-1], torque[:-1]

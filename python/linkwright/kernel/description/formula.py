@@ -89,6 +89,16 @@ def names(node: Node) -> dict[str, int]:
     return places
 
 
+# What jumps, where its first part passes zero or, of two, one of them passes the other.
+_JUMPS = frozenset({*_COMPARISONS, "step", "sign", "atan2"})
+
+
+def conditions(node: Node) -> set[str]:
+    """Names that decide where a formula jumps."""
+    deciding = set(names(node)) if node.op in _JUMPS else set()
+    return deciding.union(*map(conditions, node.args))
+
+
 def terms(node: Node) -> tuple[Node, ...]:
     """The formula as summands that may be worked with one by one.
 
