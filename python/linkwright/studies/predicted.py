@@ -122,9 +122,16 @@ class RecordModel:
         """Channels of a motion in time; once it has come to rest, it stands."""
         motor, brake = self.options.motion == "run_up", self.options.motion == "run_down"
         span = float(self.record.at[-1] - self.record.at[0])
-        end = {"duration": span} if self.record.over == "time" else {"turns": span / (2 * np.pi)}
+        duration, turns = (span, np.inf) if self.record.over == "time" else (np.inf, span / (2 * np.pi))
         motion = transient(
-            machine, angle=angle, speed=speed, accuracy=_ACCURACY, motor=motor, brake=brake, **end
+            machine,
+            angle=angle,
+            speed=speed,
+            duration=duration,
+            turns=turns,
+            accuracy=_ACCURACY,
+            motor=motor,
+            brake=brake,
         )
         past = self.record.at - self.record.at[0]
         time = past if self.record.over == "time" else _times_at(motion, past + angle)
