@@ -1070,7 +1070,7 @@ class SteadySolution:
     def curves(self, phi: _Floats) -> SteadyCurves:
         """Curves at crank angles in [0, 2π], fastest where these increase; (angles,) each."""
 
-    def gradient(self, directions: _Floats, phi: _Floats) -> SteadyGradient:
+    def gradient(self, directions: _Floats, sizes: _Floats, phi: _Floats) -> SteadyGradient:
         """Derivatives along `directions` (parameters, n), with curves at the angles `phi`."""
 
 @final
@@ -1108,6 +1108,8 @@ class SteadyGradient:
     """Derivatives of steady motion along n directions of the parameters, each (n,).
 
     `curves` are (angles, n) each. At the end of a step that moves with a kink a curve is followed along it.
+    `lost` is the crank angle of a kink whose move was not found [rad], where all else is NaN; NaN where there
+    is none.
     """
 
     speed_min: Final[_Floats]
@@ -1121,6 +1123,7 @@ class SteadyGradient:
     energy_load: Final[_Floats]
     torque_motor_mean: Final[_Floats]
     torque_motor_rms: Final[_Floats]
+    lost: Final[_Floats]
     curves: Final[SteadyCurves]
 
 @final

@@ -156,3 +156,47 @@ def test_forces_without_an_answer_are_said_of_the_cam_too(monkeypatch: pytest.Mo
 
     monkeypatch.setattr(module, "forces", doubtful)
     assert "nothing is known at 30°" in loaded(cam()).findings
+
+
+# A follower of 2 kg that 200 N press onto its cam: 30 mm by modified sine within 120°, whose maximum
+# acceleration is 5.527957 h ω²/β².
+FLOATING = """
+format = 1
+name = "Cam with a roller follower"
+[drive]
+{drive}
+[mechanism.cams.follower]
+follower = "translating"
+contact = "roller"
+closure = "spring"
+base_radius = 0.06
+roller_radius = 0.015
+sections = [
+    {{ angle = "60 deg", lift = 0 }},
+    {{ angle = "120 deg", lift = 0.03, law = {{ kind = "modified_sine" }} }},
+    {{ angle = "60 deg", lift = 0 }},
+    {{ angle = "120 deg", lift = -0.03, law = {{ kind = "modified_sine" }} }},
+]
+[bodies]
+follower = {{ mass = 2 }}
+[loads]
+work = {{ kind = "force", on = "follower", force = -200 }}
+"""
+FLOATS_FROM = 2 * np.pi / 3 * np.sqrt(200.0 / (2.0 * 5.527957 * 0.03))
+
+
+@pytest.mark.parametrize(
+    "drive",
+    [
+        "speed = {speed}",
+        'motor = {{ kind = "constant_speed", speed = {speed} }}',
+        'flywheel.inertia = 50\nmotor = {{ kind = "dc", speed_no_load = {speed}, torque_stall = 1e6 }}',
+    ],
+)
+def test_a_follower_that_floats_is_told_by_every_analysis(drive: str) -> None:
+    """Forces too hold for a follower that stays; a study says it once."""
+    for share, floats in ((0.995, False), (1.005, True)):
+        machine = lw.loads(FLOATING.format(drive=drive.format(speed=share * FLOATS_FROM)))
+        for findings in (lw.forces(machine).findings, lw.study(machine).findings):
+            told = [text for text in findings if "follower leaves cam" in text]
+            assert len(told) == floats

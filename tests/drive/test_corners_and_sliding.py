@@ -90,6 +90,12 @@ def test_part_of_a_revolution_on_a_jump_is_told(amplitude: float, begins: str) -
         lw.steady_state(jumps(amplitude))
 
 
+def test_a_study_tells_of_one_jump_once() -> None:
+    """Steady motion and run-up come to it at different angles."""
+    told = [text for text in lw.study(jumps(5.0)).findings if "slides along a jump" in text]
+    assert len(told) == 1
+
+
 def test_a_jump_that_is_passed_is_none_to_slide_on() -> None:
     assert lw.steady_state(jumps(40.0)).multiplier > 0.0
     # A load that falls with the speed drives the motion away from its jump.

@@ -229,3 +229,40 @@ def test_speed_does_not_leap_at_a_jump(accuracy: float) -> None:
     most = max(motion.acceleration_max, -motion.acceleration_min) * 2 * np.pi / 3600
     assert np.abs(np.diff(0.5 * motion.speed**2)).max() <= most * (1 + 1e-9)
     assert motion.period == pytest.approx(0.566666719083, rel=1e-8)
+
+
+# The motor drives faster around one speed alone, by a formula.
+HUMP = """format = 1
+name = "Crank"
+mechanism.cranks.A.radius = "0.2 m"
+mechanism.sliders.S = {{ crank = "A", rod = 0.6 }}
+bodies.A = {{ inertia = 2, mass = 3 }}
+bodies.S = {{ mass = 0.05 }}
+drive.motor = {{ kind = "table", speed = [0, 5, 9, 40], torque = [50, 20, 0, -20] }}
+[loads.f]
+kind = "formula"
+on = "A"
+torque = "-(10 - 60*max(0, 1 - abs(omega - {speed})/{width}))"
+"""
+
+
+@pytest.mark.parametrize(
+    ("speed", "width"), [(12.0, 0.01), (15.0, 0.1), (20.0, 1.0), (20.0, 0.01), (23.0, 0.03)]
+)
+def test_a_motion_far_above_the_working_speed_is_found(speed: float, width: float) -> None:
+    """Some three to five times the speed from which motions are looked for. Motor and load balance on either
+    side of the hump; the inertia is all but constant, so starts part at the lower one and meet at the upper.
+    """
+    machine = lw.loads(HUMP.format(speed=speed, width=width))
+    motion = lw.steady_state(machine)
+    assert speed < motion.speed_min
+    assert motion.speed_max < speed + width
+    # The unstable motion between is found where starts part slowly enough to close in on it.
+    away = [other for other in motion.others if not other.is_stable]
+    assert len(away) == (width == 1.0)
+    assert all(speed - width < other.speed_min and other.speed_max < speed for other in away)
+    (slow,) = [other for other in motion.others if other.is_stable]
+    assert slow.speed_max == pytest.approx(7.0, rel=1e-3)
+    rows = lw.steady_states(machine, {"bodies.A.inertia": [2.0, 2.1]})
+    assert rows.speed_mean_time[0] == pytest.approx(motion.speed_mean_time, rel=1e-9)
+    assert rows.speed_min[1] > speed

@@ -169,3 +169,12 @@ def _motor(random: Generator, torque: float, speed: float) -> Table:
         "torque_breakdown": torque * random.uniform(1.8, 3.5),
     }
     return motor | ({"torque_start": torque * random.uniform(1.2, 1.7)} if kind == "started" else {})
+
+
+def with_jump(random: Generator, drive: Table, speeds: tuple[float, float], size: float) -> Table:
+    """A drive with one load more, which jumps at one of its speeds; its torques are of the given size."""
+    level = float(random.uniform(*speeds))
+    jump = float(size * 10 ** random.uniform(-2.0, 0.3) * random.choice([-1, 1]))
+    switch = random.choice(["omega", "omega*(1+0.1*cos(phi))"]) if random.random() < 0.3 else "omega"
+    torque = f"-({0.05 * size!r}*cos(phi) + where({switch} > {level!r}, {jump!r}, 0))"
+    return drive | {"loads": drive["loads"] | {"jump": {"kind": "formula", "on": "A", "torque": torque}}}

@@ -9,6 +9,7 @@
 //! | [`table`], [`motion_law`] | straight lines between points; laws in pieces |
 //! | [`formula`], [`formula_words`] | what a user writes as text, as a program; its words |
 //! | [`gauss`], [`radau`], [`rk`] | quadrature of order 8; collocation of order 9; Runge–Kutta of order 8 |
+//! | [`matrix`] | dense systems of equations, real or complex |
 //! | [`series`] | series over a step, and collocation by them |
 //! | [`nested`] | ten nodes of a step, five of them its stages, and one correction of Newton there |
 //! | [`turns`] | where the polynomial of a step turns, past a limit or not |
@@ -27,6 +28,7 @@ pub mod formula_words;
 pub mod gauss;
 pub mod jet;
 pub mod lanes;
+pub mod matrix;
 pub mod motion_law;
 pub mod nested;
 pub mod plane;

@@ -161,19 +161,24 @@ impl SteadySolution {
         &self,
         py: Python<'_>,
         directions: PyReadonlyArray2<'_, f64>,
+        sizes: Floats<'_>,
         phi: Floats<'_>,
     ) -> PyResult<SteadyGradient> {
-        let (plan, q, phi) = (&self.plan.get().0, &self.q, phi.as_slice()?);
+        let (plan, q, phi, sizes) = (&self.plan.get().0, &self.q, phi.as_slice()?, sizes.as_slice()?);
         let [rows, n] = [directions.as_array().nrows(), directions.as_array().ncols()];
         if rows != q.len() {
             let text = format!("directions of {rows} numbers, {} parameters", q.len());
             return Err(PyIndexError::new_err(text));
         }
+        if sizes.len() != n {
+            return Err(PyIndexError::new_err(format!("{} sizes, {n} directions", sizes.len())));
+        }
         let directions = directions.as_slice()?;
         let analysis = "derivatives of steady motion";
         require_room(analysis, [n, NUMBERS + CURVES * phi.len()])?;
         let steady = &self.steady;
-        let found = guarded(py, analysis, || Gradient { plan, q, directions, steady, phi }.derivatives())?;
+        let found =
+            guarded(py, analysis, || Gradient { plan, q, directions, sizes, steady, phi }.derivatives())?;
         // In the order of `drive::gradient`.
         let number = |k: usize| kept(py, found.numbers[k * n..(k + 1) * n].to_vec());
         let size = phi.len() * n;
@@ -190,6 +195,7 @@ impl SteadySolution {
             energy_load: number(8),
             torque_motor_mean: number(9),
             torque_motor_rms: number(10),
+            lost: kept(py, found.lost.clone()),
             curves: Py::new(py, SteadyCurves::of(py, std::array::from_fn(curve), &[phi.len(), n])?)?,
         })
     }
@@ -259,6 +265,7 @@ pub(crate) struct SteadyGradient {
     energy_load: Array,
     torque_motor_mean: Array,
     torque_motor_rms: Array,
+    lost: Array,
     curves: Py<SteadyCurves>,
 }
 

@@ -27,6 +27,7 @@ from linkwright.drive.study import INTERVALS, DriveStudy, drive_study, has_motor
 from linkwright.kernel.findings import Findings
 from linkwright.kernel.public import public
 from linkwright.kernel.result import Result, finite
+from linkwright.kinetostatics.collect import LEAVES
 from linkwright.kinetostatics.forces import forces
 from linkwright.kinetostatics.motion import Motion
 from linkwright.kinetostatics.result import Forces
@@ -311,7 +312,8 @@ def _is_motion_alone(machine: Machine) -> bool:
 
 
 def _forces(machine: Machine, steady: SteadyState) -> Forces:
-    """Forces along the steady motion, at some of its angles."""
+    """Forces along the steady motion, at some angles; the analysis of cams finds followers that leave."""
     some = slice(None, None, INTERVALS // _INTERVALS_OF_FORCES)
     curves = (steady.crank_angle, steady.speed, steady.acceleration, steady.time)
-    return forces(machine, Motion(*(curve[some] for curve in curves)))
+    borne = forces(machine, Motion(*(curve[some] for curve in curves)))
+    return replace(borne, findings=tuple(text for text in borne.findings if not text.startswith(LEAVES)))

@@ -25,6 +25,7 @@ from linkwright.machine.address import exchanged
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import SteadyCurves, SteadySolution
+from linkwright.machine.tangents import Directions
 
 Floats = NDArray[np.float64]
 
@@ -64,15 +65,17 @@ _SAME = 1e-9
 class SteadyTangents:
     """Steady motion with derivatives.
 
-    `state` has tangents for scalars; `ties` has what has a derivative on either side only, with its reason.
+    `state` has tangents for scalars; `ties` has what has a derivative on either side only, with its reason;
+    `lost` has entries by which the move of a kink was not found, each with the crank angle of the kink [rad].
     """
 
     state: SteadyState
     ties: dict[str, str]
+    lost: dict[str, float]
 
 
-def steady_tangents(machine: Machine, values: Floats) -> SteadyTangents:
-    """Steady motion along directions of the program's numbers, `values` (parameters, directions).
+def steady_tangents(machine: Machine, along: Directions) -> SteadyTangents:
+    """Steady motion along directions of the program's numbers.
 
     Raises what `steady_state` raises, and InputError where the motor keeps its speed.
     """
@@ -80,13 +83,13 @@ def steady_tangents(machine: Machine, values: Floats) -> SteadyTangents:
         raise InputError("a motor of constant speed has the same speed whatever the machine is")
     state, solution = solved_state(machine, _ACCURACY, _LOOK)
     assert solution is not None
-    compiled = over_whole_cycle(compile_machine(machine))
+    compiled, values = over_whole_cycle(compile_machine(machine)), along.values
     moving = _telling_directions(machine, compiled, state, values)
     if moving is not None:
         _, solution = solved_state(moving, _ACCURACY, _LOOK)
         assert solution is not None
     angles = np.array([state.speed_min_angle, state.speed_max_angle])
-    gradient = solution.gradient(values, angles)
+    gradient = solution.gradient(values, along.sizes, angles)
     # The core's works are those of a cycle.
     times = {name: state.turns if name.startswith("energy") else 1 for name in COLUMNS}
     tangents: dict[str, Any] = {
@@ -94,7 +97,8 @@ def steady_tangents(machine: Machine, values: Floats) -> SteadyTangents:
     }
     ratio = Tangent(compiled.gear_factors[0], values[compiled.gear_slots[0]])
     tangents |= _of_motor(compiled, state, gradient.curves, ratio)
-    return SteadyTangents(replace(state, **tangents), _ties(compiled, state, solution))
+    ties = _ties(compiled, state, solution)
+    return SteadyTangents(replace(state, **tangents), ties, along.lost(gradient.lost))
 
 
 def _telling_directions(

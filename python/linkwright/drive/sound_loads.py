@@ -95,11 +95,14 @@ def sliding(machine: Machine, angle: float, speed: float) -> SteadyStateError:
                 f'the formula of {name}, "{load.text}", jumps {where} from {below:.4g} to {above:.4g} N m of '
                 "load torque at the crank"
             )
-    return SteadyStateError(
+    error = SteadyStateError(
         f"the motion slides along a jump: {what}, and the torques of both sides drive the crank back there, "
         "so that it keeps that speed under a load in between, which no formula gives; write the jump as a "
         "steep slope over speed, such as min(max((omega - w0)/width, 0), 1)"
     )
+    # Steady motion and run-up reach the jump at different angles.
+    error.cause = f"slides along a jump at {speed:.4g} rad/s"
+    return error
 
 
 def require_half_turns(compiled: CompiledMachine, machine: Machine) -> None:

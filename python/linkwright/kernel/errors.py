@@ -111,9 +111,16 @@ def require_within(limit: Limit, number: float, what: str, remedy: str) -> None:
 
 
 class FindingError(LinkwrightError):
-    """The input is sound, and the answer is that the machine cannot do it."""
+    """The input is sound, and the answer is that the machine cannot do it.
+
+    Attributes
+    ----------
+    cause : str
+        What findings of several analyses have in common, so that a study says it once; empty if nothing.
+    """
 
     exit_code: ClassVar[int] = 1
+    cause: str = ""
 
 
 class InternalError(LinkwrightError):

@@ -19,16 +19,17 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class Findings:
-    """Collects sentences; the same one counts once."""
+    """Collects sentences; the same one, or one of the same cause, counts once."""
 
     subject: str = ""  # what stands before each sentence that is collected, such as `"cam valve: "`
     # The findings and the warnings, in their order.
     said: list[str] = field(default_factory=list)
     beside: list[str] = field(default_factory=list)
+    causes: set[str] = field(default_factory=set)  # of errors that have been said
 
     def about(self, subject: str) -> Findings:
         """The same collector, with a subject before what it collects."""
-        return Findings(subject, self.said, self.beside)
+        return Findings(subject, self.said, self.beside, self.causes)
 
     def add(self, texts: Iterable[str]) -> None:
         """Collect findings."""
@@ -40,11 +41,24 @@ class Findings:
 
     def of(self, analysis: Callable[..., T], *args: Any, **options: Any) -> T | None:
         """The result of an analysis, with its own findings collected; None, and a finding, if it fails."""
-        return _of(self.add, analysis, *args, **options)
+        return self._of(self.add, analysis, *args, **options)
 
     def beside_of(self, analysis: Callable[..., T], *args: Any, **options: Any) -> T | None:
         """The same for an analysis whose failure says nothing against the machine: it is a warning."""
-        return _of(self.warn, analysis, *args, **options)
+        return self._of(self.warn, analysis, *args, **options)
+
+    def _of(
+        self, say: Callable[[Iterable[str]], None], analysis: Callable[..., T], *args: Any, **options: Any
+    ) -> T | None:
+        try:
+            result = analysis(*args, **options)
+        except FindingError as error:
+            if not error.cause or error.cause not in self.causes:
+                say([str(error)])
+            self.causes.add(error.cause)
+            return None
+        say(getattr(result, "findings", ()))
+        return result
 
     @property
     def findings(self) -> tuple[str, ...]:
@@ -55,18 +69,6 @@ class Findings:
     def warnings(self) -> tuple[str, ...]:
         """What its designer should know, each once, in their order; not what is a finding already."""
         return tuple(text for text in dict.fromkeys(self.beside) if text not in self.said)
-
-
-def _of(
-    say: Callable[[Iterable[str]], None], analysis: Callable[..., T], *args: Any, **options: Any
-) -> T | None:
-    try:
-        result = analysis(*args, **options)
-    except FindingError as error:
-        say([str(error)])
-        return None
-    say(getattr(result, "findings", ()))
-    return result
 
 
 def sentence(text: str) -> str:

@@ -19,8 +19,11 @@ from linkwright.kinetostatics.places import Scene, cross
 from linkwright.kinetostatics.result import Contribution, Forces, PairForce
 from linkwright.linkages.model.structure import FRAME
 
-# Share of the maximum tension that a cable may push by rounding.
+# Share of the maximum force by which rounding may push a cable, or pull a follower.
 _SLACK = 1e-9
+
+# How the finding about a follower begins.
+LEAVES = "The follower leaves cam"
 
 # Kinds of models that are no pairs.
 _DRIVES = ("torque", "force", "contact")
@@ -88,7 +91,11 @@ class Collector:
             motion=motion,
             load_forces=self._load_forces(),
             load_torques=self._load_torques(),
-            findings=(*_where(self.solution, motion.crank_angle), *self._slack(pairs)),
+            findings=(
+                *_where(self.solution, motion.crank_angle),
+                *self._slack(pairs),
+                *self._left(drives),
+            ),
         )
 
     def _passed(self, model: PairModel, span: slice, x: Floats, member: str) -> Floats:
@@ -209,6 +216,24 @@ class Collector:
                     f"{-pair.normal[worst]:.4g} N; increase the load on its end, or reduce the speed."
                 )
         return slack
+
+    def _left(self, drives: dict[str, Floats]) -> list[str]:
+        """Followers that nothing keeps on their cams."""
+        left, motion = [], self.scene.motion
+        for name, cam in self.scene.machine.mechanism.cams.items():
+            force = drives[name]
+            if cam.closure != "spring" or np.isnan(force).all():
+                continue
+            worst = int(np.nanargmin(force))
+            if force[worst] < -_SLACK * np.nanmax(np.abs(force)):
+                at = np.degrees(motion.crank_angle[worst])
+                left.append(
+                    f"{LEAVES} {name}: at crank angle {at:.4g}° and {motion.speed[worst]:.4g} rad/s "
+                    f"it would have to be pulled with {-force[worst]:.4g} N; these forces hold for a "
+                    "follower that stays; a spring that presses with so much more, a lower speed, or a "
+                    "groove keeps it on the cam."
+                )
+        return left
 
 
 def _where(solution: Solution, phi: Floats) -> list[str]:

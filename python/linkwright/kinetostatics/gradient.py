@@ -74,7 +74,7 @@ def force_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
         return Derivatives(program.variables, {}, {}, missing, program.refused)
     at = np.unique(list(places.values()))
     motion = Motion(*(getattr(result.motion, name)[at] for name in _MOTION))
-    along = _motion_along(machine, motion, program, solution)
+    along, lost = _motion_along(machine, motion, program, solution)
     tangents = _curves(_forces_along(machine, motion, along, program))
     extremes, ties = {}, {}
     kinks = _Kinks(machine, program, solution)
@@ -92,7 +92,7 @@ def force_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
         reasons += [kinks.words(larger[0] if larger else angle, moving)] if moving.any() else []
         if any(reasons):
             ties[name] = "; ".join(filter(None, reasons))
-    return Derivatives(program.variables, extremes, ties, missing, program.refused)
+    return Derivatives(program.variables, extremes, ties, missing, program.refused, lost)
 
 
 def _directions(machine: Machine, variables: Sequence[str]) -> Directions:
@@ -101,7 +101,7 @@ def _directions(machine: Machine, variables: Sequence[str]) -> Directions:
     refused = dict(program.refused)
     known, _ = followed(machine, program.variables, lambda along: structure(along.linkage), refused)
     at = [program.variables.index(name) for name in known]
-    return Directions(known, program.values[:, at], refused)
+    return Directions(known, program.values[:, at], program.sizes[at], refused)
 
 
 _MOTION = ("crank_angle", "speed", "acceleration", "time")
@@ -188,16 +188,18 @@ class _Kinks:
         )
 
 
-def _motion_along(machine: Machine, motion: Motion, program: Directions, solution: Any) -> Motion:
-    """The motion at its angles, with derivatives."""
+def _motion_along(
+    machine: Machine, motion: Motion, program: Directions, solution: Any
+) -> tuple[Motion, dict[str, float]]:
+    """The motion at its angles, with derivatives, and entries by which these are lost."""
     n = len(program.variables)
     phi = motion.crank_angle
     if solution is not None:
-        curves = solution.gradient(program.values, phi).curves
+        gradient = solution.gradient(program.values, program.sizes, phi)
         followed: dict[str, Any] = {
-            name: TangentArray(getattr(motion, name), getattr(curves, name)) for name in _MOTION[1:]
+            name: TangentArray(getattr(motion, name), getattr(gradient.curves, name)) for name in _MOTION[1:]
         }
-        return replace(motion, **followed)
+        return replace(motion, **followed), program.lost(gradient.lost)
     drive = seeded(machine, program.variables).drive
     assert drive is not None
     given: Any = drive.speed
@@ -206,7 +208,7 @@ def _motion_along(machine: Machine, motion: Motion, program: Directions, solutio
     speed: Any = lifted(given * lifted(np.ones(len(phi)), n), n)
     acceleration: Any = lifted(motion.acceleration, n)
     time: Any = phi / speed if motion.speed.any() else lifted(phi, n)
-    return replace(motion, speed=speed, acceleration=acceleration, time=time)
+    return replace(motion, speed=speed, acceleration=acceleration, time=time), {}
 
 
 class _SceneAlong(Scene):

@@ -8,7 +8,7 @@ the core's program: the description is translated a second time.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -95,12 +95,19 @@ def _derived(
 class Directions:
     """Derivatives of the program's numbers.
 
-    `values` is (parameters, variables); `refused` has addresses without a derivative, with the reason.
+    `values` is (parameters, variables); `sizes` (variables,) are those of the entries, 1 where one is zero;
+    `refused` has addresses without a derivative, with the reason.
     """
 
     variables: tuple[str, ...]
     values: Floats
+    sizes: Floats
     refused: Mapping[str, str]
+
+    def lost(self, angles: Floats) -> dict[str, float]:
+        """Entries by which the move of a kink was not found, by `angles` of the kinks [rad], else NaN."""
+        pairs = zip(self.variables, angles.tolist(), strict=True)
+        return {name: angle for name, angle in pairs if np.isfinite(angle)}
 
     def __post_init__(self) -> None:
         """Keep the values row by row, as the core reads them."""
@@ -130,7 +137,8 @@ def directions(machine: Machine, variables: Sequence[str]) -> Directions:
     values = np.zeros((len(compiled.parameters), len(known)))
     for place, name in enumerate(known):
         values[: len(derivatives[name]), place] = derivatives[name]
-    return Directions(known, values, refused)
+    sizes = np.array([abs(float(get(machine, name))) or 1.0 for name in known])
+    return Directions(known, values, sizes, refused)
 
 
 def _numbers(machine: Machine) -> Sequence[Any]:
@@ -144,7 +152,7 @@ class Derivatives:
 
     `tangents`: by name, NaN by an entry that has none; `ties`: names that have a derivative on either side
     only, or none by some entries, with the reason; `missing`: names that have none at all; `refused`: entries
-    that have none.
+    that have none; `lost`: entries by which the move of a kink was not found, with its crank angle [rad].
     """
 
     variables: tuple[str, ...]
@@ -152,6 +160,7 @@ class Derivatives:
     ties: Mapping[str, str]
     missing: Mapping[str, str]
     refused: Mapping[str, str]
+    lost: Mapping[str, float] = field(default_factory=dict)
 
     def only(self, entries: Sequence[str]) -> Derivatives:
         """Those by some of the entries, in their order."""

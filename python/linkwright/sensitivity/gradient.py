@@ -209,11 +209,14 @@ def _row(of: Source, name: str, variables: Sequence[str]) -> Floats:
     """Derivatives of a response by some of the variables of its source."""
     by = dict(zip(of.variables, of.tangents[name].d, strict=True))
     row = np.array([by[variable] for variable in variables])
-    if name not in of.ties and not np.isfinite(row).all():
-        lost = variables[int(np.argmin(np.isfinite(row)))]
+    unknown = [variable for variable, slope in zip(variables, row, strict=True) if not np.isfinite(slope)]
+    lost = next((variable for variable in unknown if name not in of.ties or variable in of.lost), None)
+    if lost is not None:
+        at = of.lost.get(lost)
+        place = "" if at is None else f" at {np.degrees(at):.4g}°"
         raise FindingError(
-            f"{name}: its derivative by {lost} was not found: kinks of the motion move without end; leave "
-            "this entry out, or vary it in a sweep"
+            f"{name}: its derivative by {lost} was not found: how it moves the kink of the motion{place} "
+            "is as small as rounding; leave this entry out, or vary it in a sweep"
         )
     return row
 

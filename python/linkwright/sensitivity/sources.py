@@ -34,7 +34,8 @@ class Source:
     have some.
 
     `words` and `units` by response; `ties`, `refused` and `missing`, responses without derivatives, with
-    their reasons; `usual` are the responses that are given if none is named.
+    their reasons; `usual` are the responses that are given if none is named; `lost` are entries by which the
+    move of a kink was not found, each with the crank angle of the kink [rad].
     """
 
     variables: tuple[str, ...]
@@ -45,6 +46,7 @@ class Source:
     refused: Mapping[str, str]
     usual: Sequence[str] = field(default=())
     missing: Mapping[str, str] = field(default_factory=dict)
+    lost: Mapping[str, float] = field(default_factory=dict)
 
 
 def usual_analysis(machine: Machine) -> str:
@@ -67,7 +69,7 @@ def source(machine: Machine, analysis: str, variables: Sequence[str]) -> Source:
 def _steady(machine: Machine, variables: Sequence[str]) -> Source:
     """Scalars of steady motion."""
     program = directions(machine, variables)
-    steady = steady_tangents(machine, program.values)
+    steady = steady_tangents(machine, program)
     listed = [name for name, (_, mark) in declared(SteadyState).items() if isinstance(mark, Label)]
     values = {name: getattr(steady.state, name) for name in listed}
     tangents = {name: value for name, value in values.items() if isinstance(value, Tangent)}
@@ -80,6 +82,7 @@ def _steady(machine: Machine, variables: Sequence[str]) -> Source:
         {f"steady_state.{name}": reason for name in tangents if (reason := _tie(name, steady.ties))},
         program.refused,
         [f"steady_state.{name}" for name in tangents],
+        lost=steady.lost,
     )
 
 
@@ -213,6 +216,7 @@ def _of_scalars(
         derived.refused,
         listed,
         {f"{prefix}.{name}": reason for name, reason in derived.missing.items()},
+        derived.lost,
     )
 
 

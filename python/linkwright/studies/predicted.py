@@ -199,7 +199,11 @@ class RecordModel:
         state, solution = solved_state(machine, _ACCURACY, angles)
         if solution is None:
             return None
-        curves = solution.gradient(parameters, angles).curves
+        sizes = np.abs(x[: by_entry.shape[1]])
+        gradient = solution.gradient(parameters, np.where(sizes == 0.0, 1.0, sizes), angles)
+        if np.isfinite(gradient.lost).any():
+            return None
+        curves = gradient.curves
         speed, torque = curves.speed[back], curves.torque_motor[back]
         compiled = compile_machine(machine)
         ratio = compiled.gear_factors[0], parameters[compiled.gear_slots[0]]

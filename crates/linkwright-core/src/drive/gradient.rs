@@ -12,13 +12,14 @@
 use crate::drive::cycle::{Machine, REFERENCE, Turn, stages_of_part};
 use crate::drive::events::{Events, Passage};
 use crate::drive::extremes::Extreme;
-use crate::drive::layout::Layout;
+use crate::drive::layout::{Layout, bundle, unbundle};
 use crate::drive::reading::State;
 use crate::drive::steady::Steady;
 use crate::drive::structure::Plan;
 use crate::kernel::call::poll;
 use crate::kernel::dual::Dual;
 use crate::kernel::lanes::{Job, in_single_lanes};
+use crate::kernel::matrix::LuFactors;
 use crate::kernel::radau::S;
 use crate::kernel::real::Real;
 use crate::linkage::motion::Motion;
@@ -30,18 +31,16 @@ pub const NUMBERS: usize = 11;
 /// Curves that are differentiated: time, speed, acceleration, torques of motor, drive and loads, inertia.
 pub const CURVES: usize = 7;
 
-/// Rounds in which the ends of steps at kinks are moved, and the share of its move by which the last may move one: where
-/// jumps alone decide, one round leaves rounding, which a flat angle enlarges.
-const PASSAGES_MAX: usize = 60;
+/// Rounds in which the ends of steps at kinks are moved: the second takes away what rounding leaves of the first.
+const ROUNDS: usize = 4;
+
+/// Share of its move, and of the largest change of u by the parameter, by which an end of a step may miss its kink: where
+/// no round is needed any more; and in the solution that is read, far above rounding and below what anybody sees.
 const MOVED: f64 = 1e-8;
-
-/// The same where moves have stopped shrinking: rounding, which a steep drive enlarges. Against the move, and against the
-/// largest change of u by the parameter.
-const ROUNDING: f64 = 1e-8;
-
-/// The share of its move, and of the largest change of u, by which an end of a step may miss its kink in the solution that
-/// is read, which goes through the ends without [`Passage::through`]: far above rounding, below what anybody sees.
 const MISSED: f64 = 1e-5;
+
+/// Change of u, as a share of u, that stands for none, for a change of the parameter by its own size: rounding.
+const NOTHING: f64 = 1e-13;
 
 /// Distance of the acceleration at a corner from its extreme, as a share, from which on it is that of the other side of a
 /// jump: the two are read from one solution, to its rounding.
@@ -61,6 +60,8 @@ pub struct Gradient<'a> {
     pub q: &'a [f64],
     /// Directions, (parameters, directions).
     pub directions: &'a [f64],
+    /// The size of what each direction is by, against which its changes count.
+    pub sizes: &'a [f64],
     /// The solution.
     pub steady: &'a Steady,
     /// Crank angles of the curves, within the cycle \[rad\].
@@ -74,6 +75,9 @@ pub struct Derivatives {
     pub numbers: Vec<f64>,
     /// (curves, angles, directions).
     pub curves: Vec<f64>,
+    /// By direction: the crank angle of a kink whose move was not found, so that nothing is known of the derivatives \[rad\];
+    /// NaN where there is none.
+    pub lost: Vec<f64>,
 }
 
 impl Gradient<'_> {
@@ -97,7 +101,8 @@ impl Job for Gradient<'_> {
         let n = self.n();
         let mut numbers = vec![0.0; NUMBERS * n];
         let mut curves = vec![0.0; CURVES * self.phi.len() * n];
-        let mut lanes = vec![0.0; R::LANES];
+        let (mut lanes, mut lost) = (vec![0.0; R::LANES], vec![f64::NAN; n]);
+        let ends = (!self.steady.crossings.is_empty()).then(|| MovingEnds::new::<R>(&self));
         for first in (0..n).step_by(R::LANES) {
             poll();
             let width = R::LANES.min(n - first);
@@ -110,11 +115,13 @@ impl Job for Gradient<'_> {
                 q.push(Dual { value: R::splat(value), d: R::load(&lanes) });
             }
             let mut m = Motion::new(&self.plan.mechanism, &q);
-            let dual = DualRevolution::new(
-                Machine::new(self.plan, &q).keeping_branch(self.plan.may_jump()),
-                self.steady,
-                &mut m,
-            );
+            let mut dual = DualRevolution::new(self.plan, &q, self.steady, &mut m);
+            if let Some(ends) = &ends {
+                lanes.fill(1.0);
+                lanes[..width].copy_from_slice(&self.sizes[first..first + width]);
+                dual.move_crossings(ends, R::load(&lanes), &mut m).store(&mut lanes);
+                lost[first..first + width].copy_from_slice(&lanes[..width]);
+            }
             let mut put = |list: &mut [f64], row: usize, x: Dual<R>| {
                 x.d.store(&mut lanes);
                 list[row * n + first..][..width].copy_from_slice(&lanes[..width]);
@@ -128,7 +135,7 @@ impl Job for Gradient<'_> {
                 }
             }
         }
-        Derivatives { numbers, curves }
+        Derivatives { numbers, curves, lost }
     }
 }
 
@@ -143,28 +150,24 @@ struct DualRevolution<'a, R: Real> {
 
 impl<'a, R: Real> DualRevolution<'a, R> {
     #[inline(always)]
-    fn new(machine: Machine<'a, Dual<R>>, steady: &'a Steady, m: &mut Motion<Dual<R>>) -> Self {
-        let marks = &steady.marks;
-        let ends: Vec<f64> = marks.iter().map(|mark| mark.phi).chain([machine.plan.cycle()]).collect();
+    fn new(plan: &'a Plan, q: &'a [Dual<R>], steady: &'a Steady, m: &mut Motion<Dual<R>>) -> Self {
+        let machine = Machine::new(plan, q).keeping_branch(plan.may_jump());
+        let ends: Vec<f64> = steady.marks.iter().map(|mark| mark.phi).chain([plan.cycle()]).collect();
         let edges = R::out_of_line(
             #[inline(always)]
             || machine.moving(&ends, m),
         );
         let mut dual = DualRevolution { machine, steady, turn: Turn::empty(Layout::Machines), edges };
-        dual.differentiate(Vec::new(), m);
-        if !steady.crossings.is_empty() {
-            dual.move_crossings(m);
-        }
+        dual.differentiate(m);
         dual
     }
 
-    /// The solution on the steps between the edges, with its derivatives; `passed` takes u through the ends of steps.
+    /// The solution on the steps between the edges, with its derivatives.
     #[inline(always)]
-    fn differentiate(&mut self, passed: Vec<[Dual<R>; 2]>, m: &mut Motion<Dual<R>>) {
+    fn differentiate(&mut self, m: &mut Motion<Dual<R>>) {
         let marks = &self.steady.marks;
         let steps: Vec<_> = self.edges.windows(2).map(|ends| (ends[0], ends[1] - ends[0])).collect();
         self.turn.tabulate_again(&self.machine, &steps, m);
-        self.turn.passed = passed;
         for (step, mark) in self.turn.steps.iter_mut().zip(marks) {
             step.u = Dual::splat(mark.u);
             step.X = mark.X.map(Dual::splat);
@@ -181,70 +184,66 @@ impl<'a, R: Real> DualRevolution<'a, R> {
     }
 
     /// Moves the ends of steps at which the motion passes a kink along with it: the quantity g whose zero the kink is
-    /// stays zero, φ′ = −(g_p + g_u u_p)/g′, with g′ along the motion before the kink. The motion in turn depends on that
-    /// where the torque jumps, which [`Passage::through`] counts, or where the slope at the end of the step is that of the
-    /// other side, as long as u changes there. Sides and jumps count in the multiplier.
+    /// stays zero, φ′ = −(g_p + g_u u_p)/g′, with g′ along the motion before the kink, which depends on the moves of all
+    /// ends. Sides and jumps count in the multiplier. The crank angle of an end that misses its kink, NaN where none does.
     #[inline(always)]
-    fn move_crossings(&mut self, m: &mut Motion<Dual<R>>) {
+    fn move_crossings(&mut self, ends: &MovingEnds, size: R, m: &mut Motion<Dual<R>>) -> R {
         let events = Events::new(self.machine);
-        let (one, zero, never) = (Dual::splat(1.0), Dual::splat(0.0), R::splat(f64::INFINITY));
-        let edges = self.edges.clone();
-        // In each lane, by how much moves are above rounding, and the largest of the round before.
-        let (mut unsettled, mut last) = (never, never);
-        for round in 0..2 * PASSAGES_MAX {
-            // Where that does not settle, the ends and the motion are found in turn.
-            let is_newton = round < PASSAGES_MAX;
-            if round == PASSAGES_MAX {
-                self.edges.clone_from(&edges);
-                last = never;
-            }
-            let mut passed = vec![[one, zero]; self.turn.steps.len()];
-            if is_newton {
-                for (k, passage) in self.passages(&events, m) {
-                    passed[k] = passage.through();
-                }
-            }
-            self.differentiate(passed, m);
-            let change = self.change();
-            let (mut most, mut excess, mut noise) = (R::splat(0.0), R::splat(0.0), R::splat(0.0));
-            for (k, passage) in self.passages(&events, m) {
-                let (late, next) = (passage.late().d, (k + 1) % self.turn.steps.len());
-                let (size, moved) = (late.abs(), self.edges[next].d.abs());
-                most = most.max(size);
-                excess = excess.max(size - moved * MOVED);
-                let of_change = size * self.turn.steps[k].K[S - 1].value.abs() - change * ROUNDING;
-                noise = noise.max(of_change.min(size - moved * ROUNDING));
-                self.edges[next].d = self.edges[next].d + late;
-                if next == 0 {
-                    let end = self.edges.len() - 1;
-                    self.edges[end].d = self.edges[end].d + late;
-                }
-            }
-            // Moves that shrink no more are rounding, if they are small.
-            let stands = (last * 0.5).select_lt(most, noise, never);
-            unsettled = R::splat(0.0).select_lt(excess, stands, excess);
-            last = most;
-            if unsettled.max_lane() <= 0.0 {
+        let (zero, none) = (R::splat(0.0), R::splat(f64::NAN));
+        let mut passages = self.passages(&events, m);
+        for _ in 0..ROUNDS {
+            if self.misses(&passages, MOVED, size).iter().all(|miss| miss.max_lane() <= 0.0) {
                 break;
             }
+            let late: Vec<R> = passages.iter().map(|(_, passage)| passage.late().d).collect();
+            for ((k, _), by) in passages.iter().zip(ends.moves(&late)) {
+                self.move_end(*k, by);
+            }
+            self.differentiate(m);
+            passages = self.passages(&events, m);
         }
-        self.differentiate(Vec::new(), m);
-        let (mut factor, change) = (one, self.change());
-        for (k, passage) in self.passages(&events, m) {
-            let (missed, moved) = (passage.late().d.abs(), self.edges[k + 1].d.abs());
-            let of_change = missed * self.turn.steps[k].K[S - 1].value.abs() - change * MISSED;
-            let is_missed = of_change.min(missed - moved * MISSED);
-            unsettled = R::splat(0.0).select_lt(is_missed, is_missed, unsettled);
-            let (step, geometry) = (&self.turn.steps[k], self.turn.geometry_of(&self.machine, k));
+        let mut factor = Dual::splat(1.0);
+        for (k, passage) in &passages {
+            let (step, geometry) = (&self.turn.steps[*k], self.turn.geometry_of(&self.machine, *k));
             factor = factor * passage.factor() * (self.machine.growth_on_side(step, geometry) / step.growth);
         }
         self.turn.multiplier = self.turn.multiplier * factor;
+        let mut lost = none;
+        for ((k, _), miss) in passages.iter().zip(self.misses(&passages, MISSED, size)) {
+            lost = zero.select_lt(miss, self.edges[k + 1].value, lost);
+        }
         // Nothing is known of derivatives that do not settle.
-        let nothing = R::splat(0.0).select_lt(unsettled, R::splat(f64::NAN), R::splat(0.0));
+        let nothing = (-R::splat(f64::INFINITY)).select_lt(lost, none, zero);
         self.turn.multiplier.d = self.turn.multiplier.d + nothing;
         for step in &mut self.turn.steps {
             step.u.d = step.u.d + nothing;
+            step.X.iter_mut().for_each(|X| X.d = X.d + nothing);
         }
+        lost
+    }
+
+    /// Moves the end of a step, and the start of the revolution with its end.
+    #[inline(always)]
+    fn move_end(&mut self, k: usize, by: R) {
+        let last = self.edges.len() - 1;
+        self.edges[k + 1].d = self.edges[k + 1].d + by;
+        if k + 1 == last {
+            self.edges[0].d = self.edges[0].d + by;
+        }
+    }
+
+    /// By how much each end of a step at a kink misses it beyond a share of its move, of the largest change of u and of u:
+    /// not above zero where it does not.
+    #[inline(always)]
+    fn misses(&self, passages: &[(usize, Passage<Dual<R>>)], share: f64, size: R) -> Vec<R> {
+        let change = self.change();
+        let miss = |(k, passage): &(usize, Passage<Dual<R>>)| {
+            let (step, missed) = (&self.turn.steps[*k], passage.late().d.abs());
+            let of_u = missed * step.K[S - 1].value.abs();
+            let beyond = (missed - self.edges[k + 1].d.abs() * share).min(of_u - change * share);
+            beyond.min(of_u * size - step.X[S - 1].value * NOTHING)
+        };
+        passages.iter().map(miss).collect()
     }
 
     /// Largest change of u at the starts of steps.
@@ -378,5 +377,63 @@ impl<'a, R: Real> DualRevolution<'a, R> {
         // Time counts from φ = 0, which may lie beside the start of the first step where that moves.
         let start = (self.turn.steps[0].u * 2.0).sqrt();
         (t + self.edges[0] / start, self.machine.state_at_end(&there))
+    }
+}
+
+/// How the ends of steps at kinks move one another: the motion passes a kink later where an end before it has moved, as a
+/// torque jumps there, or as the slope at the end of a steep step is known less well than the step.
+struct MovingEnds {
+    /// Derivatives of the angles by which the motion passes the kinks behind the ends, by the moves of all ends.
+    late: LuFactors<f64>,
+}
+
+impl MovingEnds {
+    /// Those of a solution: each end is moved in a lane of its own.
+    #[inline(always)]
+    fn new<R: Real>(of: &Gradient<'_>) -> Self {
+        let q: Vec<Dual<R>> = of.q.iter().map(|&value| Dual::splat(value)).collect();
+        let mut m = Motion::new(&of.plan.mechanism, &q);
+        let mut dual = DualRevolution::new(of.plan, &q, of.steady, &mut m);
+        let events = Events::new(dual.machine);
+        let ends: Vec<usize> = dual.passages(&events, &mut m).iter().map(|(k, _)| *k).collect();
+        let n = ends.len();
+        let mut columns = vec![vec![0.0; n]; n.next_multiple_of(R::LANES)];
+        for (first, moved) in ends.chunks(R::LANES).enumerate() {
+            let unit = |lane: usize, way: f64| {
+                let mut lanes = vec![0.0; R::LANES];
+                lanes[lane] = way;
+                R::load(&lanes)
+            };
+            for (lane, &k) in moved.iter().enumerate() {
+                dual.move_end(k, unit(lane, 1.0));
+            }
+            dual.differentiate(&mut m);
+            for (row, (_, passage)) in dual.passages(&events, &mut m).iter().enumerate() {
+                for (lane, by) in unbundle(&[passage.late().d]).into_iter().enumerate() {
+                    columns[first * R::LANES + lane][row] = by;
+                }
+            }
+            for (lane, &k) in moved.iter().enumerate() {
+                dual.move_end(k, unit(lane, -1.0));
+            }
+        }
+        let mut late = LuFactors::new(n);
+        late.factor(|row, column| columns[column][row]);
+        MovingEnds { late }
+    }
+
+    /// The moves of the ends that bring them to their kinks, which the motion passes `late` behind them.
+    #[inline(always)]
+    fn moves<R: Real>(&self, late: &[R]) -> Vec<R> {
+        let lanes = unbundle(late);
+        let mut moves = vec![0.0; lanes.len()];
+        for lane in 0..R::LANES {
+            let mut one: Vec<f64> = lanes.iter().skip(lane).step_by(R::LANES).map(|late| -late).collect();
+            self.late.solve(&mut one);
+            for (k, by) in one.into_iter().enumerate() {
+                moves[k * R::LANES + lane] = by;
+            }
+        }
+        bundle(&moves)
     }
 }

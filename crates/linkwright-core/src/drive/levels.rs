@@ -98,6 +98,19 @@ impl<R: Real> Turn<R> {
             );
             may = left.select_lt(zero, may, one);
         }
+        if levels == 1 || !machine.plan.is_drawn() {
+            return may;
+        }
+        // However near kinks or jumps over the speed are to each other.
+        let near = bottom.energy * NEAR;
+        for energy in self.levels_of_kinks(machine) {
+            let left = R::out_of_line(
+                #[inline(always)]
+                || self.torque_left(machine, energy),
+            );
+            let above = near.select_lt(energy, one, may);
+            may = left.select_lt(zero, may, above);
+        }
         may
     }
 

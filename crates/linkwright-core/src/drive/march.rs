@@ -293,7 +293,7 @@ impl Revolution {
 impl March<'_> {
     /// Goes down from a start that is too fast, until the machine comes to rest.
     fn walk(&mut self, working: f64, which: MotionChoice) -> Result<(), NoMotion> {
-        let mut high = self.fast_start(9.0 * working)?;
+        let mut high = self.fast_start(self.hints.iter().copied().fold(9.0 * working, f64::max))?;
         loop {
             if which == MotionChoice::Fastest && self.found.iter().any(|motion| motion.slides.is_none()) {
                 return Ok(());
@@ -359,8 +359,10 @@ impl March<'_> {
             *if (high.gain() < 0.0) == falls { &mut top } else { &mut bottom } = high.start;
             nearest = high;
         }
-        // Where both sides of a jump drive a motion away, the gain leaps over zero: nothing repeats there.
-        if (nearest.end / nearest.start - 1.0).abs() <= CLOSES {
+        // Where both sides of a jump drive a motion away, the gain leaps over zero: nothing repeats there. Where motions part
+        // fast, none closes as well, but Newton expects one at hand.
+        let closes = (nearest.end / nearest.start - 1.0).abs() <= CLOSES;
+        if closes || (nearest.newton() / nearest.start - 1.0).abs() <= REPEATS {
             if let Err(neutral @ NoMotion::Neutral { .. }) = self.revolution((1.0 - BESIDE) * nearest.start) {
                 return Err(neutral);
             }

@@ -14,9 +14,9 @@
 //! transformation, error estimate and choice of steps these are.
 
 use super::explicit::{SAYS_NOTHING, fitting};
-use super::matrix::{Complex, LuFactors};
 use super::rates::Rates;
 use super::stepper::{Scale, Stepper};
+use linkwright_kernel::matrix::{Complex, LuFactors};
 
 /// √6
 const ROOT: f64 = 2.449_489_742_783_178;

@@ -8,7 +8,7 @@
 //! | [`rates`] | the equations of motion |
 //! | [`stepper`] | what a method of integration can do |
 //! | [`explicit`] | steps of order 8, as long as the fastest swing allows |
-//! | [`matrix`], [`implicit`] | steps of order 5, whatever the stiffness |
+//! | [`implicit`] | steps of order 5, whatever the stiffness |
 //! | [`equilibrium`] | torques of shafts as good as rigid |
 //! | [`rounding`] | what the rounding of angles leaves of torques |
 //! | [`extremes`] | Maximum and minimum torques and speeds, with their times |
@@ -20,7 +20,6 @@ pub mod equilibrium;
 pub mod explicit;
 pub mod extremes;
 pub mod implicit;
-pub mod matrix;
 pub mod periodic;
 pub mod rates;
 pub mod rounding;

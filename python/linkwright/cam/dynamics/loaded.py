@@ -39,6 +39,7 @@ from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import SPEED, positive
+from linkwright.kinetostatics.collect import LEAVES
 from linkwright.kinetostatics.forces import forces
 from linkwright.kinetostatics.result import Forces
 from linkwright.machine.machine import Machine
@@ -178,7 +179,7 @@ def loaded_cam(machine: Machine, profile: CamProfile, speed: float | None = None
         float(hertz.shear[hardest]) if hertz else None,
         float(hertz.shear_depth[hardest]) if hertz else None,
         hertz.pressure if hertz else None,
-        (*misfit, *_left(profile, -least.value, least.angle, size, contact), *contact.findings),
+        (*misfit, *_left(profile, -least.value, least.angle, size, contact), *_others(contact)),
     )
 
 
@@ -226,6 +227,11 @@ def _left(profile: CamProfile, least: float, at: float, size: float, acting: For
         f"{abs(float(np.nanmax(acting.speed))):.4g} rad/s it would have to be pulled with {-least:.4g} N; "
         "a spring that presses with so much more there, a lower speed, or a groove keeps it on the cam",
     )
+
+
+def _others(acting: Forces) -> tuple[str, ...]:
+    """Findings of forces at some angles, but for those that are looked at between the angles here."""
+    return tuple(text for text in acting.findings if not text.startswith(LEAVES))
 
 
 def _speed_lost(machine: Machine, profile: CamProfile, angles: Floats) -> tuple[float, float] | None:
