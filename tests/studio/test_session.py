@@ -13,7 +13,7 @@ from linkwright.kernel.files.library import template
 from linkwright.linkages.kinematics import kinematics
 from linkwright.machine.read import loads
 from linkwright.studio.controls import controls
-from linkwright.studio.document import changed
+from linkwright.studio.document import changed, merged
 from linkwright.studio.drag import drag
 
 from .conftest import Served, Tab
@@ -153,3 +153,75 @@ def test_a_drag_stops_where_the_linkage_no_longer_turns() -> None:
     found = drag(machine, point, (50.0, 0.0), 0.0)
     assert "closes only" in found.reason
     assert lw.closure(lw.replace(machine, found.entries)).turns_fully
+
+
+def test_a_stopped_drag_names_the_crank_angle_of_the_toggle_position() -> None:
+    machine = loads(template("four-bar"))
+    stopped = drag(machine, "A", (0.3, 0.0), 0.0)
+    assert stopped.limit is not None
+    limit = lw.replace(machine, stopped.entries)
+    rocker, pivot = limit.mechanism.rockers["C"], limit.mechanism.points["B"]
+    pin = kinematics(limit, np.array([stopped.limit])).points["A"].position[0]
+    reach = np.hypot(pivot.x - pin[0], pivot.y - pin[1])
+    # Coupler and rocker are in line there; the drag stops within 2⁻¹³ of its way.
+    lines = (rocker.coupler + rocker.rocker, abs(rocker.coupler - rocker.rocker))
+    assert min(abs(reach - line) for line in lines) < 1e-3 * rocker.coupler
+
+
+LENGTHS = {
+    "mechanism.cranks.A.radius": (0.03, 0.08),
+    "mechanism.rockers.C.coupler": (0.08, 0.2),
+    # A slider ends at nothing, and a link does not.
+    "mechanism.rockers.C.rocker": (0.0, 0.2),
+    "mechanism.rigid_points.K.across": (0.0, 0.1),
+}
+
+
+def test_a_point_of_a_curve_is_pulled_to_its_place_by_the_chosen_entries() -> None:
+    machine = loads(template("four-bar"))
+    start = kinematics(machine, np.array([1.0])).points["K"].position[0]
+    place = (float(start[0]) + 0.004, float(start[1]) - 0.006)
+    pulled = drag(machine, "K", place, 1.0, limits=LENGTHS)
+    at = kinematics(lw.replace(machine, pulled.entries), np.array([1.0])).points["K"].position[0]
+    assert pulled.entries.keys() == LENGTHS.keys()
+    # Entries have seven digits, as the file has.
+    assert at == pytest.approx(place, abs=1e-7)
+    assert not pulled.reason
+
+
+def test_a_pulled_point_respects_limits_and_says_which() -> None:
+    machine = loads(template("four-bar"))
+    limits = {"mechanism.cranks.A.radius": (0.045, 0.052), "mechanism.rockers.C.coupler": (0.119, 0.121)}
+    pulled = drag(machine, "K", (0.2, 0.3), 1.0, limits=limits)
+    assert "at the limits of" in pulled.reason
+    for address, (low, high) in limits.items():
+        assert low - 1e-9 <= pulled.entries[address] <= high + 1e-9
+
+
+def test_a_joint_that_merges_hands_on_what_hangs_on_it() -> None:
+    text = CARTS.read_text()
+    new = merged(text, "A2", "A1")
+    machine = loads(new)
+    assert list(machine.mechanism.cranks) == ["A1"]
+    assert {slider.crank for slider in machine.mechanism.sliders.values()} == {"A1"}
+    # The comments of what is left stay.
+    assert [line for line in new.splitlines() if "#" in line] == [
+        line for line in text.splitlines() if "#" in line and line in new.splitlines()
+    ]
+
+
+def test_a_merge_that_makes_no_machine_is_refused_and_changes_nothing(tab: Tab) -> None:
+    text = template("four-bar")
+    tab.ask(ask="compute", text=text)
+    answer = tab.ask(ask="compute", merge={"joint": "A", "into": "B"})
+    assert answer["words"].startswith("A was not merged with B: ")
+    assert "text" not in answer
+    assert tab.ask(ask="compute", merge={"joint": "B", "into": "B"})["words"].endswith("expected two joints")
+
+
+def test_lengths_that_are_pulled_stay_positive() -> None:
+    machine = loads(template("four-bar"))
+    limits = {"mechanism.cranks.A.radius": (0.0, 0.1), "mechanism.rockers.C.coupler": (0.0, 0.24)}
+    pulled = drag(machine, "K", (-3.0, 0.0), 0.0, limits=limits)
+    assert min(pulled.entries.values()) > 0
+    assert drag(machine, "A", (0.0, 0.0), 0.0).entries["mechanism.cranks.A.radius"] > 0

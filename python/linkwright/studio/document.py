@@ -4,19 +4,22 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import tomlkit
 from tomlkit.exceptions import TOMLKitError
 from tomlkit.items import InlineTable, Item, Table
 
+from linkwright.kernel.description.place import join
 from linkwright.kernel.description.schema_walk import annotation_at, mark_of
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.units import Quantity, is_number, to_text
 from linkwright.kernel.units.spellings import factor_of
+from linkwright.linkages.model.topology import Topology
 from linkwright.machine.address import resolve
 from linkwright.machine.machine import Machine
+from linkwright.machine.read import loads
 
 # A number and what stands behind it.
 _WRITTEN = re.compile(r"\s*[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?\s*(.*)", re.DOTALL)
@@ -65,6 +68,43 @@ def written(raw: Mapping[str, Any], place: tuple[str, ...], value: Any) -> Any:
 def short(value: float) -> str:
     """A finite number with as many digits as a file needs."""
     return f"{value:.{_DIGITS}g}"
+
+
+def merged(text: str, joint: str, other: str, path: str = "") -> str:
+    """A text of a sound machine file in which what hangs on a joint hangs on another one, and its element goes.
+
+    Raises a `LinkwrightError` that says why, if the machine cannot be so.
+    """
+    raw = tomllib.loads(text)
+    topology = Topology.of(raw.get("mechanism", {}))
+    element = next((one for one in topology.elements if one.name == joint), None)
+    if element is None or other not in topology.candidates("point") or joint == other:
+        raise InputError(f"{joint} and {other}: expected two joints")
+    gone = [("mechanism", element.kind.table, joint)]
+    for bar in topology.elements:
+        # A bar between the two has no length any more.
+        if bar.kind.table == "bars" and set(bar.references.values()) <= {joint, other}:
+            gone.append(("mechanism", "bars", bar.name))
+    entries: dict[str, Any] = {
+        join(place): other
+        for table in ("mechanism", "bodies", "loads")
+        for place in _naming(raw.get(table), joint, (table,))
+        if place[:3] not in gone
+    }
+    if "on" not in raw.get("bodies", {}).get(joint, {"on": joint}):
+        entries[join(("bodies", joint, "on"))] = other
+    new = changed(text, entries | dict.fromkeys(map(join, gone)))
+    loads(new, path=path)
+    return new
+
+
+def _naming(node: Any, name: str, place: tuple[str, ...]) -> Iterator[tuple[str, ...]]:
+    """Places of a table that have a name as their value."""
+    if isinstance(node, Mapping):
+        for key, value in node.items():
+            yield from _naming(value, name, (*place, key))
+    elif node == name and place[-1] not in ("kind", "assembly", "law"):
+        yield place
 
 
 def _at(raw: Any, place: tuple[str, ...]) -> Any:

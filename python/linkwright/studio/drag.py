@@ -1,41 +1,52 @@
-"""Drag a joint: which lengths bring a point to a place, and where the linkage no longer closes.
+r"""Drag a joint or a point of a curve: which entries bring it to a place, and where the linkage stops.
 
-The entries e of a handle are moved so that the point comes as near to the place as they allow, at the crank
-angle of the drawing,
+The entries e of a handle, or those that were chosen, are moved so that the point comes as near to the place
+as they allow, at the crank angle of the drawing. Each step is the smallest of Gauss–Newton in the ranges s
+of the entries,
 
-    min |p(e; φ) − p₀|²,
+.. math:: \Delta e = s (J s)^+ (p_0 - p(e; \varphi)), \qquad J = \frac{\partial p}{\partial e}
 
-by secant steps that are accepted on positions alone: what is returned is the entries, and the machine that is
-computed from them has no trace of how they were found. A linkage that turned over the whole revolution before
-the drag still does after it: beyond, the entries stop on the straight way from where the drag began.
+with exact derivatives; an entry at its limit is held there (Nocedal and Wright, *Numerical Optimization*,
+chapters 10 and 16). A step is accepted on positions alone. A linkage that turned over the whole revolution
+before the drag still does after it: beyond, the entries stop on the straight way from where the drag began.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from linkwright.kernel.arrays import Floats
-from linkwright.kernel.errors import LinkwrightError
-from linkwright.linkages.closure import closure, closure_error
-from linkwright.linkages.kinematics import motions
+from linkwright.kernel.description.place import split
+from linkwright.kernel.description.schema_walk import annotation_at, mark_of
+from linkwright.kernel.errors import InputError, LinkwrightError
+from linkwright.kernel.units import Quantity
+from linkwright.linkages.closure import Closure, closure, closure_error
+from linkwright.linkages.kinematics import kinematics, kinematics_along, motions
 from linkwright.machine.address import get, replace
 from linkwright.machine.machine import Machine
+from linkwright.machine.tangents import directions
 from linkwright.studio.document import short
 from linkwright.studio.drawing import entries_of
 
+Floats = NDArray[np.float64]
+Limits = Mapping[str, tuple[float, float]]
+
 # Steps to the place: more change nothing that is seen.
-_STEPS = 8
+_STEPS = 12
 
 # Ever shorter steps that are tried at once: one of them closes, however far away the pointer is.
 _SHARES = 16
 
-# Part of the drawing's size, or of a radian, by which entries are moved to learn what they do, and distance
-# at which the point is there.
+# Distance over the drawing's size at which the point is there, and at which it is seen not to be.
+_NEAR, _SEEN = 1e-9, 1e-3
+
+# Part of the drawing's size, or of a radian, by which an entry without an exact derivative is moved.
 _PROBE = 1e-6
-_NEAR = 1e-9
 
 # Smallest size of a length over that of the drawing: shorter links cannot be caught again.
 _SHORTEST = 1e-3
@@ -46,10 +57,21 @@ _HALVINGS = 13
 
 @dataclass(frozen=True)
 class Drag:
-    """Where a drag leads."""
+    """Where a drag leads.
 
-    entries: dict[str, float]  # address → SI value
-    reason: str = ""  # why it stops before the place; empty if it does not
+    Attributes
+    ----------
+    entries : dict of str to float
+        Address → SI value.
+    reason : str
+        Why it stops before the place; empty if it does not.
+    limit : float or None
+        Crank angle at which the linkage is at its limit there [rad]; None if it stops at none.
+    """
+
+    entries: dict[str, float]
+    reason: str = ""
+    limit: float | None = None
 
 
 def drag(
@@ -58,18 +80,34 @@ def drag(
     place: tuple[float, float],
     angle: float,
     locked: frozenset[str] = frozenset(),
+    limits: Limits | None = None,
 ) -> Drag:
     """The entries that bring a point to a place [m], and why they stop.
 
     `machine`: as it was when the drag began; `angle`: of the crank in the drawing [rad]; `locked`: addresses
-    that hold their values.
+    that hold their values; `limits`: entries that follow with their limits [SI], without them those of the
+    handle.
     """
-    free = [entry for entry in entries_of(machine, point) if entry not in locked]
+    known = {*machine.mechanism.points, *machine.linkage.moving_points()}
+    if point not in known:
+        raise InputError(f"{point}: no point of this machine")
+    free = [entry for entry in (limits or entries_of(machine, point)) if entry not in locked]
     if not free:
         return Drag({}, f"all entries of {point} are locked")
     before = np.array([float(get(machine, entry)) for entry in free])
-    search = _Search(machine, point, np.array(place), angle, free, before, closure(machine).turns_fully)
+    size = float(np.hypot(*place)) + float(np.abs(before).max()) or 1.0
+    ends = [_limits(machine, entry, size, limits) for entry in free]
+    low, high = np.minimum(before, np.array(ends).T[0]), np.maximum(before, np.array(ends).T[1])
+    search = _Search(machine, point, np.array(place), angle, free, before, low, high, size, closure(machine))
     return search.stopped(search.nearest())
+
+
+def _limits(machine: Machine, entry: str, size: float, limits: Limits | None) -> tuple[float, float]:
+    """What was given, within what is declared: lengths of links stay positive."""
+    low, high = (-math.inf, math.inf) if limits is None else limits[entry]
+    mark = mark_of(annotation_at(Machine, split(entry), machine))
+    is_positive = isinstance(mark, Quantity) and mark.bound.schema.get("exclusiveMinimum") == 0
+    return (max(low, _SHORTEST * size) if is_positive else low), high
 
 
 @dataclass(frozen=True)
@@ -82,39 +120,67 @@ class _Search:
     angle: float
     free: list[str]
     before: Floats
-    turned: bool
+    low: Floats
+    high: Floats
+    size: float
+    closed: Closure
+    range: Floats = field(init=False)
+
+    def __post_init__(self) -> None:
+        """Ranges that steps are measured in: of the limits, and without them one metre and one radian."""
+        width = self.high - self.low
+        object.__setattr__(self, "range", np.where(np.isfinite(width), width, 1.0))
 
     def nearest(self) -> Floats:
         """Entries with the point as near as they allow, whether or not the linkage still turns."""
         at, place = self.before, self._placed(self.before[None])[0]
-        size = float(np.hypot(*self.place)) + float(np.abs(self.before).max()) or 1.0
         for _ in range(_STEPS):
-            if np.hypot(*(self.place - place)) < _NEAR * size:
+            if np.hypot(*(self.place - place)) < _NEAR * self.size:
                 break
-            moved = at + _PROBE * size * np.eye(len(at))
-            slopes = (self._placed(moved) - place).T / (_PROBE * size)
-            step = np.linalg.lstsq(slopes, self.place - place, rcond=1e-6)[0]
-            better = self._improved(at, place, step, size)
+            better = self._improved(at, place, self._step(at, place))
             if better is None:
                 break
             at, place = better
         return at
 
-    def _improved(self, at: Floats, place: Floats, step: Floats, size: float) -> tuple[Floats, Floats] | None:
+    def _step(self, at: Floats, place: Floats) -> Floats:
+        """The smallest step to the place, without entries that it would press against their limits."""
+        pull, is_free = self._slopes(at, place) * self.range, np.ones(len(at), dtype=bool)
+        while True:
+            step: Floats = self.range * np.linalg.lstsq(pull * is_free, self.place - place, rcond=1e-6)[0]
+            is_pressed = is_free & (((at >= self.high) & (step > 0)) | ((at <= self.low) & (step < 0)))
+            if not is_pressed.any():
+                return step
+            is_free &= ~is_pressed
+
+    def _slopes(self, at: Floats, place: Floats) -> Floats:
+        """Derivatives of the point by the entries, (2, n); by a secant where an entry has no exact one."""
+        machine = self.moved(at)
+        exact = directions(machine, self.free)
+        slopes = np.zeros((2, len(at)))
+        if self.point in self.machine.mechanism.points:
+            slopes[:] = [
+                [address == f"mechanism.points.{self.point}.{axis}" for address in self.free] for axis in "xy"
+            ]
+            return slopes
+        if exact.variables:
+            motion = kinematics(machine, [self.angle])
+            along: Any = kinematics_along(machine, motion, exact.values).points[self.point].position
+            slopes[:, [self.free.index(name) for name in exact.variables]] = along.d[0]
+        for n, address in enumerate(self.free):
+            if address in exact.refused:
+                probe = at + _PROBE * self.size * np.eye(len(at))[n]
+                slopes[:, n] = (self._placed(probe[None])[0] - place) / (_PROBE * self.size)
+        return np.where(np.isfinite(slopes), slopes, 0.0)
+
+    def _improved(self, at: Floats, place: Floats, step: Floats) -> tuple[Floats, Floats] | None:
         """The first of ever shorter steps that brings the point nearer."""
         shares = 0.5 ** np.arange(_SHARES)
-        tried = self._allowed(at + shares[:, None] * step, size)
+        tried = np.clip(at + shares[:, None] * step, self.low, self.high)
         places = self._placed(tried)
         away = np.hypot(*(places - self.place).T)
         nearer = np.flatnonzero(away < np.hypot(*(place - self.place)))
         return (tried[nearer[0]], places[nearer[0]]) if len(nearer) else None
-
-    def _allowed(self, rows: Floats, size: float) -> Floats:
-        """Rows with lengths of links kept positive."""
-        for n, address in enumerate(self.free):
-            if address.rsplit(".", 1)[-1] in ("radius", "rod", "coupler", "rocker", "length"):
-                rows[:, n] = np.maximum(rows[:, n], _SHORTEST * size)
-        return rows
 
     def _placed(self, rows: Floats) -> Floats:
         """Where the point is at the crank angle, a row each; NaN where the linkage does not close."""
@@ -129,7 +195,9 @@ class _Search:
         own = self.machine.mechanism.points[self.point]
         fixed = np.tile(np.array([float(own.x), float(own.y)]), (len(rows), 1))
         for n, address in enumerate(self.free):
-            fixed[:, 0 if address.endswith(".x") else 1] = rows[:, n]
+            for column, axis in enumerate("xy"):
+                if address == f"mechanism.points.{self.point}.{axis}":
+                    fixed[:, column] = rows[:, n]
         return fixed
 
     def moved(self, row: Floats) -> Machine:
@@ -138,23 +206,39 @@ class _Search:
 
     def stopped(self, wanted: Floats) -> Drag:
         """The wanted entries, or those at the limit of the linkage."""
-        short_of = self._reason(wanted)
-        if not short_of:
+        reason = self._reason(wanted)
+        if not reason:
             return Drag(self._entries(wanted), self._out_of_reach(wanted))
-        low, high = 0.0, 1.0
+        low, high = self.before, wanted
         for _ in range(_HALVINGS):
             middle = 0.5 * (low + high)
-            reason = self._reason(self.before + middle * (wanted - self.before))
-            low, high = (low, middle) if reason else (middle, high)
-            short_of = reason or short_of
-        return Drag(self._entries(self.before + low * (wanted - self.before)), short_of)
+            stops = self._reason(middle)
+            low, high = (low, middle) if stops else (middle, high)
+            reason = stops or reason
+        return Drag(self._entries(low), reason, self._limit(low, high))
+
+    def _limit(self, within: Floats, beyond: Floats) -> float | None:
+        """Crank angle in the middle of the widest gap of the linkage just beyond its limit."""
+        try:
+            ranges = closure(self.moved(beyond)).ranges
+            if not ranges:
+                return float(np.mean(closure(self.moved(within)).ranges[0]))
+        except LinkwrightError:
+            return None
+        starts = [low for low, _ in ranges[1:]] + [ranges[0][0] + 2 * np.pi]
+        width, end = max((start - end, end) for (_, end), start in zip(ranges, starts, strict=True))
+        return float((end + 0.5 * width) % (2 * np.pi))
 
     def _out_of_reach(self, wanted: Floats) -> str:
         """What holds the point, where the entries do not lead to the place."""
         place = self._placed(wanted[None])[0]
         away, size = float(np.hypot(*(place - self.place))), float(np.hypot(*self.place)) or 1.0
-        if not math.isfinite(away) or away < 1e-3 * size:
+        if not math.isfinite(away) or away < _SEEN * size:
             return ""
+        is_held = (wanted <= self.low) | (wanted >= self.high)
+        if is_held.any():
+            held = [name for name, is_it in zip(self.free, is_held, strict=True) if is_it]
+            return "at the limits of " + ", ".join(".".join(name.split(".")[-2:]) for name in held)
         names = " and ".join(entry.rsplit(".", 1)[-1] for entry in self.free)
         return f"{self.point} moves with {names} alone"
 
@@ -165,7 +249,7 @@ class _Search:
             closed = closure(machine)
         except LinkwrightError as error:
             return str(error)
-        if closed.turns_fully or not self.turned:
+        if closed.turns_fully or not self.closed.turns_fully:
             return "" if closed.ranges else str(closure_error(closed, machine))
         return str(closure_error(closed, machine))
 

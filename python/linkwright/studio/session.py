@@ -8,10 +8,12 @@ opening and saving, is answered in its order.
 from __future__ import annotations
 
 import asyncio
+import math
 import time
 import tomllib
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from itertools import chain
 from typing import Any
 
 from anyio import to_thread
@@ -26,7 +28,7 @@ from linkwright.machine.read import loads
 from linkwright.studio.analyses import chips, failed, fast, lanes
 from linkwright.studio.controls import controls
 from linkwright.studio.design import reach, slopes
-from linkwright.studio.document import changed
+from linkwright.studio.document import changed, merged
 from linkwright.studio.drag import drag
 from linkwright.studio.files import Folder, base, gallery, opened
 from linkwright.studio.language import in_words, spoken
@@ -155,6 +157,8 @@ class Session:
                 answer |= self._dragged(pull, entries)
             if isinstance(pull := body.get("reach"), dict):
                 answer |= self._reached(pull, entries)
+            if isinstance(both := body.get("merge"), dict):
+                answer |= self._merged(str(both["joint"]), str(both["into"]))
             if not held and entries:
                 self.text, entries = changed(self.text, entries), {}
                 answer["text"] = self.text
@@ -189,14 +193,22 @@ class Session:
         start = self._machine({})
         place = (float(pull["x"]), float(pull["y"]))
         locked = frozenset(map(str, pull.get("locked", ())))
-        dragged = drag(start, str(pull["point"]), place, float(pull["angle"]), locked)
+        limits = _limits(pull["free"]) if pull.get("free") else None
+        dragged = drag(start, str(pull["point"]), place, float(pull["angle"]), locked, limits)
         entries |= dragged.entries
-        return {"reason": dragged.reason}
+        return {"reason": dragged.reason, "limit": dragged.limit}
+
+    def _merged(self, joint: str, into: str) -> Body:
+        """The text with two joints made one, or why they cannot be."""
+        try:
+            self.text = merged(self.text, joint, into, base(self.folder, self.place, self.name))
+        except LinkwrightError as error:
+            return {"words": f"{joint} was not merged with {into}: {error}"}
+        return {"text": self.text}
 
     def _reached(self, pull: Body, entries: dict[str, Any]) -> Body:
         """The entries that follow a result; they are put to the others."""
-        free = {str(address): (float(low), float(high)) for address, (low, high) in pull["free"].items()}
-        reached = reach(self._machine({}), str(pull["of"]), float(pull["value"]), free)
+        reached = reach(self._machine({}), str(pull["of"]), float(pull["value"]), _limits(pull["free"]))
         entries |= reached.entries
         return {"reason": reached.reason}
 
@@ -350,6 +362,14 @@ class Session:
             self.place, self.name = "folder", name
             return {"of": "saved", "name": name}
         return {"of": "refused", "words": f"{ask!r}: no such request"}
+
+
+def _limits(free: Mapping[str, Any]) -> dict[str, tuple[float, float]]:
+    """Entries that may follow, with their limits [SI]."""
+    limits = {str(address): (float(low), float(high)) for address, (low, high) in free.items()}
+    if not all(map(math.isfinite, chain.from_iterable(limits.values()))):
+        raise InputError("limits: expected finite ones")
+    return limits
 
 
 def _stands_alone(machine: Machine, address: str, value: Any) -> bool:

@@ -3,6 +3,7 @@ import { batch, effect, signal } from "./vendor/signals-core.mjs";
 import { history } from "./history.js";
 import { speak } from "./language.js";
 import * as state from "./state.js";
+import { hodographs, pointPlots } from "./points.js";
 import { connect } from "./socket.js";
 import { between, placeOf } from "./timeline.js";
 
@@ -34,6 +35,8 @@ const HEAR = {
   machine(body) {
     state.seconds.value = body.seconds;
     state.reason.value = body.reason ?? "";
+    state.limit.value = body.limit ?? null;
+    if (body.words) state.message.value = body.words;
     state.problems.value = body.problems ?? [];
     if (body.text !== undefined) {
       state.text.value = body.text;
@@ -119,11 +122,17 @@ function compute(request) {
 /** A slider or a joint that is held. @param {Record<string, any>} set */
 export const hold = (set) => compute({ held: true, set });
 
-/** A joint that is dragged, or let go. @param {{ point: string, x: number, y: number, angle: number }} drag @param {boolean} [held] */
+/**
+ * A joint that is dragged, or let go; the entries of its handle follow, or those with limits.
+ * @param {{ point: string, x: number, y: number, angle: number, free?: Record<string, [number, number]> }} drag @param {boolean} [held]
+ */
 export function pull(drag, held = true) {
   const locked = Object.keys(state.locks.value).filter((address) => state.locks.value[address]);
   compute({ held, drag: { ...drag, locked } });
 }
+
+/** What hangs on a joint hangs on another; its element goes. @param {string} joint @param {string} into */
+export const merge = (joint, into) => compute({ merge: { joint, into } });
 
 /** Let go: what was held goes into the file. @param {Record<string, any>} set @param {string} [text] another text in its place */
 export const settle = (set, text) => (text === undefined ? compute({ set }) : write(text));
@@ -138,7 +147,7 @@ export function pin() {
   while (names.has(`Variant ${n}`)) n += 1;
   const results = state.results.value;
   const scalars = Object.fromEntries(results.flatMap(({ name, scalars: own }) => own.map((each) => [`${name}.${each.name}`, each.value])));
-  const plots = Object.fromEntries(results.flatMap(({ plots: own }) => own.map(({ key, x, curves }) => [key, { x: x.values, curves: Object.fromEntries(curves.map(({ name, values }) => [name, values])) }])));
+  const plots = Object.fromEntries([...pointPlots(), ...hodographs(), ...results.flatMap(({ plots: own }) => own)].map(({ key, x, curves }) => [key, { x: x.values, curves: Object.fromEntries(curves.map(({ name, values }) => [name, values])) }]));
   state.pins.value = [...state.pins.value, { name: `Variant ${n}`, text: state.text.value, scalars, plots }];
 }
 
@@ -238,6 +247,8 @@ export function start({ place, name }, text, saved) {
     state.time.value = 0;
     state.picked.value = "";
     state.watched.value = "";
+    state.pulled.value = "";
+    state.trails.value = [];
     state.message.value = "";
     state.dialog.value = "";
     state.locks.value = {};

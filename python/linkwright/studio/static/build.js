@@ -1,7 +1,8 @@
 // Elements to build a machine from: a crank, a rod with a slider, a rocker, a point of a link, a body, a load. Each begins with sizes of the
 // drawing and with names that are there, and is then dragged or typed to what it should be.
 import { html } from "./html.js";
-import { settle } from "./actions.js";
+import { useState } from "./vendor/hooks.mjs";
+import { merge, settle } from "./actions.js";
 import * as state from "./state.js";
 import { written } from "./units.js";
 
@@ -44,12 +45,30 @@ function kinds() {
   ];
 }
 
+/** Two joints made one without a mouse. */
+function Merge() {
+  const [[joint, into], set] = useState(["", ""]);
+  const points = state.handled.value ? state.handled.value.split("\n") : [];
+  const all = Object.keys(state.scene.value?.points ?? {}).filter((name) => points.includes(name) || name === "O");
+  if (all.length < 2) return null;
+  const choice = (/** @type {string} */ word, /** @type {string} */ value, /** @type {string[]} */ names, /** @type {(name: string) => void} */ put) => html`
+    <label>${word} <select aria-label=${word} value=${value} onChange=${(/** @type {any} */ { target }) => put(target.value)}><option value="">–</option>${names.map((name) => html`<option key=${name} translate="no" value=${name} selected=${name === value}>${name}</option>`)}</select></label>`;
+  return html`
+    <div class="line merge">${choice("Merge", joint, points, (name) => set([name, into]))} ${choice("with", into, all.filter((name) => name !== joint), (name) => set([joint, name]))}
+      <button id="merge" disabled=${!joint || !into} onClick=${() => {
+        merge(joint, into);
+        set(["", ""]);
+      }}>Merge</button></div>
+    <p class="about">A joint that is dropped on another in the drawing merges with it: what hangs on the first hangs on the second, and its element goes.</p>`;
+}
+
 export function Build() {
   return html`
-    <details class="part build" open=${!state.place.value.name}><summary>Add an element</summary>
+    <details class="part build" open=${!state.place.value.name} onToggle=${(/** @type {any} */ { target }) => (state.building.value = target.open)}><summary>Add an element</summary>
       <div class="kinds">${kinds().map(([word, made, needs]) => html`
         <button key=${word} disabled=${!made} title=${made ? `Adds ${made[0]}` : `Needs ${needs}`} onClick=${() => made && settle({ [made[0]]: made[1] })}>${word}</button>`)}</div>
       <p class="about">An element hangs on the point that was picked last, or on the first that fits; its entries say on which, and can be changed.</p>
+      <${Merge} />
     </details>`;
 }
 

@@ -6,7 +6,7 @@ import { hold, letBack, settle } from "./actions.js";
 import { Icon } from "./icons.js";
 import { Build, Remove, isElement } from "./build.js";
 import { said } from "./language.js";
-import { effect } from "./slopes.js";
+import { effect, entryAt } from "./slopes.js";
 import * as state from "./state.js";
 import { number, read, shownUnit, typed } from "./units.js";
 
@@ -25,6 +25,12 @@ export function endsOf({ address, si, unit, bounds = {} }) {
   if (unit === "rad" && Math.abs(value) <= Math.PI) return [Math.max(least, -Math.PI), Math.min(most, Math.PI)];
   const size = Math.abs(value) || 1;
   return [Math.max(least, value < 0 || least < 0 ? -REACH * size : 0, least === 0 ? 0 : -Infinity), Math.min(most, REACH * size)];
+}
+
+/** Entries that were chosen to follow, with their limits: the ends of their sliders. @returns {Record<string, [number, number]>} */
+export function follows() {
+  const chosen = Object.entries(state.free.value).flatMap(([address, is]) => (is ? [entryAt(address)] : []));
+  return Object.fromEntries(chosen.flatMap((entry) => (entry ? [[entry.address, endsOf(entry)]] : [])));
 }
 
 /** @param {{ entry: Entry }} props */

@@ -3,7 +3,7 @@ import { html } from "./html.js";
 import { useState } from "./vendor/hooks.mjs";
 import { letBack, pin, seek, settle, stopSearch, to, unpin } from "./actions.js";
 import { Chart } from "./chart.js";
-import { endsOf } from "./controls.js";
+import { endsOf, follows } from "./controls.js";
 import { Heat } from "./heat.js";
 import { Sign } from "./numbers.js";
 import { effect, entryAt, named, ranked } from "./slopes.js";
@@ -78,12 +78,6 @@ function Pull({ now }) {
     <${Following} />`;
 }
 
-/** Entries that follow, with their limits: the ends of their sliders. @returns {Record<string, [number, number]>} */
-function follows() {
-  const chosen = Object.entries(state.free.value).flatMap(([address, is]) => (is ? [entryAt(address)] : []));
-  return Object.fromEntries(chosen.flatMap((entry) => (entry ? [[entry.address, endsOf(entry)]] : [])));
-}
-
 function Following() {
   const [all, setAll] = useState(false);
   const slopes = state.slopes.value;
@@ -98,6 +92,25 @@ function Following() {
         onChange=${(/** @type {any} */ { target }) => (state.free.value = { ...state.free.value, [address]: target.checked })} /><span>${named(address)}</span> <small>${words}</small></label>`;
     })}</div>
     <p class="about">They stay within the ends of their sliders. <button class="quiet" onClick=${() => setAll(!all)}>${all ? "Show fewer" : "Show all"}</button></p>`;
+}
+
+/** A point of a curve that is pulled in the drawing. */
+function PointGoal() {
+  const points = Object.keys(state.scene.value?.velocities ?? {});
+  const lengths = entries().filter(({ address }) => address.startsWith("mechanism."));
+  if (!points.length) return null;
+  return html`
+    <${Section} title="Pull a point of a curve">
+      <label class="line"><span>Point</span> <select id="pulled" value=${state.pulled.value} onChange=${(/** @type {any} */ { target }) => {
+        state.pulled.value = target.value;
+        state.trails.value = [...new Set([...state.trails.value, target.value])].filter(Boolean);
+      }}><option value="">none</option>
+        ${points.map((name) => html`<option key=${name} translate="no" value=${name} selected=${name === state.pulled.value}>${name}</option>`)}</select></label>
+      ${state.pulled.value ? html`
+        <p class="about">Drag it in the drawing: the entries that are ticked follow, within the ends of their sliders.</p>
+        <div class="following of-point">${lengths.map(({ address }) => html`<label key=${address} class="check"><input type="checkbox" data-free=${address} checked=${state.free.value[address] ?? false}
+          onChange=${(/** @type {any} */ { target }) => (state.free.value = { ...state.free.value, [address]: target.checked })} /><span>${named(address)}</span></label>`)}</div>` : null}
+    <//>`;
 }
 
 function Variants() {
@@ -225,4 +238,4 @@ function Course({ found, words }) {
     ${found.value === null ? null : html`<p><button id="take" onClick=${() => settle(found.entries)}>Take it over</button></p>`}`;
 }
 
-export const Design = () => html`<${Goal} /><${Variants} /><${Search} />`;
+export const Design = () => html`<${Goal} /><${PointGoal} /><${Variants} /><${Search} />`;

@@ -1,7 +1,7 @@
 // Plots as files: CSV, PNG, SVG.
 import { number } from "./units.js";
 
-/** @typedef {{ title: string, heads: string[], rows: ArrayLike<number>[] }} Sheet */
+/** @typedef {{ title: string, heads: string[], rows: ArrayLike<number>[], isToScale?: boolean }} Sheet */
 
 /** @param {Blob} blob @param {string} name */
 export function download(blob, name) {
@@ -37,13 +37,19 @@ export function ticks(low, high, most = 6) {
  * A plot as an SVG of its own, with axes, curves and a legend.
  * @param {Sheet} sheet @param {string[]} colours
  */
-export function svg({ title, heads, rows }, colours) {
+export function svg({ title, heads, rows, isToScale = false }, colours) {
   const [width, height, left, top, right, bottom] = [720, 420, 80, 46, 20, 54];
   const [xs, ...ys] = rows;
   const all = ys.flatMap((row) => Array.from(row).filter(Number.isFinite));
-  const [x0, x1] = [Math.min(...Array.from(xs)), Math.max(...Array.from(xs))];
+  let [x0, x1] = [Math.min(...Array.from(xs)), Math.max(...Array.from(xs))];
   const pad = 0.05 * (Math.max(...all) - Math.min(...all)) || 1;
-  const [y0, y1] = [Math.min(...all) - pad, Math.max(...all) + pad];
+  let [y0, y1] = [Math.min(...all) - pad, Math.max(...all) + pad];
+  if (isToScale) {
+    const [wide, high] = [width - left - right, height - top - bottom];
+    const size = Math.max((x1 - x0) / wide, (y1 - y0) / high);
+    [x0, x1] = [(x0 + x1 - size * wide) / 2, (x0 + x1 + size * wide) / 2];
+    [y0, y1] = [(y0 + y1 - size * high) / 2, (y0 + y1 + size * high) / 2];
+  }
   const X = (/** @type {number} */ x) => left + ((x - x0) / (x1 - x0 || 1)) * (width - left - right);
   const Y = (/** @type {number} */ y) => height - bottom - ((y - y0) / (y1 - y0)) * (height - top - bottom);
   const grid = [

@@ -6,10 +6,11 @@ const MARGIN = 64;
  * @typedef {{ scale: number, x: number, y: number }} Frame
  * @param {number[]} box minimum x, minimum y, maximum x, maximum y [m]
  * @param {number} width @param {number} height pixels
+ * @param {number} [most] of margin
  * @returns {Frame}
  */
-export function fit([left, bottom, right, top], width, height) {
-  const margin = Math.min(MARGIN, 0.14 * Math.min(width, height));
+export function fit([left, bottom, right, top], width, height, most = MARGIN) {
+  const margin = Math.min(most, 0.14 * Math.min(width, height));
   const scale = Math.min((width - 2 * margin) / Math.max(right - left, 1e-9), (height - 2 * margin) / Math.max(top - bottom, 1e-9));
   return { scale, x: width / 2 - (scale * (left + right)) / 2, y: height / 2 + (scale * (bottom + top)) / 2 };
 }

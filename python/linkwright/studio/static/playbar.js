@@ -18,6 +18,16 @@ function step(by) {
   state.time.value = scene.times[scene.swings ? Math.min(Math.max(k, 0), last) : (k + last) % last];
 }
 
+/** Points that move. */
+const movers = () => Object.keys(state.scene.value?.velocities ?? {});
+
+/** The path of a point, or of all, is drawn or no longer. @param {string} name */
+function trail(name) {
+  const now = state.trails.value;
+  if (name === "*") state.trails.value = now.length ? [] : movers();
+  else state.trails.value = now.includes(name) ? now.filter((each) => each !== name) : [...now, name];
+}
+
 function Scrub() {
   const scene = state.scene.value;
   if (!scene) return null;
@@ -36,6 +46,7 @@ function Scrub() {
 export function Playbar() {
   const playing = state.playing.value;
   if (!state.isDrawn.value) return null;
+  const points = movers();
   return html`
     <div class="playbar" role="group" aria-label="Motion">
       <button class="icon" onClick=${() => step(-1)} aria-label="One step back" title="One step back"><${Icon} name="back" /></button>
@@ -51,5 +62,7 @@ export function Playbar() {
     <fieldset class="layers"><legend class="hidden">What is drawn</legend>
       ${LAYERS.map(([key, word]) => html`<label key=${key}><input type="checkbox" checked=${state.layers.value[key]}
         onChange=${(/** @type {any} */ { target }) => (state.layers.value = { ...state.layers.value, [key]: target.checked })} /><i class="dot ${key}"></i>${word}</label>`)}
+      <label>Trails <select id="trails" value="" onChange=${(/** @type {any} */ { target }) => trail(target.value)}><option value="">${state.trails.value.length || "–"}</option>
+        <option value="*">${state.trails.value.length ? "none" : "all points"}</option>${points.map((name) => html`<option key=${name} translate="no" value=${name}>${state.trails.value.includes(name) ? "✓ " : ""}${name}</option>`)}</select></label>
     </fieldset>`;
 }

@@ -4,7 +4,8 @@ import { useMemo, useState } from "./vendor/hooks.mjs";
 import { Chart, rows, short } from "./chart.js";
 import { csv, download, png, svg } from "./exported.js";
 import { Icon } from "./icons.js";
-import { pointPlots } from "./points.js";
+import { Hodograph } from "./hodograph.js";
+import { hodographs, pointPlots } from "./points.js";
 import * as state from "./state.js";
 import { colours } from "./theme.js";
 import { number, shownUnit } from "./units.js";
@@ -15,18 +16,19 @@ import { number, shownUnit } from "./units.js";
 const ROWS_MOST = 181;
 
 /** Plots that say the same as another, or nothing that one looks for first. */
-const ASIDE = [/^forces\.(time|speed|acceleration|power_residual|crank_angle)$/, /\.time$/, /^forces\.shaking_force_/, /_moment$/, /^run_(up|down)\.(crank_angle)$/, /^reduction\./, /^steady_state\.power/, /^forces\.power/,
+const ASIDE = [/^hodograph\.joint/, /^forces\.(time|speed|acceleration|power_residual|crank_angle)$/, /\.time$/, /^forces\.shaking_force_/, /_moment$/, /^run_(up|down)\.(crank_angle)$/, /^reduction\./, /^steady_state\.power/, /^forces\.power/,
   /^forced\.(mean_torques|torque_|.*_heat|power|unevenness_|shaft_torque_max)/, /^stress\.(mean|greatest|continuous|transient)/];
 
 const titled = (/** @type {string} */ words) => words[0].toUpperCase() + words.slice(1);
 
-/** @param {Plot} plot @returns {import("./exported.js").Sheet} */
-function sheet(plot) {
+/** @param {Plot} plot @param {boolean} [isDrawn] as a picture, in which a hodograph has no angle @returns {import("./exported.js").Sheet} */
+function sheet(plot, isDrawn = false) {
   const heads = [plot.x, ...plot.curves].map(({ symbol, word, unit }) => {
     const { unit: shown } = shownUnit(unit, state.units.value);
     return `${short(symbol, word)} [${shown || "-"}]`;
   });
-  return { title: titled(plot.title), heads, rows: rows(plot) };
+  const from = isDrawn && plot.isHodograph ? 1 : 0;
+  return { title: titled(plot.title), heads: heads.slice(from), rows: rows(plot).slice(from), isToScale: from > 0 };
 }
 
 /** @param {{ plot: Plot }} props */
@@ -51,13 +53,13 @@ function Panel({ plot, of }) {
     const canvas = document.querySelector(`[data-plot="${CSS.escape(plot.key)}"] canvas`);
     if (canvas instanceof HTMLCanvasElement) download(await png(canvas, `${titled(plot.title)} [${unit || "–"}]`, colours()), `${name}.png`);
   };
-  const asSvg = () => download(new Blob([svg(sheet(plot), ["#0072b2", "#d55e00", "#009e73", "#a8478a", "#b97f00", "#56b4e9"])], { type: "image/svg+xml" }), `${name}.svg`);
+  const asSvg = () => download(new Blob([svg(sheet(plot, true), ["#0072b2", "#d55e00", "#009e73", "#a8478a", "#b97f00", "#56b4e9"])], { type: "image/svg+xml" }), `${name}.svg`);
   const asCsv = () => download(new Blob([csv(sheet(plot))], { type: "text/csv" }), `${name}.csv`);
   return html`
     <section class="panel" aria-label=${plot.title}>
       <header>
         <h3>${titled(plot.title)} <small>${unit}</small></h3>
-        <span class="legend">${plot.curves.length > 1 ? plot.curves.map(({ symbol, word, own }, n) => html`<span key=${n} title=${word} translate=${own ? "no" : undefined}><i class="key c${n % 6}"></i>${short(symbol, word)}</span>`) : null}</span>
+        <span class="legend">${plot.curves.length > 1 && !plot.isHodograph ? plot.curves.map(({ symbol, word, own }, n) => html`<span key=${n} title=${word} translate=${own ? "no" : undefined}><i class="key c${n % 6}"></i>${short(symbol, word)}</span>`) : null}</span>
         <span class="tools">
           <button class="quiet" aria-pressed=${data ? "true" : "false"} onClick=${() => setData(!data)} title="The numbers as a table">Data</button>
           <button class="quiet" onClick=${asCsv} title="Download CSV">CSV</button>
@@ -66,7 +68,7 @@ function Panel({ plot, of }) {
           <button class="quiet" aria-label="Hide the plot of ${plot.title}" title="Hide" onClick=${() => (state.hidden.value = { ...state.hidden.value, [plot.key]: true })}><${Icon} name="close" /></button>
         </span>
       </header>
-      <${Chart} plot=${plot} />
+      <${plot.isHodograph ? Hodograph : Chart} plot=${plot} />
       ${data ? html`<${Data} plot=${plot} />` : null}
     </section>`;
 }
@@ -78,7 +80,7 @@ const isAside = (key) => ASIDE.some((each) => each.test(key));
 const isHidden = ({ key }) => state.hidden.value[key] ?? isAside(key);
 
 export function Plots() {
-  const all = [...pointPlots().map((plot) => ({ plot, of: "points" })), ...state.results.value.flatMap(({ name, plots }) => plots.map((plot) => ({ plot, of: name })))];
+  const all = [...pointPlots().map((plot) => ({ plot, of: "points" })), ...state.results.value.flatMap(({ name, plots }) => plots.map((plot) => ({ plot, of: name }))), ...hodographs().map((plot) => ({ plot, of: "hodograph" }))];
   const points = Object.keys(state.scene.value?.velocities ?? {});
   const shown = all.filter(({ plot }) => !isHidden(plot));
   const others = all.filter(({ plot }) => isHidden(plot));

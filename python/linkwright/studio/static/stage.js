@@ -3,19 +3,23 @@ import { html } from "./html.js";
 import { useEffect, useRef } from "./vendor/hooks.mjs";
 import { effect } from "./vendor/signals-core.mjs";
 import "./vendor/signals.mjs";
-import { letBack, pull } from "./actions.js";
+import { letBack, merge, pull } from "./actions.js";
 import { paintArrows } from "./arrows.js";
 import { paintCentres } from "./centres.js";
+import { follows } from "./controls.js";
 import { barLength, fit, toMachine, toScreen, zoomed } from "./frame.js";
 import { paintMoving, paintStill } from "./painter.js";
 import * as state from "./state.js";
 import { colours } from "./theme.js";
 import { between, onward, pairAt, placeOf, watchable } from "./timeline.js";
-import { decimal } from "./language.js";
+import { decimal, saidOf } from "./language.js";
 import { number, shownUnit } from "./units.js";
 
 /** Part of the drawing's size that an arrow key moves a joint by. */
 const NUDGE = 0.005;
+
+/** Pixels within which a joint is dropped on another. */
+const ONTO = 12;
 
 /** Things that are drawn anew at every instant, such as the cursors of the plots. @type {Set<(time: number) => void>} */
 export const followers = new Set();
@@ -47,7 +51,7 @@ export function Stage() {
 /** @param {HTMLDivElement} holder @param {HTMLCanvasElement} canvas */
 function run(holder, canvas) {
   const ctx = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
-  const still = document.createElement("canvas");
+  const [still, shade] = [document.createElement("canvas"), document.createElement("canvas")];
   let frame = { scale: 1, x: 0, y: 0 };
   // Known from when it changed: asking for it while the page is written anew would lay the page out twice.
   let [width, height] = [holder.clientWidth, holder.clientHeight];
@@ -56,13 +60,13 @@ function run(holder, canvas) {
   let before = 0;
   let dirty = true;
   let stillFor = /** @type {any} */ (null);
-  /** @type {{ point: string, x: number, y: number, moved: boolean, key?: boolean } | null} */
+  /** @type {{ point: string, x: number, y: number, moved: boolean, key?: boolean, onto?: string } | null} */
   let gesture = null;
 
   function sized() {
     const ratio = devicePixelRatio || 1;
     [width, height] = [holder.clientWidth, holder.clientHeight];
-    for (const each of [canvas, still]) {
+    for (const each of [canvas, still, shade]) {
       each.width = Math.max(1, Math.round(width * ratio));
       each.height = Math.max(1, Math.round(height * ratio));
     }
@@ -74,7 +78,7 @@ function run(holder, canvas) {
   observer.observe(holder);
 
   const forget = effect(() => {
-    for (const each of [state.scene, state.layers, state.time, state.look, state.picked, state.units]) void each.value;
+    for (const each of [state.scene, state.layers, state.time, state.look, state.picked, state.units, state.trails]) void each.value;
     if (state.scene.value && !gesture) {
       // A drawing stays where it is while a length is pulled; another machine is fitted anew.
       const name = `${state.machine.value} ${Object.keys(state.scene.value.points).length}`;
@@ -100,14 +104,17 @@ function run(holder, canvas) {
       const behind = /** @type {CanvasRenderingContext2D} */ (still.getContext("2d"));
       behind.setTransform(ratio, 0, 0, ratio, 0, 0);
       behind.clearRect(0, 0, width, height);
-      paintStill({ ...view, ctx: behind, scene: state.layers.value.paths ? scene : { ...scene, parts: scene.parts.filter(({ kind }) => kind !== "trace") } });
+      paintStill({ ...view, ctx: behind, scene: { ...scene, parts: [...(state.layers.value.paths ? scene.parts : scene.parts.filter(({ kind }) => kind !== "trace")), ...trails(scene)] } });
       stillFor = scene;
     }
     ctx.drawImage(still, 0, 0, width, height);
     paintMoving(state.layers.value.names ? view : { ...view, scene: { ...scene, parts: scene.parts.map((part) => ({ ...part, slides: false })) } });
     if (state.layers.value.centres) paintCentres(view);
     paintArrows(view, state.layers.value);
-    if (gesture?.moved) ghost(view);
+    if (gesture?.moved) {
+      limitPose(view);
+      ghost(view);
+    }
     bar(ink);
     place(scene, k);
     const { unit, factor } = shownUnit("rad/s", state.units.value);
@@ -118,10 +125,43 @@ function run(holder, canvas) {
     }
   }
 
+  /** Paths that the user asked for. @param {import("./types.js").Scene} scene @returns {any[]} */
+  const trails = (scene) => state.trails.value.filter((name) => scene.points[name]).map((name) => ({ kind: "trace", name }));
+
+  /** The pose in which the linkage is at the limit where the drag stops. @param {import("./painter.js").View} view */
+  function limitPose(view) {
+    const angle = state.limit.value;
+    if (angle === null) return;
+    const over = /** @type {CanvasRenderingContext2D} */ (shade.getContext("2d"));
+    const ratio = devicePixelRatio || 1;
+    over.setTransform(ratio, 0, 0, ratio, 0, 0);
+    over.clearRect(0, 0, width, height);
+    const parts = view.scene.parts.map((part) => ({ ...part, slides: false }));
+    paintMoving({ ...view, ctx: over, scene: { ...view.scene, parts }, k: placeOf(view.scene.angles, angle) });
+    over.globalCompositeOperation = "source-in";
+    over.fillStyle = view.ink.bad;
+    over.fillRect(0, 0, width, height);
+    over.globalCompositeOperation = "source-over";
+    ctx.globalAlpha = 0.4;
+    ctx.drawImage(shade, 0, 0, width, height);
+    ctx.globalAlpha = 1;
+  }
+
   /** @param {import("./painter.js").View} view */
   function ghost({ ctx, ink, scene, k }) {
     if (!gesture || !scene.points[gesture.point]) return;
     const [x, y] = toScreen(frame, gesture.x, gesture.y);
+    if (gesture.onto) {
+      const place = toScreen(frame, ...pairAt(scene.points[gesture.onto], k));
+      ctx.strokeStyle = ctx.fillStyle = ink.accent;
+      ctx.lineWidth = 3;
+      ctx.beginPath();
+      ctx.arc(...place, 14, 0, 2 * Math.PI);
+      ctx.stroke();
+      ctx.font = "600 13px system-ui, sans-serif";
+      ctx.fillText(saidOf("{} merges with {}", gesture.point, gesture.onto), place[0] + 20, place[1] - 12);
+      return;
+    }
     const [X, Y] = toScreen(frame, ...pairAt(scene.points[gesture.point], k));
     if (Math.hypot(X - x, Y - y) < 4) return;
     ctx.setLineDash([4, 4]);
@@ -156,6 +196,12 @@ function run(holder, canvas) {
 
   /** @param {import("./types.js").Scene} scene @param {number} k */
   function place(scene, k) {
+    const words = /** @type {HTMLElement | null} */ (holder.querySelector(".reason"));
+    if (words && gesture) {
+      // Beside what is dragged, within the drawing.
+      const [x, y] = toScreen(frame, ...pairAt(scene.points[gesture.point] ?? [gesture.x, gesture.y, gesture.x, gesture.y], k));
+      words.style.transform = `translate(${Math.max(0, Math.min(x + 10, width - words.offsetWidth - 24)).toFixed()}px, ${Math.max(0, Math.min(y + 10, height - words.offsetHeight - 48)).toFixed()}px)`;
+    }
     for (const button of /** @type {NodeListOf<HTMLElement>} */ (holder.querySelectorAll(".handle"))) {
       const path = scene.points[button.dataset.point ?? ""];
       if (!path) continue;
@@ -211,20 +257,41 @@ function run(holder, canvas) {
   /** @param {number} x @param {number} y */
   function move(x, y) {
     if (!gesture) return;
-    Object.assign(gesture, { x, y, moved: true });
-    pull({ point: gesture.point, x, y, angle: at });
+    Object.assign(gesture, { x, y, moved: true, onto: state.building.value ? neighbour(x, y) : "" });
+    pulled();
     dirty = true;
+  }
+
+  /** Asks for the pose, or with what is let go for its entries. @param {boolean} [held] */
+  function pulled(held = true) {
+    if (!gesture) return;
+    const { point, x, y } = gesture;
+    pull({ point, x, y, angle: at, ...(point === state.pulled.value ? { free: follows() } : {}) }, held);
+  }
+
+  /** Another joint at a place, that the one in hand would merge with. @param {number} x @param {number} y */
+  function neighbour(x, y) {
+    const scene = state.scene.value;
+    if (!scene || !gesture) return "";
+    const k = placeOf(scene.times, state.time.value);
+    const names = [...state.handled.value.split("\n"), "O"].filter((name) => name !== gesture?.point && scene.points[name]);
+    return names.find((name) => {
+      const [X, Y] = pairAt(scene.points[name], k);
+      return Math.hypot(X - x, Y - y) * frame.scale < ONTO;
+    }) ?? "";
   }
 
   /** @param {boolean} keep */
   function end(keep) {
     const was = gesture;
-    gesture = null;
     dirty = true;
+    if (keep && was?.moved && !was.onto) pulled(false);
+    gesture = null;
     if (!was?.moved) return;
-    if (keep) pull({ point: was.point, x: was.x, y: was.y, angle: at }, false);
-    else letBack();
+    if (keep && was.onto) merge(was.point, was.onto);
+    else if (!keep) letBack();
     state.reason.value = "";
+    state.limit.value = null;
   }
 
   /** @type {{ x: number, y: number, left: boolean } | null} */

@@ -47,10 +47,17 @@ export const chips = signal([]);
 export const scene = signal(null);
 /** Entries that follow a handle, and points with one, as words: what is the same words draws nothing anew. */
 export const draggable = computed(() => (scene.value?.handles ?? []).flatMap(({ entries }) => entries).join("\n"));
-export const handled = computed(() => (scene.value?.handles ?? []).map(({ point }) => point).filter((point) => scene.value?.points[point]).join("\n"));
+export const handled = computed(() => [...new Set([...(scene.value?.handles ?? []).map(({ point }) => point), pulled.value])].filter((point) => scene.value?.points[point]).join("\n"));
 export const isDrawn = computed(() => scene.value !== null);
-/** Why a drag stops. */
+/** Why a drag stops, and the crank angle at which the linkage is at its limit there. */
 export const reason = signal("");
+export const limit = signal(/** @type {number | null} */ (null));
+/** Points whose paths are drawn besides those of the file. @type {Signal<string[]>} */
+export const trails = signal([]);
+/** The point of a curve that is pulled with the entries that were chosen; empty for none. */
+export const pulled = signal("");
+/** Whether joints merge that are dropped on joints. */
+export const building = signal(false);
 
 // -- answers, those of each lane apart, so that one does not wait for another
 /** @type {Signal<Record<string, { results: import("./types.js").Shown[], findings: string[], warnings: string[], figures: import("./types.js").Figure[], views?: any[] }>>} */

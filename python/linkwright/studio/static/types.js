@@ -19,7 +19,7 @@
 /**
  * @typedef {{ name: string, word: string, symbol: string, unit: string }} Words
  * @typedef {Words & { values: Float64Array, own?: boolean }} Curve
- * @typedef {{ key: string, title: string, unit: string, x: Curve, curves: Curve[] }} Plot
+ * @typedef {{ key: string, title: string, unit: string, x: Curve, curves: Curve[], isHodograph?: boolean }} Plot
  * @typedef {{ name: string, scalars: (Words & { value: number })[], plots: Plot[] }} Shown
  * @typedef {{ name: string, title: string, caption: string, svg: string }} Figure
  * @typedef {{ name: string, word: string, lane: string, obstacle?: string, mend?: string, entries?: Record<string, any> }} Chip
