@@ -35,6 +35,7 @@ from linkwright.studio.drawing import entries_of
 
 Floats = NDArray[np.float64]
 Limits = Mapping[str, tuple[float, float]]
+Ranges = tuple[tuple[float, float], ...]
 
 # Steps to the place: more change nothing that is seen.
 _STEPS = 12
@@ -206,27 +207,26 @@ class _Search:
 
     def stopped(self, wanted: Floats) -> Drag:
         """The wanted entries, or those at the limit of the linkage."""
-        reason = self._reason(wanted)
+        reason, ranges = self._obstacle(wanted)
         if not reason:
             return Drag(self._entries(wanted), self._out_of_reach(wanted))
         low, high = self.before, wanted
+        within = self.closed.ranges
         for _ in range(_HALVINGS):
             middle = 0.5 * (low + high)
-            stops = self._reason(middle)
-            low, high = (low, middle) if stops else (middle, high)
-            reason = stops or reason
-        return Drag(self._entries(low), reason, self._limit(low, high))
+            stops, moving = self._obstacle(middle)
+            if stops:
+                high, reason, ranges = middle, stops, moving
+            else:
+                low, within = middle, moving
+        return Drag(self._entries(low), reason, self._limit(within, ranges))
 
-    def _limit(self, within: Floats, beyond: Floats) -> float | None:
-        """Crank angle in the middle of the widest gap of the linkage just beyond its limit."""
-        try:
-            ranges = closure(self.moved(beyond)).ranges
-            if not ranges:
-                return float(np.mean(closure(self.moved(within)).ranges[0]))
-        except LinkwrightError:
-            return None
-        starts = [low for low, _ in ranges[1:]] + [ranges[0][0] + 2 * np.pi]
-        width, end = max((start - end, end) for (_, end), start in zip(ranges, starts, strict=True))
+    def _limit(self, within: Ranges, beyond: Ranges) -> float | None:
+        """Crank angle in the middle of the widest gap just beyond the limit, or of the last range before."""
+        if not beyond:
+            return None if self.closed.turns_fully or not within else float(np.mean(within[0]))
+        starts = [low for low, _ in beyond[1:]] + [beyond[0][0] + 2 * np.pi]
+        width, end = max((start - end, end) for (_, end), start in zip(beyond, starts, strict=True))
         return float((end + 0.5 * width) % (2 * np.pi))
 
     def _out_of_reach(self, wanted: Floats) -> str:
@@ -242,16 +242,15 @@ class _Search:
         names = " and ".join(entry.rsplit(".", 1)[-1] for entry in self.free)
         return f"{self.point} moves with {names} alone"
 
-    def _reason(self, row: Floats) -> str:
-        """Why the linkage with these entries does not move as the one before; empty if it does."""
+    def _obstacle(self, row: Floats) -> tuple[str, Ranges]:
+        """Why the linkage with these entries does not move as the one before, and where it closes."""
         try:
             machine = self.moved(row)
             closed = closure(machine)
         except LinkwrightError as error:
-            return str(error)
-        if closed.turns_fully or not self.closed.turns_fully:
-            return "" if closed.ranges else str(closure_error(closed, machine))
-        return str(closure_error(closed, machine))
+            return str(error), ()
+        moves = closed.turns_fully or (bool(closed.ranges) and not self.closed.turns_fully)
+        return "" if moves else str(closure_error(closed, machine)), closed.ranges
 
     def _entries(self, row: Floats) -> dict[str, float]:
         """Entries with the digits that the file will have."""
