@@ -71,7 +71,7 @@ def short(value: float) -> str:
 
 
 def merged(text: str, joint: str, other: str, path: str = "") -> str:
-    """A sound machine file in which what hangs on a joint hangs on another one; the element of the first goes.
+    """A sound machine file in which what hangs on a joint hangs on another; the element of the first goes.
 
     Raises a `LinkwrightError` that says why, if the machine cannot be so.
     """

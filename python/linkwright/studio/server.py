@@ -276,13 +276,8 @@ def _index() -> str:
     links = "".join(
         f'<link rel="modulepreload" href="{module.relative_to(STATIC).as_posix()}">\n'
         for module in modules
-        if module.name not in _LATER
     )
     return (STATIC / "index.html").read_text(encoding="utf-8").replace("</head>", f"{links}</head>")
-
-
-# Modules that say nothing but types, or are loaded where they are needed.
-_LATER = frozenset({"types.js"})
 
 
 async def _texts(request: Request) -> Response:

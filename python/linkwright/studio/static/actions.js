@@ -117,7 +117,7 @@ function compute(request) {
   link.compute({ ask: "compute", ...(request.text === undefined ? {} : state.place.value), ...request });
 }
 
-// -- changes ----------------------------------------------------------------------------------------------------
+// -- changes
 
 /** A slider or a joint that is held. @param {Record<string, any>} set */
 export const hold = (set) => compute({ held: true, set });
@@ -146,7 +146,7 @@ export function pin() {
   let n = 1;
   while (names.has(`Variant ${n}`)) n += 1;
   const results = state.results.value;
-  const scalars = Object.fromEntries(results.flatMap(({ name, scalars: own }) => own.map((each) => [`${name}.${each.name}`, each.value])));
+  const scalars = Object.fromEntries(state.scalars.value.map(({ key, value }) => [key, value]));
   const plots = Object.fromEntries([...pointPlots(), ...hodographs(), ...results.flatMap(({ plots: own }) => own)].map(({ key, x, curves }) => [key, { x: x.values, curves: Object.fromEntries(curves.map(({ name, values }) => [name, values])) }]));
   state.pins.value = [...state.pins.value, { name: `Variant ${n}`, text: state.text.value, scalars, plots }];
 }
@@ -224,7 +224,7 @@ function again(text) {
 
 export const stop = () => link.send({ ask: "stop" });
 
-// -- files ------------------------------------------------------------------------------------------------------
+// -- files
 
 /** @param {string} place @param {string} name */
 export async function open(place, name) {

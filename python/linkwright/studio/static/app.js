@@ -57,12 +57,6 @@ function App() {
 }
 
 effect(() => {
-  const look = state.look.value;
-  if (look) document.documentElement.dataset.look = look;
-  else delete document.documentElement.dataset.look;
-});
-
-effect(() => {
   document.title = `${state.unsaved.value ? "● " : ""}${state.machine.value || "Linkwright"} – studio`;
 });
 

@@ -52,7 +52,7 @@ function Merge() {
   const all = Object.keys(state.scene.value?.points ?? {}).filter((name) => points.includes(name) || name === "O");
   if (all.length < 2) return null;
   const choice = (/** @type {string} */ word, /** @type {string} */ value, /** @type {string[]} */ names, /** @type {(name: string) => void} */ put) => html`
-    <label>${word} <select aria-label=${word} value=${value} onChange=${(/** @type {any} */ { target }) => put(target.value)}><option value="">–</option>${names.map((name) => html`<option key=${name} translate="no" value=${name} selected=${name === value}>${name}</option>`)}</select></label>`;
+    <label>${word} <select aria-label=${word} value=${value} onChange=${({ target }) => put(target.value)}><option value="">–</option>${names.map((name) => html`<option key=${name} translate="no" value=${name} selected=${name === value}>${name}</option>`)}</select></label>`;
   return html`
     <div class="line merge">${choice("Merge", joint, points, (name) => set([name, into]))} ${choice("with", into, all.filter((name) => name !== joint), (name) => set([joint, name]))}
       <button id="merge" disabled=${!joint || !into} onClick=${() => {
@@ -64,7 +64,7 @@ function Merge() {
 
 export function Build() {
   return html`
-    <details class="part build" open=${!state.place.value.name} onToggle=${(/** @type {any} */ { target }) => (state.building.value = target.open)}><summary>Add an element</summary>
+    <details class="part build" open=${!state.place.value.name} onToggle=${({ target }) => (state.building.value = target.open)}><summary>Add an element</summary>
       <div class="kinds">${kinds().map(([word, made, needs]) => html`
         <button key=${word} disabled=${!made} title=${made ? `Adds ${made[0]}` : `Needs ${needs}`} onClick=${() => made && settle({ [made[0]]: made[1] })}>${word}</button>`)}</div>
       <p class="about">An element hangs on the point that was picked last, or on the first that fits; its entries say on which, and can be changed.</p>
@@ -73,7 +73,7 @@ export function Build() {
 }
 
 /** Takes an element out of the file. @param {{ address: string, word: string }} props */
-export const Remove = ({ address, word }) => html`<button class="quiet remove" aria-label="Remove ${word}" title="Remove ${word}" onClick=${(/** @type {Event} */ event) => {
+export const Remove = ({ address, word }) => html`<button class="quiet remove" aria-label="Remove ${word}" title="Remove ${word}" onClick=${(event) => {
   event.preventDefault();
   settle({ [address]: null });
 }}>remove</button>`;

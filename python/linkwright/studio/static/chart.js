@@ -3,7 +3,7 @@ import { html } from "./html.js";
 import { useEffect, useLayoutEffect, useRef } from "./vendor/hooks.mjs";
 import { followers } from "./stage.js";
 import * as state from "./state.js";
-import { colours } from "./theme.js";
+import { colours, shownLook } from "./theme.js";
 import { between, placeOf } from "./timeline.js";
 import { number, shownUnit } from "./units.js";
 
@@ -95,7 +95,7 @@ export function Chart({ plot }) {
   // What is not seen is drawn when it comes into sight.
   const seen = useRef({ is: true, drawn: plot });
   // Another look, another unit or another number of curves needs axes of its own.
-  const form = [plot.key, plot.curves.length, shownUnit(plot.x.unit, state.units.value).unit, shownUnit(plot.unit, state.units.value).unit, state.look.value, state.pins.value.map(({ name }) => name)].join("|");
+  const form = [plot.key, plot.curves.length, shownUnit(plot.x.unit, state.units.value).unit, shownUnit(plot.unit, state.units.value).unit, shownLook.value, state.pins.value.map(({ name }) => name)].join("|");
   useEffect(() => {
     const element = /** @type {HTMLDivElement} */ (holder.current);
     const made = new uPlot(options(plot, Math.max(element.clientWidth, 160)), drawn(plot), element);

@@ -63,9 +63,9 @@ function Quantity({ entry }) {
   return html`
     <div class="field">
       <input id=${id} class="number" inputmode="decimal" autocomplete="off" spellcheck=${false} value=${draft ?? shown} aria-label="${key}, ${word || said("number")}" data-address=${address}
-        onInput=${(/** @type {any} */ { target }) => setDraft(target.value)}
-        onChange=${(/** @type {any} */ { target }) => commit(target)}
-        onKeyDown=${(/** @type {any} */ { key: pressed, target }) => {
+        onInput=${({ target }) => setDraft(target.value)}
+        onChange=${({ target }) => commit(target)}
+        onKeyDown=${({ key: pressed, target }) => {
           if (pressed === "Escape") setDraft(null);
           if (pressed === "Enter") commit(target);
         }} />
@@ -76,9 +76,9 @@ function Quantity({ entry }) {
         <input class="end" value=${places(low)} aria-label="${key}, lower end of the slider" onChange=${end(0)} />
         <input type="range" step="any" min=${low} max=${high} value=${si} aria-label="${key}, slider" data-slider=${address}
           aria-valuetext="${number(si / factor)} ${word}"
-          onInput=${(/** @type {any} */ { target }) => hold({ [address]: Number(target.value) })}
-          onChange=${(/** @type {any} */ { target }) => settle({ [address]: Number(target.value) })}
-          onKeyDown=${(/** @type {any} */ event) => {
+          onInput=${({ target }) => hold({ [address]: Number(target.value) })}
+          onChange=${({ target }) => settle({ [address]: Number(target.value) })}
+          onKeyDown=${(event) => {
             if (event.key === "Escape") letBack();
             arrow(event, low, high, address, si);
           }} />
@@ -103,19 +103,19 @@ function Other({ entry }) {
   const { address, holds, written, choices = [], key } = entry;
   const id = `at ${address}`;
   if (holds === "choice") {
-    return html`<select id=${id} aria-label=${key} value=${written} onChange=${(/** @type {any} */ { target }) => settle({ [address]: target.value })}>
+    return html`<select id=${id} aria-label=${key} value=${written} onChange=${({ target }) => settle({ [address]: target.value })}>
       ${choices.map((each) => html`<option key=${each} value=${each} selected=${each === written}>${each.replaceAll("_", " ")}</option>`)}
     </select>`;
   }
   if (holds === "switch") {
-    return html`<input id=${id} type="checkbox" aria-label=${key} checked=${written} onChange=${(/** @type {any} */ { target }) => settle({ [address]: target.checked })} />`;
+    return html`<input id=${id} type="checkbox" aria-label=${key} checked=${written} onChange=${({ target }) => settle({ [address]: target.checked })} />`;
   }
   if (holds === "text" && String(written).length > 60) {
-    return html`<textarea id=${id} aria-label=${key} rows="3" value=${written} onChange=${(/** @type {any} */ { target }) => settle({ [address]: target.value })}></textarea>`;
+    return html`<textarea id=${id} aria-label=${key} rows="3" value=${written} onChange=${({ target }) => settle({ [address]: target.value })}></textarea>`;
   }
   if (holds === "text" || holds === "count") {
     const counted = (/** @type {string} */ value) => (holds === "count" && Number.isInteger(Number(value)) ? Number(value) : value);
-    return html`<input id=${id} aria-label=${key} value=${written} onChange=${(/** @type {any} */ { target }) => settle({ [address]: counted(target.value) })} />`;
+    return html`<input id=${id} aria-label=${key} value=${written} onChange=${({ target }) => settle({ [address]: counted(target.value) })} />`;
   }
   return html`<code class="data" title="Edit lists in the text of the file">${shortened(typeof written === "string" ? written : JSON.stringify(written))}</code>`;
 }

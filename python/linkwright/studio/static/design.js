@@ -27,7 +27,7 @@ function Goal() {
   const now = found.find(({ name }) => `steady_state.${name}` === state.goal.value);
   return html`
     <${Section} title="Pull a result">
-      <label class="line"><span>Result</span> <select id="goal" value=${state.goal.value} onChange=${(/** @type {any} */ { target }) => (state.goal.value = target.value)}>
+      <label class="line"><span>Result</span> <select id="goal" value=${state.goal.value} onChange=${({ target }) => (state.goal.value = target.value)}>
         <option value="">none</option>
         ${found.map(({ name, word, symbol }) => html`<option key=${name} value="steady_state.${name}" selected=${`steady_state.${name}` === state.goal.value}>${word}${symbol ? `, ${symbol.replace("_", " ")}` : ""}</option>`)}
       </select></label>
@@ -51,20 +51,20 @@ function Pull({ now }) {
   return html`
     <div class="line"><span><${Sign} symbol=${now.symbol} /></span>
       <input class="number" aria-label="Wanted value" inputmode="decimal" value=${number(now.value / factor, 6)}
-        onChange=${(/** @type {any} */ { target }) => {
+        onChange=${({ target }) => {
           const value = read(target.value);
           if (Number.isFinite(value)) to(value * factor, free, false);
         }} /> <small>${unit}</small></div>
     <input type="range" id="pull" step="any" min=${low} max=${high} value=${now.value} aria-label="Pull the result" aria-valuetext="${number(now.value / factor, 4)} ${unit}"
-      onInput=${(/** @type {any} */ { target }) => {
+      onInput=${({ target }) => {
         if (held === null) setHeld(now.value);
         to(Number(target.value), free, true);
       }}
-      onChange=${(/** @type {any} */ { target }) => {
+      onChange=${({ target }) => {
         done();
         to(Number(target.value), free, false);
       }}
-      onKeyDown=${(/** @type {any} */ event) => {
+      onKeyDown=${(event) => {
         const way = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 }[/** @type {string} */ (event.key)];
         if (event.key === "Escape") {
           done();
@@ -78,6 +78,10 @@ function Pull({ now }) {
     <${Following} />`;
 }
 
+/** An entry that may follow. @param {{ address: string, words?: string }} props */
+const Tick = ({ address, words }) => html`<label class="check"><input type="checkbox" data-free=${address} checked=${state.free.value[address] ?? false}
+  onChange=${({ target }) => (state.free.value = { ...state.free.value, [address]: target.checked })} /><span>${named(address)}</span> <small>${words}</small></label>`;
+
 function Following() {
   const [all, setAll] = useState(false);
   const slopes = state.slopes.value;
@@ -88,8 +92,7 @@ function Following() {
     ${slopes.tie ? html`<p class="about">${slopes.tie}</p>` : null}
     <div class="following">${listed.map(({ address, entry, slope }) => {
       const { words } = effect(slopes, slope, entry, state.units.value);
-      return html`<label key=${address} class="check"><input type="checkbox" data-free=${address} checked=${state.free.value[address] ?? false}
-        onChange=${(/** @type {any} */ { target }) => (state.free.value = { ...state.free.value, [address]: target.checked })} /><span>${named(address)}</span> <small>${words}</small></label>`;
+      return html`<${Tick} key=${address} address=${address} words=${words} />`;
     })}</div>
     <p class="about">They stay within the ends of their sliders. <button class="quiet" onClick=${() => setAll(!all)}>${all ? "Show fewer" : "Show all"}</button></p>`;
 }
@@ -101,22 +104,20 @@ function PointGoal() {
   if (!points.length) return null;
   return html`
     <${Section} title="Pull a point of a curve">
-      <label class="line"><span>Point</span> <select id="pulled" value=${state.pulled.value} onChange=${(/** @type {any} */ { target }) => {
+      <label class="line"><span>Point</span> <select id="pulled" value=${state.pulled.value} onChange=${({ target }) => {
         state.pulled.value = target.value;
         state.trails.value = [...new Set([...state.trails.value, target.value])].filter(Boolean);
       }}><option value="">none</option>
         ${points.map((name) => html`<option key=${name} translate="no" value=${name} selected=${name === state.pulled.value}>${name}</option>`)}</select></label>
       ${state.pulled.value ? html`
         <p class="about">Drag it in the drawing: the entries that are ticked follow, within the ends of their sliders.</p>
-        <div class="following of-point">${lengths.map(({ address }) => html`<label key=${address} class="check"><input type="checkbox" data-free=${address} checked=${state.free.value[address] ?? false}
-          onChange=${(/** @type {any} */ { target }) => (state.free.value = { ...state.free.value, [address]: target.checked })} /><span>${named(address)}</span></label>`)}</div>` : null}
+        <div class="following of-point">${lengths.map(({ address }) => html`<${Tick} key=${address} address=${address} />`)}</div>` : null}
     <//>`;
 }
 
 function Variants() {
   const pins = state.pins.value;
-  const scalars = state.results.value.flatMap(({ name, scalars: own }) => own.map((each) => ({ ...each, key: `${name}.${each.name}` })));
-  const shown = scalars.filter(({ key }) => HEADS.includes(key));
+  const shown = state.scalars.value.filter(({ key }) => HEADS.includes(key));
   return html`
     <${Section} title="Compare variants">
       <button id="pin" disabled=${!state.results.value.length} onClick=${pin}>Pin this machine</button>
@@ -144,7 +145,7 @@ function Search() {
   const [asked, setAsked] = useState("steady_state.unevenness");
   const [picked, setPicked] = useState(["", ""]);
   const [steps, setSteps] = useState(41);
-  const all = state.results.value.flatMap(({ name, scalars }) => scalars.map((each) => ({ ...each, key: `${name}.${each.name}` })));
+  const all = state.scalars.value;
   const numbers = entries();
   const free = Object.keys(follows());
   const chosen = kind === "sweep" ? picked.filter(Boolean) : free;
@@ -160,16 +161,16 @@ function Search() {
   };
   return html`
     <${Section} title="Sweep or search">
-      <div class="line"><span>What</span> <select aria-label="What is done" value=${kind} onChange=${(/** @type {any} */ { target }) => setKind(target.value)}>
+      <div class="line"><span>What</span> <select aria-label="What is done" value=${kind} onChange=${({ target }) => setKind(target.value)}>
         <option value="sweep">Sweep entries</option><option value="optimise">Search for the best</option></select></div>
-      <label class="line"><span>Result</span> <select id="asked" value=${asked} onChange=${(/** @type {any} */ { target }) => setAsked(target.value)}>
+      <label class="line"><span>Result</span> <select id="asked" value=${asked} onChange=${({ target }) => setAsked(target.value)}>
         ${all.map(({ key, word }) => html`<option key=${key} value=${key} selected=${key === asked}>${word}</option>`)}</select></label>
       ${kind === "sweep" ? [0, 1].map((n) => html`
-        <label class="line" key=${n}><span>${n ? "and over" : "over"}</span> <select id="over-${n}" value=${picked[n]} onChange=${(/** @type {any} */ { target }) => setPicked(picked.map((each, k) => (k === n ? target.value : each)))}>
+        <label class="line" key=${n}><span>${n ? "and over" : "over"}</span> <select id="over-${n}" value=${picked[n]} onChange=${({ target }) => setPicked(picked.map((each, k) => (k === n ? target.value : each)))}>
           <option value="">${n ? "nothing more" : "choose an entry"}</option>${numbers.map(({ address }) => html`<option key=${address} value=${address} selected=${address === picked[n]}>${named(address)}</option>`)}</select></label>`) : html`
-        <div class="line"><span>Goal</span> <select aria-label="Direction" value=${direction} onChange=${(/** @type {any} */ { target }) => setDirection(target.value)}><option value="minimise">Minimum</option><option value="maximise">Maximum</option></select></div>
+        <div class="line"><span>Goal</span> <select aria-label="Direction" value=${direction} onChange=${({ target }) => setDirection(target.value)}><option value="minimise">Minimum</option><option value="maximise">Maximum</option></select></div>
         <p class="about">${free.length ? `${free.length === 1 ? "The entry" : "The entries"} ${free.map(named).join(", ")} may vary.` : "Choose under Pull a result which entries may vary."}</p>`}
-      ${kind === "sweep" ? html`<label class="line"><span>Values</span> <input type="number" min="2" max="401" value=${steps} onChange=${(/** @type {any} */ { target }) => setSteps(Math.min(Math.max(Math.round(Number(target.value)) || 2, 2), 401))} /></label>` : null}
+      ${kind === "sweep" ? html`<label class="line"><span>Values</span> <input type="number" min="2" max="401" value=${steps} onChange=${({ target }) => setSteps(Math.min(Math.max(Math.round(Number(target.value)) || 2, 2), 401))} /></label>` : null}
       <p><button id="seek" class="main" disabled=${!chosen.length} onClick=${start}>Start</button> ${runs(state.search.value) ? html`<button onClick=${stopSearch}>Stop</button>` : null}</p>
       <p class="about">Entries vary between the ends of their sliders.</p>
       <${Found} />
@@ -194,7 +195,7 @@ const runs = (found) => found && !found.ended && !found.last && !(found.kind ===
 function Found() {
   const found = state.search.value;
   if (!found) return null;
-  const result = state.results.value.flatMap(({ name, scalars }) => scalars.map((each) => ({ ...each, key: `${name}.${each.name}` }))).find(({ key }) => key === found.response);
+  const result = state.scalars.value.find(({ key }) => key === found.response);
   const words = result ?? { name: found.response ?? "", word: found.response ?? "", symbol: "", unit: "" };
   const state_ = found.words ?? (found.ended ? `stopped after ${found.done ?? 0} of ${found.rows ?? 0}` : runs(found) ? `${found.done} of ${found.rows} machines` : `${found.done} machines`);
   return html`

@@ -15,7 +15,7 @@ function Units() {
   return html`
     <div class="sets" role="group" aria-label="Sets of units">${SETS.map((word, n) => html`<button key=${word} onClick=${() => (state.units.value = chosen(n))}>${word}</button>`)}</div>
     <div class="units">${Object.entries(UNITS).map(([si, { word, units }]) => html`
-      <label key=${si}>${word}<select value=${choice[si]} onChange=${(/** @type {any} */ { target }) => (state.units.value = { ...choice, [si]: target.value })}>
+      <label key=${si}>${word}<select value=${choice[si]} onChange=${({ target }) => (state.units.value = { ...choice, [si]: target.value })}>
         ${Object.keys(units).map((unit) => html`<option key=${unit} value=${unit} selected=${unit === choice[si]}>${unitSaid(unit)}</option>`)}
       </select></label>`)}</div>
     <p class="about">The file keeps the units that it is written in. A number with a unit of its own, such as <code>8.5 in</code>, can be typed into every field.</p>`;
@@ -26,12 +26,12 @@ function SaveAs() {
   const [wanted, setWanted] = useState(place === "folder" ? name : `${name || "machine"}.toml`);
   const [over, setOver] = useState(false);
   return html`
-    <form onSubmit=${(/** @type {any} */ event) => {
+    <form onSubmit=${(event) => {
       event.preventDefault();
       save(wanted.endsWith(".toml") ? wanted : `${wanted}.toml`, over);
     }}>
-      <label>Name, below the folder of the studio <input id="save-name" value=${wanted} onInput=${(/** @type {any} */ { target }) => setWanted(target.value)} /></label>
-      <label class="check"><input type="checkbox" checked=${over} onChange=${(/** @type {any} */ { target }) => setOver(target.checked)} />Replace a file of this name</label>
+      <label>Name, below the folder of the studio <input id="save-name" value=${wanted} onInput=${({ target }) => setWanted(target.value)} /></label>
+      <label class="check"><input type="checkbox" checked=${over} onChange=${({ target }) => setOver(target.checked)} />Replace a file of this name</label>
       <button class="main" type="submit">Save</button>
     </form>`;
 }
@@ -80,7 +80,7 @@ export function Dialog() {
   }, [which]);
   const [title, Inside] = DIALOGS[which] ?? ["", null];
   return html`
-    <dialog ref=${own} class=${which} aria-label=${title || "Dialog"} onClose=${() => (state.dialog.value = "")} onClick=${(/** @type {any} */ { target }) => target === own.current && (state.dialog.value = "")}>
+    <dialog ref=${own} class=${which} aria-label=${title || "Dialog"} onClose=${() => (state.dialog.value = "")} onClick=${({ target }) => target === own.current && (state.dialog.value = "")}>
       <div class="sheet"><header><h2>${title}</h2><button class="icon" aria-label="Close" onClick=${() => (state.dialog.value = "")}><${Icon} name="close" /></button></header>
       ${Inside ? html`<${Inside} />` : null}</div>
     </dialog>`;

@@ -41,7 +41,7 @@ export function Editor() {
     <div class="editor">
       <pre class="lines" aria-hidden="true" ref=${numbers}>${Array.from({ length: lines }, (_, n) => html`<span class=${wrong.has(n + 1) ? "bad" : ""}>${n + 1}</span>`)}</pre>
       <textarea ref=${area} aria-label="Text of the machine file" spellcheck=${false} wrap="off" defaultValue=${text} onInput=${changed}
-        onScroll=${(/** @type {any} */ { target }) => numbers.current && (numbers.current.scrollTop = target.scrollTop)}></textarea>
+        onScroll=${({ target }) => numbers.current && (numbers.current.scrollTop = target.scrollTop)}></textarea>
     </div>
     ${state.problems.value.map(({ key, line, found, expected, remedy }) => html`
       <p class="problem">${line ? `Line ${line}: ` : ""}${key && html`<code>${key}</code> `}${found && `found ${found}`}${expected && `, expected ${expected}`}${remedy && `; ${remedy}`}</p>`)}`;

@@ -1,4 +1,5 @@
 // Plots as files: CSV, PNG, SVG.
+import { pen } from "./frame.js";
 import { number } from "./units.js";
 
 /** @typedef {{ title: string, heads: string[], rows: ArrayLike<number>[], isToScale?: boolean }} Sheet */
@@ -57,11 +58,11 @@ export function svg({ title, heads, rows, isToScale = false }, colours) {
     ...ticks(y0, y1).map((y) => `<path d="M${left} ${Y(y)}H${width - right}" stroke="#d9dde2"/><text x="${left - 8}" y="${Y(y) + 4}" text-anchor="end">${number(y, 4)}</text>`),
   ];
   const curves = ys.map((row, n) => {
-    let pen = "M";
+    let move = "M";
     const path = Array.from(row, (y, k) => {
-      if (!Number.isFinite(y)) return (pen = "M"), "";
-      const word = `${pen}${X(xs[k]).toFixed(2)} ${Y(y).toFixed(2)}`;
-      pen = "L";
+      if (!Number.isFinite(y)) return (move = "M"), "";
+      const word = `${move}${X(xs[k]).toFixed(2)} ${Y(y).toFixed(2)}`;
+      move = "L";
       return word;
     }).join("");
     return `<path d="${path}" fill="none" stroke="${colours[n % colours.length]}" stroke-width="2"/>`;
@@ -77,7 +78,7 @@ export function png(canvas, title, { paper, ink }) {
   const whole = document.createElement("canvas");
   whole.width = canvas.width;
   whole.height = canvas.height + 28 * ratio;
-  const ctx = /** @type {CanvasRenderingContext2D} */ (whole.getContext("2d"));
+  const ctx = pen(whole);
   ctx.fillStyle = paper;
   ctx.fillRect(0, 0, whole.width, whole.height);
   ctx.fillStyle = ink;

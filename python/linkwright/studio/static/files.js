@@ -43,14 +43,14 @@ export function Files() {
   const buttons = (/** @type {[string, string][]} */ kinds, /** @type {boolean} */ on = true) => html`<p class="sets">${kinds.map(([kind, word]) => html`<button key=${kind} class="main" data-make=${kind} disabled=${!on || running !== ""} onClick=${() => run(kind)}>${word}</button>`)}</p>`;
   return html`
     <h3>Report</h3>
-    ${lanes.length > 1 ? html`<label class="line">Of <select value=${of} onChange=${(/** @type {any} */ { target }) => set({ of: target.value })}><option value="study" selected=${of === "study"}>the whole machine</option><option value="torsion" selected=${of === "torsion"}>its torsional vibration</option></select></label>` : null}
-    <fieldset class="layers"><legend class="hidden">Sections</legend>${SECTIONS.map(([key, word]) => html`<label key=${key}><input type="checkbox" checked=${chosen.sections.includes(key)} onChange=${(/** @type {any} */ { target }) => set({ sections: SECTIONS.map(([each]) => each).filter((each) => (each === key ? target.checked : chosen.sections.includes(each))) })} />${word}</label>`)}</fieldset>
-    <label class="line">Company file for the letterhead <input value=${chosen.company} placeholder="company.toml" onChange=${(/** @type {any} */ { target }) => set({ company: target.value.trim() })} /></label>
-    <label class="check line"><input type="checkbox" checked=${chosen.units} onChange=${(/** @type {any} */ { target }) => set({ units: target.checked })} />In the units of this page, not those of the file</label>
-    ${pins.length ? html`<label class="check line"><input type="checkbox" checked=${chosen.variants} onChange=${(/** @type {any} */ { target }) => set({ variants: target.checked })} />With the pinned variants beside it</label>` : null}
+    ${lanes.length > 1 ? html`<label class="line">Of <select value=${of} onChange=${({ target }) => set({ of: target.value })}><option value="study" selected=${of === "study"}>the whole machine</option><option value="torsion" selected=${of === "torsion"}>its torsional vibration</option></select></label>` : null}
+    <fieldset class="layers"><legend class="hidden">Sections</legend>${SECTIONS.map(([key, word]) => html`<label key=${key}><input type="checkbox" checked=${chosen.sections.includes(key)} onChange=${({ target }) => set({ sections: SECTIONS.map(([each]) => each).filter((each) => (each === key ? target.checked : chosen.sections.includes(each))) })} />${word}</label>`)}</fieldset>
+    <label class="line">Company file for the letterhead <input value=${chosen.company} placeholder="company.toml" onChange=${({ target }) => set({ company: target.value.trim() })} /></label>
+    <label class="check line"><input type="checkbox" checked=${chosen.units} onChange=${({ target }) => set({ units: target.checked })} />In the units of this page, not those of the file</label>
+    ${pins.length ? html`<label class="check line"><input type="checkbox" checked=${chosen.variants} onChange=${({ target }) => set({ variants: target.checked })} />With the pinned variants beside it</label>` : null}
     ${buttons([["html", "HTML page"], ["pdf", "PDF"]], lanes.length > 0)}
     <h3>Motion</h3>
-    <label class="line">Seconds <input type="number" min="0.5" max="60" step="0.5" value=${chosen.seconds} onChange=${(/** @type {any} */ { target }) => set({ seconds: Math.min(Math.max(read(target.value) || 4, 0.5), 60) })} /></label>
+    <label class="line">Seconds <input type="number" min="0.5" max="60" step="0.5" value=${chosen.seconds} onChange=${({ target }) => set({ seconds: Math.min(Math.max(read(target.value) || 4, 0.5), 60) })} /></label>
     ${buttons([["gif", "GIF"], ["mp4", "MP4"]], state.isDrawn.value)}
     <h3>Pose at this crank angle</h3>
     ${buttons([["dxf", "DXF"], ["svg", "SVG"], ["png", "PNG"]], state.isDrawn.value)}

@@ -2,7 +2,7 @@
 import { html } from "./html.js";
 import { useEffect, useRef, useState } from "./vendor/hooks.mjs";
 import { list, open, start, thumbnail } from "./actions.js";
-import { fit } from "./frame.js";
+import { fit, pen } from "./frame.js";
 import { paintKnife } from "./knife.js";
 import { paintMoving, paintStill } from "./painter.js";
 import * as state from "./state.js";
@@ -29,7 +29,7 @@ function sceneOf(place, name) {
 
 /** @param {HTMLCanvasElement} canvas @param {any} scene @returns {() => void} */
 function moving(canvas, scene) {
-  const ctx = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
+  const ctx = pen(canvas);
   const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
   let [time, way, before, handle, seen] = [0, 1, 0, 0, true];
   const watch = new IntersectionObserver(([entry]) => (seen = entry.isIntersecting));
@@ -109,7 +109,7 @@ export function Gallery() {
   const seek = wanted.toLowerCase();
   const found = state.listed.value.filter(({ title, name }) => `${title} ${name}`.toLowerCase().includes(seek));
   return html`
-    <input type="search" class="seek" placeholder="Find a machine" aria-label="Find a machine" value=${wanted} onInput=${(/** @type {any} */ { target }) => setWanted(target.value)} />
+    <input type="search" class="seek" placeholder="Find a machine" aria-label="Find a machine" value=${wanted} onInput=${({ target }) => setWanted(target.value)} />
     <p class="sets"><button id="empty" onClick=${() => start({ place: "", name: "" }, EMPTY, "")}>Start with an empty machine</button></p>
     ${Object.entries(PLACES).map(([place, words]) => {
       const here = found.filter((each) => each.place === place);

@@ -34,7 +34,7 @@ export function Header() {
         <span class="gap"></span>
         <button onClick=${() => (state.dialog.value = "units")}>Units</button>
         <button onClick=${() => (state.dialog.value = "elsewhere")} title="Command line, Python, link">Copy</button>
-        <select class="quiet" aria-label="Language" translate="no" value=${state.language.value} onChange=${(/** @type {any} */ { target }) => (state.language.value = target.value)}>
+        <select class="quiet" aria-label="Language" translate="no" value=${state.language.value} onChange=${({ target }) => (state.language.value = target.value)}>
           ${Object.entries(LANGUAGES).map(([code, word]) => html`<option key=${code} value=${code} lang=${code} translate="no" selected=${code === state.language.value}>${word}</option>`)}</select>
         <button class="icon" onClick=${() => (state.look.value = next)} aria-label="Look: ${about}" title=${about}><${Icon} name=${mark} /></button>
       </nav>

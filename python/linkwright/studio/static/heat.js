@@ -1,8 +1,9 @@
 // A result over two entries as a map of colours with its scale, and its numbers for those who do not see colours.
 import { html } from "./html.js";
 import { useLayoutEffect, useRef, useState } from "./vendor/hooks.mjs";
+import { pen } from "./frame.js";
 import * as state from "./state.js";
-import { colours } from "./theme.js";
+import { colours, shownLook } from "./theme.js";
 import { number, shownUnit } from "./units.js";
 
 /** Viridis, which grows evenly in lightness. */
@@ -27,7 +28,7 @@ export function Heat({ values, x, y, words }) {
   const scale = shownUnit(words.unit, state.units.value);
   useLayoutEffect(() => {
     const canvas = /** @type {HTMLCanvasElement} */ (own.current);
-    const ctx = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
+    const ctx = pen(canvas);
     const [columns, rows] = [x.values.length, y.values.length];
     [canvas.width, canvas.height] = [columns * 12, rows * 12];
     ctx.fillStyle = colours().grid;
@@ -37,7 +38,7 @@ export function Heat({ values, x, y, words }) {
       ctx.fillStyle = colour((value - low) / (high - low || 1));
       ctx.fillRect((n % columns) * 12, canvas.height - 12 * (Math.floor(n / columns) + 1), 12, 12);
     });
-  }, [values, state.look.value]);
+  }, [values, shownLook.value]);
   const ends = (/** @type {{ values: Float64Array, factor: number, unit: string }} */ { values: all, factor, unit }) => [all[0], all[all.length - 1]].map((end) => `${number(end / factor, 3)} ${unit}`);
   const [[left, right], [bottom, top]] = axes.map(ends);
   return html`

@@ -4,10 +4,10 @@ import { html } from "./html.js";
 import { useEffect, useRef } from "./vendor/hooks.mjs";
 import { rows, short } from "./chart.js";
 import { ticks } from "./exported.js";
-import { fit, toMachine, toScreen } from "./frame.js";
+import { fit, pen, toMachine, toScreen } from "./frame.js";
 import { followers } from "./stage.js";
 import * as state from "./state.js";
-import { colours } from "./theme.js";
+import { colours, shownLook } from "./theme.js";
 import { between, placeOf } from "./timeline.js";
 import { number, shownUnit } from "./units.js";
 
@@ -16,8 +16,8 @@ const HEIGHT = 260;
 /** Room for the numbers of the axes. */
 const [LEFT, BELOW] = [52, 34];
 
-/** Least, greatest x and y of a curve with its origin. @param {ArrayLike<number>} xs @param {ArrayLike<number>} ys @returns {number[]} */
-const boxOf = (xs, ys) => [[xs, Math.min], [ys, Math.min], [xs, Math.max], [ys, Math.max]].map(([values, end]) => /** @type {any} */ (end)(0, ...Array.from(/** @type {any} */ (values)).filter(Number.isFinite)));
+/** Ends of a component and the origin. @param {Float64Array} values */
+const ends = (values) => [Math.min(0, ...values.filter(Number.isFinite)), Math.max(0, ...values.filter(Number.isFinite))];
 
 /** @param {{ plot: import("./types.js").Plot }} props */
 export function Hodograph({ plot }) {
@@ -27,7 +27,7 @@ export function Hodograph({ plot }) {
   now.current = plot;
   useEffect(() => {
     const canvas = /** @type {HTMLCanvasElement} */ (holder.current);
-    const ctx = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
+    const ctx = pen(canvas);
     let [seen, zoom, at, from] = /** @type {[boolean, number[] | null, number[] | null, number[] | null]} */ ([true, null, null, null]);
     let frame = { scale: 1, x: 0, y: 0 };
     /** The sample that is nearest to the pointer. @param {Float64Array[]} own */
@@ -47,7 +47,8 @@ export function Hodograph({ plot }) {
       if (canvas.width !== Math.round(width * ratio)) [canvas.width, canvas.height] = [Math.round(width * ratio), height * ratio];
       ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
       ctx.clearRect(0, 0, width, height);
-      frame = fit(zoom ?? boxOf(xs, ys), width - LEFT, height - BELOW, 18);
+      const [[left, right], [bottom, top]] = [ends(xs), ends(ys)];
+      frame = fit(zoom ?? [left, bottom, right, top], width - LEFT, height - BELOW, 18);
       frame.x += LEFT;
       const [x0, y1] = toMachine(frame, LEFT, 0);
       const [x1, y0] = toMachine(frame, width, height - BELOW);
@@ -59,7 +60,7 @@ export function Hodograph({ plot }) {
         ctx.beginPath();
         let pen = false;
         for (const place of places) {
-          const is = Number.isFinite(place[0]) && Number.isFinite(place[1]);
+          const is = place.every(Number.isFinite);
           if (is) ctx[pen ? "lineTo" : "moveTo"](...toScreen(frame, ...place));
           pen = is;
         }
@@ -160,6 +161,6 @@ export function Hodograph({ plot }) {
       observer.disconnect();
     };
   }, []);
-  useEffect(() => redraw.current(), [plot, state.look.value, state.units.value, state.pins.value]);
+  useEffect(() => redraw.current(), [plot, shownLook.value, state.units.value, state.pins.value]);
   return html`<div class="chart hodograph" data-plot=${plot.key}><canvas ref=${holder} role="img" aria-label="Hodograph of ${plot.title}; its numbers stand in the data table"></canvas></div>`;
 }

@@ -17,4 +17,5 @@ function element(type, props, ...children) {
   return h(type, { ...props, ...called }, ...children.map((child) => (typeof child === "string" ? said(child) : child)));
 }
 
+/** What is heard takes any event. @type {(texts: TemplateStringsArray, ...values: (((event: any) => any) | object | string | number | boolean | null | undefined)[]) => any} */
 export const html = htm.bind(/** @type {typeof h} */ (/** @type {unknown} */ (element)));

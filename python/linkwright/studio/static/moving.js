@@ -1,9 +1,10 @@
 // A canvas that is drawn anew at every frame while its picture moves, and once after every change.
 import { html } from "./html.js";
 import { useEffect, useLayoutEffect, useRef } from "./vendor/hooks.mjs";
+import { pen } from "./frame.js";
 import { frames } from "./stage.js";
 import * as state from "./state.js";
-import { colours } from "./theme.js";
+import { colours, shownLook } from "./theme.js";
 
 /**
  * What a picture is drawn with; `passed` is the time since the last frame on the page [s], 0 while it stands.
@@ -24,7 +25,7 @@ export function Moving({ label, draw }) {
   });
   useEffect(() => {
     const canvas = /** @type {HTMLCanvasElement} */ (own.current);
-    const ctx = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
+    const ctx = pen(canvas);
     let [handle, before] = [0, 0];
     const observer = new ResizeObserver(() => (isDirty.current = true));
     observer.observe(canvas);
@@ -51,6 +52,6 @@ export function Moving({ label, draw }) {
       observer.disconnect();
     };
   }, []);
-  void state.look.value;
+  void shownLook.value;
   return html`<canvas ref=${own} role="img" aria-label=${label}></canvas>`;
 }

@@ -32,18 +32,16 @@ const titled = (name) => {
 };
 
 export function Head() {
-  /** @type {Map<string, import("./types.js").Words & { value: number }>} */
-  const known = new Map(state.results.value.flatMap(({ name, scalars }) => scalars.map((each) => [`${name}.${each.name}`, each])));
+  const known = new Map(state.scalars.value.map((each) => [each.key, each]));
   const found = HEAD.flatMap((name) => known.get(name) ?? []);
   const fill = [...known.entries()].flatMap(([name, each]) => (found.includes(each) || NO_RESULT.includes(name) ? [] : [each]));
   const train = state.views.value.find(({ kind }) => kind === "train");
-  const modes = Array.from(train && !state.isDrawn.value ? train.frequencies.subarray(0, MODES_MOST) : [], (/** @type {number} */ f, n) => ({ name: `mode_${n + 1}`, word: `natural frequency, mode ${n + 1}`, symbol: "f", unit: "Hz", value: f }));
+  const modes = Array.from(train && !state.isDrawn.value ? train.frequencies.subarray(0, MODES_MOST) : [], (/** @type {number} */ f, n) => ({ name: `mode_${n + 1}`, word: `natural frequency, mode ${n + 1}`, symbol: "f", unit: "Hz", value: f, of: "", key: "" }));
   const shown = [...modes, ...found, ...fill].slice(0, found.length >= 3 ? Math.min(found.length, HEAD_MOST) : HEAD_MOST);
   if (!shown.length) return null;
-  const of = new Map(state.results.value.flatMap(({ name, scalars }) => scalars.map((each) => /** @type {const} */ ([each, name]))));
   return html`<dl class="head" aria-label="Main results">${shown.map((each) => {
     const { unit, factor } = shownUnit(each.unit, state.units.value);
-    return html`<div key=${each.name} data-name=${each.name}><dt>${/^(time|revolutions)$/.test(each.name) ? `${said(titled(of.get(each) ?? ""))}: ${each.word}` : each.word}</dt><dd><b data-value=${each.value}>${number(each.value / factor, 4)}</b> <small>${unit || "–"}</small></dd></div>`;
+    return html`<div key=${each.name} data-name=${each.name}><dt>${/^(time|revolutions)$/.test(each.name) ? `${said(titled(each.of))}: ${each.word}` : each.word}</dt><dd><b data-value=${each.value}>${number(each.value / factor, 4)}</b> <small>${unit || "–"}</small></dd></div>`;
   })}</dl>`;
 }
 
@@ -54,7 +52,7 @@ export function Numbers() {
     .map(({ name, scalars }) => ({ name, scalars: scalars.filter(({ word, symbol, name: own }) => `${word} ${symbol} ${own}`.toLowerCase().includes(seek)) }))
     .filter(({ scalars }) => scalars.length);
   return html`
-    <input type="search" class="seek" placeholder="Find a quantity" aria-label="Find a quantity" value=${wanted} onInput=${(/** @type {any} */ { target }) => setWanted(target.value)} />
+    <input type="search" class="seek" placeholder="Find a quantity" aria-label="Find a quantity" value=${wanted} onInput=${({ target }) => setWanted(target.value)} />
     ${groups.map(({ name, scalars }) => html`
       <table key=${name}><caption>${titled(name.replace(".", ", "))}</caption><tbody>
         ${scalars.map((each) => {

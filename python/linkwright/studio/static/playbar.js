@@ -18,6 +18,14 @@ function step(by) {
   state.time.value = scene.times[scene.swings ? Math.min(Math.max(k, 0), last) : (k + last) % last];
 }
 
+export const Play = () => html`<button class="icon play" onClick=${() => (state.playing.value = !state.playing.value)} aria-label=${state.playing.value ? "Pause" : "Play"} title="Play or pause (space)"><${Icon} name=${state.playing.value ? "pause" : "play"} /></button>`;
+
+export const Speed = () => html`
+  <label class="speed">Speed
+    <input type="range" min="-2" max="1" step="0.05" value=${state.pace.value} aria-valuetext=${`${(10 ** state.pace.value).toPrecision(2)} times`}
+      onInput=${({ target }) => (state.pace.value = Number(target.value))} />
+  </label>`;
+
 /** Points that move. */
 const movers = () => Object.keys(state.scene.value?.velocities ?? {});
 
@@ -36,7 +44,7 @@ function Scrub() {
   const degrees = (between(scene.angles, k) * 180) / Math.PI;
   return html`<input type="range" id="scrub" aria-label="Crank angle" min="0" max=${last} step="any" value=${k}
     aria-valuetext=${`${degrees.toFixed(0).replace("-", "−")} degrees`}
-    onInput=${(/** @type {any} */ { target }) => {
+    onInput=${({ target }) => {
       state.playing.value = false;
       const n = Math.min(Number(target.value), last - 1e-9);
       state.time.value = between(scene.times, n);
@@ -44,25 +52,21 @@ function Scrub() {
 }
 
 export function Playbar() {
-  const playing = state.playing.value;
   if (!state.isDrawn.value) return null;
   const points = movers();
   return html`
     <div class="playbar" role="group" aria-label="Motion">
       <button class="icon" onClick=${() => step(-1)} aria-label="One step back" title="One step back"><${Icon} name="back" /></button>
-      <button class="icon play" onClick=${() => (state.playing.value = !playing)} aria-label=${playing ? "Pause" : "Play"} title="Play or pause (space)"><${Icon} name=${playing ? "pause" : "play"} /></button>
+      <${Play} />
       <button class="icon" onClick=${() => step(1)} aria-label="One step on" title="One step on"><${Icon} name="on" /></button>
       <${Scrub} />
       <output id="instant"></output>
-      <label class="speed">Speed
-        <input type="range" min="-2" max="1" step="0.05" value=${state.pace.value} aria-valuetext=${`${(10 ** state.pace.value).toPrecision(2)} times`}
-          onInput=${(/** @type {any} */ { target }) => (state.pace.value = Number(target.value))} />
-      </label>
+      <${Speed} />
     </div>
     <fieldset class="layers"><legend class="hidden">What is drawn</legend>
       ${LAYERS.map(([key, word]) => html`<label key=${key}><input type="checkbox" checked=${state.layers.value[key]}
-        onChange=${(/** @type {any} */ { target }) => (state.layers.value = { ...state.layers.value, [key]: target.checked })} /><i class="dot ${key}"></i>${word}</label>`)}
-      <label>Trails <select id="trails" value="" onChange=${(/** @type {any} */ { target }) => trail(target.value)}><option value="">${state.trails.value.length || "–"}</option>
+        onChange=${({ target }) => (state.layers.value = { ...state.layers.value, [key]: target.checked })} /><i class="dot ${key}"></i>${word}</label>`)}
+      <label>Trails <select id="trails" value="" onChange=${({ target }) => trail(target.value)}><option value="">${state.trails.value.length || "–"}</option>
         <option value="*">${state.trails.value.length ? "none" : "all points"}</option>${points.map((name) => html`<option key=${name} translate="no" value=${name}>${state.trails.value.includes(name) ? "✓ " : ""}${name}</option>`)}</select></label>
     </fieldset>`;
 }

@@ -86,7 +86,7 @@ export function Plots() {
   const others = all.filter(({ plot }) => isHidden(plot));
   return html`
     ${points.length ? html`
-      <label class="watch">Curves of a point <select value=${state.watched.value} onChange=${(/** @type {any} */ { target }) => (state.watched.value = target.value)}>
+      <label class="watch">Curves of a point <select value=${state.watched.value} onChange=${({ target }) => (state.watched.value = target.value)}>
         <option value="">none</option>${points.map((name) => html`<option key=${name} translate="no" value=${name} selected=${name === state.watched.value}>${name}</option>`)}
       </select></label>` : null}
     <div class="panels">

@@ -7,10 +7,10 @@ import { letBack, merge, pull } from "./actions.js";
 import { paintArrows } from "./arrows.js";
 import { paintCentres } from "./centres.js";
 import { follows } from "./controls.js";
-import { barLength, fit, toMachine, toScreen, zoomed } from "./frame.js";
+import { barLength, fit, pen, toMachine, toScreen, zoomed } from "./frame.js";
 import { paintMoving, paintStill } from "./painter.js";
 import * as state from "./state.js";
-import { colours } from "./theme.js";
+import { colours, shownLook } from "./theme.js";
 import { between, onward, pairAt, placeOf, watchable } from "./timeline.js";
 import { decimal, saidOf } from "./language.js";
 import { number, shownUnit } from "./units.js";
@@ -50,7 +50,7 @@ export function Stage() {
 
 /** @param {HTMLDivElement} holder @param {HTMLCanvasElement} canvas */
 function run(holder, canvas) {
-  const ctx = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
+  const ctx = pen(canvas);
   const [still, shade] = [document.createElement("canvas"), document.createElement("canvas")];
   let frame = { scale: 1, x: 0, y: 0 };
   // Known from when it changed: asking for it while the page is written anew would lay the page out twice.
@@ -78,7 +78,7 @@ function run(holder, canvas) {
   observer.observe(holder);
 
   const forget = effect(() => {
-    for (const each of [state.scene, state.layers, state.time, state.look, state.picked, state.units, state.trails]) void each.value;
+    for (const each of [state.scene, state.layers, state.time, shownLook, state.picked, state.units, state.trails]) void each.value;
     if (state.scene.value && !gesture) {
       // A drawing stays where it is while a length is pulled; another machine is fitted anew.
       const name = `${state.machine.value} ${Object.keys(state.scene.value.points).length}`;
@@ -101,7 +101,7 @@ function run(holder, canvas) {
     const k = placeOf(scene.times, state.time.value);
     const view = { ctx, scene, frame, k, ink, series: ink.series, light: state.picked.value };
     if (stillFor !== scene) {
-      const behind = /** @type {CanvasRenderingContext2D} */ (still.getContext("2d"));
+      const behind = pen(still);
       behind.setTransform(ratio, 0, 0, ratio, 0, 0);
       behind.clearRect(0, 0, width, height);
       paintStill({ ...view, ctx: behind, scene: { ...scene, parts: [...(state.layers.value.paths ? scene.parts : scene.parts.filter(({ kind }) => kind !== "trace")), ...trails(scene)] } });
@@ -132,7 +132,7 @@ function run(holder, canvas) {
   function limitPose(view) {
     const angle = state.limit.value;
     if (angle === null) return;
-    const over = /** @type {CanvasRenderingContext2D} */ (shade.getContext("2d"));
+    const over = pen(shade);
     const ratio = devicePixelRatio || 1;
     over.setTransform(ratio, 0, 0, ratio, 0, 0);
     over.clearRect(0, 0, width, height);
@@ -229,7 +229,7 @@ function run(holder, canvas) {
   }
   let handle = requestAnimationFrame(step);
 
-  // -- gestures ---------------------------------------------------------------------------------------------------
+  // -- gestures
 
   /** @param {PointerEvent | MouseEvent} event @returns {[number, number]} */
   function under(event) {

@@ -66,6 +66,8 @@ export const answers = signal({});
 export const lanes = signal({});
 const inOrder = computed(() => ["fast", "study", "torsion"].map((lane) => answers.value[lane]).filter(Boolean));
 export const results = computed(() => inOrder.value.flatMap((each) => each.results));
+/** Numbers of all results, each with the key of its result and its own. */
+export const scalars = computed(() => results.value.flatMap(({ name, scalars: own }) => own.map((each) => ({ ...each, of: name, key: `${name}.${each.name}` }))));
 /** Pictures beside the drawing. @type {Signal<any[]>} */
 export const views = /** @type {any} */ (computed(() => inOrder.value.flatMap((each) => each.views ?? [])));
 /** The picture that was chosen. */

@@ -1,5 +1,6 @@
 // Colours of canvas and plots: those of the style sheet, read once for each look.
 import { look } from "./state.js";
+import { computed, effect, signal } from "./vendor/signals-core.mjs";
 
 /** @typedef {Record<"ink" | "soft" | "grid" | "panel" | "paper" | "accent" | "bad", string> & { series: string[] }} Colours */
 
@@ -7,10 +8,13 @@ import { look } from "./state.js";
 let known = null;
 let of = "";
 const dark = matchMedia("(prefers-color-scheme: dark)");
+const isDark = signal(dark.matches);
+/** The look on the page: the user's, or that of the system. */
+export const shownLook = computed(() => look.value || (isDark.value ? "dark" : "light"));
 
 /** @returns {any} */
 export function colours() {
-  const now = `${look.value} ${dark.matches}`;
+  const now = shownLook.value;
   if (known && of === now) return known;
   const style = getComputedStyle(document.documentElement);
   const read = (/** @type {string} */ name) => style.getPropertyValue(`--${name}`).trim();
@@ -23,6 +27,8 @@ export function colours() {
   return /** @type {Colours} */ (known);
 }
 
-dark.addEventListener("change", () => {
-  look.value = `${look.value}`;
+dark.addEventListener("change", () => (isDark.value = dark.matches));
+// Before what is drawn asks for its colours.
+effect(() => {
+  document.documentElement.dataset.look = shownLook.value;
 });

@@ -1,10 +1,9 @@
 // The picture above the results: the mechanism, the train in one of its modes, or the knife of a topper; a tab each where there are several.
 import { html } from "./html.js";
 import { useRef, useState } from "./vendor/hooks.mjs";
-import { Icon } from "./icons.js";
 import { paintKnife, across } from "./knife.js";
 import { Moving } from "./moving.js";
-import { Playbar } from "./playbar.js";
+import { Play, Playbar, Speed } from "./playbar.js";
 import { Stage } from "./stage.js";
 import * as state from "./state.js";
 import { paintTrain } from "./twist.js";
@@ -17,14 +16,6 @@ const PERIOD = 2.4;
 const REST = 1.5;
 
 const WORDS = /** @type {Record<string, string>} */ ({ mechanism: "Mechanism", train: "Shaft train", topper: "Topper from above" });
-
-const Play = () => html`<button class="icon play" onClick=${() => (state.playing.value = !state.playing.value)} aria-label=${state.playing.value ? "Pause" : "Play"} title="Play or pause (space)"><${Icon} name=${state.playing.value ? "pause" : "play"} /></button>`;
-
-const Speed = () => html`
-  <label class="speed">Speed
-    <input type="range" min="-2" max="1" step="0.05" value=${state.pace.value} aria-valuetext=${`${(10 ** state.pace.value).toPrecision(2)} times`}
-      onInput=${(/** @type {any} */ { target }) => (state.pace.value = Number(target.value))} />
-  </label>`;
 
 /** @param {{ view: import("./twist.js").Train }} props */
 function TrainView({ view }) {
@@ -39,7 +30,7 @@ function TrainView({ view }) {
     }} /></div>
     <div class="playbar" role="group" aria-label="Motion">
       <${Play} />
-      <label class="mode">Mode <select id="mode" value=${mode} onChange=${(/** @type {any} */ { target }) => setMode(Number(target.value))}>
+      <label class="mode">Mode <select id="mode" value=${mode} onChange=${({ target }) => setMode(Number(target.value))}>
         ${Array.from(view.frequencies, (f, n) => html`<option key=${n} value=${n} selected=${n === mode}>${`${n + 1}: ${number(f, 5)} ${shownUnit("Hz", state.units.value).unit}`}</option>`)}</select></label>
       <span class="about words">Angles are drawn many times larger than they are. Red dots: nodes, at rest.</span>
       <${Speed} />
@@ -68,7 +59,7 @@ function KnifeView({ view }) {
     <div class="stage"><${Moving} label="Knife of the topper over the heads of a row, from above" draw=${draw} /></div>
     <div class="playbar" role="group" aria-label="Motion">
       <${Play} />
-      <input type="range" id="knife" ref=${slider} min="0" max="1" step="any" value=${own.current.share} aria-label="Way along the row" onInput=${(/** @type {any} */ { target }) => {
+      <input type="range" id="knife" ref=${slider} min="0" max="1" step="any" value=${own.current.share} aria-label="Way along the row" onInput=${({ target }) => {
         state.playing.value = false;
         own.current = { share: Number(target.value), rest: 0 };
         again(own.current.share);
