@@ -143,6 +143,7 @@ _HOME = {
     "write_drawing": "cam.manufacture.write",
     "read_heading": "app.report.company",
     "write_report": "app.report.page",
+    "widget": "studio.widget",
 }
 
 __all__ = ["__version__", *_HOME]
@@ -166,6 +167,7 @@ if TYPE_CHECKING:
     from linkwright.app.quantities import quantities as quantities
     from linkwright.app.report.company import read_heading as read_heading
     from linkwright.app.report.page import write_report as write_report
+    from linkwright.studio.widget import widget as widget
     from linkwright.app.study import study as study
     from linkwright.cam.dynamics.bearing import ArmPivot as ArmPivot
     from linkwright.cam.dynamics.bearing import StemGuide as StemGuide

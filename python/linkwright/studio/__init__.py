@@ -23,5 +23,6 @@ No mechanics is computed here: the studio asks the rooms of the subjects, and th
 | `document` | The text of the file: changes that keep comments |
 | `files` | Files below the folder, library, templates |
 | `language` | Texts of the page and messages of the server in another language |
+| `widget` | The drawing in a notebook; `notebook/` is its part of the page |
 | `static/` | The page: plain modules, styles, vendored libraries |
 """

@@ -274,8 +274,7 @@ def _index() -> str:
     """The page; it asks for all modules at once, which are otherwise known by what imports them alone."""
     modules = sorted([*STATIC.glob("*.js"), *STATIC.glob("vendor/*.mjs")])
     links = "".join(
-        f'<link rel="modulepreload" href="{module.relative_to(STATIC).as_posix()}">\n'
-        for module in modules
+        f'<link rel="modulepreload" href="{module.relative_to(STATIC).as_posix()}">\n' for module in modules
     )
     return (STATIC / "index.html").read_text(encoding="utf-8").replace("</head>", f"{links}</head>")
 

@@ -342,58 +342,6 @@ test("a result is pulled, and the entries that follow give it on the command lin
   await page.locator(".design .problem").waitFor();
 });
 
-test("a point of a curve is pulled, and the entries that were ticked follow", async () => {
-  const before = await page.evaluate(() => globalThis.studio.state.text.value);
-  await page.evaluate(() => globalThis.studio.open("template", "four-bar"));
-  await known();
-  await page.getByRole("tab", { name: "Design" }).click();
-  await page.locator("#pulled").selectOption("K");
-  for (const entry of ["mechanism.cranks.A.radius", "mechanism.rockers.C.coupler", "mechanism.rigid_points.K.across"]) await page.locator(`.of-point [data-free="${entry}"]`).check();
-  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
-  const place = () => page.evaluate(() => Array.from(globalThis.studio.state.scene.value.points.K.subarray(0, 2)));
-  const [x, y] = await handle("K");
-  const [u, v] = await place();
-  await page.mouse.move(x, y);
-  await page.mouse.down();
-  await page.mouse.move(x + 4, y - 9, { steps: 3 });
-  await page.mouse.up();
-  await known();
-  // The drawing is fitted anew meanwhile, so that pixels are known to one alone.
-  await shows(place, ([U, V]) => U > u && V > v && Math.abs(Math.atan2(U - u, V - v) - Math.atan2(4, 9)) < 0.2);
-  assert.match(await page.evaluate(() => globalThis.studio.state.text.value), /rocker = "110 mm"[\s\S]*along = "60 mm"/);
-  await page.keyboard.press("Control+z");
-  await known();
-  assert.match(await page.evaluate(() => globalThis.studio.state.text.value), /radius = "50 mm"/);
-  await page.evaluate((text) => globalThis.studio.write(text), before);
-  await known();
-});
-
-test("a joint that is dropped on another merges with it while a linkage is built", async () => {
-  const before = await page.evaluate(() => globalThis.studio.state.text.value);
-  await page.evaluate((text) => globalThis.studio.write(text), readFileSync(`${ROOT}machines/roller_two_carts.toml`, "utf8"));
-  await known();
-  await page.locator("details.build > summary").click();
-  const [[x, y], [X, Y]] = [await handle("A2"), await handle("A1")];
-  await page.mouse.move(x, y);
-  await page.mouse.down();
-  await page.mouse.move(X, Y, { steps: 5 });
-  await page.mouse.up();
-  await known();
-  const text = () => page.evaluate(() => globalThis.studio.state.text.value);
-  await shows(text, (now) => !now.includes("cranks.A2") && now.split('crank = "A1"').length === 3);
-  await page.keyboard.press("Control+z");
-  await known();
-  assert.match(await text(), /cranks\.A2/);
-  await page.getByLabel("Merge", { exact: true }).selectOption("A1");
-  await page.getByLabel("with", { exact: true }).selectOption("cart1");
-  await page.locator("#merge").click();
-  await page.getByRole("alert").getByText("was not merged").waitFor();
-  await page.getByRole("button", { name: "Close" }).click();
-  await page.locator("details.build > summary").click();
-  await page.evaluate((words) => globalThis.studio.write(words), before);
-  await known();
-});
-
 test("a pinned machine stays beside the one at hand", async () => {
   await page.locator("#pin").click();
   const pinned = await scalar("steady_state.unevenness");
@@ -432,6 +380,60 @@ test("one entry is swept into a curve, two into a map, and a search ends where i
   await page.locator("#take").click();
   await known();
   assert.ok((await scalar("steady_state.unevenness")) < Math.min(...values));
+});
+
+test("a point of a curve is pulled, and the entries that were ticked follow", async () => {
+  const before = await page.evaluate(() => globalThis.studio.state.text.value);
+  await page.evaluate(() => globalThis.studio.open("template", "four-bar"));
+  await known();
+  await page.getByRole("tab", { name: "Design" }).click();
+  await page.locator("#pulled").selectOption("K");
+  for (const entry of ["mechanism.cranks.A.radius", "mechanism.rockers.C.coupler", "mechanism.rigid_points.K.across"]) await page.locator(`.of-point [data-free="${entry}"]`).check();
+  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+  const place = () => page.evaluate(() => Array.from(globalThis.studio.state.scene.value.points.K.subarray(0, 2)));
+  const [x, y] = await handle("K");
+  const [u, v] = await place();
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + 4, y - 9, { steps: 3 });
+  await page.mouse.up();
+  await known();
+  // The drawing is fitted anew meanwhile, so that pixels are known to one alone.
+  await shows(place, ([U, V]) => U > u && V > v && Math.abs(Math.atan2(U - u, V - v) - Math.atan2(4, 9)) < 0.2);
+  assert.match(await page.evaluate(() => globalThis.studio.state.text.value), /rocker = "110 mm"[\s\S]*along = "60 mm"/);
+  await page.keyboard.press("Control+z");
+  await known();
+  assert.match(await page.evaluate(() => globalThis.studio.state.text.value), /radius = "50 mm"/);
+  await page.evaluate(() => globalThis.studio.open("folder", "carts.toml"));
+  await known();
+  await page.evaluate((text) => globalThis.studio.write(text), before);
+  await known();
+});
+
+test("a joint that is dropped on another merges with it while a linkage is built", async () => {
+  const before = await page.evaluate(() => globalThis.studio.state.text.value);
+  await page.evaluate((text) => globalThis.studio.write(text), readFileSync(`${ROOT}machines/roller_two_carts.toml`, "utf8"));
+  await known();
+  await page.locator("details.build > summary").click();
+  const [[x, y], [X, Y]] = [await handle("A2"), await handle("A1")];
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(X, Y, { steps: 5 });
+  await page.mouse.up();
+  await known();
+  const text = () => page.evaluate(() => globalThis.studio.state.text.value);
+  await shows(text, (now) => !now.includes("cranks.A2") && now.split('crank = "A1"').length === 3);
+  await page.keyboard.press("Control+z");
+  await known();
+  assert.match(await text(), /cranks\.A2/);
+  await page.getByLabel("Merge", { exact: true }).selectOption("A1");
+  await page.getByLabel("with", { exact: true }).selectOption("cart1");
+  await page.locator("#merge").click();
+  await page.getByRole("alert").getByText("was not merged").waitFor();
+  await page.getByRole("button", { name: "Close" }).click();
+  await page.locator("details.build > summary").click();
+  await page.evaluate((words) => globalThis.studio.write(words), before);
+  await known();
 });
 
 test("axe finds nothing serious, in light and in dark", async () => {

@@ -40,3 +40,6 @@ export function barLength(frame, most = 120) {
   const share = raw / power;
   return power * (share >= 5 ? 5 : share >= 2 ? 2 : 1);
 }
+
+/** What draws on a canvas. @param {HTMLCanvasElement} canvas */
+export const pen = (canvas) => /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));

@@ -1,4 +1,5 @@
 // The knife of a topper over the heads of a row, from above: the swept area grows, what is left uncut stays.
+import { pen } from "./frame.js";
 
 /**
  * @typedef {{ kind: "topper", law: Float64Array, rate: number, drift: number, phase: number, angle: number, length: number, speed: number,
@@ -125,7 +126,7 @@ export function paintKnife(paper, view, t, names = true) {
       known = { key, done: 0, layers };
       swept.set(view, known);
       for (const [n, layer] of layers.entries()) {
-        const on = /** @type {CanvasRenderingContext2D} */ (layer.getContext("2d"));
+        const on = pen(layer);
         on.setTransform(ratio, 0, 0, ratio, 0, 0);
         on.fillStyle = on.strokeStyle = n ? "#f2c230" : series[0];
         if (!n) continue;
@@ -140,7 +141,7 @@ export function paintKnife(paper, view, t, names = true) {
     for (; known.done < done; known.done += 1) {
       const [[a, b], [d, c]] = [ends(place(instant(known.done))), ends(place(instant(known.done + 1)))];
       for (const layer of known.layers) {
-        const on = /** @type {CanvasRenderingContext2D} */ (layer.getContext("2d"));
+        const on = pen(layer);
         on.beginPath();
         for (const [x, y] of [a, b, c, d]) on.lineTo(x, y);
         on.closePath();
