@@ -7,6 +7,7 @@ stands above, and each name stands for one thing.
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -32,13 +33,13 @@ _LOOK = re.compile(r"^:root(?:\[data-look=\"(\w+)\"\])? \{(.*?)^\}", re.MULTILIN
 _COLOUR = re.compile(r"--([\w-]+): (#\w+)")
 
 LAYERS = ("velocities", "accelerations", "forces", "centres")
-# Height of the drawing on the page [px], and the least at which something is seen.
+# Height of the drawing on the page [px], and the smallest that shows anything.
 _HEIGHT, _LEAST = 380, 80
 
 
 @public
 def widget(
-    machine: Machine, *, layers: tuple[str, ...] = (), height: int = _HEIGHT, language: str = "en"
+    machine: Machine, *, layers: Sequence[str] = (), height: int = _HEIGHT, language: str = "en"
 ) -> Any:
     """The drawing of a machine in motion, for a notebook.
 
@@ -46,7 +47,7 @@ def widget(
     ----------
     machine : Machine
         With a mechanism that moves.
-    layers : tuple of str
+    layers : sequence of str
         What is drawn besides: ``"velocities"``, ``"accelerations"``, ``"forces"``, ``"centres"``.
     height : int
         Of the drawing [px].
