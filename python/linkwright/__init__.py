@@ -167,7 +167,6 @@ if TYPE_CHECKING:
     from linkwright.app.quantities import quantities as quantities
     from linkwright.app.report.company import read_heading as read_heading
     from linkwright.app.report.page import write_report as write_report
-    from linkwright.studio.widget import widget as widget
     from linkwright.app.study import study as study
     from linkwright.cam.dynamics.bearing import ArmPivot as ArmPivot
     from linkwright.cam.dynamics.bearing import StemGuide as StemGuide
@@ -250,6 +249,7 @@ if TYPE_CHECKING:
     from linkwright.studies.record import read_record as read_record
     from linkwright.studies.sweep import sweep as sweep
     from linkwright.studies.tolerance import tolerance as tolerance
+    from linkwright.studio.widget import widget as widget
     from linkwright.synthesis.dead_centre import crank_rocker as crank_rocker
     from linkwright.synthesis.function_generator import function_generator as function_generator
     from linkwright.synthesis.path import path_generator as path_generator

@@ -19,8 +19,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.place import split
 from linkwright.kernel.description.schema_walk import annotation_at, mark_of
 from linkwright.kernel.errors import InputError, LinkwrightError
@@ -33,7 +33,6 @@ from linkwright.machine.tangents import directions
 from linkwright.studio.document import short
 from linkwright.studio.drawing import entries_of
 
-Floats = NDArray[np.float64]
 Limits = Mapping[str, tuple[float, float]]
 Ranges = tuple[tuple[float, float], ...]
 
@@ -58,21 +57,13 @@ _HALVINGS = 13
 
 @dataclass(frozen=True)
 class Drag:
-    """Where a drag leads.
+    """Where a drag leads."""
 
-    Attributes
-    ----------
-    entries : dict of str to float
-        Address → SI value.
-    reason : str
-        Why it stops before the place; empty if it does not.
-    limit : float or None
-        Crank angle at which the linkage is at its limit there [rad]; None if it stops at none.
-    """
-
-    entries: dict[str, float]
-    reason: str = ""
-    limit: float | None = None
+    entries: dict[str, float]  # address → SI value
+    reason: str = ""  # why it stops before the place; empty if it does not
+    limit: float | None = (
+        None  # crank angle at which the linkage is at its limit there [rad]; None if at none
+    )
 
 
 def drag(
