@@ -1237,8 +1237,11 @@ def motions(
     phi: _Floats,
     what: Sequence[Channel],
     out: _Floats,
-) -> None:
-    """Motions of n machines at the angles `phi` into `out` (n, numbers, angles)."""
+) -> bool:
+    """Motions of n machines at the angles `phi` into `out` (n, numbers, angles).
+
+    Returns: whether all numbers, and the sums of those of a point, link or slide, are finite.
+    """
 
 def motions_along(plan: Plan, q: _Floats, values: _Floats, phi: _Floats, what: Sequence[Channel]) -> _Floats:
     """Derivatives of motions by directions (parameters, n) at fixed angles, (numbers, angles × n)."""

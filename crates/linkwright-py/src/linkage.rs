@@ -51,7 +51,7 @@ pub(crate) fn motions(
     phi: Floats<'_>,
     what: Vec<Channel>,
     mut out: PyReadwriteArray3<'_, f64>,
-) -> PyResult<()> {
+) -> PyResult<bool> {
     let n = values.as_array().ncols();
     let slots = as_indices(slots.as_slice()?, plan.0.n_parameters)?;
     let rows = Rows { base: plan.parameters(&q)?, slots: &slots, values: values.as_slice()?, n };

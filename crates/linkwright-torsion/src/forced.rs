@@ -21,6 +21,7 @@ use super::Train;
 use linkwright_kernel::call::{in_threads, poll};
 use linkwright_kernel::lanes::{Job, in_lanes, scalar};
 use linkwright_kernel::real::Real;
+use rayon::current_num_threads;
 use rayon::prelude::*;
 use std::ops::{Add, Mul};
 
@@ -64,8 +65,9 @@ pub fn forced(train: &Train, damping: &Damping<'_>, orders: &[f64], torques: &mu
         in_lanes(ResponseJob { train, damping, orders, torques });
         return true;
     }
-    let at_once = (TASK / block).max(1);
     in_threads(|crew| {
+        // A task looks up what damps at a speed once for all its orders; two tasks a thread level out.
+        let at_once = (TASK / block).max(orders.len().div_ceil(2 * current_num_threads())).max(1);
         let tasks = torques.par_chunks_mut(at_once * block).zip(orders.par_chunks(at_once));
         tasks.for_each(|(torques, orders)| {
             crew.task(|| in_lanes(ResponseJob { train, damping, orders, torques }))
@@ -147,7 +149,7 @@ impl Job for ResponseJob<'_> {
         let zero = R::splat(0.0);
         let mut parts = vec![Part { k: zero, loss: zero, c: zero, ground: zero }; n];
         let mut steps = vec![Step { D: Z(zero, zero), s: Z(zero, zero), M: Z(zero, zero) }; n];
-        let mut buffer = vec![0.0; 2 * R::LANES];
+        let mut buffer = vec![0.0; R::LANES];
         for first in (0..speeds).step_by(R::LANES) {
             for (i, part) in parts.iter_mut().enumerate() {
                 let mut at = |from: &[f64]| lanes(&from[i * speeds..(i + 1) * speeds], first, &mut buffer);
@@ -165,11 +167,11 @@ impl Job for ResponseJob<'_> {
                     #[inline(always)]
                     || {
                         for (step, row) in steps.iter_mut().zip(block.chunks_exact(speeds)) {
-                            step.M = read(row, first, &mut buffer);
+                            step.M = read(row, first);
                         }
                         train.respond(speed * order, &parts, &mut steps);
                         for (step, row) in steps.iter().zip(block.chunks_exact_mut(speeds)) {
-                            write(step.M, row, first, &mut buffer);
+                            write(step.M, row, first);
                         }
                     },
                 );
@@ -220,20 +222,35 @@ fn lanes<R: Real>(row: &[f64], first: usize, buffer: &mut [f64]) -> R {
 
 /// Real parts and imaginary parts of a row, likewise.
 #[inline(always)]
-fn read<R: Real>(row: &[Complex], first: usize, buffer: &mut [f64]) -> Z<R> {
-    let (re, im) = buffer.split_at_mut(R::LANES);
-    for (lane, (re, im)) in re.iter_mut().zip(im.iter_mut()).enumerate() {
-        [*re, *im] = row[(first + lane).min(row.len() - 1)];
+fn read<R: Real>(row: &[Complex], first: usize) -> Z<R> {
+    let (mut re, mut im) = ([0.0; LANES_MAX], [0.0; LANES_MAX]);
+    if let Some(row) = row.get(first..first + R::LANES) {
+        for lane in 0..R::LANES {
+            [re[lane], im[lane]] = row[lane];
+        }
+    } else {
+        for lane in 0..R::LANES {
+            [re[lane], im[lane]] = row[(first + lane).min(row.len() - 1)];
+        }
     }
-    Z(R::load(re), R::load(im))
+    Z(R::load(&re), R::load(&im))
 }
 
 #[inline(always)]
-fn write<R: Real>(z: Z<R>, row: &mut [Complex], first: usize, buffer: &mut [f64]) {
-    let (re, im) = buffer.split_at_mut(R::LANES);
-    z.0.store(re);
-    z.1.store(im);
-    for ((to, &re), &im) in row[first..].iter_mut().zip(re.iter()).zip(im.iter()) {
-        *to = [re, im];
+fn write<R: Real>(z: Z<R>, row: &mut [Complex], first: usize) {
+    let (mut re, mut im) = ([0.0; LANES_MAX], [0.0; LANES_MAX]);
+    z.0.store(&mut re);
+    z.1.store(&mut im);
+    if let Some(row) = row.get_mut(first..first + R::LANES) {
+        for lane in 0..R::LANES {
+            row[lane] = [re[lane], im[lane]];
+        }
+    } else {
+        for ((to, re), im) in row[first..].iter_mut().zip(re).zip(im) {
+            *to = [re, im];
+        }
     }
 }
+
+/// Lanes of two of the widest registers.
+const LANES_MAX: usize = 16;

@@ -268,10 +268,7 @@ def motions(
     compiled = compile_machine(machine)
     asked: Mapping[str, Iterable[str]] = {"points": points, "links": links, "slides": slides}
     what = [(part, name) for part, names in asked.items() for name in names]
-    result = motion_arrays(compiled, checked_angles(angles), what, out)
-    # A sum is quick, and finite where all numbers are.
-    with np.errstate(invalid="ignore", over="ignore"):
-        is_finite = np.isfinite(result.sum())
+    result, is_finite = _filled(compiled, checked_angles(angles), what, out)
     if not is_finite:
         result[np.isinf(result)] = np.nan
     return result
@@ -280,7 +277,14 @@ def motions(
 def motion_arrays(
     compiled: CompiledMachine, angles: Floats, what: list[tuple[str, str]], out: Floats | None = None
 ) -> Floats:
-    """`motions` of a compiled machine; ``what`` holds pairs of part and name."""
+    """`motions` of a compiled machine, also where rates are infinite; ``what`` holds pairs of part and name."""
+    return _filled(compiled, angles, what, out)[0]
+
+
+def _filled(
+    compiled: CompiledMachine, angles: Floats, what: list[tuple[str, str]], out: Floats | None
+) -> tuple[Floats, bool]:
+    """The array, and whether all of it is finite."""
     known = {"points": compiled.points, "links": compiled.links, "slides": compiled.slides}
     for part, name in what:
         if name not in known[part]:
@@ -298,8 +302,7 @@ def motion_arrays(
         expected = f"a contiguous array of floats of shape {shape} that may be written to"
         raise ShapeError(f"out: found {shown(out)}, expected {expected}")
     channels = [_CHANNELS[part](known[part][name]) for part, name in what]
-    compiled.motions(angles, channels, out)
-    return out
+    return out, compiled.motions(angles, channels, out)
 
 
 def _room(shape: tuple[int, ...]) -> Floats:

@@ -17,36 +17,35 @@ use rayon::prelude::*;
 /// Numbers of output that a task should write: large against the cost of waking a thread, and within its cache.
 const TASK: usize = 65_536;
 
-/// Motions of all rows at the same angles. `out` is (rows, numbers, angles), contiguous.
-pub fn motions(plan: &Plan, rows: &Rows<'_>, phi: &[f64], channels: &[Channel], out: &mut [f64]) {
+/// Motions of all rows at the same angles; whether all numbers are finite, and so are their sums at an angle. `out` is
+/// (rows, numbers, angles), contiguous.
+pub fn motions(plan: &Plan, rows: &Rows<'_>, phi: &[f64], channels: &[Channel], out: &mut [f64]) -> bool {
     let n = phi.len();
     let width: usize = channels.iter().map(|c| c.width()).sum();
     if n == 0 || width == 0 {
-        return;
+        return true;
     }
     let request = MotionRequest { plan, rows, channels, chains: &chains(plan, channels) };
     if rows.n == 1 {
-        motion_of_one(&request, phi, out);
-        return;
+        return motion_of_one(&request, phi, out);
     }
     let angles = Angles::of(phi);
     let at_once = (TASK / (width * n)).max(1);
     let task = |(k, out): (usize, &mut [f64])| {
         let lists = out.chunks_exact_mut(width * n).map(|row| row.chunks_exact_mut(n).collect());
-        in_lanes(MotionJob { request, first: k * at_once, angles: &angles, out: lists.collect() });
+        in_lanes(MotionJob { request, first: k * at_once, angles: &angles, out: lists.collect() })
     };
     if rows.n <= at_once {
-        task((0, out));
-        return;
+        return task((0, out));
     }
     in_threads(|crew| {
         let tasks = out.par_chunks_mut(width * n * at_once).enumerate();
-        tasks.for_each(|rows| crew.task(|| task(rows)));
-    });
+        tasks.map(|rows| crew.task(|| task(rows))).reduce(|| true, |a, b| a && b)
+    })
 }
 
 /// One machine: each task takes a piece of the angles.
-fn motion_of_one(request: &MotionRequest<'_>, phi: &[f64], out: &mut [f64]) {
+fn motion_of_one(request: &MotionRequest<'_>, phi: &[f64], out: &mut [f64]) -> bool {
     let n = phi.len();
     let piece = (TASK * n / out.len()).max(1).next_multiple_of(64);
     let mut pieces: Vec<Vec<&mut [f64]>> = (0..n.div_ceil(piece)).map(|_| Vec::new()).collect();
@@ -58,16 +57,16 @@ fn motion_of_one(request: &MotionRequest<'_>, phi: &[f64], out: &mut [f64]) {
     }
     let task = |(k, out): (usize, Vec<&mut [f64]>)| {
         let angles = Angles::of(&phi[k * piece..(k * piece + out[0].len())]);
-        in_lanes(MotionJob { request: *request, first: 0, angles: &angles, out: vec![out] });
+        in_lanes(MotionJob { request: *request, first: 0, angles: &angles, out: vec![out] })
     };
     if pieces.len() == 1 {
         // Waking threads would take longer than doing it.
-        pieces.into_iter().enumerate().for_each(task);
-    } else {
-        in_threads(|crew| {
-            pieces.into_par_iter().enumerate().for_each(|piece| crew.task(|| task(piece)));
-        });
+        return pieces.into_iter().enumerate().all(task);
     }
+    in_threads(|crew| {
+        let pieces = pieces.into_par_iter().enumerate();
+        pieces.map(|piece| crew.task(|| task(piece))).reduce(|| true, |a, b| a && b)
+    })
 }
 
 /// The chains to all channels; none where one hangs on the crank in another way, or where they would solve more dyads
@@ -135,20 +134,21 @@ struct MotionJob<'a, 'b> {
 }
 
 impl Job for MotionJob<'_, '_> {
-    type Output = ();
+    /// Whether all numbers are finite.
+    type Output = bool;
 
     #[inline(always)]
-    fn run<R: Real>(self) {
+    fn run<R: Real>(self) -> bool {
         if self.request.chains.is_empty() {
             R::out_of_line(
                 #[inline(always)]
                 || self.place_all::<R>(),
-            );
+            )
         } else {
             R::out_of_line(
                 #[inline(always)]
                 || self.follow_chains::<R>(),
-            );
+            )
         }
     }
 }
@@ -156,7 +156,7 @@ impl Job for MotionJob<'_, '_> {
 impl MotionJob<'_, '_> {
     /// Along the chains to what is asked for, and nothing else.
     #[inline(always)]
-    fn follow_chains<R: Real>(self) {
+    fn follow_chains<R: Real>(self) -> bool {
         let MotionJob { request: MotionRequest { rows, channels, chains, .. }, first, angles, out } = self;
         let (sin, cos) = (&angles.sin, &angles.cos);
         let whole = sin.len() / R::LANES * R::LANES;
@@ -170,6 +170,7 @@ impl MotionJob<'_, '_> {
         let (last_sin, last_cos) = (filled(sin), filled(cos));
         let mut last: Vec<Vec<f64>> = (0..6).map(|_| vec![0.0; R::LANES]).collect();
         let mut numbers = Vec::new();
+        let mut flaw = R::splat(0.0);
         let mut row = rows.base.to_vec();
         for (i, mut out) in out.into_iter().enumerate() {
             poll();
@@ -179,21 +180,22 @@ impl MotionJob<'_, '_> {
                 chain.numbers(&row, &mut numbers);
                 let (own, others) = lists.split_at_mut(channel.width());
                 lists = others;
-                chain.follow::<R>(&numbers, &sin[..whole], &cos[..whole], own);
+                flaw = flaw + chain.follow::<R>(&numbers, &sin[..whole], &cos[..whole], own);
                 if rest > 0 {
                     let mut to: Vec<&mut [f64]> = last.iter_mut().map(Vec::as_mut_slice).collect();
-                    chain.follow::<R>(&numbers, &last_sin, &last_cos, &mut to);
+                    flaw = flaw + chain.follow::<R>(&numbers, &last_sin, &last_cos, &mut to);
                     for (list, lanes) in own.iter_mut().zip(&last) {
                         list[whole..].copy_from_slice(&lanes[..rest]);
                     }
                 }
             }
         }
+        is_without(flaw)
     }
 
     /// Everything that moves, and of it what is asked for.
     #[inline(always)]
-    fn place_all<R: Real>(self) {
+    fn place_all<R: Real>(self) -> bool {
         let MotionJob { request: MotionRequest { plan, rows, channels, .. }, first, angles, out } = self;
         let Angles { phi, sin, cos } = angles;
         let n = phi.len();
@@ -201,6 +203,7 @@ impl MotionJob<'_, '_> {
         let mut q: Vec<R> = row.iter().map(|&x| R::splat(x)).collect();
         let mut m = Motion::new(&plan.mechanism, &q);
         let mut rest = Motion::new(&plan.mechanism, &row);
+        let (mut flaw, mut flaw_of_rest) = (R::splat(0.0), 0.0);
         for (i, mut out) in out.into_iter().enumerate() {
             poll();
             rows.replace(first + i, &mut row);
@@ -214,16 +217,31 @@ impl MotionJob<'_, '_> {
                 let angle =
                     Angle { phi: R::load(&phi[at..]), sin: R::load(&sin[at..]), cos: R::load(&cos[at..]) };
                 plan.mechanism.place::<R, 2>(&q, angle, &mut m);
-                store(&m, channels, at, &mut out, |x: R, to| x.store(to));
+                store(&m, channels, at, &mut out, |x: R, to| {
+                    flaw = x.mul_add(R::splat(0.0), flaw);
+                    x.store(to);
+                });
             }
             // The angles that do not fill all lanes.
             for at in whole..n {
                 let angle = Angle { phi: phi[at], sin: sin[at], cos: cos[at] };
                 plan.mechanism.place::<f64, 2>(&row, angle, &mut rest);
-                store(&rest, channels, at, &mut out, |x, to| to[0] = x);
+                store(&rest, channels, at, &mut out, |x, to| {
+                    flaw_of_rest += 0.0 * x;
+                    to[0] = x;
+                });
             }
         }
+        is_without(flaw) && flaw_of_rest == 0.0
     }
+}
+
+/// Whether a sum of products with zero is free of NaN in all lanes.
+#[inline(always)]
+fn is_without<R: Real>(flaw: R) -> bool {
+    let mut lanes = vec![0.0; R::LANES];
+    flaw.store(&mut lanes);
+    lanes.iter().all(|x| *x == 0.0)
 }
 
 /// Writes all channels at one angle (or one a lane) by `write`, a number to each list.
@@ -233,7 +251,7 @@ pub(super) fn store<R: Real>(
     channels: &[Channel],
     at: usize,
     out: &mut [&mut [f64]],
-    write: impl Fn(R, &mut [f64]),
+    mut write: impl FnMut(R, &mut [f64]),
 ) {
     let mut lists = out.iter_mut();
     // There are as many lists as the channels have numbers.

@@ -98,9 +98,17 @@ impl Chain {
 
     /// Follows the chain at some angles; `out` holds a list a number: x, y, x′, y′, x″, y″ of a point, cos ψ, sin ψ, ψ′,
     /// ψ″ of a link, s, s′, s″ of a slide. The lists are as long as those of the angles, a multiple of the lanes.
+    /// Returns zero, or NaN where not all numbers are finite.
     #[inline(always)]
-    pub fn follow<R: Real>(&self, numbers: &[Numbers], sin: &[f64], cos: &[f64], out: &mut [&mut [f64]]) {
-        let Some((last, lead)) = numbers.split_last() else { return };
+    pub fn follow<R: Real>(
+        &self,
+        numbers: &[Numbers],
+        sin: &[f64],
+        cos: &[f64],
+        out: &mut [&mut [f64]],
+    ) -> R {
+        let mut flaw = R::splat(0.0);
+        let Some((last, lead)) = numbers.split_last() else { return flaw };
         let mut at = 0;
         while at < sin.len() {
             let sine = R::load(&sin[at..]);
@@ -109,23 +117,30 @@ impl Chain {
             for k in 0..lead.len() {
                 pin = point(self.lead[k].part, &lead[k], angle, &pin);
             }
-            match end(self.end.part, last, angle, &pin) {
+            let sum = match end(self.end.part, last, angle, &pin) {
                 EndMotion::Point(Place { p, d1, d2 }) => put([p.x, p.y, d1.x, d1.y, d2.x, d2.y], at, out),
                 EndMotion::Link(Heading { e, d1, d2 }) => put([e.x, e.y, d1, d2], at, out),
                 EndMotion::Slide(Slide { s, d1, d2 }) => put([s, d1, d2], at, out),
-            }
+            };
+            flaw = sum.mul_add(R::splat(0.0), flaw);
             at += R::LANES;
         }
+        flaw
     }
 }
 
-/// Writes one bundle to each list.
+/// Writes one bundle to each list, and returns their sum.
 #[inline(always)]
-fn put<R: Real, const K: usize>(values: [R; K], at: usize, out: &mut [&mut [f64]]) {
-    let Some(out) = out.first_chunk_mut::<K>() else { return };
+fn put<R: Real, const K: usize>(values: [R; K], at: usize, out: &mut [&mut [f64]]) -> R {
+    let mut sum = values[0];
+    let Some(out) = out.first_chunk_mut::<K>() else { return sum };
     for k in 0..K {
         values[k].store(&mut out[k][at..]);
+        if k > 0 {
+            sum = sum + values[k];
+        }
     }
+    sum
 }
 
 /// What is taken at the end of a chain.

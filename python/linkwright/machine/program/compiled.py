@@ -249,9 +249,9 @@ class CompiledMachine:
         """Steady motion of every row; see `_core.steady_rows`."""
         return _core.steady_rows(self.plan, self.parameters, self.slots, self.values, accuracy)
 
-    def motions(self, angles: Floats, channels: Sequence[_core.Channel], out: Floats) -> None:
+    def motions(self, angles: Floats, channels: Sequence[_core.Channel], out: Floats) -> bool:
         """Motions of every row; see `_core.motions`."""
-        _core.motions(self.plan, self.parameters, self.slots, self.values, angles, channels, out)
+        return _core.motions(self.plan, self.parameters, self.slots, self.values, angles, channels, out)
 
 
 def compile_machine(machine: Machine, *, motor: bool = True, brake: bool = False) -> CompiledMachine:
