@@ -277,7 +277,7 @@ def motions(
 def motion_arrays(
     compiled: CompiledMachine, angles: Floats, what: list[tuple[str, str]], out: Floats | None = None
 ) -> Floats:
-    """`motions` of a compiled machine, also where rates are infinite; ``what`` holds pairs of part and name."""
+    """`motions` of a compiled machine, also where rates are infinite; ``what`` has pairs (part, name)."""
     return _filled(compiled, angles, what, out)[0]
 
 
