@@ -49,6 +49,29 @@ def test_extremes_of_a_slider_crank() -> None:
     assert [columns[name] for name in names] == pytest.approx(_slider(found.crank_angle), abs=1e-14)
 
 
+def test_a_point_comes_to_rest() -> None:
+    """Where a rocker reverses, a point on it stands still: its speed falls to zero in a corner."""
+    rocker = """
+    format = 1
+    name = "Crank and rocker"
+    [drive]
+    speed = 1
+    [mechanism.points.P]
+    x = 0.6
+    y = 0.1
+    [mechanism.cranks.A]
+    radius = 0.15
+    [mechanism.rockers.R]
+    crank = "A"
+    coupler = 0.5
+    pivot = "P"
+    rocker = 0.4
+    """
+    speed = lw.cycle_motion(loads(rocker)).extremes["R.velocity"]
+    # The dead centre is located to the rounding of its angle.
+    assert speed.minimum < 1e-12 * speed.maximum
+
+
 def test_extremes_in_steady_motion() -> None:
     """The crank's own rates have the extremes that the steady motion has, also where a force sets in."""
     machine = lw.read("press_with_flywheel")

@@ -345,14 +345,23 @@ def _candidates(signed: Floats, span: Floats) -> tuple[Indices, Indices]:
 
 
 def _vertex(x: Floats, y: Floats, top: Indices) -> tuple[Floats, Floats]:
-    """Place and value of the vertex of the parabola through the best of some points and its neighbours."""
+    """Place and value of the vertex beside the best of some points: of the parabola through three of them.
+
+    The speed of a point that comes to rest has a corner there, where two lines meet.
+    """
     row = np.arange(len(x))
-    middle = np.clip(top, 1, x.shape[1] - 2)
-    a, b, c = (y[row, middle + k] for k in (-1, 0, 1))
+    middle = np.clip(top, 2, x.shape[1] - 3)
+    before, a, b, c, after = (y[row, middle + k] for k in (-2, -1, 0, 1, 2))
     step = x[row, middle] - x[row, middle - 1]
-    bend = a - 2 * b + c
+    rise, fall = a - before, after - c
     with np.errstate(all="ignore"):
-        share = np.where(bend < 0, 0.5 * (a - c) / bend, 0.0)
+        share = np.where(a - 2 * b + c < 0, 0.5 * (a - c) / (a - 2 * b + c), 0.0)
         share = np.where(np.isfinite(share), np.clip(share, -1, 1), 0.0)
         value = b - 0.25 * (a - c) * share
+        # All three bends of a parabola are alike; of a corner, that of the side away from it is none.
+        straight = np.minimum(np.abs(before - 2 * a + b), np.abs(b - 2 * c + after))
+        at_corner = (c - a - rise - fall) / (rise - fall)
+        is_corner = (straight < 0.1 * (rise - fall)) & (np.abs(at_corner) <= 1)
+        share = np.where(is_corner, at_corner, share)
+        value = np.where(is_corner, a + rise * (at_corner + 1), value)
     return x[row, middle] + share * step, np.where(np.isfinite(value), value, b)
