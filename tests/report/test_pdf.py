@@ -87,3 +87,24 @@ def test_a_picture_fits_on_its_page(width: int, height: int, millimetres: float)
     files = {"main.typ": (style + asked).encode(), "a.svg": drawn.encode()}
     (found,) = json.loads(typst.query(files, "<height>", field="value"))
     assert found == pytest.approx(millimetres, abs=0.01)
+
+
+def test_text_flows_on_where_a_picture_has_no_room() -> None:
+    """A picture that does not fit goes to the head of the next page; what follows it fills the page."""
+    typst = pytest.importorskip("typst")
+    style = _STYLE.format(title='""', foot="", language='"en"')
+    picture = "#figure-with([== Picture\n#rect(height: 100mm) #metadata(none) <picture>])"
+    page = f"#rect(height: 150mm)\n{picture}\n\n#box[Text #metadata(none) <text>]\n"
+    tell = "#context [#metadata((<picture>, <text>).map(it => locate(it).page())) <pages>]"
+    files = {"main.typ": (style + page + tell).encode()}
+    assert json.loads(typst.query(files, "<pages>", field="value")) == [[2, 1]]
+
+
+def test_a_table_over_two_pages_has_its_title_on_both() -> None:
+    typst = pytest.importorskip("typst")
+    style = _STYLE.format(title='""', foot="", language='"en"')
+    cells = ", ".join(f"[{n}], [x]" for n in range(80))
+    page = f"#data((false,), [Title #metadata(none) <title>], ([head], [value],), {cells})"
+    tell = "#context [#metadata(query(<title>).map(it => it.location().page())) <pages>]"
+    files = {"main.typ": (style + page + tell).encode()}
+    assert json.loads(typst.query(files, "<pages>", field="value")) == [[1, 2]]

@@ -139,14 +139,14 @@ def _box(title: str, texts: Sequence[str], colour: str) -> str:
 
 
 def _table(table: Table) -> str:
-    """A table whose head is repeated on each page; one that is too wide is set smaller, or across."""
+    """A table that repeats title and heads on each page; one that is too wide is set smaller, or across."""
     n = len(table.heads)
     heads = ", ".join(f"note[{_text(head, indices=True)}]" for head in table.heads)
     cells = ", ".join(
         f"[{_text(cell, indices=place == 1)}]" for row in table.rows for place, cell in enumerate(row)
     )
     wordy = "".join(f"{str(_is_wordy(table, place)).lower()}, " for place in range(1, n))
-    set_ = f"#data(({wordy}), [{_text(table.title)}], table.header({heads}), {cells})"
+    set_ = f"#data(({wordy}), [{_text(table.title)}], ({heads},), {cells})"
     return f"#page(flipped: true)[{set_}]" if n > _BROAD else set_
 
 
@@ -157,9 +157,7 @@ def _is_wordy(table: Table, place: int) -> bool:
 
 def _figure(captioned: CaptionedFigure) -> str:
     picture = f'#picture("{_place(captioned)}")'
-    return (
-        f"#block(breakable: false)[== {_text(captioned.title)}\n{picture}\n#note[{_text(captioned.caption)}]]"
-    )
+    return f"#figure-with([== {_text(captioned.title)}\n{picture}\n#note[{_text(captioned.caption)}]])"
 
 
 def _place(captioned: CaptionedFigure) -> str:
@@ -252,19 +250,21 @@ _STYLE = """#set document(title: {title}, date: none)
 #let few(word, value, unit) = block(width: 100%, fill: rgb("#f4f6f8"), inset: 7pt, radius: 3pt)[
   #note(word) \\ #text(14pt, value) #note(unit)
 ]
-#let data(wordy, title, ..cells) = layout(page => {{
+#let data(wordy, title, heads, ..cells) = layout(page => {{
   let set_in(letters, first, other) = {{
     set text(letters)
     let others = wordy.map(is => if is {{ other }} else {{ auto }})
+    let line = table.hline(stroke: 0.4pt + soft)
+    let named = table.cell(colspan: heads.len(), inset: (x: 0pt, y: 4pt), strong(title))
     table(columns: (first,) + others, stroke: none, inset: (x: 0pt, y: 3pt), column-gutter: 9pt,
-      table.hline(stroke: 0.4pt + soft), ..cells, table.hline(stroke: 0.4pt + soft))
+      table.header(named, line, ..heads), ..cells, line)
   }}
   let fits(letters) = measure(set_in(letters, 38mm, 38mm)).width <= page.width
   let letters = if fits(9pt) {{ 9pt }} else if fits(8pt) {{ 8pt }} else {{ 7pt }}
-  block(above: 1.2em, below: 0.5em, sticky: true, text(letters, strong(title)))
   let share(size) = if fits(letters) {{ size }} else {{ auto }}
-  set_in(letters, share(1.6fr), share(1fr))
+  block(above: 1.2em, below: 1.2em, set_in(letters, share(1.6fr), share(1fr)))
 }})
+#let figure-with(body) = place(auto, float: true, clearance: 1em, block(width: 100%, align(left, body)))
 #let picture(place) = layout(page => {{
   // One that is drawn for less than the width of the page is not made larger.
   let wide = calc.min(page.width, measure(image(place)).width)
