@@ -195,8 +195,13 @@ def test_barred_speeds_near_service_are_told() -> None:
 
 def test_what_is_not_judged_is_told() -> None:
     found = rule("700 MPa", 100)
-    assert any("no limit is given by iacs_m68 above" in each for each in found.notes)
+    assert any("no limit is given by IACS UR M68 above" in each for each in found.notes)
     assert any("as 600 MPa" in each for each in found.notes)
+
+
+def test_a_limit_names_its_rule() -> None:
+    by_rule = {each.part: each.rule for each in rule("700 MPa", 45).judgements}
+    assert by_rule == {"slow": "IACS UR M68", "rubber": "given", "ring": "given", "stage": ""}
 
 
 def test_loop_of_rigid_stages_is_told() -> None:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, Any, Literal
 
 import numpy as np
@@ -30,6 +30,7 @@ from linkwright.torsion.limits.criteria import (
     shown_quantity,
 )
 from linkwright.torsion.limits.misfire import MisfireVerdict
+from linkwright.torsion.model.shaft_limit import RULES
 from linkwright.torsion.response.survey import Survey, survey
 
 State = Literal["ok", "bar", "exceeds"]
@@ -59,6 +60,8 @@ class Judgement:
         is "bar" [rad/s].
     reason : str
         Why speeds may not be barred; else empty.
+    rule : str
+        Where the limit comes from: "given", or the name of a rule; empty for the contact of teeth.
     """
 
     part: str
@@ -70,6 +73,7 @@ class Judgement:
     state: State
     ranges: tuple[tuple[float, float], ...] = ()
     reason: str = ""
+    rule: str = "given"
 
     @property
     def words(self) -> str:
@@ -110,7 +114,7 @@ class Verdict(Result):
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Judgements and barred ranges as tables."""
-        keys = ("part", "what", "found", "permitted", "speed", "state", "reason", "words")
+        keys = ("part", "what", "rule", "found", "permitted", "speed", "state", "reason", "words")
         rows = [
             {key: getattr(row, key) for key in keys} | {"unit": row.kind.unit, "ranges": _lists(row.ranges)}
             for row in self.judgements
@@ -135,8 +139,18 @@ def verdict(machine: Machine, seen: Survey | None = None) -> Verdict:
         if criterion.what != PASSING_STRESS and not np.isnan(criterion.permitted).all():
             # Peaks lie beside resonances, a little.
             worst = _worst(criterion, seen.speeds) if not over else _worst(beside[n], peaks, over)
-            rows.append(_judged(criterion, worst, [seen.exceeded[column] for column in over], barred))
+            judged = _judged(criterion, worst, [seen.exceeded[column] for column in over], barred)
+            rows.append(replace(judged, rule=_rule(seen, criterion)))
     return Verdict(tuple(rows), barred, tuple(_notes(seen)))
+
+
+def _rule(seen: Survey, criterion: Criterion) -> str:
+    """Where a limit comes from."""
+    if criterion.what == CONTACT:
+        return ""
+    shaft = seen.at.train.shafts.get(criterion.part)
+    limit = None if shaft is None else shaft.limit
+    return RULES["given" if limit is None or criterion.what != VIBRATORY_STRESS else limit.kind]
 
 
 def _worst(
@@ -192,7 +206,7 @@ def _notes(seen: Survey) -> Iterator[str]:
             text = "in a loop of rigid stages, whose torques are statically indeterminate"
         elif criterion.what == VIBRATORY_STRESS and silent.any():
             limit = seen.at.train.shafts[criterion.part].limit
-            rule = "" if limit is None else f" by {limit.kind}"
+            rule = "" if limit is None else f" by {RULES[limit.kind]}"
             text = f"no limit is given{rule} above {_rpm(float(seen.speeds[silent].min()))}"
         else:
             continue

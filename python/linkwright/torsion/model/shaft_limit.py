@@ -41,6 +41,8 @@ from linkwright.torsion.model.train_base import PositiveTorque
 Stress = Annotated[float, positive(PRESSURE)]
 Kind = Literal["given", "iacs_m68", "kr_crankshaft"]
 
+RULES: dict[Kind, str] = {"given": "given", "iacs_m68": "IACS UR M68", "kr_crankshaft": "Korean Register"}
+
 # Keys of one kind or of several; all others may stand with each kind.
 _KINDS: dict[str, tuple[Kind, ...]] = {
     "stress_permitted": ("given",),

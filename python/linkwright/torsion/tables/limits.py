@@ -24,10 +24,19 @@ def limit_tables(study: TorsionStudy) -> Iterator[Table]:
     heads = ("limit", "", "found", "permitted")
     if study.verdict is not None and study.verdict.judgements:
         rows = [
-            _row(row.part, row.what, row.found, row.permitted, row.kind, rpm(row.speed), _STATES[row.state])
+            _row(
+                row.part,
+                row.what,
+                row.found,
+                row.permitted,
+                row.kind,
+                row.rule or "–",
+                rpm(row.speed),
+                _STATES[row.state],
+            )
             for row in study.verdict.judgements
         ]
-        yield Table("limits", "Limits", (*heads, f"at {per_minute()}", "verdict"), rows)
+        yield Table("limits", "Limits", (*heads, "by", f"at {per_minute()}", "verdict"), rows)
         if study.verdict.barred:
             yield _barred(study.verdict.barred)
     if study.misfire is not None and study.misfire.judgements:
