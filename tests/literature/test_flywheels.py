@@ -278,3 +278,43 @@ def test_rattan_punching_machine() -> None:
     assert found.power_mean == pytest.approx(3519, abs=0.5)
     assert found.energy_fluctuation == pytest.approx(work * (1 - share), rel=1e-12)
     assert found.flywheel_mass == pytest.approx(2392, abs=0.5)
+
+
+def test_press_with_a_cycle_in_time() -> None:
+    """720 holes an hour, 15 kN m in 2 s each, flywheel of 0.5 m from 225 to 200 rpm: 3 kW and 618 kg are
+    printed (Khurmi and Gupta, chapter 16, from memory).
+    """
+    speed = 212.5 * 2 * math.pi / 60
+    found = diagram(
+        speed=speed,
+        cycle=5 * speed,
+        unevenness=25 / 212.5,
+        radius_of_gyration=0.5,
+        load={
+            "kind": "table",
+            "between": "steps",
+            "angle": [0.0, 2 * speed],
+            "torque": [15000 / (2 * speed), 0.0],
+        },
+    )
+    assert found.power_mean == pytest.approx(3000, rel=1e-12)
+    assert found.energy_fluctuation == pytest.approx(9000, rel=1e-12)
+    assert found.flywheel_mass == pytest.approx(618, abs=0.5)
+
+
+def test_khurmi_torque_over_three_revolutions() -> None:
+    """750 N m rising to 3000 N m in half a revolution, constant for one, falling, constant for one, at 250
+    rpm with 500 kg at 0.6 m: 49.125 kW (with ω as 26.2 rad/s) and 7.1 % are printed (from memory).
+    """
+    found = diagram(
+        speed="250 rpm",
+        cycle="3 rev",
+        inertia=500 * 0.6**2,
+        load={
+            "kind": "table",
+            "angle": "0, 0.5, 1.5, 2, 3 rev",
+            "torque": "750, 3000, 3000, 750, 750 N m",
+        },
+    )
+    assert found.power_mean * 26.2 / found.speed_mean == pytest.approx(49125, rel=1e-9)
+    assert found.unevenness == pytest.approx(0.071, abs=0.001)

@@ -24,7 +24,7 @@ from pydantic_core import InitErrorDetails
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.description.curve import curve_faults, unread_file
-from linkwright.kernel.description.cycle import ONE_TURN, CycleAngle, cycle_faults, cycle_turns
+from linkwright.kernel.description.cycle import ONE_TURN, CycleAngle
 from linkwright.kernel.description.formula import NUMBERS, conditions, parse
 from linkwright.kernel.description.formula_faults import constant_faults, text_faults
 from linkwright.kernel.numerics.formula_value import value
@@ -50,6 +50,8 @@ from linkwright.kernel.units import (
 
 # A table over the whole cycle may close exactly; printed degrees and π are rounded.
 _ROUNDED = 1e-9
+
+_LONGER = "set turning_moment.cycle to the angle of a whole cycle, 720 deg for a four-stroke engine"
 
 
 class ShaftTorque(CheckedDescription):
@@ -128,7 +130,7 @@ class CylinderTorque(ShaftTorque):
             if not 0 <= start < cycle:
                 found = f"{math.degrees(start):.6g} deg"
                 expected = f"an angle from 0 to below the cycle of {math.degrees(cycle):.6g} deg"
-                remedy = "set turning_moment.cycle to 720 deg if a cycle takes two revolutions"
+                remedy = _LONGER
                 yield fault("phases", place, found=found, expected=expected, remedy=remedy)
 
 
@@ -183,7 +185,7 @@ class TableShaftTorque(CylinderTorque):
         yield from super().cycle_faults(cycle)
         span = self.angle[-1] - self.angle[0]
         if span > cycle * (1 + _ROUNDED):
-            remedy = "set turning_moment.cycle to 720 deg if a cycle takes two revolutions"
+            remedy = _LONGER
             found = f"{math.degrees(span):.6g} deg"
             yield fault("angle", found=found, expected="angles within one cycle", remedy=remedy)
         elif self._closes(cycle) and self.torque[0] != self.torque[-1] and self.between == "linear":
@@ -253,7 +255,9 @@ class TurningMoment(CheckedDescription):
         description="Mean speed of the shaft, the mean of its extremes."
     )
     cycle: CycleAngle = Field(
-        ONE_TURN, description="Angle of a cycle: 360 deg, or 720 deg for a four-stroke engine."
+        ONE_TURN,
+        description="Angle of a cycle: 360 deg, 720 deg for a four-stroke engine; of a cycle in time, that "
+        "times the mean speed.",
     )
     driver: AnyShaftTorque | None = Field(
         None, description="Driving torque. Default: constant, the mean of the load."
@@ -281,12 +285,12 @@ class TurningMoment(CheckedDescription):
     )
 
     @property
-    def turns(self) -> int:
+    def turns(self) -> float:
         """Revolutions of a cycle."""
-        return cycle_turns(self.cycle)
+        turns = self.cycle / ONE_TURN
+        return round(turns) if abs(turns - round(turns)) < _ROUNDED * turns else turns
 
     def _faults(self) -> Iterator[InitErrorDetails]:
-        yield from cycle_faults(self.cycle)
         torques = {"driver": self.driver, "load": self.load}
         if self.areas:
             yield from self._area_faults()

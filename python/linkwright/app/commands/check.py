@@ -67,7 +67,7 @@ def _diagram(machine: Machine) -> list[tuple[str, str]]:
     else:
         torques = {"driver": described.driver, "load": described.load}
         words = ", ".join(f"{name} {'constant' if t is None else t.kind}" for name, t in torques.items())
-    turns = "one revolution" if described.turns == 1 else f"{described.turns} revolutions"
+    turns = "one revolution" if described.turns == 1 else f"{described.turns:.5g} revolutions"
     return [("turning moment", f"{words}; cycle of {turns}, {quantity(described.speed, 'rad/s', 4)}")]
 
 
