@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Sequence
 
 import numpy as np
@@ -31,6 +32,26 @@ _BEHIND_JUMPS = 1e-5
 _NUMBERS = ("speed_mean_time", "period", "speed_max", "torque_motor_rms", "unevenness")
 
 Measure = Callable[[lw.Machine], Sequence[float]]
+
+# What a derivative is refused for: the torque of a motor without load stands on the kink at zero.
+_STANDS_ON_A_KINK = "as small as rounding"
+
+# What random drives and trains, and those with an entry varied, are refused for.
+# An accuracy of 1e-13 is not reached behind every jump.
+_REFUSALS = (
+    "no steady motion",
+    "the motion slides along a jump",
+    "steady motion was not found to a relative accuracy",
+    _STANDS_ON_A_KINK,
+)
+
+
+def _reason(error: LinkwrightError) -> str:
+    """Why a machine is refused: one of the known reasons, else the test fails by it."""
+    reasons = [reason for reason in _REFUSALS if reason in str(error)]
+    if not reasons:
+        raise AssertionError("refused for no known reason") from error
+    return reasons[0]
 
 
 def _measures(machine: lw.Machine) -> list[float]:
@@ -89,7 +110,8 @@ def check(
                     for step in (_STEP * share for share in _SHORTER)
                 ]
             )
-        except LinkwrightError:
+        except LinkwrightError as error:
+            _reason(error)
             continue
         # Where a step is too coarse, the finer one comes nearer by far more than a wrong one would.
         off = free & (errors.min(axis=0) > tolerance) & (errors[-1] > 1e-2 * errors[0])
@@ -102,18 +124,20 @@ def check(
 
 @pytest.mark.parametrize("kind", [_drive, _train])
 def test_derivatives_are_those_of_the_analysis(kind) -> None:
-    compared = 0
+    compared, refused = 0, Counter[str]()
     for case in range(cases(12, 1000)):
         try:
             machine, names, measure = kind(np.random.default_rng([3, case]))
             measure(machine)
             one, wrong = check(machine, names, measure, cases(5, 1))
-        except LinkwrightError:
-            # It closes nowhere, nothing drives it, or the move of a kink is not found, as the error says.
+        except LinkwrightError as error:
+            refused[_reason(error)] += 1
             continue
         assert not wrong, (case, wrong)
         compared += one
     assert compared > 50
+    # One in 25 of these drives has no load: of more, derivatives must not be refused.
+    assert refused[_STANDS_ON_A_KINK] <= max(1, cases(12, 1000) // 10), refused
 
 
 # What jumps leave of derivatives that are zero, or found by moving ends of steps in turn, which took turns.
@@ -121,16 +145,16 @@ _JUMPS = (1, 23, 164, 222, 349)
 
 
 def test_derivatives_are_found_where_a_load_jumps_over_speed() -> None:
-    compared = 0
+    compared, refused = 0, Counter[str]()
     for case in (*_JUMPS, *range(400, cases(420, 1500))):
         try:
             machine = _jumping_drive(np.random.default_rng([11, case]))
             _measures(machine)
-        except LinkwrightError:
-            # It closes nowhere, nothing drives it, or it slides along its jump.
+        except LinkwrightError as error:
+            refused[_reason(error)] += 1
             continue
         names = [f"steady_state.{name}" for name in _NUMBERS]
         one, wrong = check(machine, names, _measures, cases(6, 1), _BEHIND_JUMPS)
         assert not wrong, (case, wrong)
         compared += one
-    assert compared > 50
+    assert compared > 50, refused

@@ -171,8 +171,8 @@ def _checked(machine: Machine, place: tuple[str, ...], value: Any) -> Any:
         return value
     address, annotation = join(place), annotation_at(Machine, place, machine)
     mark, old = mark_of(annotation), _at(machine, place)
-    is_number = isinstance(mark, Quantity) or (isinstance(old, Number) and not isinstance(old, bool))
-    if value is not None and is_number:
+    holds_number = isinstance(mark, Quantity) or is_number(old)
+    if value is not None and holds_number:
         return _numbers_of(address, value, mark.kind if isinstance(mark, Quantity) else COUNT)
     if isinstance(value, np.ndarray) and not isinstance(mark, QuantityList):
         raise MachineError([Problem(address, shown(value), words_of(annotation))])

@@ -202,7 +202,9 @@ def _solve(
             try:
                 solve(machine, own, wanted, rows, members)
             except (InputError, FindingError):
-                # Some row, or the machine of the study, is none that a batch can hold; each says why.
+                # A batch is refused as a whole where one row has a wrong number, or where the machine of the
+                # study, which leads it, does not move. Alone, each row that cannot be computed says why, and
+                # what was refused for no row of them is refused by all.
                 single += wanted
     if single:
         _one_by_one(machine, own, single, rows, members)

@@ -8,7 +8,7 @@ over the crank angle, ``motion.C.y`` likewise. ``forces.reaction_max.A`` is the 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from importlib import import_module
 from typing import Any, get_type_hints
@@ -75,7 +75,8 @@ class StudyResponse:
 
     name: str  # its name in the study
     analysis: str  # analysis that it comes from
-    # Name of the cam, the point, or the part of a train, where there are several; address of an entry.
+    # Name of the cam, the point, the pair, or the part of a train, where there are several; the
+    # address of an entry.
     of: tuple[str, ...]
     quantity: str  # attribute of the result; of a point `"x"` or `"y"`
     # What it is called, SI unit.
@@ -84,8 +85,7 @@ class StudyResponse:
     extreme: str | None = None  # what is taken of a curve
     index: int | None = None  # place in a list
     at: float | None = None  # crank angle at which a motion is taken [rad]
-    parts: tuple[str, ...] = ()  # axes of a list of curves: `("shafts", "speeds")`
-    part: str | None = None  # pair of a mechanism whose force is taken
+    axes: tuple[str, ...] = ()  # of a list of curves: `("shafts", "speeds")`
 
     @property
     def arguments(self) -> tuple[str, ...]:
@@ -108,8 +108,8 @@ class StudyResponse:
     def number(self, result: Any) -> float:
         """The number that is asked for, out of a result; a `FindingError` if the machine has none."""
         value = getattr(result, self.quantity)
-        if self.part is not None:
-            value = value.get(self.part)
+        if isinstance(value, Mapping):
+            value = value.get(*self.of)
         if value is not None and (self.extreme is not None or self.index is not None):
             value = self._picked(result, np.asarray(value))
         if value is None or not math.isfinite(float(value)):
@@ -120,8 +120,8 @@ class StudyResponse:
         """One number of a curve, or of all curves of a list; of complex amplitudes their absolute values."""
         values = np.abs(values) if np.iscomplexobj(values) else values.astype(float)
         if self.of and not self.arguments:
-            axis = next(axis for axis, part in enumerate(self.parts) if part in _PARTS)
-            values = np.take(values, getattr(result, self.parts[axis]).index(self.of[0]), axis=axis)
+            axis = next(axis for axis, parts in enumerate(self.axes) if parts in _PARTS)
+            values = np.take(values, getattr(result, self.axes[axis]).index(self.of[0]), axis=axis)
         if self.extreme is not None:
             return taken(values.ravel(), self.extreme)
         assert self.index is not None
@@ -181,24 +181,24 @@ def asked(machine: Machine, name: str, response: Response) -> StudyResponse:
     if wants_curve and not is_array(owner, quantity):
         raise _wrong(name, key, f"{text}, which is a number", "a curve", f'write "{text}" alone')
     mark = known[quantity]
-    parts = tuple(part.strip() for part in mark.shape.strip("()").split(",") if part.strip())
+    axes = tuple(axis.strip() for axis in mark.shape.strip("()").split(",") if axis.strip())
     _require_part(
-        machine, first, of, parts, lambda remedy: _wrong(name, key, text, "a name that there is", remedy)
+        machine, first, of, axes, lambda remedy: _wrong(name, key, text, "a name that there is", remedy)
     )
     picked = (response.extreme, response.index)
     own = (".".join(of),) if of else ()
-    if response.index is not None and len(parts) - len(own) > 1:
-        place = next((part for part in parts if part in _PARTS and not of), None)
+    if response.index is not None and len(axes) - len(own) > 1:
+        place = next((parts for parts in axes if parts in _PARTS and not of), None)
         one = f", or {first}.NAME.{quantity} with NAME of {place}" if place else ""
         raise _wrong(name, "index", f"{text}, a list of curves", f"extreme{one}")
-    return StudyResponse(name, first, own, quantity, mark.word, mark.unit, *picked, parts=parts)
+    return StudyResponse(name, first, own, quantity, mark.word, mark.unit, *picked, axes=axes)
 
 
 def _require_part(
-    machine: Machine, first: str, of: list[str], parts: tuple[str, ...], wrong: Callable[[str], MachineError]
+    machine: Machine, first: str, of: list[str], axes: tuple[str, ...], wrong: Callable[[str], MachineError]
 ) -> None:
     """Raise what is wrong, with a remedy, if a response names no part of the machine, or should name one."""
-    place = next((part for part in parts if part in _PARTS), None)
+    place = next((parts for parts in axes if parts in _PARTS), None)
     if first in OF_ONE_CAM:
         known = [*machine.mechanism.cams]
         if not of and len(known) == 1:
@@ -260,7 +260,7 @@ def _of_pair(machine: Machine, name: str, key: str, text: str, response: Respons
     forces: Any = analysis("forces")(machine, speed=1.0, angles=np.array([0.0, 1.0]))
     if pair not in forces.pairs:
         raise _wrong(name, key, text, f"{PAIRS}.PAIR", suggestion(pair, forces.pairs))
-    return StudyResponse(name, "forces", (), "reaction_max", f"maximum force of {pair}", "N", part=pair)
+    return StudyResponse(name, "forces", (pair,), "reaction_max", f"maximum force of {pair}", "N")
 
 
 def _wrong(name: str, key: str, found: str, expected: str, remedy: str = "") -> MachineError:

@@ -175,7 +175,9 @@ def _source(machine: Any, analysis: str, entries: tuple[str, ...]) -> Source | N
 
 def _address(asked: StudyResponse) -> str:
     """The name of a response among the results that have derivatives."""
-    place = (asked.part,) if asked.part else () if asked.index is None else (str(asked.index),)
+    place = (str(asked.index),) if asked.index is not None else ()
+    if asked.analysis == "forces":
+        return ".".join((asked.analysis, asked.quantity, *asked.of))
     return ".".join((asked.analysis, *asked.of, asked.quantity, *place))
 
 

@@ -8,7 +8,6 @@ for, torsional vibration does: `drive_train` makes a train of a torsionally flex
 """
 
 from collections.abc import Iterator
-from numbers import Real
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, WithJsonSchema
@@ -24,6 +23,7 @@ from linkwright.kernel.units import (
     SPEED,
     TORQUE,
     Quantity,
+    is_number,
     not_negative,
     positive,
     show,
@@ -43,8 +43,7 @@ _REVERSE = '"same", or a number greater than 0'
 
 def _reverse(value: object) -> object:
     """The torque factor of the gearbox when the load drives the motor."""
-    number = isinstance(value, Real) and not isinstance(value, bool)
-    if value is None or value == "same" or (number and 0 < float(value) < float("inf")):  # type: ignore[arg-type]
+    if value is None or value == "same" or (is_number(value) and 0 < float(value) < float("inf")):
         return value
     raise wrong(show(value), _REVERSE)
 

@@ -45,7 +45,7 @@ def parse(value: object, kind: Kind) -> float:
     if isinstance(value, str):
         number, unit = _split(value, kind)
         return _in_range(float(number) * _factor(unit, kind, value), value, kind)
-    if isinstance(value, bool) or not isinstance(value, Real):
+    if not is_number(value):
         raise wrong(value, kind)
     try:
         return _in_range(float(value), value, kind)
@@ -55,7 +55,7 @@ def parse(value: object, kind: Kind) -> float:
 
 def is_number(value: object) -> TypeGuard[float]:
     """Whether an entry is a number: no switch, which Python counts as one, and no text."""
-    return isinstance(value, int | float) and not isinstance(value, bool)
+    return isinstance(value, Real) and not isinstance(value, bool)
 
 
 def parse_any(value: object) -> float:
