@@ -43,6 +43,7 @@ def told(*words: str, code: int = 0) -> str:
         ("N m", "ft lb", ("ft lbf", 1.3558179483314004)),
         ("kg m²", "kgcm^2", ("kg cm²", 1e-4)),
         ("N per m", "kN, mm", ("kN per mm", 1e6)),
+        ("per rad/s", "rpm", ("per rpm", 30 / np.pi)),
         ("", "mm", ("", 1.0)),
     ],
 )
@@ -117,6 +118,20 @@ def test_figures_have_the_units_on_their_axes() -> None:
         # Marks stand at round numbers of the unit that is shown.
         assert place * 30 / np.pi == pytest.approx(number, rel=1e-12)
         assert number == pytest.approx(round(number, 1), abs=1e-9)
+
+
+def test_a_pose_has_degrees_for_people_and_radians_in_csv() -> None:
+    words = ("motion", "press_motion", "--at", "30 deg")
+    assert re.search(r"ram μ \[°\] +97\.96", told(*words))
+    assert "ram,μ [rad],1.7098" in told(*words, "--csv")
+    assert "ram,μ [°],97.96" in told(*words, "--csv", "--units", "deg")
+
+
+def test_a_long_name_is_whole_in_a_narrow_terminal() -> None:
+    """In the 100 columns of pipes names without a space are broken, never cut by an ellipsis."""
+    result = CliRunner().invoke(application(), ["run", "pumping_unit_torque", "--units", "mm,rpm"])
+    assert "Linkage over its cycle" in result.stdout
+    assert "…" not in result.stdout
 
 
 @pytest.mark.parametrize(

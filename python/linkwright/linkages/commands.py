@@ -141,7 +141,7 @@ def _pose(
         return json_text(Answer(machine=machine.name, results=lambda _: {"pose": results}))
     phi = placed.crank_angle - zero.angle
     rows = [("crank angle", "φ [rad]", (phi, placed.speed, placed.acceleration)), *_pose_rows(placed)]
-    rows = [_row_shown(row) for row in rows]
+    rows = [_row_shown(row, "" if csv else "deg") for row in rows]
     if csv:
         click.echo(speed, err=True)
         heads = ("name", "quantity", "position", "velocity", "acceleration")
@@ -152,10 +152,11 @@ def _pose(
         is_taken(_pose_answer(machine, rows, f"Crank angle {degrees(phi):.7g}°{_from(zero)}, {speed}"))
         return ""
     lines = [f"crank angle {degrees(phi):.7g}° = {phi:.7g} rad{_from(zero)}, {speed}"]
-    lines += [f"{'':24}{'position':>16}{'velocity':>16}{'acceleration':>16}"]
+    wide = max(24, *(len(f"{name} {what} ") for name, what, _ in rows))
+    lines += [f"{'':{wide}}{'position':>16}{'velocity':>16}{'acceleration':>16}"]
     scales = [max((abs(row[2][k]) for row in rows if len(row[2]) > k), default=0.0) for k in range(3)]
     lines += [
-        f"{name + ' ' + what:<24}"
+        f"{name + ' ' + what:<{wide}}"
         + "".join(f"{number(value, 8, scale):>16}" for value, scale in zip(numbers, scales, strict=False))
         for name, what, numbers in rows
     ]
@@ -175,13 +176,18 @@ def _pose_answer(machine: Machine, rows: Sequence[tuple[str, str, tuple[float, .
     return Answer(machine=machine.name, units=machine.units, head=lambda: head, tables=lambda: [table])
 
 
-def _row_shown(row: tuple[str, str, tuple[float, ...]]) -> tuple[str, str, tuple[float, ...]]:
-    """A row in the units that the reader wants; the label says those of all columns where they differ."""
+def _row_shown(row: tuple[str, str, tuple[float, ...]], angle: str) -> tuple[str, str, tuple[float, ...]]:
+    """A row in the units that the reader wants; the label says those of all columns where they differ.
+
+    `angle`: usual unit of angles; empty for that of the result.
+    """
     from linkwright.kernel.page.out_units import reader
 
     name, what, numbers = row
     si = "rad" if what.endswith("[rad]") else "m"
-    shown = [reader().shown(unit) for unit in (si, f"{si}/s", f"{si}/s²")[: len(numbers)]]
+    usual = (angle if si == "rad" else "", "", "")
+    units_si = (si, f"{si}/s", f"{si}/s²")[: len(numbers)]
+    shown = [reader().shown(unit, other) for unit, other in zip(units_si, usual, strict=False)]
     if all(factor == 1.0 for _, factor in shown):
         return row
     units = ", ".join(unit for unit, _ in shown)

@@ -143,7 +143,8 @@ def _drawn(table: Table) -> RenderableType:
         show_edge=False,
         pad_edge=False,
     )
-    drawn.add_column(table.heads[0])
+    # A name without a space is broken where the line ends, never cut.
+    drawn.add_column(table.heads[0], overflow="fold")
     drawn.add_column(table.heads[1], style="cyan", no_wrap=True)
     for n, head in enumerate(table.heads[2:], start=2):
         # A narrow terminal may break words and lists of them, never a number.

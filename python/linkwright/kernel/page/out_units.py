@@ -98,10 +98,11 @@ class OutUnits:
         `unit`: that it is in, empty for a plain number; `usual`: where no other is wanted, empty for the
         same.
         """
-        if " per " in unit:
-            # Of a derivative: by an entry that has its own unit.
-            (above, over), (below, under) = (self.shown(part) for part in unit.split(" per ", 1))
-            return f"{above} per {below}", over / under
+        response, per, entry = f" {unit}".partition(" per ")
+        if per:
+            # Of a derivative: by an entry that has its own unit; a response without any has none above.
+            (above, over), (below, under) = self.shown(response.strip()), self.shown(entry)
+            return f"{above} per {below}".strip(), over / under
         own = _unit(unit) if self.chosen or usual else None
         if own is None:
             # What has two units, or one of its own, is shown as it is.
