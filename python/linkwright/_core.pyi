@@ -92,6 +92,7 @@ __all__ = [
 
 _Floats = NDArray[np.float64]
 _Ints = NDArray[np.int32]
+_Complexes = NDArray[np.complex128]
 
 FORMAT: int
 
@@ -1511,11 +1512,11 @@ def torsion_forced(
     loss: _Floats,
     disc_damping: _Floats,
     orders: _Floats,
-    torques: _Floats,
+    torques: _Complexes,
 ) -> None:
-    """Amplitudes (orders, discs, speeds) in place of torques, real and imaginary part in turn [N m → rad].
+    """Amplitudes (orders, discs, speeds) in place of torques [N m → rad].
 
-    k, c, ηk of the shaft above each disc and c of the disc itself, (discs, speeds) each, flat.
+    k, c, ηk of the shaft above each disc and c of the disc itself, (discs, speeds) each.
     """
 
 @final
@@ -1530,8 +1531,8 @@ class Extremes:
     least: Final[_Floats]
     least_at: Final[_Floats]
 
-def torsion_waves(coefficients: _Floats, waves: int) -> Extremes:
-    """Extremes of sums of harmonics (harmonics, waves), real and imaginary part in turn."""
+def torsion_waves(coefficients: _Complexes) -> Extremes:
+    """Extremes of sums of harmonics (harmonics, waves)."""
 
 @final
 class TorsionModes:

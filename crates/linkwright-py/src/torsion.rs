@@ -2,7 +2,9 @@
 
 use linkwright_core::torsion::forest::Forest;
 use linkwright_core::torsion::{Train, forced, modes, waves};
-use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyReadwriteArray1};
+use numpy::{
+    Complex64, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyReadwriteArray3, PyUntypedArrayMethods,
+};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -43,6 +45,8 @@ pub(crate) fn torsion_modes(
     shapes.readwrite().as_slice_mut()?.copy_from_slice(&found.shapes);
     Ok(Some(TorsionModes { omega: omega.unbind(), shapes: shapes.unbind() }))
 }
+/// A row a disc, a column a speed.
+type Rows<'py> = PyReadonlyArray2<'py, f64>;
 
 /// A train, its discs in an order in which each is connected to an earlier one.
 fn tree(parent: &Ints<'_>, inertia: &Floats<'_>, stiffness: &[f64]) -> PyResult<Train> {
@@ -52,8 +56,8 @@ fn tree(parent: &Ints<'_>, inertia: &Floats<'_>, stiffness: &[f64]) -> PyResult<
         .ok_or_else(|| PyValueError::new_err("no train: each disc hangs on an earlier one, all are positive"))
 }
 
-/// Amplitudes (orders, discs, speeds) in place of torques, real and imaginary part in turn. Tables have a row a disc, a
-/// column a speed: k, c and ηk of the shaft above each disc, c of the disc against the ground.
+/// Amplitudes (orders, discs, speeds) in place of torques. Tables have a row a disc, a column a speed: k, c and ηk of the
+/// shaft above each disc, c of the disc against the ground.
 #[pyfunction]
 #[pyo3(signature = (*, parent, inertia, speeds, stiffness, damping, loss, disc_damping, orders, torques))]
 pub(crate) fn torsion_forced(
@@ -61,12 +65,12 @@ pub(crate) fn torsion_forced(
     parent: Ints<'_>,
     inertia: Floats<'_>,
     speeds: Floats<'_>,
-    stiffness: Floats<'_>,
-    damping: Floats<'_>,
-    loss: Floats<'_>,
-    disc_damping: Floats<'_>,
+    stiffness: Rows<'_>,
+    damping: Rows<'_>,
+    loss: Rows<'_>,
+    disc_damping: Rows<'_>,
     orders: Floats<'_>,
-    mut torques: PyReadwriteArray1<'_, f64>,
+    mut torques: PyReadwriteArray3<'_, Complex64>,
 ) -> PyResult<()> {
     // What the shafts are is in the tables.
     let train = tree(&parent, &inertia, &vec![1.0; inertia.as_slice()?.len()])?;
@@ -77,8 +81,13 @@ pub(crate) fn torsion_forced(
         loss: loss.as_slice()?,
         ground: disc_damping.as_slice()?,
     };
-    let (orders, (torques, _)) = (orders.as_slice()?, torques.as_slice_mut()?.as_chunks_mut());
-    if guarded(py, "forced vibration", || forced::forced(&train, &at, orders, torques))? {
+    let orders = orders.as_slice()?;
+    // Lengths alone would take rows for columns.
+    let shape = [orders.len(), inertia.len(), speeds.len()];
+    let tables = [&stiffness, &damping, &loss, &disc_damping];
+    let fits = torques.shape() == shape && tables.iter().all(|rows| rows.shape() == &shape[1..]);
+    let torques = torques.as_slice_mut()?;
+    if fits && guarded(py, "forced vibration", || forced::forced(&train, &at, orders, torques))? {
         return Ok(());
     }
     Err(PyValueError::new_err("tables and torques do not have a place for every disc and speed"))
@@ -93,16 +102,15 @@ pub(crate) struct Extremes {
     pub(crate) least_at: Py<PyArray1<f64>>,
 }
 
-/// Extremes of waves and their places. Coefficients (harmonics, waves), real and
-/// imaginary part in turn.
+/// Extremes of waves and their places. Coefficients (harmonics, waves).
 #[pyfunction]
-pub(crate) fn torsion_waves(py: Python<'_>, coefficients: Floats<'_>, waves: usize) -> PyResult<Extremes> {
-    let (coefficients, _) = coefficients.as_slice()?.as_chunks();
-    if waves > 0 && coefficients.len() % waves != 0 {
-        return Err(PyValueError::new_err("coefficients do not have a place for every wave"));
-    }
+pub(crate) fn torsion_waves(
+    py: Python<'_>,
+    coefficients: PyReadonlyArray2<'_, Complex64>,
+) -> PyResult<Extremes> {
+    let (harmonics, waves) = coefficients.as_array().dim();
+    let coefficients = coefficients.as_slice()?;
     let analysis = "extremes of vibration";
-    let harmonics = coefficients.len() / waves.max(1);
     // Cosines and sines of each harmonic at the places where waves are sampled, some four for each harmonic.
     require_room(analysis, [harmonics, 4 * harmonics + 4])?;
     let found = guarded(py, analysis, || waves::extremes(coefficients, waves))?;

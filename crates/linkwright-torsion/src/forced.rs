@@ -19,14 +19,12 @@
 
 use super::Train;
 use linkwright_kernel::call::{in_threads, poll};
-use linkwright_kernel::lanes::{Job, in_lanes, scalar};
+use linkwright_kernel::lanes::{Job, in_lanes};
 use linkwright_kernel::real::Real;
+use num_complex::Complex64;
 use rayon::current_num_threads;
 use rayon::prelude::*;
 use std::ops::{Add, Mul};
-
-/// Real and imaginary part.
-pub type Complex = [f64; 2];
 
 /// What damps a train, and how that changes with the speed.
 #[derive(Clone, Copy, Debug)]
@@ -53,7 +51,7 @@ impl Damping<'_> {
 
 /// Amplitudes θ of every order, disc and speed, in place of the torques that cause them; `false`, and nothing done, if the
 /// tables do not fit.
-pub fn forced(train: &Train, damping: &Damping<'_>, orders: &[f64], torques: &mut [Complex]) -> bool {
+pub fn forced(train: &Train, damping: &Damping<'_>, orders: &[f64], torques: &mut [Complex64]) -> bool {
     let fits =
         damping.fits(train.len()) && torques.len() == orders.len() * train.len() * damping.speeds.len();
     let block = train.len() * damping.speeds.len();
@@ -79,16 +77,11 @@ pub fn forced(train: &Train, damping: &Damping<'_>, orders: &[f64], torques: &mu
 /// Amplitudes that a task finds: some hundred microseconds of work.
 const TASK: usize = 65_536;
 
-/// The same in plain numbers, which lanes are measured against.
-pub fn forced_scalar(train: &Train, damping: &Damping<'_>, orders: &[f64], torques: &mut [Complex]) {
-    scalar(ResponseJob { train, damping, orders, torques });
-}
-
 struct ResponseJob<'a> {
     train: &'a Train,
     damping: &'a Damping<'a>,
     orders: &'a [f64],
-    torques: &'a mut [Complex],
+    torques: &'a mut [Complex64],
 }
 
 /// A complex number in lanes.
@@ -222,32 +215,33 @@ fn lanes<R: Real>(row: &[f64], first: usize, buffer: &mut [f64]) -> R {
 
 /// Real parts and imaginary parts of a row, likewise.
 #[inline(always)]
-fn read<R: Real>(row: &[Complex], first: usize) -> Z<R> {
+fn read<R: Real>(row: &[Complex64], first: usize) -> Z<R> {
     let (mut re, mut im) = ([0.0; LANES_MAX], [0.0; LANES_MAX]);
     if let Some(row) = row.get(first..first + R::LANES) {
         for lane in 0..R::LANES {
-            [re[lane], im[lane]] = row[lane];
+            (re[lane], im[lane]) = (row[lane].re, row[lane].im);
         }
     } else {
         for lane in 0..R::LANES {
-            [re[lane], im[lane]] = row[(first + lane).min(row.len() - 1)];
+            let z = row[(first + lane).min(row.len() - 1)];
+            (re[lane], im[lane]) = (z.re, z.im);
         }
     }
     Z(R::load(&re), R::load(&im))
 }
 
 #[inline(always)]
-fn write<R: Real>(z: Z<R>, row: &mut [Complex], first: usize) {
+fn write<R: Real>(z: Z<R>, row: &mut [Complex64], first: usize) {
     let (mut re, mut im) = ([0.0; LANES_MAX], [0.0; LANES_MAX]);
     z.0.store(&mut re);
     z.1.store(&mut im);
     if let Some(row) = row.get_mut(first..first + R::LANES) {
         for lane in 0..R::LANES {
-            row[lane] = [re[lane], im[lane]];
+            row[lane] = Complex64::new(re[lane], im[lane]);
         }
     } else {
         for ((to, re), im) in row[first..].iter_mut().zip(re).zip(im) {
-            *to = [re, im];
+            *to = Complex64::new(re, im);
         }
     }
 }

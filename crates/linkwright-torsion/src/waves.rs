@@ -9,10 +9,10 @@
 //! taken in lanes, a wave each, many waves in threads. Harmonics that no wave has are left out: orders of gears without a
 //! simple ratio have a base far below them.
 
-use super::forced::Complex;
 use linkwright_kernel::call::{in_threads, poll};
 use linkwright_kernel::lanes::{Job, in_lanes};
 use linkwright_kernel::real::Real;
+use num_complex::Complex64;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -39,7 +39,7 @@ pub struct Extremes {
 }
 
 /// Extremes of waves given as a row a harmonic, a column a wave; NaN where a wave is not finite.
-pub fn extremes(coefficients: &[Complex], waves: usize) -> Vec<Extremes> {
+pub fn extremes(coefficients: &[Complex64], waves: usize) -> Vec<Extremes> {
     if waves == 0 {
         return Vec::new();
     }
@@ -61,7 +61,7 @@ pub fn extremes(coefficients: &[Complex], waves: usize) -> Vec<Extremes> {
 const TASK: usize = 64;
 
 struct WaveJob<'a> {
-    coefficients: &'a [Complex],
+    coefficients: &'a [Complex64],
     waves: usize,
     range: Range<usize>,
     quarter: usize,
@@ -70,11 +70,13 @@ struct WaveJob<'a> {
 }
 
 /// Numbers of the harmonics that some wave has, even and odd ones in turn; a number that no wave has fills the shorter list.
-fn present(coefficients: &[Complex], waves: usize) -> Vec<usize> {
+fn present(coefficients: &[Complex64], waves: usize) -> Vec<usize> {
     let filler = (coefficients.len() / waves).next_multiple_of(2);
     let rows = coefficients.chunks_exact(waves).enumerate();
-    let (mut even, mut odd): (Vec<usize>, Vec<usize>) =
-        rows.filter(|(_, row)| row.iter().any(|c| *c != [0.0; 2])).map(|(h, _)| h).partition(|h| h % 2 == 0);
+    let (mut even, mut odd): (Vec<usize>, Vec<usize>) = rows
+        .filter(|(_, row)| row.iter().any(|c| *c != Complex64::ZERO))
+        .map(|(h, _)| h)
+        .partition(|h| h % 2 == 0);
     let pairs = even.len().max(odd.len()).max(1);
     even.resize(pairs, filler);
     odd.resize(pairs, filler + 1);
@@ -107,7 +109,8 @@ impl Job for WaveJob<'_> {
                         let row = &coefficients[h * waves..][..waves];
                         let (re, im) = buffer.split_at_mut(R::LANES);
                         for (lane, (re, im)) in re.iter_mut().zip(im.iter_mut()).enumerate() {
-                            [*re, *im] = row[(first + lane).min(end - 1)];
+                            let z = row[(first + lane).min(end - 1)];
+                            (*re, *im) = (z.re, z.im);
                         }
                         *c = (R::load(re), R::load(im));
                     }
@@ -317,12 +320,12 @@ struct Wave {
 
 impl Wave {
     /// Takes the harmonics of another wave.
-    fn set(&mut self, harmonics: impl ExactSizeIterator<Item = Complex>) {
+    fn set(&mut self, harmonics: impl ExactSizeIterator<Item = Complex64>) {
         self.rows.clear();
         self.rows.resize(harmonics.len().div_ceil(ABREAST), [[0.0; ABREAST]; 2]);
-        for (h, [re, im]) in harmonics.enumerate() {
+        for (h, z) in harmonics.enumerate() {
             let [real, imaginary] = &mut self.rows[h / ABREAST];
-            (real[h % ABREAST], imaginary[h % ABREAST]) = (re, im);
+            (real[h % ABREAST], imaginary[h % ABREAST]) = (z.re, z.im);
         }
     }
 }
@@ -366,7 +369,7 @@ mod tests {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             (state >> 33) as f64 / (1_u64 << 31) as f64 - 0.5
         };
-        let c: Vec<Complex> = (0..waves * harmonics).map(|_| [random(), random()]).collect();
+        let c: Vec<Complex64> = (0..waves * harmonics).map(|_| Complex64::new(random(), random())).collect();
         let found = extremes(&c, waves);
         for (w, found) in found.iter().enumerate() {
             let mut wave = Wave::default();
@@ -384,10 +387,10 @@ mod tests {
     #[test]
     fn harmonics_far_apart() {
         let (waves, harmonics) = (3, 311);
-        let mut c = vec![[0.0, 0.0]; waves * harmonics];
+        let mut c = vec![Complex64::ZERO; waves * harmonics];
         for (n, h) in [0, 2, 62, 124, 155, 310].into_iter().enumerate() {
             for w in 0..waves {
-                c[h * waves + w] = [1.0 / (n + w + 1) as f64, 0.3 * (n * w) as f64 - 0.5];
+                c[h * waves + w] = Complex64::new(1.0 / (n + w + 1) as f64, 0.3 * (n * w) as f64 - 0.5);
             }
         }
         for (w, found) in extremes(&c, waves).iter().enumerate() {
@@ -398,14 +401,14 @@ mod tests {
             assert!(found.max >= high - 1e-12 && found.max < high + 1e-5, "{} {high}", found.max);
             assert!(found.min <= low + 1e-12 && found.min > low - 1e-5, "{} {low}", found.min);
         }
-        assert_eq!(extremes(&[[0.0, 0.0], [0.0, 0.0]], 1)[0].max, 0.0);
+        assert_eq!(extremes(&[Complex64::ZERO; 2], 1)[0].max, 0.0);
     }
 
     #[test]
     fn a_constant_and_one_wave() {
-        let found = extremes(&[[2.0, 0.0], [0.0, -3.0]], 1)[0];
+        let found = extremes(&[Complex64::new(2.0, 0.0), Complex64::new(0.0, -3.0)], 1)[0];
         assert!((found.max - 5.0).abs() < 1e-14 && (found.min + 1.0).abs() < 1e-14);
         assert!((found.at_max - TAU / 4.0).abs() < 1e-7);
-        assert_eq!(extremes(&[[2.0, 0.0]], 1)[0].max, 2.0);
+        assert_eq!(extremes(&[Complex64::new(2.0, 0.0)], 1)[0].max, 2.0);
     }
 }

@@ -119,11 +119,11 @@ def respond(referred: ReferredTrain, at: OperatingState, orders: Floats, torques
     def table(values: Floats) -> Floats:
         summed = np.zeros((n + 1, speeds))
         np.add.at(summed, tree.row, values)
-        return summed[:n].ravel()
+        return summed[:n]
 
     damping = np.broadcast_to(referred.damping[:, None], at.stiffness.shape)
     loss = referred.loss_factor[:, None] * at.stiffness
-    ground = np.ascontiguousarray(at.disc_damping[tree.order]).ravel()
+    ground = np.ascontiguousarray(at.disc_damping[tree.order])
     q = in_order(tree, torques)
     _core.torsion_forced(
         parent=tree.parent,
@@ -134,7 +134,7 @@ def respond(referred: ReferredTrain, at: OperatingState, orders: Floats, torques
         loss=table(loss),
         disc_damping=ground,
         orders=orders,
-        torques=q.view(np.float64).reshape(-1),
+        torques=q,
     )
     return q if tree.is_in_order else np.take(q, np.argsort(tree.order), axis=1)
 
@@ -310,8 +310,7 @@ def extremes(coefficients: Complexes) -> Floats:
     Places as τ, 0 to 2π; NaN of a wave that is not finite. `coefficients`: (harmonics, ...) c_h of Σ Re c_h
     e^{ihτ}, from h = 0 on.
     """
-    flat = np.ascontiguousarray(coefficients, complex).reshape(-1)
-    waves = coefficients[0].size
-    extrema = _core.torsion_waves(flat.view(np.float64), waves)
+    flat = np.ascontiguousarray(coefficients, complex).reshape(len(coefficients), coefficients[0].size)
+    extrema = _core.torsion_waves(flat)
     rows = np.stack([extrema.greatest, extrema.greatest_at, extrema.least, extrema.least_at])
     return rows.reshape(4, *coefficients.shape[1:])
