@@ -7,6 +7,7 @@ import inspect
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 import linkwright as lw
@@ -140,3 +141,26 @@ def test_loads_with_a_potential_do_not_resist_a_cycle() -> None:
     whole = compiled.reductions(angles)
     rest = compiled.without_conservative().reductions(angles)
     assert abs((whole.load - rest.load).mean()) < 1e-9 * abs(whole.dry).max()
+
+
+def test_tables_of_forced_vibration_have_their_axes() -> None:
+    """Rows of discs and columns of speeds are not taken for each other, though there are as many numbers."""
+    discs, speeds, orders = 2, 3, 1
+    table = np.ones((discs, speeds))
+    tables = dict.fromkeys(("stiffness", "damping", "loss", "disc_damping"), table)
+
+    def solve(**other: Any) -> Any:
+        given = {"torques": np.ones((orders, discs, speeds), complex)} | tables | other
+        _core.torsion_forced(
+            parent=np.array([0, 0], np.int32),
+            inertia=np.ones(discs),
+            speeds=np.arange(1.0, speeds + 1),
+            orders=np.ones(orders),
+            **given,
+        )
+        return given["torques"]
+
+    assert np.isfinite(solve()).all()
+    for wrong in ({"torques": np.ones((orders, speeds, discs), complex)}, {"loss": table.T.copy()}):
+        with pytest.raises(ValueError, match="a place for every disc and speed"):
+            solve(**wrong)
