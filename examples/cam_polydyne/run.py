@@ -32,7 +32,7 @@ def study(machine: lw.Machine) -> dict[str, float]:
 
 def figure(machine: lw.Machine):
     """Residual vibration of the rise over the speed, for both cams."""
-    from linkwright.cam.figures.dynamics import residual_figure
+    from linkwright.cam.figures.cam import residual_figure
 
     wanted = machine.mechanism.cams["tappet"].lift.stretch(0.0, np.radians(80))
     made = lw.polydyne(wanted, FOLLOWER, DESIGN).lift

@@ -34,7 +34,7 @@ def study(machine: lw.Machine) -> dict[str, float]:
 
 def figure(machine: lw.Machine):
     """What the rise leaves over τ, of the cam's law and of two others."""
-    from linkwright.cam.figures.dynamics import residual_figure
+    from linkwright.cam.figures.cam import residual_figure
     from linkwright.cam.laws.catalogue import LAWS
 
     laws = {name: LAWS[name].normalised() for name in ("parabolic", "cycloidal", "polynomial_4_5_6_7")}

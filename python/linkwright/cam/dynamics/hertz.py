@@ -187,23 +187,6 @@ def _curvature(first: Floats, second: Floats) -> Floats:
     return kappa
 
 
-def axis_stress(depth: ArrayLike) -> tuple[Floats, Floats]:
-    r"""Stress below the middle of the contact, over the largest pressure.
-
-    .. math:: \sigma_x = -\left(\frac{1+2\zeta^2}{\sqrt{1+\zeta^2}} - 2\zeta\right), \qquad
-        \sigma_z = -\frac1{\sqrt{1+\zeta^2}}
-
-    ``depth`` (n,): ζ, depth over the half width → along, down: across the line of contact in the surface, and
-    normal to the surface; tension is positive, (n,).
-
-    Source: Johnson, Contact Mechanics (1985), equations 4.46a, b.
-    """
-    zeta = np.asarray(depth, dtype=float)
-    w = np.hypot(1.0, zeta)
-    # (1 + 2ζ²)/w − 2ζ = (w − ζ)²/w, and w − ζ = 1/(w + ζ) without cancellation.
-    return -1 / ((w + zeta) ** 2 * w), -1 / w
-
-
 def von_mises_largest(poisson: float) -> tuple[float, float]:
     r"""Largest equivalent stress by von Mises below the contact, over the largest pressure.
 

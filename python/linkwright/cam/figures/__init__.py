@@ -2,7 +2,6 @@
 
 | module | |
 | --- | --- |
-| `cam` | Lift diagrams, profile, pressure angle, curvature, contact force |
+| `cam` | Lift diagrams, profile, pressure angle, curvature, contact force, motion laws, residual vibration |
 | `captions` | The figures of cams with their captions |
-| `dynamics` | Contact force, pressure and vibration of cams and followers |
 """

@@ -1,4 +1,4 @@
-"""Figures of a cam over one revolution, its drawing with its follower, and motion laws compared."""
+"""Figures of a cam over one revolution, its drawing with its follower, motion laws and their vibration."""
 
 from __future__ import annotations
 
@@ -17,10 +17,13 @@ from linkwright.kernel.figure.style import (
     GREEN,
     INK,
     LINES,
+    MATH,
     RED,
     SOFT,
     legend_above,
     level,
+    log_height,
+    named,
     panels,
     roomy,
     styled,
@@ -33,6 +36,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from linkwright.cam.dynamics.residual_vibration import ResidualSpectrum
     from linkwright.cam.laws.motion_law import MotionLaw
 
 # Value, words and colour of a line that is not to be passed.
@@ -295,3 +299,21 @@ def _law_course(law: MotionLaw, order: int) -> tuple[list[float], list[float]]:
         x += (low + (high - low) * u).tolist()
         y += piece.at(u).tolist()
     return [*x, law.end], [*y, y[-1] if order == 0 else 0.0]
+
+
+@styled
+def residual_figure(spectra: Mapping[str, ResidualSpectrum]) -> Figure:
+    """Draw the vibration that rises leave behind, over the ratio of rise time and natural period."""
+    figure, (left, during) = panels(2, height=4.6)
+    for (name, spectrum), colour in zip(spectra.items(), LINES * len(spectra), strict=False):
+        order = np.argsort(spectrum.ratio)
+        left.plot(spectrum.ratio[order], spectrum.residual[order], color=colour, label=named(name))
+        during.plot(spectrum.ratio[order], spectrum.primary_acceleration[order], color=colour)
+    log_height(left)
+    left.set_ylabel("amplitude left\nover the lift [–]")
+    # What lies below a millionth of the lift is no motion that anybody measures.
+    left.set_ylim(bottom=max(left.get_ylim()[0], 1e-6))
+    legend_above(left)
+    during.set_ylabel("largest acceleration\nin the rise $a\\,T^2/h$ [–]", **MATH)
+    during.set_xlabel("rise time over natural period τ [–]")
+    return figure
