@@ -38,10 +38,8 @@ def application() -> Commands:
 
 
 def _leave_out() -> None:
-    """Leave out plugins of pydantic and threads of linear algebra, before either is imported.
-
-    The command line alone does so: a program that imports the package keeps its own settings.
-    """
+    """Leave out plugins of pydantic and threads of linear algebra, before either is imported."""
+    # The command line alone does so: a program that imports the package keeps its own settings.
     # Looking for plugins of pydantic among all installed packages costs more than reading a machine file.
     # The module that would look for them imports what reads metadata of packages, and mails.
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")

@@ -209,10 +209,8 @@ class _Search:
         return Closure(ranges, self.limiter(at), at, self.turns)
 
     def _between(self, sign: int) -> list[float]:
-        """Adds minima below zero between closing angles (+1), or maxima above zero between open ones (−1).
-
-        Gives the angles of minima that touch zero where the motion does not go on.
-        """
+        """Adds minima below zero between closing angles (+1), or maxima above zero between open ones (−1)."""
+        # Gives the angles of minima that touch zero where the motion does not go on.
         room = sign * self.room
         before, after = np.roll(room, 1), np.roll(room, -1)
         bend = np.maximum(before + after - 2 * room, 1e-30)
@@ -344,11 +342,9 @@ def _closing(gaps: Floats) -> Bools:
 
 
 def _passes(compiled: CompiledMachine, at: float) -> bool:
-    """Whether the links go on where one touches zero: directions and rates agree before, at and after it.
-
-    A group is not carried on through a change point, and its rates jump; a lever whose pin passes over its
-    pivot turns about at once.
-    """
+    """Whether the links go on where one touches zero: directions and rates agree before, at and after it."""
+    # A group is not carried on through a change point, and its rates jump; a lever whose pin passes over its
+    # pivot turns about at once.
     angles = at + np.array([-_BESIDE, 0.0, _BESIDE])
     links = [compiled.link_motion(link, angles) for link in compiled.links.values()]
     numbers = np.array([row for link in links for row in (*link.direction, link.d1)]).reshape(-1, 3)

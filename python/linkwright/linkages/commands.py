@@ -177,10 +177,8 @@ def _pose_answer(machine: Machine, rows: Sequence[tuple[str, str, tuple[float, .
 
 
 def _row_shown(row: tuple[str, str, tuple[float, ...]], angle: str) -> tuple[str, str, tuple[float, ...]]:
-    """A row in the units that the reader wants; the label says those of all columns where they differ.
-
-    `angle`: usual unit of angles; empty for that of the result.
-    """
+    """A row in the units that the reader wants; the label says those of all columns where they differ."""
+    # `angle`: usual unit of angles; empty for that of the result.
     from linkwright.kernel.page.out_units import reader
 
     name, what, numbers = row

@@ -199,11 +199,9 @@ class LinkageSweep:
 
 
 def _time_ratio(at: Floats, values: Floats, span: float) -> float | None:
-    """Crank angle of the slower way between the extreme positions over that of the quicker one.
-
-    Over several revolutions an output may come to its extremes several times: the ways are those from one
-    lowest position to the next highest, and on to the next lowest.
-    """
+    """Crank angle of the slower way between the extreme positions over that of the quicker one."""
+    # Over several revolutions an output may come to its extremes several times: the ways are those from one
+    # lowest position to the next highest, and on to the next lowest.
     same = _EQUAL * np.ptp(values)
     lows = at[values <= values.min() + same]
     highs = at[values >= values.max() - same]

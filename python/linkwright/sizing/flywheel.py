@@ -233,10 +233,8 @@ def _searched(bare: Machine, wanted: float, guess: float) -> tuple[float, int]:
 
 
 def _root(f: Callable[[float], float], low: float, high: float, close: float) -> float:
-    """Root of an increasing function by regula falsi, Illinois variant.
-
-    Source: Dowell, Jarratt, A modified regula falsi method, BIT 11 (1971) 168–174.
-    """
+    """Root of an increasing function by regula falsi, Illinois variant."""
+    # Dowell, Jarratt, A modified regula falsi method, BIT 11 (1971) 168–174.
     f_low, f_high = f(low), f(high)
     side = 0
     for _ in range(_ITERATIONS):

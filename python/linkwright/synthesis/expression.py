@@ -182,8 +182,7 @@ def _points(task: FunctionTask, ends: tuple[float, ...]) -> Floats:
 
 
 def _function(task: FunctionTask) -> Callable[[Floats], Floats]:
-    """The function of a task; one given by points is a polynomial through few of them, straight "
-    "between many."""
+    """The function of a task; one given by points is a polynomial through few, straight between many."""
     if task.function is not None:
         return function_of(task.function)
     x, y = np.asarray(task.x), np.asarray(task.y)

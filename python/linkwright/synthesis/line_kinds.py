@@ -40,15 +40,13 @@ def _bar_tables(bar: FourBar, point: complex) -> Tables:
 
 
 def _hoeken(p: dict[str, float]) -> Tables:
-    """Crank-rocker with equal coupler and rocker; P beyond the joint, as far again. At its middle "
-    "the crank points away from B₀."""
+    """Equal coupler and rocker; P beyond the joint, as far again; midway the crank points away from B₀."""
     bar = FourBar(0j, p["frame"] + 0j, p["crank"], p["arm"], p["arm"], "left", np.pi)
     return _bar_tables(bar, 2 * p["arm"] + 0j)
 
 
 def _chebyshev(p: dict[str, float]) -> Tables:
-    """Crossed rockers of one length; P in the middle of the coupler, which is parallel to the "
-    "frame in the middle."""
+    """Crossed rockers of one length; P in the middle of the coupler, which is parallel to the frame there."""
     half = 0.5 * (p["frame"] + p["coupler"])
     pin = half + 1j * np.sqrt(p["arm"] ** 2 - half**2)
     joint = pin - p["coupler"]
@@ -62,23 +60,20 @@ _INSIDE = 0.9
 
 
 def _chebyshev_span(p: dict[str, float]) -> tuple[float, float]:
-    """Nearly between the places where P is above the pivots; at the usual proportions links are in "
-    "line there."""
+    """Nearly between the places of P above the pivots; links of usual proportions are in line there."""
     middle = np.arccos(0.5 * (p["frame"] + p["coupler"]) / p["arm"])
     low = np.arccos(min(1.0, p["frame"] / p["arm"]))
     return float(_INSIDE * (low - middle)), float(_INSIDE * (np.pi / 2 - middle))
 
 
 def _watt(p: dict[str, float]) -> Tables:
-    """Two rockers of one length on either side of the coupler, at right angles to it in the "
-    "middle; P in its middle."""
+    """Two rockers of one length on either side of the coupler, at right angles to it; P in its middle."""
     bar = FourBar(0j, 2 * p["arm"] + 1j * p["coupler"], p["arm"], p["coupler"], p["arm"], "left", 0.0)
     return _bar_tables(bar, 0.5 * p["coupler"] + 0j)
 
 
 def _roberts(p: dict[str, float]) -> Tables:
-    """Two rockers of one length and a coupler of half the frame, with P as far from its ends as "
-    "the pivots are, on the line of the frame."""
+    """Rockers of one length, a coupler of half the frame; P on the frame's line, as far as the pivots."""
     half, coupler = 0.5 * p["frame"], 0.5 * p["frame"]
     height = np.sqrt(p["arm"] ** 2 - (0.5 * (p["frame"] - coupler)) ** 2)
     pin = half - 0.5 * coupler + 1j * height
@@ -95,11 +90,9 @@ def _roberts_span(p: dict[str, float]) -> tuple[float, float]:
 
 
 def _evans(p: dict[str, float]) -> Tables:
-    """Scott Russell's linkage with its slider carried by a long rocker instead ("grasshopper").
-
-    The joint B swings about the line through the crank's pivot; the middle of the range is where the crank
-    lies along that line, and the rod continues it, so B is 2 r away.
-    """
+    """Scott Russell's linkage with its slider carried by a long rocker instead ("grasshopper")."""
+    # The joint B swings about the line through the crank's pivot; the middle of the range is where the crank
+    # lies along that line, and the rod continues it, so B is 2 r away.
     r, arm = p["crank"], p["arm"]
     # Sideways on the line B moves between 2 r and 2 r cos(range); the rocker stands upright half-way between.
     reach = r * (1 + np.cos(_EVANS_RANGE))
@@ -122,8 +115,7 @@ def _scott_russell(p: dict[str, float]) -> Tables:
 
 
 def _peaucellier(p: dict[str, float]) -> Tables:
-    """Long arms from O to the corners of a rhombus; one of its other corners on a circle through "
-    "O, the other is P."""
+    """Long arms from O to two corners of a rhombus; a third runs on a circle through O, the fourth is P."""
     arm, side, crank = p["arm"], p["side"], p["crank"]
     return {
         "points": {"O": {"x": 0.0, "y": 0.0}, "Q": {"x": crank, "y": 0.0}},
@@ -137,10 +129,8 @@ def _peaucellier(p: dict[str, float]) -> Tables:
 
 
 def _hart(p: dict[str, float]) -> Tables:
-    """A crossed parallelogram ABCD; O, the pin R and P divide AB, AD and CB alike and are always in line.
-
-    OR · OP = λ (1 − λ)(AB² − AD²), so P draws the inverse of the circle of R, which passes through O.
-    """
+    """A crossed parallelogram ABCD; O, the pin R and P divide AB, AD and CB alike and are always in line."""
+    # OR · OP = λ (1 − λ)(AB² − AD²), so P draws the inverse of the circle of R, which passes through O.
     long, short, part, crank = p["long"], p["short"], p["part"], p["crank"]
     return {
         "points": {"O": {"x": 0.0, "y": 0.0}, "Q": {"x": crank, "y": 0.0}},

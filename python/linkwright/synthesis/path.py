@@ -219,11 +219,9 @@ class _Effort:
 
 
 def _preferred(model: PathModel, rows: Linkages) -> int:
-    """Which of linkages of one error is taken: the largest minimum transmission angle decides.
-
-    Roberts's cognates draw the same path with the same angles. Of them, the one with the smallest outreach of
-    its coupler point is chosen, since clearance of the joints moves the point by that share.
-    """
+    """Which of linkages of one error is taken: the largest minimum transmission angle decides."""
+    # Roberts's cognates draw the same path with the same angles. Of them, the one with the smallest outreach
+    # of its coupler point is chosen, since clearance of the joints moves the point by that share.
     angle, lengths = _transmission(model, rows), shape(rows.p[:, :3], rows.is_double)[0]
     s, z, _ = (number[:, 0] for number in model.pose(rows.p))
     outreach = np.abs(z) / (np.abs(s) * lengths[:, 1])

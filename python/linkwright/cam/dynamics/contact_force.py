@@ -235,10 +235,8 @@ def _over(what: object, values: Floats) -> float:
 
 
 def _mean(course: CamCourse, follower: FollowerLoad, torque: Floats) -> tuple[float, float]:
-    """Mean torque over the angle, and its difference to that of every second angle; NaN if some lack.
-
-    The work of inertia at constant speed, spring and constant load is that of their energies at the ends.
-    """
+    """Mean torque over the angle, and its difference to that of every second angle; NaN if some lack."""
+    # The work of inertia at constant speed, spring and constant load is that of their energies at the ends.
     angle = course.cam_angle
     span = float(angle[-1] - angle[0])
     if not span > 0:

@@ -95,11 +95,9 @@ class Sides:
         return np.asarray(np.where(beside, self._off_circle(from_start), to_ends))
 
     def _off_circle(self, place: Floats) -> Floats:
-        """Distance of places, counted from the starts, from the whole circles; for lines too, without loss.
-
-        With the unit normal n at its start and the curvature κ, a circle is F(p) = κ p·p/2 − p·n = 0; the
-        distance is |2F/(1 + √(1 + 2κF))|.
-        """
+        """Distance of places, counted from the starts, from the whole circles; for lines without loss too."""
+        # With the unit normal n at its start and the curvature κ, a circle is F(p) = κ p·p/2 − p·n = 0; the
+        # distance is |2F/(1 + √(1 + 2κF))|.
         length = np.linalg.norm(self.chords, axis=1)
         curvature = (2 * np.sin(0.5 * self.turns) / np.where(length > 0, length, 1.0))[:, None]
         normal = turned(self.start_directions, np.full(len(length), 0.5 * np.pi))

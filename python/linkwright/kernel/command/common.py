@@ -103,10 +103,8 @@ _UNREAD = 141
 
 
 def _unread() -> click.exceptions.Exit:
-    """The end of a command whose output nobody reads any more, as in ``linkwright run FILE | head``.
-
-    What is still to be written goes nowhere, so that nothing is said of it when the program ends.
-    """
+    """The end of a command whose output nobody reads any more, as in ``linkwright run FILE | head``."""
+    # What is still to be written goes nowhere, so that nothing is said of it when the program ends.
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, sys.stdout.fileno())
     os.close(nowhere)

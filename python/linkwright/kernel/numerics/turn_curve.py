@@ -118,11 +118,10 @@ class TurnCurve:
         return TurnCurve(self.ends, series, peak, size, np.abs(weights) @ self.error)
 
     def _gauss(self, order: float) -> tuple[Floats, Floats, Floats]:
-        """Values (p, k, m), weights (p, m) and angles (p, m) of Gauss–Legendre quadrature.
-
-        Exact for squares of the series, and for them times a wave of an order: a wave that turns by z between
-        the middle and the end of a piece is a polynomial of some z degrees, and some ten more, to rounding.
-        """
+        """Values (p, k, m), weights (p, m) and angles (p, m) of Gauss–Legendre quadrature."""
+        # Exact for squares of the series, and for them times a wave of an order: a wave that turns by z
+        # between the middle and the end of a piece is a polynomial of some z degrees, and some ten more, to
+        # rounding.
         half, n = self._half(), self.series.shape[-1]
         x, w = np.polynomial.legendre.leggauss(n + int(np.ceil(order * half.max())) + 10 * (order > 0))
         values = self.series @ chebyshev.chebvander(x, n - 1).T
@@ -165,13 +164,10 @@ def _integrals(count: int) -> Floats:
 
 @cache
 def _looks(count: int) -> tuple[Floats, float]:
-    """T_n of 4 N places, (N, 4 N), and the share of their range by which a series of N
-    terms may exceed them.
-
-    A polynomial of degree n is at most 1/cos(π n/2M) times its largest size on the M zeros of T_M, about the
-    middle of the range: H. Ehlich, K. Zeller, Schwankung von Polynomen zwischen Gitterpunkten, Mathematische
-    Zeitschrift 86 (1964) 41–44.
-    """
+    """T_n of 4 N places, (N, 4 N), and the share of their range by which N terms may exceed them."""
+    # A polynomial of degree n is at most 1/cos(π n/2M) times its largest size on the M zeros of T_M, about
+    # the middle of the range: H. Ehlich, K. Zeller, Schwankung von Polynomen zwischen Gitterpunkten,
+    # Mathematische Zeitschrift 86 (1964) 41–44.
     places = chebyshev.chebpts1(4 * count)
     rise = 0.5 * (1 / np.cos(np.pi * (count - 1) / (8 * count)) - 1)
     return np.ascontiguousarray(chebyshev.chebvander(places, count - 1).T), float(rise)

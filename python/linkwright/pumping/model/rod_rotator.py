@@ -288,10 +288,8 @@ class _Stroke(NamedTuple):
 
 
 def _false_position(function: Callable[[Any], Any], low: Any, high: Any) -> Any:
-    """Root between two places in each row, (rows, 1), by the false position in the Illinois form.
-
-    Source: Dowell, Jarratt, A modified regula falsi method, BIT 11 (1971) 168–174.
-    """
+    """Root between two places in each row, (rows, 1), by the false position in the Illinois form."""
+    # Dowell, Jarratt, A modified regula falsi method, BIT 11 (1971) 168–174.
     at_low, at_high = function(low), function(high)
     middle = high
     for _ in range(_STEPS):

@@ -369,11 +369,9 @@ _ROUNDING = 1e-13
 
 
 def _modal_links(train: MovingTrain) -> list[_core.TorsionLink]:
-    """Dashpots between masses, and of each against the ground, that make the matrix of damping ratios.
-
-    A symmetric matrix is Σ c (e_i − e_j)(e_i − e_j)ᵀ of all pairs with c = −C_ij, but for what rows sum up
-    to; single dashpots may be negative, all together are not.
-    """
+    """Dashpots between masses, and of each against the ground, that make the matrix of damping ratios."""
+    # A symmetric matrix is Σ c (e_i − e_j)(e_i − e_j)ᵀ of all pairs with c = −C_ij, but for what rows sum up
+    # to; single dashpots may be negative, all together are not.
     C = train.modal_damping
     if C is None:
         return []

@@ -147,10 +147,8 @@ def _without_delay(values: Floats, n: int) -> Indices:
 
 
 def _wider(model: EngineSpeed, measured: MeasuredSpeed, values: Floats, factors: Fit) -> Floats | None:
-    """First values with delay and compression of each cylinder, if factors do not explain what was measured.
-
-    By the ratio of variances: what each added value explains, over the noise.
-    """
+    """First values with delay and compression of each cylinder, if factors do not explain the measurement."""
+    # By the ratio of variances: what each added value explains, over the noise.
     others = np.zeros(2 * len(values))
     start = np.concatenate([values, others])
     is_known = measured.noise is not None

@@ -340,11 +340,9 @@ def _pairs(omega: Floats, C: Floats, H: Floats) -> tuple[Complexes, Complexes]:
 
 
 def _at_rest(omega: Floats, C: Floats, vectors: Complexes) -> Complexes:
-    """p of eigenvalues that rounding left at zero: stiffness gives the elastic part, damping the free one.
-
-    Where s is zero, so are the velocities s p, and p = y/ω of the elastic motions; those without stiffness
-    follow in the limit of (s + C_ff) p_f = -C_fe p_e, since each of them is damped and none damps another.
-    """
+    """p of eigenvalues that rounding left at zero: stiffness gives the elastic part, damping the free one."""
+    # Where s is zero, so are the velocities s p, and p = y/ω of the elastic motions; those without stiffness
+    # follow in the limit of (s + C_ff) p_f = -C_fe p_e, since each of them is damped and none damps another.
     n, m = len(omega), len(C)
     elastic = vectors[:n] / omega[:, None]
     free = m - n
