@@ -60,6 +60,16 @@ def test_examples_run(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatc
         assert not runner.failures, "".join(report)
 
 
+def test_numbers_of_the_readme_are_those_that_it_computes(capsys: pytest.CaptureFixture[str]) -> None:
+    (text,) = blocks(ROOT / "README.md", "python")
+    exec(compile(text, "README.md", "exec"), {})
+    (comment,) = re.findall(r"print\(.*?\)  # (.*)", text)
+    printed = re.findall(r"\d+\.\d+", comment)
+    computed = capsys.readouterr().out.split()
+    digits = [len(number.partition(".")[2]) for number in printed]
+    assert printed == [f"{float(x):.{n}f}" for x, n in zip(computed, digits, strict=True)]
+
+
 def test_docstring_of_the_package_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     assert doctest.testmod(lw).failed == 0
