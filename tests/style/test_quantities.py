@@ -169,3 +169,8 @@ def test_words_have_a_translation() -> None:
     said = {word: in_words(word, "uk", "word") for word in words}
     # Names of laws and formulas remain; a word of four small letters is English.
     assert not [word for word, text in said.items() if re.search(r"\b[a-z]{4,}\b", text)]
+
+
+def test_what_has_no_unit_says_so() -> None:
+    line = lw.straight_line("hoeken", 0.2)
+    assert (line.unit_of("length"), line.unit_of("exact"), line.unit_of("nothing")) == ("m", "", "")

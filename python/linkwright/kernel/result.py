@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from linkwright.kernel.quantities import attributes_section, declared, shown
+from linkwright.kernel.quantities import Label, attributes_section, declared
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -212,7 +212,8 @@ class Result(Record):
 
     def unit_of(self, name: str) -> str:
         """SI unit of an attribute or a curve by its name; empty if it has none."""
-        return shown(type(self), name).unit if name in declared(type(self)) else ""
+        _, mark = declared(type(self)).get(name, (None, None))
+        return mark.unit if isinstance(mark, Label) else ""
 
     def _entries(self) -> dict[str, Any]:
         """Fields and properties in the order of their definition."""

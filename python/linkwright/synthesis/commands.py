@@ -261,54 +261,25 @@ def _finish(
         units=machine.units,
         results=lambda _: {what: entries},
         warnings=warnings,
-        show=partial(_print, machine.name, entries, warnings, out),
+        show=partial(_print, result, entries, warnings, out),
         machine_file=lambda: dumps(machine),
     )
     hand_over(answer, json=json, out=out, force=force)
 
 
-def _print(name: str, entries: dict[str, Any], warnings: list[str], out: Path | None) -> None:
+def _print(result: Result, entries: dict[str, Any], warnings: list[str], out: Path | None) -> None:
     """A line for each entry, and where the machine file is."""
-    click.echo(name)
-    lengths = (abs(value) for key, value in entries.items() if _unit(key, value) == "m")
-    size = max(lengths, default=0.0)
+    click.echo(result.machine.name)  # type: ignore[attr-defined]
+    units = {key: result.unit_of(key) for key in entries}
+    size = max((abs(entries[key] or 0.0) for key, unit in units.items() if unit == "m"), default=0.0)
     for key, value in entries.items():
-        click.echo(f"  {key.replace('_', ' '):<26} {words(key, value, size)}")
+        click.echo(f"  {key.replace('_', ' '):<26} {_words(value, units[key], size)}")
     for warning in warnings:
         click.echo(f"Warning: {warning}")
     click.echo(f"Written: {out}" if out else "--out FILE writes the machine file.")
 
 
-# Results that are angles, and plain numbers; other numbers are lengths.
-_ANGLES = ("angle", "swing", "start", "end", "direction")
-_RATIOS = (
-    "ratio",
-    "function",
-    "relative",
-    "straightness",
-    "evaluated",
-    "starts",
-    "found",
-    "rate",
-    "seed",
-    "links",
-    "solutions",
-    "residual",
-)
-
-
-def _unit(name: str, value: Any) -> str | None:
-    """SI unit of an entry by its name; empty for a plain number, None for what is no number."""
-    from linkwright.kernel.units import is_number
-
-    if not is_number(value):
-        return None
-    if any(part in name for part in _RATIOS):
-        return ""
-    return "rad" if any(part in name for part in _ANGLES) else "m"
-
-
-def words(name: str, value: Any, size: float = 0.0) -> str:
+def _words(value: Any, unit: str, size: float) -> str:
     """A value for people, in the units that they want: angles in degrees without others.
 
     `size`: of the linkage [m]; lengths that are rounding beside it are zero, and angles beside half a
@@ -317,19 +288,21 @@ def words(name: str, value: Any, size: float = 0.0) -> str:
     from math import pi
 
     from linkwright.kernel.page.numbers import quantity
+    from linkwright.kernel.units import is_number
 
     if value is None:
         return "–"
     if isinstance(value, tuple | list):
         return ", ".join(map(str, value)) or "–"
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    unit = _unit(name, value)
-    if not unit:
-        return str(value) if unit is None else f"{value:.6g}"
+    if not is_number(value):
+        return _yes_or_no(value) if isinstance(value, bool) else str(value)
     if unit == "rad":
         return quantity(value, unit, 6, pi, usual="deg")
-    return quantity(value, unit, 6, size)
+    return quantity(value, unit, 6, size) if unit else f"{value:.6g}"
+
+
+def _yes_or_no(value: bool) -> str:
+    return "yes" if value else "no"
 
 
 def print_catalogue(lines: tuple[Any, ...]) -> None:
@@ -346,6 +319,6 @@ def print_catalogue(lines: tuple[Any, ...]) -> None:
         span = f"{degrees(kind.crank_angle_start):.1f}° to {degrees(kind.crank_angle_end):.1f}°"
         deviation = "0" if kind.exact else quantity(kind.deviation, "m", 3)
         click.echo(
-            f"{kind.kind:<14} {words('', kind.exact):<6} {kind.links:>5} {deviation:>11} {span:>20} "
-            f"{quantity(kind.size, 'm', 3):>9}  {words('', kind.turns_fully)}"
+            f"{kind.kind:<14} {_yes_or_no(kind.exact):<6} {kind.links:>5} {deviation:>11} {span:>20} "
+            f"{quantity(kind.size, 'm', 3):>9}  {_yes_or_no(kind.turns_fully)}"
         )
