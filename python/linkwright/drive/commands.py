@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 from linkwright.kernel.command.answer import Answer, hand_over
-from linkwright.kernel.command.common import File, Json, Outside, Sets, ZeroAt, option_value
+from linkwright.kernel.command.common import Curves, File, Json, Outside, Sets, ZeroAt, option_value
 from linkwright.kernel.command.out import Force, out_option, output_folder
 from linkwright.kernel.command.parameter import Option
 from linkwright.kernel.errors import InputError, require_within
@@ -35,18 +35,10 @@ FromSpeed = Annotated[
         help='Crank speed at the start, such as "30 rpm"; negative clockwise: --from-speed="-30 rpm".',
     ),
 ]
-Duration = Annotated[
-    str | None,
-    Option("--duration", metavar="TIME", help="Duration of the motion.", show_default=False),
-]
+Duration = Annotated[str | None, Option("--duration", metavar="TIME", help="Duration of the motion.")]
 Revolutions = Annotated[
     float | None,
-    Option(
-        "--revolutions",
-        metavar="N",
-        help="Revolutions of the crank. Default, without --duration: 10.",
-        show_default=False,
-    ),
+    Option("--revolutions", metavar="N", help="Revolutions of the crank. Default, without --duration: 10."),
 ]
 NoMotor = Annotated[bool, Option("--no-motor", help="Switch the motor off.")]
 Clockwise = Annotated[
@@ -58,7 +50,6 @@ Accuracy = Annotated[float, Option("--accuracy", metavar="X", help="Relative acc
 Steps = Annotated[
     int, Option("--steps", metavar="N", help="Equal intervals of time in CSV and --curves.", min=1)
 ]
-Curves = Annotated[bool, Option("--curves", help="With --json: include curves.")]
 Folder = Annotated[
     Path | None, out_option("Write results.json, transient.csv and the figure as SVG and PNG there.")
 ]

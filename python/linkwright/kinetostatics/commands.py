@@ -9,7 +9,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from linkwright.drive.crank_speed import speed_words, speeds_of
 from linkwright.kernel.command.answer import Answer, hand_over
-from linkwright.kernel.command.common import File, Json, Outside, Sets, ZeroAt, named_entries, option_value
+from linkwright.kernel.command.common import (
+    Curves,
+    File,
+    Json,
+    Outside,
+    Sets,
+    ZeroAt,
+    named_entries,
+    option_value,
+)
 from linkwright.kernel.command.out import Force, out_option, output_folder
 from linkwright.kernel.command.parameter import Option
 from linkwright.kernel.errors import InputError
@@ -30,7 +39,6 @@ Speed = Annotated[
         "--speed",
         metavar="SPEED",
         help='Constant speed of the crank, such as "10 rad/s" or "90 rpm". Default: the steady motion.',
-        show_default=False,
     ),
 ]
 Span = Annotated[
@@ -40,7 +48,6 @@ Span = Annotated[
         metavar='"FROM, TO"',
         help='With --speed: range of crank angles, such as "-20 deg, 50 deg", for a mechanism '
         "that does not rotate fully.",
-        show_default=False,
     ),
 ]
 At = Annotated[
@@ -49,7 +56,6 @@ At = Annotated[
         "--at",
         metavar="ANGLE",
         help="Components of all forces at this one crank angle, at --speed or at the design speed.",
-        show_default=False,
     ),
 ]
 Acceleration = Annotated[
@@ -58,10 +64,8 @@ Acceleration = Annotated[
         "--acceleration",
         metavar="ACCELERATION",
         help='Of the crank, such as "20 rad/s^2", with --speed or --at. Default: none.',
-        show_default=False,
     ),
 ]
-Curves = Annotated[bool, Option("--curves", help="With --json: include curves.")]
 Folder = Annotated[
     Path | None, out_option("Write results.json, forces.csv and figures as SVG and PNG there.")
 ]
@@ -71,7 +75,6 @@ Cases = Annotated[
         "--case",
         metavar='"NAME: PATH=VALUE; …"',
         help='A load case, such as "idle: loads.work.force=0". Repeatable.',
-        show_default=False,
     ),
 ]
 Frictions = Annotated[
@@ -81,7 +84,6 @@ Frictions = Annotated[
         metavar='"PAIR: KEY=VALUE, …"',
         help='Friction of a pin, guide or slot, such as "A: radius=20 mm, coefficient=0.1" or "S.guide: '
         'coefficient=0.1"; also viscous, and length of a guide. Repeatable.',
-        show_default=False,
     ),
 ]
 Angle = Annotated[str, Option("--pressure-angle", metavar="ANGLE", help="Pressure angle of all teeth.")]
@@ -187,12 +189,7 @@ def _head(speeds: dict[str, dict[str, Any]]) -> str:
 
 def _tables(cases: dict[str, Forces]) -> list[Table]:
     """The cases beside each other, or all about the one."""
-    from linkwright.kinetostatics.tables import (
-        cases_table,
-        contribution_table,
-        envelope_table,
-        pose_tables,
-    )
+    from linkwright.kinetostatics.tables import cases_table, contribution_table, envelope_table, pose_tables
 
     if all(len(result.crank_angle) == 1 for result in cases.values()):
         return pose_tables(cases)
@@ -337,7 +334,6 @@ Links = Annotated[
         "--links",
         metavar="LINK,…",
         help="Links with counterweights, such as A,R.rocker; they must rotate about fixed points.",
-        show_default=False,
     ),
 ]
 Partial = Annotated[
@@ -346,7 +342,6 @@ Partial = Annotated[
         "--slider",
         metavar="SLIDER",
         help="Instead of --links: a counterweight on the crank for a share of the mass of this slider.",
-        show_default=False,
     ),
 ]
 Share = Annotated[
@@ -358,7 +353,6 @@ Radius = Annotated[
         "--radius",
         metavar="LENGTH",
         help="Distance of the counterweights from their pivots. Default: the length of the link.",
-        show_default=False,
     ),
 ]
 OutFile = Annotated[Path | None, out_option("Write the machine with counterweights there.", "FILE")]

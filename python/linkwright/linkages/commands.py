@@ -26,10 +26,7 @@ if TYPE_CHECKING:
     from linkwright.linkages.pose import Pose
     from linkwright.machine.machine import Machine
 
-At = Annotated[
-    str | None,
-    Option("--at", metavar="ANGLE", help="One pose, at this crank angle.", show_default=False),
-]
+At = Annotated[str | None, Option("--at", metavar="ANGLE", help="One pose, at this crank angle.")]
 Speed = Annotated[
     str | None,
     Option(
@@ -37,7 +34,6 @@ Speed = Annotated[
         metavar="SPEED",
         help='Speed of the crank, such as "90 rpm", for --at and for a revolution without --law. Default: '
         "the design speed of the file, or 1 rad/s.",
-        show_default=False,
     ),
 ]
 Acceleration = Annotated[
@@ -46,7 +42,6 @@ Acceleration = Annotated[
         "--acceleration",
         metavar="ACCELERATION",
         help='With --at: acceleration of the crank, such as "20 rad/s^2". Default: none.',
-        show_default=False,
     ),
 ]
 LawText = Annotated[
@@ -55,16 +50,12 @@ LawText = Annotated[
         "--law",
         metavar="FORMULA|FILE",
         help='Crank angle [rad] over time t [s]: a formula as "2*pi*t", or a CSV file of times and angles.',
-        show_default=False,
     ),
 ]
 Duration = Annotated[
     str | None,
     Option(
-        "--duration",
-        metavar="TIME",
-        help="With --law as a formula: duration of the motion. Default: 1 s.",
-        show_default=False,
+        "--duration", metavar="TIME", help="With --law as a formula: duration of the motion. Default: 1 s."
     ),
 ]
 Steps = Annotated[

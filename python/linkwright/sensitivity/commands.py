@@ -22,7 +22,6 @@ Of = Annotated[
         "--of",
         metavar="RESPONSE",
         help='Result or analysis, such as "steady_state.unevenness", "free_vibration". Repeatable.',
-        show_default=False,
     ),
 ]
 By = Annotated[
@@ -31,7 +30,6 @@ By = Annotated[
         "--by",
         metavar="ADDRESS",
         help='Entry, such as "mechanism.cranks.A2.phase". May be given again; all without it.',
-        show_default=False,
     ),
 ]
 Out = Annotated[Path | None, out_option("Write results.json and a figure for each response there.")]

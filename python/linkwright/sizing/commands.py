@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 from functools import partial
@@ -13,7 +12,7 @@ import click
 
 from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
-from linkwright.kernel.command.console import console, progress_bar, styled
+from linkwright.kernel.command.console import bar, console, styled
 from linkwright.kernel.command.out import Force, out_option
 from linkwright.kernel.command.parameter import Option
 
@@ -34,9 +33,7 @@ Reserve = Annotated[
 Unevenness = Annotated[
     float,
     Option(
-        "--unevenness",
-        metavar="X",
-        help="Required coefficient of speed fluctuation, (ω_max − ω_min)/ω_mean.",
+        "--unevenness", metavar="X", help="Required coefficient of speed fluctuation, (ω_max − ω_min)/ω_mean."
     ),
 ]
 By = Annotated[
@@ -57,7 +54,6 @@ Inertia = Annotated[
         "--inertia",
         metavar="TYPE=VALUE",
         help='Inertia of a rotor, such as 4A132S6U3="0.04 kg m^2". Repeatable.',
-        show_default=False,
     ),
 ]
 Catalogue = Annotated[
@@ -66,13 +62,9 @@ Catalogue = Annotated[
         "--catalogue",
         metavar="FILE",
         help="Choose from the motors of a CSV file, induction, DC or servo, in place of the catalogue.",
-        show_default=False,
     ),
 ]
 OutFile = Annotated[Path | None, out_option("Write the machine with motor and flywheel there.", "FILE")]
-
-# Seconds after which a bar shows how far it is.
-_PATIENCE = 1.0
 
 # Rows of the table beyond the motor that is chosen; larger ones are larger still.
 _BEYOND = 2
@@ -138,18 +130,11 @@ def _inertias(texts: Sequence[str]) -> dict[str, float]:
 
 
 def _tracked(types: Sequence[CatalogueMotor]) -> Iterator[CatalogueMotor]:
-    """The types one by one, with a bar on standard error once that takes long."""
-    from time import monotonic
-
-    start, bar = monotonic(), None
-    for done, motor in enumerate(types):
-        if bar is None and monotonic() - start > _PATIENCE and sys.stderr.isatty():
-            bar = progress_bar("motors", len(types))
-        if bar is not None:
-            bar.update(bar.task_ids[0], completed=done)
-        yield motor
-    if bar is not None:
-        bar.stop()
+    """The types one by one, with a bar once that takes long."""
+    with bar("motors") as watch:
+        for done, motor in enumerate(types):
+            watch(done / len(types))
+            yield motor
 
 
 def _file_text(machine: Machine, chosen: Candidate) -> str:
@@ -364,16 +349,11 @@ def _flywheel_words(flywheel: FlywheelChoice) -> Text:
     )
 
 
-Poles = Annotated[
-    int | None,
-    Option("--poles", metavar="N", help="Only motors with this number of poles.", show_default=False),
-]
+Poles = Annotated[int | None, Option("--poles", metavar="N", help="Only motors with this number of poles.")]
 PowerMin = Annotated[
     str, Option("--power-min", metavar="POWER", help='Rated power at least, such as "5.5 kW".')
 ]
-Series = Annotated[
-    str, Option("--series", metavar="NAME", help="Only motors of this series.", show_default=False)
-]
+Series = Annotated[str, Option("--series", metavar="NAME", help="Only motors of this series.")]
 
 
 def motors(poles: Poles = None, power_min: PowerMin = "0 W", series: Series = "", json: Json = False) -> None:

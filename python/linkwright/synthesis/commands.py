@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -12,8 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import click
 
 from linkwright.kernel.command.answer import Answer, hand_over
-from linkwright.kernel.command.common import Json, Outside, Sets, option_value
-from linkwright.kernel.command.console import progress_bar
+from linkwright.kernel.command.common import Curves, Json, Outside, Sets, option_value
+from linkwright.kernel.command.console import bar
 from linkwright.kernel.command.out import Force, out_option
 from linkwright.kernel.command.parameter import Argument, Option
 from linkwright.kernel.errors import InputError
@@ -23,20 +20,13 @@ if TYPE_CHECKING:
     from linkwright.machine.machine import Machine
 
 OutFile = Annotated[Path | None, out_option("Write the machine there.", "FILE")]
-Curves = Annotated[bool, Option("--curves", help="With --json: include curves.")]
 TaskFile = Annotated[Path | None, Argument("TASK", "Task file of the linkage.")]
-TaskOption = Annotated[
-    Path | None, Option("--task", metavar="FILE", help="The same as an option.", show_default=False)
-]
+TaskOption = Annotated[Path | None, Option("--task", metavar="FILE", help="The same as an option.")]
 Swing = Annotated[
-    str | None,
-    Option("--swing", metavar="ANGLE", help="Swing of the rocker, for a crank-rocker.", show_default=False),
+    str | None, Option("--swing", metavar="ANGLE", help="Swing of the rocker, for a crank-rocker.")
 ]
 Stroke = Annotated[
-    str | None,
-    Option(
-        "--stroke", metavar="LENGTH", help="Stroke of the slider, for a slider-crank.", show_default=False
-    ),
+    str | None, Option("--stroke", metavar="LENGTH", help="Stroke of the slider, for a slider-crank.")
 ]
 TimeRatio = Annotated[
     float,
@@ -51,15 +41,9 @@ CouplerMax = Annotated[
     float, Option("--coupler-max", metavar="X", help="Maximum ratio of coupler to rocker of a crank-rocker.")
 ]
 Rod = Annotated[
-    str | None,
-    Option(
-        "--rod", metavar="LENGTH", help="Rod of a slider-crank. Default: the best one.", show_default=False
-    ),
+    str | None, Option("--rod", metavar="LENGTH", help="Rod of a slider-crank. Default: the best one.")
 ]
-Kind = Annotated[
-    str | None,
-    Option("--kind", metavar="KIND", help="Kind of linkage; --list names them.", show_default=False),
-]
+Kind = Annotated[str | None, Option("--kind", metavar="KIND", help="Kind of linkage; --list names them.")]
 Length = Annotated[str, Option("--length", metavar="LENGTH", help="Length of the straight line.")]
 Proportions = Annotated[
     list[str] | None,
@@ -70,9 +54,6 @@ Proportions = Annotated[
     ),
 ]
 List = Annotated[bool, Option("--list", help="List the catalogue for this length of the line.")]
-
-# Seconds after which a bar shows how far it is.
-_PATIENCE = 1.0
 
 
 def dead_centre(
@@ -147,8 +128,8 @@ def path(
     from linkwright.synthesis.task import PathTask
 
     read = read_as(PathTask, _task(task, task_file), set or (), allow_outside=allow_outside)
-    with _tracked() as track:
-        generator = path_generator(read, track=track)
+    with bar("refinement") as watch:
+        generator = path_generator(read, track=lambda done, total: watch(done / total))
     _finish("path_generator", generator, json, out, force, curves=curves)
 
 
@@ -223,27 +204,6 @@ def _proportions(texts: list[str]) -> dict[str, float]:
                 f"--proportion {text}: expected NAME=X with a plain number, such as arm=2.5"
             ) from None
     return proportions
-
-
-@contextmanager
-def _tracked() -> Iterator[Any]:
-    """Something to call after every step, with a bar on standard error once that takes long."""
-    from time import monotonic
-
-    start = monotonic()
-    bars: list[Any] = []
-
-    def track(done: int, total: int) -> None:
-        if not bars and monotonic() - start > _PATIENCE and sys.stderr.isatty():
-            bars.append(progress_bar("refinement", total))
-        for bar in bars:
-            bar.update(bar.task_ids[0], completed=done)
-
-    try:
-        yield track
-    finally:
-        for bar in bars:
-            bar.stop()
 
 
 def _finish(

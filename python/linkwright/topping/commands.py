@@ -31,17 +31,11 @@ Over = Annotated[
         metavar="NAME=LOW:HIGH:N",
         help='Variable, such as edge_length=0.1:0.3:21 or edge_angle="0 deg":"40 deg":9: edge_length, '
         "edge_angle, forward_speed, knife_speed, cut_height. A second one: all combinations.",
-        show_default=False,
     ),
 ]
 Seed = Annotated[
     int | None,
-    Option(
-        "--seed",
-        metavar="N",
-        help="Seed of the random generator, in place of that of the field.",
-        show_default=False,
-    ),
+    Option("--seed", metavar="N", help="Seed of the random generator, in place of that of the field."),
 ]
 Level = Annotated[float, Option("--level", metavar="P", help="Confidence level of the intervals.")]
 Folder = Annotated[

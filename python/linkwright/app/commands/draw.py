@@ -23,26 +23,14 @@ Places = Annotated[
         metavar="FILE",
         help="A figure (.svg, .png, .pdf), the pose as .dxf, the motion as .gif or .mp4. "
         "Repeatable. Default: drawing.svg.",
-        show_default=False,
     ),
 ]
 At = Annotated[
     str | None,
-    Option(
-        "--at",
-        metavar="ANGLE",
-        help="Crank angle of the pose. Default: an eighth of the motion.",
-        show_default=False,
-    ),
+    Option("--at", metavar="ANGLE", help="Crank angle of the pose. Default: an eighth of the motion."),
 ]
 Seconds = Annotated[
-    str | None,
-    Option(
-        "--seconds",
-        metavar="TIME",
-        help="Duration of the animation. Default: 4 s.",
-        show_default=False,
-    ),
+    str | None, Option("--seconds", metavar="TIME", help="Duration of the animation. Default: 4 s.")
 ]
 
 _STILL, _MOVING = (".svg", ".png", ".pdf", ".dxf"), (".gif", ".mp4")

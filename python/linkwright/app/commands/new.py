@@ -11,20 +11,15 @@ from linkwright.kernel.command.parameter import Argument, Option
 from linkwright.kernel.errors import InputError
 
 Template = Annotated[
-    str | None,
-    Argument(metavar="TEMPLATE", help="Name of the template; --list names them."),
+    str | None, Argument(metavar="TEMPLATE", help="Name of the template; --list names them.")
 ]
 List = Annotated[
     bool, Option("--list", help="Name the templates; with pumping-unit, the units of the catalogue.")
 ]
 Designation = Annotated[
-    str | None,
-    Option("--designation", help="Designation of a pumping unit, such as C-114D-133-54.", show_default=False),
+    str | None, Option("--designation", help="Designation of a pumping unit, such as C-114D-133-54.")
 ]
-Hole = Annotated[
-    int | None,
-    Option("--hole", help="Crank hole of the pumping unit, 1 for the outermost.", show_default=False),
-]
+Hole = Annotated[int | None, Option("--hole", help="Crank hole of the pumping unit, 1 for the outermost.")]
 
 # The template that is filled from the catalogue of pumping units.
 _UNIT = "pumping-unit"

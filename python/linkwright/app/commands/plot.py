@@ -30,7 +30,6 @@ Over = Annotated[
         "--over",
         metavar="QUANTITY",
         help="Abscissa: a curve of the same analysis, such as time or ram.place. Default: the crank angle.",
-        show_default=False,
     ),
 ]
 Outs = Annotated[
@@ -39,7 +38,6 @@ Outs = Annotated[
         "--out",
         metavar="FILE|DIR",
         help="A figure (.png, .svg, .pdf), a table (.csv), or a folder for all of them. Repeatable.",
-        show_default=False,
     ),
 ]
 Csv = Annotated[bool, Option("--csv", help="Print CSV.")]

@@ -27,12 +27,7 @@ Words = Annotated[
 ]
 To = Annotated[
     list[str] | None,
-    Option(
-        "--to",
-        metavar="FILE",
-        help="FILE.html or FILE.pdf. Repeatable. Default: report.html.",
-        show_default=False,
-    ),
+    Option("--to", metavar="FILE", help="FILE.html or FILE.pdf. Repeatable. Default: report.html."),
 ]
 Company = Annotated[
     Path | None,
@@ -40,7 +35,6 @@ Company = Annotated[
         "--company",
         metavar="FILE",
         help="TOML file with company, logo, project, document and author for the letterhead.",
-        show_default=False,
     ),
 ]
 Sections = Annotated[
@@ -49,20 +43,15 @@ Sections = Annotated[
         "--sections",
         metavar="LIST",
         help="Only these: summary, sketch, results, formulas, data, assumptions, repeat (with commas).",
-        show_default=False,
     ),
 ]
-Lang = Annotated[
-    str,
-    Option("--lang", metavar="CODE", help="Language of the report: en, uk (Ukrainian)."),
-]
+Lang = Annotated[str, Option("--lang", metavar="CODE", help="Language of the report: en, uk (Ukrainian).")]
 Variants = Annotated[
     list[str] | None,
     Option(
         "--variant",
         metavar='"NAME: PATH=VALUE; …"',
         help='Compare with a variant, such as "heavier: bodies.cart1.mass=900 kg". Repeatable.',
-        show_default=False,
     ),
 ]
 

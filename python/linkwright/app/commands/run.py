@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from linkwright.kernel.command.answer import Answer, hand_over
-from linkwright.kernel.command.common import File, Json, Outside, Sets, ZeroAt, option_value
+from linkwright.kernel.command.common import Curves, File, Json, Outside, Sets, ZeroAt, option_value
 from linkwright.kernel.command.out import Force, command_line, out_option, output_folder
 from linkwright.kernel.command.parameter import Option
 
@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from linkwright.kernel.page.content import Content
     from linkwright.kernel.page.table import Table
 
-Curves = Annotated[bool, Option("--curves", help="With --json: include curves.")]
 Folder = Annotated[Path | None, out_option("Write results.json, the curves as CSV and report.html there.")]
 Accuracy = Annotated[float, Option("--accuracy", metavar="X", help="Relative accuracy of the steady speed.")]
 Method = Annotated[

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 from linkwright.kernel.command.answer import Answer, hand_over
-from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
+from linkwright.kernel.command.common import Curves, File, Json, Outside, Sets, option_value
 from linkwright.kernel.command.out import Force, out_option, output_folder
 from linkwright.kernel.command.parameter import Option
 from linkwright.kernel.errors import ExchangeError, InputError
@@ -43,7 +43,6 @@ Form = Annotated[
 Formats = Annotated[
     str, Option("--formats", metavar="LIST", help="Files to write: dxf, csv, svg, step (with commas).")
 ]
-Curves = Annotated[bool, Option("--curves", help="With --json: include curves.")]
 
 
 def cam_file(

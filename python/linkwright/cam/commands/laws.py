@@ -26,7 +26,6 @@ Names = Annotated[
         metavar='"NAME: KEY=VALUE, …"',
         help='This law alone, with parameters of its own where they follow, such as "modified_sine: '
         'share=0.2" or "combined: start=0.2, ramp=cycloidal". Repeatable.',
-        show_default=False,
     ),
 ]
 Folder = Annotated[

@@ -26,7 +26,6 @@ Vary = Annotated[
         metavar="NAME=LOW:HIGH:N",
         help='Variable, such as base_radius="20 mm":"60 mm":200 or lift_factor=1:1.2:5: base_radius, '
         "roller_radius, offset, arm_length, face_tilt, lift_factor. May be given again: all combinations.",
-        show_default=False,
     ),
 ]
 Laws = Annotated[
@@ -36,7 +35,6 @@ Laws = Annotated[
         metavar="NAME",
         help="A law of `linkwright cam laws` for all moving sections. Repeatable. Default: those "
         "of the file.",
-        show_default=False,
     ),
 ]
 CamName = Annotated[
@@ -146,12 +144,7 @@ def _axis(text: str) -> tuple[str, Floats]:
 
 
 def _smallest(
-    machine: Machine,
-    name: str,
-    cams: Cams,
-    keeps: Bools,
-    count: int,
-    is_kept: Callable[[CamProfile], bool],
+    machine: Machine, name: str, cams: Cams, keeps: Bools, count: int, is_kept: Callable[[CamProfile], bool]
 ) -> list[tuple[int, CamProfile]]:
     """The smallest cams that keep the limits exactly: between the angles of a search they may not."""
     best: list[tuple[int, CamProfile]] = []

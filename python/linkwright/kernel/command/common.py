@@ -42,9 +42,9 @@ Sets = Annotated[
         metavar="PATH=VALUE",
         help="Override an entry of the file, such as drive.gearbox.ratio=10 or "
         'mechanism.cranks.A2.phase="80 deg". Repeatable.',
-        show_default=False,
     ),
 ]
+Curves = Annotated[bool, Option("--curves", help="With --json: include curves.")]
 Outside = Annotated[
     bool,
     Option(
@@ -59,7 +59,6 @@ ZeroAt = Annotated[
         metavar='"[OUTPUT] END"',
         help="Count crank angles from a dead centre: outer, inner, top or bottom, with the name of a slide "
         'or rocker before it if there are several, as in "ram top".',
-        show_default=False,
     ),
 ]
 

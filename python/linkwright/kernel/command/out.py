@@ -26,7 +26,7 @@ def _place(text: str) -> Path:
 
 def out_option(words: str, metavar: str = "DIR") -> Any:
     """The option for a folder (``"DIR"``) or ``"FILE"`` to write; `words`: what is written, for the help."""
-    return Option("--out", metavar=metavar, help=words, show_default=False, parser=_place)
+    return Option("--out", metavar=metavar, help=words, parser=_place)
 
 
 Out = Annotated[Path | None, out_option("Write there.", "FILE")]

@@ -40,7 +40,6 @@ class Option(NamedTuple):
     name: str  # as it is written, such as `"--json"`
     metavar: str | None = None  # what its value is called in the help
     help: str = ""  # what it does, in sentences
-    show_default: bool = True  # whether the help says what holds without it
     min: int | None = None  # of a whole number, the smallest
     parser: Callable[[str], Any] | None = None  # makes the value of the word that is given
 
@@ -125,7 +124,7 @@ def _param(hint: Any, parameter: Parameter) -> click.Parameter:
         [parameter.name, mark.name],
         metavar=mark.metavar,
         help=mark.help,
-        show_default=mark.show_default,
+        show_default=parameter.default not in (None, ""),
         multiple=several,
         required=not optional,
         **given,

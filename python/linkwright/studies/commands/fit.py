@@ -21,7 +21,6 @@ Recorded = Annotated[
         "--record",
         metavar="CSV",
         help="File with a head such as `time [s], speed [rpm]`; without it, that of the study.",
-        show_default=False,
     ),
 ]
 Vary = Annotated[
@@ -30,12 +29,11 @@ Vary = Annotated[
         "--vary",
         metavar="ADDRESS[=LOW:HIGH]",
         help='Entry of a machine file to fit, such as  "drive.flywheel.inertia=50:200". Repeatable.',
-        show_default=False,
     ),
 ]
 Motion = Annotated[
     Literal["run_up", "run_down", "coast", "steady_state", "manoeuvre"] | None,
-    Option("--motion", help="Recorded motion. Default: that of the study, or run_down.", show_default=False),
+    Option("--motion", help="Recorded motion. Default: that of the study, or run_down."),
 ]
 Level = Annotated[float, Option("--level", metavar="P", help="Confidence level of the intervals.")]
 Out = Annotated[Path | None, out_option("Write the fitted machine, a figure and results.json there.")]

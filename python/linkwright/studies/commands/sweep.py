@@ -28,8 +28,7 @@ if TYPE_CHECKING:
 
 
 StudyArgument = Annotated[
-    Path,
-    Argument(metavar="FILE", help="A study file, or a machine file with a table `study`."),
+    Path, Argument(metavar="FILE", help="A study file, or a machine file with a table `study`.")
 ]
 Folder = Annotated[Path, Argument(metavar="DIR", help="The folder of a sweep.")]
 Into = Annotated[Path, out_option("Folder of the results; an incomplete one is resumed.")]
@@ -37,10 +36,7 @@ Drawn = Annotated[Path | None, out_option("Write figures and results.json there.
 Chunks = Annotated[
     str,
     Option(
-        "--chunks",
-        metavar="A:B",
-        help="Compute the files A to B - 1 alone: a share, as one of many jobs.",
-        show_default=False,
+        "--chunks", metavar="A:B", help="Compute the files A to B - 1 alone: a share, as one of many jobs."
     ),
 ]
 Workers = Annotated[int, Option("--workers", metavar="N", help="Number of processes.", min=1)]
@@ -50,7 +46,6 @@ Cluster = Annotated[
         "--cluster",
         metavar="ADDRESS",
         help='Dask scheduler whose workers compute, such as "tcp://host:8786".',
-        show_default=False,
     ),
 ]
 

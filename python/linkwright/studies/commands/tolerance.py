@@ -26,7 +26,6 @@ Wanted = Annotated[
         "--allocate",
         metavar="SHARE",
         help="Find the cheapest tolerances for this yield, such as 0.99, by the `cost` of each.",
-        show_default=False,
     ),
 ]
 Power = Annotated[

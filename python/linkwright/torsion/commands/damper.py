@@ -27,25 +27,16 @@ class Kind(StrEnum):
     rubber = "rubber"
 
 
-On = Annotated[str, Option("--on", metavar="DISC", help="The disc that carries it.", show_default=False)]
-Ring = Annotated[
-    str,
-    Option("--ring-inertia", metavar="J", help='Of its ring, such as "0.4 kg m^2".', show_default=False),
-]
+On = Annotated[str, Option("--on", metavar="DISC", help="The disc that carries it.")]
+Ring = Annotated[str, Option("--ring-inertia", metavar="J", help='Of its ring, such as "0.4 kg m^2".')]
 Mode = Annotated[
     int | None,
     Option(
-        "--mode",
-        metavar="N",
-        help="Number of the mode, as f_N in the table. Default: the first that twists.",
-        show_default=False,
+        "--mode", metavar="N", help="Number of the mode, as f_N in the table. Default: the first that twists."
     ),
 ]
 Kinds = Annotated[Kind, Option("--kind", help="viscous: fluid; tuned: spring and fluid; rubber: elastomer.")]
-Loss = Annotated[
-    float | None,
-    Option("--loss-factor", metavar="ETA", help="Loss factor of the rubber.", show_default=False),
-]
+Loss = Annotated[float | None, Option("--loss-factor", metavar="ETA", help="Loss factor of the rubber.")]
 Folder = Annotated[
     Path | None, out_option("Write damper.json, damper.toml and the response as SVG and PNG there.")
 ]

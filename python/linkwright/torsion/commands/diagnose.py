@@ -21,14 +21,13 @@ Measured = Annotated[
         help="Speed over the crank angle, at even steps over whole cycles; head: angle [deg], speed [rpm].",
     ),
 ]
-On = Annotated[str, Option("--on", metavar="DISC", help="The disc that was measured.", show_default=False)]
+On = Annotated[str, Option("--on", metavar="DISC", help="The disc that was measured.")]
 Noise = Annotated[
     str | None,
     Option(
         "--noise",
         metavar="SPEED",
         help='Standard deviation of a sample, such as "0.02 rad/s". Default: from the residuals.',
-        show_default=False,
     ),
 ]
 Zero = Annotated[
@@ -38,7 +37,6 @@ Zero = Annotated[
         metavar="CYLINDER",
         help="The angle is 0 at the firing dead centre of this cylinder. Default: where throw 1 points to "
         "the vertical.",
-        show_default=False,
     ),
 ]
 Level = Annotated[float, Option("--level", metavar="P", help="Confidence level of the intervals.")]

@@ -31,7 +31,6 @@ Holzer = Annotated[
         "--holzer",
         metavar="FREQUENCY",
         help='Holzer\'s table at a frequency: 45 (Hz), "20 rad/s", "300 rpm", f_3. Repeatable.',
-        show_default=False,
     ),
 ]
 
@@ -41,7 +40,6 @@ MeasuredFile = Annotated[
         "--measured",
         metavar="FILE.csv",
         help="Curves measured over the speed, laid over the computed ones: speed [rpm], line [MPa], …",
-        show_default=False,
     ),
 ]
 
