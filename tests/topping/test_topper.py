@@ -197,7 +197,7 @@ def test_a_retreating_edge_by_brute_force(degrees: float) -> None:
         ('topper.motion={kind="harmonic", stroke="1 um", phase=0}', np.nan, "longer stroke"),
     ],
 )
-def test_a_knife_that_hardly_goes_on_keeps_what_is_known(change: str, needed: float, remedy: str) -> None:
+def test_a_knife_that_barely_advances_keeps_what_is_known(change: str, needed: float, remedy: str) -> None:
     found = study(lw.read(MACHINES / "topper.toml", [change]))
     assert found.topper is not None
     assert np.isfinite([found.topper.length_published, found.topper.length_exact_constant_speed]).all()

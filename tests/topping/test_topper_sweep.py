@@ -91,7 +91,7 @@ def test_heights_are_shifted_to_their_mean() -> None:
     assert swept.loss_mean[2] == pytest.approx(constant.loss_mean[1], rel=0.02)
 
 
-def test_an_edge_that_hardly_goes_on_is_left_out() -> None:
+def test_an_edge_that_barely_advances_is_left_out() -> None:
     # Far oblique the edge runs back with each stroke: tan 88° times the speed of the knife is 13 v.
     small = RANDOM.replace("2000", "200")
     swept = sweep_field(machine(small), {"edge_angle": np.radians([20.0, 88.0])})

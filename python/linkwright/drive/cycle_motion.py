@@ -345,10 +345,8 @@ def _candidates(signed: Floats, span: Floats) -> tuple[Indices, Indices]:
 
 
 def _vertex(x: Floats, y: Floats, top: Indices) -> tuple[Floats, Floats]:
-    """Place and value of the vertex beside the best of some points: of the parabola through three of them.
-
-    The speed of a point that comes to rest has a corner there, where two lines meet.
-    """
+    """Place and value of the vertex beside the best of some points: of the parabola through three of them."""
+    # The speed of a point that comes to rest has a corner there, where two lines meet.
     row = np.arange(len(x))
     middle = np.clip(top, 2, x.shape[1] - 3)
     before, a, b, c, after = (y[row, middle + k] for k in (-2, -1, 0, 1, 2))

@@ -104,12 +104,10 @@ def steady_tangents(machine: Machine, along: Directions) -> SteadyTangents:
 def _telling_directions(
     machine: Machine, compiled: CompiledMachine, state: SteadyState, values: Floats
 ) -> Machine | None:
-    """The machine with a gearbox that tells the directions of power apart by next to nothing.
-
-    A gearbox that does not has no kink where the motor's torque changes sign, but derivatives by its factors
-    leap there: the solution needs ends of steps at it. None where there is no such place, or no direction of
-    `values` moves the factors apart.
-    """
+    """The machine with a gearbox that tells the directions of power apart by next to nothing."""
+    # A gearbox that does not has no kink where the motor's torque changes sign, but derivatives by its
+    # factors leap there: the solution needs ends of steps at it. None where there is no such place, or no
+    # direction of `values` moves the factors apart.
     _, forward, reverse = compiled.gear_factors
     _, *slots = compiled.gear_slots
     if (
@@ -124,12 +122,9 @@ def _telling_directions(
 def _of_motor(
     compiled: CompiledMachine, state: SteadyState, curves: SteadyCurves, ratio: Tangent
 ) -> dict[str, Tangent]:
-    """Extremes of the motor's torque and power, as far as they lie at an extreme speed.
-
-    `curves`: derivatives at both, (2, directions).
-
-    One that lies between, at the breakdown or pull-up speed, is left out.
-    """
+    """Extremes of the motor's torque and power, as far as they lie at an extreme speed."""
+    # `curves`: derivatives at both, (2, directions). One that lies between, at the breakdown or pull-up
+    # speed, is left out.
     speeds = np.array([state.speed_min, state.speed_max])
     torques = compiled.motor_torques(speeds).motor
     tangents: dict[str, Tangent] = {}

@@ -305,11 +305,9 @@ def solved_state(
 def _motor_extremes(
     machine: Machine, compiled: CompiledMachine, low: float, high: float
 ) -> tuple[float, float, float]:
-    """Minimum and maximum torque and maximum power of the motor for speeds of the crank between two.
-
-    In one revolution the speed takes every value between its extremes, and the torque depends on the speed
-    alone.
-    """
+    """Minimum and maximum torque and maximum power of the motor for speeds of the crank between two."""
+    # In one revolution the speed takes every value between its extremes, and the torque depends on the speed
+    # alone.
     assert machine.drive is not None
     assert machine.drive.motor is not None
     ratio = compiled.gear_factors[0]
@@ -342,10 +340,9 @@ def _ends_and_beside(low: float, high: float) -> tuple[float, float, float, floa
 
 
 def _highest(of: Callable[[Floats], Floats], x: list[float], y: list[float]) -> float:
-    """Maximum of a function that has one at most on each of some intervals.
-
-    `x` and `y` hold places and values of each interval: at its start, beside it, beside its end, at its end.
-    """
+    """Maximum of a function that has one at most on each of some intervals."""
+    # `x` and `y` hold places and values of each interval: at its start, beside it, beside its end, at its
+    # end.
     best = max(y)
     for k in range(0, len(x), 4):
         if y[k + 1] > y[k] and y[k + 2] > y[k + 3]:
@@ -354,11 +351,9 @@ def _highest(of: Callable[[Floats], Floats], x: list[float], y: list[float]) -> 
 
 
 def _peak(of: Callable[[Floats], Floats], low: float, high: float) -> float:
-    """Maximum of a function that has one between two ends.
-
-    The best sample of the interval, and again between its neighbours, 1e-9 of it in the end: a smooth peak
-    is met to the square of that.
-    """
+    """Maximum of a function that has one between two ends."""
+    # The best sample of the interval, and again between its neighbours, 1e-9 of it in the end: a smooth peak
+    # is met to the square of that.
     best = -np.inf
     for _ in range(_ZOOMS):
         x = np.linspace(low, high, _SPEEDS_IN_TURN)

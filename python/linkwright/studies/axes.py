@@ -267,10 +267,8 @@ def _normal_shares(kind: str, mean: float, deviation: float, low: float, high: f
 
 
 def _bell(kind: str, mean: float, deviation: float) -> tuple[float, float]:
-    """Mean and deviation of what is normal: the value, or its logarithm.
-
-    Johnson, Kotz, Balakrishnan, *Continuous Univariate Distributions*, vol. 1, 2nd ed. 1994, chapter 14.
-    """
+    """Mean and deviation of what is normal: the value, or its logarithm."""
+    # Johnson, Kotz, Balakrishnan, *Continuous Univariate Distributions*, vol. 1, 2nd ed. 1994, chapter 14.
     if kind == "normal":
         return mean, deviation
     variance = math.log1p((deviation / mean) ** 2)

@@ -182,11 +182,9 @@ def _address(asked: StudyResponse) -> str:
 
 
 def _differences(plan: StudyPlan, at: Floats, steps: Floats) -> dict[str, Tangent]:
-    """All responses with central differences over h and 2h, extrapolated [1].
-
-    [1] Richardson, The approximate arithmetical solution by finite differences, Phil. Trans. A 210 (1911)
-    307.
-    """
+    """All responses with central differences over h and 2h, extrapolated [1]."""
+    # [1] Richardson, The approximate arithmetical solution by finite differences, Phil. Trans. A 210 (1911)
+    # 307.
     n = len(at)
     points = np.vstack([at, *(at + k * np.diag(steps) for k in (1, -1, 2, -2))])
     rows = evaluate(plan, {axis.name: points[:, i].copy() for i, axis in enumerate(plan.axes)})

@@ -60,11 +60,9 @@ def drawing(machine: Machine, steady: SteadyState | None, acting: Forces | None)
 
 
 def _centres(machine: Machine, motion: Kinematics) -> Iterator[tuple[str, dict[str, Any]]]:
-    """Instant centres of links that turn about no fixed point.
-
-    ``fixed`` and ``moving``, the centrodes, (n, 2) each, the second along and across the link; ``at``, its
-    start, and ``angle``, its direction.
-    """
+    """Instant centres of links that turn about no fixed point."""
+    # ``fixed`` and ``moving``, the centrodes, (n, 2) each, the second along and across the link; ``at``, its
+    # start, and ``angle``, its direction.
     still = machine.linkage.fixed_points().keys() | {ORIGIN}
     for name, link in machine.linkage.links().items():
         if name in motion.links and link.start in motion.points and not {link.start, link.end} & still:

@@ -173,11 +173,9 @@ class Session:
         return self._packed(number, answer), due
 
     def _machine(self, entries: dict[str, Any]) -> Machine:
-        """The machine of the text with other entries.
-
-        Lengths, places and masses of a sound text are checked by their own bounds alone, and set;
-        whatever else may contradict other entries, and the whole is read.
-        """
+        """The machine of the text with other entries."""
+        # Lengths, places and masses of a sound text are checked by their own bounds alone, and set; whatever
+        # else may contradict other entries, and the whole is read.
         path = base(self.folder, self.place, self.name)
         if self.sound is None or self.sound[:2] != (self.text, path):
             self.sound = None

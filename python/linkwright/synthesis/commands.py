@@ -240,11 +240,9 @@ def _print(result: Result, entries: dict[str, Any], warnings: list[str], out: Pa
 
 
 def _words(value: Any, unit: str, size: float) -> str:
-    """A value for people, in the units that they want: angles in degrees without others.
-
-    `size`: of the linkage [m]; lengths that are rounding beside it are zero, and angles beside half a
-    revolution.
-    """
+    """A value for people, in the units that they want: angles in degrees without others."""
+    # `size`: of the linkage [m]; lengths that are rounding beside it are zero, and angles beside half a
+    # revolution.
     from math import pi
 
     from linkwright.kernel.page.numbers import quantity

@@ -12,7 +12,7 @@ import numpy as np
 
 from linkwright.machine.machine import Machine
 from linkwright.topping.coverage import coverage
-from linkwright.topping.edge import Edge, edges_of, hardly_goes_on
+from linkwright.topping.edge import Edge, barely_advances, edges_of
 from linkwright.topping.field import TopperField
 from linkwright.topping.knife import Knife
 from linkwright.topping.model.field import RandomField
@@ -136,7 +136,7 @@ def knife_look(machine: Machine, described: Topper) -> Iterator[str]:
     """
     d = float(head_diameter(described.root_diameter, described.cut_height))
     edges = edges_of(machine, described)
-    if not any(hardly_goes_on(edge, d, described.offset) for edge in edges):
+    if not any(barely_advances(edge, d, described.offset) for edge in edges):
         looks = [_look(described, edge, d) for edge in edges]
         needed, left = max(looks)[0], max(look[1] for look in looks)
         if left > _LEFT and np.isfinite(needed):

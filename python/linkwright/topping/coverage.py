@@ -26,7 +26,7 @@ from linkwright.kernel.arrays import Floats, Indices
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.quantities import Label
 from linkwright.kernel.result import Result
-from linkwright.topping.edge import Edge, hardly_goes_on
+from linkwright.topping.edge import Edge, barely_advances
 from linkwright.topping.roots import Roots
 
 # Stations per revolution of the law for one machine: tops between them are then distinguished to 1e-9.
@@ -37,7 +37,7 @@ FINE = 128
 COARSE = 16
 
 # At a large angle, the point that is reached last lies within cot α of the end of the pass: so many stations
-# see it, times tan α; no more than the second for an edge that hardly goes on.
+# see it, times tan α; no more than the second for an edge that barely advances.
 _ASLANT, _MOST = 4, 100_000
 
 
@@ -198,7 +198,7 @@ def require_advance(edges: Sequence[Edge], roots: Roots) -> None:
     """Refuse an edge that cannot be followed over the largest head farthest from the row."""
     largest, farthest = float(roots.diameter.max()), float(np.abs(roots.offset).max())
     for edge in edges:
-        reason = hardly_goes_on(edge, largest, farthest)
+        reason = barely_advances(edge, largest, farthest)
         if reason is not None:
             raise FindingError(reason)
 

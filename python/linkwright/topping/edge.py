@@ -138,7 +138,7 @@ def edges_of(machine: Machine, described: Topper) -> list[Edge]:
     return [Edge(way, described.edge_angle, described.forward_speed) for way in ways]
 
 
-def hardly_goes_on(edge: Edge, diameter: float, offset: float) -> str | None:
+def barely_advances(edge: Edge, diameter: float, offset: float) -> str | None:
     """Why an edge cannot be followed: its knife goes back and forth over a head again and again.
 
     ``diameter``, ``offset``: d and Δ [m].

@@ -13,7 +13,7 @@ from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
-from linkwright.topping.edge import Edge, edges_of, hardly_goes_on, require_topper
+from linkwright.topping.edge import Edge, barely_advances, edges_of, require_topper
 from linkwright.topping.knife import KnifeDrive, knife_drive
 from linkwright.topping.model.topper import Topper
 from linkwright.topping.required_length import constant_speed_lengths, every_phase_length, published_lengths
@@ -205,7 +205,7 @@ def topper(machine: Machine, *, charts: bool = True) -> TopperStudy:
     described = require_topper(machine)
     d = float(head_diameter(described.root_diameter, described.cut_height))
     edges = edges_of(machine, described)
-    reasons = [hardly_goes_on(edge, d, described.offset) for edge in edges]
+    reasons = [barely_advances(edge, d, described.offset) for edge in edges]
     obstacle = next((reason for reason in reasons if reason), None)
     cut = _closed(described, edges[0], d) if obstacle else every_head(described, edges, d, charts=charts)
     return TopperStudy(
