@@ -57,7 +57,7 @@ def test_size_writes_the_machine(tmp_path: Path) -> None:
 def test_no_motor_suffices() -> None:
     done = run("size", TWO_CARTS, "--set", "loads.rolling1.force=1e5")
     assert done.exit_code == 1
-    assert "% of the requirement" in done.stderr
+    assert "% of the requirement" in done.stdout
     in_json = run("size", TWO_CARTS, "--set", "loads.rolling1.force=1e5", "--json")
     assert in_json.exit_code == 1
     found = json.loads(in_json.stdout)

@@ -8,18 +8,13 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-import click
-
 from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
-from linkwright.kernel.command.console import bar, console, styled
+from linkwright.kernel.command.console import bar
 from linkwright.kernel.command.out import Force, out_option
 from linkwright.kernel.command.parameter import Option
 
 if TYPE_CHECKING:
-    from rich.table import Table as Grid
-    from rich.text import Text
-
     from linkwright.drive.model.catalogue import CatalogueMotor
     from linkwright.kernel.page.table import Row, Table
     from linkwright.machine.machine import Machine
@@ -109,10 +104,7 @@ def size(
     flywheel = None
     if motor.chosen and motor.chosen.machine:
         flywheel = choose_flywheel(motor.chosen.machine, unevenness)
-    answer = _answer(machine, motor, flywheel)
-    for reason in answer.findings:
-        click.echo(reason, err=True)
-    hand_over(answer, json=json, out=out, force=force)
+    hand_over(_answer(machine, motor, flywheel), json=json, out=out, force=force)
 
 
 def _inertias(texts: Sequence[str]) -> dict[str, float]:
@@ -163,35 +155,42 @@ def _answer(machine: Machine, motor: MotorChoice, flywheel: FlywheelChoice | Non
         units=machine.units,
         results=lambda _: results,
         findings=[] if chosen else [motor.reason],
-        warnings=_warnings(motor, flywheel),
-        show=partial(_print, machine, motor, flywheel),
+        warnings=[*motor.warnings, *(flywheel.warnings if flywheel else ())],
         head=partial(_lead, motor, flywheel),
-        tables=partial(_report_tables, motor),
+        tables=partial(_tables_of_choice, motor),
         machine_file=partial(_file_text, fitted, chosen) if fitted and chosen else None,
     )
 
 
 def _lead(motor: MotorChoice, flywheel: FlywheelChoice | None) -> str:
-    """What is needed and what was chosen, for a report."""
+    """What is needed and what was chosen."""
     from linkwright.kernel.page.numbers import quantity
 
     need = motor.required
     power, speed = quantity(need.power, "W", 4, usual="kW"), quantity(need.speed, "rad/s", 4)
-    lines = [f"Required power {power} at {speed}", *([motor.reason] if motor.chosen else [])]
-    return "\n".join([*lines, *([_flywheel_words(flywheel).plain.replace("\n ", ";")] if flywheel else [])])
+    load = quantity(need.torque_load_mean, "N m")
+    lines = [
+        f"Required power {power} at {speed}",
+        f"{need.formula}, mean load {load}, η {need.efficiency:.4g}",
+    ]
+    if motor.chosen:
+        lines.append(motor.reason)
+    if flywheel:
+        lines += _flywheel_words(flywheel)
+    if others := len(motor.candidates) - len(_suited(motor)):
+        lines.append(f"{others} types have another speed: see --free-ratio")
+    return "\n".join(lines)
 
 
-def _report_tables(motor: MotorChoice) -> list[Table]:
-    """The checks of the motors, and the motors considered, for a report."""
+def _tables_of_choice(motor: MotorChoice) -> list[Table]:
+    """The checks of the motors, and the motors considered."""
     from linkwright.kernel.page.numbers import measured, quantity
     from linkwright.kernel.page.table import Table
 
-    tables = (
-        [_report_checks("checks_present", "The motor in the file", motor.present)] if motor.present else []
-    )
+    tables = [_checks("checks_present", "The motor in the file", motor.present)] if motor.present else []
     if chosen := motor.chosen:
         title = f"{chosen.type} at ratio {chosen.ratio:.4g}"
-        tables.append(_report_checks("checks_chosen", title, chosen.checks))
+        tables.append(_checks("checks_chosen", title, chosen.checks))
     rows: list[Row] = [
         (
             candidate.type,
@@ -199,7 +198,7 @@ def _report_tables(motor: MotorChoice) -> list[Table]:
             quantity(candidate.known.power_rated, "W", 4, usual="kW"),
             f"{candidate.ratio:.4g}",
             measured(candidate.inertia, "kg m²", digits=3, before="~" if candidate.inertia_estimated else ""),
-            str(_verdict(candidate, motor)),
+            _verdict(candidate, motor),
         )
         for candidate in _shown(motor)
     ]
@@ -207,7 +206,7 @@ def _report_tables(motor: MotorChoice) -> list[Table]:
     return [*tables, Table("motors_considered", "Motors considered", heads, rows)]
 
 
-def _report_checks(name: str, title: str, checks: Sequence[Check]) -> Table:
+def _checks(name: str, title: str, checks: Sequence[Check]) -> Table:
     """A row for each check."""
     from linkwright.kernel.page.numbers import measured
     from linkwright.kernel.page.table import Table
@@ -225,81 +224,6 @@ def _report_checks(name: str, title: str, checks: Sequence[Check]) -> Table:
         for check in checks
     ]
     return Table(name, title, ("check", "", "found", "limit", "verdict", "remark"), rows)
-
-
-def _warnings(motor: MotorChoice, flywheel: FlywheelChoice | None) -> list[str]:
-    return [*motor.warnings, *(flywheel.warnings if flywheel else ())]
-
-
-def _print(machine: Machine, motor: MotorChoice, flywheel: FlywheelChoice | None) -> None:
-    """Tables on the terminal."""
-    from linkwright.kernel.page.numbers import quantity
-
-    out, need = console(), motor.required
-    out.print(machine.name + "\n", style="bold")
-    power, speed = quantity(need.power, "W", 4, usual="kW"), quantity(need.speed, "rad/s", 4)
-    out.print(f"Required power {power} at {speed}")
-    load = quantity(need.torque_load_mean, "N m")
-    out.print(f"  {need.formula}, mean load {load}, η {need.efficiency:.4g}\n")
-    if motor.present:
-        out.print(_checks_table("The motor in the file", motor.present))
-    if motor.chosen:
-        chosen = motor.chosen
-        out.print(_checks_table(f"{chosen.type} at ratio {chosen.ratio:.4g}", chosen.checks))
-    out.print(_considered_table(motor))
-    if motor.chosen:
-        out.print("\n" + motor.reason, style="bold")
-    if flywheel:
-        out.print(_flywheel_words(flywheel))
-    for warning in _warnings(motor, flywheel):
-        out.print(styled(("note", "yellow"), f" {warning}"))
-
-
-def _checks_table(title: str, checks: Sequence[Check]) -> Grid:
-    """A line for each check: found, limit, verdict."""
-    from rich.table import Table as Grid
-
-    from linkwright.kernel.page.out_units import reader
-
-    table = Grid(title=title, title_justify="left", box=None, padding=(0, 2, 0, 0))
-    for word in ("check", "found", "", "limit", "unit", "", "remark"):
-        table.add_column(word, justify="right" if word in ("found", "limit") else "left")
-    marks = {True: ("passes", "green"), False: ("fails", "red"), None: ("not known", "yellow")}
-    for check in checks:
-        sign = "" if check.limit is None else "≤" if check.at_most else "≥"
-        unit, factor = reader().shown(check.unit)
-        reached, limit = (
-            _number(None if value is None else value / factor) for value in (check.value, check.limit)
-        )
-        row = (check.name.replace("_", " "), reached, sign, limit, unit)
-        table.add_row(*row, styled(marks[check.passed]), check.note)
-    return table
-
-
-def _number(value: float | None) -> str:
-    return "" if value is None else f"{value:.0f}" if abs(value) >= 1e3 else f"{value:.4g}"
-
-
-def _considered_table(motor: MotorChoice) -> Grid:
-    """The motors in the order of their power, around the one that is chosen."""
-    from rich.table import Table as Grid
-
-    from linkwright.kernel.page.numbers import number
-    from linkwright.kernel.page.out_units import reader
-
-    table = Grid(title="\nMotors considered", title_justify="left", box=None, padding=(0, 2, 0, 0))
-    unit, size = reader().shown("W", "kW")
-    for word in ("type", unit, "ratio", "inertia", "verdict"):
-        table.add_column(word, justify="left" if word in ("type", "verdict") else "right")
-    moment, heavy = reader().shown("kg m²")
-    for candidate in _shown(motor):
-        inertia = f"{number(candidate.inertia / heavy, 3)}{'*' if candidate.inertia_estimated else ''}"
-        power = f"{candidate.known.power_rated / size:.4g}"
-        table.add_row(candidate.type, power, f"{candidate.ratio:.4g}", inertia, _verdict(candidate, motor))
-    others = len(motor.candidates) - len(_suited(motor))
-    remark = f"; {others} types have another speed: see --free-ratio" if others else ""
-    table.caption, table.caption_justify = f"inertia in {moment}; * estimated{remark}", "left"
-    return table
 
 
 def _shown(motor: MotorChoice) -> list[Candidate]:
@@ -321,9 +245,9 @@ def _suited(motor: MotorChoice) -> list[Candidate]:
     )
 
 
-def _verdict(candidate: Candidate, motor: MotorChoice) -> str | Text:
+def _verdict(candidate: Candidate, motor: MotorChoice) -> str:
     if candidate is motor.chosen:
-        return styled(("chosen", "bold green"))
+        return "chosen"
     return (
         "passes, larger than needed"
         if candidate.passes
@@ -331,22 +255,20 @@ def _verdict(candidate: Candidate, motor: MotorChoice) -> str | Text:
     )
 
 
-def _flywheel_words(flywheel: FlywheelChoice) -> Text:
+def _flywheel_words(flywheel: FlywheelChoice) -> list[str]:
     """What flywheel, what it gives, what the classical estimate would have been."""
     from linkwright.kernel.page.numbers import quantity
 
     without = flywheel.unevenness_without
     bare = "there is no steady motion" if without is None else f"the speed fluctuation is {without:.4f}"
     if flywheel.inertia == 0:
-        wanted = f" {bare}, at most {flywheel.unevenness_wanted:g} is wanted"
-        return styled(("No flywheel is needed:", "bold"), wanted)
-    return styled(
-        (f"Flywheel {quantity(flywheel.inertia, 'kg m²', 4)} on the crankshaft", "bold"),
-        f" for a speed fluctuation of "
-        f"{flywheel.unevenness:.6g}; without it {bare}\n"
-        f"  classical estimate {quantity(flywheel.inertia_estimate, 'kg m²', 4)}, from an excess work of "
-        f"{quantity(flywheel.excess_work, 'J', 4)}",
-    )
+        return [f"No flywheel is needed: {bare}, at most {flywheel.unevenness_wanted:g} is wanted"]
+    size, estimate = (quantity(x, "kg m²", 4) for x in (flywheel.inertia, flywheel.inertia_estimate))
+    return [
+        f"Flywheel {size} on the crankshaft for a speed fluctuation of {flywheel.unevenness:.6g}; without it "
+        f"{bare}",
+        f"classical estimate {estimate}, from an excess work of {quantity(flywheel.excess_work, 'J', 4)}",
+    ]
 
 
 Poles = Annotated[int | None, Option("--poles", metavar="N", help="Only motors with this number of poles.")]

@@ -204,7 +204,7 @@ def topper_field(
     AssemblyError
         The mechanism of the knife does not close all round.
     FindingError
-        The edge runs over heads and back again and again, and hardly goes on.
+        The edge runs over heads and back again and again, and barely advances.
     """
     topper = require_topper(machine)
     roots = draw_roots(topper, seed)
