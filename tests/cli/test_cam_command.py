@@ -159,3 +159,10 @@ def test_a_search_without_a_cam_that_keeps_its_limit_has_a_finding() -> None:
     found = json.loads(done.stdout)
     assert found["results"]["cam_search"]["n_kept"] > 0
     assert "between the angles too" in found["findings"][0]
+
+
+def test_a_search_shows_the_units_of_the_reader() -> None:
+    done = run("search", ROLLER_CAM, "--vary", "base_radius=0.254:0.255:2", "--units", "in")
+    assert done.exit_code == 0, done.output
+    assert "10 in" in done.stdout
+    assert "mm" not in done.stdout

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
-from linkwright.kernel.command.console import console
 from linkwright.kernel.command.parameter import Option
 from linkwright.kernel.errors import InputError, require_within
 from linkwright.kernel.limits import CAM_VARIANTS, SHOWN
@@ -17,6 +16,7 @@ if TYPE_CHECKING:
     from linkwright.cam.profile.profile import CamProfile
     from linkwright.cam.search import Cams
     from linkwright.kernel.arrays import Bools, Floats
+    from linkwright.kernel.page.table import Table
     from linkwright.machine.machine import Machine
 
 Vary = Annotated[
@@ -99,7 +99,8 @@ def search(
         units=machine.units,
         results=lambda _: {"cam_search": _results(cams, keeps, best)},
         findings=_findings(keeps, best),
-        show=partial(_print, cams, keeps, best),
+        head=partial(_head, cams, keeps),
+        tables=partial(_tables, cams, best),
     )
     hand_over(answer, json=json)
 
@@ -206,32 +207,34 @@ def _findings(keeps: Bools, best: list[Any]) -> list[str]:
     return [f"None of the {looked} smallest keeps the limits between the angles too: widen ranges or limits."]
 
 
-def _print(cams: Cams, keeps: Bools, best: list[Any]) -> None:
-    """The smallest cams as a table."""
-    import numpy as np
-    from rich.table import Table
+def _head(cams: Cams, keeps: Bools) -> str:
+    """How many there are of what kind."""
+    n_sound, n_kept = int(cams.is_sound.sum()), int(keeps.sum())
+    return f"{len(keeps)} cams evaluated, {n_sound} sound, {n_kept} keep the limits"
 
-    out = console()
-    out.print(
-        f"{len(keeps)} cams evaluated, {int(cams.is_sound.sum())} sound, {int(keeps.sum())} keep the limits"
-    )
-    if not best:
-        out.print(f"FINDING  {_findings(keeps, best)[0]}")
-        return
-    units = {"face_tilt": ("deg", 180 / np.pi), "lift_factor": ("", 1.0)}
-    table = Table(box=None, header_style="", pad_edge=False)
-    heads = [*(["law"] if cams.laws else []), *cams.entries, "pressure angle", "radius of curvature"]
-    for head in heads:
-        table.add_column(head, justify="left" if head == "law" else "right")
-    for i, profile in best:
-        cells = [cams.laws[int(cams.law[i])]] if cams.laws else []
+
+def _tables(cams: Cams, best: list[tuple[int, CamProfile]]) -> list[Table]:
+    """The smallest cams."""
+    from linkwright.kernel.page.numbers import quantity
+    from linkwright.kernel.page.table import Table
+
+    units = {"face_tilt": ("rad", "deg"), "lift_factor": ("", "")}
+    rows = []
+    for nth, (i, profile) in enumerate(best, start=1):
+        entries = []
         for key, column in cams.entries.items():
-            unit, factor = units.get(key, ("mm", 1e3))
-            cells.append(f"{factor * column[i]:.5g} {unit}".strip())
+            unit, usual = units.get(key, ("m", "mm"))
+            entries.append(quantity(float(column[i]), unit, 5, usual=usual))
         convex = profile.curvature_radius_convex_min
-        cells += [
-            f"{np.degrees(profile.pressure_angle_max):.4g}°",
-            "–" if convex is None else f"{1e3 * convex:.5g} mm",
-        ]
-        table.add_row(*cells)
-    out.print(table)
+        rows.append(
+            (
+                cams.laws[int(cams.law[i])] if cams.laws else f"{nth}",
+                "",
+                *entries,
+                quantity(profile.pressure_angle_max, "rad", 4, usual="deg"),
+                "–" if convex is None else quantity(convex, "m", 5, usual="mm"),
+            )
+        )
+    entries = [name.replace("_", " ") for name in cams.entries]
+    heads = ("law" if cams.laws else "cam", "", *entries, "pressure angle", "radius of curvature")
+    return [Table("cam_search", "The smallest cams", heads, rows)] if rows else []
