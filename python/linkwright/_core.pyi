@@ -39,6 +39,7 @@ __all__ = [
     "Load",
     "MotionInTime",
     "MotionLaw",
+    "MotionVariations",
     "Motor",
     "MotorTorques",
     "NetTorques",
@@ -88,6 +89,7 @@ __all__ = [
     "torsion_modes",
     "torsion_waves",
     "transient",
+    "transient_along",
 ]
 
 _Floats = NDArray[np.float64]
@@ -1321,6 +1323,33 @@ def transient(
 
     Turning: the direction in which the crank turns, +1 counter-clockwise or −1, and that of the motor;
     the speed at the start is in the direction of the former.
+    """
+
+@final
+class MotionVariations:
+    """Derivatives of a motion in time at m instants along n directions, the instants held.
+
+    Of angle and speed, (m, n) each; the acceleration itself, (m,). At an event what holds before it.
+    """
+
+    crank_angle: Final[NDArray[np.float64]]
+    speed: Final[NDArray[np.float64]]
+    acceleration: Final[_Floats]
+
+def transient_along(
+    plan: Plan,
+    q: _Floats,
+    values: NDArray[np.float64],
+    start: NDArray[np.float64],
+    time: _Floats,
+    states: NDArray[np.float64],
+    between: NDArray[np.float64],
+    at: _Floats,
+) -> MotionVariations:
+    """Derivatives of a counter-clockwise motion in time by directions of the parameters (parameters, n).
+
+    Start: those of angle and speed, (2, n). The motion: times (k,), angles and speeds (2, k), factors of the
+    steps (k − 1, 2, 7). Instants increase.
     """
 
 def kinks(plan: Plan, q: _Floats) -> _Floats:

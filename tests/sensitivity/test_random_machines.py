@@ -80,7 +80,7 @@ def _train(random: Generator) -> tuple[lw.Machine, list[str], Measure]:
     return machine, names, lambda machine: lw.free_vibration(machine).natural_frequencies[1:].tolist()
 
 
-def _difference(machine: lw.Machine, address: str, measure: Measure, step: float) -> np.ndarray:
+def difference(machine: lw.Machine, address: str, measure: Measure, step: float) -> np.ndarray:
     """Central differences over h, 2h and 4h, extrapolated to sixth order, times the entry."""
     value = lw.get(machine, address)
     near = {
@@ -106,7 +106,7 @@ def check(
         try:
             errors = np.array(
                 [
-                    np.abs(exact[:, at] - _difference(machine, found.variables[at], measure, step)) / scales
+                    np.abs(exact[:, at] - difference(machine, found.variables[at], measure, step)) / scales
                     for step in (_STEP * share for share in _SHORTER)
                 ]
             )

@@ -87,3 +87,29 @@ def test_worst_case_holds_all(tmp_path: Path) -> None:
     assert each["worst_low"] == pytest.approx(3.196, abs=1e-9)
     assert each["worst_high"] == pytest.approx(3.204, abs=1e-9)
     assert each["worst_low"] < each["band_low"] < each["band_high"] < each["worst_high"]
+
+
+def test_joint_clearance_as_a_tolerance(tmp_path: Path) -> None:
+    """Half the clearance times a cosine: σ = c/(2√2); 25 H7/g6 has 0.021/2 + 0.007 + 0.013/2 = 0.024 mm."""
+    text = TEXT.replace('distribution = { kind = "normal", mean = "0.8 m", deviation = "1 mm" }', "X", 1)
+    for given, clearance in (("0.05 mm", 0.05e-3), ("25 H7/g6", 0.024e-3)):
+        plan = plan_of(tmp_path, text.replace("X", f'clearance = "{given}"'))
+        axis = plan.axes[0]
+        assert (axis.low, axis.high) == pytest.approx((0.8 - clearance / 2, 0.8 + clearance / 2), abs=1e-15)
+        shares = (np.arange(20_000) + 0.5) / 20_000
+        values = axis.values(shares)
+        assert values.mean() == pytest.approx(0.8, abs=1e-12)
+        # 20 000 strata miss 1e-8 of an integral that has a root at both ends.
+        assert values.std() == pytest.approx(clearance / np.sqrt(8), rel=1e-4)
+        worst = lw.tolerance(plan, 2000).responses["sum"]
+        assert worst["deviation_first_order"] == pytest.approx(
+            np.hypot(3 * clearance / np.sqrt(8), 2e-3), rel=2e-3
+        )
+    for wrong, message in (
+        ("0 mm", "more than 0"),
+        ("25 H7/p6", "a clearance fit"),
+        ("25 H7/k6", "clearance fit"),
+        ("1 kg", "unit of mass"),
+    ):
+        with pytest.raises(InputError, match=message):
+            plan_of(tmp_path, text.replace("X", f'clearance = "{wrong}"'))

@@ -120,7 +120,9 @@ EDGES = {
     ("sensitivity", "torsion.gradient"),
     ("sensitivity", "kinetostatics"),
     ("sensitivity", "turning"),
+    ("sensitivity", "pumping"),
     ("sensitivity", "cam"),
+    ("sensitivity", "cam.dynamics"),
     ("sensitivity", "cam.profile"),
     ("sizing.commands", "drive.model"),
 }

@@ -6,8 +6,9 @@ use linkwright_core::drive::gradient::{CURVES, Gradient, NUMBERS};
 use linkwright_core::drive::kinks as core_kinks;
 use linkwright_core::drive::reading::{Curves, ReadCurves};
 use linkwright_core::drive::steady::{Failure, Steady, steady_with_others};
+use linkwright_core::drive::transient::variation::{SolvedMotion, Variation};
 use linkwright_core::drive::transient::{End, Start, Turning, follow};
-use numpy::{PyArray1, PyArray2, PyArrayDyn, PyArrayMethods, PyReadonlyArray2};
+use numpy::{PyArray1, PyArray2, PyArrayDyn, PyArrayMethods, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 
@@ -409,6 +410,48 @@ pub(crate) fn transient(
         torque_drive_end: path.drive_torque,
         torque_load_end: path.load_torque,
         evaluations: path.evaluations,
+    })
+}
+
+/// Derivatives of a motion in time at some instants along directions of the parameters.
+#[pyclass(frozen, get_all, module = "linkwright._core")]
+pub(crate) struct MotionVariations {
+    crank_angle: Py<PyArray2<f64>>,
+    speed: Py<PyArray2<f64>>,
+    acceleration: Array,
+}
+
+#[pyfunction]
+pub(crate) fn transient_along(
+    py: Python<'_>,
+    plan: &Plan,
+    q: Floats<'_>,
+    values: PyReadonlyArray2<'_, f64>,
+    start: PyReadonlyArray2<'_, f64>,
+    time: Floats<'_>,
+    states: PyReadonlyArray2<'_, f64>,
+    between: PyReadonlyArray3<'_, f64>,
+    at: Floats<'_>,
+) -> PyResult<MotionVariations> {
+    let q = plan.parameters(&q)?;
+    let of = directions(plan, q, &values)?;
+    let (n, at, t) = (of.n, at.as_slice()?, time.as_slice()?);
+    let shapes = [start.as_array().shape(), states.as_array().shape(), between.as_array().shape()].concat();
+    let steps = t.len().saturating_sub(1);
+    if steps == 0 || shapes != [2, n, 2, t.len(), steps, 2, 7] {
+        let text = format!("start, states, steps of shapes {shapes:?} for {n} directions, {} times", t.len());
+        return Err(PyIndexError::new_err(text));
+    }
+    let (phi, omega) = states.as_slice()?.split_at(t.len());
+    let (start, motion) = (start.as_slice()?, SolvedMotion { t, phi, omega, between: between.as_slice()? });
+    let analysis = "derivatives of motion in time";
+    require_room(analysis, [at.len(), 2 * n])?;
+    let found = guarded(py, analysis, || Variation { of, start, motion, at }.derivatives())?;
+    let table = |list: Vec<f64>| Ok::<_, PyErr>(column(py, list).reshape([at.len(), n])?.unbind());
+    Ok(MotionVariations {
+        crank_angle: table(found.phi)?,
+        speed: table(found.omega)?,
+        acceleration: kept(py, found.epsilon),
     })
 }
 

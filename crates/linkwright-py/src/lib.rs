@@ -58,9 +58,9 @@ mod _core {
     };
     #[pymodule_export]
     use super::drive::{
-        MotionInTime, MotorTorques, NoSteadyMotion, OtherMotion, Reductions, SteadyCurves, SteadyGradient,
-        SteadyMotion, SteadyRows, SteadySolution, kinks, kinks_along, law_torques, motor_torques, reductions,
-        steady_rows, steady_state, transient,
+        MotionInTime, MotionVariations, MotorTorques, NoSteadyMotion, OtherMotion, Reductions, SteadyCurves,
+        SteadyGradient, SteadyMotion, SteadyRows, SteadySolution, kinks, kinks_along, law_torques,
+        motor_torques, reductions, steady_rows, steady_state, transient, transient_along,
     };
     #[pymodule_export]
     use super::linkage::{

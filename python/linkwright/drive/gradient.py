@@ -79,15 +79,8 @@ def steady_tangents(machine: Machine, along: Directions) -> SteadyTangents:
 
     Raises what `steady_state` raises, and InputError where the motor keeps its speed.
     """
-    if machine.drive is not None and isinstance(machine.drive.motor, ConstantSpeedMotor):
-        raise InputError("a motor of constant speed has the same speed whatever the machine is")
-    state, solution = solved_state(machine, _ACCURACY, _LOOK)
-    assert solution is not None
+    state, solution, _ = solved_along(machine, along)
     compiled, values = over_whole_cycle(compile_machine(machine)), along.values
-    moving = _telling_directions(machine, compiled, state, values)
-    if moving is not None:
-        _, solution = solved_state(moving, _ACCURACY, _LOOK)
-        assert solution is not None
     angles = np.array([state.speed_min_angle, state.speed_max_angle])
     gradient = solution.gradient(values, along.sizes, angles)
     # The core's works are those of a cycle.
@@ -99,6 +92,23 @@ def steady_tangents(machine: Machine, along: Directions) -> SteadyTangents:
     tangents |= _of_motor(compiled, state, gradient.curves, ratio)
     ties = _ties(compiled, state, solution)
     return SteadyTangents(replace(state, **tangents), ties, along.lost(gradient.lost))
+
+
+def solved_along(machine: Machine, along: Directions) -> tuple[SteadyState, SteadySolution, Machine]:
+    """Steady motion, a solution whose derivatives by all directions are sound, and the machine that it is of.
+
+    Raises what `steady_state` raises, and InputError where the motor keeps its speed.
+    """
+    if machine.drive is not None and isinstance(machine.drive.motor, ConstantSpeedMotor):
+        raise InputError("a motor of constant speed has the same speed whatever the machine is")
+    state, solution = solved_state(machine, _ACCURACY, _LOOK)
+    assert solution is not None
+    compiled = over_whole_cycle(compile_machine(machine))
+    moving = _telling_directions(machine, compiled, state, along.values)
+    if moving is not None:
+        _, solution = solved_state(moving, _ACCURACY, _LOOK)
+        assert solution is not None
+    return state, solution, moving or machine
 
 
 def _telling_directions(

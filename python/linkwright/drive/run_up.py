@@ -91,7 +91,11 @@ def run_up(machine: Machine, *, steady: SteadyState | None = None) -> RunUp:
     At rest a dry resistance holds up to its size in either direction.
     """
     start_of(machine)
-    steady = steady or _steady_or_stall(machine)
+    return accurate_run_up(machine, steady or _steady_or_stall(machine), _ACCURACY)
+
+
+def accurate_run_up(machine: Machine, steady: SteadyState, accuracy: float) -> RunUp:
+    """`run_up` of a machine that starts, with the relative accuracy of a step."""
     options = machine.run_up
     turns = min(_FIRST_TURNS, options.turns_max)
     while True:
@@ -100,7 +104,7 @@ def run_up(machine: Machine, *, steady: SteadyState | None = None) -> RunUp:
             angle=options.angle_start,
             speed=options.speed_start,
             turns=turns,
-            accuracy=_ACCURACY,
+            accuracy=accuracy,
         )
         if motion.came_to_rest:
             raise StartError(_why_not(motion))
@@ -119,7 +123,7 @@ def run_up(machine: Machine, *, steady: SteadyState | None = None) -> RunUp:
         turns=settled[0],
         time=settled[1],
         settled=options.settled,
-        speed_peak=_peak(motion, settled[1]),
+        speed_peak=peak_until(motion, settled[1])[0],
         motion=motion,
     )
 
@@ -224,17 +228,19 @@ def _settled(motion: Transient, steady: SteadyState, band: float) -> tuple[float
     return float(angle - motion.crank_angle[0]) / (2 * np.pi), float(settled[0])
 
 
-def _peak(motion: Transient, until: float) -> float:
-    """Maximum speed up to a time: that of the motion between the solver's steps, to rounding."""
+def peak_until(motion: Transient, until: float) -> tuple[float, float]:
+    """Maximum speed up to a time, and when: that of the motion between the solver's steps, to rounding."""
     if len(motion.time) < 2:
-        return float(motion.speed[0])
+        return float(motion.speed[0]), 0.0
     last = int(motion.time[1:-1].searchsorted(until, side="right"))
     start, end = motion.time[last : last + 2]
     speed = motion.between.coefficients(1)[: last + 1]
     speed[:, 0] = motion.speed[: last + 1]
     # Of the last step the part up to the time, as a step of its own.
     speed[last] *= ((until - start) / (end - start)) ** np.arange(speed.shape[1])
-    return largest(speed)[0]
+    peak, step, share = largest(speed)
+    begin, end = motion.time[step], min(until, motion.time[step + 1])
+    return peak, float(begin + share * (end - begin))
 
 
 def _looks(motion: Transient) -> Floats:
@@ -245,6 +251,9 @@ def _looks(motion: Transient) -> Floats:
 
 # Turns after which a run-down is given up: nothing brakes.
 _TURNS_MAX = 1000.0
+
+# Relative accuracy of a step of the run-down.
+_RUN_DOWN_ACCURACY = 1e-8
 
 
 @dataclass(frozen=True)
@@ -278,8 +287,12 @@ def run_down(machine: Machine, *, steady: SteadyState | None = None) -> RunDown:
         It does not come to rest within 1000 revolutions: nothing brakes it.
     """
     steady = steady or steady_state(machine, n=8)
-    speed = float(steady.speed[0])
-    motion = transient(machine, speed=speed, turns=_TURNS_MAX, motor=False, brake=True)
+    return accurate_run_down(machine, float(steady.speed[0]), _RUN_DOWN_ACCURACY)
+
+
+def accurate_run_down(machine: Machine, speed: float, accuracy: float) -> RunDown:
+    """`run_down` from a speed [rad/s] at φ = 0, with the relative accuracy of a step."""
+    motion = transient(machine, speed=speed, turns=_TURNS_MAX, accuracy=accuracy, motor=False, brake=True)
     if not motion.came_to_rest:
         raise SteadyStateError(
             f"does not come to rest within {_TURNS_MAX:.0f} revolutions: add [drive.brake]"

@@ -206,14 +206,15 @@ class Collector:
         """Cables that would have to push."""
         slack = []
         for pair in pairs.values():
-            if pair.kind != "cable" or np.isnan(pair.normal).all():
+            normal: Floats = primal(pair.normal)
+            if pair.kind != "cable" or np.isnan(normal).all():
                 continue
-            worst = int(np.nanargmin(pair.normal))
-            if pair.normal[worst] < -_SLACK * np.nanmax(np.abs(pair.normal)):
+            worst = int(np.nanargmin(normal))
+            if normal[worst] < -_SLACK * np.nanmax(np.abs(normal)):
                 at = np.degrees(self.scene.motion.crank_angle[worst])
                 slack.append(
                     f"The cable {pair.second} is slack: at crank angle {at:.4g}° it would have to push with "
-                    f"{-pair.normal[worst]:.4g} N; increase the load on its end, or reduce the speed."
+                    f"{-normal[worst]:.4g} N; increase the load on its end, or reduce the speed."
                 )
         return slack
 
@@ -221,15 +222,15 @@ class Collector:
         """Followers that nothing keeps on their cams."""
         left, motion = [], self.scene.motion
         for name, cam in self.scene.machine.mechanism.cams.items():
-            force = drives[name]
+            force: Floats = primal(drives[name])
             if cam.closure != "spring" or np.isnan(force).all():
                 continue
             worst = int(np.nanargmin(force))
             if force[worst] < -_SLACK * np.nanmax(np.abs(force)):
                 at = np.degrees(motion.crank_angle[worst])
                 left.append(
-                    f"{LEAVES} {name}: at crank angle {at:.4g}° and {motion.speed[worst]:.4g} rad/s "
-                    f"it would have to be pulled with {-force[worst]:.4g} N; these forces hold for a "
+                    f"{LEAVES} {name}: at crank angle {at:.4g}° and {primal(motion.speed)[worst]:.4g} "
+                    f"rad/s it would have to be pulled with {-force[worst]:.4g} N; these forces hold for a "
                     "follower that stays; a spring that presses with so much more, a lower speed, or a "
                     "groove keeps it on the cam."
                 )

@@ -77,7 +77,7 @@ def force_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     along, lost = _motion_along(machine, motion, program, solution)
     tangents = _curves(_forces_along(machine, motion, along, program))
     extremes, ties = {}, {}
-    kinks = _Kinks(machine, program, solution)
+    kinks = Kinks(machine, program, solution)
     beside = _beside_kinks(machine, result, solution, kinks)
     for name, place in places.items():
         curve, tangent = curves[name], tangents[name][int(np.searchsorted(at, place))].number()
@@ -88,11 +88,30 @@ def force_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
             moving = moving | kinks.moved_at(other)
         # The extreme is that of the result to the last digit; the tangent's is worked out anew.
         extremes[name] = Tangent(float(curve[place]), np.where(moving, np.nan, tangent.d))
-        reasons = [_tied(np.abs(curve), place, result.crank_angle)]
+        reasons = [tied(np.abs(curve), place, result.crank_angle)]
         reasons += [kinks.words(larger[0] if larger else angle, moving)] if moving.any() else []
         if any(reasons):
             ties[name] = "; ".join(filter(None, reasons))
     return Derivatives(program.variables, extremes, ties, missing, program.refused, lost)
+
+
+def drive_forces_along(
+    machine: Machine, variables: Sequence[str], angles: Floats
+) -> tuple[Directions, dict[str, Any], dict[str, float], Kinks]:
+    """Forces of drives and cams at crank angles with their derivatives by some entries, by name, (n,) each.
+
+    Beside the entries that have some: entries by which the motion is lost, and the kinks of the machine.
+    """
+    program = _directions(machine, variables)
+    solution = _steady(machine)[1]
+    if solution is None:
+        motion = forces(machine, angles=angles, contributions=False).motion
+    else:
+        read = solution.curves(angles)
+        motion = Motion(angles, read.speed, read.acceleration, read.time)
+    along, lost = _motion_along(machine, motion, program, solution)
+    drives = _forces_along(machine, motion, along, program).drives
+    return program, drives, lost, Kinks(machine, program, solution)
 
 
 def _directions(machine: Machine, variables: Sequence[str]) -> Directions:
@@ -124,7 +143,7 @@ def _curves(result: Forces) -> dict[str, Any]:
 
 
 def _beside_kinks(
-    machine: Machine, result: Forces, solution: Any, kinks: _Kinks
+    machine: Machine, result: Forces, solution: Any, kinks: Kinks
 ) -> dict[str, list[tuple[float, float]]]:
     """Sizes of the curves on both sides of kinks that lie on angles of the result, with their angles."""
     half = 0.5 * kinks.cycle
@@ -144,18 +163,19 @@ def _beside_kinks(
     }
 
 
-def _tied(size: Floats, place: int, angles: Floats) -> str:
+def tied(size: Floats, place: int, angles: Floats) -> str:
     """Where a curve is as large as at its extreme; empty if nowhere."""
     span = float(np.nanmax(size) - np.nanmin(size))
     others = np.flatnonzero(size >= size[place] - _TIE * span)
     turn = round(float(angles[-1] - angles[0]) / (2 * np.pi)) * 2 * np.pi
-    apart = [i for i in others if i != place and abs(abs(angles[i] - angles[place]) - turn) > _ON_KINK]
+    off = np.abs(angles - angles[place])
+    apart = [i for i in others if min(off[i], abs(off[i] - turn)) > _ON_KINK]
     if not apart or span == 0.0:
         return "" if span else "it is the same at all angles"
     return f"it is reached at {np.degrees(angles[place]):.4g}° and {np.degrees(angles[apart[0]]):.4g}°"
 
 
-class _Kinks:
+class Kinks:
     """Crank angles at which loads or motion have a kink or jump, and the entries that move them."""
 
     def __init__(self, machine: Machine, program: Directions, solution: Any) -> None:

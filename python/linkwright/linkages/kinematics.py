@@ -152,15 +152,22 @@ def kinematics_along(machine: Machine, motion: Kinematics, directions: Floats) -
     """
     compiled = compile_machine(machine)
     what = everything(compiled)
-    known = {"points": compiled.points, "links": compiled.links, "slides": compiled.slides}
-    channels = [_CHANNELS[part](known[part][name]) for part, name in what]
-    table = compiled.motions_along(directions, motion.angles, channels)
+    table = rows_along(compiled, motion.angles, what, directions)
     parts: dict[str, dict[str, Any]] = {part: {} for part in _WIDTHS}
     at = 0
     for part, name in what:
         parts[part][name] = _along(part, getattr(motion, part)[name], table[at : at + _WIDTHS[part]])
         at += _WIDTHS[part]
     return Kinematics(motion.angles, **parts)
+
+
+def rows_along(
+    compiled: CompiledMachine, angles: Floats, what: list[tuple[str, str]], directions: Floats
+) -> Floats:
+    """Derivatives of the rows of `motion_arrays` by directions (parameters, k), (numbers, n, k)."""
+    known = {"points": compiled.points, "links": compiled.links, "slides": compiled.slides}
+    channels = [_CHANNELS[part](known[part][name]) for part, name in what]
+    return compiled.motions_along(directions, angles, channels)
 
 
 def _along(part: str, motion: Any, rows: Any) -> Any:

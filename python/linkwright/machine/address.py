@@ -153,8 +153,22 @@ def resolve(node: object, address: str) -> tuple[str, ...]:
     return tuple(addresses)
 
 
+# The machine that was asked for places last, and what they were: derivatives ask for each a dozen times.
+_asked: tuple[Machine | None, dict[str, tuple[str, ...]]] = (None, {})
+
+
 def known_place(machine: Machine, address: str) -> tuple[str, ...]:
     """The keys that an address means; an error if there is no such entry."""
+    global _asked
+    asked, places = _asked
+    if asked is not machine:
+        asked, places = _asked = machine, {}
+    if address not in places:
+        places[address] = _found_place(machine, address)
+    return places[address]
+
+
+def _found_place(machine: Machine, address: str) -> tuple[str, ...]:
     place = resolve(machine, address)
     node: Any = machine
     for key in place:

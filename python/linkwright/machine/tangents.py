@@ -20,6 +20,7 @@ from linkwright.kernel.numerics.tangent_array import TangentArray
 from linkwright.machine.address import exchanged, get, is_given
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import Translation, compile_machine
+from linkwright.machine.program.mechanism import MechanismProgram
 
 # What tells that an entry is not followed.
 _FAILURES = (TypeError, AttributeError, ValueError, ArithmeticError, LinkwrightError)
@@ -104,6 +105,11 @@ class Directions:
     sizes: Floats
     refused: Mapping[str, str]
 
+    def only(self, entries: Sequence[str]) -> Directions:
+        """Those by some of the entries, in their order."""
+        at = [self.variables.index(entry) for entry in entries]
+        return Directions(tuple(entries), self.values[:, at], self.sizes[at], self.refused)
+
     def lost(self, angles: Floats) -> dict[str, float]:
         """Entries by which the move of a kink was not found, by `angles` of the kinks [rad], else NaN."""
         pairs = zip(self.variables, angles.tolist(), strict=True)
@@ -120,16 +126,23 @@ _CHANGE_POINTS = (
 )
 
 
-def directions(machine: Machine, variables: Sequence[str]) -> Directions:
+def directions(
+    machine: Machine, variables: Sequence[str], *, motor: bool = True, brake: bool = False
+) -> Directions:
     """Derivatives of the program's numbers by entries of a machine, in the order of the entries.
 
     Entries that follow from others are varied one at a time, as `linkwright.machine.tangents.columns` says.
+    `motor`, `brake`: whether the motor is on and the brake applied.
     """
-    compiled = compile_machine(machine)
+
+    def program(machine: Machine) -> MechanismProgram:
+        return Translation(machine, motor=motor, brake=brake).program
+
+    compiled = compile_machine(machine, motor=motor, brake=brake)
     refused: dict[str, str] = {}
-    derivatives = columns(machine, variables, _numbers, refused)
+    derivatives = columns(machine, variables, lambda machine: program(machine).parameters, refused)
     if any(getattr(element, "change_points", ()) for element in compiled.elements):
-        n_own = Translation(machine, motor=True, brake=False).program.n_own
+        n_own = program(machine).n_own
         moved = [name for name, column in derivatives.items() if column[:n_own].any()]
         refused.update(dict.fromkeys(moved, _CHANGE_POINTS))
     known = tuple(name for name in variables if name in derivatives and name not in refused)
@@ -139,11 +152,6 @@ def directions(machine: Machine, variables: Sequence[str]) -> Directions:
         values[: len(derivatives[name]), place] = derivatives[name]
     sizes = np.array([abs(float(get(machine, name))) or 1.0 for name in known])
     return Directions(known, values, sizes, refused)
-
-
-def _numbers(machine: Machine) -> Sequence[Any]:
-    """The program's numbers."""
-    return Translation(machine, motor=True, brake=False).program.parameters
 
 
 @dataclass(frozen=True)

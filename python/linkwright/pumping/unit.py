@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 
@@ -201,7 +201,8 @@ def _acceleration(rod: PolishedRod, speed: float | None, sign: int) -> float | N
 class PolishedRod:
     """The polished rod of a unit as a function of the crank angle."""
 
-    compiled: CompiledMachine  # the unit alone
+    machine: Machine  # the unit alone
+    compiled: CompiledMachine
     unit: PumpingUnit
     stroke: float  # [m]
     # bottom, top: crank angles at the ends of the stroke, 0 to 2π [rad].
@@ -216,12 +217,15 @@ class PolishedRod:
         )
         compiled = compile_machine(alone)
         require_full_turn(compiled, alone)
-        ends = [_end_angle(unit, psi, sign) for psi, sign in _ends(unit)]
-        return cls(compiled, unit, float(unit.stroke), *ends)
+        return cls(alone, compiled, unit, float(unit.stroke), *map(float, end_angles(unit)))
+
+    def beam(self, angles: Floats) -> Any:
+        """Cosine and sine of the beam's angle and the derivatives of it at crank angles, (4, n)."""
+        return motion_arrays(self.compiled, angles, [("links", BEAM_LINK)])[0]
 
     def motion(self, angles: Floats) -> Floats:
         """Rise above the bottom and its derivatives by the crank angle at crank angles, (3, n) [m]."""
-        cosine, sine, d1, d2 = motion_arrays(self.compiled, angles, [("links", BEAM_LINK)])[0]
+        cosine, sine, d1, d2 = self.beam(angles)
         # Up is counter-clockwise for a beam that points to the right.
         sign = -1.0 if self.unit.is_mirrored else 1.0
         low = self.unit.arm_angle(self.unit.psi_bottom)
@@ -232,17 +236,19 @@ class PolishedRod:
         return rise
 
 
-def _ends(unit: PumpingUnit) -> tuple[tuple[float, int], tuple[float, int]]:
-    """ψ at the bottom and at the top, each with +1 where the crank points to the pitman's end, else −1."""
-    return (unit.psi_bottom, -1 if unit.is_class_3 else 1), (unit.psi_top, 1 if unit.is_class_3 else -1)
+def end_angles(unit: PumpingUnit) -> tuple[Any, Any]:
+    """Crank angles at the bottom and at the top, crank and pitman in line [rad]."""
+    # +1 where the crank points to the pitman's end, else −1.
+    side = -1 if unit.is_class_3 else 1
+    return _end_angle(unit, unit.psi_bottom, side), _end_angle(unit, unit.psi_top, -side)
 
 
-def _end_angle(unit: PumpingUnit, psi: float, sign: int) -> float:
+def _end_angle(unit: PumpingUnit, psi: Any, sign: int) -> Any:
     """Crank angle with crank and pitman in line."""
     x, y = unit.saddle
     arm = unit.arm_angle(psi)
     ex, ey = x + unit.C * np.cos(arm), y + unit.C * np.sin(arm)
-    return float((np.arctan2(sign * ey, sign * ex) - unit.crank_phase) % (2 * np.pi))
+    return np.mod(np.arctan2(sign * ey, sign * ex) - unit.crank_phase, 2 * np.pi)
 
 
 def turn_extreme(of: Callable[[Floats], Floats], sign: int) -> tuple[float, float]:

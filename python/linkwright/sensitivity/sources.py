@@ -3,12 +3,15 @@
 | responses | by |
 | --- | --- |
 | ``steady_state.…`` | Newton's step in dual numbers at the solution (`linkwright.drive.gradient`) |
+| ``run_up.…``, ``run_down.…`` | the variational equation (`linkwright.drive.gradient_in_time`) |
 | ``free_vibration.natural_frequencies.1`` | Rayleigh's quotient (`linkwright.torsion.gradient.modes`) |
 | ``free_vibration.mode_shapes.1.DISC`` | all modes (there too) |
 | ``forced_vibration.shaft_torque_vibratory.SHAFT`` | the adjoint (`linkwright.torsion.gradient.forced`) |
 | ``forced_vibration.shaft_torque_max.SHAFT`` | there too |
 | ``turning_moment.…`` | integrals of the torques' derivatives (`linkwright.turning.gradient`) |
+| ``pumping_unit.…`` | the transfer functions of the beam (`linkwright.pumping.gradient`) |
 | ``cam.CAM.…`` | the law and the contact in tangents (`linkwright.cam.gradient`) |
+| ``cam_force.CAM.…`` | the same, and Hertz' formula (`linkwright.cam.dynamics.gradient`) |
 | ``forces.…``, ``forces.reaction_max.PAIR`` | the equilibrium (`linkwright.kinetostatics.gradient`) |
 """
 
@@ -84,6 +87,22 @@ def _steady(machine: Machine, variables: Sequence[str]) -> Source:
         [f"steady_state.{name}" for name in tangents],
         lost=steady.lost,
     )
+
+
+def _run_up(machine: Machine, variables: Sequence[str]) -> Source:
+    """Time, revolutions and peak speed of the run-up."""
+    from linkwright.drive.gradient_in_time import run_up_tangents
+    from linkwright.drive.run_up import RunUp
+
+    return _of_scalars("run_up", RunUp, run_up_tangents(machine, variables))
+
+
+def _run_down(machine: Machine, variables: Sequence[str]) -> Source:
+    """Time and revolutions of the run-down."""
+    from linkwright.drive.gradient_in_time import run_down_tangents
+    from linkwright.drive.run_up import RunDown
+
+    return _of_scalars("run_down", RunDown, run_down_tangents(machine, variables))
 
 
 # Extremes → what is made of them.
@@ -184,6 +203,28 @@ def _cams(machine: Machine, variables: Sequence[str]) -> Source:
     return _joined(kept, parts, refused)
 
 
+def _cam_forces(machine: Machine, variables: Sequence[str]) -> Source:
+    """Normal force and contact pressure of all cams."""
+    from linkwright.cam.dynamics.gradient import cam_force_tangents
+    from linkwright.cam.dynamics.loaded import LoadedCam
+    from linkwright.cam.profile.profile import the_cam
+
+    names = list(machine.mechanism.cams) or [the_cam(machine)[0]]
+    alone = {name: cam_force_tangents(machine, name, variables) for name in names}
+    refused = {entry: why for one in alone.values() for entry, why in one.refused.items()}
+    kept = tuple(entry for entry in variables if entry not in refused)
+    parts = [_of_scalars(f"cam_force.{name}", LoadedCam, one.only(kept)) for name, one in alone.items()]
+    return _joined(kept, parts, refused)
+
+
+def _pumping(machine: Machine, variables: Sequence[str]) -> Source:
+    """Stroke, torque factors and motion of the polished rod."""
+    from linkwright.pumping.gradient import pumping_tangents
+    from linkwright.pumping.unit import PumpingUnitMotion
+
+    return _of_scalars("pumping_unit", PumpingUnitMotion, pumping_tangents(machine, variables))
+
+
 def _joined(variables: tuple[str, ...], parts: Sequence[Source], refused: Mapping[str, str]) -> Source:
     """Several results of one kind."""
 
@@ -192,7 +233,7 @@ def _joined(variables: tuple[str, ...], parts: Sequence[Source], refused: Mappin
 
     usual = [name for part in parts for name in part.usual]
     tangents, words, units, ties = (merged(field) for field in ("tangents", "words", "units", "ties"))
-    return Source(variables, tangents, words, units, ties, refused, usual, merged("missing"))
+    return Source(variables, tangents, words, units, ties, refused, usual, merged("missing"), merged("lost"))
 
 
 def _of_scalars(
@@ -223,11 +264,15 @@ def _of_scalars(
 # Analysis → its results with derivatives.
 SOURCES: dict[str, Callable[[Machine, Sequence[str]], Source]] = {
     "steady_state": _steady,
+    "run_up": _run_up,
+    "run_down": _run_down,
     "free_vibration": _free,
     "forced_vibration": _forced,
     "cam": _cams,
     "forces": _forces,
     "turning_moment": _turning,
+    "pumping_unit": _pumping,
+    "cam_force": _cam_forces,
 }
 
 

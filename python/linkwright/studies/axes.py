@@ -107,6 +107,9 @@ def axis(machine: Machine, name: str, variable: Variable) -> Axis:
         low, high = _toleranced(name, get(machine, variable.address[0]), variable.tolerance, kind)
         scatter = ("normal", 0.5 * (low + high), (high - low) / _SPREAD)
         return Axis(**known, low=low, high=high, steps=variable.steps or 0, distribution=scatter)
+    if variable.clearance is not None:
+        low, high = _loose(name, get(machine, variable.address[0]), variable.clearance, kind)
+        return Axis(**known, low=low, high=high, steps=variable.steps or 0, distribution=_of_pin(low, high))
     if variable.distribution is not None:
         scatter, low, high = _scatter(name, variable.distribution, kind)
         return Axis(**known, low=low, high=high, steps=variable.steps or 0, distribution=scatter)
@@ -207,6 +210,37 @@ def _coded(name: str, value: float, text: str, code: re.Match[str], kind: Kind) 
     return value + limits[0], value + limits[1]
 
 
+def _loose(name: str, value: object, given: float | str, kind: Kind) -> tuple[float, float]:
+    """Ends of a length between pins, one of which bears on its hole at half the clearance, whichever way."""
+    if not isinstance(value, int | float) or kind.unit != LENGTH.unit:
+        raise _problem(name, "clearance", f"one of {kind.word}", "one of a length that the machine has")
+    fit = iso286.FIT.fullmatch(given) if isinstance(given, str) else None
+    clearance = _parsed(name, "clearance", given, kind) if fit is None else _of_fit(name, fit)
+    if not clearance > 0:
+        raise _problem(name, "clearance", show(given), "more than 0")
+    return value - 0.5 * clearance, value + 0.5 * clearance
+
+
+def _of_fit(name: str, fit: re.Match[str]) -> float:
+    """Clearance of a fit with pin and hole in the middle of their limits [m]."""
+    size, hole, hole_grade, pin, pin_grade = fit.groups()
+    limits = [
+        iso286.deviations(float(size) * 1e-3, letter, int(grade))
+        for letter, grade in ((hole, hole_grade), (pin, pin_grade))
+    ]
+    if limits[0] is None or limits[1] is None or not hole.isupper() or not pin.islower():
+        raise _problem(name, "clearance", show(fit[0]), f"a hole and a pin, {iso286.KNOWN}")
+    if limits[0][0] < limits[1][1]:
+        text = f"{show(fit[0])}, a transition or interference fit"
+        raise _problem(name, "clearance", text, "a clearance fit")
+    return 0.5 * (sum(limits[0]) - sum(limits[1]))
+
+
+def _of_pin(low: float, high: float) -> tuple[str, float, float]:
+    """Shift along a length of a pin that bears in a direction of which none is preferred: a sine of it."""
+    return "arcsine", 0.5 * (low + high), 0.5 * (high - low) / math.sqrt(2.0)
+
+
 def _scatter(name: str, given: Distribution, kind: Kind) -> tuple[tuple[str, float, float], float, float]:
     """Kind, mean, deviation; and the ends of a distribution."""
     read = {
@@ -241,6 +275,8 @@ def _scattered(kind: str, mean: float, deviation: float, low: float, high: float
     """Values below which shares of a distribution that is cut off at its ends lie."""
     if kind == "uniform":
         return low * (1 - shares) + high * shares
+    if kind == "arcsine":
+        return mean - 0.5 * (high - low) * np.cos(np.pi * shares)
     if kind == "triangular":
         # Kotz, van Dorp, Beyond Beta, 2004, section 1.1.
         peak, span = (mean - low) / (high - low), high - low

@@ -51,6 +51,9 @@ ABOVE = {
 # "H7", "25 H7", "25 mm H7": nominal size in mm, letter, grade.
 CODE = re.compile(r"\s*(?:([\d.]+)\s*(?:mm)?\s+)?([A-Za-z]{1,2})(\d{1,2})\s*")
 
+# "25 H7/g6": nominal size in mm, hole, pin.
+FIT = re.compile(r"\s*([\d.]+)\s*(?:mm)?\s+([A-Za-z]{1,2})(\d{1,2})\s*/\s*([A-Za-z]{1,2})(\d{1,2})\s*")
+
 # What is known, for messages.
 KNOWN = "d to h, js, k, m, n, p of shafts or D to H, JS of holes, with grades 5 to 14"
 

@@ -21,7 +21,7 @@ from linkwright.kernel.units import Angle, Speed
 Value = Annotated[float, Field(strict=True)] | str
 
 # The ways in which a variable is given, of which it has one.
-WAYS = ("range", "values", "distribution", "tolerance")
+WAYS = ("range", "values", "distribution", "tolerance", "clearance")
 
 
 def _as_list(value: object) -> object:
@@ -69,6 +69,11 @@ class Variable(CheckedDescription):
         None,
         description='Limits about the value of the machine: "± 0.2 mm", "+0.1 -0.3 mm", "25 H7" by ISO 286.',
     )
+    clearance: Value | None = Field(
+        None,
+        description='Diametral clearance of a pin joint at an end of the length, "0.05 mm", or the fit of '
+        'pin and hole by ISO 286, "25 H7/g6", with both in the middle of their limits.',
+    )
     cost: float | None = Field(
         None, gt=0, description="Cost of this tolerance; allocation changes tolerances with a cost."
     )
@@ -78,9 +83,7 @@ class Variable(CheckedDescription):
             yield fault("cost", found=self.cost, expected="nothing without tolerance")
         given = [way for way in WAYS if getattr(self, way) is not None]
         if len(given) > 1:
-            yield fault(
-                given[1], found=" and ".join(given), expected="one of range, values, distribution, tolerance"
-            )
+            yield fault(given[1], found=" and ".join(given), expected=f"one of {', '.join(WAYS)}")
         if self.steps is not None and self.values is not None:
             yield fault("steps", found=self.steps, expected="nothing beside values")
         if self.whole and given and self.range is None:

@@ -19,7 +19,7 @@ from linkwright.machine.address import get, known_place
 from linkwright.machine.machine import Machine
 from linkwright.studies import sampling
 from linkwright.studies.axes import Axis, axis
-from linkwright.studies.model import StudyFile, Sweep
+from linkwright.studies.model import WAYS, StudyFile, Sweep
 from linkwright.studies.responses import StudyResponse, asked
 
 T = TypeVar("T")
@@ -178,9 +178,9 @@ def _other_problems(study: StudyFile, listed: Floats | None) -> Iterable[Problem
         if name not in study.responses:
             yield Problem(f"goals.{name}", show(name), "a response", suggestion(name, study.responses))
     for name, variable in study.variables.items():
-        is_given = any((variable.range, variable.values, variable.distribution, variable.tolerance))
+        is_given = any(getattr(variable, way) is not None for way in WAYS)
         if not is_given and listed is None and study.fit is None:
-            yield Problem(f"variables.{name}", "nothing", "one of range, values, distribution, tolerance")
+            yield Problem(f"variables.{name}", "nothing", f"one of {', '.join(WAYS)}")
         needs_steps = variable.values is None and not variable.whole and variable.steps is None
         is_grid = study.sweep.method == "grid" and _is_swept(study)
         if is_grid and is_given and needs_steps:

@@ -17,7 +17,7 @@ import numpy as np
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.formula import NUMBERS
 from linkwright.kernel.description.formula import names as names_in
-from linkwright.kernel.errors import InputError
+from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.numerics.formula_value import value
 from linkwright.kernel.numerics.tangent import Tangent, primal
 from linkwright.machine.machine import Machine
@@ -91,8 +91,11 @@ def entries_at(plan: StudyPlan, at: Floats) -> dict[str, Any]:
 
 
 def machine_at(plan: StudyPlan, entries: Mapping[str, Any]) -> Machine:
-    """The machine with such entries, checked as a whole."""
-    return sound_variant(plan.machine, {place: float(primal(x)) for place, x in entries.items()})
+    """The machine with such entries, checked as a whole; a FindingError if it cannot be."""
+    try:
+        return sound_variant(plan.machine, {place: float(primal(x)) for place, x in entries.items()})
+    except InputError as error:
+        raise FindingError(" ".join(str(error).split())) from None
 
 
 def _entries(plan: StudyPlan, known: Mapping[str, Any]) -> dict[str, Any]:

@@ -28,11 +28,12 @@ pub struct Directions<'a> {
 impl Directions<'_> {
     /// The numbers with the directions from `first` on, one a lane; those beyond the last are zero.
     #[inline(always)]
-    fn numbers<R: Real>(&self, first: usize) -> Vec<Dual<R>> {
+    pub(super) fn numbers<R: Real>(&self, first: usize) -> Vec<Dual<R>> {
         let mut lanes = vec![0.0; R::LANES];
         let width = R::LANES.min(self.n.saturating_sub(first));
         let dual = |(i, &value): (usize, &f64)| {
-            lanes[..width].copy_from_slice(&self.values[i * self.n + first..][..width]);
+            let row = &self.values[i * self.n..][..self.n];
+            lanes[..width].copy_from_slice(&row[first.min(self.n)..][..width]);
             Dual { value: R::splat(value), d: R::load(&lanes) }
         };
         self.q.iter().enumerate().map(dual).collect()

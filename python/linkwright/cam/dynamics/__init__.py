@@ -7,6 +7,7 @@
 | `contact_force` | What do cam and follower press on each other, which flank carries, what torque? |
 | `follower_load` | What acts on the follower along its way? |
 | `follower_vibration` | How does the follower really move over one revolution, and does it stay on the cam? |
+| `gradient` | Derivatives of normal force and contact pressure by entries of the machine |
 | `hertz` | How hard do cam and roller press on each other, and how deep does it reach? |
 | `lift_off` | At which speed does the follower leave the cam, and which preload holds it? |
 | `loaded` | What presses on the cam in its machine, how hard, and when contact is lost |

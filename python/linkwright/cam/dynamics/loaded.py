@@ -153,12 +153,12 @@ def loaded_cam(machine: Machine, profile: CamProfile, speed: float | None = None
     angles = _angles(profile)
     contact = pressed(angles)
     force = contact.drives[profile.name]
-    rows = [flank.contact.kernel.rows(np.mod(angles - cam.phase, 2 * np.pi)) for flank in profile.flanks]
+    rows = _rows(profile, angles)
     greatest = _largest(lambda phi: pressed(phi).drives[profile.name], angles, force)
     least = _largest(lambda phi: -pressed(phi).drives[profile.name], angles, -force)
     lost = _speed_lost(machine, profile, angles) if cam.closure == "spring" else None
     hertz, misfit = _hertz(profile, rows, force)
-    hardest = int(np.argmax(hertz.pressure)) if hertz else 0
+    hardest = _hardest(profile, pressed, angles, hertz) if hertz else None
     size = float(np.nanmax(np.abs(force)))
     carrying = force[np.abs(force) > _NOTHING * size]
     return LoadedCam(
@@ -174,10 +174,10 @@ def loaded_cam(machine: Machine, profile: CamProfile, speed: float | None = None
         int(np.count_nonzero(np.diff(np.sign([*carrying[-1:], *carrying])))),
         lost[0] if lost else None,
         lost[1] if lost else None,
-        float(hertz.pressure[hardest]) if hertz else None,
-        float(angles[hardest]) if hertz else None,
-        float(hertz.shear[hardest]) if hertz else None,
-        float(hertz.shear_depth[hardest]) if hertz else None,
+        float(hardest[1].pressure[0]) if hardest else None,
+        hardest[0] if hardest else None,
+        float(hardest[1].shear[0]) if hardest else None,
+        float(hardest[1].shear_depth[0]) if hardest else None,
         hertz.pressure if hertz else None,
         (*misfit, *_left(profile, -least.value, least.angle, size, contact), *_others(contact)),
     )
@@ -255,6 +255,29 @@ def _speeds_lost(machine: Machine, name: str, angles: Floats) -> Floats:
     losing = (square < -least) | (linear < -_NOTHING * size)
     speeds = np.where(still > 0, speed_of_loss(still, linear, square), 0.0)
     return np.where(losing, speeds, np.inf)
+
+
+def _rows(profile: CamProfile, angles: Floats) -> list[dict[str, Floats]]:
+    """What is known of each contact at crank angles."""
+    cam_angles = np.mod(angles - profile.cam.phase, 2 * np.pi)
+    return [flank.contact.kernel.rows(cam_angles) for flank in profile.flanks]
+
+
+def _hardest(
+    profile: CamProfile, pressed: Callable[[Floats], Forces], angles: Floats, hertz: LineContact
+) -> tuple[float, LineContact] | None:
+    """Where the pressure is largest, and the contact there; None where some angle beside it does not fit."""
+
+    def at(phi: Floats) -> LineContact | None:
+        return _hertz(profile, _rows(profile, phi), pressed(phi).drives[profile.name])[0]
+
+    def pressure(phi: Floats) -> Floats:
+        contact = at(phi)
+        return np.full(len(phi), -np.inf) if contact is None else contact.pressure
+
+    best = _largest(pressure, angles, hertz.pressure)
+    contact = at(np.array([best.angle]))
+    return None if contact is None else (best.angle, contact)
 
 
 def _hertz(

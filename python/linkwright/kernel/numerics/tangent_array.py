@@ -113,6 +113,8 @@ class TangentArray:
         """NumPy's functions of numbers."""
         if method != "__call__" or options:
             raise TypeError(f"no derivative of numpy.{ufunc.__name__} with {method} and {sorted(options)}")
+        if ufunc in _PLAIN and all(map(_is_simple, inputs)):
+            return _PLAIN[ufunc](*inputs)
         arrays = [_lifted(x, self.d.shape[-1]) for x in inputs]
         values = [x.value for x in arrays]
         if ufunc.__name__ in _OF_VALUES:
@@ -144,6 +146,50 @@ def _times(slope: Any, d: Floats) -> Floats:
         return np.asarray(slope * d)
     with np.errstate(invalid="ignore"):
         return np.where(d == 0.0, 0.0, slope * d)
+
+
+def _is_simple(x: Any) -> bool:
+    """Whether a number or an array has derivatives in one array, or none."""
+    return isinstance(x, TangentArray | float | int) or (isinstance(x, np.ndarray) and x.dtype != object)
+
+
+def _sum_of(x: Any, y: Any, sign: float) -> TangentArray:
+    """x ± y, of which one has derivatives."""
+    if not isinstance(y, TangentArray):
+        return _with_shape(x.value + y if sign > 0 else x.value - y, x.d)
+    d = y.d if sign > 0 else -y.d
+    if isinstance(x, TangentArray):
+        d = x.d + d
+    first = primal(x)
+    return _with_shape(first + y.value if sign > 0 else first - y.value, d)
+
+
+def _with_shape(value: Any, d: Floats) -> TangentArray:
+    """Values with derivatives that are the same along the axes that they lack."""
+    shape = (*np.shape(value), d.shape[-1])
+    return TangentArray(value, d if d.shape == shape else np.broadcast_to(d, shape))
+
+
+def _product(x: Any, y: Any) -> TangentArray:
+    """x·y, of which one has derivatives."""
+    first, second = np.asarray(primal(x)), np.asarray(primal(y))
+    parts = [(second, x.d)] if isinstance(x, TangentArray) else []
+    parts += [(first, y.d)] if isinstance(y, TangentArray) else []
+    value = first * second
+    # A finite product has finite factors.
+    if np.isfinite(value).all():
+        d = sum(slope[..., None] * own for slope, own in parts)
+    else:
+        d = sum(_times(slope, own) for slope, own in parts)
+    return TangentArray(value, d)
+
+
+# Sums and products, of which there are most, without a general rule.
+_PLAIN: dict[Any, Callable[..., TangentArray]] = {
+    np.add: partial(_sum_of, sign=1.0),
+    np.subtract: partial(_sum_of, sign=-1.0),
+    np.multiply: _product,
+}
 
 
 def _operator(ufunc: Any, *, turned: bool = False) -> Callable[..., Any]:
@@ -372,6 +418,7 @@ _FUNCTIONS: dict[Any, Callable[..., Any]] = {
     np.where: _where,
     np.einsum: _einsum,
     np.interp: _interp,
+    np.clip: lambda x, low, high: np.minimum(np.maximum(x, low), high),
     np.sum: lambda x, axis=None: (
         x.sum(axis) if isinstance(x, TangentArray) else _stack(list(x)).sum(0 if axis is None else axis)
     ),

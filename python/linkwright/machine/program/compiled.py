@@ -241,6 +241,20 @@ class CompiledMachine:
         """Motion in time from angle [rad] and speed [rad/s]; see `_core.transient`."""
         return _core.transient(self.plan, self.one, start, turning, duration, turns, accuracy)
 
+    def transient_along(
+        self, directions: Floats, start: Floats, motion: tuple[Floats, Floats, Floats], at: ArrayLike
+    ) -> _core.MotionVariations:
+        """Derivatives of a motion in time by directions (parameters, n); see `_core.transient_along`.
+
+        `start`: derivatives of angle and speed at the start, (2, n); `motion`: times (k,), angles and speeds
+        (2, k), factors of the steps (k − 1, 2, 7); `at`: instants, increasing [s].
+        """
+        require("transient_along")
+        time, states, between = (np.ascontiguousarray(part) for part in motion)
+        way, begin = np.ascontiguousarray(directions), np.ascontiguousarray(start)
+        instants = np.ascontiguousarray(at, dtype=np.float64)
+        return _core.transient_along(self.plan, self.one, way, begin, time, states, between, instants)
+
     def steady(self, angles: Floats, accuracy: float) -> _core.SteadyMotion | _core.NoSteadyMotion:
         """Steady motion with curves at crank angles within the cycle; see `_core.steady_state`."""
         return _core.steady_state(self.plan, self.one, accuracy, angles)

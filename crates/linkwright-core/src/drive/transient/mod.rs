@@ -15,10 +15,12 @@
 //! | [`equation`] | the equation of motion, and which way the machine goes from rest |
 //! | [`attempt`] | steps of any length from one instant, by the explicit method |
 //! | [`stiff`] | the same by the implicit one |
+//! | [`variation`] | derivatives of a motion by the numbers of the machine |
 
 pub mod attempt;
 pub mod equation;
 pub mod stiff;
+pub mod variation;
 
 use self::attempt::{Attempts, ExplicitAttempt, Piece};
 pub use self::equation::Turning;

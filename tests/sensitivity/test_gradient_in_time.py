@@ -1,0 +1,180 @@
+"""Derivatives of run-up and run-down: closed forms, jumps, random drives against extrapolated differences."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.random import Generator
+from random_drives import random_drive
+from sizes import cases
+from test_random_machines import Measure, difference
+
+import linkwright as lw
+from linkwright.drive.run_up import accurate_run_down, accurate_run_up
+from linkwright.drive.steady_state import steady_state
+from linkwright.kernel.errors import LinkwrightError
+
+# A crank with a DC motor on its shaft against constant friction: the speed is ω₀ (1 − exp(−t/τ)) with
+# ω₀ = ω_n (1 − M/M_s) and τ = J ω_n/M_s; without the motor it falls by (M + B)/J.
+PLAIN = """
+format = 1
+name = "Disc"
+[drive.motor]
+kind = "dc"
+speed_no_load = "20 rad/s"
+torque_stall = "100 N m"
+[drive.brake]
+torque = "30 N m"
+[mechanism.cranks.A]
+radius = "0.1 m"
+[bodies]
+A = { inertia = "5 kg m^2" }
+[loads]
+friction = { kind = "dry", on = "A", torque = "10 N m" }
+[run_up]
+settled = 0.01
+"""
+
+J, NO_LOAD, STALL, FRICTION, BRAKE, SETTLED = 5.0, 20.0, 100.0, 10.0, 30.0, 0.01
+ENTRIES = (
+    *("bodies.A.inertia", "drive.motor.speed_no_load", "drive.motor.torque_stall"),
+    *("loads.friction.torque", "drive.brake.torque", "run_up.settled"),
+)
+
+
+def _of(response: str) -> np.ndarray:
+    found = lw.gradient(lw.loads(PLAIN), [response], ENTRIES)
+    return np.array([found.of(response)[entry] for entry in ENTRIES])
+
+
+def test_run_down_of_a_disc() -> None:
+    speed, resisting = NO_LOAD * (1 - FRICTION / STALL), FRICTION + BRAKE
+    by_speed = J / resisting
+    wanted = [
+        speed / resisting,
+        by_speed * (1 - FRICTION / STALL),
+        by_speed * NO_LOAD * FRICTION / STALL**2,
+        -by_speed * NO_LOAD / STALL - J * speed / resisting**2,
+        -J * speed / resisting**2,
+        0.0,
+    ]
+    # What steps of a relative accuracy of 1e-11 leave.
+    np.testing.assert_allclose(_of("run_down.time"), wanted, rtol=1e-9, atol=1e-12)
+    # The disc turns by ½ ω₀ T.
+    turns = _of("run_down.turns") * 4 * np.pi
+    time = J * speed / resisting
+    by_entry = np.array(
+        [0.0, 1 - FRICTION / STALL, NO_LOAD * FRICTION / STALL**2, -NO_LOAD / STALL, 0.0, 0.0]
+    )
+    np.testing.assert_allclose(turns, by_entry * time + speed * np.array(wanted), rtol=1e-9, atol=1e-11)
+
+
+def test_run_up_of_a_disc() -> None:
+    tau, wait = J * NO_LOAD / STALL, -np.log(SETTLED)
+    wanted = [wait * tau / J, wait * tau / NO_LOAD, -wait * tau / STALL, 0.0, 0.0, -tau / SETTLED]
+    np.testing.assert_allclose(_of("run_up.time"), wanted, rtol=1e-8, atol=1e-9)
+    speed = NO_LOAD * (1 - FRICTION / STALL)
+    by_speed = np.array([0.0, speed / NO_LOAD, NO_LOAD * FRICTION / STALL**2, -NO_LOAD / STALL, 0.0, 0.0])
+    peak = (1 - SETTLED) * by_speed - speed * np.eye(6)[5]
+    np.testing.assert_allclose(_of("run_up.speed_peak"), peak, rtol=1e-8, atol=1e-9)
+    # φ = ω₀ (T − τ (1 − s))
+    length = tau * (wait - (1 - SETTLED))
+    turned = by_speed * length + speed * np.array(wanted)
+    turned -= speed * (1 - SETTLED) * np.array([tau / J, tau / NO_LOAD, -tau / STALL, 0.0, 0.0, 0.0])
+    turned += speed * tau * np.eye(6)[5]
+    np.testing.assert_allclose(2 * np.pi * _of("run_up.turns"), turned, rtol=1e-8, atol=1e-8)
+
+
+def test_a_load_that_jumps_on_the_way() -> None:
+    """Below ω_j the load is smaller by D: T = τ [ln(ω_a/(ω_a − ω_j)) + ln((ω_0 − ω_j)/(s ω_0))]."""
+    jump = '\njump = { kind = "formula", on = "A", torque = "-where(omega > 8, 40, 0)" }\n[run_up]'
+    machine = lw.loads(PLAIN.replace("\n[run_up]", jump))
+    found = lw.gradient(
+        machine, ["run_up.time", "run_up.turns"], ["bodies.A.inertia", "drive.motor.torque_stall"]
+    )
+
+    def time(inertia: float, stall: float) -> float:
+        tau = inertia * NO_LOAD / stall
+        first, last = (NO_LOAD * (1 - load / stall) for load in (FRICTION, FRICTION + 40.0))
+        return float(tau * (np.log(first / (first - 8.0)) + np.log((last - 8.0) / (SETTLED * last))))
+
+    h = 1e-4
+    by_inertia = time(J, STALL) / J
+    by_stall = (
+        8 * (time(J, STALL + h) - time(J, STALL - h)) - time(J, STALL + 2 * h) + time(J, STALL - 2 * h)
+    ) / (12 * h)
+    values = found.of("run_up.time")
+    assert values["bodies.A.inertia"] == pytest.approx(by_inertia, rel=1e-8)
+    # Differences of a closed form: rounding over the step.
+    assert values["drive.motor.torque_stall"] == pytest.approx(by_stall, rel=1e-7)
+
+
+# What differences are good for, as a share of the largest derivative of a response, or of the response.
+_TOLERANCE = 1e-7
+
+# The speed of steady motion between its angles is read by cubics: at ten times as many it is exact enough.
+_ANGLES = 14_400
+
+
+def _up(machine: lw.Machine) -> list[float]:
+    up = accurate_run_up(machine, steady_state(machine, n=_ANGLES, accuracy=1e-13), 1e-13)
+    return [up.turns, up.time, up.speed_peak]
+
+
+def _down(machine: lw.Machine) -> list[float]:
+    down = accurate_run_down(machine, float(steady_state(machine, n=8, accuracy=1e-13).speed[0]), 1e-13)
+    return [down.turns, down.time]
+
+
+KINDS = {
+    "up": (["run_up.turns", "run_up.time", "run_up.speed_peak"], _up),
+    "down": (["run_down.turns", "run_down.time"], _down),
+}
+
+
+def _drive(random: Generator) -> lw.Machine:
+    drive = random_drive(random)
+    # Away from dead centres: from rest at one a run-up is smooth towards one side only.
+    drive["run_up"] = {"angle_start": float(random.uniform(0.1, 6.0))}
+    return lw.Machine.model_validate(drive)
+
+
+def compared_with_differences(
+    machine: lw.Machine, names: list[str], measure: Measure, every: int
+) -> list[str]:
+    """Derivatives that are wrong, in words; differences over three lengths show how exact they are."""
+    found = lw.gradient(machine, names)
+    exact = found.derivatives * found.at
+    scales = np.maximum(np.nanmax(np.abs(exact), axis=1), np.abs(found.values)) + 1e-300
+    wrong = []
+    for at in np.flatnonzero(found.at)[::every]:
+        try:
+            rough = [difference(machine, found.variables[at], measure, step) for step in (1e-4, 2e-5, 4e-6)]
+        except LinkwrightError:
+            # Beside it the machine does not start, or does not close.
+            continue
+        near = np.array(rough) / scales[:, None].T
+        doubt = np.abs(np.diff(near, axis=0)).min(axis=0)
+        errors = np.abs(near - exact[:, at] / scales).min(axis=0)
+        wrong += [
+            f"{names[k]} by {found.variables[at]}: {errors[k]:.1e}, differences to {doubt[k]:.1e}"
+            for k in np.flatnonzero(errors > _TOLERANCE + doubt)
+        ]
+    return wrong
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_derivatives_are_those_of_the_analysis(kind: str) -> None:
+    names, measure = KINDS[kind]
+    compared = 0
+    for case in range(cases(8, 1000)):
+        try:
+            machine = _drive(np.random.default_rng([17, case]))
+            measure(machine)
+            wrong = compared_with_differences(machine, names, measure, cases(8, 1))
+        except LinkwrightError:
+            # It closes nowhere, nothing drives it, it does not start, or nothing brakes it.
+            continue
+        assert not wrong, (case, wrong)
+        compared += 1
+    assert compared >= 3
