@@ -8,6 +8,7 @@ use linkwright_core::drive::motions::motions;
 use linkwright_core::drive::motor::Motor;
 use linkwright_core::kernel::plane::{Angle, Place};
 use linkwright_core::linkage::chain::Chain;
+use linkwright_core::linkage::in_line::in_line;
 use linkwright_core::linkage::motion::Channel;
 use linkwright_core::linkage::motion::Motion;
 
@@ -239,5 +240,32 @@ fn numbers(m: &Motion<f64>, channel: Channel) -> Vec<f64> {
         }
         Channel::Link(i) => vec![m.links[i].e.x, m.links[i].e.y, m.links[i].d1, m.links[i].d2],
         Channel::Slide(i) => vec![m.slides[i].s, m.slides[i].d1, m.slides[i].d2],
+    }
+}
+
+/// Links that come into line are found, and links with room to spare are not, whichever of lengths and positions tells.
+#[test]
+fn links_in_line_are_told_from_links_with_room() {
+    let crank = 0.1;
+    for angle in [0.0, 0.7, 2.5] {
+        for offset in [0.0, 0.04, -0.06] {
+            for (factor, points) in [(1.0, if offset == 0.0 { 2 } else { 1 }), (1.005, 0), (1.03, 0)] {
+                let mut b = Builder::new();
+                let (pin, _) = b.crank(crank, 0.4);
+                b.slider(pin, (crank + f64::abs(offset)) * factor, offset, angle, 1.0);
+                let built = b.finish(Motor::Off, [1.0; 5]);
+                let found = in_line(&built.plan.mechanism, 1, &built.q);
+                assert_eq!(found.len(), points, "guide at {angle}, offset {offset}, rod {factor}");
+            }
+        }
+    }
+    for (coupler, rocker, points) in [(0.3, 0.2, 1), (0.45, 0.15, 1), (0.302, 0.2, 0), (0.35, 0.3, 0)] {
+        let mut b = Builder::new();
+        let (pin, _) = b.crank(crank, 0.4);
+        let pivot = b.fixed(0.4, 0.0);
+        b.rocker(pin, pivot, coupler, rocker, 1.0);
+        let built = b.finish(Motor::Off, [1.0; 5]);
+        let found = in_line(&built.plan.mechanism, 1, &built.q);
+        assert_eq!(found.len(), points, "coupler {coupler}, rocker {rocker}");
     }
 }

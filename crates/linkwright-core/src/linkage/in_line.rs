@@ -179,8 +179,55 @@ impl DyadProbe<'_> {
         g
     }
 
+    /// Pivot and radius of the crank that has a pin, if any has.
+    fn crank(&self, pin: usize) -> Option<(Vec2<f64>, f64)> {
+        self.mechanism.elements[..self.element].iter().find_map(|element| match *element {
+            Element::Crank { pin: other, pivot, radius, .. } if other == pin => {
+                Some((self.ground(pivot)?, self.q[radius].abs()))
+            }
+            _ => None,
+        })
+    }
+
+    /// A point of the ground.
+    fn ground(&self, point: usize) -> Option<Vec2<f64>> {
+        let fixed = self.mechanism.ground.iter().find(|fixed| fixed.point == point)?;
+        Some(Vec2::new(self.q[fixed.x], self.q[fixed.y]))
+    }
+
+    /// Minimum and maximum of the radicand over the revolution, where the pin of a crank drives a dyad on the ground: from
+    /// lengths alone.
+    fn extremes_of_lengths(&self) -> Option<(f64, f64)> {
+        let q = self.q;
+        match &self.dyad {
+            Dyad::Rod(e) if e.line.link == self.mechanism.n_links => {
+                let (pivot, radius) = self.crank(e.pin)?;
+                let from = pivot - self.ground(e.line.through)?;
+                let aside = (q[e.line.cos] * from.y - q[e.line.sin] * from.x - q[e.line.offset]).abs();
+                let [near, far] = [(aside - radius).max(0.0), aside + radius];
+                let square = q[e.rod].powi(2);
+                Some((square - far * far, square - near * near))
+            }
+            Dyad::Rod(_) => None,
+            Dyad::Rocker(e) => {
+                let (pivot, radius) = self.crank(e.pin)?;
+                let apart = self.ground(e.pivot)? - pivot;
+                let apart = apart.dot(apart).sqrt();
+                let (a, b) = (q[e.coupler], q[e.rocker]);
+                // Concave over u²: ((a + b)² − u²)(u² − (a − b)²).
+                let at = |square: f64| ((a + b).powi(2) - square) * (square - (a - b).powi(2));
+                let ends = [(apart - radius).powi(2), (apart + radius).powi(2)];
+                let top = (a * a + b * b).max(ends[0]).min(ends[1]);
+                Some((at(ends[0]).min(at(ends[1])), at(top)))
+            }
+        }
+    }
+
     /// Whether the radicand is so large all round that it touches zero nowhere.
     fn is_ample(&self) -> bool {
+        if self.extremes_of_lengths().is_some_and(|(least, most)| least > AMPLE * most) {
+            return true;
+        }
         let g = self.over_the_turn(FEW);
         let (least, most) = g.iter().fold((f64::INFINITY, 0.0), |(a, b), &x| (x.min(a), x.max(b)));
         least > AMPLE * most && g.iter().all(|x| x.is_finite())

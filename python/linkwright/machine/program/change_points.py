@@ -45,8 +45,12 @@ def in_line(
     `plan`: what comes before the element is settled; `parameters` (n_parameters,): of the first machine;
     `slots` (k,): which of them vary; `values` (k, n): their values.
     """
-    line: list[list[_core.InLine]] = [[] for _ in range(values.shape[1])]
-    for point in _core.in_line(plan, parameters, slots, values, element):
+    n = values.shape[1]
+    found = _core.in_line(plan, parameters, slots, values, element)
+    if not found:
+        return [[]] * n
+    line: list[list[_core.InLine]] = [[] for _ in range(n)]
+    for point in found:
         line[point.row].append(point)
     return line
 
