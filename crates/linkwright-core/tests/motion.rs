@@ -8,7 +8,7 @@ use linkwright_core::drive::cycle::Machine;
 use linkwright_core::drive::loads::Load;
 use linkwright_core::drive::motor::Motor;
 use linkwright_core::drive::steady::steady;
-use linkwright_core::drive::transient::{End, Start, Turning, follow};
+use linkwright_core::drive::transient::{End, Start, Trajectory, Turning, follow};
 use linkwright_core::kernel::status::Status;
 use linkwright_core::linkage::mechanism::Element;
 use linkwright_core::linkage::motion::Motion;
@@ -78,6 +78,19 @@ fn work_of_the_search_is_as_before() {
     assert_eq!((found.sweeps, found.marks.len()), (5, 44), "sweeps and steps");
 }
 
+/// The same of a batch above breakdown: from a rough motion two sweeps a row.
+#[test]
+fn rows_start_from_a_rough_motion() {
+    let built = two_carts(FRAC_PI_2, 0.9);
+    let n = 64;
+    let slot = built.q.iter().position(|&q| q == 1000.0).expect("the first cart's mass");
+    let values: Vec<f64> = (0..n).map(|i| 950.0 + 1.5 * i as f64).collect();
+    let rows = Rows { base: &built.q, slots: &[slot], values: &values, n };
+    let (status, sweeps) = steady_rows(&built.plan, &rows, 1e-9, &mut vec![0.0; n * QUANTITIES]);
+    assert!(status.iter().all(|&s| s == Status::Ok), "all solved");
+    assert!(sweeps <= 2 * n as u64, "{sweeps} sweeps of {n} rows");
+}
+
 /// Steady motion is what a long run-up ends in, and the multiplier is how a disturbance shrinks.
 #[test]
 fn run_up_ends_in_steady_motion() {
@@ -114,6 +127,35 @@ fn run_up_ends_in_steady_motion() {
     let multiplier = cycle.multiplier;
     // Central difference of a smooth map: error of order (1e-3)².
     assert!((shrinks - multiplier).abs() < 1e-5, "{shrinks} measured, {multiplier} predicted");
+}
+
+/// Inertia and loads read from polynomials over the angle move the machine as the mechanism itself does, which a high
+/// accuracy asks for, whichever way it turns.
+#[test]
+fn motion_in_time_is_that_of_the_mechanism_itself() {
+    let mut random = Random(31);
+    for _ in 0..6 {
+        let built = mixed(&mut random);
+        for crank in [1.0, -1.0] {
+            let run = |accuracy: f64| {
+                let turning = Turning { crank, motor: crank };
+                let start = Start { phi: 0.3, omega: 6.0, turning, duration: FOREVER, turns: 2.5, accuracy };
+                follow(&built.plan, &built.q, &start)
+            };
+            let exact = run(1e-13);
+            assert_eq!(exact.end, End::Turns, "how it ended");
+            let time = |of: &Trajectory| *of.t.last().expect("a motion");
+            let speed = |of: &Trajectory| *of.omega.last().expect("a motion");
+            for accuracy in [1e-5, 1e-7, 1e-9, 1e-11] {
+                let found = run(accuracy);
+                // Some tens of steps, each of which errs by the accuracy at most.
+                for (found, exact) in [(time(&found), time(&exact)), (speed(&found), speed(&exact))] {
+                    let off = (found / exact - 1.0).abs();
+                    assert!(off < 40.0 * accuracy, "{found} for {exact} at {accuracy:e}: off by {off:e}");
+                }
+            }
+        }
+    }
 }
 
 /// Without drive and load the kinetic energy ½ J ω² stays.

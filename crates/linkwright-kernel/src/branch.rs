@@ -138,6 +138,10 @@ impl<R: Real, N: Lift<R>> Real for OnBranch<N, R> {
         self.value.max_lane()
     }
     #[inline(always)]
+    fn any_below(self, limit: Self) -> bool {
+        self.at.any_below(limit.at)
+    }
+    #[inline(always)]
     fn out_of_line<T>(f: impl FnOnce() -> T) -> T {
         N::out_of_line(f)
     }

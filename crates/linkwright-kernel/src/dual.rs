@@ -170,6 +170,10 @@ impl<R: Real> Real for Dual<R> {
         self.value.max_lane()
     }
     #[inline(always)]
+    fn any_below(self, limit: Self) -> bool {
+        self.value.any_below(limit.value)
+    }
+    #[inline(always)]
     fn out_of_line<T>(f: impl FnOnce() -> T) -> T {
         R::out_of_line(f)
     }

@@ -70,9 +70,11 @@ impl<R: Real> Turn<R> {
     #[inline(always)]
     pub fn check(&self, machine: &Machine<'_, R>, accuracy: f64, m: &mut Motion<R>) -> Check {
         let limits = Limits { accuracy, epsilon: self.acceleration_scale() };
-        let mut differences = Vec::with_capacity(self.steps.len());
-        for k in 0..self.steps.len() {
-            differences.push(self.differences(machine, k, limits, m));
+        let (mut differences, mut integrals) = (Vec::new(), Vec::new());
+        for (k, step) in self.steps.iter().enumerate() {
+            let whole = machine.integrals(step, self.geometry_of(machine, k));
+            differences.push(self.differences(machine, k, whole, limits, m));
+            integrals.push(whole);
         }
         let column = |of: &dyn Fn(usize) -> R| unbundle(&(0..differences.len()).map(of).collect::<Vec<_>>());
         let defect = column(&|k| differences[k].defect);
@@ -85,8 +87,8 @@ impl<R: Real> Turn<R> {
             reached: column(&|k| differences[k].relative).into_iter().fold(0.0, f64::max),
         };
         self.add_carried(&mut check, &defect, limits);
-        let roundings = self.integral_roundings(machine);
-        for (i, size) in self.integral_sizes(machine).into_iter().enumerate() {
+        let roundings = self.integral_roundings(machine, &integrals);
+        for (i, size) in self.integral_sizes(machine, &integrals).into_iter().enumerate() {
             let parts = column(&|k| differences[k].integrals[i]);
             add_integral(&mut check, &parts, size, roundings[i], accuracy);
         }
@@ -97,11 +99,10 @@ impl<R: Real> Turn<R> {
     /// where they cancel, but at least what the acceleration of [`EVEN`] makes of them. Of a load that takes
     /// nothing, or of a drive that idles, rounding is all that there is.
     #[inline(always)]
-    fn integral_sizes(&self, machine: &Machine<'_, R>) -> [f64; INTEGRALS] {
+    fn integral_sizes(&self, machine: &Machine<'_, R>, integrals: &[[R; INTEGRALS]]) -> [f64; INTEGRALS] {
         let zero = R::splat(0.0);
         let (mut sizes, mut least) = ([zero; INTEGRALS], [zero; INTEGRALS]);
-        for (k, step) in self.steps.iter().enumerate() {
-            let parts = machine.integrals(step, self.geometry_of(machine, k));
+        for (step, parts) in self.steps.iter().zip(integrals) {
             let torque = step.u * (2.0 * EVEN) / step.rows[S - 1].inverse;
             let (at_motor, work) = (torque / machine.q[machine.plan.drive.ratio], torque * step.h);
             let (impulse, heat) = (at_motor * parts[0], at_motor.squared() * parts[0]);
@@ -115,11 +116,10 @@ impl<R: Real> Turn<R> {
 
     /// What rounding of the speed makes of the integrals, through the torque of a steep motor: δM = J ∂ε/∂u δu.
     #[inline(always)]
-    fn integral_roundings(&self, machine: &Machine<'_, R>) -> [f64; INTEGRALS] {
+    fn integral_roundings(&self, machine: &Machine<'_, R>, integrals: &[[R; INTEGRALS]]) -> [f64; INTEGRALS] {
         let zero = R::splat(0.0);
         let mut sums = [zero; INTEGRALS];
-        for (k, step) in self.steps.iter().enumerate() {
-            let parts = machine.integrals(step, self.geometry_of(machine, k));
+        for (step, parts) in self.steps.iter().zip(integrals) {
             let torque = step.steepness() * step.u * (2.0 * ROUNDING) / step.rows[S - 1].inverse;
             let (at_motor, work) = (torque / machine.q[machine.plan.drive.ratio], torque * step.h);
             let (impulse, heat) = (at_motor * parts[0], at_motor * parts[4].abs() * 2.0);
@@ -149,15 +149,14 @@ impl<R: Real> Turn<R> {
         &self,
         machine: &Machine<'_, R>,
         k: usize,
+        integrals: [R; INTEGRALS],
         limits: Limits,
         m: &mut Motion<R>,
     ) -> Differences<R> {
         let step = &self.steps[k];
         let zero = R::splat(0.0);
         let steepness = step.steepness();
-        let whole = machine.integrals(step, self.geometry_of(machine, k));
-        let mut d =
-            Differences { defect: zero, error: zero, halvings: zero, relative: zero, integrals: whole };
+        let mut d = Differences { defect: zero, error: zero, halvings: zero, relative: zero, integrals };
         let (mut whole, mut x, mut share) = (*step, step.h, 1.0);
         let quintic = step.quintic();
         for level in 0..LEVELS {

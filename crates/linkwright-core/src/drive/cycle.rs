@@ -99,7 +99,7 @@ pub const REFERENCE: usize = 2;
 const SWEEPS_MAX: u32 = 40;
 
 /// A sweep may lower u at most to this share of itself, so that roots stay real.
-const SHRINK: f64 = 0.25;
+pub(super) const SHRINK: f64 = 0.25;
 
 /// Newton sweeps of a step on its own.
 const STEP_SWEEPS: usize = 16;
@@ -589,16 +589,22 @@ impl<R: Real> Turn<R> {
     #[inline(always)]
     pub fn solve(&mut self, machine: &Machine<'_, R>) {
         let mut work = Vec::with_capacity(self.steps.len());
-        while self.sweeps < SWEEPS_MAX {
+        while self.sweeps < SWEEPS_MAX && self.correction.max_lane() >= self.limit {
             poll();
             R::out_of_line(
                 #[inline(always)]
                 || self.sweep(machine, &mut work),
             );
             self.sweeps += 1;
-            if self.correction.max_lane() < self.limit {
-                return;
-            }
+        }
+    }
+
+    /// ε at the stages of a start.
+    #[inline(always)]
+    pub(super) fn take_accelerations(&mut self, machine: &Machine<'_, R>) {
+        let laws = S * machine.plan.laws.len();
+        for (k, step) in self.steps.iter_mut().enumerate() {
+            step.K = machine.accelerations(&step.rows, &self.geometry[k * laws..(k + 1) * laws], &step.X).0;
         }
     }
 

@@ -24,6 +24,7 @@
 //! | [`along`] | derivatives of motions and kinks at given angles |
 //! | `rows` | parameters and results of the rows of a batch |
 //! | `row_mesh` | the mesh of each row of a batch, with ends of steps at kinks of the drive |
+//! | `rough` | a rough motion of each row to start from |
 //! | `row_lanes` | rows of a batch side by side |
 //! | [`batch`] | steady motions of many machines: lanes and threads |
 //! | [`motions`] | motions of many machines over the crank angle |
@@ -50,6 +51,7 @@ pub mod motor;
 mod nested;
 pub mod reading;
 pub mod reduce;
+mod rough;
 mod row_lanes;
 mod row_mesh;
 mod rows;

@@ -76,7 +76,11 @@ impl Drive {
                 let s = N::splat(1.0) - speed * N::lift(q[*inverse_synchronous]);
                 let mut m = kloss(s, q[*torque], q[*slip], q[*resistance]);
                 for span in spans.iter().rev() {
-                    m = speed.select_lt(N::lift(q[span.x1]), cubic(span, q, speed), m);
+                    // Most motions stay above breakdown: where all lanes do, nothing of the span is needed.
+                    let end = N::lift(q[span.x1]);
+                    if speed.any_below(end) {
+                        m = speed.select_lt(end, cubic(span, q, speed), m);
+                    }
                 }
                 m
             }

@@ -3,6 +3,7 @@
 use crate::drive::cycle::{Machine, Turn};
 use crate::drive::layout::{Layout, unbundle};
 use crate::drive::nested::NodeSolution;
+use crate::drive::rough::RoughMotion;
 use crate::drive::row_mesh::RowMesh;
 use crate::drive::rows::{QUANTITIES, Rows, row_of};
 use crate::drive::structure::Plan;
@@ -16,8 +17,14 @@ use std::cmp::Ordering;
 /// square, and what it leaves is measured.
 const CONVERGED: f64 = 1e-4;
 
-/// Most times that ends of steps are moved to the kinks that a motion passes.
-const PLACEMENTS: usize = 4;
+/// Relative correction after which ends of steps are moved to the kinks that a motion passes for the first time.
+const PLACING: f64 = 0.03;
+
+/// Most times that they are moved.
+const PLACEMENTS: usize = 6;
+
+/// The rough motion passes a kink for sure where it lies beyond it on both sides by this share of u: it errs by less.
+const CLEAR: f64 = 0.01;
 
 /// Ends of steps farther from their kinks \[rad\] are not placed well enough.
 const PLACED: f64 = 1e-6;
@@ -45,7 +52,9 @@ pub(super) struct RowLanes<'a, R> {
     q: Vec<R>,
     m: Motion<R>,
     turn: Turn<R>,
-    /// The same at the nodes of its steps.
+    /// What to start from.
+    rough: RoughMotion<R>,
+    /// The solution at the nodes of its steps.
     nested: NodeSolution<R>,
 }
 
@@ -68,7 +77,7 @@ impl<'a, R: Real> RowLanes<'a, R> {
         let q: Vec<R> = rows.base.iter().map(|&x| R::splat(x)).collect();
         let m = Motion::new(&plan.mechanism, &q);
         let turn = Turn { limit: CONVERGED, ..Turn::empty(Layout::Machines) };
-        RowLanes { plan, rows, q, m, turn, nested: NodeSolution::new() }
+        RowLanes { plan, rows, q, m, turn, rough: RoughMotion::new(), nested: NodeSolution::new() }
     }
 
     /// Solves rows of which nothing is known; returns the turns swept. Those that need other meshes are added to the list.
@@ -80,16 +89,59 @@ impl<'a, R: Real> RowLanes<'a, R> {
             #[inline(always)]
             || machine.breaks(m),
         );
-        let meshes: Vec<RowMesh> =
+        let mut meshes: Vec<RowMesh> =
             rows.iter().zip(breaks).map(|(&row, breaks)| RowMesh::new(row, breaks)).collect();
         self.tabulate(&meshes);
-        let (machine, turn) = (Machine::new(self.plan, &self.q), &mut self.turn);
+        let (machine, turn, rough) = (Machine::new(self.plan, &self.q), &mut self.turn, &mut self.rough);
         R::out_of_line(
             #[inline(always)]
             || turn.start_from_balance(&machine),
         );
+        rough.start(turn, &machine);
+        if R::out_of_line(
+            #[inline(always)]
+            || self.place_rough_kinks(&mut meshes),
+        ) {
+            next.append(&mut meshes);
+            return 0;
+        }
+        let (machine, turn) = (Machine::new(self.plan, &self.q), &mut self.turn);
         turn.solve(&machine);
         self.take(meshes, R::splat(0.0), to, next)
+    }
+
+    /// Makes ends of steps where the rough motion of a row clearly passes kinks of the drive; whether any does. All rows then
+    /// keep it, to be solved beside others with as many steps.
+    #[inline(always)]
+    fn place_rough_kinks(&mut self, meshes: &mut [RowMesh]) -> bool {
+        let (mut low, mut high) = (R::splat(f64::INFINITY), R::splat(0.0));
+        for step in &self.turn.steps {
+            for &u in &step.X {
+                (low, high) = (low.min(u), high.max(u));
+            }
+        }
+        let kinks = self.speeds_between(low * (1.0 + CLEAR), high * (1.0 - CLEAR), meshes.len());
+        if kinks.iter().all(Vec::is_empty) {
+            return false;
+        }
+        let (machine, turn) = (Machine::new(self.plan, &self.q), &mut self.turn);
+        R::out_of_line(
+            #[inline(always)]
+            || turn.take_accelerations(&machine),
+        );
+        R::out_of_line(
+            #[inline(always)]
+            || turn.give_samples(meshes),
+        );
+        let has_kinks: Vec<bool> = kinks.iter().map(|kinks| !kinks.is_empty()).collect();
+        R::out_of_line(
+            #[inline(always)]
+            || turn.give_starts(meshes, &has_kinks),
+        );
+        for (mesh, kinks) in meshes.iter_mut().zip(&kinks).filter(|(_, kinks)| !kinks.is_empty()) {
+            mesh.place_kinks(kinks);
+        }
+        true
     }
 
     /// The same of rows with a solution on other meshes.
@@ -105,14 +157,16 @@ impl<'a, R: Real> RowLanes<'a, R> {
         self.tabulate(&meshes);
         let (machine, turn, m) = (Machine::new(self.plan, &self.q), &mut self.turn, &mut self.m);
         turn.start_from_samples(&meshes);
+        turn.limit = PLACING;
         turn.solve(&machine);
+        turn.limit = CONVERGED;
         let mut displaced = R::splat(0.0);
-        for _ in 0..PLACEMENTS {
+        for placement in 0..=PLACEMENTS {
             displaced = R::out_of_line(
                 #[inline(always)]
                 || turn.move_to_kinks(&machine, &mut meshes, m),
             );
-            if displaced.max_lane() <= 0.0 {
+            if placement > 0 && displaced.max_lane() <= 0.0 {
                 break;
             }
             turn.solve(&machine);
@@ -211,6 +265,12 @@ impl<'a, R: Real> RowLanes<'a, R> {
                 before = C[i];
             }
         }
+        self.speeds_between(low, high, n)
+    }
+
+    /// Speeds of the drive's kinks between two values of u, of each of some lanes.
+    #[inline(always)]
+    fn speeds_between(&self, low: R, high: R, n: usize) -> Vec<Vec<f64>> {
         let (zero, mut passed) = (R::splat(0.0), vec![Vec::new(); n]);
         for speed in self.plan.drive.kinks_of_lanes(&self.plan.tables, &self.q) {
             let u = speed.squared() * 0.5;

@@ -14,6 +14,10 @@ use crate::linkage::motion::Motion;
 /// Steps a revolution at least, before any is halved.
 const STEPS: usize = 16;
 
+/// The same of rows that pass kinks of the drive: they accelerate harder, and with as many as the others have two thirds of
+/// them need a further mesh.
+const BESIDE_KINKS: usize = 20;
+
 /// A passage this near to another end of a step \[rad\] lies there.
 const APART: f64 = 1e-6;
 
@@ -52,13 +56,23 @@ pub(super) struct RowMesh {
     kinks: Vec<f64>,
     /// What to start from, from φ = 0 to the end of the cycle; nothing at first.
     samples: Vec<Sample>,
+    /// What to start from on the same mesh, in place of the samples: u at the start of each step and its stages.
+    start: Vec<f64>,
 }
 
 impl RowMesh {
     /// Of a row of which nothing is known but the ends of its smooth pieces.
     pub(super) fn new(row: usize, breaks: Vec<f64>) -> Self {
         let edges = divide(&breaks, STEPS);
-        RowMesh { row, kinks: vec![0.0; edges.len()], edges, rounds: 0, breaks, samples: Vec::new() }
+        RowMesh {
+            row,
+            kinks: vec![0.0; edges.len()],
+            edges,
+            rounds: 0,
+            breaks,
+            samples: Vec::new(),
+            start: Vec::new(),
+        }
     }
 
     /// u at the kink on which this end of a step lies; 0 where there is none.
@@ -85,7 +99,7 @@ impl RowMesh {
         let mut ends = self.breaks.clone();
         ends.extend(passages.iter().map(|&(phi, _)| phi));
         ends.sort_by(f64::total_cmp);
-        self.edges = divide(&ends, STEPS << self.rounds);
+        self.edges = divide(&ends, BESIDE_KINKS << self.rounds);
         let kink = |edge: &f64| passages.iter().find(|(phi, _)| phi == edge).map_or(0.0, |&(_, u)| u);
         self.kinks = self.edges.iter().map(kink).collect();
         self.rounds += 1;
@@ -112,9 +126,12 @@ impl RowMesh {
     pub(super) fn resolves(&self, speed: f64) -> bool {
         let u = 0.5 * speed * speed;
         let is_inside = |samples: &[Sample]| {
+            let (mut low, mut high) = (f64::INFINITY, 0.0_f64);
+            let mut take = |u: f64| (low, high) = (low.min(u), high.max(u));
+            samples.iter().for_each(|sample| take(sample.u));
             let between = samples.windows(2).filter_map(|ends| extreme(ends[0], ends[1]));
-            let all: Vec<f64> = samples.iter().map(|s| s.u).chain(between.map(|s| s.u)).collect();
-            all.iter().any(|&x| x < u * (1.0 - PASSED)) && all.iter().any(|&x| x > u * (1.0 + PASSED))
+            between.for_each(|sample| take(sample.u));
+            low < u * (1.0 - PASSED) && high > u * (1.0 + PASSED)
         };
         (0..self.samples.len() / S).all(|k| !is_inside(&self.samples[k * S..=(k + 1) * S]))
     }
@@ -180,6 +197,7 @@ impl<R: Real> Turn<R> {
         let mut lanes = vec![0.0; 4 * R::LANES];
         for row in rows.iter_mut() {
             row.samples = Vec::with_capacity(self.steps.len() * S + 1);
+            row.start.clear();
         }
         let first = &self.steps[0];
         give(rows, [first.phi, first.u, first.K[0], slope_at_start(first)], 0, &mut lanes);
@@ -199,6 +217,23 @@ impl<R: Real> Turn<R> {
         }
     }
 
+    /// Gives the rows that have no kink the start of their lane on their mesh: beside others they are solved from the same
+    /// numbers.
+    #[inline(always)]
+    pub(super) fn give_starts(&self, rows: &mut [RowMesh], has_kinks: &[bool]) {
+        let mut lanes = vec![0.0; R::LANES];
+        for (k, step) in self.steps.iter().enumerate() {
+            for u in [step.u].iter().chain(&step.X) {
+                u.store(&mut lanes);
+                for (lane, row) in rows.iter_mut().enumerate() {
+                    if !has_kinks[lane] && k + 1 < row.edges.len() {
+                        row.start.push(lanes[lane]);
+                    }
+                }
+            }
+        }
+    }
+
     /// Starts every lane from the solution that it has on other steps.
     #[inline(always)]
     pub(super) fn start_from_samples(&mut self, rows: &[RowMesh]) {
@@ -211,16 +246,22 @@ impl<R: Real> Turn<R> {
             for k in 0..n {
                 let (low, high) = (row.edges[k.min(end)], row.edges[(k + 1).min(end)]);
                 for i in 0..stages {
+                    let to = &mut values[(k * stages + i) * R::LANES + lane];
+                    if !row.start.is_empty() {
+                        // Past the end of the cycle the motion stays as it is there.
+                        *to = row.start[(k * stages + i).min(row.start.len() - 1)];
+                        continue;
+                    }
                     let share = if i == 0 { 0.0 } else { C[i - 1] };
                     let phi = low + share * (high - low);
                     while at + 2 < samples.len() && samples[at + 1].phi < phi {
                         at += 1;
                     }
-                    let (from, to) = (samples[at], samples[at + 1]);
-                    let x = ((phi - from.phi) / (to.phi - from.phi)).clamp(0.0, 1.0);
+                    let (from, next) = (samples[at], samples[at + 1]);
+                    let x = ((phi - from.phi) / (next.phi - from.phi)).clamp(0.0, 1.0);
                     // Where the solution falls fast a cubic may swing below zero.
-                    let least = 0.5 * from.u.min(to.u);
-                    values[(k * stages + i) * R::LANES + lane] = hermite(from, to, x).max(least);
+                    let least = 0.5 * from.u.min(next.u);
+                    *to = hermite(from, next, x).max(least);
                 }
             }
         }

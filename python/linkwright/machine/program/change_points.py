@@ -46,11 +46,11 @@ def in_line(
     `slots` (k,): which of them vary; `values` (k, n): their values.
     """
     n = values.shape[1]
-    found = _core.in_line(plan, parameters, slots, values, element)
-    if not found:
+    points = _core.in_line(plan, parameters, slots, values, element)
+    if not points:
         return [[]] * n
     line: list[list[_core.InLine]] = [[] for _ in range(n)]
-    for point in found:
+    for point in points:
         line[point.row].append(point)
     return line
 

@@ -1,5 +1,6 @@
 //! The equation of motion of the crank, and the balance of torques at standstill.
 
+use super::reduced::{Reduced, ReducedCurves};
 use crate::drive::cycle::Machine;
 use crate::drive::law::LawGeometry;
 use crate::kernel::dual::Dual;
@@ -40,6 +41,8 @@ pub struct Equation<'a> {
     pub speed_scale: f64,
     pub turning: Turning,
     pub evaluations: usize,
+    /// The machine over the angle, where polynomials can do.
+    pub(super) curves: Option<ReducedCurves>,
 }
 
 impl Equation<'_> {
@@ -49,14 +52,25 @@ impl Equation<'_> {
         self.evaluations += 1;
         let (sense, along) = (self.turning.crank, self.turning.with_motor());
         let (phi, speed) = (sense * y[0], y[1]);
-        let r = plan.reduce::<f64, 2>(q, Angle::new(phi), sense, &mut self.motion);
-        let mut resisting = sense * r.load + r.dry + r.viscous * speed;
+        let [J, J_d1, load, viscous] = self.reduced(phi);
+        let mut resisting = load + viscous * speed;
         if !plan.laws.is_empty() {
             resisting += sense * self.laws(t, phi, sense * speed);
         }
         let drive = plan.drive.torque_turning(&plan.tables, q, speed, along);
-        let net = drive - resisting - 0.5 * sense * r.J_d1 * speed * speed;
-        [speed, net / r.J]
+        let net = drive - resisting - 0.5 * sense * J_d1 * speed * speed;
+        [speed, net / J]
+    }
+
+    /// The machine at a crank angle.
+    fn reduced(&mut self, phi: f64) -> Reduced {
+        let Machine { plan, q, .. } = self.machine;
+        if let Some(found) = self.curves.as_mut().and_then(|curves| curves.at(plan, q, phi)) {
+            return found;
+        }
+        let sense = self.turning.crank;
+        let r = plan.reduce::<f64, 2>(q, Angle::new(phi), sense, &mut self.motion);
+        [r.J, r.J_d1, sense * r.load + r.dry, r.viscous]
     }
 
     /// ε, and ∂ε/∂ω.
@@ -65,15 +79,15 @@ impl Equation<'_> {
         self.evaluations += 1;
         let (sense, along) = (self.turning.crank, self.turning.with_motor());
         let (phi, speed) = (sense * y[0], Dual::variable(y[1]));
-        let r = plan.reduce::<f64, 2>(q, Angle::new(phi), sense, &mut self.motion);
+        let [J, J_d1, load, viscous] = self.reduced(phi);
         let mut net = plan.drive.torque_turning(&plan.tables, q, speed, along)
-            - Dual::constant(sense * r.load + r.dry)
-            - speed * r.viscous
-            - speed * speed * (0.5 * sense * r.J_d1);
+            - Dual::constant(load)
+            - speed * viscous
+            - speed * speed * (0.5 * sense * J_d1);
         if !plan.laws.is_empty() {
             net = net - self.laws(Dual::constant(t), phi, speed * sense) * sense;
         }
-        (net.value / r.J, net.d / r.J)
+        (net.value / J, net.d / J)
     }
 
     /// Torque of the laws at an angle for which the mechanism has been placed.

@@ -15,16 +15,19 @@
 //! | [`equation`] | the equation of motion, and which way the machine goes from rest |
 //! | [`attempt`] | steps of any length from one instant, by the explicit method |
 //! | [`stiff`] | the same by the implicit one |
+//! | `reduced` | inertia and loads as polynomials over the angle |
 //! | [`variation`] | derivatives of a motion by the numbers of the machine |
 
 pub mod attempt;
 pub mod equation;
+mod reduced;
 pub mod stiff;
 pub mod variation;
 
 use self::attempt::{Attempts, ExplicitAttempt, Piece};
 pub use self::equation::Turning;
 use self::equation::{AT_REST, Equation, Y};
+use self::reduced::ReducedCurves;
 use self::stiff::StiffAttempt;
 use crate::drive::cycle::Machine;
 use crate::drive::events::Events;
@@ -139,13 +142,14 @@ pub fn follow(plan: &Plan, q: &[f64], start: &Start) -> Trajectory {
     let machine = Machine::new(plan, q);
     let mut motion = Motion::new(&plan.mechanism, q);
     let mut kinks = machine.breaks(&mut motion).swap_remove(0);
+    let curves = ReducedCurves::new(plan, &kinks, start.turning.crank, start.accuracy);
     if start.turning.crank < 0.0 {
         kinks = kinks.iter().rev().map(|kink| plan.cycle() - kink).collect();
     }
     let speed_scale = q[plan.drive.speed_start].max(start.omega);
     let turning = start.turning;
     let mut follower =
-        Equation { machine, motion, geometry: Vec::new(), speed_scale, turning, evaluations: 0 };
+        Equation { machine, motion, geometry: Vec::new(), speed_scale, turning, evaluations: 0, curves };
     let mut path = Path::new(plan, q, start, kinks);
     path.run(&mut follower);
     path.finish(&mut follower)
