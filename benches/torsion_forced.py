@@ -9,7 +9,7 @@ from common import Row, faster, is_installed, seconds
 
 import linkwright as lw
 from linkwright.torsion.core.response import respond
-from linkwright.torsion.response.excited_train import excited_train
+from linkwright.torsion.excitation.excited_train import excited_train
 
 DISCS, ORDERS = 50, 24
 

@@ -107,14 +107,14 @@ _HOME = {
     "read_measured": "torsion.limits.overlay",
     "engine_diagnosis": "torsion.diagnosis.engine_diagnosis",
     "measured_speed": "torsion.diagnosis.measured_speed",
-    "engine_data": "torsion.response.engine_torques",
+    "engine_data": "torsion.excitation.engine_torques",
     "damped_vibration": "torsion.modes.damped",
     "campbell": "torsion.modes.campbell",
-    "drive_line": "torsion.response.drive_line",
-    "mechanism_harmonics": "torsion.response.drive_line",
+    "drive_line": "torsion.excitation.drive_line",
+    "mechanism_harmonics": "torsion.excitation.drive_line",
     "design_damper": "torsion.damper.damper_design",
     "scheme": "torsion.modes.scheme",
-    "station_damping": "torsion.response.drive_line",
+    "station_damping": "torsion.excitation.drive_line",
     "quantities": "app.quantities",
     "study": "app.study",
     "steady_states": "drive.batch",
@@ -265,6 +265,10 @@ if TYPE_CHECKING:
     from linkwright.torsion.damper.damper_design import design_damper as design_damper
     from linkwright.torsion.diagnosis.engine_diagnosis import engine_diagnosis as engine_diagnosis
     from linkwright.torsion.diagnosis.measured_speed import measured_speed as measured_speed
+    from linkwright.torsion.excitation.drive_line import drive_line as drive_line
+    from linkwright.torsion.excitation.drive_line import mechanism_harmonics as mechanism_harmonics
+    from linkwright.torsion.excitation.drive_line import station_damping as station_damping
+    from linkwright.torsion.excitation.engine_torques import engine_data as engine_data
     from linkwright.torsion.in_time.transient import torsion_transient as torsion_transient
     from linkwright.torsion.in_time.waterfall import waterfall as waterfall
     from linkwright.torsion.limits.barred_range import barred_ranges as barred_ranges
@@ -275,10 +279,6 @@ if TYPE_CHECKING:
     from linkwright.torsion.modes.free import free_vibration as free_vibration
     from linkwright.torsion.modes.holzer import holzer_table as holzer_table
     from linkwright.torsion.modes.scheme import scheme as scheme
-    from linkwright.torsion.response.drive_line import drive_line as drive_line
-    from linkwright.torsion.response.drive_line import mechanism_harmonics as mechanism_harmonics
-    from linkwright.torsion.response.drive_line import station_damping as station_damping
-    from linkwright.torsion.response.engine_torques import engine_data as engine_data
     from linkwright.torsion.response.forced import forced_vibration as forced_vibration
     from linkwright.torsion.response.mesh_torque import mesh_torques as mesh_torques
     from linkwright.torsion.response.stress import shaft_stress as shaft_stress

@@ -174,7 +174,7 @@ def test_drive_study_without_motor(tmp_path: Path, speed: str, parts: set[str]) 
 
 def discs_of(path: Path) -> list[dict[str, float]]:
     from linkwright.machine.read import read
-    from linkwright.torsion.response.drive_line import drive_line
+    from linkwright.torsion.excitation.drive_line import drive_line
 
     return [{"inertia": disc.inertia} for disc in drive_line(read(path)).discs.values()]
 

@@ -94,10 +94,10 @@ EDGES = {
     # A torsionally flexible driveline is a train.
     ("torsion.model", "drive.model"),
     ("torsion.core", "drive.model"),
-    ("torsion.response", "drive"),
-    ("torsion.response", "drive.model"),
+    ("torsion.excitation", "drive"),
+    ("torsion.excitation", "drive.model"),
     ("torsion.in_time", "drive.model"),
-    ("torsion.response", "linkages"),
+    ("torsion.excitation", "linkages"),
     ("torsion.model", "linkages.model"),
     ("torsion.core", "linkages.model"),
     # A pumping unit is a linkage.
@@ -126,6 +126,25 @@ EDGES = {
     ("sensitivity", "cam.profile"),
     ("sizing.commands", "drive.model"),
 }
+
+# Folders of the room of trains, each of which uses those before it.
+TRAINS = (
+    "model",
+    "core",
+    "excitation",
+    "modes",
+    "response",
+    "limits",
+    "in_time",
+    "damper",
+    "diagnosis",
+    "gradient",
+    "study",
+    "tables",
+    "figures",
+    "page",
+    "commands",
+)
 
 # The modules that may import the compiled core.
 CORE = ("machine.program", "cam.core", "torsion.core", "topping.core")
@@ -209,6 +228,19 @@ def wrong_imports(root: Path) -> list[str]:
 
 def test_imports_point_down_and_keep_to_their_room() -> None:
     wrong = wrong_imports(ROOT)
+    assert not wrong, "\n".join(wrong)
+
+
+def test_folders_of_trains_use_those_before_them() -> None:
+    room = ROOT / "torsion"
+    assert {path.stem for path in room.iterdir() if not path.stem.startswith("_")} == set(TRAINS)
+    wrong = [
+        f"{path.relative_to(ROOT)} imports {'.'.join(target)}"
+        for path in sorted(room.rglob("*.py"))
+        for target in imports(path)
+        if target[0] == "torsion" and path.parts[len(room.parts)] != "__init__.py"
+        if TRAINS.index(target[1]) > TRAINS.index(Path(path.parts[len(room.parts)]).stem)
+    ]
     assert not wrong, "\n".join(wrong)
 
 

@@ -10,10 +10,10 @@ import pytest
 from scipy.optimize import brentq, minimize_scalar
 
 import linkwright as lw
+from linkwright.torsion.excitation.excited_train import excited_train
 from linkwright.torsion.limits.barred_range import BarredRange, barred_ranges, together
 from linkwright.torsion.limits.criteria import exceedances
-from linkwright.torsion.response.excited_train import excited_train
-from linkwright.torsion.response.survey import resonances
+from linkwright.torsion.limits.survey import resonances
 
 J_A, J_B, K, C, M, ORDER = 2.0, 3.0, 1e4, 4.0, 80.0, 2.0
 W = math.pi / 16 * 0.05**3

@@ -13,7 +13,7 @@ from linkwright.kernel.numerics.confidence import coverage_factor
 from linkwright.torsion.diagnosis.diagnosis import Diagnosis, diagnosis
 from linkwright.torsion.diagnosis.engine_speed import cylinder_response
 from linkwright.torsion.diagnosis.measured_speed import MeasuredSpeed, measured_speed
-from linkwright.torsion.response.excited_train import ExcitedTrain, excited_train
+from linkwright.torsion.excitation.excited_train import ExcitedTrain, excited_train
 from linkwright.torsion.response.forced import forced_vibration
 
 Complexes = NDArray[np.complex128]

@@ -11,7 +11,7 @@ from scipy.linalg import eigh
 import linkwright as lw
 from linkwright.kernel.errors import AssemblyError, InputError, MachineError, ShapeError, SteadyStateError
 from linkwright.machine.program.compiled import compile_machine
-from linkwright.torsion.response.drive_line import drive_line, mean_inertia
+from linkwright.torsion.excitation.drive_line import drive_line, mean_inertia
 
 CART = """
 format = 1

@@ -14,9 +14,9 @@ from linkwright.machine.read import read
 from linkwright.torsion.diagnosis.engine_diagnosis import engine_diagnosis
 from linkwright.torsion.diagnosis.engine_speed import EngineSpeed
 from linkwright.torsion.diagnosis.measured_speed import MeasuredSpeed
-from linkwright.torsion.response.excited_train import excited_train
+from linkwright.torsion.excitation.excited_train import excited_train
+from linkwright.torsion.limits.survey import _about, between, survey
 from linkwright.torsion.response.forced import forced_vibration
-from linkwright.torsion.response.survey import _about, between, survey
 
 SPEED = 1500 * np.pi / 30
 NOISE = 2e-3

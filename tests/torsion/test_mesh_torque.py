@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.torsion.response.excited_train import excited_train, loaded
+from linkwright.torsion.excitation.excited_train import excited_train, loaded
 from linkwright.torsion.response.forced import torsion_response
 from linkwright.torsion.response.mesh_torque import MeshTorque, mesh_torques, meshed
 

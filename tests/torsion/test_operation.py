@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.torsion.response.survey import survey
+from linkwright.torsion.limits.survey import survey
 from linkwright.torsion.study import TorsionStudy
 from linkwright.torsion.tables.torsion import study_tables
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.torsion.response.excited_train import ExcitedTrain, excited_train
+from linkwright.torsion.excitation.excited_train import ExcitedTrain, excited_train
 from linkwright.torsion.response.forced import ForcedVibration, responded
 
 SPEEDS = np.array([17.0, 40.0, 63.0])

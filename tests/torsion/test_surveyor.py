@@ -8,7 +8,7 @@ import pytest
 import linkwright as lw
 from linkwright.kernel.errors import InputError, MachineFileError
 from linkwright.torsion.limits.overlay import overlay
-from linkwright.torsion.response.survey import survey
+from linkwright.torsion.limits.survey import survey
 from linkwright.torsion.tables.limits import measured_words
 
 GEARED = """

@@ -9,9 +9,9 @@ from scipy.linalg import solve
 
 import linkwright as lw
 from linkwright.kernel.errors import InputError, MachineError
-from linkwright.torsion.response.excited_train import excited_train
+from linkwright.torsion.excitation.excited_train import excited_train
+from linkwright.torsion.excitation.harmonics import coefficients, orders_together, span, waveform
 from linkwright.torsion.response.forced import angular_deflection, forced_vibration
-from linkwright.torsion.response.harmonics import coefficients, orders_together, span, waveform
 
 
 def machine(**train: Any) -> lw.Machine:

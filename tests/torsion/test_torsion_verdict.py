@@ -10,9 +10,9 @@ import pytest
 
 import linkwright as lw
 from linkwright.kernel.result import finite
+from linkwright.torsion.excitation.excited_train import excited_train
 from linkwright.torsion.limits.criteria import Criterion, criteria
 from linkwright.torsion.limits.verdict import Judgement, Verdict, verdict
-from linkwright.torsion.response.excited_train import excited_train
 from linkwright.torsion.response.forced import forced_vibration, torsion_response
 
 TRAIN = """

@@ -6,6 +6,7 @@
 | `core/` | Trains in the terms of the core |
 | `damper/` | The best damper for a mode |
 | `diagnosis/` | Which cylinder is weak, from a measured speed |
+| `excitation/` | What excites a train: engines, mechanism, drivers and loads, as harmonics |
 | `figures/` | Figures of trains |
 | `gradient/` | How frequencies, shapes and torques follow the numbers of the file |
 | `in_time/` | Manoeuvres of trains, followed in time |

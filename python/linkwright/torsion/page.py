@@ -16,8 +16,8 @@ from linkwright.kernel.page.table import Table
 from linkwright.machine.table import grouped, machine_parts
 from linkwright.machine.write import dumps
 from linkwright.torsion.figures.captions import torsion_figures
+from linkwright.torsion.limits.survey import TorquePeaks
 from linkwright.torsion.model.train import Train
-from linkwright.torsion.response.survey import TorquePeaks
 from linkwright.torsion.study import TorsionStudy
 from linkwright.torsion.tables.manoeuvre import manoeuvre_tables
 from linkwright.torsion.tables.torsion import (

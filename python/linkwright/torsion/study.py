@@ -14,11 +14,15 @@ from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.result import PlainRecord, Result
 from linkwright.kernel.units import FREQUENCY, not_negative
 from linkwright.machine.machine import Machine
+from linkwright.torsion.excitation.drive_line import train_of
+from linkwright.torsion.excitation.engine_torques import EngineData, engine_data
+from linkwright.torsion.excitation.excited_train import ExcitedTrain, excited_train, is_excited, pulsates
 from linkwright.torsion.in_time.transient import TorsionTransient, torsion_transient
 from linkwright.torsion.limits.crank_fatigue import CrankshaftFatigue, surveyed_fatigue
 from linkwright.torsion.limits.critical_response import CriticalResponse, critical_responses
 from linkwright.torsion.limits.misfire import MisfireVerdict, misfire_verdict
 from linkwright.torsion.limits.overlay import Overlay, overlay
+from linkwright.torsion.limits.survey import TorquePeaks, between, survey, torque_peaks
 from linkwright.torsion.limits.verdict import Verdict, operation, verdict
 from linkwright.torsion.model.engine.engine import firing_angles
 from linkwright.torsion.model.engine.throw_compliance import compliance_remarks
@@ -26,16 +30,13 @@ from linkwright.torsion.model.measured_response import MeasuredResponse
 from linkwright.torsion.model.train import Train
 from linkwright.torsion.modes.campbell import CampbellDiagram, campbell
 from linkwright.torsion.modes.damped import DampedVibration, damped_vibration
-from linkwright.torsion.modes.free import FreeVibration, ShaftShapes, free_vibration, train_of
+from linkwright.torsion.modes.free import FreeVibration, ShaftShapes, free_vibration
 from linkwright.torsion.modes.holzer import HolzerTable, holzer_frequency, holzer_table
 from linkwright.torsion.modes.phase_vectors import PhaseVectors, phase_vectors
 from linkwright.torsion.modes.scheme import Scheme, scheme
-from linkwright.torsion.response.engine_torques import EngineData, engine_data
-from linkwright.torsion.response.excited_train import ExcitedTrain, excited_train, is_excited, pulsates
 from linkwright.torsion.response.forced import ForcedVibration, responded
 from linkwright.torsion.response.mesh_torque import MeshTorque, meshed
 from linkwright.torsion.response.stress import ShaftStress, shaft_stress
-from linkwright.torsion.response.survey import TorquePeaks, between, survey, torque_peaks
 from linkwright.torsion.response.unevenness_along import UnevennessAlong, unevenness_along
 
 # Share by which loads may be off what the engine gives without a word.

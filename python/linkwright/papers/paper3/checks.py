@@ -12,12 +12,12 @@ from linkwright.machine.machine import Machine
 from linkwright.papers.paper3.crank_train import TrialEngine
 from linkwright.torsion.diagnosis.diagnosis import diagnosis
 from linkwright.torsion.diagnosis.measured_speed import MeasuredSpeed
+from linkwright.torsion.excitation.engine_torques import cylinder_torques
+from linkwright.torsion.excitation.excited_train import ExcitedTrain, excited_train
+from linkwright.torsion.excitation.harmonics import span
 from linkwright.torsion.model.engine.engine import firing_angles
 from linkwright.torsion.model.train_torques import throw_names
-from linkwright.torsion.response.engine_torques import cylinder_torques
-from linkwright.torsion.response.excited_train import ExcitedTrain, excited_train
 from linkwright.torsion.response.forced import ForcedVibration, forced_vibration, responded
-from linkwright.torsion.response.harmonics import span
 from linkwright.torsion.response.unevenness_along import UnevennessAlong, unevenness_along
 
 

@@ -55,6 +55,11 @@ class ReferredTrain:
         """Whether it can rotate as a rigid body."""
         return not bool((self.ends == HELD).any())
 
+    @property
+    def lead(self) -> Floats:
+        """Speed of the end of each shaft where its twist counts, over that of the first disc, (shafts,)."""
+        return lead_speeds(self.tip, self.speed)
+
     @cached_property
     def joins(self) -> Floats:
         """Connections, shape (shafts, masses): +1 at the first end of each shaft, −1 at the second."""
@@ -130,6 +135,13 @@ class ReferredTrain:
         if is_free:
             omega[0], shapes[0] = 0.0, 1.0 / np.sqrt(J.sum())
         return omega, shapes
+
+
+def lead_speeds(tip: Integers, speed: Floats) -> Floats:
+    """Speed of the first end of each shaft; of its second, where the first is held, (shafts,)."""
+    first, second = tip.T
+    lead: Floats = speed[np.where(first == HELD, second, first)]
+    return lead
 
 
 def refer(train: Train) -> ReferredTrain:

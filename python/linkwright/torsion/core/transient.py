@@ -33,7 +33,7 @@ from linkwright.kernel.core.curve import Curve
 from linkwright.kernel.core.periodic_table import PeriodicTable, smooth
 from linkwright.kernel.errors import InputError, ShapeError
 from linkwright.torsion.core.torque import DecayingTorque, GovernorTorque, OverSpeed, Power, TrainTorque
-from linkwright.torsion.core.train import HELD, ReferredTrain
+from linkwright.torsion.core.train import HELD, ReferredTrain, lead_speeds
 
 # Share of the largest slope by which given slopes may differ from those of the samples.
 _SLOPES_AGREE = 1e-3
@@ -160,9 +160,7 @@ class MovingTrain:
     @property
     def lead(self) -> Floats:
         """Speed of the end of each shaft where its twist counts, over that of the first disc, (shafts,)."""
-        first, second = self.tip.T
-        speed: Floats = self.speed[np.where(first == HELD, second, first)]
-        return speed
+        return lead_speeds(self.tip, self.speed)
 
     @property
     def mean_inertia(self) -> Floats:
@@ -260,8 +258,6 @@ def moving(
     """
     n, m = len(referred.discs), len(referred.shafts)
     shapes = tuple(curves) if curves is not None else (None,) * m
-    first, second = referred.tip.T
-    lead = referred.speed[np.where(first == HELD, second, first)]
     straight = np.array([curve is None for curve in shapes], dtype=float)
     return MovingTrain(
         referred.discs,
@@ -272,7 +268,7 @@ def moving(
         np.broadcast_to(np.asarray(swing_damping, dtype=float), n),
         referred.shafts,
         referred.tip,
-        referred.stiffness / lead**2 * straight,
+        referred.stiffness / referred.lead**2 * straight,
         np.broadcast_to(np.asarray(shaft_damping, dtype=float), m),
         shapes,
         tuple(inertias),

@@ -43,7 +43,7 @@ from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.torsion.diagnosis.engine_speed import cylinder_response
 from linkwright.torsion.diagnosis.measured_speed import MeasuredSpeed
-from linkwright.torsion.response.excited_train import ExcitedTrain
+from linkwright.torsion.excitation.excited_train import ExcitedTrain
 
 
 @dataclass(frozen=True)

@@ -15,10 +15,10 @@ from linkwright.kernel.errors import InputError
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.response import OperatingState, respond
 from linkwright.torsion.core.train import ReferredTrain, refer
+from linkwright.torsion.excitation.drive_line import train_of
+from linkwright.torsion.excitation.engine_torques import CylinderStates, cylinder_torques, throw_sources
+from linkwright.torsion.excitation.excited_train import ExcitedTrain, highest_order, under
 from linkwright.torsion.model.engine.engine import ReciprocatingEngine
-from linkwright.torsion.modes.free import train_of
-from linkwright.torsion.response.engine_torques import CylinderStates, cylinder_torques, throw_sources
-from linkwright.torsion.response.excited_train import ExcitedTrain, highest_order, under
 from linkwright.torsion.response.forced import responses
 
 

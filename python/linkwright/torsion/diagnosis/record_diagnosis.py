@@ -15,9 +15,9 @@ from linkwright.torsion.diagnosis.diagnosis import Diagnosis
 from linkwright.torsion.diagnosis.engine_diagnosis import engine_diagnosis
 from linkwright.torsion.diagnosis.engine_speed import the_engine
 from linkwright.torsion.diagnosis.measured_speed import recorded_speed
+from linkwright.torsion.excitation.drive_line import train_of
+from linkwright.torsion.excitation.excited_train import excited_train
 from linkwright.torsion.model.engine.engine import ReciprocatingEngine, firing_angles
-from linkwright.torsion.modes.free import train_of
-from linkwright.torsion.response.excited_train import excited_train
 
 # Factors beyond these are no shares of a combustion, at whatever load: something else does not fit.
 _LEAST, _GREATEST = -0.25, 4.0

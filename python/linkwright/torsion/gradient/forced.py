@@ -31,12 +31,11 @@ from linkwright.machine.machine import Machine
 from linkwright.machine.tangents import columns
 from linkwright.torsion.core.response import extremes, tree_of
 from linkwright.torsion.core.train import HELD, ReferredTrain
+from linkwright.torsion.excitation.excited_train import ExcitedTrain, excited_train, mean_shaft_torques
+from linkwright.torsion.excitation.harmonics import coefficients, orders_together, waveform
 from linkwright.torsion.gradient.train import TrainTangents, train_tangents
 from linkwright.torsion.model.train import Train
-from linkwright.torsion.modes.free import lead_speeds
-from linkwright.torsion.response.excited_train import ExcitedTrain, excited_train, mean_shaft_torques
 from linkwright.torsion.response.forced import response_by_amplitudes, responses
-from linkwright.torsion.response.harmonics import coefficients, orders_together, waveform
 
 # Entries of an engine that change its train, but none of its torques.
 _OF_TRAIN = ("stiffness", "loss_factor", "damping", "throw_inertia")
@@ -155,9 +154,7 @@ def _peaks(at: ExcitedTrain, q: Complexes, *, has_engine: bool) -> list[tuple[st
 
 def _is_rigid(at: ExcitedTrain, q: Complexes, torques: Complexes, shaft: int) -> bool:
     """Whether the twist of a shaft is rounding."""
-    twisted = (
-        _stiffness(at, shaft, slice(None)) * _twist(at.referred, q, shaft) / lead_speeds(at.referred)[shaft]
-    )
+    twisted = _stiffness(at, shaft, slice(None)) * _twist(at.referred, q, shaft) / at.referred.lead[shaft]
     return bool(np.abs(twisted - torques[:, shaft]).max() > _RIGID * np.abs(torques[:, shaft]).max())
 
 
@@ -269,7 +266,7 @@ class _Adjoint:
         self, at: ExcitedTrain, q: Complexes, d: TrainTangents, torques: dict[int, _TorqueTangents]
     ) -> None:
         self.at, self.q, self.d, self.torques = at, q, d, torques
-        self.lead = lead_speeds(at.referred)
+        self.lead = at.referred.lead
         self._orders = orders_together(at.torques.orders)
 
     def response(self, kind: str, shaft: int, place: int) -> tuple[float, Floats, str]:

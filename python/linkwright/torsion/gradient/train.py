@@ -18,10 +18,10 @@ from linkwright.kernel.errors import InputError
 from linkwright.machine.machine import Machine
 from linkwright.machine.tangents import columns
 from linkwright.torsion.core.train import ReferredTrain, refer
+from linkwright.torsion.excitation.drive_line import drive_line, mean_inertia
 from linkwright.torsion.model.drive_train import drive_train
 from linkwright.torsion.model.train import Train
 from linkwright.torsion.model.whole_train import whole_train
-from linkwright.torsion.response.drive_line import drive_line, mean_inertia
 
 _MECHANISM = "the mean inertia of a mechanism has no derivative here; it is that of the disc `crank`"
 

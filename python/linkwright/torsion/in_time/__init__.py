@@ -5,6 +5,7 @@
 | `ice_impacts` | Ice at a propeller: pulses over its angle |
 | `moving_drive` | A driveline that moves in time |
 | `moving_train` | A train of a machine file, with its engine, made ready to move in time |
+| `peak_judgement` | Whether shafts and couplings bear a manoeuvre |
 | `stage_torque` | Torque in the gear stages over time |
 | `steady_start` | A running train starts as in steady running: mean torques balance, shafts carry them |
 | `transient` | Motion of a train in time |

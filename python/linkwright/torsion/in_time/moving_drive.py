@@ -26,10 +26,10 @@ from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.torsion.core.torque import OverSpeed, Power, TrainTorque
 from linkwright.torsion.core.transient import MovingTrain, VariableInertia, variable_inertia
+from linkwright.torsion.excitation.drive_line import drive_line, mean_inertia, mechanism_alone
 from linkwright.torsion.in_time.moving_train import moving_train
 from linkwright.torsion.model.drive_train import CRANK, MOTOR
 from linkwright.torsion.model.train_transient import TrainMotor, TrainTransient
-from linkwright.torsion.response.drive_line import drive_line, mean_inertia, mechanism_alone
 
 # Samples of a revolution of the crank: kinks at dead centres are rounded over a few tenths of a degree.
 _SAMPLES = 2048

@@ -31,6 +31,8 @@ from linkwright.torsion.core.torque import (
 )
 from linkwright.torsion.core.train import ReferredTrain, refer
 from linkwright.torsion.core.transient import MovingTrain, VariableInertia, moving, variable_inertia, viscous
+from linkwright.torsion.excitation.engine_torques import cylinder_torques
+from linkwright.torsion.excitation.excited_train import highest_order
 from linkwright.torsion.in_time.ice_impacts import IceStarts, ice_torque
 from linkwright.torsion.model.engine.engine import ReciprocatingEngine, firing_angles
 from linkwright.torsion.model.engine.engine_motion import reduced_throw
@@ -50,9 +52,6 @@ from linkwright.torsion.model.train_transient import (
     transient_faults,
 )
 from linkwright.torsion.model.whole_train import whole_train
-from linkwright.torsion.modes.free import lead_speeds
-from linkwright.torsion.response.engine_torques import cylinder_torques
-from linkwright.torsion.response.excited_train import highest_order
 
 # Share of the energy of a mode from which on a shaft counts in it.
 _COUNTS = 0.05
@@ -112,7 +111,7 @@ def _ratios(referred: ReferredTrain, *, by_mode: bool) -> Floats:
 def _mode_damping(referred: ReferredTrain) -> tuple[Floats, list[str]]:
     """Viscous damping of the shafts alone where modes have that of the hysteresis, and a note about it."""
     note = "hysteresis of shafts counts as a damping ratio of each mode, at the frequency of that mode"
-    return referred.damping / lead_speeds(referred) ** 2, [note]
+    return referred.damping / referred.lead**2, [note]
 
 
 def _require_fit(train: Train, manoeuvre: TrainTransient, discs: tuple[str, ...]) -> None:
@@ -125,7 +124,7 @@ def _require_fit(train: Train, manoeuvre: TrainTransient, discs: tuple[str, ...]
 
 def _shaft_damping(referred: ReferredTrain, manoeuvre: TrainTransient) -> tuple[Floats, list[str]]:
     """Damping of each shaft at its own speed, with that of its hysteresis, and a note about it."""
-    lead = lead_speeds(referred)
+    lead = referred.lead
     own: Floats = referred.damping / lead**2
     if not referred.loss_factor.any():
         return own, []

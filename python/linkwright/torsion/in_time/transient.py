@@ -42,9 +42,9 @@ from linkwright.torsion.in_time.ice_impacts import (
 )
 from linkwright.torsion.in_time.moving_drive import moving_drive
 from linkwright.torsion.in_time.moving_train import moving_train
+from linkwright.torsion.in_time.peak_judgement import PeakJudgement, judged, unjudged
 from linkwright.torsion.in_time.stage_torque import stage_torques
 from linkwright.torsion.in_time.steady_start import balanced_start, loaded_angles
-from linkwright.torsion.limits.peak_judgement import PeakJudgement, judged, unjudged
 from linkwright.torsion.model.train import Train
 from linkwright.torsion.model.train_transient import TrainTransient
 from linkwright.torsion.model.whole_train import whole_train

@@ -8,6 +8,6 @@
 | `critical_response` | Synthesis at the critical speeds |
 | `misfire` | The worst single misfire |
 | `overlay` | A measured curve laid over the computed one |
-| `peak_judgement` | Whether shafts and couplings bear a manoeuvre |
+| `survey` | A train at its speeds, resonances and peaks: limits and largest torques |
 | `verdict` | Whether all limits are kept, and how a train may be operated |
 """

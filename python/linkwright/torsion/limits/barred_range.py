@@ -33,8 +33,8 @@ from linkwright.torsion.limits.criteria import (
     Exceedance,
     peaks_between,
 )
+from linkwright.torsion.limits.survey import Survey, survey
 from linkwright.torsion.model.permitted_stress import barred_speeds
-from linkwright.torsion.response.survey import Survey, survey
 
 # Even speeds at which a range is looked at for the peaks in it.
 _POINTS = 100

@@ -40,6 +40,7 @@ from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.torsion.limits.barred_range import not_barred
 from linkwright.torsion.limits.misfire import MisfireVerdict, misfire_verdict
+from linkwright.torsion.limits.survey import Survey, survey
 from linkwright.torsion.limits.verdict import Verdict, verdict
 from linkwright.torsion.model.engine.crank_concentration import (
     ThrowRatios,
@@ -55,7 +56,6 @@ from linkwright.torsion.model.engine.engine import ReciprocatingEngine
 from linkwright.torsion.model.engine.throw import CrankThrow, Journal
 from linkwright.torsion.model.train_torques import InstalledEngine
 from linkwright.torsion.response.crank_bending import bending, pin_forces, rod_places, shear
-from linkwright.torsion.response.survey import Survey, survey
 
 # Minimum Q of M53.7.
 ACCEPTABLE = 1.15

@@ -22,10 +22,10 @@ from numpy.typing import NDArray
 from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.units import POWER, PRESSURE, TORQUE, Kind
 from linkwright.machine.machine import Machine
+from linkwright.torsion.excitation.excited_train import ExcitedTrain
 from linkwright.torsion.model.coupling import Coupling, Damper
 from linkwright.torsion.model.shaft_limit import ShaftLimit
 from linkwright.torsion.model.train import Shaft, Train
-from linkwright.torsion.response.excited_train import ExcitedTrain
 from linkwright.torsion.response.forced import TorsionResponse
 from linkwright.torsion.response.mesh_torque import MeshTorque, meshed
 from linkwright.torsion.response.stress import ShaftStress, shaft_stress

@@ -12,10 +12,10 @@ from typing import NamedTuple
 import numpy as np
 
 from linkwright.kernel.units import PRESSURE, TORQUE, Kind
+from linkwright.torsion.limits.survey import Survey
 from linkwright.torsion.modes.campbell import CampbellDiagram, CriticalSpeed
 from linkwright.torsion.response.forced import TorsionResponse
 from linkwright.torsion.response.stress import ShaftStress, shaft_stress
-from linkwright.torsion.response.survey import Survey
 
 # Orders that differ by a smaller share are one.
 _EQUAL = 1e-9

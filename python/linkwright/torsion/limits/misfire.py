@@ -23,20 +23,20 @@ from linkwright.kernel.quantities import About
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import Kind
 from linkwright.machine.machine import Machine
-from linkwright.torsion.limits.barred_range import BarredRange, not_barred
-from linkwright.torsion.limits.criteria import PASSING_STRESS, Criterion, criteria
-from linkwright.torsion.response.engine_torques import (
+from linkwright.torsion.excitation.engine_torques import (
     CylinderStates,
     EnginePlace,
     cylinder_torques,
     sound_factors,
     throw_sources,
 )
-from linkwright.torsion.response.excited_train import ExcitedTrain, highest_order, under
+from linkwright.torsion.excitation.excited_train import ExcitedTrain, highest_order, under
+from linkwright.torsion.excitation.harmonics import Source
+from linkwright.torsion.limits.barred_range import BarredRange, not_barred
+from linkwright.torsion.limits.criteria import PASSING_STRESS, Criterion, criteria
+from linkwright.torsion.limits.survey import Survey, in_a_row
 from linkwright.torsion.response.forced import torsion_response
-from linkwright.torsion.response.harmonics import Source
 from linkwright.torsion.response.mesh_torque import MeshTorque, meshed
-from linkwright.torsion.response.survey import Survey, in_a_row
 
 
 class MisfireCase(NamedTuple):

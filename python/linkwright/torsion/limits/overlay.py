@@ -30,13 +30,13 @@ from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import ANGLE, PRESSURE, SPEED, TORQUE, Kind, parse, show
+from linkwright.torsion.excitation.excited_train import ExcitedTrain
+from linkwright.torsion.excitation.harmonics import span
 from linkwright.torsion.limits.criteria import peaks_between
+from linkwright.torsion.limits.survey import Survey, between
 from linkwright.torsion.model.measured_response import MeasuredResponse
-from linkwright.torsion.response.excited_train import ExcitedTrain
 from linkwright.torsion.response.forced import TorsionResponse, torsion_response
-from linkwright.torsion.response.harmonics import span
 from linkwright.torsion.response.stress import shaft_stress
-from linkwright.torsion.response.survey import Survey, between
 
 # Share of the largest measured value from which on a maximum is a peak.
 _PEAK = 1 / 3

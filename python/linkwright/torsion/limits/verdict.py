@@ -30,8 +30,8 @@ from linkwright.torsion.limits.criteria import (
     shown_quantity,
 )
 from linkwright.torsion.limits.misfire import MisfireVerdict
+from linkwright.torsion.limits.survey import Survey, survey
 from linkwright.torsion.model.shaft_limit import RULES
-from linkwright.torsion.response.survey import Survey, survey
 
 State = Literal["ok", "bar", "exceeds"]
 _RPM = math.pi / 30

@@ -49,8 +49,9 @@ from linkwright.kernel.units import SPEED, positive
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.distributed import cut_up, dynamic, natural_frequencies
 from linkwright.torsion.core.train import ReferredTrain, refer
-from linkwright.torsion.modes.free import modes_wanted, scaled, train_of
-from linkwright.torsion.response.excited_train import prepared
+from linkwright.torsion.excitation.drive_line import train_of
+from linkwright.torsion.excitation.excited_train import prepared
+from linkwright.torsion.modes.free import modes_wanted, scaled
 
 
 @dataclass(frozen=True)

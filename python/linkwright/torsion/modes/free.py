@@ -37,9 +37,9 @@ from linkwright.machine.machine import Machine
 from linkwright.torsion.core.distributed import ExactMode, RodShape, exact_modes
 from linkwright.torsion.core.rod import along, ends, energies, node_shares, stations
 from linkwright.torsion.core.train import HELD, ReferredTrain, refer
+from linkwright.torsion.excitation.drive_line import train_of
 from linkwright.torsion.model.train import Train
-from linkwright.torsion.model.whole_train import RodShaft, whole_train
-from linkwright.torsion.response.drive_line import drive_line
+from linkwright.torsion.model.whole_train import RodShaft
 
 # Share of the largest amplitude below which a disc is at rest: rounding of a mode leaves less.
 _AT_REST = 1e-9
@@ -282,7 +282,7 @@ def _sized(referred: ReferredTrain, modes: TrainModes) -> tuple[Floats, Floats]:
     angles = referred.speed * modes.masses[:, referred.mass]
     if not modes.exact:
         return scaled(angles), np.ones(len(angles))
-    lead = lead_speeds(referred)
+    lead = referred.lead
     inside = [[lead[one.rod.shaft] * np.abs(one.angles).max() for one in mode.rods] for mode in modes.exact]
     largest = np.maximum(np.abs(angles).max(axis=1), np.max(inside, axis=1))
     angles[np.abs(angles) < _AT_REST * largest[:, None]] = 0.0
@@ -303,7 +303,7 @@ def _along(train: Train, referred: ReferredTrain, modes: TrainModes, n: int, siz
     place = referred.rods[n].shaft
     name = referred.shafts[place]
     rod, _ = referred.rods[n].refined(float(modes.omega[-1]), math.pi / 8)
-    lead = float(lead_speeds(referred)[place])
+    lead = float(referred.lead[place])
     angles = []
     for mode, factor in zip(modes.exact, size, strict=True):
         shape = mode.rods[n]
@@ -329,11 +329,6 @@ def _first_torque(shape: RodShape, omega: float) -> float:
     return float((piece.spring * (a - b) - omega**2 * piece.first * a).real[0])
 
 
-def train_of(machine: Machine) -> Train:
-    """The train of a machine, as discs, shafts and gears: that of its file, or that of its driveline."""
-    return whole_train(drive_line(machine) if machine.train is None else machine.train)
-
-
 def twists_of(referred: ReferredTrain, amplitudes: Floats) -> Floats:
     """Twist of each shaft, counted at its first end, from the amplitudes of the discs, (n, shafts).
 
@@ -349,15 +344,8 @@ def own_stiffness(referred: ReferredTrain) -> Floats:
 
     As in the file [N m/rad].
     """
-    own: Floats = referred.stiffness / lead_speeds(referred) ** 2
+    own: Floats = referred.stiffness / referred.lead**2
     return own
-
-
-def lead_speeds(referred: ReferredTrain) -> Floats:
-    """Speed of the end of each shaft where its twist counts, (shafts,). Over that of the first disc."""
-    first, second = referred.tip.T
-    speed: Floats = referred.speed[np.where(first == HELD, second, first)]
-    return speed
 
 
 def _at_ends(referred: ReferredTrain, amplitudes: Floats) -> tuple[Floats, Floats]:
@@ -366,7 +354,7 @@ def _at_ends(referred: ReferredTrain, amplitudes: Floats) -> tuple[Floats, Float
     angles = np.concatenate([amplitudes, np.zeros((*amplitudes.shape[:-1], 1))], axis=-1)
     speed = np.append(referred.speed, 1.0)
     first, second = referred.tip.T
-    lead = lead_speeds(referred)
+    lead = referred.lead
     return angles[..., first], angles[..., second] * np.where(second == HELD, 1.0, lead / speed[second])
 
 

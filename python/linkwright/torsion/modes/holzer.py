@@ -36,8 +36,9 @@ from linkwright.kernel.units import FREQUENCY, SPEED, not_negative, parse
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.distributed import lossless
 from linkwright.torsion.core.train import HELD, ReferredTrain, refer
+from linkwright.torsion.excitation.drive_line import train_of
 from linkwright.torsion.model.train import Train
-from linkwright.torsion.modes.free import FreeVibration, own_stiffness, train_of, twists_of
+from linkwright.torsion.modes.free import FreeVibration, own_stiffness, twists_of
 
 
 @dataclass(frozen=True)

@@ -14,8 +14,9 @@ from linkwright.machine.machine import Machine
 from linkwright.torsion.core.distributed import RodShape
 from linkwright.torsion.core.rod import energies
 from linkwright.torsion.core.train import ReferredTrain
-from linkwright.torsion.modes.free import FreeVibration, modes_wanted, train_modes, train_of
-from linkwright.torsion.response.excited_train import ExcitedTrain, prepared
+from linkwright.torsion.excitation.drive_line import train_of
+from linkwright.torsion.excitation.excited_train import ExcitedTrain, prepared
+from linkwright.torsion.modes.free import FreeVibration, modes_wanted, train_modes
 
 # Orders that differ by a smaller share are one but for rounding of ratios.
 _EQUAL = 1e-9

@@ -24,9 +24,9 @@ import numpy as np
 from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
+from linkwright.torsion.excitation.excited_train import ExcitedTrain
 from linkwright.torsion.modes.campbell import CampbellDiagram
 from linkwright.torsion.modes.free import FreeVibration, train_modes
-from linkwright.torsion.response.excited_train import ExcitedTrain
 
 # Share of the largest torque of an order below which a disc is not excited by it.
 _ROUNDING = 1e-9

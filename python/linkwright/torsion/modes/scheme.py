@@ -30,8 +30,9 @@ from linkwright.kernel.result import Result
 from linkwright.kernel.units import LENGTH, positive
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.train import HELD, ReferredTrain, refer
+from linkwright.torsion.excitation.drive_line import train_of
 from linkwright.torsion.model.train import GROUND, Train
-from linkwright.torsion.modes.free import own_stiffness, train_of
+from linkwright.torsion.modes.free import own_stiffness
 
 Kind = Literal["shaft", "coupling", "mesh", "gears", "damper"]
 

@@ -24,13 +24,12 @@ from numpy.typing import NDArray
 from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.torsion.core.rod import along
 from linkwright.torsion.core.train import HELD
+from linkwright.torsion.excitation.excited_train import ExcitedTrain
+from linkwright.torsion.excitation.harmonics import orders_together, span
 from linkwright.torsion.model.shaft_limit import StressedSection
 from linkwright.torsion.model.shaft_row import RodPiece
 from linkwright.torsion.model.train import Shaft
 from linkwright.torsion.model.whole_train import RodShaft
-from linkwright.torsion.modes.free import lead_speeds
-from linkwright.torsion.response.excited_train import ExcitedTrain
-from linkwright.torsion.response.harmonics import orders_together, span
 
 # Largest β between two stations: the torque between them is at most 1/cos(β/2) of theirs.
 _STATION = 0.15
@@ -62,7 +61,7 @@ def worst_place(at: ExcitedTrain, q: Complexes, flow: Complexes, n: int) -> Wors
     fine, of = rod.refined(float(omega.max(initial=0.0)), _STATION)
     torque = flow - omega**2 * at.distributed.first[:, n] * start
     state = along(fine, omega, lossy, start, torque)
-    lead = float(lead_speeds(referred)[s])
+    lead = float(referred.lead[s])
     # Each piece has two ends; of those that meet the weaker section counts.
     before, after = state.torques[:, :-1], state.torques[:, 1:]
     torques: NDArray[Any] = np.concatenate([before, after], axis=1) / lead

@@ -36,10 +36,9 @@ from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.response import respond, shaft_torques
-from linkwright.torsion.modes.free import lead_speeds
+from linkwright.torsion.excitation.excited_train import ExcitedTrain, excited_train
+from linkwright.torsion.excitation.harmonics import Orders, orders_together, span
 from linkwright.torsion.response.along_shaft import worst_place
-from linkwright.torsion.response.excited_train import ExcitedTrain, excited_train
-from linkwright.torsion.response.harmonics import Orders, orders_together, span
 
 Places = NDArray[np.int64]
 
@@ -146,7 +145,7 @@ def response_by_amplitudes(at: ExcitedTrain, q: Complexes) -> TorsionResponse:
     referred, orders, speeds = at.referred, at.torques.orders, at.torques.speeds
     omega = orders[:, None, None] * speeds
     k, c, loss = at.operating.stiffness, referred.damping[:, None], referred.loss_factor[:, None]
-    lead = lead_speeds(referred)[:, None]
+    lead = referred.lead[:, None]
     # Stiffness and damping are referred, so that the torque is too.
     imaginary = loss * k + omega * c
     stiffness = _complex(k, imaginary) if at.distributed is None else at.distributed.stiffness

@@ -38,11 +38,10 @@ from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.train import HELD
+from linkwright.torsion.excitation.excited_train import ExcitedTrain, excited_train
+from linkwright.torsion.excitation.harmonics import span
 from linkwright.torsion.model.train import TrainGear
-from linkwright.torsion.modes.free import lead_speeds
-from linkwright.torsion.response.excited_train import ExcitedTrain, excited_train
 from linkwright.torsion.response.forced import TorsionResponse, shaft_flow, torsion_response
-from linkwright.torsion.response.harmonics import span
 
 # Share of a stage's torque that statics leaves open before it is called undetermined.
 _OPEN = 1e-9
@@ -209,7 +208,7 @@ def _rods(at: ExcitedTrain, J: Floats, theta: Complexes) -> tuple[Complexes, Com
                 inertia[:, disc] += (end - lumped) / referred.speed[disc] ** 2
     first = np.unique(referred.mass, return_index=True)[1]
     q = theta[:, first] / referred.speed[first, None]
-    return inertia, shaft_flow(at, q, there.stiffness) / lead_speeds(referred)[:, None]
+    return inertia, shaft_flow(at, q, there.stiffness) / referred.lead[:, None]
 
 
 def _modal_torques(at: ExcitedTrain, J: Floats, response: TorsionResponse) -> Complexes | float:
@@ -237,7 +236,7 @@ def _mean_outside(at: ExcitedTrain, J: Floats) -> Floats:
 def _stage_torques(at: ExcitedTrain, outside: Complexes | Floats, shafts: Complexes) -> Complexes:
     """Torque of each stage at its first disc, (…, stages, speeds)."""
     referred, gears = at.referred, at.train.gears
-    flow = lead_speeds(referred)[:, None] * shafts
+    flow = referred.lead[:, None] * shafts
     # The ground is a last disc.
     net = np.zeros((len(outside), len(referred.discs) + 1, outside.shape[-1]), complex)
     net[:, :-1] = referred.speed[:, None] * outside

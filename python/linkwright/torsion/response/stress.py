@@ -29,14 +29,13 @@ from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import SPEED, positive
 from linkwright.machine.machine import Machine
+from linkwright.torsion.excitation.drive_line import steady_speed, train_of
+from linkwright.torsion.excitation.excited_train import excited_train
 from linkwright.torsion.model.drive_train import CRANK
 from linkwright.torsion.model.shaft_limit import ShaftLimit, StressedSection
 from linkwright.torsion.model.train import Shaft
 from linkwright.torsion.model.whole_train import RodShaft
 from linkwright.torsion.model.whole_train import speeds as turning
-from linkwright.torsion.modes.free import train_of
-from linkwright.torsion.response.drive_line import steady_speed
-from linkwright.torsion.response.excited_train import excited_train
 from linkwright.torsion.response.forced import TorsionResponse, torsion_response
 
 

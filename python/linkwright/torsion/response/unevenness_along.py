@@ -28,7 +28,7 @@ from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-from linkwright.torsion.response.excited_train import ExcitedTrain
+from linkwright.torsion.excitation.excited_train import ExcitedTrain
 from linkwright.torsion.response.forced import ForcedVibration
 
 # Points a wave of the highest order; Newton refines extremes from them.

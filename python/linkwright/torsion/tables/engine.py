@@ -10,7 +10,7 @@ from linkwright.kernel.page.numbers import measured, quantity
 from linkwright.kernel.page.table import Row, Table
 from linkwright.torsion.damper.damper_design import DamperDesign
 from linkwright.torsion.diagnosis.record_diagnosis import RecordDiagnosis
-from linkwright.torsion.response.engine_torques import EngineData
+from linkwright.torsion.excitation.engine_torques import EngineData
 
 
 def engine_tables(engines: Mapping[str, EngineData]) -> Iterator[Table]:

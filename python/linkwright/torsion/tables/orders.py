@@ -10,9 +10,9 @@ import numpy as np
 from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.page.numbers import number, quantity
 from linkwright.kernel.page.table import Row, Table, columns_csv
+from linkwright.torsion.excitation.excited_train import ExcitedTrain
 from linkwright.torsion.in_time.transient import TorsionTransient
 from linkwright.torsion.modes.phase_vectors import PhaseVectors
-from linkwright.torsion.response.excited_train import ExcitedTrain
 from linkwright.torsion.response.forced import ForcedVibration
 from linkwright.torsion.tables.limits import per_minute, rpm
 

@@ -9,10 +9,11 @@ import numpy as np
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.page.numbers import number, quantity
 from linkwright.kernel.page.table import Row, Table
+from linkwright.torsion.excitation.drive_line import train_of
 from linkwright.torsion.limits.critical_response import CriticalResponse
 from linkwright.torsion.modes.campbell import CampbellDiagram
 from linkwright.torsion.modes.damped import DampedVibration
-from linkwright.torsion.modes.free import FreeVibration, Node, train_of
+from linkwright.torsion.modes.free import FreeVibration, Node
 from linkwright.torsion.modes.holzer import HolzerTable
 from linkwright.torsion.modes.phase_vectors import most_severe
 from linkwright.torsion.response.forced import ForcedVibration

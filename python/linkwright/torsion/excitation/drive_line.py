@@ -40,12 +40,18 @@ from linkwright.kernel.units import SPEED, positive
 from linkwright.linkages.closure import over_whole_cycle, require_full_turn
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
+from linkwright.torsion.excitation.harmonics import Source
 from linkwright.torsion.model.drive_train import CRANK, MOTOR, STIFFNESS_KEYS, drive_train
 from linkwright.torsion.model.train import Train
-from linkwright.torsion.response.harmonics import Source
+from linkwright.torsion.model.whole_train import whole_train
 
 # Relative step of a central difference: its error is of second order, 1e-10, rounding over it likewise.
 _STEP = 1e-5
+
+
+def train_of(machine: Machine) -> Train:
+    """The train of a machine, as discs, shafts and gears: that of its file, or that of its driveline."""
+    return whole_train(drive_line(machine) if machine.train is None else machine.train)
 
 
 @public

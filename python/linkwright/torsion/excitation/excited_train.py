@@ -24,12 +24,11 @@ from linkwright.torsion.core.response import (
     tree_of,
 )
 from linkwright.torsion.core.train import ReferredTrain, refer
+from linkwright.torsion.excitation.drive_line import mechanism_sources, steady_speed, train_of
+from linkwright.torsion.excitation.engine_torques import EnginePlace, engine_sources
+from linkwright.torsion.excitation.harmonics import Source, Torques, torques_of
 from linkwright.torsion.model.drive_train import CRANK
 from linkwright.torsion.model.train import Train, TrainRun
-from linkwright.torsion.modes.free import lead_speeds, train_of
-from linkwright.torsion.response.drive_line import mechanism_sources, steady_speed
-from linkwright.torsion.response.engine_torques import EnginePlace, engine_sources
-from linkwright.torsion.response.harmonics import Source, Torques, torques_of
 
 # Speeds of a driveline over its steady speed, and how many: where a motor works, not where it runs up.
 _ABOUT = (0.8, 1.2)
@@ -216,7 +215,7 @@ def mean_shaft_torques(referred: ReferredTrain, mean: Floats) -> Floats:
         carried = by_equilibrium(referred, tree, stiffness, M[None].astype(complex))[0].real
     # What is left of the rounding of large torques is none.
     carried[np.abs(carried) < _ROUNDING * np.abs(M).max(initial=0.0)] = 0.0
-    return carried / lead_speeds(referred)[:, None]
+    return carried / referred.lead[:, None]
 
 
 def _operating(
@@ -224,7 +223,7 @@ def _operating(
 ) -> OperatingState:
     """Stiffness about the mean torques, damping with that of the loads."""
     stiffness = np.repeat(referred.stiffness[:, None], len(torques.speeds), axis=1)
-    lead = lead_speeds(referred)
+    lead = referred.lead
     for name, coupling in ({} if train is None else train.couplings).items():
         if coupling.twist is not None:
             s = referred.shafts.index(name)

@@ -22,8 +22,8 @@ import numpy as np
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.units import PRESSURE, TORQUE, Kind
 from linkwright.machine.machine import Machine
+from linkwright.torsion.excitation.drive_line import train_of
 from linkwright.torsion.limits.criteria import PASSING_STRESS, shown_quantity
-from linkwright.torsion.modes.free import train_of
 from linkwright.torsion.response.stress import service_speed, stressed
 
 if TYPE_CHECKING:

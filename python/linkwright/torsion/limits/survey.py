@@ -20,8 +20,8 @@ from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.distributed import frequencies_below
+from linkwright.torsion.excitation.excited_train import ExcitedTrain, excited_train, loaded
 from linkwright.torsion.limits.criteria import Criterion, Exceedance, criteria, exceedances, peaks_between
-from linkwright.torsion.response.excited_train import ExcitedTrain, excited_train, loaded
 from linkwright.torsion.response.forced import TorsionResponse, torsion_response
 from linkwright.torsion.response.stress import service_speed
 

@@ -22,6 +22,7 @@ from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import SPEED, positive
+from linkwright.torsion.excitation.harmonics import Source
 from linkwright.torsion.model.engine.cylinder import Cylinder, GasTorque, gas_torque
 from linkwright.torsion.model.engine.engine import ReciprocatingEngine, firing_angles
 from linkwright.torsion.model.engine.engine_motion import (
@@ -34,7 +35,6 @@ from linkwright.torsion.model.engine.engine_motion import (
 )
 from linkwright.torsion.model.engine.equivalent_inertia import published_throw_inertia
 from linkwright.torsion.model.engine.throw_compliance import compliances
-from linkwright.torsion.response.harmonics import Source
 
 
 @dataclass(frozen=True)
