@@ -131,6 +131,31 @@ pub trait Real:
     }
 }
 
+/// Most lanes of a bundle.
+const LANES_MAX: usize = 16;
+
+/// The first lanes of a list, zeros beyond its end.
+#[inline(always)]
+pub fn load_part<R: Real>(list: &[f64]) -> R {
+    if list.len() >= R::LANES {
+        return R::load(list);
+    }
+    let mut lanes = [0.0; LANES_MAX];
+    lanes[..list.len()].copy_from_slice(list);
+    R::load(&lanes)
+}
+
+/// Writes the first lanes into a list, as many as there is room for.
+#[inline(always)]
+pub fn store_part<R: Real>(x: R, to: &mut [f64]) {
+    if to.len() >= R::LANES {
+        return x.store(to);
+    }
+    let mut lanes = [0.0; LANES_MAX];
+    x.store(&mut lanes);
+    to.copy_from_slice(&lanes[..to.len()]);
+}
+
 /// A kind of number that plain ones of kind `R` can be turned into as constants: `R` itself or a dual.
 pub trait Lift<R>: Real {
     /// The constant.

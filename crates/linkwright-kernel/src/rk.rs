@@ -9,7 +9,7 @@
 //! control*, J. Comput. Appl. Math. 125 (2000) 159: the error between the ends from the defect at few places.
 
 use crate::lanes::{Job, in_single_lanes};
-use crate::real::Real;
+use crate::real::{Real, load_part, store_part};
 
 /// Stages.
 const S: usize = 12;
@@ -170,8 +170,7 @@ impl<Y: State> Stages<Y> {
         end: &mut Y,
     ) -> f64 {
         for i in 1..S {
-            self.stage.as_mut().copy_from_slice(y.as_ref());
-            add(self.stage.as_mut(), h, &A[i][..i], &self.k);
+            sum(self.stage.as_mut(), y.as_ref(), h, &A[i][..i], &self.k);
             f(t + C[i] * h, &self.stage, &mut self.k[i]);
         }
         for (sum, weights) in self.sums.iter_mut().zip([&B, &E3, &E5]) {
@@ -195,8 +194,7 @@ impl<Y: State> Stages<Y> {
     /// Makes the polynomial of a step that was tried from `(t, y)` and led to `end`.
     pub fn fill(&mut self, f: &mut impl FnMut(f64, &Y, &mut Y), (t, y): (f64, &Y), h: f64, end: &[f64]) {
         for (i, (c, weights)) in C_FURTHER.iter().zip(&A_FURTHER).enumerate() {
-            self.stage.as_mut().copy_from_slice(y.as_ref());
-            add(self.stage.as_mut(), h, &weights[..S + 1 + i], &self.k);
+            sum(self.stage.as_mut(), y.as_ref(), h, &weights[..S + 1 + i], &self.k);
             f(t + c * h, &self.stage, &mut self.k[S + 1 + i]);
         }
         let (k0, k1) = (self.k[0].as_ref(), self.k[S].as_ref());
@@ -316,7 +314,7 @@ pub const WEIGHTS: [f64; S] = B;
 #[inline(always)]
 pub fn add<Y: AsRef<[f64]>>(to: &mut [f64], h: f64, weights: &[f64], k: &[Y]) {
     if to.len() >= LONG {
-        return in_single_lanes(Sum { to, h, weights, k });
+        return in_single_lanes(Sum { to, from: None, h, weights, k });
     }
     for (&weight, k) in weights.iter().zip(k) {
         if weight != 0.0 {
@@ -328,12 +326,23 @@ pub fn add<Y: AsRef<[f64]>>(to: &mut [f64], h: f64, weights: &[f64], k: &[Y]) {
     }
 }
 
+/// Writes a state and h Σ w k, in the order of the stages.
+#[inline(always)]
+fn sum<Y: AsRef<[f64]>>(to: &mut [f64], from: &[f64], h: f64, weights: &[f64], k: &[Y]) {
+    if to.len() >= LONG {
+        return in_single_lanes(Sum { to, from: Some(from), h, weights, k });
+    }
+    to.copy_from_slice(from);
+    add(to, h, weights, k);
+}
+
 /// Numbers of a state from which on lanes pay.
 const LONG: usize = 8;
 
-/// [`add`] in lanes, each a number of the state.
+/// [`add`] and [`sum`] in lanes, each a number of the state; to what is there already without a state.
 struct Sum<'a, Y> {
     to: &'a mut [f64],
+    from: Option<&'a [f64]>,
     h: f64,
     weights: &'a [f64],
     k: &'a [Y],
@@ -343,47 +352,47 @@ impl<Y: AsRef<[f64]>> Job for Sum<'_, Y> {
     type Output = ();
 
     #[inline(always)]
-    fn run<R: Real>(self) {
-        let Sum { to, h, weights, k } = self;
-        let (n, mut first) = (to.len(), 0);
+    fn run<R: Real>(mut self) {
+        let (n, mut first) = (self.to.len(), 0);
         // Sums beside each other do not wait for one another.
         while first + 3 * R::LANES <= n {
-            sum_block::<R, 3>(&mut to[first..], h, weights, k, first);
+            self.block::<R, 3>(first);
             first += 3 * R::LANES;
         }
         while first + R::LANES <= n {
-            sum_block::<R, 1>(&mut to[first..], h, weights, k, first);
+            self.block::<R, 1>(first);
             first += R::LANES;
         }
         for i in first..n {
-            sum_block::<f64, 1>(&mut to[i..], h, weights, k, i);
+            self.block::<f64, 1>(i);
         }
     }
 }
 
-/// [`add`] to some bundles of neighbours, the first of which has a place in the state.
-#[inline(always)]
-fn sum_block<R: Real, const N: usize>(
-    to: &mut [f64],
-    h: f64,
-    weights: &[f64],
-    k: &[impl AsRef<[f64]>],
-    first: usize,
-) {
-    let mut sums: [R; N] = [R::splat(0.0); N];
-    for (i, sum) in sums.iter_mut().enumerate() {
-        *sum = R::load(&to[i * R::LANES..]);
-    }
-    for (&weight, k) in weights.iter().zip(k) {
-        if weight != 0.0 {
-            let (weight, k) = (h * weight, &k.as_ref()[first..][..N * R::LANES]);
-            for (i, sum) in sums.iter_mut().enumerate() {
-                *sum = *sum + R::load(&k[i * R::LANES..]) * weight;
+impl<Y: AsRef<[f64]>> Sum<'_, Y> {
+    /// Some bundles of neighbours, the first of which has a place in the state.
+    #[inline(always)]
+    fn block<R: Real, const N: usize>(&mut self, first: usize) {
+        let Sum { to, from, h, weights, k } = self;
+        let to = &mut to[first..][..N * R::LANES];
+        let mut sums: [R; N] = [R::splat(0.0); N];
+        for (i, sum) in sums.iter_mut().enumerate() {
+            *sum = R::load(match from {
+                Some(from) => &from[first + i * R::LANES..],
+                None => &to[i * R::LANES..],
+            });
+        }
+        for (&weight, k) in weights.iter().zip(*k) {
+            if weight != 0.0 {
+                let (weight, k) = (*h * weight, &k.as_ref()[first..][..N * R::LANES]);
+                for (i, sum) in sums.iter_mut().enumerate() {
+                    *sum = *sum + R::load(&k[i * R::LANES..]) * weight;
+                }
             }
         }
-    }
-    for (i, sum) in sums.into_iter().enumerate() {
-        sum.store(&mut to[i * R::LANES..]);
+        for (i, sum) in sums.into_iter().enumerate() {
+            sum.store(&mut to[i * R::LANES..]);
+        }
     }
 }
 
@@ -406,34 +415,19 @@ impl Job for DenseOutput<'_> {
         let n = to.len();
         let rows = rows.map(|row| &row[..n]);
         let factors: [f64; 7] = std::array::from_fn(|i| if i % 2 == 0 { share } else { 1.0 - share });
-        let mut sums = [0.0; 2 * LONG];
         for first in (0..n).step_by(R::LANES) {
             let (mut sum, mut slope) = (R::splat(0.0), R::splat(0.0));
             for (i, row) in rows.iter().enumerate().rev() {
-                sum = sum + part::<R>(&row[first..]);
+                sum = sum + load_part::<R>(&row[first..]);
                 slope = slope * factors[i] + if i % 2 == 0 { sum } else { -sum };
                 sum = sum * factors[i];
             }
-            let last = (n - first).min(R::LANES);
-            (part::<R>(&y[first..]) + sum).store(&mut sums);
-            to[first..][..last].copy_from_slice(&sums[..last]);
+            store_part(load_part::<R>(&y[first..]) + sum, &mut to[first..]);
             if let Some(slopes) = &mut slopes {
-                slope.store(&mut sums);
-                slopes[first..][..last].copy_from_slice(&sums[..last]);
+                store_part(slope, &mut slopes[first..]);
             }
         }
     }
-}
-
-/// The first lanes of a list, zeros beyond its end.
-#[inline(always)]
-fn part<R: Real>(list: &[f64]) -> R {
-    if list.len() >= R::LANES {
-        return R::load(list);
-    }
-    let mut lanes = [0.0; 2 * LONG];
-    lanes[..list.len()].copy_from_slice(list);
-    R::load(&lanes)
 }
 
 /// A tried step: where it leads and how large its error is against the tolerance (accept below 1).

@@ -7,7 +7,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::Floats;
-use crate::arrays::by_column;
+use crate::arrays::column;
 use crate::builder::numbers::MotionLaw;
 use crate::guard::{guarded, require_room};
 
@@ -85,12 +85,13 @@ impl TopperKnife {
         let heads = Heads { radius, offset, phase, n };
         let analysis = "heads under a knife";
         require_room(analysis, [3, fine])?;
-        require_room(analysis, [2 * RESULTS, n])?;
-        let mut table = vec![0.0; n * RESULTS];
-        guarded(py, analysis, || cover(&self.0, &heads, length, fine, &mut table))?;
+        require_room(analysis, [RESULTS, n])?;
+        let mut columns: [Vec<f64>; RESULTS] = std::array::from_fn(|_| vec![0.0; n]);
+        let out = columns.each_mut().map(Vec::as_mut_slice);
+        guarded(py, analysis, || cover(&self.0, &heads, length, fine, out))?;
         // In the order of `topper::heads`.
         let [length, last_x, last_y, uncut_right, uncut_left, uncut_between] =
-            by_column::<RESULTS>(py, &table);
+            columns.map(|list| column(py, list).unbind());
         Ok(TopperCover { length, last_x, last_y, uncut_right, uncut_left, uncut_between })
     }
 }

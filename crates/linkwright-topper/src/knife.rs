@@ -18,17 +18,34 @@ impl Law {
     #[inline(always)]
     pub fn at<R: Real>(&self, phase: R) -> [R; 3] {
         match self {
-            Law::Harmonics(c) => series(c, phase),
+            Law::Harmonics(c) => series(c, phase.sin_cos()),
             Law::Pieces(law) => law.at(phase),
+        }
+    }
+
+    /// The same at two phases beside a middle one, whose sine and cosine are known: those of both follow from those of
+    /// their distance.
+    #[inline(always)]
+    pub fn beside<R: Real>(&self, (middle, (s, c)): (R, (R, R)), distance: R) -> [[R; 3]; 2] {
+        match self {
+            Law::Harmonics(coefficients) => {
+                let (ds, dc) = distance.sin_cos();
+                let (sine, cosine) = (s * dc, c * dc);
+                let (across, along) = (c * ds, s * ds);
+                [
+                    series(coefficients, (sine - across, cosine + along)),
+                    series(coefficients, (sine + across, cosine - along)),
+                ]
+            }
+            Law::Pieces(law) => [law.at(middle - distance), law.at(middle + distance)],
         }
     }
 }
 
-/// The sum and its derivatives; each harmonic is turned on from the one before.
+/// The sum and its derivatives at a phase of a sine and cosine; each harmonic is turned on from the one before.
 #[inline(always)]
-fn series<R: Real>(coefficients: &[[f64; 2]], phase: R) -> [R; 3] {
+fn series<R: Real>(coefficients: &[[f64; 2]], (s1, c1): (R, R)) -> [R; 3] {
     let Some(([mean, _], waves)) = coefficients.split_first() else { return [R::splat(0.0); 3] };
-    let (s1, c1) = phase.sin_cos();
     let (mut s, mut c) = (s1, c1);
     let [mut y, mut d1, mut d2] = [R::splat(*mean), R::splat(0.0), R::splat(0.0)];
     for (k, &[a, b]) in waves.iter().enumerate() {
@@ -81,11 +98,11 @@ pub struct Place<R> {
     pub q: [R; 3],
 }
 
-/// Rounds in which a crossing is found: a bracket halved if Newton's step would leave it.
+/// Rounds in which a crossing is found: a bracket halved if Halley's step would leave it.
 const ROUNDS: usize = 24;
 
-/// Share of the bracket below which a step is the last: Newton's next would be rounding.
-const CLOSE: f64 = 1e-8;
+/// Share of the bracket below which a step is the last: the next, of its third power, would be rounding.
+const CLOSE: f64 = 1e-7;
 
 impl Knife {
     /// Mean speed of the edge along its normal.
@@ -103,8 +120,13 @@ impl Knife {
     /// The edge at a time.
     #[inline(always)]
     pub fn place<R: Real>(&self, head: &Head<R>, t: R) -> Place<R> {
+        self.placed(head, t, self.law.at(head.phase + t * self.rate))
+    }
+
+    /// The edge at a time, at which the law is known.
+    #[inline(always)]
+    pub fn placed<R: Real>(&self, head: &Head<R>, t: R, [law, d1, d2]: [R; 3]) -> Place<R> {
         let [sin, cos] = self.direction;
-        let [law, d1, d2] = self.law.at(head.phase + t * self.rate);
         let y = law + t * self.drift - head.offset;
         let (speed, bend) = (d1 * self.rate + self.drift, d2 * (self.rate * self.rate));
         let x = t * self.forward;
@@ -124,7 +146,7 @@ impl Knife {
         [middle - spare, middle, middle + spare]
     }
 
-    /// When p comes to a level, for an edge that never retreats.
+    /// When p comes to a level, for an edge that never retreats; by Halley's steps, whose errors fall with the third power.
     #[inline(always)]
     pub fn time<R: Real>(&self, head: &Head<R>, level: R) -> R {
         let [mut low, mut t, mut high] = self.bracket(head, level);
@@ -134,7 +156,9 @@ impl Knife {
             let miss = place.p[0] - level;
             low = miss.select_lt(zero, t, low);
             high = miss.select_lt(zero, high, t);
-            let (next, middle) = (t - miss / place.p[1], (low + high) * 0.5);
+            let [_, speed, bend] = place.p;
+            let halley = miss * speed / (speed * speed - miss * bend * 0.5);
+            let (next, middle) = (t - halley, (low + high) * 0.5);
             let step = next.select_lt(low, middle, high.select_lt(next, middle, next)) - t;
             t = t + step;
             if (step.abs() - close).max_lane() <= 0.0 {

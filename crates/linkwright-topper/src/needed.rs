@@ -3,7 +3,7 @@
 //! The time runs as that of a pendulum, t = m + w sin u, between the ends of each smooth stretch: chords are then smooth
 //! over u up to the rim, where they have no length. Tops of parabolas through three stations are climbed by Newton.
 
-use super::knife::{Head, Knife};
+use super::knife::{Head, Knife, Place};
 use linkwright_kernel::real::Real;
 use std::f64::consts::PI;
 
@@ -51,7 +51,7 @@ struct Top<R> {
     reach: R,
 }
 
-/// What the head needs while the edge passes it between two times.
+/// What the head needs while the edge passes it between two times; with room for a row a station.
 #[inline(always)]
 pub fn needed<R: Real>(
     knife: &Knife,
@@ -59,6 +59,7 @@ pub fn needed<R: Real>(
     window: [R; 2],
     turns: std::ops::RangeInclusive<i32>,
     stations: &Stations,
+    rows: &mut [[R; 2]],
 ) -> EdgeRequirement<R> {
     let zero = R::splat(0.0);
     let mut tops = [Top { height: R::splat(f64::NEG_INFINITY), at: window[0], reach: zero }; 2];
@@ -72,21 +73,20 @@ pub fn needed<R: Real>(
             let (middle, width) = ((start + end) * 0.5, (end - start) * 0.5);
             let [behind, ahead] = heights(knife, head, end);
             found = [better(found[0], (behind, end)), better(found[1], (ahead, end))];
-            let mut rows = [[zero; 3]; 2];
-            for (j, &[sin, cos]) in stations.turns.iter().enumerate() {
-                let t = middle + width * sin;
-                let pace = width * (cos * stations.step);
-                let row = heights(knife, head, t);
+            swing(knife, head, [middle, width], stations, rows);
+            let last = rows.len() - 1;
+            for (j, row) in rows.iter().enumerate() {
+                let [sin, cos] = stations.turns[j];
+                let (t, pace) = (middle + width * sin, width * (cos * stations.step));
                 for side in 0..2 {
-                    let height = row[side];
-                    rows[side] = [rows[side][1], rows[side][2], height];
-                    found[side] = better(found[side], (height, t));
-                    tops[side] = higher(tops[side], Top { height, at: t, reach: pace });
-                    if j >= 2 {
-                        let [sin, cos] = stations.turns[j - 1];
-                        let pace = width * (cos * stations.step);
-                        tops[side] = higher(tops[side], parabola(rows[side], middle + width * sin, pace));
-                    }
+                    found[side] = better(found[side], (row[side], t));
+                    // Between its neighbours a station lies no higher than the top of the parabola through the three.
+                    let top = if j == 0 || j == last {
+                        Top { height: row[side], at: t, reach: pace }
+                    } else {
+                        parabola([rows[j - 1][side], row[side], rows[j + 1][side]], t, pace)
+                    };
+                    tops[side] = higher(tops[side], top);
                 }
             }
         },
@@ -105,10 +105,35 @@ pub fn needed<R: Real>(
     }
 }
 
+/// Heights at all stations; those as far before as behind the middle have the sine of their distance in common.
+#[inline(always)]
+fn swing<R: Real>(
+    knife: &Knife,
+    head: &Head<R>,
+    [middle, width]: [R; 2],
+    stations: &Stations,
+    rows: &mut [[R; 2]],
+) {
+    let phase = head.phase + middle * knife.rate;
+    let abreast = (phase, phase.sin_cos());
+    let n = rows.len();
+    for k in 0..n.div_ceil(2) {
+        let way = width * stations.turns[n - 1 - k][0];
+        let [before, behind] = knife.law.beside(abreast, way * knife.rate);
+        rows[k] = height(head, &knife.placed(head, middle - way, before));
+        rows[n - 1 - k] = height(head, &knife.placed(head, middle + way, behind));
+    }
+}
+
 /// ±q + √(r² − p²): what the chord's end behind, and that ahead, asks of the edge.
 #[inline(always)]
 fn heights<R: Real>(knife: &Knife, head: &Head<R>, t: R) -> [R; 2] {
-    let place = knife.place(head, t);
+    height(head, &knife.place(head, t))
+}
+
+/// The same at a place of the edge.
+#[inline(always)]
+fn height<R: Real>(head: &Head<R>, place: &Place<R>) -> [R; 2] {
     let chord = half_chord(head.radius, place.p[0]);
     [chord + place.q[0], chord - place.q[0]]
 }

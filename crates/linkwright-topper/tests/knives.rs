@@ -79,10 +79,10 @@ fn field(n: usize) -> [Vec<f64>; 3] {
 
 fn covered(knife: &Knife, columns: &[Vec<f64>; 3], length: Option<f64>, fine: usize) -> Vec<[f64; RESULTS]> {
     let n = columns.iter().map(Vec::len).max().unwrap_or(0);
-    let mut out = vec![0.0; n * RESULTS];
+    let mut out: [Vec<f64>; RESULTS] = std::array::from_fn(|_| vec![0.0; n]);
     let heads = Heads { radius: &columns[0], offset: &columns[1], phase: &columns[2], n };
-    cover(knife, &heads, length, fine, &mut out);
-    out.chunks_exact(RESULTS).map(|row| row.try_into().expect("a row")).collect()
+    cover(knife, &heads, length, fine, out.each_mut().map(Vec::as_mut_slice));
+    (0..n).map(|k| out.each_ref().map(|column| column[k])).collect()
 }
 
 /// Area of a disc beyond a line at a distance from its centre.
@@ -153,7 +153,9 @@ impl Job for OneByOne<'_> {
         let [radius, offset, phase] = [0, 1, 2].map(|c: usize| R::splat(columns[c][k]));
         let head = Head { radius, offset, phase };
         let window = [knife.time(&head, -radius), knife.time(&head, radius)];
-        let found = needed(knife, &head, window, knife.turns(0.2), &Stations::new(48));
+        let stations = Stations::new(48);
+        let mut rows = vec![[R::splat(0.0); 2]; stations.turns.len()];
+        let found = needed(knife, &head, window, knife.turns(0.2), &stations, &mut rows);
         2.0 * found.half.max_lane()
     }
 }

@@ -60,7 +60,7 @@ class KnifeKernel:
 
         ``radius``, ``offset`` (n,) [m]; ``phase`` [rad]; ``length`` [m].
         """
-        columns = [_column(radius), _column(offset), np.mod(_column(phase), 2 * np.pi)]
+        columns = [_column(radius), _column(offset), _in_one_revolution(_column(phase))]
         return self._core.cover(
             radius=columns[0],
             offset=columns[1],
@@ -73,3 +73,11 @@ class KnifeKernel:
 
 def _column(values: ArrayLike) -> Floats:
     return np.ascontiguousarray(np.atleast_1d(values), dtype=float)
+
+
+def _in_one_revolution(phase: Floats) -> Floats:
+    """Phases from 0 to 2π; the remainder takes longer than what a head needs, and most are there already."""
+    if len(phase) and 0 <= phase.min() and phase.max() < 2 * np.pi:
+        return phase
+    within: Floats = np.mod(phase, 2 * np.pi)
+    return within

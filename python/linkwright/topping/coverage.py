@@ -118,9 +118,8 @@ def coverage(
         raise InputError("heads: found a negative diameter or a number that is not finite")
     radius = 0.5 * radius
     n = max(len(values) for values in (radius, place, angle))
-    discs = np.pi * np.broadcast_to(radius, n) ** 2
     if edge.stands:
-        none = np.zeros(n)
+        none, discs = np.zeros(n), np.pi * np.broadcast_to(radius, n) ** 2
         return Coverage(
             np.where(discs > 0, np.inf, 0.0), none, none, none, none, discs * (length is not None)
         )
@@ -131,7 +130,9 @@ def coverage(
         *(heads.uncut_right, heads.uncut_left, heads.uncut_between),
     )
     # A head without a disc has no point to be cut.
-    return Coverage(*(np.where(discs == 0, 0.0, column) for column in columns))
+    if (radius == 0).any():
+        columns = tuple(np.where(radius == 0, 0.0, column) for column in columns)
+    return Coverage(*columns)
 
 
 def _stations(edge: Edge, fine: int, diameter: float, offset: float) -> int:

@@ -77,7 +77,13 @@ impl Extremes {
     ) {
         for row in 0..self.rows.len() {
             note(&mut self.rows[row], self.before[row].0, t);
-            for turn in self.inside(row, h).collect::<Vec<_>>() {
+            if !self.may_turn(row, h) {
+                continue;
+            }
+            for turn in turns(self.before[row], self.now[row], h)
+                .filter(|turn| self.is_new(row, turn.value))
+                .collect::<Vec<_>>()
+            {
                 let value = |share: f64| {
                     if equilibrium.torque(row).is_some() {
                         equilibrium.at(rates, stepper, (t, state), h, share);
@@ -99,18 +105,19 @@ impl Extremes {
         std::mem::swap(&mut self.before, &mut self.now);
     }
 
-    /// Turns of the cubic over a step that may be new extremes.
-    fn inside(&self, row: usize, h: f64) -> impl Iterator<Item = Turn> {
-        let (before, now, [most, _, least, _]) = (self.before[row], self.now[row], self.rows[row]);
-        let (most, least, ends) = (most.max(now.0), least.min(now.0), 0.5 * (before.0 + now.0));
-        let is_new = move |value: f64| {
-            let bold = value + DOUBT * (value - ends);
-            bold > most || bold < least
-        };
-        // The cubic lies between the minimum and the maximum of its coefficients over Bernstein's polynomials.
+    /// Whether the cubic over a step may have a new extreme inside: it lies between the minimum and the maximum of its
+    /// coefficients over Bernstein's polynomials.
+    fn may_turn(&self, row: usize, h: f64) -> bool {
+        let (before, now) = (self.before[row], self.now[row]);
         let inner = [before.0 + h / 3.0 * before.1, now.0 - h / 3.0 * now.1];
-        let may_be = inner.into_iter().any(|value| !value.is_finite() || is_new(value));
-        may_be.then(|| turns(before, now, h).filter(move |turn| is_new(turn.value))).into_iter().flatten()
+        inner.into_iter().any(|value| !value.is_finite() || self.is_new(row, value))
+    }
+
+    /// Whether a value inside a step may be a new extreme.
+    fn is_new(&self, row: usize, value: f64) -> bool {
+        let (before, now, [most, _, least, _]) = (self.before[row].0, self.now[row].0, self.rows[row]);
+        let bold = value + DOUBT * (value - 0.5 * (before + now));
+        bold > most.max(now) || bold < least.min(now)
     }
 }
 

@@ -5,6 +5,7 @@
 //! | [`periodic`], [`curve`] | functions of an angle; curves through points |
 //! | [`torque`] | torques from outside over speed, angle and time |
 //! | [`system`] | masses, links and torques as they cross the border |
+//! | [`chains`] | links that follow each other, in lanes |
 //! | [`rates`] | the equations of motion |
 //! | [`stepper`] | what a method of integration can do |
 //! | [`explicit`] | steps of order 8, as long as the fastest swing allows |
@@ -14,6 +15,7 @@
 //! | [`extremes`] | Maximum and minimum torques and speeds, with their times |
 //! | [`course`] | the motion from event to event, sampled |
 
+pub mod chains;
 pub mod course;
 pub mod curve;
 pub mod equilibrium;

@@ -51,8 +51,10 @@ impl Periodic {
     #[inline(always)]
     pub fn value_and_slope(&self, angle: f64) -> [f64; 2] {
         let (&[a, b, c, d, e, f], z) = self.piece(angle);
-        let value = a + z * (b + z * (c + z * (d + z * (e + z * f))));
-        let d1 = b + z * (2.0 * c + z * (3.0 * d + z * (4.0 * e + z * 5.0 * f)));
+        // Sums of pairs do not wait for each other.
+        let square = z * z;
+        let value = (a + b * z) + square * ((c + d * z) + square * (e + f * z));
+        let d1 = (b + 2.0 * c * z) + square * ((3.0 * d + 4.0 * e * z) + square * (5.0 * f));
         [value, d1 * self.density]
     }
 

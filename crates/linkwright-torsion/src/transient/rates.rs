@@ -13,16 +13,37 @@
 //! Source: the equation is Lagrange's for T = ½ J(θ) θ̇²; e.g. Eksergian, *Dynamical analysis of machines*,
 //! J. Franklin Inst. 209 (1930).
 
+use super::chains::{Links, Twisted};
 use super::system::{Link, Rotor, System};
 use super::torque::{Pull, Stretch};
 use linkwright_kernel::lanes::{Job, in_single_lanes};
 use linkwright_kernel::real::Real;
+
+/// Calls a method for masses side by side, with the place of the first; the last bundle may overlap the one before, so that
+/// none is left over. Fewer masses than lanes come one by one.
+macro_rules! side_by_side {
+    ($R:ident, $n:expr, $this:ident.$method:ident($($argument:expr),*)) => {
+        if $n < $R::LANES {
+            for at in 0..$n {
+                $this.$method::<f64>(at $(, $argument)*);
+            }
+        } else {
+            let mut at = 0;
+            while at + $R::LANES < $n {
+                $this.$method::<$R>(at $(, $argument)*);
+                at += $R::LANES;
+            }
+            $this.$method::<$R>($n - $R::LANES $(, $argument)*);
+        }
+    };
+}
 
 /// A system at one instant, with room for what the equations need.
 #[derive(Clone, Debug)]
 pub struct Rates<'a> {
     pub system: &'a System,
     stretch: Stretch,
+    links: Links,
     /// Whether angles of the state are counted from that of the first mass.
     relative: bool,
     theta: Vec<f64>,
@@ -53,13 +74,14 @@ impl<'a> Rates<'a> {
         Rates {
             system,
             stretch: Stretch::default(),
+            links: Links::of(system),
             relative: system.is_free(),
             theta: vec![0.0; n],
             omega: vec![0.0; n],
             aside: vec![0.0; n + 1],
             aside_speed: vec![0.0; n + 1],
             shares: system.shares(),
-            inertia: vec![0.0; n],
+            inertia: system.inertia.clone(),
             damps_swings: system.swing_damping.iter().any(|&d| d != 0.0),
             bends: vec![0.0; n],
             acceleration: vec![0.0; n],
@@ -118,51 +140,65 @@ impl<'a> Rates<'a> {
 
     /// What [`Rates::derivative`] does, in a function for the processor's own instructions.
     #[inline(always)]
-    fn derive(&mut self, t: f64, state: &[f64], to: &mut [f64]) {
+    fn derive<R: Real>(&mut self, t: f64, state: &[f64], to: &mut [f64]) {
         self.evaluations += 1;
-        self.place(state);
+        self.place::<R>(state);
         self.turn();
-        self.push(t);
-        self.twist();
+        self.push::<R>(t);
+        self.twist::<R>();
         let n = self.system.len();
-        let moving = self.bends[..n].iter().zip(&self.omega[..n]).zip(&self.inertia[..n]);
-        let found = self.acceleration[..n].iter_mut().zip(&self.net[..n]);
-        for ((a, net), ((bend, omega), inertia)) in found.zip(moving) {
-            let gyration = 0.5 * bend * omega * omega;
-            *a = (net - gyration) / inertia;
-        }
+        side_by_side!(R, n, self.accelerate());
         let (angles, speeds) = to.split_at_mut(n);
-        angles.copy_from_slice(&state[n..]);
-        speeds.copy_from_slice(&self.acceleration);
-        if self.relative {
-            let first = speeds[0];
-            speeds[1..].iter_mut().for_each(|x| *x -= first);
-        }
+        let lead = if self.relative { self.acceleration[0] } else { 0.0 };
+        side_by_side!(R, n, self.tell(&state[n..], lead, [&mut *angles, &mut *speeds]));
+        speeds[0] = self.acceleration[0];
+    }
+
+    /// Accelerations of some masses.
+    #[inline(always)]
+    fn accelerate<R: Real>(&mut self, at: usize) {
+        let omega = R::load(&self.omega[at..]);
+        let gyration = R::load(&self.bends[at..]) * 0.5 * omega * omega;
+        let found = (R::load(&self.net[at..]) - gyration) / R::load(&self.inertia[at..]);
+        found.store(&mut self.acceleration[at..]);
+    }
+
+    /// Rates of some angles and speeds, less that of the first mass.
+    #[inline(always)]
+    fn tell<R: Real>(&self, at: usize, speeds: &[f64], lead: f64, to: [&mut [f64]; 2]) {
+        R::load(&speeds[at..]).store(&mut to[0][at..]);
+        (R::load(&self.acceleration[at..]) - R::splat(lead)).store(&mut to[1][at..]);
     }
 
     /// Angles and speeds of the masses.
     #[inline(always)]
-    fn place(&mut self, state: &[f64]) {
-        let (angles, speeds) = state.split_at(self.system.len());
-        let halves =
-            [(angles, &mut self.theta, &mut self.aside), (speeds, &mut self.omega, &mut self.aside_speed)];
-        for (numbers, whole, aside) in halves {
-            let lead = if self.relative { numbers[0] } else { 0.0 };
-            for ((whole, aside), number) in whole.iter_mut().zip(aside.iter_mut()).zip(numbers) {
-                *aside = *number;
-                *whole = lead + number;
-            }
-            if self.relative {
-                (aside[0], whole[0]) = (0.0, lead);
-            }
+    fn place<R: Real>(&mut self, state: &[f64]) {
+        let n = self.system.len();
+        let (angles, speeds) = state.split_at(n);
+        let lead = if self.relative { [angles[0], speeds[0]] } else { [0.0; 2] };
+        side_by_side!(R, n, self.place_some([angles, speeds], lead));
+        if self.relative {
+            (self.aside[0], self.aside_speed[0]) = (0.0, 0.0);
+            [self.theta[0], self.omega[0]] = lead;
         }
     }
 
-    /// Inertias at these angles.
+    /// Those of some masses.
+    #[inline(always)]
+    fn place_some<R: Real>(&mut self, at: usize, [angles, speeds]: [&[f64]; 2], lead: [f64; 2]) {
+        let (angle, speed) = (R::load(&angles[at..]), R::load(&speeds[at..]));
+        angle.store(&mut self.aside[at..]);
+        speed.store(&mut self.aside_speed[at..]);
+        (angle + lead[0]).store(&mut self.theta[at..]);
+        (speed + lead[1]).store(&mut self.omega[at..]);
+    }
+
+    /// Inertias at these angles; what does not change stands there already.
     #[inline(always)]
     fn turn(&mut self) {
-        self.inertia.copy_from_slice(&self.system.inertia);
-        self.bends.fill(0.0);
+        for Rotor { mass, .. } in &self.system.rotors {
+            (self.inertia[*mass], self.bends[*mass]) = (self.system.inertia[*mass], 0.0);
+        }
         for rotor in &self.system.rotors {
             let i = rotor.mass;
             let n = rotor.ratio;
@@ -176,24 +212,16 @@ impl<'a> Rates<'a> {
 
     /// Torques from outside and damping against the ground.
     #[inline(always)]
-    fn push(&mut self, t: f64) {
+    fn push<R: Real>(&mut self, t: f64) {
         let (system, n) = (self.system, self.system.len());
-        let (powers, losses) = self.powers.split_at_mut(system.torques.len() + system.links.len());
         let whole = if self.damps_swings {
             self.shares.iter().zip(&self.aside_speed).map(|(share, w)| share * w).sum()
         } else {
             0.0
         };
-        let damping = system.damping[..n].iter().zip(&system.swing_damping[..n]);
-        let speeds = self.omega[..n].iter().zip(&self.aside_speed[..n]);
-        let found = self.net[..n].iter_mut().zip(&mut losses[..n]);
-        for (((damping, swing_damping), (omega, aside)), (net, loss)) in damping.zip(speeds).zip(found) {
-            let drag = damping * omega + swing_damping * (aside - whole);
-            *net = -drag;
-            *loss = drag * omega;
-        }
+        side_by_side!(R, n, self.drag(whole));
         let about = (&system.tables[..], &system.curves[..], &self.stretch);
-        for (torque, power) in system.torques.iter().zip(powers) {
+        for (torque, power) in system.torques.iter().zip(&mut self.powers) {
             let i = torque.mass;
             let pull = torque.at(about, (t, self.theta[i], self.omega[i]));
             self.net[i] += pull.torque;
@@ -201,22 +229,38 @@ impl<'a> Rates<'a> {
         }
     }
 
+    /// Damping of some masses, with the speed of the train as a whole.
+    #[inline(always)]
+    fn drag<R: Real>(&mut self, at: usize, whole: f64) {
+        let system = self.system;
+        let omega = R::load(&self.omega[at..]);
+        let swing =
+            (R::load(&self.aside_speed[at..]) - R::splat(whole)) * R::load(&system.swing_damping[at..]);
+        let drag = R::load(&system.damping[at..]) * omega + swing;
+        (-drag).store(&mut self.net[at..]);
+        (drag * omega).store(&mut self.powers[system.torques.len() + system.links.len() + at..]);
+    }
+
     /// Torques of the links.
     #[inline(always)]
-    fn twist(&mut self) {
+    fn twist<R: Real>(&mut self) {
         let (system, n) = (self.system, self.system.len());
         // The ground is the mass beyond the last.
-        let (aside, speed, net) = (&self.aside[..=n], &self.aside_speed[..=n], &mut self.net[..=n]);
-        let losses = &mut self.powers[system.torques.len()..];
-        for (link, loss) in system.links.iter().zip(losses) {
+        let (angle, speed, net) = (&self.aside[..=n], &self.aside_speed[..=n], &mut self.net[..=n]);
+        let mut to = Twisted { angle, speed, net, losses: &mut self.powers[system.torques.len()..] };
+        for chain in &self.links.chains {
+            chain.twist::<R>(&mut to);
+        }
+        for &place in &self.links.others {
+            let link = &system.links[place];
             let [a, b] = link.ends;
             let rate = link.ratio * (speed[a] - speed[b]);
-            let twist = link.ratio * (aside[a] - aside[b]);
+            let twist = link.ratio * (angle[a] - angle[b]);
             let elastic = link.elastic(system, twist).0;
             let torque = link.ratio * (elastic + link.damping * rate);
-            *loss = link.damping * rate * rate;
-            net[a] -= torque;
-            net[b] += torque;
+            to.losses[place] = link.damping * rate * rate;
+            to.net[a] -= torque;
+            to.net[b] += torque;
         }
     }
 
@@ -241,7 +285,7 @@ impl<'a> Rates<'a> {
 
     /// Kinetic and potential energy of a state \[J\].
     pub fn energies(&mut self, state: &[f64]) -> [f64; 2] {
-        self.place(state);
+        self.place::<f64>(state);
         self.turn();
         let kinetic: f64 = self.inertia.iter().zip(&self.omega).map(|(j, w)| 0.5 * j * w * w).sum();
         let system = self.system;
@@ -363,8 +407,7 @@ impl Job for Derivative<'_, '_> {
 
     #[inline(always)]
     fn run<R: Real>(self) {
-        // Every mass has formulas of its own, so that there is no bundle of lanes; the compiler takes neighbours together.
-        self.rates.derive(self.t, self.state, self.to);
+        self.rates.derive::<R>(self.t, self.state, self.to);
     }
 }
 
