@@ -1,7 +1,8 @@
-"""What all benches share: a measured row, interleaved timing, facts about the machine they ran on."""
+"""What all benches share: a row, interleaved timing, memory that is kept, facts about the machine."""
 
 from __future__ import annotations
 
+import ctypes
 import os
 import platform
 import subprocess
@@ -128,6 +129,24 @@ def _once(act: Act, n: int) -> float:
     for _ in range(n):
         act()
     return time.perf_counter() - start
+
+
+# Blocks of memory up to this stay with the process, and so does what is free at the end of its heap [bytes].
+KEPT = 1 << 30
+
+
+def keep_memory() -> bool:
+    """Let the process keep what it has freed; whether its allocator can be told so.
+
+    glibc gives large blocks back to the system and gets them again page by page, until it has seen larger
+    ones freed: arrays of NumPy then take up to four times as long in a fresh process as in one in which
+    other cases ran before.
+    """
+    mallopt = getattr(ctypes.CDLL(None), "mallopt", None) if os.name == "posix" else None
+    if mallopt is None:
+        return False
+    # M_MMAP_THRESHOLD and M_TRIM_THRESHOLD of malloc.h.
+    return all([mallopt(-3, KEPT), mallopt(-1, KEPT)])
 
 
 def is_installed(package: str) -> bool:

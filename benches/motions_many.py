@@ -7,7 +7,7 @@ from typing import Any
 
 import machines
 import numpy as np
-from common import Row, seconds
+from common import Row, is_installed, seconds
 from peers import four_bar, kernels
 
 import linkwright as lw
@@ -77,7 +77,14 @@ def compared(
     def peer() -> Any:
         return four_bar.motion(phi, coupler, theirs)
 
+    def by_numba() -> Any:
+        from peers import four_bar_numba
+
+        return four_bar_numba.motion(phi, coupler, theirs)
+
     others: dict[str, tuple[Act, float | None]] = {"NumPy": (peer, ratio)}
+    if n > 1 and is_installed("numba"):
+        others["numba, all threads"] = (by_numba, None)
     if kernels.is_here():
         others["four-bar by hand, all threads"] = (reference, 0.8)
     for name, (act, _) in others.items():

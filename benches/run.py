@@ -13,7 +13,7 @@ from dataclasses import asdict, replace
 from importlib import import_module
 from pathlib import Path
 
-from common import FLOOR, PACE, Row, facts
+from common import FLOOR, PACE, Row, facts, keep_memory
 from peers import kernels
 from rich.console import Console
 from rich.table import Table
@@ -51,7 +51,7 @@ def main() -> None:
         parser.error(f"no case {', '.join(sorted(unknown))}; there is {', '.join(CASES)}")
     # Wide enough for the table where the output is no terminal.
     console = Console(width=None if sys.stdout.isatty() else 150)
-    here = facts()
+    here = facts() | {"keeps_memory": keep_memory()}
     rows: list[Row] = []
     for name in asked.cases or CASES:
         with console.status(f"{name} …"):
