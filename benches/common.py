@@ -136,7 +136,7 @@ KEPT = 1 << 30
 
 
 def keep_memory() -> bool:
-    """Let the process keep what it has freed; whether its allocator can be told so.
+    """Let the process keep what it has freed; False where its allocator has no such setting.
 
     glibc gives large blocks back to the system and gets them again page by page, until it has seen larger
     ones freed: arrays of NumPy then take up to four times as long in a fresh process as in one in which

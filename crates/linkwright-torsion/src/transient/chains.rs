@@ -27,7 +27,7 @@ pub struct Chain {
 
 /// Angles and speeds for twists, sums of torques on masses and ground, and losses of links.
 #[derive(Debug)]
-pub struct Twisted<'a> {
+pub struct TwistSums<'a> {
     pub angle: &'a [f64],
     pub speed: &'a [f64],
     pub net: &'a mut [f64],
@@ -77,7 +77,7 @@ impl Chain {
 
     /// Adds their torques to the sums, and tells what they lose.
     #[inline(always)]
-    pub fn twist<R: Real>(&self, to: &mut Twisted<'_>) {
+    pub fn twist<R: Real>(&self, to: &mut TwistSums<'_>) {
         let (mut at, n) = (0, self.ratio.len());
         while at + R::LANES <= n {
             self.twist_some::<R>(at, to);
@@ -91,7 +91,7 @@ impl Chain {
 
     /// As many of them as there are lanes.
     #[inline(always)]
-    fn twist_some<R: Real>(&self, at: usize, to: &mut Twisted<'_>) {
+    fn twist_some<R: Real>(&self, at: usize, to: &mut TwistSums<'_>) {
         let mass = self.mass + at;
         let beside = |list: &[f64]| R::load(&list[mass..]) - R::load(&list[mass + 1..]);
         let [ratio, stiffness, damping] =

@@ -13,7 +13,7 @@
 //! Source: the equation is Lagrange's for T = ½ J(θ) θ̇²; e.g. Eksergian, *Dynamical analysis of machines*,
 //! J. Franklin Inst. 209 (1930).
 
-use super::chains::{Links, Twisted};
+use super::chains::{Links, TwistSums};
 use super::system::{Link, Rotor, System};
 use super::torque::{Pull, Stretch};
 use linkwright_kernel::lanes::{Job, in_single_lanes};
@@ -247,7 +247,7 @@ impl<'a> Rates<'a> {
         let (system, n) = (self.system, self.system.len());
         // The ground is the mass beyond the last.
         let (angle, speed, net) = (&self.aside[..=n], &self.aside_speed[..=n], &mut self.net[..=n]);
-        let mut to = Twisted { angle, speed, net, losses: &mut self.powers[system.torques.len()..] };
+        let mut to = TwistSums { angle, speed, net, losses: &mut self.powers[system.torques.len()..] };
         for chain in &self.links.chains {
             chain.twist::<R>(&mut to);
         }
