@@ -315,6 +315,19 @@ def test_worst_phase_of_an_advancing_edge_is_the_closed_form(name: str) -> None:
     assert worst_by_product(case) == pytest.approx(case.all_phases(), rel=1e-9)
 
 
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_rounding_does_not_choose_between_mirror_images(sign: float) -> None:
+    """A head and its mirror image half a revolution later ask the same: the first is taken."""
+
+    def asks(_: Edge, offsets: np.ndarray, phases: np.ndarray) -> np.ndarray:
+        there = 1 + np.cos(phases - 0.7) * offsets / 0.02
+        # What rounding might add to either image.
+        return there * (1 + sign * 1e-15 * np.sign(offsets))
+
+    found = worst_head([ADVANCING["slider-crank"].edge()], 0.02, None, asks)
+    assert (found.offset, found.phase) == pytest.approx((0.02, 0.7), abs=1e-4)
+
+
 @pytest.mark.parametrize("name", ["slider-crank"])
 def test_worst_phase_is_that_of_the_swept_points(name: str) -> None:
     case = CASES[name]

@@ -81,11 +81,17 @@ def _worst(edge: Edge, offset: float, phase: float | None, measure: Measure) -> 
     return Worst(best.value, float(np.mod(best.phase, 2 * np.pi)), best.offset, edge)
 
 
+# Share by which values that are the same may differ: areas are good to 1e-12 of a head.
+_SAME = 1e-9
+
+
 def _best(edge: Edge, phases: Floats, offsets: Floats, measure: Measure) -> Worst:
     """The maximum of a grid."""
     phi, delta = (values.ravel() for values in np.meshgrid(phases, offsets, indexing="ij"))
     values = measure(edge, delta, phi)
-    at = int(np.argmax(values))
+    most = values.max()
+    # Half a revolution later the mirror image of a head asks the same, but for rounding: the first of them.
+    at = int(np.argmax(values if np.isnan(most) else values >= most * (1 - _SAME)))
     return Worst(float(values[at]), float(phi[at]), float(delta[at]), edge)
 
 
