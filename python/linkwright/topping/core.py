@@ -77,7 +77,7 @@ def _column(values: ArrayLike) -> Floats:
 
 def _in_one_revolution(phase: Floats) -> Floats:
     """Phases from 0 to 2π; the remainder takes longer than what a head needs, and most are there already."""
-    if len(phase) and 0 <= phase.min() and phase.max() < 2 * np.pi:
+    if len(phase) and phase.min() >= 0 and phase.max() < 2 * np.pi:
         return phase
     within: Floats = np.mod(phase, 2 * np.pi)
     return within
