@@ -35,7 +35,7 @@ def test_a_pose() -> None:
     assert found["crank_angle"] == pytest.approx(np.pi / 6)
     assert found["points"]["A"]["velocity"] == pytest.approx([-0.05, 0.1 * np.cos(np.pi / 6)])
     table = run("--at", "30 deg").stdout
-    assert "C.rocker angle [rad]" in table
+    assert "C.rocker angle [°, rad/s, rad/s²]" in table
     assert run("--at", "30 deg", "--csv").stdout.startswith("name,quantity,position,velocity,acceleration\n")
 
 

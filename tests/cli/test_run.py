@@ -240,3 +240,23 @@ def test_an_option_that_is_no_quantity_is_named() -> None:
     assert done.exit_code == 2
     assert "--step" in done.stderr
     assert "1 kg" in done.stderr
+
+
+def test_tables_of_a_slotted_lever_name_each_output_once() -> None:
+    """Link and slide of a slotted lever have one name; an angle that is constant has no place."""
+    found = CliRunner().invoke(application(), ["run", "quick_returns"])
+    assert found.exit_code == 0
+    travel = found.stdout[found.stdout.index("Linkage over its cycle") : found.stdout.index("Motion over")]
+    assert "whitworth, angle" in travel
+    assert "whitworth, position" in travel
+    transmission = found.stdout[found.stdout.index("Transmission angle") : found.stdout.index("Dead points")]
+    (row,) = [line.split() for line in transmission.splitlines() if line.startswith("shaper")]
+    assert row == ["shaper", "μ", "90°", "–", "90°", "–"]
+
+
+def test_what_rounding_leaves_is_not_told() -> None:
+    """A parallelogram turns as its crank does: no acceleration, one revolution, extremes at 0°."""
+    found = CliRunner().invoke(application(), ["run", "change_points"]).stdout
+    assert "C.rocker, angular acceleration" not in found
+    assert "1 revolutions" not in found
+    assert "·10⁻" not in found

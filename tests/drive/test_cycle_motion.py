@@ -104,3 +104,18 @@ def test_json_and_curves_have_one_set_of_names() -> None:
     velocity = found.curves()["K.velocity"]
     assert told["extremes"]["K.velocity"]["maximum"] == pytest.approx(velocity.max(), rel=1e-3)
     assert found.unit_of("K.velocity") == "m/s"
+
+
+@pytest.mark.parametrize(("side", "other"), [("d", "b"), ("g", "i")])
+def test_angles_beyond_half_a_revolution_have_their_extremes(side: str, other: str) -> None:
+    """Bars of one triangle swing alike, also one about 180°, where the angle of a position begins anew."""
+    found = lw.cycle_motion(lw.read("jansen_leg"))
+    extremes, beside = found.extremes[f"{side}.angle"], found.extremes[f"{other}.angle"]
+    curve = found.curves()[f"{side}.angle"]
+    low, high = extremes.minimum, extremes.maximum
+    assert low is not None
+    assert high is not None
+    assert low < np.pi < high
+    assert high - low == pytest.approx(beside.maximum - beside.minimum, rel=1e-12)
+    # A quarter of a degree of the crank beside an extreme changes an angle by less than 1e-3 rad.
+    assert (curve.min(), curve.max()) == pytest.approx((low, high), abs=1e-3)

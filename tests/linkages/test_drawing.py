@@ -181,3 +181,19 @@ def test_a_drawing_without_a_unit_is_refused(tmp_path: Path) -> None:
     with pytest.raises(LinkwrightError, match="does not say its unit"):
         lw.read(file)
     assert lw.read(file, ["drawing.unit=2 mm"]).mechanism.cranks["A"].radius == pytest.approx(0.1)
+
+
+def test_layers_that_nothing_is_named_after_are_passed_over(tmp_path: Path) -> None:
+    machine = lw.read(sheet(tmp_path, O=(100, 100), A=(130, 140), ram=(100, -160), dimensions=(7, 7)))
+    assert machine.mechanism.cranks["A"].radius == pytest.approx(0.05, rel=1e-14)
+
+
+def test_a_point_with_several_places_in_its_layer_is_told(tmp_path: Path) -> None:
+    file = sheet(tmp_path, O=(100, 100), A=(130, 140), ram=(100, -160))
+    document = ezdxf.readfile(tmp_path / "press.dxf")
+    document.modelspace().add_circle((150, 140), 5, dxfattribs={"layer": "A"})
+    document.saveas(tmp_path / "press.dxf")
+    with pytest.raises(LinkwrightError, match="2 places in the layer A"):
+        lw.read(file)
+    given = lw.read(file, ['drawing.points.A="130, 140 mm"'])
+    assert given.mechanism.cranks["A"].radius == pytest.approx(0.05, rel=1e-14)

@@ -48,8 +48,9 @@ _POINTS, _ROUNDS = 9, 12
 # Two rounds agree when the peak changes by less than this share of the span.
 _AGREE = 1e-12
 
-# What changes less than this share of its size, or of those of its kind, is constant but for rounding.
-_CONSTANT = 1e-12
+# What changes less than this share of its size, or of those of its kind, is constant but for rounding;
+# accelerations beside a change point are known to some 1e-10.
+_CONSTANT, _CONSTANT_RATE = 1e-12, 1e-9
 
 # Near a limit of crank rotation rates grow with one over the root of the distance: at distances of these
 # shares of the range they differ by a factor of 100, and by about 1 where they are bounded.
@@ -259,7 +260,8 @@ class _Search:
         """Those of all columns that move, by name."""
         values = self.values(looked)
         span = np.ptp(values, axis=1)
-        moves = span > _CONSTANT * np.maximum(np.abs(values).max(axis=1), self._scales(values))
+        known = [_CONSTANT_RATE if name.endswith(".acceleration") else _CONSTANT for name in self.names]
+        moves = span > known * np.maximum(np.abs(values).max(axis=1), self._scales(values))
         rise = values[:, -1] - values[:, 0]
         endless = self._unlimited(limit) | [
             self._turns_on(name, float(x)) for name, x in zip(self.names, rise, strict=True)
@@ -305,6 +307,7 @@ class _Search:
         signed = signed.reshape(-1, len(looked))
         row, column = _candidates(signed, np.tile(span, 2))
         sign, of = np.where(row < len(span), -1.0, 1.0), row % len(span)
+        is_angle = np.array([name.endswith(".angle") for name in self.names])
         best, best_at = signed[row, column], looked[column]
         low = looked[np.maximum(column - 1, 0)]
         high = looked[np.minimum(column + 1, len(looked) - 1)]
@@ -312,6 +315,9 @@ class _Search:
             x = low[:, None] + (high - low)[:, None] * np.linspace(0, 1, _POINTS)
             y = self.values(x.ravel())[np.repeat(of, _POINTS), np.arange(x.size)].reshape(x.shape)
             y = np.where(np.isfinite(y), sign[:, None] * y, -np.inf)
+            # Angles of links are continued from sample to sample: here they are those beside the best one.
+            whole = np.where(np.isfinite(y), np.rint((best[:, None] - y) / (2 * np.pi)), 0.0)
+            y = y + 2 * np.pi * np.where(is_angle[of][:, None], whole, 0.0)
             top = y.argmax(axis=1)
             every = np.arange(len(row))
             x_top, y_top = _vertex(x, y, top)

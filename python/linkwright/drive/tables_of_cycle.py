@@ -51,7 +51,7 @@ def outputs(motion: CycleMotion, linkage: Linkage) -> Iterator[tuple[str, tuple[
     for name in dict.fromkeys([*listed, *motion.slides]):
         if name in motion.slides:
             yield name, _SLIDE
-        elif name in motion.links:
+        if name in motion.links:
             yield name, _ROCKER
     for name in motion.coupler_points:
         yield name, _POINT

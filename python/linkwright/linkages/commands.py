@@ -291,10 +291,12 @@ def _lists(curves: dict[str, Any]) -> dict[str, list[float]]:
 def _table(followed: Motion) -> str:
     """Positions alone, for people; everything is in the CSV."""
     from linkwright.kernel.page.numbers import number
-    from linkwright.kernel.page.out_units import shown_columns
+    from linkwright.kernel.page.out_units import OutUnits, reader, reading, shown_columns
     from linkwright.kernel.page.table import head
 
-    shown = shown_columns({head(followed, name): curve for name, curve in _positions(followed).items()})
+    # Angles are in degrees for people, unless they want another unit.
+    with reading(reader().over(OutUnits.of("deg"))):
+        shown = shown_columns({head(followed, name): curve for name, curve in _positions(followed).items()})
     width = max(14, *(len(name) + 2 for name in shown))
     lines = ["".join(f"{name:>{width}}" for name in shown)]
     units = [name.rpartition("[")[2] for name in shown]

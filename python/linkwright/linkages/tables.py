@@ -9,6 +9,9 @@ from linkwright.linkages.cycle import ElementMotion, Linkage
 # More dead points than this are the regular ones of many outputs, and tell nothing.
 _DEAD_POINTS_MAX = 24
 
+# A transmission angle follows from a root: what changes less is constant but for rounding [rad].
+_CONSTANT = 1e-7
+
 
 def travel_tables(linkage: Linkage) -> list[Table]:
     """Strokes, swings and time ratios, if there are outputs."""
@@ -31,18 +34,19 @@ def _with_rows(*tables: Table) -> list[Table]:
 
 def _travel(linkage: Linkage) -> Table:
     heads = ("output", "", "travel", "from φ", "to φ", "time ratio", "velocity ratio", "mechanical advantage")
-    return Table(
-        "linkage", "Linkage over its cycle", heads, [_travel_row(element) for element in linkage.elements]
-    )
+    names = [element.output for element in linkage.elements]
+    rows = [_travel_row(element, names.count(element.output) > 1) for element in linkage.elements]
+    return Table("linkage", "Linkage over its cycle", heads, rows)
 
 
-def _travel_row(element: ElementMotion) -> Row:
-    """Swing, stroke or turns, where the extremes are, and the ratios."""
+def _travel_row(element: ElementMotion, of_two: bool) -> Row:
+    """Swing, stroke or turns, where the extremes are, and the ratios.
+
+    `of_two`: whether link and slide have one name, as of a slotted lever.
+    """
     if element.turns is not None:
-        travel, ends = (
-            f"{number(element.turns)} revolution{'s' if abs(element.turns) != 1 else ''}",
-            ("–", "–"),
-        )
+        turns = number(element.turns)
+        travel, ends = f"{turns} revolution{'' if turns == '1' else 's'}", ("–", "–")
     elif element.swing is not None:
         travel, ends = (
             measured(element.swing, "rad"),
@@ -60,7 +64,16 @@ def _travel_row(element: ElementMotion) -> Row:
     unit = "1/m" if element.stroke is not None else ""
     advantage = element.mechanical_advantage_min
     gain = measured(advantage, unit, digits=4, before="≥ ")
-    return element.output, "", travel, *ends, number(element.time_ratio, 4), ratios, gain
+    kind = ", position" if element.stroke is not None else ", angle"
+    return (
+        element.output + (kind if of_two else ""),
+        "",
+        travel,
+        *ends,
+        number(element.time_ratio, 4),
+        ratios,
+        gain,
+    )
 
 
 def _transmission(linkage: Linkage) -> Table:
@@ -70,14 +83,10 @@ def _transmission(linkage: Linkage) -> Table:
         low, high = element.transmission_angle_min, element.transmission_angle_max
         at = element.transmission_angle_min_angle, element.transmission_angle_max_angle
         if low is not None and high is not None and at[0] is not None and at[1] is not None:
-            rows[element.element] = (
-                element.element,
-                "μ",
-                measured(low, "rad"),
-                crank_angle(at[0]),
-                measured(high, "rad"),
-                crank_angle(at[1]),
-            )
+            # One that is constant has no place.
+            places = [crank_angle(angle) for angle in at] if high - low > _CONSTANT else ["–", "–"]
+            extremes = measured(low, "rad"), places[0], measured(high, "rad"), places[1]
+            rows[element.element] = (element.element, "μ", *extremes)
     return Table("transmission", "Transmission angle", heads, list(rows.values()))
 
 

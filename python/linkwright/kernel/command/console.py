@@ -97,8 +97,8 @@ def bar(words: str) -> Iterator[Callable[[float], None]]:
             shown.stop()
 
 
-# Letters in a line of a column's head.
-_HEAD = 12
+# Letters in a line of a column's head; letters of a name that are kept in one line.
+_HEAD, _NAME = 12, 24
 
 
 def print_tables(
@@ -135,6 +135,12 @@ def _drawn(table: Table) -> RenderableType:
     from rich import box
     from rich.table import Table as Drawn
 
+    rows = table.rows[: _most(table)]
+    # A column without any entry takes no room, such as that of symbols where nothing has one.
+    kept = [n for n, head in enumerate(table.heads) if n == 0 or head or any(row[n] for row in rows)]
+    wide = [
+        max(len(fill(table.heads[n], _HEAD).split("\n", 1)[0]), *(len(row[n]) for row in rows)) for n in kept
+    ]
     drawn = Drawn(
         title=table.title,
         title_justify="left",
@@ -142,17 +148,26 @@ def _drawn(table: Table) -> RenderableType:
         box=box.SIMPLE_HEAD,
         show_edge=False,
         pad_edge=False,
+        collapse_padding=sum(wide) + 3 * (len(kept) - 1) > console().width,
     )
-    # A name without a space is broken where the line ends, never cut.
-    drawn.add_column(table.heads[0], overflow="fold")
-    drawn.add_column(table.heads[1], style="cyan", no_wrap=True)
-    for n, head in enumerate(table.heads[2:], start=2):
-        # A narrow terminal may break words and lists of them, never a number.
-        listed = any(", " in row[n] for row in table.rows)
-        drawn.add_column(fill(head, _HEAD), no_wrap=not listed)
-    for row in table.rows[: _most(table)]:
-        drawn.add_row(*row)
+    for n in kept:
+        drawn.add_column(fill(table.heads[n], _HEAD) if n > 1 else table.heads[n], **_manner(table, n))
+    for row in rows:
+        drawn.add_row(*(row[n] for n in kept))
     return drawn
+
+
+def _manner(table: Table, n: int) -> dict[str, Any]:
+    """How a column is set: a narrow terminal may break words and lists of them, never a number.
+
+    A name without a space is broken where the line ends, never cut.
+    """
+    if n == 0:
+        longest = max(len(word) for row in table.rows for word in row[0].split() or [""])
+        return {"overflow": "fold", "min_width": min(longest, _NAME)}
+    if n == 1:
+        return {"style": "cyan", "no_wrap": True}
+    return {"no_wrap": not any(", " in row[n] or " to " in row[n] for row in table.rows)}
 
 
 def _sentences(findings: Sequence[str], warnings: Sequence[str]) -> Iterator[RenderableType]:

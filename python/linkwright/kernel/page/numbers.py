@@ -42,8 +42,12 @@ _LARGE = 1e7
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
-# An angle at which links are in line follows from a root: below that of the rounding unit it is zero [rad].
-_ROUNDING = 2e-8
+# An angle at which links are in line follows from a root: below that of some ten rounding errors it is zero
+# [rad].
+_ROUNDING = 1e-7
+
+# The place of an extreme is known to the root of the accuracy of the curve, 1e-12 of its size [rad].
+_PLACE = 1e-6
 
 
 def degrees(angle: float) -> str:
@@ -117,7 +121,8 @@ def crank_angle(angle: float | None, before: str = "") -> str:
     """
     if angle is None or not math.isfinite(angle):
         return "–"
-    text = degrees(zero_shown().counted(angle))
+    counted = zero_shown().counted(angle)
+    text = degrees(0.0 if abs(counted) < _PLACE else counted)
     number_text = "0°" if text == "360°" else text
     return _marked(before + number_text, angle, "rad", 5, before, is_crank_angle=True)
 

@@ -62,7 +62,7 @@ class SheetTables(NamedTuple):
 def with_drawing(data: Mapping[str, Any]) -> SheetTables:
     """The tables of a machine file with lengths and places from its drawing, without the drawing itself.
 
-    `data`: raw tables, with the points of a DXF file among those of the drawing.
+    `data`: raw tables, with the places in the layers of a DXF file for its name.
     """
     tables = {key: value for key, value in data.items() if key != "drawing"}
     drawing, mechanism = data["drawing"], data.get("mechanism")
@@ -74,8 +74,8 @@ def with_drawing(data: Mapping[str, Any]) -> SheetTables:
     if faults:
         return SheetTables(dict(data), faults)
     sheet = _Sheet(places, mechanism)
-    if unknown := list(_unknown(places, sheet, data.get("bodies"))):
-        return SheetTables(dict(data), unknown)
+    if wrong := list(_unknown(drawing, mechanism, sheet, data.get("bodies"))):
+        return SheetTables(dict(data), wrong)
     tables["mechanism"] = sheet.filled()
     if isinstance(data.get("bodies"), Mapping):
         tables["bodies"] = {
@@ -104,6 +104,9 @@ def _places(
             faults.append(fault("drawing", "points", name, found=value, expected=expected))
         else:
             places[name] = x, y
+    for name, (first, *others) in _layers(drawing).items():
+        if not others:
+            places.setdefault(name, (first[0], first[1]))
     # Wherever the sheet has its own origin, that of the mechanism is the point O.
     zero = places.get(ORIGIN, (0.0, 0.0)) if ORIGIN not in keys(mechanism.get("points")) else (0.0, 0.0)
     places = {name: (x - zero[0], y - zero[1]) for name, (x, y) in places.items()}
@@ -123,15 +126,36 @@ def _number(entry: object, key: str, kind: Kind) -> float | None:
         return None
 
 
-def _unknown(places: Mapping[str, Point], sheet: _Sheet, bodies: object) -> Iterator[InitErrorDetails]:
-    """Points of the drawing that nothing in the file is named after."""
+def _layers(drawing: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Places by layer of a DXF file that has been read."""
+    file = drawing.get("file")
+    return file if isinstance(file, Mapping) else {}
+
+
+def _unknown(
+    drawing: Mapping[str, Any], mechanism: Mapping[str, Any], sheet: _Sheet, bodies: object
+) -> Iterator[InitErrorDetails]:
+    """Points that nothing in the file is named after, and points whose layer has several places.
+
+    Other layers are passed over: drawings have many.
+    """
     topology = Topology.of(sheet.mechanism)
     known = {ORIGIN, *topology.candidates("point"), *sheet.referred, *keys(bodies)}
-    for name in places:
+    for name in keys(drawing.get("points")):
         if name not in known:
             remedy = suggestion(name, sorted(known))
             yield fault(
                 "drawing", "points", name, found=name, expected="the name of a point or a body", remedy=remedy
+            )
+    placed = {*keys(drawing.get("points")), *keys(mechanism.get("points"))}
+    for layer, places in _layers(drawing).items():
+        if len(places) > 1 and layer in known - placed:
+            yield fault(
+                "drawing",
+                "file",
+                found=f"{len(places)} places in the layer {layer}",
+                expected="one point, one circle, or circles about one centre",
+                remedy=f"leave one of them in the layer, or give {layer} in drawing.points",
             )
 
 

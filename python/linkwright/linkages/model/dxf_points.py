@@ -26,7 +26,7 @@ _UNITS = {1: 0.0254, 2: 0.3048, 4: 1e-3, 5: 1e-2, 6: 1.0, 13: 1e-6, 14: 1e-1}
 
 
 def with_dxf_points(tables: dict[str, Any], folder: Path, *, allow_outside: bool = False) -> None:
-    """Put the points of the DXF file that a drawing names into its table; `tables` is changed in place.
+    """Put the places of the DXF file that a drawing names in place of its name; `tables` is changed.
 
     Raises MachineFileError: the file lies outside, cannot be read, has no unit, or two places in one layer.
     """
@@ -35,16 +35,14 @@ def with_dxf_points(tables: dict[str, Any], folder: Path, *, allow_outside: bool
         return
     from linkwright.kernel.files.points import require_below
 
-    name = drawing.pop("file")
+    name = drawing["file"]
     path = folder / name
     require_below(path, folder, name, "drawing.file", allow_outside=allow_outside)
-    points = _points(path, drawing.pop("unit", None))
-    given = drawing.get("points")
-    drawing["points"] = {**points, **(given if isinstance(given, dict) else {})}
+    drawing["file"] = _places(path, drawing.pop("unit", None))
 
 
-def _points(path: Path, unit: Any) -> dict[str, list[float]]:
-    """Coordinates of the layers with one place [m]."""
+def _places(path: Path, unit: Any) -> dict[str, list[list[float]]]:
+    """Places in each layer [m]; circles about one centre are one."""
     drawn, code = _read(path)
     size = _unit(code, unit, path)
     places: dict[str, list[tuple[float, float]]] = {}
@@ -55,16 +53,17 @@ def _points(path: Path, unit: Any) -> dict[str, list[float]]:
             path, "no point, circle or arc", "a layer for each point, with a point or a circle in it"
         )
     reach = max(math.hypot(*place) for group in places.values() for place in group) or 1.0
-    # A layer with several places is no point: construction lines, holes.
-    single = {
-        layer: circles[0]
-        for layer, circles in places.items()
-        if all(math.dist(place, circles[0]) <= _SAME * reach for place in circles)
-    }
-    if not single:
+    apart = {layer: list(_apart(group, _SAME * reach)) for layer, group in places.items()}
+    if all(len(group) > 1 for group in apart.values()):
         listed = ", ".join(places)
         raise _wrong(path, f"several places in each of the layers {listed}", "one point in a layer")
-    return {layer: [x * size, y * size] for layer, (x, y) in single.items()}
+    return {layer: [[x * size, y * size] for x, y in group] for layer, group in apart.items()}
+
+
+def _apart(group: list[tuple[float, float]], same: float) -> Iterator[tuple[float, float]]:
+    """The first place, and those that are not there."""
+    yield group[0]
+    yield from (place for place in group if math.dist(place, group[0]) > same)
 
 
 def _read(path: Path) -> tuple[list[tuple[str, tuple[float, float]]], int]:
