@@ -61,7 +61,7 @@ def test_a_turn() -> None:
     assert {"K.y.jerk [m/s³]", "C.rocker.angle.velocity [rad/s]"} <= found.keys()
     # People see what moves, without its rates.
     head = re.split(r"  +", run("--steps", 4).stdout.splitlines()[1].strip())
-    assert head[:4] == ["time [s]", "crank_angle [rad]", "A.x [m]", "A.y [m]"]
+    assert head[:4] == ["time [s]", "crank_angle [°]", "A.x [m]", "A.y [m]"]
     assert "O.x [m]" not in head
 
 

@@ -214,6 +214,10 @@ def test_a_machine_without_a_motor_is_no_failure() -> None:
         (["--set", "bodies.cart1.mass=-3"], ["bodies.cart1.mass", "a mass of 0 or more"]),
         (["--set", "drive.speed=3 m"], ["drive.speed", '"m" is a unit of length']),
         (["--set", "drive.sped=3"], ["an unknown key", 'did you mean "speed"?']),
+        (
+            ["--set", 'drive.motor={kind="dc", catalogue="4A160S6U3"}'],
+            ["types of the catalogue are induction motors"],
+        ),
         (["--accuracy", "1"], ["accuracy 1", "1e-13 to 1e-2"]),
         (["--method", "baranov", "--step", "7 deg"], ["does not divide the revolution"]),
         (["--method", "baranov", "--step", "7 kg"], ["an angle"]),

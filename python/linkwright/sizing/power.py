@@ -85,6 +85,10 @@ def required_power(machine: Machine) -> RequiredPower:
     .. [1] Paper 1: P = M_0 ω/(10³ η), in kW.
     """
     drive = machine.drive
+    if machine.turning_moment is not None:
+        raise InputError(
+            f"{machine.name}: a turning-moment diagram knows no motor; its flywheel is a result of linkwright run"
+        )
     if drive is None or drive.speed is None:
         raise InputError(f'{machine.name}: sizing needs the design speed; add speed = "… rad/s" to [drive]')
     compiled = compile_machine(machine, motor=False)

@@ -29,6 +29,7 @@ from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import Description, fault, raise_faults
 from linkwright.kernel.description.curve import curve_faults, unread_file
+from linkwright.kernel.description.place import keys, look
 from linkwright.kernel.units import (
     INERTIA,
     POWER,
@@ -59,6 +60,19 @@ class Motor(Description):
     power_rated: PositivePower | None = Field(None, description="Rated power at the shaft.")
     speed_rated: PositiveSpeed | None = Field(None, description="Speed at the rated point.")
     torque_rated: PositiveTorque | None = Field(None, description="Torque at the rated point.")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _kind_of_catalogue(cls, data: Any) -> Any:
+        """Refuse a type of the catalogue for a motor of another kind."""
+        if "catalogue" in keys(data) and "catalogue" not in cls.model_fields:
+            remedy = 'leave it out, or give a type of your own with file = "motors.csv"'
+            expected = "nothing: the types of the catalogue are induction motors"
+            raise_faults(
+                cls.__name__,
+                [fault("catalogue", found=look(data, "catalogue"), expected=expected, remedy=remedy)],
+            )
+        return data
 
     @model_validator(mode="after")
     def _complete_and_check(self) -> Self:
