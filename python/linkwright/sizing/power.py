@@ -87,7 +87,7 @@ def required_power(machine: Machine) -> RequiredPower:
     drive = machine.drive
     if machine.turning_moment is not None:
         raise InputError(
-            f"{machine.name}: a turning-moment diagram knows no motor; its flywheel is a result of linkwright run"
+            f"{machine.name}: a turning-moment diagram knows no motor; linkwright run finds its flywheel"
         )
     if drive is None or drive.speed is None:
         raise InputError(f'{machine.name}: sizing needs the design speed; add speed = "… rad/s" to [drive]')
