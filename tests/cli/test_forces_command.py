@@ -64,13 +64,14 @@ def test_json_is_that_of_python(press: Path) -> None:
     assert found["envelope"]["torque_drive"]["peak"] == pytest.approx(result.torque_drive_max)
 
 
-def test_a_rocking_drive_names_the_angles_that_it_has() -> None:
+@pytest.mark.parametrize("name", ["log_function_generator", "scissor_lift"])
+def test_a_rocking_drive_names_the_angles_that_it_has(name: str) -> None:
     """What the message proposes works as printed."""
-    code, text = run("forces", "log_function_generator", "--speed", "1 rad/s")
+    code, text = run("forces", name, "--speed", "1 rad/s")
     assert code == 1
     proposed = re.search('--speed "(.*?)" --angles="(.*?)"', " ".join(text.split()))
     assert proposed is not None
-    code, _ = run("forces", "log_function_generator", "--speed", proposed[1], f"--angles={proposed[2]}")
+    code, _ = run("forces", name, "--speed", proposed[1], f"--angles={proposed[2]}")
     assert code == 0
 
 

@@ -316,8 +316,8 @@ class _Search:
             y = self.values(x.ravel())[np.repeat(of, _POINTS), np.arange(x.size)].reshape(x.shape)
             y = np.where(np.isfinite(y), sign[:, None] * y, -np.inf)
             # Angles of links are continued from sample to sample: here they are those beside the best one.
-            whole = np.where(np.isfinite(y), np.rint((best[:, None] - y) / (2 * np.pi)), 0.0)
-            y = y + 2 * np.pi * np.where(is_angle[of][:, None], whole, 0.0)
+            turns = np.where(np.isfinite(y), np.rint((best[:, None] - y) / (2 * np.pi)), 0.0)
+            y = y + 2 * np.pi * np.where(is_angle[of][:, None], turns, 0.0)
             top = y.argmax(axis=1)
             every = np.arange(len(row))
             x_top, y_top = _vertex(x, y, top)

@@ -96,7 +96,10 @@ def _require_full_turn(machine: Machine) -> None:
     error = closure_error(closed, machine)
     if not closed.moves:
         raise error
-    low, high = np.degrees(closed.ranges[0]) - (360.0 if closed.ranges[0][1] > 2 * np.pi else 0.0)
+    low, high = np.degrees(closed.ranges[0])
+    if low >= 0 and high > 360:
+        # A range about zero is found from its lower end on; a screw's extends over many revolutions.
+        low, high = low - 360, high - 360
     low, high = np.ceil(10 * low + 1) / 10, np.floor(10 * high - 1) / 10
     raise AssemblyError(
         f"{error}; within that range forces are found at a speed, between given crank angles, such as "
