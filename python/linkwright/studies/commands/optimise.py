@@ -51,18 +51,27 @@ def optimise(
     Of two goals the machines of which none is better in both; with --out that in the middle. Exit code 1 if
     none keeps the constraints.
     """
-    from linkwright.machine.write import dumps
-    from linkwright.studies.optimise import optimise as compute
     from linkwright.studies.read import read_study
-    from linkwright.studies.tables import optimum_tables
 
     plan = read_study(file, set or [], allow_outside=allow_outside)
     if len(plan.study.goals) == 2:
         options = {"seed": seed, "method": method, "starts": starts}
         _hand_over_front(plan, points, evaluations, options, json=json, out=out, force=force)
         return
+    options = {"evaluations": evaluations, "seed": seed, "method": method, "starts": starts}
+    hand_over_optimum(plan, options, json=json, out=Path(out) if out else None, force=force)
+
+
+def hand_over_optimum(
+    plan: StudyPlan, options: dict[str, Any], *, json: bool, out: Path | None, force: bool
+) -> None:
+    """The best machine of a study, or why there is none."""
+    from linkwright.machine.write import dumps
+    from linkwright.studies.optimise import optimise as compute
+    from linkwright.studies.tables import optimum_tables
+
     try:
-        optimum = compute(plan, evaluations, seed=seed, method=method, starts=starts)
+        optimum = compute(plan, **options)
     except FindingError as error:
         hand_over(Answer(machine=plan.machine.name, findings=[str(error)]), json=json)
         return
@@ -74,7 +83,7 @@ def optimise(
         tables=lambda: optimum_tables(optimum, plan.units),
         machine_file=lambda: dumps(optimum.machine),
     )
-    hand_over(answer, json=json, out=Path(out) if out else None, force=force)
+    hand_over(answer, json=json, out=out, force=force)
 
 
 def _hand_over_front(
