@@ -24,9 +24,8 @@ _SHORTER = (1.0, 0.1, 0.01)
 # What differences are good for, as a share of the largest derivative of a response, or of the response.
 _TOLERANCE = 1e-7
 
-# The same of drives that pass jumps: their derivatives bend sharply behind these, which the mesh of the
-# motion itself does not resolve.
-_BEHIND_JUMPS = 1e-5
+# The same of drives that pass jumps: what leaps at an extreme is known to the accuracy of its angle.
+_BEHIND_JUMPS = 1e-6
 
 # Works are left out: of springs and weights they are zero but for rounding.
 _NUMBERS = ("speed_mean_time", "period", "speed_max", "torque_motor_rms", "unevenness")

@@ -48,6 +48,12 @@ impl Bernstein {
         Bernstein(b)
     }
 
+    /// That of a polynomial by powers of the share of the step, from its value at the start on.
+    pub fn of_powers<const N: usize>(powers: &[f64; N]) -> Self {
+        let of = |k: usize| (0..N).map(|p| powers[p] * BINOMIALS[k][p] / BINOMIALS[DEGREE][p]).sum();
+        Bernstein(std::array::from_fn(of))
+    }
+
     /// Its values lie between these two.
     fn hull(&self) -> (f64, f64) {
         self.0.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &b| (low.min(b), high.max(b)))
@@ -82,6 +88,15 @@ impl Bernstein {
         for (half, part) in [from, from + 0.5 * length].into_iter().zip(self.halves()) {
             part.parts((half, 0.5 * length), small, found);
         }
+    }
+}
+
+impl Bernstein {
+    /// Shares of the step at which the polynomial turns, but for turns by less than `small`.
+    pub fn turns(&self, small: f64) -> Vec<f64> {
+        let mut parts = Vec::new();
+        self.parts((0.0, 1.0), small, &mut parts);
+        parts.into_iter().skip(1).map(|part| part.0).collect()
     }
 }
 
@@ -153,6 +168,17 @@ mod tests {
             let z = f64::from(k) / 20.0;
             // A few roundings of numbers of size one.
             assert!((at(&b, z) - value(2.0, &FACTORS, z)).abs() < 1e-14, "at {z}");
+        }
+    }
+
+    #[test]
+    fn powers_have_the_same_coefficients() {
+        let powers = [2.0, 0.3, -1.5, 4.0, 0.7, -3.0];
+        let b = Bernstein::of_powers(&powers);
+        for k in 0..=20 {
+            let z = f64::from(k) / 20.0;
+            let direct = powers.iter().rev().fold(0.0, |sum, power| sum * z + power);
+            assert!((at(&b, z) - direct).abs() < 1e-14, "at {z}");
         }
     }
 

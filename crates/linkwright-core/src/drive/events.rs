@@ -12,8 +12,9 @@ use crate::drive::law::{LawGeometry, SpeedKink};
 use crate::drive::layout::bundle;
 use crate::drive::mesh::{Crossing, Mesh, Piece, crossing};
 use crate::drive::structure::Plan;
-use crate::kernel::radau::{AT, C, N, S};
+use crate::kernel::radau::{AT, C, N, S, through, value};
 use crate::kernel::real::Real;
+use crate::kernel::turns::Bernstein;
 use crate::linkage::motion::Motion;
 
 /// Relative distance of a speed from a kink's below which it counts as the kink's. A break that is off by
@@ -45,6 +46,9 @@ const UPRIGHT: f64 = 1e-3;
 /// Distance of u from a jump, as a share, at which its two sides are looked at.
 const ASIDE: f64 = 1e-6;
 
+/// A quantity that turns within this share of its size from its zero may pass it: what the quintic of a step may err by.
+const NEARLY: f64 = 1e-3;
+
 /// What the motion may pass where its equation has a kink.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Event {
@@ -69,6 +73,16 @@ pub enum Pull {
     Up,
     /// Drive it to where u is smaller.
     Down,
+}
+
+/// Where the motion passes an event inside a step.
+#[derive(Clone, Copy, Debug)]
+struct Passing {
+    /// Crank angle \[rad\], and u there.
+    phi: f64,
+    u: f64,
+    /// What the quantity is where it is looked at next.
+    beyond: f64,
 }
 
 /// How the motion passes a kink at the end of a step, or beside it.
@@ -381,29 +395,105 @@ impl Events<'_, f64> {
             let stays: Vec<f64> = stays.map(|(crossing, _)| crossing.phi).collect();
             let is_at = |phi: f64| stays.iter().any(|&at| at == phi || (at == 0.0 && phi == cycle));
             let middle = |piece: &Piece, m: &mut Motion<f64>| self.on_piece(event, piece, C[REFERENCE], m);
+            let mut passed = Vec::new();
             for (k, piece) in pieces.iter().enumerate() {
-                let end = pieces.get(k + 1).map_or(cycle, |next| next.phi);
-                // Beside a kink that stays the side of the step counts.
-                let (mut shares, mut ends) = ([0.0, 1.0], [values[k], values[k + 1]]);
-                match [is_at(piece.phi), is_at(end)] {
-                    [true, true] => continue,
-                    [true, false] => (shares[0], ends[0]) = (C[REFERENCE], middle(piece, m)),
-                    [false, true] => (shares[1], ends[1]) = (C[REFERENCE], middle(piece, m)),
-                    [false, false] => {}
-                }
                 // On the kink at its start and on either side of it around there: that end of a step is the kink's.
                 let before = &pieces[(k + pieces.len() - 1) % pieces.len()];
                 if values[k].abs() <= near && !is_at(piece.phi) && middle(before, m) * middle(piece, m) < 0.0
                 {
                     crossings.push(Crossing { phi: piece.phi, nth });
                 }
-                if ends[0] * ends[1] < 0.0 && ends[0].abs() > near && ends[1].abs() > near {
-                    let phi = piece.phi + self.within(event, piece, shares, ends, m);
-                    crossings.extend((0.0 < phi && phi < cycle).then_some(Crossing { phi, nth }));
+                // Beside a kink that stays the side of the step counts.
+                let end = pieces.get(k + 1).map_or(cycle, |next| next.phi);
+                let ends = [(piece.phi, values[k]), (end, values[k + 1])];
+                let ends = ends.map(|(phi, value)| (!is_at(phi)).then_some(value));
+                passed.extend(self.passed_inside(event, piece, ends, near, m));
+            }
+            // A jump that holds the motion is passed neither there nor where the motion comes back.
+            let mut is_beyond = false;
+            for passing in passed {
+                let is_held = !is_beyond && self.is_held(event, &passing, m);
+                if !is_beyond && !is_held && 0.0 < passing.phi && passing.phi < cycle {
+                    crossings.push(Crossing { phi: passing.phi, nth });
                 }
+                is_beyond = is_held;
             }
         }
         crossings
+    }
+
+    /// Where a step passes an event. Of the ends those count that have a value. Between the ends the quantity is looked at amid
+    /// the step and where it turns near its zero.
+    fn passed_inside(
+        &self,
+        event: Event,
+        piece: &Piece,
+        [start, end]: [Option<f64>; 2],
+        near: f64,
+        m: &mut Motion<f64>,
+    ) -> Vec<Passing> {
+        let mut nodes: Vec<(f64, f64)> = start.into_iter().map(|value| (0.0, value)).collect();
+        if start.is_none() || end.is_none() {
+            nodes.push((C[REFERENCE], self.on_piece(event, piece, C[REFERENCE], m)));
+        }
+        nodes.extend(self.turns_near_zero(event, piece, m));
+        nodes.extend(end.map(|value| (1.0, value)));
+        nodes.sort_by(|a, b| a.0.total_cmp(&b.0));
+        nodes.retain(|node| node.1.abs() > near);
+        let mut passed = Vec::new();
+        for pair in nodes.windows(2).filter(|pair| pair[0].1 * pair[1].1 < 0.0) {
+            let [from, to] = [pair[0], pair[1]];
+            let phi = piece.phi + self.within(event, piece, [from.0, to.0], [from.1, to.1], m);
+            let u = piece.value(&piece.quintic(), phi);
+            passed.push(Passing { phi, u, beyond: to.1 });
+        }
+        passed
+    }
+
+    /// Shares of a step at which the quantity of a law turns near its zero or beyond, and its values there, as exact as the
+    /// step. A kink of the drive is no jump: what lies behind it and before the next end counts as far as the step errs by it.
+    fn turns_near_zero(&self, event: Event, piece: &Piece, m: &mut Motion<f64>) -> Vec<(f64, f64)> {
+        let Event::Law(_) = event else { return Vec::new() };
+        let mut values = [0.0; N];
+        for (i, value) in values.iter_mut().enumerate() {
+            let u = if i == 0 { piece.u } else { piece.X[i - 1] };
+            *value = self.value(event, AT[i].mul_add(piece.h, piece.phi), u, m);
+        }
+        let turns = turns_near_zero(&values).into_iter();
+        let exact = |share: f64| {
+            let end = self.machine.advance(piece.phi, piece.u, share * piece.h, m).0.end();
+            (share, self.value(event, piece.phi + share * piece.h, end, m))
+        };
+        turns.map(exact).filter(|node| node.1.is_finite()).collect()
+    }
+
+    /// Whether a jump holds the motion where it comes to it.
+    fn is_held(&self, event: Event, passing: &Passing, m: &mut Motion<f64>) -> bool {
+        let Event::Law(_) = event else { return false };
+        let u = self.level(event, passing.phi, passing.u, m);
+        self.pull(event, passing.phi, u, m) == Pull::Holds
+    }
+
+    /// Where a motion that was solved as if there were no jump goes beyond one that holds it, by more than a share of its
+    /// speed: crank angle, and speed there.
+    pub fn held_inside(&self, pieces: &[Piece], share: f64, m: &mut Motion<f64>) -> Option<[f64; 2]> {
+        for &kink in &self.laws {
+            let event = Event::Law(kink);
+            let values = self.at_ends(event, pieces, m);
+            let near = ON_KINK * self.size(event, &values);
+            let mut is_beyond = false;
+            for (piece, ends) in pieces.iter().zip(values.windows(2)) {
+                for passing in self.passed_inside(event, piece, [Some(ends[0]), Some(ends[1])], near, m) {
+                    is_beyond = !is_beyond && self.is_held(event, &passing, m);
+                    let u = self.level(event, passing.phi, passing.u, m);
+                    let by_speed = 2.0 * (u * self.slopes(event, passing.phi, u, m)[1]).abs();
+                    if is_beyond && passing.beyond.abs() > share * by_speed {
+                        return Some([passing.phi, (2.0 * u).sqrt()]);
+                    }
+                }
+            }
+        }
+        None
     }
 
     /// Where a step that keeps to a side passes a kink of a law first, as a length from its start, and the kink's number;
@@ -423,15 +513,19 @@ impl Events<'_, f64> {
                 values[i + 1] = self.on_side(nth, &Side { geometry, u: piece.X[i] });
             }
             let near = ON_KINK * self.size(self.nth(nth), &values);
-            let passed = |&i: &usize| values[i] * values[0] < 0.0 && values[i].abs() > near;
-            let Some(to) = (1..N).find(passed) else { continue };
-            let (start, length) = (AT[to - 1] * piece.h, (AT[to] - AT[to - 1]) * piece.h);
             let machine = side.of(&self.machine);
-            let excess = |x: f64| {
-                let end = machine.advance(piece.phi, piece.u, start + x, m).0.end();
-                self.value(self.nth(nth), piece.phi + start + x, end, m)
+            let mut excess = |x: f64| {
+                let end = machine.advance(piece.phi, piece.u, x, m).0.end();
+                self.value(self.nth(nth), piece.phi + x, end, m)
             };
-            let at = start + crossing(excess, length, values[to - 1], values[to]);
+            let mut nodes: Vec<(f64, f64)> = AT.into_iter().zip(values).collect();
+            nodes.extend(turns_near_zero(&values).into_iter().map(|share| (share, excess(share * piece.h))));
+            nodes.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let is_passed = |node: &(f64, f64)| node.1 * values[0] < 0.0 && node.1.abs() > near;
+            let Some(to) = nodes.iter().position(is_passed) else { continue };
+            let [from, to] = [nodes[to - 1], nodes[to]];
+            let (start, length) = (from.0 * piece.h, (to.0 - from.0) * piece.h);
+            let at = start + crossing(|x| excess(start + x), length, from.1, to.1);
             if first.is_none_or(|(least, _)| at < least) {
                 first = Some((at, nth));
             }
@@ -542,6 +636,17 @@ impl<R: Real> Turn<R> {
         let pairs = bundle(&scale).into_iter().zip(bundle(&offset));
         self.passed = pairs.map(|(scale, offset)| [scale, offset]).collect();
     }
+}
+
+/// Shares of a step at which a quantity with these values at its start and stages turns near its zero or beyond it.
+fn turns_near_zero(values: &[f64; N]) -> Vec<f64> {
+    let quintic = through(values);
+    let room = NEARLY * values.iter().fold(0.0, |size: f64, value| value.abs().max(size));
+    let is_near = |share: &f64| {
+        let value = value(&quintic, *share);
+        value.abs() <= room || value * values[0] < 0.0 || value * values[N - 1] < 0.0
+    };
+    Bernstein::of_powers(&quintic).turns(ON_KINK * room).into_iter().filter(is_near).collect()
 }
 
 /// How far u leaps at ends of steps where the motion is taken through kinks, as a share of itself: what is left of the way

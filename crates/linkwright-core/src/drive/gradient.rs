@@ -12,8 +12,9 @@
 use crate::drive::cycle::{Machine, REFERENCE, Turn, stages_of_part};
 use crate::drive::events::{Events, Passage};
 use crate::drive::extremes::Extreme;
+use crate::drive::layers::resolved;
 use crate::drive::layout::{Layout, bundle, unbundle};
-use crate::drive::reading::State;
+use crate::drive::reading::{Mark, State};
 use crate::drive::steady::Steady;
 use crate::drive::structure::Plan;
 use crate::kernel::call::poll;
@@ -102,7 +103,8 @@ impl Job for Gradient<'_> {
         let mut numbers = vec![0.0; NUMBERS * n];
         let mut curves = vec![0.0; CURVES * self.phi.len() * n];
         let (mut lanes, mut lost) = (vec![0.0; R::LANES], vec![f64::NAN; n]);
-        let ends = (!self.steady.crossings.is_empty()).then(|| MovingEnds::new::<R>(&self));
+        let marks = resolved(self.plan, self.q, self.steady);
+        let ends = (!self.steady.crossings.is_empty()).then(|| MovingEnds::new::<R>(&self, &marks));
         for first in (0..n).step_by(R::LANES) {
             poll();
             let width = R::LANES.min(n - first);
@@ -115,7 +117,7 @@ impl Job for Gradient<'_> {
                 q.push(Dual { value: R::splat(value), d: R::load(&lanes) });
             }
             let mut m = Motion::new(&self.plan.mechanism, &q);
-            let mut dual = DualRevolution::new(self.plan, &q, self.steady, &mut m);
+            let mut dual = DualRevolution::new(&self, &q, &marks, &mut m);
             if let Some(ends) = &ends {
                 lanes.fill(1.0);
                 lanes[..width].copy_from_slice(&self.sizes[first..first + width]);
@@ -143,6 +145,8 @@ impl Job for Gradient<'_> {
 struct DualRevolution<'a, R: Real> {
     machine: Machine<'a, Dual<R>>,
     steady: &'a Steady,
+    /// The solution at the starts of its steps.
+    marks: &'a [Mark],
     turn: Turn<Dual<R>>,
     /// Ends of the steps, the last at the end of the cycle.
     edges: Vec<Dual<R>>,
@@ -150,14 +154,15 @@ struct DualRevolution<'a, R: Real> {
 
 impl<'a, R: Real> DualRevolution<'a, R> {
     #[inline(always)]
-    fn new(plan: &'a Plan, q: &'a [Dual<R>], steady: &'a Steady, m: &mut Motion<Dual<R>>) -> Self {
+    fn new(of: &Gradient<'a>, q: &'a [Dual<R>], marks: &'a [Mark], m: &mut Motion<Dual<R>>) -> Self {
+        let (plan, steady) = (of.plan, of.steady);
         let machine = Machine::new(plan, q).keeping_branch(plan.may_jump());
-        let ends: Vec<f64> = steady.marks.iter().map(|mark| mark.phi).chain([plan.cycle()]).collect();
+        let ends: Vec<f64> = marks.iter().map(|mark| mark.phi).chain([plan.cycle()]).collect();
         let edges = R::out_of_line(
             #[inline(always)]
             || machine.moving(&ends, m),
         );
-        let mut dual = DualRevolution { machine, steady, turn: Turn::empty(Layout::Machines), edges };
+        let mut dual = DualRevolution { machine, steady, marks, turn: Turn::empty(Layout::Machines), edges };
         dual.differentiate(m);
         dual
     }
@@ -165,7 +170,7 @@ impl<'a, R: Real> DualRevolution<'a, R> {
     /// The solution on the steps between the edges, with its derivatives.
     #[inline(always)]
     fn differentiate(&mut self, m: &mut Motion<Dual<R>>) {
-        let marks = &self.steady.marks;
+        let marks = self.marks;
         let steps: Vec<_> = self.edges.windows(2).map(|ends| (ends[0], ends[1] - ends[0])).collect();
         self.turn.tabulate_again(&self.machine, &steps, m);
         for (step, mark) in self.turn.steps.iter_mut().zip(marks) {
@@ -260,7 +265,7 @@ impl<'a, R: Real> DualRevolution<'a, R> {
         events: &Events<'_, Dual<R>>,
         m: &mut Motion<Dual<R>>,
     ) -> Vec<(usize, Passage<Dual<R>>)> {
-        let (marks, n) = (&self.steady.marks, self.turn.steps.len());
+        let (marks, n) = (self.marks, self.turn.steps.len());
         let mut passages: Vec<(usize, Passage<Dual<R>>)> = Vec::new();
         for crossing in &self.steady.crossings {
             let behind = marks.partition_point(|mark| mark.phi < crossing.phi - AT_END);
@@ -321,7 +326,7 @@ impl<'a, R: Real> DualRevolution<'a, R> {
         let epsilon = |phi: f64, m: &mut Motion<Dual<R>>| self.state(phi, m).1.epsilon;
         let there = epsilon(phi, m);
         let ends = |k: usize| self.edges[k].value.max_lane();
-        let k = self.steady.marks.partition_point(|mark| mark.phi < phi - AT_END).max(1) - 1;
+        let k = self.marks.partition_point(|mark| mark.phi < phi - AT_END).max(1) - 1;
         let aside = ASIDE * (ends(k + 1) - ends(k));
         for edge in [k, k + 1] {
             let off = (phi - ends(edge)).abs();
@@ -361,7 +366,7 @@ impl<'a, R: Real> DualRevolution<'a, R> {
     #[inline(always)]
     fn state(&self, phi: f64, m: &mut Motion<Dual<R>>) -> (Dual<R>, State<Dual<R>>) {
         let last = self.turn.steps.len() - 1;
-        let k = self.steady.marks.partition_point(|mark| mark.phi < phi - AT_END).clamp(1, last + 1) - 1;
+        let k = self.marks.partition_point(|mark| mark.phi < phi - AT_END).clamp(1, last + 1) - 1;
         let step = &self.turn.steps[k];
         let ends_here = (self.edges[k + 1].value - phi).abs().max_lane() < AT_END;
         let to = if ends_here { self.edges[k + 1] } else { Dual::splat(phi) };
@@ -390,10 +395,10 @@ struct MovingEnds {
 impl MovingEnds {
     /// Those of a solution: each end is moved in a lane of its own.
     #[inline(always)]
-    fn new<R: Real>(of: &Gradient<'_>) -> Self {
+    fn new<R: Real>(of: &Gradient<'_>, marks: &[Mark]) -> Self {
         let q: Vec<Dual<R>> = of.q.iter().map(|&value| Dual::splat(value)).collect();
         let mut m = Motion::new(&of.plan.mechanism, &q);
-        let mut dual = DualRevolution::new(of.plan, &q, of.steady, &mut m);
+        let mut dual = DualRevolution::new(of, &q, marks, &mut m);
         let events = Events::new(dual.machine);
         let ends: Vec<usize> = dual.passages(&events, &mut m).iter().map(|(k, _)| *k).collect();
         let n = ends.len();

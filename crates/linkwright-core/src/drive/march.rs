@@ -127,6 +127,8 @@ pub struct Sliding {
     pub phi: f64,
     /// Speed at which it is held \[rad/s\].
     pub omega: f64,
+    /// Over what angle it slides in the whole revolution \[rad\].
+    pub over: f64,
 }
 
 /// A motion that repeats, to about seven digits.
@@ -574,7 +576,7 @@ impl March<'_> {
         // Whatever reaches the jump leaves it in the same way.
         turn.growth = 0.0;
         let omega = (2.0 * start).sqrt();
-        turn.slides.get_or_insert(Sliding { phi, omega });
+        turn.slides.get_or_insert(Sliding { phi, omega, over: 0.0 }).over += slid;
         (slid, end.1)
     }
 }

@@ -20,6 +20,7 @@
 //! | [`march`] | all motions over one revolution, from the fastest down: which repeat, and whether any does |
 //! | [`steady`] | steady motion of one machine to a wanted accuracy |
 //! | [`gradient`] | derivatives of steady motion by the numbers of the machine |
+//! | `layers` | steps in which derivatives are as exact as the motion |
 //! | [`transient`] | motion in time from given angle and speed, with its events |
 //! | [`along`] | derivatives of motions and kinks at given angles |
 //! | `rows` | parameters and results of the rows of a batch |
@@ -40,6 +41,7 @@ pub mod force_elements;
 pub mod gradient;
 pub mod kinks;
 pub mod law;
+mod layers;
 pub mod layout;
 pub mod levels;
 pub mod loads;

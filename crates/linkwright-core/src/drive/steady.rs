@@ -138,6 +138,13 @@ impl From<NoMotion> for Failure {
 /// Another motion counts as the same if their u at φ = 0 differ by less than this share.
 const SAME: f64 = 1e-5;
 
+/// A motion that is held by a jump over no more than this angle \[rad\] may pass below it when it is solved exactly: what is
+/// marched to [`crate::drive::march`]'s seven digits grazes the jump.
+const BRIEF: f64 = 0.05;
+
+/// Ends of steps this near to each other \[rad\] are one.
+const NO_ANGLE: f64 = 1e-12;
+
 /// Accuracy to which other motions are reported.
 const TOLD: f64 = 1e-7;
 
@@ -196,9 +203,14 @@ fn fastest_of(
     let (mut answer, mut others, mut failed): (Option<Steady>, Vec<OtherMotion>, _) =
         (None, Vec::new(), None);
     for motion in motions {
-        if let Some(Sliding { phi, omega }) = motion.slides {
+        let slides = motion.slides.map(|Sliding { phi, omega, .. }| Failure {
+            phi,
+            omega,
+            ..Failure::new(Status::Slides)
+        });
+        if motion.slides.is_some_and(|sliding| sliding.over > BRIEF) {
             others.push(OtherMotion::from(motion));
-            failed = failed.or(Some(Failure { phi, omega, ..Failure::new(Status::Slides) }));
+            failed = failed.or(slides);
             continue;
         }
         // One end of a range that repeats: Newton's equations are singular there.
@@ -216,7 +228,7 @@ fn fastest_of(
             Ok(found) => others.push(OtherMotion::from(&found)),
             Err(failure) => {
                 others.push(OtherMotion::from(motion));
-                failed = failed.or(Some(failure));
+                failed = failed.or(slides).or(Some(failure));
             }
         }
     }
@@ -284,6 +296,8 @@ impl Search<'_> {
     fn from(&self, motion: &PeriodicMotion, told: bool) -> Self {
         let mut edges: Vec<f64> = motion.pieces.iter().map(|piece| piece.phi).collect();
         edges.push(self.plan.cycle());
+        // A jump may hold a motion over no angle at all.
+        edges.dedup_by(|next, last| *next - *last < NO_ANGLE);
         let accuracy = if told { self.accuracy.max(TOLD) } else { self.accuracy };
         Search {
             mesh: Mesh { crossings: motion.crossings.clone(), ..Mesh::new(edges) },
@@ -362,6 +376,12 @@ impl Job for Search<'_> {
                     return Err(Failure { reached, ..Failure::new(Status::NoSteadyMotion) });
                 }
                 let (accuracy, scale) = (self.accuracy.max(reached), turn.acceleration_scale());
+                // A jump that holds the motion so near to the end of its rise that nobody sees it does not count.
+                if may_jump
+                    && let Some([phi, omega]) = events.held_inside(&pieces, accuracy, &mut plain_motion)
+                {
+                    return Err(Failure { phi, omega, reached, ..Failure::new(Status::Slides) });
+                }
                 // Ends of steps lie beside kinks of the speed by up to a millionth of a step; with jumps they lie on them.
                 let corners = if may_jump { Vec::new() } else { events.corners(&pieces, &mut plain_motion) };
                 let hints = turn.hints(&machine);

@@ -2,7 +2,7 @@
 //!
 //! [`Attempts`] is what events are met with; here by the explicit method, in [`super::stiff`] by the implicit one.
 
-use super::equation::{Equation, Y};
+use super::equation::{Equation, Jump, Y};
 use crate::kernel::rk::{Stages, Trial, over, worse};
 
 /// Share of the working speed that is added to a speed before the accuracy is taken of it.
@@ -37,6 +37,12 @@ pub trait Attempts {
 
     /// Order of the error that `fill` tells.
     fn order(&self) -> f64;
+
+    /// The quantities whose zeros are kinks of laws, at a state.
+    fn at_law_kinks(&mut self, y: &Y) -> Vec<f64>;
+
+    /// The kink of a law with a number, at a time and a state that lies on it.
+    fn jump(&mut self, nth: usize, t: f64, y: &Y) -> Jump;
 }
 
 /// Attempts from `(t, y)` by the explicit method.
@@ -101,6 +107,14 @@ impl Attempts for ExplicitAttempt<'_, '_> {
 
     fn order(&self) -> f64 {
         8.0
+    }
+
+    fn at_law_kinks(&mut self, y: &Y) -> Vec<f64> {
+        self.equation.at_law_kinks(y)
+    }
+
+    fn jump(&mut self, nth: usize, t: f64, y: &Y) -> Jump {
+        self.equation.jump(nth, t, y)
     }
 }
 

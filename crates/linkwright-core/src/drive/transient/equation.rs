@@ -2,7 +2,7 @@
 
 use super::reduced::{Reduced, ReducedCurves};
 use crate::drive::cycle::Machine;
-use crate::drive::law::LawGeometry;
+use crate::drive::law::{LawGeometry, SpeedKink};
 use crate::kernel::dual::Dual;
 use crate::kernel::plane::Angle;
 use crate::kernel::real::Lift;
@@ -33,9 +33,23 @@ impl Turning {
     }
 }
 
+/// Distance of the speed from a jump of a law, as a share, at which its two sides are looked at.
+const ASIDE: f64 = 1e-6;
+
+/// What the motion comes to where a law may jump.
+#[derive(Clone, Copy, Debug)]
+pub struct Jump {
+    /// By how much the acceleration changes from the lower speed to the higher \[rad/s²\].
+    pub leap: f64,
+    /// Whether the torques of both sides drive the motion back to it.
+    pub holds: bool,
+}
+
 /// A machine with room for what its equation of motion needs.
 pub struct Equation<'a> {
     pub machine: Machine<'a, f64>,
+    /// Kinks and jumps of laws whose angle depends on the speed.
+    pub law_kinks: Vec<SpeedKink>,
     pub motion: Motion<f64>,
     pub geometry: Vec<LawGeometry<f64>>,
     pub speed_scale: f64,
@@ -88,6 +102,37 @@ impl Equation<'_> {
             net = net - self.laws(Dual::constant(t), phi, speed * sense) * sense;
         }
         (net.value / J, net.d / J)
+    }
+
+    /// The quantities whose zeros are kinks of laws, at a state.
+    pub fn at_law_kinks(&mut self, y: &Y) -> Vec<f64> {
+        if self.law_kinks.is_empty() {
+            return Vec::new();
+        }
+        let Machine { plan, q, .. } = self.machine;
+        let phi = self.turning.crank * y[0];
+        plan.reduce::<f64, 2>(q, Angle::new(phi), self.turning.crank, &mut self.motion);
+        self.geometry.clear();
+        plan.add_geometry(q, phi, &self.motion, &mut self.geometry);
+        let omega = self.turning.crank * y[1];
+        let value = |&kink: &SpeedKink| plan.speed_kink_value(q, kink, &self.geometry, omega);
+        self.law_kinks.iter().map(value).collect()
+    }
+
+    /// The kink of a law with a number, at a state that lies on it. Beside it the quantity whose zero it is goes with
+    /// g_φ ω + g_ω ε.
+    pub fn jump(&mut self, nth: usize, t: f64, y: &Y) -> Jump {
+        let near = |share: f64| [y[0], y[1] * (1.0 + share)];
+        let by_omega = self.at_law_kinks(&near(ASIDE))[nth] - self.at_law_kinks(&near(-ASIDE))[nth];
+        let by_omega = by_omega / (2.0 * ASIDE * y[1]);
+        let turned = |angle: f64| [y[0] + angle, y[1]];
+        let by_phi = self.at_law_kinks(&turned(ASIDE))[nth] - self.at_law_kinks(&turned(-ASIDE))[nth];
+        let by_phi = by_phi / (2.0 * ASIDE);
+        let [below, above] = [-ASIDE, ASIDE]
+            .map(|side| 2.0 * self.derivative(t, &near(side))[1] - self.derivative(t, &near(2.0 * side))[1]);
+        // How fast the speed leaves the kink on either side.
+        let [from_below, from_above] = [below, above].map(|epsilon| epsilon + by_phi / by_omega * y[1]);
+        Jump { leap: above - below, holds: from_below > 0.0 && from_above < 0.0 }
     }
 
     /// Torque of the laws at an angle for which the mechanism has been placed.

@@ -24,13 +24,12 @@ mod reduced;
 pub mod stiff;
 pub mod variation;
 
-use self::attempt::{Attempts, ExplicitAttempt, Piece};
+use self::attempt::{Attempts, ExplicitAttempt, Piece, aside_of};
 pub use self::equation::Turning;
-use self::equation::{AT_REST, Equation, Y};
+use self::equation::{AT_REST, Equation, Jump, Y};
 use self::reduced::ReducedCurves;
 use self::stiff::StiffAttempt;
 use crate::drive::cycle::Machine;
-use crate::drive::events::Events;
 use crate::drive::mesh::crossing;
 use crate::drive::structure::Plan;
 use crate::kernel::call::poll;
@@ -134,7 +133,10 @@ const NEAR: f64 = 1e-3;
 /// A step of the crank shorter than this \[rad\] may be due to a jump on which the motion is held.
 const SHORT: f64 = 1e-7;
 
-/// How near to a jump, as a share of u, steps that go back and forth across it leave the motion.
+/// Newton steps to the speed of a jump: the quantity is nearly linear in it.
+const LEVEL_SWEEPS: usize = 4;
+
+/// How near to a jump, as a share of the speed, steps that go back and forth across it leave the motion.
 const NEAR_JUMP: f64 = 1e-5;
 
 /// Follows the motion until time, turns or an event end it.
@@ -148,8 +150,16 @@ pub fn follow(plan: &Plan, q: &[f64], start: &Start) -> Trajectory {
     }
     let speed_scale = q[plan.drive.speed_start].max(start.omega);
     let turning = start.turning;
-    let mut follower =
-        Equation { machine, motion, geometry: Vec::new(), speed_scale, turning, evaluations: 0, curves };
+    let mut follower = Equation {
+        machine,
+        law_kinks: plan.speed_kinks(),
+        motion,
+        geometry: Vec::new(),
+        speed_scale,
+        turning,
+        evaluations: 0,
+        curves,
+    };
     let mut path = Path::new(plan, q, start, kinks);
     path.run(&mut follower);
     path.finish(&mut follower)
@@ -173,7 +183,21 @@ struct AcceptedStep {
     /// Length to try next.
     next: f64,
     at_rest: bool,
+    /// Whether it came to a jump that holds the motion.
+    is_held: bool,
 }
+
+/// A step that passes a jump of a law.
+#[derive(Clone, Copy, Debug)]
+struct Passing {
+    /// The length that it may have instead, if it may not be so long.
+    shorter: Option<f64>,
+    /// Whether the jump holds the motion.
+    holds: bool,
+}
+
+/// A step that passes a jump has at least this share of the time so far, which would not change otherwise.
+const LEAST_PASSING: f64 = 1e-14;
 
 /// What an explicit step may have of h ∂ε/∂ω: DOP853 is stable up to about 6, and its error grows large before.
 const STABLE: f64 = 4.0;
@@ -248,13 +272,13 @@ impl Path {
             let step = match self.step(follower, (t, &y, &k0), h, is_stiff) {
                 Ok(step) => step,
                 Err(end) => {
-                    let slides = end == End::Inaccurate && follower.slides(&y);
+                    let slides = end == End::Inaccurate && follower.slides(t, &y);
                     self.trajectory.end = if slides { End::Slides } else { end };
                     return;
                 }
             };
             h = step.next;
-            if h * y[1] < SHORT && follower.slides(&y) {
+            if step.is_held || (h * y[1] < SHORT && follower.slides(t, &y)) {
                 self.trajectory.end = End::Slides;
                 return;
             }
@@ -373,12 +397,49 @@ impl Path {
                 longest = h * share;
                 continue;
             }
+            let passing = self.passing(attempt, (t, y), (h, &end));
+            if let Some(Passing { shorter: Some(shorter), .. }) = passing {
+                longest = shorter;
+                continue;
+            }
             // A step cut short by an event says nothing about the length that the next may have.
             let grown = tried * next_factor_of(trial.error.max(on_the_way), order).min(growth_max);
             let next = if tried < longest { grown.max(longest) } else { grown };
-            return Ok(AcceptedStep { pieces, next, at_rest: event.is_some() && end[1] == 0.0 });
+            let at_rest = event.is_some() && end[1] == 0.0;
+            let is_held = passing.is_some_and(|passing| passing.holds);
+            return Ok(AcceptedStep { pieces, next, at_rest, is_held });
         }
         Err(reason)
+    }
+
+    /// How a step passes a jump of a law, if it does. An implicit step does not see what jumps before its first stage, and an
+    /// explicit one sees it too well: a step passes a jump only where it is so short that the jump does not count.
+    fn passing(
+        &self,
+        attempt: &mut impl Attempts,
+        (t, y): (f64, &Y),
+        (h, end): (f64, &Y),
+    ) -> Option<Passing> {
+        let (before, behind) = (attempt.at_law_kinks(y), attempt.at_law_kinks(end));
+        let mut found: Option<Passing> = None;
+        for nth in (0..before.len()).filter(|&nth| before[nth] * behind[nth] < 0.0) {
+            let excess = |x: f64| {
+                let there = attempt.to(x).y;
+                attempt.at_law_kinks(&there)[nth]
+            };
+            let at = crossing(excess, h, before[nth], behind[nth]);
+            let there = attempt.to(at).y;
+            let Jump { leap, holds } = attempt.jump(nth, t + at, &there);
+            let allowed = self.accuracy * (there[1] + aside_of(self.speed_scale)) / leap.abs();
+            let allowed = allowed.max(LEAST_PASSING * t);
+            let beside = if at > 0.5 * allowed { at - 0.25 * allowed } else { allowed };
+            let shorter = (h > allowed).then_some(beside);
+            let least = found.and_then(|passing| passing.shorter).unwrap_or(f64::INFINITY);
+            if found.is_none() || shorter.is_some_and(|shorter| shorter < least) {
+                found = Some(Passing { shorter, holds });
+            }
+        }
+        found
     }
 
     /// The next angle at which a step must end.
@@ -442,13 +503,18 @@ impl Path {
 }
 
 impl Equation<'_> {
-    /// Whether the motion is held on a jump of a law here.
-    fn slides(&mut self, y: &Y) -> bool {
-        let u = 0.5 * y[1] * y[1];
-        // A jump is looked for at positive speeds only: a motion held on one at negative speeds is given up.
-        self.turning.crank > 0.0
-            && u > 0.0
-            && Events::new(self.machine).held(y[0], u, NEAR_JUMP, &mut self.motion).is_some()
+    /// Whether the motion is held on a jump of a law near here.
+    fn slides(&mut self, t: f64, y: &Y) -> bool {
+        (0..self.law_kinks.len()).any(|nth| {
+            let mut there = *y;
+            for _ in 0..LEVEL_SWEEPS {
+                let near = [there[0], there[1] * (1.0 + NEAR_JUMP)];
+                let (value, beside) = (self.at_law_kinks(&there)[nth], self.at_law_kinks(&near)[nth]);
+                there[1] -= value * NEAR_JUMP * there[1] / (beside - value);
+            }
+            let is_near = there[1] > 0.0 && (there[1] / y[1] - 1.0).abs() <= NEAR_JUMP;
+            is_near && self.jump(nth, t, &there).holds
+        })
     }
 }
 

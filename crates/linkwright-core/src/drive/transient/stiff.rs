@@ -17,7 +17,7 @@
 //! the error by halves.
 
 use super::attempt::{Attempts, Piece, aside_of, tolerance};
-use super::equation::{Equation, Y};
+use super::equation::{Equation, Jump, Y};
 use crate::kernel::radau::{A, B, C, N, S, stage_newton, through, value};
 use crate::kernel::rk::{Trial, factors, over, worse};
 
@@ -215,5 +215,13 @@ impl Attempts for StiffAttempt<'_, '_> {
 
     fn order(&self) -> f64 {
         6.0
+    }
+
+    fn at_law_kinks(&mut self, y: &Y) -> Vec<f64> {
+        self.equation.at_law_kinks(y)
+    }
+
+    fn jump(&mut self, nth: usize, t: f64, y: &Y) -> Jump {
+        self.equation.jump(nth, t, y)
     }
 }

@@ -1,0 +1,103 @@
+"""Motions that graze a jump of a load over speed: below it, held by it, or carried on by it."""
+
+import itertools
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import linkwright as lw
+from linkwright.kernel.errors import ConvergenceError, SteadyStateError
+
+J = 0.3  # kg m²
+
+# A crank of constant inertia; a motor of one straight line.
+FILE = """format = 1
+name = "Crank"
+mechanism.cranks.A.radius = "1 m"
+bodies.A = {{ on = "A", inertia = 0.3 }}
+[drive]
+motor = {{ kind = "table", speed = [0, 36], torque = [30, 0], inertia = 0 }}
+gearbox = {{ ratio = 1, efficiency = 1 }}
+[loads.L]
+kind = "formula"
+on = "A"
+torque = "-(15 + 7*cos(phi) + {second}*sin(2*phi) + {jump}*where(omega > {level!r}, 1, 0))"
+"""
+
+# Shares of the speed by which the motion without a jump goes beyond its level, or stays below it.
+BY = [1e-3, 1e-4, 1e-5, 3e-6, 1e-6, 1e-7]
+
+
+def grazing(by: float, jump: float, second: float) -> lw.Machine:
+    """The level lies below the maximum speed of the motion without the jump by a share of it."""
+    without = lw.steady_state(lw.loads(FILE.format(second=second, jump=0, level=18.0)), accuracy=1e-12)
+    return lw.loads(FILE.format(second=second, jump=jump, level=without.speed_max * (1 - by)))
+
+
+@pytest.mark.parametrize("second", [0, 4])
+@pytest.mark.parametrize("jump", [20.0, 0.2, -0.2])
+@pytest.mark.parametrize("by", BY)
+def test_a_motion_below_a_jump_does_not_know_of_it(by: float, jump: float, second: int) -> None:
+    without = lw.steady_state(grazing(0.0, 0.0, second))
+    motion = lw.steady_state(grazing(-by, jump, second))
+    # A load that falls may carry a faster motion as well.
+    motions = [motion.speed_max, *(other.speed_max for other in motion.others)]
+    assert min(abs(speed / without.speed_max - 1) for speed in motions) < 1e-6
+    if jump > 0:
+        assert motion.speed == pytest.approx(without.speed, rel=1e-8)
+
+
+@pytest.mark.parametrize("jump", [20.0, 0.2])
+@pytest.mark.parametrize("by", BY[2:])
+def test_a_jump_that_holds_the_top_of_a_motion_is_told(by: float, jump: float) -> None:
+    with pytest.raises(SteadyStateError, match="slides along a jump: the formula of L"):
+        lw.steady_state(grazing(by, jump, 4))
+
+
+@pytest.mark.parametrize("jump", [20.0, 0.2])
+@pytest.mark.parametrize("by", BY[2:])
+def test_a_jump_that_holds_the_top_of_a_motion_is_no_answer(by: float, jump: float) -> None:
+    """Where the top lies at the end of a step it may be told as not found."""
+    with pytest.raises((SteadyStateError, ConvergenceError)):
+        lw.steady_state(grazing(by, jump, 0))
+
+
+def gained(u: float, level: float, jump: float, second: int) -> float:
+    """What u = ½ω² gains over a revolution by SciPy, stopped where the speed passes the level."""
+    is_above, phi, start = bool(2 * u > level**2), 0.0, u
+
+    def slope(phi: float, u: np.ndarray) -> list[float]:
+        load = 15.0 + 7.0 * np.cos(phi) + second * np.sin(2 * phi) + (jump if is_above else 0.0)
+        return [(30.0 * (1.0 - np.sqrt(2.0 * u[0]) / 36.0) - load) / J]
+
+    def passes(phi: float, u: np.ndarray) -> float:
+        return float(u[0] - 0.5 * level**2)
+
+    passes.terminal = True  # type: ignore[attr-defined]
+    while phi < 2 * np.pi:
+        passes.direction = -1.0 if is_above else 1.0  # type: ignore[attr-defined]
+        piece = solve_ivp(
+            slope, (phi, 2 * np.pi), [u], "DOP853", rtol=1e-12, atol=1e-12, events=passes, max_step=0.02
+        )
+        phi, u = float(piece.t[-1]), float(piece.y[0, -1])
+        is_above ^= piece.status == 1
+    return u - start
+
+
+@pytest.mark.parametrize("second", [0, 4])
+def test_a_load_that_falls_carries_a_motion_on(second: int) -> None:
+    """What is answered repeats by SciPy too; near the level, where multipliers have no bound, some is not."""
+    answered = 0
+    for jump, by in itertools.product([-0.05, -0.1, -2.0], BY):
+        machine = grazing(by, jump, second)
+        level = float(machine.loads["L"].text.split("omega > ")[1].split(",")[0])
+        try:
+            motion = lw.steady_state(machine)
+        except ConvergenceError:
+            continue
+        answered += 1
+        u = 0.5 * float(motion.speed[0]) ** 2
+        assert motion.speed_max > level * (1 + by)
+        assert gained(u, level, jump, second) == pytest.approx(0.0, abs=1e-7 * u)
+    assert answered >= 10
