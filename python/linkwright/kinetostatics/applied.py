@@ -17,36 +17,14 @@ from linkwright.kernel.description.formula import NUMBERS, parse
 from linkwright.kernel.errors import FindingError
 from linkwright.kernel.numerics.formula_value import value
 from linkwright.kernel.numerics.tangent_array import primal
-from linkwright.kinetostatics.model.loads.between import (
-    Damper,
-    GasSpring,
-    Spring,
-    TorsionalDamper,
-    TorsionalSpring,
-)
-from linkwright.kinetostatics.model.loads.force import (
-    ConstantForce,
-    ConstantTorque,
-    DryFriction,
-    FormulaLoad,
-    Gravity,
-    ViscousFriction,
-)
-from linkwright.kinetostatics.model.loads.table import (
-    ForceAngle,
-    ForcePosition,
-    OverCrankAngle,
-    TorqueAngle,
-    TorqueSpeed,
-    TorqueSwing,
-)
+from linkwright.kinetostatics.model import loads
 from linkwright.kinetostatics.places import Scene, dot, unit
 from linkwright.kinetostatics.wrench import Wrenches, masses
 from linkwright.linkages.model.structure import FRAME
 from linkwright.machine.program.loads import gas_column
 
 
-def formula_wrenches(scene: Scene, load: FormulaLoad) -> Wrenches:
+def formula_wrenches(scene: Scene, load: loads.FormulaLoad) -> Wrenches:
     """What a load by a formula does. Raises FindingError: the formula has no value at some crank angle."""
     with np.errstate(all="ignore"):
         force = value(parse(load.text), _names(scene, load)) * np.ones(scene.n)
@@ -61,7 +39,7 @@ def formula_wrenches(scene: Scene, load: FormulaLoad) -> Wrenches:
     return Wrenches(scene).at_point(load.on, force[:, None] * direction)
 
 
-def _names(scene: Scene, load: FormulaLoad) -> dict[str, Any]:
+def _names(scene: Scene, load: loads.FormulaLoad) -> dict[str, Any]:
     """Variables and constants of a formula (docs/loads.md)."""
     motion = scene.motion
     names: dict[str, Any] = {
@@ -100,24 +78,24 @@ class AppliedLoad:
 def applied(scene: Scene, load: Any) -> AppliedLoad:
     """What a load does. Returns: forces and moments on the members, and torque on the crankshaft."""
     on_crankshaft: dict[type, Callable[[Scene, Any], Floats]] = {
-        TorqueAngle: _torque_over_angle,
-        TorqueSpeed: _over_speed,
+        loads.TorqueAngle: _torque_over_angle,
+        loads.TorqueSpeed: _over_speed,
     }
     on_members: dict[type, Callable[[Scene, Any], Wrenches]] = {
-        DryFriction: _dry,
-        ViscousFriction: _viscous,
-        ConstantForce: _force,
-        ConstantTorque: _torque,
-        Gravity: _weight,
-        Spring: _spring,
-        Damper: _damper,
-        GasSpring: _gas,
-        TorsionalSpring: _torsional_spring,
-        TorsionalDamper: _torsional_damper,
-        ForcePosition: _over_position,
-        ForceAngle: _force_over_angle,
-        TorqueSwing: _over_swing,
-        FormulaLoad: formula_wrenches,
+        loads.DryFriction: _dry,
+        loads.ViscousFriction: _viscous,
+        loads.ConstantForce: _force,
+        loads.ConstantTorque: _torque,
+        loads.Gravity: _weight,
+        loads.Spring: _spring,
+        loads.Damper: _damper,
+        loads.GasSpring: _gas,
+        loads.TorsionalSpring: _torsional_spring,
+        loads.TorsionalDamper: _torsional_damper,
+        loads.ForcePosition: _over_position,
+        loads.ForceAngle: _force_over_angle,
+        loads.TorqueSwing: _over_swing,
+        loads.FormulaLoad: formula_wrenches,
     }
     kind = type(load)
     if kind in on_crankshaft:
@@ -140,7 +118,7 @@ def _sense(rate: Floats, size: float, scene: Scene) -> Floats:
     return sign
 
 
-def _dry(scene: Scene, load: DryFriction) -> Wrenches:
+def _dry(scene: Scene, load: loads.DryFriction) -> Wrenches:
     if load.torque is not None:
         return Wrenches(scene).couple(load.on, -load.torque * _sense(scene.angle(load.on, 1), 1.0, scene))
     assert load.force is not None
@@ -153,7 +131,7 @@ def _dry(scene: Scene, load: DryFriction) -> Wrenches:
     return Wrenches(scene).at_point(load.on, -load.force * sense[:, None] * path)
 
 
-def _viscous(scene: Scene, load: ViscousFriction) -> Wrenches:
+def _viscous(scene: Scene, load: loads.ViscousFriction) -> Wrenches:
     speed = scene.motion.speed
     if load.damping_torsional is not None:
         return Wrenches(scene).couple(load.on, -load.damping_torsional * scene.angle(load.on, 1) * speed)
@@ -165,15 +143,15 @@ def _viscous(scene: Scene, load: ViscousFriction) -> Wrenches:
     return Wrenches(scene).at_point(load.on, -load.damping * scene.point(load.on, 1) * speed[:, None])
 
 
-def _force(scene: Scene, load: ConstantForce) -> Wrenches:
+def _force(scene: Scene, load: loads.ConstantForce) -> Wrenches:
     return Wrenches(scene).at_point(load.on, load.force * unit(scene.angle(load.along) + load.direction))
 
 
-def _torque(scene: Scene, load: ConstantTorque) -> Wrenches:
+def _torque(scene: Scene, load: loads.ConstantTorque) -> Wrenches:
     return Wrenches(scene).couple(load.on, load.torque * np.ones(scene.n))
 
 
-def _weight(scene: Scene, load: Gravity) -> Wrenches:
+def _weight(scene: Scene, load: loads.Gravity) -> Wrenches:
     fall = load.acceleration * np.stack([np.cos(load.direction), np.sin(load.direction)])
     wrenches = Wrenches(scene)
     for mass in masses(scene):
@@ -193,7 +171,7 @@ def along_line(scene: Scene, between: tuple[str, str], pull: Callable[[Floats, F
     return wrenches.force(scene.carrier(second), -force, scene.point(second))
 
 
-def _spring(scene: Scene, load: Spring) -> Wrenches:
+def _spring(scene: Scene, load: loads.Spring) -> Wrenches:
     if load.length is not None and load.force is not None:
         x, y = load.length, load.force
         return along_line(scene, load.between, lambda length, _: np.interp(length, x, y))
@@ -201,7 +179,7 @@ def _spring(scene: Scene, load: Spring) -> Wrenches:
     return along_line(scene, load.between, lambda length, _: load.preload + k * (length - free))
 
 
-def _damper(scene: Scene, load: Damper) -> Wrenches:
+def _damper(scene: Scene, load: loads.Damper) -> Wrenches:
     if load.velocity is not None and load.force is not None:
         x, y = load.velocity, load.force
         return along_line(scene, load.between, lambda _, parting: np.interp(parting, x, y))
@@ -209,7 +187,7 @@ def _damper(scene: Scene, load: Damper) -> Wrenches:
     return along_line(scene, load.between, lambda _, parting: c * parting)
 
 
-def _gas(scene: Scene, load: GasSpring) -> Wrenches:
+def _gas(scene: Scene, load: loads.GasSpring) -> Wrenches:
     """p Vⁿ is kept: F = −F₁ (h/(h − way))ⁿ (docs/loads.md)."""
     h = gas_column(load)
 
@@ -227,22 +205,22 @@ def _gas(scene: Scene, load: GasSpring) -> Wrenches:
     return along_line(scene, load.between, pull)
 
 
-def _against(scene: Scene, load: TorsionalSpring | TorsionalDamper, torque: Floats) -> Wrenches:
+def _against(scene: Scene, load: loads.TorsionalSpring | loads.TorsionalDamper, torque: Floats) -> Wrenches:
     """A torque on a link, and the opposite one on what it holds on to."""
     return Wrenches(scene).couple(load.on, torque).couple(load.against or FRAME, -torque)
 
 
-def _torsional_spring(scene: Scene, load: TorsionalSpring) -> Wrenches:
+def _torsional_spring(scene: Scene, load: loads.TorsionalSpring) -> Wrenches:
     turned = scene.angle(load.on) - scene.angle(load.against) - load.free_angle
     return _against(scene, load, -load.stiffness * np.arctan2(np.sin(turned), np.cos(turned)))
 
 
-def _torsional_damper(scene: Scene, load: TorsionalDamper) -> Wrenches:
+def _torsional_damper(scene: Scene, load: loads.TorsionalDamper) -> Wrenches:
     rate = (scene.angle(load.on, 1) - scene.angle(load.against, 1)) * scene.motion.speed
     return _against(scene, load, -load.damping_torsional * rate)
 
 
-def _over_position(scene: Scene, load: ForcePosition) -> Wrenches:
+def _over_position(scene: Scene, load: loads.ForcePosition) -> Wrenches:
     slide = scene.kinematics.slides[load.on]
     sense = _sense(slide.d1, scene.size, scene)
     ahead = np.interp(slide.position, load.position, load.forward)
@@ -250,7 +228,7 @@ def _over_position(scene: Scene, load: ForcePosition) -> Wrenches:
     return Wrenches(scene).along_slide(load.on, np.where(sense > 0, -ahead, np.where(sense < 0, behind, 0.0)))
 
 
-def _over_swing(scene: Scene, load: TorqueSwing) -> Wrenches:
+def _over_swing(scene: Scene, load: loads.TorqueSwing) -> Wrenches:
     sense = _sense(scene.angle(load.on, 1), 1.0, scene)
     # Within half a revolution to both sides of the middle of the table.
     middle = 0.5 * (load.angle[0] + load.angle[-1])
@@ -261,20 +239,20 @@ def _over_swing(scene: Scene, load: TorqueSwing) -> Wrenches:
     return Wrenches(scene).couple(load.on, np.where(sense > 0, -ahead, np.where(sense < 0, behind, 0.0)))
 
 
-def _over_angle(scene: Scene, load: OverCrankAngle, values: Sequence[float]) -> Floats:
+def _over_angle(scene: Scene, load: loads.OverCrankAngle, values: Sequence[float]) -> Floats:
     at: Floats = np.interp(scene.motion.crank_angle, *load.points(values), period=primal(load.cycle))
     return at
 
 
-def _torque_over_angle(scene: Scene, load: TorqueAngle) -> Floats:
+def _torque_over_angle(scene: Scene, load: loads.TorqueAngle) -> Floats:
     return _over_angle(scene, load, load.torque)
 
 
-def _force_over_angle(scene: Scene, load: ForceAngle) -> Wrenches:
+def _force_over_angle(scene: Scene, load: loads.ForceAngle) -> Wrenches:
     return Wrenches(scene).along_slide(load.on, _over_angle(scene, load, load.force))
 
 
-def _over_speed(scene: Scene, load: TorqueSpeed) -> Floats:
+def _over_speed(scene: Scene, load: loads.TorqueSpeed) -> Floats:
     speed = scene.motion.speed
     torque: Floats = np.interp(np.abs(speed), load.speed, load.torque) * np.sign(speed)
     return torque

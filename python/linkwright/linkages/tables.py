@@ -40,10 +40,8 @@ def _travel(linkage: Linkage) -> Table:
 
 
 def _travel_row(element: ElementMotion, of_two: bool) -> Row:
-    """Swing, stroke or turns, where the extremes are, and the ratios.
-
-    `of_two`: whether link and slide have one name, as of a slotted lever.
-    """
+    """Swing, stroke or turns, where the extremes are, and the ratios."""
+    # `of_two`: whether link and slide have one name, as of a slotted lever.
     if element.turns is not None:
         turns = number(element.turns)
         travel, ends = f"{turns} revolution{'' if turns == '1' else 's'}", ("–", "–")

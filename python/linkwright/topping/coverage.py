@@ -125,7 +125,7 @@ def coverage(
         )
     stations = _stations(edge, fine, float(2 * radius.max()), float(np.abs(place).max()))
     heads = edge.kernel.cover(radius, place, angle, length=length, fine=stations)
-    columns = (
+    columns: tuple[Floats, ...] = (
         *(heads.length, heads.last_x, heads.last_y),
         *(heads.uncut_right, heads.uncut_left, heads.uncut_between),
     )

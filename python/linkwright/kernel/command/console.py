@@ -158,10 +158,8 @@ def _drawn(table: Table) -> RenderableType:
 
 
 def _manner(table: Table, n: int) -> dict[str, Any]:
-    """How a column is set: a narrow terminal may break words and lists of them, never a number.
-
-    A name without a space is broken where the line ends, never cut.
-    """
+    """How a column is set: a narrow terminal may break words and lists of them, never a number."""
+    # A name without a space is broken where the line ends, never cut.
     if n == 0:
         longest = max(len(word) for row in table.rows for word in row[0].split() or [""])
         return {"overflow": "fold", "min_width": min(longest, _NAME)}

@@ -135,10 +135,8 @@ def _layers(drawing: Mapping[str, Any]) -> Mapping[str, Any]:
 def _unknown(
     drawing: Mapping[str, Any], mechanism: Mapping[str, Any], sheet: _Sheet, bodies: object
 ) -> Iterator[InitErrorDetails]:
-    """Points that nothing in the file is named after, and points whose layer has several places.
-
-    Other layers are passed over: drawings have many.
-    """
+    """Points that nothing in the file is named after, and points whose layer has several places."""
+    # Other layers are passed over: drawings have many.
     topology = Topology.of(sheet.mechanism)
     known = {ORIGIN, *topology.candidates("point"), *sheet.referred, *keys(bodies)}
     for name in keys(drawing.get("points")):

@@ -13,30 +13,8 @@ from linkwright.kernel.description.cycle import ONE_TURN, cycle_turns
 from linkwright.kernel.description.place import arrays, join
 from linkwright.kernel.errors import ShapeError
 from linkwright.kernel.numerics.tangent import primal
+from linkwright.kinetostatics.model import loads
 from linkwright.kinetostatics.model.body import Body
-from linkwright.kinetostatics.model.loads.between import (
-    Damper,
-    GasSpring,
-    Spring,
-    TorsionalDamper,
-    TorsionalSpring,
-)
-from linkwright.kinetostatics.model.loads.force import (
-    ConstantForce,
-    ConstantTorque,
-    DryFriction,
-    FormulaLoad,
-    Gravity,
-    ViscousFriction,
-)
-from linkwright.kinetostatics.model.loads.table import (
-    ForceAngle,
-    ForcePosition,
-    OverCrankAngle,
-    TorqueAngle,
-    TorqueSpeed,
-    TorqueSwing,
-)
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.mechanism import MechanismProgram
 from linkwright.machine.program.numbers import table
@@ -94,59 +72,59 @@ class Loads:
 
     def all(self, *, brake: bool) -> list[_core.Load]:
         """Forces and torques; a brake resists on the crankshaft."""
-        loads: list[_core.Load] = []
+        parts: list[_core.Load] = []
         for load in self.machine.loads.values():
-            if isinstance(load, FormulaLoad):
-                loads += self._formula_load(load)
-            elif isinstance(load, TorqueSwing):
-                loads += [term for piece in swing_formulas(load) for term in self._formula_load(piece)]
+            if isinstance(load, loads.FormulaLoad):
+                parts += self._formula_load(load)
+            elif isinstance(load, loads.TorqueSwing):
+                parts += [term for piece in swing_formulas(load) for term in self._formula_load(piece)]
             else:
-                loads.append(self._load(load))
+                parts.append(self._load(load))
         drive = self.machine.drive
         if brake and drive and drive.brake:
             ratio = drive.gearbox.ratio if drive.brake.on == "motor" else 1.0
-            loads.append(_core.Load.DryCrank(torque=self.slot(drive.brake.torque * ratio)))
-        return loads
+            parts.append(_core.Load.DryCrank(torque=self.slot(drive.brake.torque * ratio)))
+        return parts
 
     def _table(self, x: Sequence[Any], y: Sequence[Any]) -> _core.Table:
         return table_of(self.machine, x, y)
 
     def _load(self, load: Any) -> _core.Load:
         match load:
-            case DryFriction():
+            case loads.DryFriction():
                 return self._dry(load)
-            case ViscousFriction():
+            case loads.ViscousFriction():
                 return self._viscous(load)
-            case ConstantForce():
+            case loads.ConstantForce():
                 return self._force(load)
-            case ConstantTorque():
+            case loads.ConstantTorque():
                 return _core.Load.Torque(link=self.links[load.on], torque=self.slot(load.torque))
-            case Gravity():
+            case loads.Gravity():
                 x, y = self._vector(load.acceleration, load.direction)
                 return _core.Load.Gravity(x=x, y=y)
-            case Spring() | Damper() | GasSpring():
+            case loads.Spring() | loads.Damper() | loads.GasSpring():
                 return self._between(load, *(self.points[end] for end in load.between))
-            case TorsionalSpring() | TorsionalDamper():
+            case loads.TorsionalSpring() | loads.TorsionalDamper():
                 return self._between_links(load)
-            case ForcePosition():
+            case loads.ForcePosition():
                 forward = self._table(load.position, load.forward)
                 back = self._table(load.position, load.return_ or (0.0,) * len(load.position))
                 return _core.Load.ForcePosition(slide=self.slides[load.on], forward=forward, back=back)
-            case TorqueAngle():
+            case loads.TorqueAngle():
                 return _core.Load.TorqueAngle(
                     table=self._table(*load.points(load.torque)), turns=whole_turns(load)
                 )
-            case ForceAngle():
+            case loads.ForceAngle():
                 return _core.Load.ForceAngle(
                     slide=self.slides[load.on],
                     table=self._table(*load.points(load.force)),
                     turns=whole_turns(load),
                 )
-            case TorqueSpeed():
+            case loads.TorqueSpeed():
                 return _core.Load.TorqueSpeed(table=self._table(load.speed, load.torque))
         raise TypeError(f"no translation for {type(load).__name__}")
 
-    def _dry(self, load: DryFriction) -> _core.Load:
+    def _dry(self, load: loads.DryFriction) -> _core.Load:
         """A constant resistance on a link, a slide or a point."""
         if load.torque is not None:
             return _core.Load.DryLink(link=self.links[load.on], torque=self.slot(load.torque))
@@ -154,7 +132,7 @@ class Loads:
             return _core.Load.DrySlide(slide=self.slides[load.on], force=self.slot(load.force))
         return _core.Load.DryPoint(point=self.points[load.on], force=self.slot(load.force))
 
-    def _viscous(self, load: ViscousFriction) -> _core.Load:
+    def _viscous(self, load: loads.ViscousFriction) -> _core.Load:
         """A resistance in proportion to speed on a link, a slide or a point."""
         if load.damping_torsional is not None:
             return _core.Load.ViscousLink(link=self.links[load.on], damping=self.slot(load.damping_torsional))
@@ -162,7 +140,7 @@ class Loads:
             return _core.Load.ViscousSlide(slide=self.slides[load.on], damping=self.slot(load.damping))
         return _core.Load.ViscousPoint(point=self.points[load.on], damping=self.slot(load.damping))
 
-    def _force(self, load: ConstantForce) -> _core.Load:
+    def _force(self, load: loads.ConstantForce) -> _core.Load:
         x, y = self._vector(load.force, load.direction)
         if load.along is not None:
             return _core.Load.Follow(
@@ -173,9 +151,9 @@ class Loads:
     def _between(self, load: Any, start: int, end: int) -> _core.Load:
         """A load along the line between two points."""
         match load:
-            case Spring(length=tuple() as length, force=tuple() as force):
+            case loads.Spring(length=tuple() as length, force=tuple() as force):
                 return _core.Load.SpringTable(start=start, end=end, table=self._table(length, force))
-            case Spring():
+            case loads.Spring():
                 return _core.Load.Spring(
                     start=start,
                     end=end,
@@ -183,9 +161,9 @@ class Loads:
                     free_length=self.slot(load.free_length),
                     preload=self.slot(load.preload),
                 )
-            case Damper(velocity=tuple() as velocity, force=tuple() as force):
+            case loads.Damper(velocity=tuple() as velocity, force=tuple() as force):
                 return _core.Load.DamperTable(start=start, end=end, table=self._table(velocity, force))
-            case Damper():
+            case loads.Damper():
                 return _core.Load.Damper(start=start, end=end, damping=self.slot(load.damping))
         return _core.Load.GasSpring(
             start=start,
@@ -196,17 +174,17 @@ class Loads:
             exponent=self.slot(load.exponent),
         )
 
-    def _between_links(self, load: TorsionalSpring | TorsionalDamper) -> _core.Load:
+    def _between_links(self, load: loads.TorsionalSpring | loads.TorsionalDamper) -> _core.Load:
         """A torque between the link that a load acts on and another one, or the frame."""
         link, other = self.links[load.on], None if load.against is None else self.links[load.against]
-        if isinstance(load, TorsionalDamper):
+        if isinstance(load, loads.TorsionalDamper):
             return _core.Load.TorsionDamper(link=link, other=other, damping=self.slot(load.damping_torsional))
         cos, sin = self._vector(1.0, load.free_angle)
         return _core.Load.TorsionSpring(
             link=link, other=other, stiffness=self.slot(load.stiffness), cos=cos, sin=sin
         )
 
-    def _formula_load(self, load: FormulaLoad) -> Iterator[_core.Load]:
+    def _formula_load(self, load: loads.FormulaLoad) -> Iterator[_core.Load]:
         """A load for each summand, so that each enters the motion in its own way."""
         on: Callable[..., _core.Load] = _core.Load.FormulaOnSlide
         carrier: dict[str, int]
@@ -228,10 +206,10 @@ class Loads:
         return self.slot(size * np.cos(direction)), self.slot(size * np.sin(direction))
 
 
-def swing_formulas(load: TorqueSwing) -> Iterator[FormulaLoad]:
+def swing_formulas(load: loads.TorqueSwing) -> Iterator[loads.FormulaLoad]:
     """A torque over the angle of a link as loads by formulas."""
     for text, constants in load.as_formulas():
-        yield FormulaLoad.model_construct(
+        yield loads.FormulaLoad.model_construct(
             kind="formula",
             on=load.on,
             force=None,
@@ -257,7 +235,7 @@ def link_body(body: Body, length: Any) -> tuple[Any, Any, Any, Any]:
     return along, body.across, mass, inertia
 
 
-def gas_column(spring: GasSpring) -> Any:
+def gas_column(spring: loads.GasSpring) -> Any:
     """Length of the gas of a gas spring at its extended length [m]: volume over the area of the rod.
 
     The law F = F₁ (h/(h − way))ⁿ goes through the push at the compressed length, F₁·progression.
@@ -267,7 +245,7 @@ def gas_column(spring: GasSpring) -> Any:
     return way * root / (root - 1.0)
 
 
-def whole_turns(load: OverCrankAngle | FormulaLoad) -> int:
+def whole_turns(load: loads.OverCrankAngle | loads.FormulaLoad) -> int:
     """Revolutions after which a load repeats. Raises ShapeError: they vary from machine to machine."""
     if np.ndim(load.cycle):
         raise ShapeError(

@@ -37,6 +37,7 @@ from linkwright.kinetostatics.model.loads.force import (
 from linkwright.kinetostatics.model.loads.table import (
     ForceAngle,
     ForcePosition,
+    OverCrankAngle,
     TorqueAngle,
     TorqueSpeed,
     TorqueSwing,
@@ -75,6 +76,7 @@ __all__ = [
     "GasSpring",
     "Gravity",
     "Load",
+    "OverCrankAngle",
     "Spring",
     "TorqueAngle",
     "TorqueSpeed",
