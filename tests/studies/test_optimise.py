@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 import linkwright as lw
 from linkwright.kernel.errors import FindingError, InputError
+from linkwright.studies import search_log
 from linkwright.studies.optimise import Optimum
 
 # The pin of a crank of 0.2 m at angle a: x = 0.2 cos a, y = 0.2 sin a.
@@ -156,3 +159,40 @@ power = "minimise"
     assert found.responses["power"] == 15e3
     assert found.variables["r"] == found.responses["radius"] <= 0.2
     assert [one["refused"] for one in found.tried] == ["torque 73.83 N m below 85", None, None]
+
+
+def counted(calls: list[str], made: Callable[..., Any]) -> Callable[..., Any]:
+    """A function that lists its calls."""
+
+    def listed(*given: Any) -> Any:
+        calls.append(made.__name__)
+        return made(*given)
+
+    return listed
+
+
+def test_a_search_that_was_stopped_goes_on_from_its_log(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Stopped anywhere, also inside a line, it ends as one that was not, and computes the rest only."""
+    (tmp_path / "study.toml").write_text(TEXT + '[constraints]\ny = { max = "0.1 m" }\n')
+    plan, log = lw.read_study(tmp_path / "study.toml"), tmp_path / "search.log"
+    whole = lw.optimise(plan, 200, method="both")
+    logged = lw.optimise(plan, 200, method="both", log=log)
+    text = log.read_bytes()
+    lines = text.count(b"\n")
+    assert logged.to_dict() == whole.to_dict()
+    for share in (0.0, 0.31, 0.8, 1.0):
+        log.write_bytes(text[: int(share * len(text))])
+        kept = log.read_bytes().count(b"\n")
+        calls: list[str] = []
+        for name in ("evaluate", "slopes"):
+            monkeypatch.setattr(search_log, name, counted(calls, getattr(search_log, name)))
+        assert lw.optimise(plan, 200, method="both", log=log).to_dict() == whole.to_dict()
+        monkeypatch.undo()
+        assert len(calls) == lines - max(kept, 1)
+        assert log.read_bytes() == text
+    (tmp_path / "other.toml").write_text(TEXT)
+    with pytest.raises(InputError, match="another search"):
+        lw.optimise(lw.read_study(tmp_path / "other.toml"), 200, log=log)
+    assert log.read_bytes() == text

@@ -20,6 +20,7 @@
 | `front` | Machines of which none is better in both of two goals |
 | `workers` | Files of a sweep by processes beside, or by a cluster |
 | `optimise` | The best machine, by CMA-ES over batches |
+| `search_log` | The log of a search, which goes on by replaying it |
 | `local` | Down to the nearest best machine by exact derivatives, and what its limits cost |
 | `fit` | Numbers of a machine from a measured record |
 | `fit_search` | Where that search begins, and how noise is weighed |

@@ -21,7 +21,7 @@ References
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -52,6 +52,10 @@ _STEP = 1e-4
 _EXPLAINED = 0.05
 
 
+# Responses and their derivatives at a place.
+SlopesOf = Callable[[StudyPlan, Floats, Floats], Slopes]
+
+
 @dataclass(frozen=True)
 class _Place:
     """Goal, to be made small, and limits, to be kept below zero, with slopes by the shares."""
@@ -71,8 +75,8 @@ class _Place:
 class Descent:
     """The way down from starts of a study whose variables are numbers."""
 
-    def __init__(self, plan: StudyPlan, goal: str, sign: float) -> None:
-        self.plan, self.goal, self.sign = plan, goal, sign
+    def __init__(self, plan: StudyPlan, goal: str, sign: float, slopes_of: SlopesOf = slopes) -> None:
+        self.plan, self.goal, self.sign, self.slopes_of = plan, goal, sign, slopes_of
         self.free = _free(plan)
         self.count = 0
         self.size = 1.0
@@ -103,7 +107,7 @@ class Descent:
     def _computed(self, share: Floats) -> _Place:
         shares = self.base.copy()
         shares[self.free] = np.clip(share, 0.0, 1.0)
-        _, rates, slopes = _slopes(self.plan, shares)
+        _, rates, slopes = _slopes(self.plan, shares, self.slopes_of)
         slope = {name: (slope * rates)[self.free] for name, slope in slopes.slopes.items()}
         over, over_slope = [], []
         for name, limit, way in limits(self.plan):
@@ -219,11 +223,11 @@ def _free(plan: StudyPlan) -> list[int]:
     return [i for i, axis in enumerate(plan.axes) if not axis.choices and not axis.is_whole]
 
 
-def _slopes(plan: StudyPlan, share: Floats) -> tuple[Floats, Floats, Slopes]:
+def _slopes(plan: StudyPlan, share: Floats, slopes_of: SlopesOf = slopes) -> tuple[Floats, Floats, Slopes]:
     """Variables [SI] and their derivatives by the shares, (variables,) each; responses there."""
     values = np.array([float(axis.values(share[i : i + 1])[0]) for i, axis in enumerate(plan.axes)])
     rates = np.array([_rate(axis, x) for axis, x in zip(plan.axes, values, strict=True)])
-    return values, rates, slopes(plan, values, _STEP * np.abs(rates))
+    return values, rates, slopes_of(plan, values, _STEP * np.abs(rates))
 
 
 def _rate(axis: Axis, value: float) -> float:

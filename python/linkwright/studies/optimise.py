@@ -16,10 +16,13 @@ References
 
 from __future__ import annotations
 
+import os
 from collections import Counter
 from collections.abc import Callable, Mapping
+from contextlib import closing
 from dataclasses import dataclass, replace
 from itertools import product
+from pathlib import Path
 from typing import Annotated, Any, Literal, get_args
 
 import numpy as np
@@ -35,6 +38,7 @@ from linkwright.studies.axes import Axis
 from linkwright.studies.engine import SOLVED, Rows, evaluate, sound_variant, variant
 from linkwright.studies.local import Descent, Price, prices
 from linkwright.studies.plan import StudyPlan
+from linkwright.studies.search_log import SearchLog
 
 Method = Literal["both", "global", "gradient"]
 
@@ -91,6 +95,7 @@ def optimise(
     method: Method = "both",
     starts: int = 8,
     watch: Callable[..., None] | None = None,
+    log: str | os.PathLike[str] | None = None,
 ) -> Optimum:
     """Seek the machine that is best by the goal of a study and keeps its constraints.
 
@@ -109,6 +114,8 @@ def optimise(
     watch : callable, optional
         Told after each population how many machines were computed, the best value of the goal, None as long
         as no machine keeps the limits, and the values of that machine's variables [SI].
+    log : path, optional
+        File to which each computation is written; a search that was stopped goes on by replaying it.
 
     Returns
     -------
@@ -118,16 +125,19 @@ def optimise(
     Raises
     ------
     InputError
-        There is no goal or more than one, a variable scatters, or cmaes is not installed.
+        There is no goal or more than one, a variable scatters, cmaes is not installed, or the log is that of
+        another search.
     FindingError
         No machine has an answer and keeps the constraints; says what fails.
     """
     _check(plan, evaluations, method, starts)
-    search = _Search(plan, *next(iter(plan.study.goals.items())), watch)
-    choices = [axis for axis in plan.axes if axis.choices]
-    for shares in product(*(choice.levels for choice in choices)):
-        fixed = {choice.name: float(s) for choice, s in zip(choices, shares, strict=True)}
-        search.run(fixed, evaluations, seed, method, starts)
+    goal = next(iter(plan.study.goals.items()))
+    with closing(SearchLog(plan, None if log is None else Path(log))) as known:
+        search = _Search(plan, *goal, watch, known)
+        choices = [axis for axis in plan.axes if axis.choices]
+        for shares in product(*(choice.levels for choice in choices)):
+            fixed = {choice.name: float(s) for choice, s in zip(choices, shares, strict=True)}
+            search.run(fixed, evaluations, seed, method, starts)
     return search.result()
 
 
@@ -164,8 +174,15 @@ def _check(plan: StudyPlan, evaluations: int, method: str, starts: int) -> None:
 class _Search:
     """The best machine so far, and what was computed on the way."""
 
-    def __init__(self, plan: StudyPlan, goal: str, direction: str, watch: Callable[..., None] | None) -> None:
-        self.plan, self.goal, self.watch = plan, goal, watch
+    def __init__(
+        self,
+        plan: StudyPlan,
+        goal: str,
+        direction: str,
+        watch: Callable[..., None] | None,
+        log: SearchLog,
+    ) -> None:
+        self.plan, self.goal, self.watch, self.log = plan, goal, watch, log
         self.sign = 1.0 if direction == "minimise" else -1.0
         self.best: tuple[tuple[int, float], Floats] | None = None
         self.tried: list[dict[str, Any]] = []
@@ -229,7 +246,7 @@ class _Search:
             plan, kept = numbers_alone(self.plan, start)
             if all(axis.is_whole or axis.choices for axis in plan.axes):
                 return
-            descent = Descent(plan, self.goal, self.sign)
+            descent = Descent(plan, self.goal, self.sign, self.log.slopes)
             point = start.copy()
             point[kept] = descent.run(start[kept])
             self.count += descent.count
@@ -237,7 +254,7 @@ class _Search:
 
     def _ranked(self, points: Floats) -> list[tuple[int, float]]:
         """How good machines are, the smaller the better: by limits kept, then by goal or violation."""
-        rows = evaluate(self.plan, self.plan.values(points))
+        rows = self.log.evaluate(self.plan, self.plan.values(points))
         self.count += len(rows)
         self.reasons.update(rows.failures())
         keys = [self._key(rows, i) for i in range(len(rows))]

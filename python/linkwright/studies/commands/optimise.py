@@ -9,7 +9,7 @@ from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import Json, Outside, Sets
 from linkwright.kernel.command.out import Force, Out
 from linkwright.kernel.command.parameter import Option
-from linkwright.kernel.errors import FindingError
+from linkwright.kernel.errors import FindingError, InputError
 from linkwright.studies.commands.sweep import StudyArgument
 
 if TYPE_CHECKING:
@@ -32,6 +32,11 @@ Points = Annotated[
 ]
 Seed = Annotated[int, Option("--seed", metavar="N", help="Seed of the random generator.", min=0)]
 
+Log = Annotated[
+    Path | None,
+    Option("--log", metavar="FILE", help="Log of the search; the same command resumes a search from it."),
+]
+
 
 def optimise(
     file: StudyArgument,
@@ -42,6 +47,7 @@ def optimise(
     method: Way = "both",
     starts: Starts = 8,
     points: Points = 9,
+    log: Log = None,
     json: Json = False,
     out: Out = None,
     force: Force = False,
@@ -56,10 +62,12 @@ def optimise(
     plan = read_study(file, set or [], allow_outside=allow_outside)
     if len(plan.study.goals) == 2:
         options = {"seed": seed, "method": method, "starts": starts}
+        if log is not None:
+            raise InputError("--log: found it beside two goals, expected one goal")
         _hand_over_front(plan, points, evaluations, options, json=json, out=out, force=force)
         return
-    options = {"evaluations": evaluations, "seed": seed, "method": method, "starts": starts}
-    hand_over_optimum(plan, options, json=json, out=Path(out) if out else None, force=force)
+    search = {"evaluations": evaluations, "seed": seed, "method": method, "starts": starts, "log": log}
+    hand_over_optimum(plan, search, json=json, out=Path(out) if out else None, force=force)
 
 
 def hand_over_optimum(

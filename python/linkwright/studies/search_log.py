@@ -1,0 +1,120 @@
+"""The log of a search: what was computed, so that a search that was stopped goes on by replaying it.
+
+A search is a function of its seed and of the responses that it is given. Each line of the log is the result
+of one computation, under a digest of its arguments. The same search asks for the same again: it reads the
+log as far as that goes, and computes the rest. The first line is the digest of study and machine; a last
+line that was cut off is dropped.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable, Mapping
+from hashlib import sha256
+from pathlib import Path
+from typing import Any, TextIO
+
+import numpy as np
+
+from linkwright import __version__
+from linkwright.kernel.arrays import Floats
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.files.output import unwritable
+from linkwright.machine.machine import Machine
+from linkwright.machine.write import dumps
+from linkwright.studies.engine import Rows, evaluate
+from linkwright.studies.plan import StudyPlan
+from linkwright.studies.slopes import Slopes, slopes
+
+
+class SearchLog:
+    """Computations of a search, from a file as far as they stand there; without a file each is made anew.
+
+    Raises InputError: the file is that of another study, or cannot be read or written.
+    """
+
+    def __init__(self, plan: StudyPlan, path: Path | None) -> None:
+        self.known: dict[str, dict[str, Any]] = {}
+        self.file: TextIO | None = None
+        self._machine: tuple[Machine | None, str] = (None, "")
+        if path is not None:
+            self._open(path, self._digest(plan, "study", b""))
+
+    def _open(self, path: Path, study: str) -> None:
+        """Read what is there, and go on behind it."""
+        try:
+            lines = path.read_text("utf-8").splitlines(keepends=True) if path.exists() else []
+            complete = [line for line in lines if line.endswith("\n")]
+            if complete and complete[0].strip() != study:
+                raise InputError(
+                    f"{path}: found the log of another search, or none; nothing was changed; name another"
+                )
+            self.known = dict(json.loads(line) for line in complete[1:])
+            self.file = path.open("a", encoding="utf-8")
+            self.file.truncate(sum(len(line.encode()) for line in complete))
+            self.file.write("" if complete else f"{study}\n")
+            self.file.flush()
+        except OSError as error:
+            raise unwritable(path, error) from None
+        except ValueError:
+            raise InputError(
+                f"{path}: found no log of a search; nothing was changed; name another file"
+            ) from None
+
+    def close(self) -> None:
+        """Close the file."""
+        if self.file is not None:
+            self.file.close()
+
+    def evaluate(self, plan: StudyPlan, values: Mapping[str, Floats]) -> Rows:
+        """Responses of machines, as `engine.evaluate`."""
+        asked = b"".join(np.ascontiguousarray(values[axis.name]).tobytes() for axis in plan.axes)
+
+        def computed() -> dict[str, Any]:
+            rows = evaluate(plan, values)
+            columns = {name: column.tolist() for name, column in rows.columns.items()}
+            rest = {"status": rows.status.tolist(), "reason": rows.reason.tolist(), "reasons": rows.reasons}
+            return {"columns": columns, **rest}
+
+        line = self._line(self._digest(plan, "rows", asked), computed)
+        columns = {name: np.array(column, dtype=float) for name, column in line["columns"].items()}
+        status, reason = np.array(line["status"], np.uint8), np.array(line["reason"], np.int32)
+        return Rows(columns, status, reason, list(line["reasons"]))
+
+    def slopes(self, plan: StudyPlan, at: Floats, steps: Floats) -> Slopes:
+        """Responses with derivatives, as `slopes.slopes`."""
+
+        def computed() -> dict[str, Any]:
+            there = slopes(plan, at, steps)
+            rates = {name: rate.tolist() for name, rate in there.slopes.items()}
+            return {"values": there.values, "slopes": rates, "exact": sorted(there.exact), "ties": there.ties}
+
+        line = self._line(self._digest(plan, "slopes", at.tobytes() + steps.tobytes()), computed)
+        rates = {name: np.array(rate) for name, rate in line["slopes"].items()}
+        return Slopes(dict(line["values"]), rates, frozenset(line["exact"]), dict(line["ties"]))
+
+    def _line(self, key: str, compute: Callable[[], dict[str, Any]]) -> dict[str, Any]:
+        """What a computation gave, or gives now."""
+        if key not in self.known:
+            self.known[key] = compute()
+            if self.file is not None:
+                self._write(key)
+        return self.known[key]
+
+    def _write(self, key: str) -> None:
+        assert self.file is not None
+        try:
+            self.file.write(json.dumps([key, self.known[key]]) + "\n")
+            self.file.flush()
+            os.fsync(self.file.fileno())
+        except OSError as error:
+            raise unwritable(Path(self.file.name), error) from None
+
+    def _digest(self, plan: StudyPlan, kind: str, asked: bytes) -> str:
+        """A sign for what is asked of which machine in which study."""
+        if self._machine[0] is not plan.machine:
+            study = plan.study.model_dump_json(by_alias=True, exclude_unset=True)
+            self._machine = plan.machine, f"{__version__}\n{study}\n{dumps(plan.machine)}"
+        names = ",".join(axis.name for axis in plan.axes)
+        return sha256(f"{kind}\n{names}\n{self._machine[1]}\n".encode() + asked).hexdigest()
