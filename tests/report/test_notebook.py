@@ -38,6 +38,11 @@ def test_curves_are_plotted_an_axis_for_each_unit() -> None:
     assert steady.plot().axes
 
 
+def test_a_notebook_shows_a_figure_without_more_ado() -> None:
+    figure = lw.steady_state(lw.read("roller_two_carts")).plot("speed")
+    assert figure._repr_png_().startswith(b"\x89PNG")  # type: ignore[attr-defined]  # as IPython asks for it
+
+
 def test_a_curve_that_is_none_is_refused() -> None:
     steady = lw.steady_state(lw.read("roller_two_carts"))
     with pytest.raises(InputError, match="no curve 'sped'"):

@@ -11,6 +11,7 @@ import pytest
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from linkwright.kernel.files.library import template
+from linkwright.studio.server import Studio
 
 from .conftest import Served, Tab
 
@@ -38,7 +39,6 @@ def test_token_becomes_a_cookie_that_no_script_reads(tmp_path: Path) -> None:
 
 
 def test_cookie_is_http_only_and_strict(tmp_path: Path) -> None:
-    from linkwright.studio.server import Studio
 
     studio = Studio(tmp_path)
     words = studio.app._set_cookie().decode()
@@ -212,3 +212,15 @@ def test_the_page_asks_for_modules_that_exist(served: Served) -> None:
     assert status == 200
     assert {"app.js", "stage.js", "vendor/preact.mjs"} <= set(links)
     assert all(served.get(f"/{link}", Cookie=served.cookie)[0] == 200 for link in links)
+
+
+def test_a_folder_keeps_its_port(tmp_path: Path) -> None:
+    """What a browser keeps belongs to a port: after a crash the studio is there again."""
+    first = Studio(tmp_path)
+    beside = Studio(tmp_path)
+    assert beside.port != first.port
+    beside.socket.close()
+    first.socket.close()
+    again = Studio(tmp_path)
+    assert again.port == first.port
+    again.socket.close()

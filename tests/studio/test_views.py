@@ -10,6 +10,7 @@ import pytest
 import linkwright as lw
 from linkwright.studio.analyses import beside, fast
 from linkwright.studio.files import Folder
+from linkwright.studio.shown import shown
 from linkwright.studio.views import thumbnail, train_view
 
 ROOT = Path(__file__).parents[2]
@@ -79,3 +80,16 @@ def test_the_gallery_shows_what_has_no_mechanism(name: str, kind: str) -> None:
     shown = thumbnail(Folder.of(ROOT), "library", name)
     assert shown["scene"] is None
     assert shown["view"]["kind"] == kind
+
+
+def test_rounding_beside_the_quantities_of_its_unit_is_zero() -> None:
+    """A reduced inertia without a rod's mass is zero at the dead centres, to rounding of its maximum."""
+    machine = lw.loads(
+        'format = 1\nname = "Slider"\nmechanism.cranks.A.radius = 0.1\n'
+        'mechanism.sliders.S = { crank = "A", rod = 0.3 }\nbodies.S.mass = 100\n'
+    )
+    reduced = lw.reduction(machine)
+    assert 0 < abs(reduced.inertia_min) < 1e-12 * reduced.inertia_max
+    scalars = {one["name"]: one["value"] for one in shown("reduction", reduced)["scalars"]}
+    assert scalars["inertia_min"] == 0.0
+    assert scalars["inertia_max"] == reduced.inertia_max

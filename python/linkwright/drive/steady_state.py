@@ -41,6 +41,9 @@ _BESIDE = 1e-6
 # Speeds at which it is looked whether the drive can balance the mean load at all.
 _SPEEDS = 400
 
+# Share of the work of the motor below which that of the loads is rounding of a sum of ten thousand doubles.
+_ROUNDING = 1e-12
+
 
 class OtherMotion(NamedTuple):
     """A motion that repeats besides the one that a fast machine settles to.
@@ -226,7 +229,8 @@ class SteadyState(Result):
         Label("efficiency of the drive per revolution", "η", "", table="drive", before="power_motor_mean"),
     ]:
         """Work taken by the loads over work of the motor; None without any work of the motor."""
-        return self.energy_load / self.energy_motor if self.energy_motor > 0 else None
+        share = self.energy_load / self.energy_motor if self.energy_motor > 0 else None
+        return 0.0 if share is not None and abs(share) <= _ROUNDING else share
 
 
 @public

@@ -8,7 +8,7 @@ Fast analyses follow every change at once; slow ones run beside them, in a proce
 | steady motion | at once | a motor, and a mechanism that closes over the whole revolution |
 | forces | at once | bodies or loads, steady motion |
 | study | beside | – ; everything that `linkwright run` computes |
-| torsion | beside | a train, or a driveline with a stiffness |
+| torsion | beside | a train, or a driveline with an elastic part |
 """
 
 from __future__ import annotations
@@ -23,15 +23,20 @@ from linkwright.app.study import Study, study
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.steady_state import SteadyState, steady_state
 from linkwright.drive.study import has_motor
+from linkwright.kernel.description.place import join
 from linkwright.kernel.errors import LinkwrightError
 from linkwright.kernel.figure.style import CaptionedFigure
 from linkwright.kernel.findings import Findings
-from linkwright.kernel.page.language import ENGLISH, Language
+from linkwright.kernel.page.content import Content, Few, Part
+from linkwright.kernel.page.language import ENGLISH, Language, in_language
+from linkwright.kernel.page.sentences import sentence
 from linkwright.kernel.result import Result
 from linkwright.kinetostatics.forces import forces
 from linkwright.kinetostatics.motion import Motion
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.drive_line import drive_inertia
+from linkwright.machine.table import grouped, machine_parts
+from linkwright.studio.document import short
 from linkwright.studio.drawing import drawing
 from linkwright.studio.shown import shown
 from linkwright.studio.views import knife_view, train_view
@@ -44,6 +49,11 @@ _EVERY = 3
 # Entries that make a machine move at all, until its motor is chosen.
 _MOTOR = {"drive.motor": {"kind": "constant_speed", "speed": "10 rad/s"}}
 _BRAKE = {"drive.brake": {"torque": "100 N m"}}
+_ELASTIC = {"drive.crankshaft": {"sections": [{"length": "1 m", "diameter": "80 mm"}]}}
+
+# Of a DC motor in place of one that keeps its speed: no-load speed over that speed, and the limit of its
+# torque over the root mean square that is needed.
+_NO_LOAD, _LIMIT = 1.1, 2.5
 
 
 @dataclass(frozen=True)
@@ -76,10 +86,9 @@ def _obstacle_dict(obstacle: Obstacle | None) -> dict[str, Any]:
 def _chips(machine: Machine) -> Iterator[tuple[str, str, str, Obstacle | None]]:
     if machine.has_crank:
         yield "motion", "Motion", "fast", None
-        no_motor = (
-            None if has_motor(machine) else Obstacle("The machine has no motor.", "Add a motor", _MOTOR)
-        )
-        no_mass = None if _is_loaded(machine) else Obstacle("No masses and no loads: add a body or a load.")
+        motor = Obstacle("The machine has no motor.", "Add a motor", _MOTOR)
+        no_motor = None if has_motor(machine) else motor
+        no_mass = None if _is_loaded(machine) else _no_mass(machine)
         yield "steady_state", "Steady motion", "fast", no_motor
         yield "forces", "Forces", "fast", no_motor or no_mass
         yield "linkage", "Extreme positions", "study", None
@@ -95,6 +104,16 @@ def _chips(machine: Machine) -> Iterator[tuple[str, str, str, Obstacle | None]]:
     yield from ((name, word, "study", None) for name, word, there in tables if there)
     if has_train(machine):
         yield "torsion", "Torsional vibration", "torsion", None
+    elif machine.has_crank:
+        rigid = Obstacle("The driveline is rigid.", "Add an elastic crankshaft", _ELASTIC)
+        yield "torsion", "Torsional vibration", "torsion", no_motor or rigid
+
+
+def _no_mass(machine: Machine) -> Obstacle:
+    """A first body: on a slider, or else at the moving point that is built last."""
+    places = [*machine.mechanism.sliders, *reversed(machine.linkage.moving_points())]
+    entries = {join(("bodies", places[0])): {"mass": "1 kg"}} if places else None
+    return Obstacle("No masses and no loads: add a body or a load.", "Add a body" if places else "", entries)
 
 
 def _is_loaded(machine: Machine) -> bool:
@@ -104,8 +123,33 @@ def _is_loaded(machine: Machine) -> bool:
 
 def _no_run_up(machine: Machine) -> Obstacle | None:
     if machine.drive is not None and isinstance(machine.drive.motor, ConstantSpeedMotor):
-        return Obstacle("The motor keeps its speed from the start.")
+        entries = _dc_motor(machine)
+        mend = "" if entries is None else "Use a DC motor"
+        return Obstacle("The motor keeps its speed from the start.", mend, entries)
     return None
+
+
+def _dc_motor(machine: Machine) -> dict[str, Any] | None:
+    """A DC motor that gives the needed torque at the speed of a motor that keeps it; None where none is
+    known.
+    """
+    motor = machine.drive.motor if machine.drive is not None else None
+    if not isinstance(motor, ConstantSpeedMotor):
+        return None
+    try:
+        needed = steady_state(machine, n=_INTERVALS).torque_motor_rms
+    except LinkwrightError:
+        return None
+    torque = needed or 1.0
+    stall = torque / (1 - 1 / _NO_LOAD)
+    return {
+        "drive.motor": {
+            "kind": "dc",
+            "speed_no_load": f"{short(_NO_LOAD * float(motor.speed))} rad/s",
+            "torque_stall": f"{short(stall)} N m",
+            "torque_max": f"{short(min(stall, _LIMIT * torque))} N m",
+        }
+    }
 
 
 def _no_brake(machine: Machine) -> Obstacle | None:
@@ -131,6 +175,8 @@ class Answers:
     # Diagrams that are no curves, as SVG: `name`, `title`, `caption`, `svg`.
     figures: tuple[dict[str, str], ...] = ()
     views: tuple[dict[str, Any], ...] = ()  # pictures beside the drawing, of `views`
+    tables: tuple[dict[str, Any], ...] = ()  # of the report: `name`, `title`, `heads`, `rows`
+    headline: tuple[Few, ...] = ()  # of a train: word, value and unit of what one looks for first
 
     def body(self) -> dict[str, Any]:
         """All of it for a message."""
@@ -153,6 +199,8 @@ def fast(machine: Machine, *, held: bool) -> Answers:
     scene = findings.of(drawing, machine, steady, acting)
     results: dict[str, Result | None] = {"steady_state": steady, "forces": acting}
     known = [shown(name, result) for name, result in results.items() if result is not None]
+    if scene is not None:
+        known.append({"name": "transfer", "scalars": [], "plots": scene.pop("transfer")})
     return Answers(known, findings.findings, findings.warnings, scene, views=views)
 
 
@@ -179,6 +227,7 @@ def lanes(machine: Machine) -> list[str]:
 
 def _study(machine: Machine, to: Language) -> Answers:
     from linkwright.app.report.figures import figures
+    from linkwright.app.report.tables import tables
 
     results = study(machine)
     known = [shown(name, result) for name, result in _new_results(results)]
@@ -190,6 +239,7 @@ def _study(machine: Machine, to: Language) -> Answers:
         results.warnings,
         figures=tuple(_svg(one, to) for one in drawn),
         views=() if knife is None else (knife,),
+        tables=tuple(_tables(Content(title="", parts=[Part("", tables(results))]), machine, to)),
     )
 
 
@@ -205,12 +255,31 @@ def _new_results(results: Study) -> Iterator[tuple[str, Result]]:
 
 def _torsion(machine: Machine, to: Language) -> Answers:
     from linkwright.torsion.figures.captions import torsion_figures
+    from linkwright.torsion.page import torsion_content
     from linkwright.torsion.study import torsion_study
 
     results = torsion_study(machine)
     parts = {field.name: getattr(results, field.name) for field in fields(results)}
     known = [shown(name, part) for name, part in parts.items() if isinstance(part, Result)]
-    return Answers(known, figures=tuple(_svg(one, to) for one in torsion_figures(results)))
+    content = torsion_content(results)
+    return Answers(
+        known,
+        figures=tuple(_svg(one, to) for one in torsion_figures(results)),
+        tables=tuple(_tables(content, machine, to)),
+        headline=tuple(in_language(content, to).headline),
+    )
+
+
+def _tables(content: Content, machine: Machine, to: Language) -> Iterator[dict[str, Any]]:
+    """Tables of a report in a language; names of the machine's parts stay."""
+    bare = Content(
+        title="",
+        parts=[Part("", part.tables) for part in content.parts],
+        groups=grouped(machine_parts(machine)),
+    )
+    for part in in_language(bare, to).parts:
+        for table in part.tables:
+            yield {"name": table.name, "title": table.title, "heads": table.heads, "rows": table.rows}
 
 
 def _svg(drawn: CaptionedFigure, to: Language) -> dict[str, str]:
@@ -218,7 +287,7 @@ def _svg(drawn: CaptionedFigure, to: Language) -> dict[str, str]:
     from linkwright.kernel.figure.svg import svg
 
     text = svg(drawn.figure if to is ENGLISH else translated_figure(drawn.figure, to), transparent=True)
-    return {"name": drawn.name, "title": drawn.title, "caption": drawn.caption, "svg": text}
+    return {"name": drawn.name, "title": drawn.title, "caption": sentence(drawn.caption), "svg": text}
 
 
 _LANES: dict[str, Callable[[Machine, Language], Answers]] = {"study": _study, "torsion": _torsion}

@@ -16,7 +16,12 @@ File = Annotated[
     Argument("[FILE]", "A machine file below the present folder, or a machine of the library."),
 ]
 NoBrowser = Annotated[bool, Option("--no-browser", help="Print the address alone.")]
-Port = Annotated[int, Option("--port", metavar="N", help="Port on this computer; 0 for a free one.", min=0)]
+Port = Annotated[
+    int,
+    Option(
+        "--port", metavar="N", help="Port on this computer; 0 for that of the folder, or a free one.", min=0
+    ),
+]
 
 
 def studio(file: File = None, no_browser: NoBrowser = False, port: Port = 0) -> None:

@@ -32,13 +32,15 @@ from linkwright.linkages.model.structure import structure
 from linkwright.linkages.model.topology import ORIGIN
 from linkwright.linkages.motion import rates_of
 from linkwright.machine.machine import Machine
+from linkwright.studio.transfer import transfer_functions
 
 
 def drawing(machine: Machine, steady: SteadyState | None, acting: Forces | None) -> dict[str, Any] | None:
     """All that the page draws of a mechanism along its steady motion, with forces; None where nothing moves.
 
     As of `moving_scene`; ``velocities`` and ``accelerations`` of moving points, (n, 2) each; ``forces`` with
-    the point where they act; ``handles``, points that can be dragged with the entries that follow.
+    the point where they act; ``handles``, points that can be dragged with the entries that follow;
+    ``transfer``, plots of transfer functions.
     """
     scene = moving_scene(machine, steady)
     if scene is None:
@@ -56,6 +58,7 @@ def drawing(machine: Machine, steady: SteadyState | None, acting: Forces | None)
         "forces": _acting(machine, scene, acting) if acting is not None else [],
         "handles": handles(machine),
         "centres": dict(_centres(machine, motion)),
+        "transfer": transfer_functions(machine, motion),
     }
 
 

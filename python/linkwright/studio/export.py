@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Callable, Mapping
-from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -20,6 +19,7 @@ import numpy as np
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.machine.machine import Machine
 from linkwright.machine.read import loads
+from linkwright.studio.language import in_units
 
 if TYPE_CHECKING:
     from linkwright.kernel.page.content import Content
@@ -31,9 +31,6 @@ File = tuple[str | bytes, str]
 
 # Seconds that a moving picture may last.
 _SHORTEST, _LONGEST = 0.1, 60.0
-
-# How the page writes units, and how files do.
-_WRITTEN = str.maketrans({"°": "deg", "²": "^2", "³": "^3"})
 
 
 def export(machine: Machine, asked: Body, code: str) -> Body:
@@ -59,23 +56,15 @@ def export(machine: Machine, asked: Body, code: str) -> Body:
 def _html(machine: Machine, asked: Body, code: str) -> File:
     from linkwright.kernel.page.html import html
 
-    with _units(asked):
+    with in_units(asked.get("units") or ()):
         return html(_report(machine, asked, code)), ""
 
 
 def _pdf(machine: Machine, asked: Body, code: str) -> File:
     from linkwright.kernel.page.typeset import pdf
 
-    with _units(asked):
+    with in_units(asked.get("units") or ()):
         return pdf(_report(machine, asked, code)), ""
-
-
-def _units(asked: Body) -> AbstractContextManager[None]:
-    """The units of the page; without them those of the file."""
-    from linkwright.kernel.page.out_units import shown_in
-
-    units = [str(unit).translate(_WRITTEN) for unit in asked.get("units") or ()]
-    return shown_in(", ".join(units)) if units else nullcontext()
 
 
 def _report(machine: Machine, asked: Body, code: str) -> Content:

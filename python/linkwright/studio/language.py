@@ -8,13 +8,16 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from contextlib import AbstractContextManager
 from dataclasses import replace
 from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any
 
 from linkwright.kernel.page.language import ENGLISH, Language, language
+from linkwright.kernel.page.out_units import reader, shown_in
+from linkwright.kernel.page.sentences import sentences
 
 # What a message says in sentences or words; everything else is read by the page, or is the user's own.
 _TEXTS = frozenset(
@@ -47,6 +50,23 @@ def page_texts(code: str) -> dict[str, Any]:
 
 def _catalogue(code: str) -> dict[str, dict[str, str]]:
     return tomllib.loads(Path(__file__).with_name(f"texts_{code}.toml").read_text(encoding="utf-8"))
+
+
+def as_read(body: dict[str, Any]) -> dict[str, Any]:
+    """A message with the numbers of its sentences in the units of whoever reads it."""
+    if not reader().chosen:
+        return body
+    changed = {key: sentences(body[key]) for key in ("findings", "warnings") if body.get(key)}
+    return {**body, **changed}
+
+
+# How the page writes units, and how files do.
+_WRITTEN = str.maketrans({"°": "deg", "²": "^2", "³": "^3"})
+
+
+def in_units(units: Iterable[str]) -> AbstractContextManager[None]:
+    """Numbers of sentences, reports and figures in the units of the page, as long as the block lasts."""
+    return shown_in(", ".join(str(unit).translate(_WRITTEN) for unit in units))
 
 
 def in_words(body: Any, code: str, key: str = "") -> Any:

@@ -16,6 +16,7 @@ Pure ASGI, so that pages and sockets pass the same code.
 from __future__ import annotations
 
 import asyncio
+import hashlib
 import hmac
 import secrets
 import socket
@@ -51,7 +52,9 @@ App = Callable[[Scope, Receive, Send], Awaitable[None]]
 _HEADERS = (
     (
         b"content-security-policy",
-        b"default-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
+        # Maps of colours in diagrams are pictures within them.
+        b"default-src 'self'; img-src 'self' data:; base-uri 'none'; form-action 'none'; "
+        b"frame-ancestors 'none'",
     ),
     (b"x-content-type-options", b"nosniff"),
     (b"referrer-policy", b"no-referrer"),
@@ -210,14 +213,12 @@ class Studio:
     folder : Path
         Below which machine files are.
     port : int
-        That it is served on; 0 for a free one.
+        That it is served on; 0 for that of the folder, or a free one where it is taken.
     """
 
     def __init__(self, folder: Path, port: int = 0) -> None:
         self.folder = Folder.of(folder)
-        self.socket = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
-        self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        self.socket.bind(("127.0.0.1", port))
+        self.socket = _bound(port) if port else _bound_for(self.folder.root)
         self.port: int = self.socket.getsockname()[1]
         self.token = secrets.token_urlsafe(32)
         self.tabs = 0
@@ -263,6 +264,34 @@ class Studio:
             await _converse(page, Session(self.folder, page.send_bytes))
         finally:
             self.tabs -= 1
+
+
+# Ports that no service is given (RFC 6335, 6).
+_FIRST, _PORTS = 49152, 16384
+
+
+def _bound_for(root: Path) -> socket.socket:
+    """A socket at the port of a folder: what a browser keeps belongs to a port, so that a studio that starts
+    again after a crash finds what was not saved. Where the port is taken, a free one.
+    """
+    digest = hashlib.sha256(str(root).encode("utf-8", "surrogateescape")).digest()
+    try:
+        return _bound(_FIRST + int.from_bytes(digest[:4]) % _PORTS)
+    except OSError:
+        return _bound(0)
+
+
+def _bound(port: int) -> socket.socket:
+    """A socket of this computer alone."""
+    own = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+    own.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    try:
+        own.bind(("127.0.0.1", port))
+        own.listen()
+    except BaseException:
+        own.close()
+        raise
+    return own
 
 
 async def _page(request: object) -> HTMLResponse:

@@ -31,7 +31,7 @@ from linkwright.studio.design import reach, slopes
 from linkwright.studio.document import changed, merged
 from linkwright.studio.drag import drag
 from linkwright.studio.files import Folder, base, gallery, opened
-from linkwright.studio.language import in_words, spoken
+from linkwright.studio.language import as_read, in_units, in_words, spoken
 from linkwright.studio.views import thumbnail
 from linkwright.studio.wire import WireError, packed, unpacked
 from linkwright.studio.worker import Worker
@@ -59,7 +59,8 @@ class Session:
 
     def __init__(self, folder: Folder, send: Callable[[bytes], Any]) -> None:
         self.folder, self.send = folder, send
-        self.text, self.place, self.name, self.language = "", "", "", "en"
+        self.text, self.place, self.name = "", "", ""
+        self.language, self.units = "en", list[str]()
         # The last text that was sound, with its path and its machine.
         self.sound: tuple[str, str, Machine] | None = None
         self.newest: tuple[int, Body] | None = None
@@ -97,7 +98,7 @@ class Session:
             self.search = (number, body)
             self.sought.set()
         elif body["ask"] == "language":
-            self._speak(str(body.get("code", "")))
+            self._speak(str(body.get("code", "")), body.get("units"))
         elif body["ask"] == "end search":
             asyncio.ensure_future(self.searcher.end())  # noqa: RUF006 (as of what is stopped)
         elif body["ask"] == "end export":
@@ -111,13 +112,15 @@ class Session:
             except asyncio.QueueFull:
                 raise WireError("too many requests at once") from None
 
-    def _speak(self, code: str) -> None:
-        """Answer in a language from now on."""
+    def _speak(self, code: str, units: Any) -> None:
+        """Answer in a language, and in units, from now on."""
+        listed = list(map(str, units)) if isinstance(units, list) else []
         try:
             spoken(code)
+            with in_units(listed):
+                self.language, self.units = code, listed
         except InputError as error:
             raise WireError(str(error)) from None
-        self.language = code
 
     def _packed(self, number: int, body: Body) -> bytes:
         """A message in the language of the tab."""
@@ -163,7 +166,8 @@ class Session:
                 self.text, entries = changed(self.text, entries), {}
                 answer["text"] = self.text
             machine = self._machine(entries)
-            answer |= fast(machine, held=held).body() | {"machine": machine.name}
+            with in_units(self.units):
+                answer |= as_read(fast(machine, held=held).body()) | {"machine": machine.name}
         except LinkwrightError as error:
             answer |= {"problems": _problems(error)} if machine is None else failed(error).body()
         if not held:
@@ -248,7 +252,8 @@ class Session:
             await self.send(packed(number, {"of": "stopped", "lane": lane}))
             return
         self.running = lane
-        job = {"number": number, "lane": lane, "text": text, "path": path, "language": self.language}
+        job = {"number": number, "lane": lane, "text": text, "path": path}
+        job |= {"language": self.language, "units": self.units}
         task = asyncio.create_task(self.worker.run(job))
         stale = 0.0
         while not task.done():

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
+from linkwright.kernel.page.numbers import NOISE
 from linkwright.kernel.quantities import DeclaredQuantity, Label, quantities_of
 from linkwright.kernel.quantities import declared as marks
 from linkwright.kernel.result import Result
@@ -50,11 +51,34 @@ def _declared(owner: type) -> tuple[DeclaredQuantity, ...]:
 
 
 def _scalars(result: Result, declared: list[DeclaredQuantity]) -> Iterator[dict[str, Any]]:
-    """Single numbers that are finite."""
+    """Single numbers that are finite; what is rounding beside the quantities of its unit is zero."""
+    values = {
+        quantity: getattr(result, quantity.name, None) for quantity in declared if quantity.kind == "scalar"
+    }
+    known = {
+        quantity: float(value)
+        for quantity, value in values.items()
+        if isinstance(value, int | float | np.number) and math.isfinite(value)
+    }
+    scales = _scales(result, declared, known)
+    for quantity, value in known.items():
+        is_rounding = quantity.unit and abs(value) <= NOISE * scales[quantity.unit]
+        yield {**_words(quantity), "value": 0.0 if is_rounding else value}
+
+
+def _scales(
+    result: Result, declared: list[DeclaredQuantity], known: dict[DeclaredQuantity, float]
+) -> dict[str, float]:
+    """Peak absolute value of each unit among scalars and curves of a result."""
+    scales: dict[str, float] = {}
     for quantity in declared:
-        value = getattr(result, quantity.name, None) if quantity.kind == "scalar" else None
-        if isinstance(value, int | float | np.number) and math.isfinite(value):
-            yield {**_words(quantity), "value": float(value)}
+        curve = _list_of(result, quantity.name) if quantity.kind == "curve" else None
+        sizes = [abs(known.get(quantity, 0.0))]
+        if curve is not None and len(curve):
+            # The peak of a curve with gaps is that of what is there.
+            sizes += [float(np.fmax.reduce(curve)), -float(np.fmin.reduce(curve))]
+        scales[quantity.unit] = max(scales.get(quantity.unit, 0.0), *filter(math.isfinite, sizes))
+    return scales
 
 
 def _words(quantity: DeclaredQuantity) -> dict[str, str]:

@@ -22,7 +22,7 @@ from linkwright.studio.wire import packed
 _STATIC = Path(__file__).with_name("static")
 
 # Modules of the page that the drawing is made of, each after those that it imports, and what moves them.
-_MODULES = ("timeline", "frame", "painter", "centres", "arrows", "wire")
+_MODULES = ("timeline", "frame", "ink", "painter", "centres", "arrows", "wire")
 _DRAWING = Path(__file__).with_name("notebook") / "drawing.js"
 
 _IMPORT = re.compile(r"^import .*? from \"[^\"]*\";\n", re.MULTILINE)

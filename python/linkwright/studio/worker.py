@@ -28,7 +28,7 @@ def main() -> None:
     from linkwright.kernel.errors import LinkwrightError
     from linkwright.machine.read import loads
     from linkwright.studio.analyses import beside, failed
-    from linkwright.studio.language import in_words, spoken
+    from linkwright.studio.language import as_read, in_units, in_words, spoken
     from linkwright.studio.wire import packed
 
     # The page has nothing of what a library might print.
@@ -54,7 +54,9 @@ def main() -> None:
 
                 answer = export(machine, job["export"], code)
             else:
-                answer = {"of": "beside", "lane": lane, **beside(machine, lane, spoken(code)).body()}
+                with in_units(job["units"]):
+                    answers = as_read(beside(machine, lane, spoken(code)).body())
+                answer = {"of": "beside", "lane": lane, **answers}
         except LinkwrightError as error:
             if lane == "search":
                 answer = {"of": "search", "ended": True, "words": str(error)}
@@ -79,7 +81,7 @@ class Worker:
         Parameters
         ----------
         job : dict
-            ``number``, ``lane``, ``text``, ``path`` and ``language``.
+            ``number``, ``lane``, ``text``, ``path`` and ``language``; of an analysis ``units``.
         """
         last = None
         async for message in self.messages(job):

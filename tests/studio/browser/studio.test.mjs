@@ -1,82 +1,27 @@
 // The studio in a browser: one Chromium, one server, below a copy of the repository's machines.
 import assert from "node:assert/strict";
-import { execFileSync, spawn } from "node:child_process";
-import { cpSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, statSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { execFileSync } from "node:child_process";
+import { readFileSync, readdirSync, statSync } from "node:fs";
 import { after, before, test } from "node:test";
-import { fileURLToPath } from "node:url";
-import { chromium } from "playwright-core";
+import * as studio from "./served.mjs";
+import { LINKWRIGHT, ROOT, near, shows } from "./served.mjs";
 
-const ROOT = fileURLToPath(new URL("../../../", import.meta.url));
-const LINKWRIGHT = `${ROOT}.venv/bin/linkwright`;
 const AXE = readFileSync(`${ROOT}node_modules/axe-core/axe.min.js`, "utf8");
-const ARGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"];
-// A machine that does other things too may be slow; what fails, fails by this.
-const PATIENCE = Number(process.env.PATIENCE ?? 90_000);
 const RADIUS = "mechanism.cranks.A1.radius";
 const PHASE = "mechanism.cranks.A2.phase";
 
-let folder, server, browser, context, page, origin;
-const faults = [];
+let folder, page, origin, faults, end;
 
 before(async () => {
-  folder = mkdtempSync(`${tmpdir()}/studio-`);
-  mkdirSync(`${folder}/examples`);
-  for (const name of readdirSync(`${ROOT}examples`)) {
-    cpSync(`${ROOT}examples/${name}`, `${folder}/examples/${name}`, { recursive: true, filter: (path) => !path.endsWith(".py") });
-  }
-  cpSync(`${ROOT}machines/roller_two_carts.toml`, `${folder}/carts.toml`);
-  server = spawn(LINKWRIGHT, ["studio", "carts.toml", "--no-browser"], { cwd: folder, stdio: ["ignore", "pipe", "inherit"] });
-  const address = await new Promise((resolve) => {
-    let said = "";
-    server.stdout.on("data", (data) => {
-      said += data;
-      const match = /http:\S+/.exec(said);
-      if (match) resolve(match[0]);
-    });
-  });
-  origin = new URL(address).origin;
-  browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ARGS });
-  context = await browser.newContext({ viewport: { width: 1440, height: 900 }, reducedMotion: "reduce", acceptDownloads: true });
-  page = await context.newPage();
-  page.setDefaultTimeout(PATIENCE);
-  page.on("console", (message) => ["error", "warning"].includes(message.type()) && faults.push(message.text()));
-  page.on("pageerror", (error) => faults.push(error.message));
-  page.on("request", (request) => new URL(request.url()).origin !== origin && !request.url().startsWith("blob:") && faults.push(request.url()));
-  page.on("dialog", (dialog) => dialog.accept());
-  await page.goto(address);
-  await known();
+  ({ folder, page, origin, faults, end } = await studio.served({ examples: true }));
 });
 
-after(async () => {
-  await browser?.close();
-  server?.kill();
-  rmSync(folder, { recursive: true, force: true });
-});
+after(() => end?.());
 
-/** Waits until the answer to the last change is there. */
-const known = () => page.waitForFunction(() => globalThis.studio?.state.machine.value && !globalThis.studio.busy());
-const scalar = (name) => page.evaluate((of) => {
-  const [result, own] = of.split(".");
-  return globalThis.studio.state.results.value.find((each) => each.name === result)?.scalars.find((each) => each.name === own)?.value;
-}, name);
-const entry = (address) => page.evaluate((of) => globalThis.studio.state.text.value && document.querySelector(`[data-slider="${of}"]`)?.value, address);
+const known = () => studio.known(page);
+const scalar = (name) => studio.scalar(page, name);
+const handle = (point) => studio.handle(page, point);
 const cli = (...words) => JSON.parse(execFileSync(LINKWRIGHT, ["run", "carts.toml", "--json", ...words], { cwd: folder, encoding: "utf8" })).results;
-const handle = async (point) => {
-  const box = await page.locator(`.handle[data-point="${point}"]`).boundingBox();
-  return [box.x + box.width / 2, box.y + box.height / 2];
-};
-/** What the page shows is painted after it is known: asked again until it is so. */
-const shows = async (ask, is) => {
-  const end = Date.now() + PATIENCE;
-  for (;;) {
-    const answer = await ask();
-    if (is(answer)) return;
-    assert.ok(Date.now() < end, `${JSON.stringify(answer)} stays on the page`);
-    await new Promise((resolve) => setTimeout(resolve, 20));
-  }
-};
-const near = (found, wanted) => assert.ok(Math.abs(found - wanted) <= 1e-9 * Math.abs(wanted), `${found} is not ${wanted}`);
 
 test("the address has lost its token, and opens once", async () => {
   assert.ok(!page.url().includes("token"));
@@ -446,7 +391,6 @@ test("axe finds nothing serious, in light and in dark", async () => {
 
 test("what was not saved is there after a crash, and a saved file opens again", async () => {
   const text = await page.evaluate(() => globalThis.studio.state.text.value);
-  await page.evaluate(() => history.replaceState(null, "", "#"));
   await page.reload();
   await known();
   assert.equal(await page.evaluate(() => globalThis.studio.state.text.value), text);

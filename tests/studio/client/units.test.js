@@ -1,9 +1,9 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { chosen, number, printed, shownUnit, typed, UNITS } from "../../../python/linkwright/studio/static/units.js";
+import { chosen, number, printed, read, shownUnit, typed, UNITS } from "../../../python/linkwright/studio/static/units.js";
 
 test("numbers have the digits that are read, and no others", () => {
-  const cases = [[0.2, "0.2"], [0.08496123, "0.084961"], [-1234.5678, "−1234.6"], [1e7, "1e7"], [1.5e-7, "1.5e−7"], [0, "0"], [NaN, "–"], [100000, "100000"]];
+  const cases = [[0.2, "0.2"], [0.08496123, "0.084961"], [-1234.5678, "−1234.6"], [1e7, "1·10⁷"], [1.5e7, "1.5·10⁷"], [1234567, "1234600"], [1.5e-7, "1.5·10⁻⁷"], [0, "0"], [NaN, "–"], [100000, "100000"]];
   for (const [value, text] of cases) assert.equal(number(value), text);
 });
 
@@ -24,6 +24,9 @@ test("a typed number is in the unit that is shown, a text keeps its own", () => 
   assert.equal(typed(" 8.5 in ", 1e-3), "8.5 in");
   assert.equal(typed("", 1), null);
   assert.equal(typed("lots", 1), "lots");
+  for (const text of ["1.5e7", "1.5E+7", "1.5·10⁷", "1.5·10^7", "1.5 × 10^7", "1.5*10^7"]) assert.equal(typed(text, 2), 3e7, text);
+  assert.equal(typed("1.5·10⁻⁷ Pa", 1), "1.5e-7 Pa");
+  assert.equal(read("−2·10⁻³"), -0.002);
 });
 
 test("a number that is shown can be typed again, and has no hyphen for its minus", () => {

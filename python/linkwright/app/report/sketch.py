@@ -198,6 +198,8 @@ class _Painter:
         low, high = part["span"]
         angles = np.linspace(low - 0.1, high + 0.1, 40)
         shape = part["radius"] * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+        # The arc is part of its link.
+        self.area(self.carried(part, [[0, 0], *shape]), _colour(part), _colour(part), 1.0, 0.18)
         self.line(self.carried(part, shape), _colour(part), 3.5)
 
     def _link(self, part: Scene) -> None:

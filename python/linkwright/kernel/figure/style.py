@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable
-from functools import wraps
+from functools import cache, wraps
 from typing import TYPE_CHECKING, Any, NamedTuple, ParamSpec, TypeVar
 
 import numpy as np
@@ -112,11 +112,25 @@ def _for_reader(drawing: object) -> None:
         in_units_of_reader(drawing)
 
 
-def panels(rows: int, *, height: float, columns: int = 1, shared: bool = True) -> tuple[Figure, list[Axes]]:
-    """A figure of a height [inch] with rows and columns of axes, row by row, that share what is along x."""
+@cache
+def _figure_class() -> type[Figure]:
+    """Figures that a notebook shows as they are: those of matplotlib are shown once pyplot is loaded there."""
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(WIDTH, height), layout="constrained")
+    class ShownFigure(Figure):
+        """A figure with its picture."""
+
+        def _repr_png_(self) -> bytes:
+            from linkwright.kernel.figure.svg import png
+
+            return png(self)
+
+    return ShownFigure
+
+
+def panels(rows: int, *, height: float, columns: int = 1, shared: bool = True) -> tuple[Figure, list[Axes]]:
+    """A figure of a height [inch] with rows and columns of axes, row by row, that share what is along x."""
+    figure = _figure_class()(figsize=(WIDTH, height), layout="constrained")
     axes = figure.subplots(rows, columns, sharex="col" if shared else "none", squeeze=False)
     return figure, list(axes.ravel())
 

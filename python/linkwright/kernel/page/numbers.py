@@ -9,7 +9,7 @@ from linkwright.kernel.page.angle_zero import Zero, zero_shown
 from linkwright.kernel.page.out_units import reader
 
 # Share of what it belongs to below which a number is rounding: sums of some ten thousand doubles.
-_NOISE = 1e-12
+NOISE = 1e-12
 
 
 def number(value: float | None, digits: int = 5, scale: float = 0.0) -> str:
@@ -25,7 +25,7 @@ def number(value: float | None, digits: int = 5, scale: float = 0.0) -> str:
     if value is None or not math.isfinite(value):
         return "–"
     # Below the smallest normal number, a double has lost its digits.
-    if abs(value) <= max(_NOISE * scale, sys.float_info.min):
+    if abs(value) <= max(NOISE * scale, sys.float_info.min):
         return "0"
     text = f"{value:.{digits}g}"
     if "e" in text and 1 <= abs(value) < _LARGE:

@@ -29,7 +29,7 @@ function render({ model, el }) {
   bar.append(button, slider, said);
   el.append(canvas, bar);
 
-  /** @type {import("../static/types.js").Scene} */
+  /** @type {Scene} */
   let scene;
   let [time, way, before, handle] = [0, 1, 0, 0];
   function hearScene() {

@@ -1,15 +1,17 @@
 // What a user does, and what becomes of the answers.
 import { batch, effect, signal } from "./vendor/signals-core.mjs";
+import { folded, unfolded } from "./folded.js";
 import { history } from "./history.js";
 import { speak } from "./language.js";
 import * as state from "./state.js";
 import { hodographs, pointPlots } from "./points.js";
 import { connect } from "./socket.js";
 import { between, placeOf } from "./timeline.js";
+import { listed } from "./units.js";
 
-/** @typedef {import("./socket.js").Request} Request */
-
-const KEPT = "kept text";
+/** Where the browser keeps what is not saved, one text a file, and which file was changed last. @param {{ place: string, name: string }} of */
+const keptAs = ({ place, name }) => `kept text ${place}/${name}`;
+const LAST = "kept last";
 
 /** Grows with every machine that is no longer pulled at. */
 const turn = signal(0);
@@ -72,7 +74,7 @@ const HEAR = {
 
 /**
  * Another length is another motion over time: the drawing stays at its crank angle.
- * @param {import("./types.js").Scene | null} before @param {import("./types.js").Scene | null} after
+ * @param {Scene | null} before @param {Scene | null} after
  */
 function atTheSameAngle(before, after) {
   if (!before || !after) return;
@@ -88,8 +90,8 @@ function begunLanes(lanes, sound) {
 }
 
 /** @param {string} lane @param {any} body */
-function put(lane, { results, findings, warnings, figures, views }) {
-  state.answers.value = { ...state.answers.value, [lane]: { results, findings, warnings, figures, views } };
+function put(lane, { results, findings, warnings, figures, views, tables, headline }) {
+  state.answers.value = { ...state.answers.value, [lane]: { results, findings, warnings, figures, views, tables, headline } };
 }
 
 function redrawn() {
@@ -101,8 +103,16 @@ function redrawn() {
 function remember(text) {
   state.past.value.of.put(text);
   state.past.value = { ...state.past.value };
+  keep();
+}
+
+function keep() {
+  const [key, text] = [keptAs(state.place.value), state.text.value];
   try {
-    localStorage.setItem(KEPT, JSON.stringify({ ...state.place.value, text, saved: state.saved.value }));
+    localStorage.removeItem(key);
+    if (!state.unsaved.value) return;
+    localStorage.setItem(key, text);
+    localStorage.setItem(LAST, JSON.stringify(state.place.value));
   } catch {
     // Without storage there is nothing to recover from.
   }
@@ -111,7 +121,7 @@ function remember(text) {
 /** Whether an answer is on its way. */
 export const busy = () => link.busy();
 
-/** @param {Omit<Request, "ask">} request */
+/** @param {Omit<Asked, "ask">} request */
 function compute(request) {
   begun = performance.now();
   link.compute({ ask: "compute", ...(request.text === undefined ? {} : state.place.value), ...request });
@@ -141,14 +151,14 @@ export const settle = (set, text) => (text === undefined ? compute({ set }) : wr
 export const to = (value, free, held) => compute({ held, reach: { of: state.goal.value, value, free } });
 
 /** The machine at hand stays beside those that follow. */
-export function pin() {
+export function pin(text = state.text.value) {
   const names = new Set(state.pins.value.map(({ name }) => name));
   let n = 1;
   while (names.has(`Variant ${n}`)) n += 1;
   const results = state.results.value;
   const scalars = Object.fromEntries(state.scalars.value.map(({ key, value }) => [key, value]));
   const plots = Object.fromEntries([...pointPlots(), ...hodographs(), ...results.flatMap(({ plots: own }) => own)].map(({ key, x, curves }) => [key, { x: x.values, curves: Object.fromEntries(curves.map(({ name, values }) => [name, values])) }]));
-  state.pins.value = [...state.pins.value, { name: `Variant ${n}`, text: state.text.value, scalars, plots }];
+  state.pins.value = [...state.pins.value, { name: `Variant ${n}`, text, scalars, plots }];
 }
 
 /** @param {number} place */
@@ -182,17 +192,21 @@ effect(() => {
   });
 });
 
-/** What the server says from now on is in the language of the page. */
-const tongue = () => link.send({ ask: "language", code: state.language.value });
+/** What the server says from now on is in the language of the page, and in its units. */
+const tongue = () => link.send({ ask: "language", code: state.language.value, units: listed(state.units.value) });
 
-let spoken = state.language.value;
 effect(() => {
-  const code = state.language.value;
-  speak(code);
-  if (code === spoken) return;
-  spoken = code;
-  tongue();
-  if (state.text.peek()) compute({ text: state.text.peek() });
+  speak(state.language.value);
+});
+
+let spoken = "";
+effect(() => {
+  const now = [state.language.value, ...listed(state.units.value)].join();
+  if (spoken && now !== spoken) {
+    tongue();
+    if (state.text.peek()) compute({ text: state.text.peek() });
+  }
+  spoken = now;
 });
 
 /** The pose before the gesture. */
@@ -219,6 +233,7 @@ export function redo() {
 function again(text) {
   state.text.value = text;
   state.past.value = { ...state.past.value };
+  keep();
   compute({ text });
 }
 
@@ -274,7 +289,7 @@ export async function save(name, replace) {
     state.message.value = `Saved as ${name}.`;
   });
   globalThis.history.replaceState(null, "", `#open=folder/${encodeURIComponent(name)}`);
-  localStorage.removeItem(KEPT);
+  keep();
 }
 
 export async function list() {
@@ -285,15 +300,38 @@ export async function list() {
 /** @param {string} place @param {string} name @returns {Promise<any>} */
 export const thumbnail = (place, name) => link.ask({ ask: "thumbnail", place, name });
 
-/** What was not saved when the page was left last; null if nothing. @returns {{ place: string, name: string, text: string, saved: string } | null} */
-export function left() {
-  try {
-    const kept = JSON.parse(localStorage.getItem(KEPT) ?? "null");
-    return kept && kept.text !== kept.saved ? kept : null;
-  } catch {
-    return null;
-  }
+/** What was not saved of the file at hand when the page was left, as a change that can be undone. */
+function recover() {
+  const text = localStorage.getItem(keptAs(state.place.value));
+  if (text === null || text === state.text.value) return;
+  write(text);
+  state.message.value = "Changes that were not saved are back; Undo takes them away.";
 }
+
+/** The whole state of the page as letters for an address. */
+export const whole = () => folded(JSON.stringify({ ...state.shared(), of: state.place.value, text: state.text.value, time: state.time.value, pins: state.pins.value.map(({ text }) => text) }));
+
+/** A state from an address. A file of the folder that has the same name is another one. @param {string} letters */
+async function restore(letters) {
+  const { of, text, time, pins, ...given } = JSON.parse(await unfolded(letters));
+  start(of?.place === "library" ? of : { place: "", name: "" }, String(text), "");
+  state.share(given);
+  for (const each of Array.isArray(pins) ? pins : []) {
+    compute({ text: String(each) });
+    await idle();
+    if (!state.problems.value.length) pin(String(each));
+  }
+  if (state.pins.value.length) compute({ text: state.text.value });
+  await idle();
+  state.playing.value = false;
+  state.time.value = Number(time) || 0;
+}
+
+/** Ends once no answer is on its way. @returns {Promise<void>} */
+const idle = () => new Promise((resolve) => {
+  const look = () => (link.busy() ? setTimeout(look, 20) : resolve());
+  look();
+});
 
 let hasBegun = false;
 
@@ -303,14 +341,11 @@ async function begin() {
   hasBegun = true;
   const words = new URLSearchParams(location.hash.slice(1));
   const [place, ...rest] = (words.get("open") ?? "").split("/");
-  const packed = words.get("text");
-  if (packed) {
-    const { unfolded } = await import("./folded.js");
-    return start({ place: "", name: "" }, await unfolded(packed), "");
-  }
-  if (rest.length) return open(place, rest.join("/"));
-  const kept = left();
-  if (kept) return start(kept, kept.text, kept.saved);
-  await list();
-  return open("library", "roller_two_carts");
+  const packed = words.get("state");
+  if (packed) return restore(packed).catch(() => (state.message.value = "The link holds no state of a studio."));
+  const last = JSON.parse(localStorage.getItem(LAST) ?? "null");
+  const of = rest.length ? { place, name: rest.join("/") } : last && localStorage.getItem(keptAs(last)) !== null ? last : { place: "library", name: "roller_two_carts" };
+  if (of.name) await open(of.place, of.name);
+  else start(of, "", "");
+  recover();
 }

@@ -1,4 +1,5 @@
 // Velocities, accelerations and forces as arrows at their points; the longest of each kind is a fixed part of the drawing.
+import { fill, line, stroke } from "./ink.js";
 import { at } from "./painter.js";
 import { pairAt } from "./timeline.js";
 
@@ -25,7 +26,7 @@ function sizeOf(key, arrays) {
 }
 
 /**
- * @param {import("./painter.js").View} view @param {[number, number]} from @param {number} dx @param {number} dy on the screen
+ * @param {View} view @param {[number, number]} from @param {number} dx @param {number} dy on the screen
  * @param {string} colour
  */
 function arrow({ ctx }, from, dx, dy, colour) {
@@ -34,20 +35,14 @@ function arrow({ ctx }, from, dx, dy, colour) {
   const [x, y] = [from[0] + dx, from[1] + dy];
   const [ux, uy] = [dx / length, dy / length];
   const head = Math.min(9, 0.5 * length);
-  ctx.strokeStyle = ctx.fillStyle = colour;
-  ctx.lineWidth = 2;
-  ctx.beginPath();
-  ctx.moveTo(...from);
-  ctx.lineTo(x - ux * head, y - uy * head);
-  ctx.stroke();
-  ctx.beginPath();
-  ctx.moveTo(x, y);
-  ctx.lineTo(x - ux * head - uy * head * 0.45, y - uy * head + ux * head * 0.45);
-  ctx.lineTo(x - ux * head + uy * head * 0.45, y - uy * head - ux * head * 0.45);
-  ctx.fill();
+  const [u, v] = [x - ux * head, y - uy * head];
+  line(ctx, [from, [u, v]]);
+  stroke(ctx, colour, 2);
+  line(ctx, [[x, y], [u - uy * head * 0.45, v + ux * head * 0.45], [u + uy * head * 0.45, v - ux * head * 0.45]]);
+  fill(ctx, colour);
 }
 
-/** @param {import("./painter.js").View} view @param {Record<string, boolean>} layers */
+/** @param {View} view @param {Record<string, boolean>} layers */
 export function paintArrows(view, layers) {
   const { scene, frame, k, series } = view;
   const span = LONGEST * frame.scale * Math.min(Math.max(scene.box[2] - scene.box[0], 1e-9), 2 * Math.max(scene.box[3] - scene.box[1], 1e-9));

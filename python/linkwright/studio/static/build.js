@@ -3,6 +3,7 @@
 import { html } from "./html.js";
 import { useState } from "./vendor/hooks.mjs";
 import { merge, settle } from "./actions.js";
+import { Choice, ofNames } from "./choice.js";
 import * as state from "./state.js";
 import { written } from "./units.js";
 
@@ -19,7 +20,7 @@ function named(address) {
 }
 
 /** @param {number} length */
-const metres = (length) => `${written(length, 2).replace("−", "-")} m`;
+const metres = (length) => `${written(length, 2)} m`;
 
 /** What each kind adds: address and entries; null where there is nothing to build it on. @returns {[string, [string, object] | null, string][]} */
 function kinds() {
@@ -52,7 +53,7 @@ function Merge() {
   const all = Object.keys(state.scene.value?.points ?? {}).filter((name) => points.includes(name) || name === "O");
   if (all.length < 2) return null;
   const choice = (/** @type {string} */ word, /** @type {string} */ value, /** @type {string[]} */ names, /** @type {(name: string) => void} */ put) => html`
-    <label>${word} <select aria-label=${word} value=${value} onChange=${({ target }) => put(target.value)}><option value="">–</option>${names.map((name) => html`<option key=${name} translate="no" value=${name} selected=${name === value}>${name}</option>`)}</select></label>`;
+    <label>${word} <${Choice} aria-label=${word} value=${value} choose=${put} options=${[["", "–"], ...ofNames(names)]} /></label>`;
   return html`
     <div class="line merge">${choice("Merge", joint, points, (name) => set([name, into]))} ${choice("with", into, all.filter((name) => name !== joint), (name) => set([joint, name]))}
       <button id="merge" disabled=${!joint || !into} onClick=${() => {

@@ -1,12 +1,13 @@
 // Instant centres of links with their centrodes: the curve on the frame stands, the one on the link rolls on it.
 import { at } from "./painter.js";
 import { toScreen } from "./frame.js";
+import { circle, fill, line, stroke } from "./ink.js";
 import { between, pairAt } from "./timeline.js";
 
 /** Centres farther away than so many times the drawing are not drawn: towards parallel cranks they go to infinity. */
 const FAR = 6;
 
-/** @param {import("./painter.js").View} view */
+/** @param {View} view */
 export function paintCentres(view) {
   const { ctx, scene, frame, k, series, ink } = view;
   const [left, bottom, right, top] = scene.box;
@@ -42,16 +43,10 @@ export function paintCentres(view) {
     const [x, y] = pairAt(fixed, k);
     if (!Number.isFinite(x) || !near(x, y)) return;
     const spot = toScreen(frame, x, y);
-    ctx.strokeStyle = ink.soft;
-    ctx.lineWidth = 0.8;
-    ctx.beginPath();
-    ctx.moveTo(...at(view, start));
-    ctx.lineTo(...spot);
-    ctx.stroke();
-    ctx.beginPath();
-    ctx.arc(...spot, 4.5, 0, 2 * Math.PI);
-    ctx.fillStyle = colour;
-    ctx.fill();
+    line(ctx, [at(view, start), spot]);
+    stroke(ctx, ink.soft, 0.8);
+    circle(ctx, ...spot, 4.5);
+    fill(ctx, colour);
     ctx.font = "12px system-ui, 'Segoe UI', 'Noto Sans', 'DejaVu Sans', sans-serif";
     ctx.fillText(`C ${name}`, spot[0] + 8, spot[1] - 6);
   });

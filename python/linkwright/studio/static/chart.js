@@ -7,8 +7,6 @@ import { colours, shownLook } from "./theme.js";
 import { between, placeOf } from "./timeline.js";
 import { number, shownUnit } from "./units.js";
 
-/** @typedef {import("./types.js").Plot} Plot */
-
 const HEIGHT = 190;
 /** @type {any} */
 const uPlot = /** @type {any} */ (globalThis).uPlot;

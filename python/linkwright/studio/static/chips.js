@@ -3,7 +3,7 @@ import { html } from "./html.js";
 import { settle, stop } from "./actions.js";
 import * as state from "./state.js";
 
-/** @param {{ chip: import("./types.js").Chip }} props */
+/** @param {{ chip: Chip }} props */
 function Chip({ chip }) {
   const { name, word, lane, obstacle, mend, entries } = chip;
   if (obstacle) {

@@ -1,4 +1,5 @@
 // Controls of all entries of the file, as the descriptions declare them.
+import { Choice } from "./choice.js";
 import { html } from "./html.js";
 import { useState } from "./vendor/hooks.mjs";
 import { useComputed } from "./vendor/signals.mjs";
@@ -10,7 +11,8 @@ import { effect, entryAt } from "./slopes.js";
 import * as state from "./state.js";
 import { number, read, shownUnit, typed } from "./units.js";
 
-/** @typedef {import("./types.js").Entry} Entry @typedef {import("./types.js").Group} Group */
+/** Letters of a text that stands on a line of its own. */
+const LONG = 16;
 
 /** Largest share of a value that a slider reaches beyond it. */
 const REACH = 2;
@@ -103,9 +105,7 @@ function Other({ entry }) {
   const { address, holds, written, choices = [], key } = entry;
   const id = `at ${address}`;
   if (holds === "choice") {
-    return html`<select id=${id} aria-label=${key} value=${written} onChange=${({ target }) => settle({ [address]: target.value })}>
-      ${choices.map((each) => html`<option key=${each} value=${each} selected=${each === written}>${each.replaceAll("_", " ")}</option>`)}
-    </select>`;
+    return html`<${Choice} id=${id} aria-label=${key} value=${written} options=${choices.map((each) => [each, each.replaceAll("_", " ")])} choose=${(/** @type {string} */ value) => settle({ [address]: value })} />`;
   }
   if (holds === "switch") {
     return html`<input id=${id} type="checkbox" aria-label=${key} checked=${written} onChange=${({ target }) => settle({ [address]: target.checked })} />`;
@@ -135,7 +135,7 @@ function Row({ entry, draggable }) {
   const locked = useComputed(() => state.locks.value[address] ?? false).value;
   const isPulled = useComputed(() => address in state.live.value).value;
   return html`
-    <div class="row ${isPulled ? "pulled" : ""}">
+    <div class="row ${isPulled ? "pulled" : ""} ${entry.holds === "text" && String(entry.written).length > LONG ? "long" : ""}">
       <label for="at ${address}" title=${about}>${key.replaceAll("_", " ")}</label>
       <span class="signs">${entry.holds === "quantity" ? html`<${Slope} entry=${entry} />` : null}${draggable.has(address) ? html`<button class="lock" aria-pressed=${locked ? "true" : "false"} aria-label="Lock ${key} of ${address.split(".").at(-2)}" title=${locked ? "Locked: joints that are dragged leave it as it is" : "Follows joints that are dragged; lock it"}
         onClick=${() => (state.locks.value = { ...state.locks.value, [address]: !locked })}><${Icon} name=${locked ? "locked" : "open"} /></button>` : null}</span>
@@ -169,7 +169,7 @@ function More({ group }) {
     </div>`;
 }
 
-/** What an entry begins with. @param {import("./types.js").Missing} missing */
+/** What an entry begins with. @param {Missing} missing */
 const first = ({ usual, choices = [], unit }) => usual ?? choices[0] ?? (unit === undefined ? "" : `0 ${unit}`.trim());
 
 /** Depth of the groups that are open at first: all of a small machine. */

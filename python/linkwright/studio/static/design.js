@@ -3,6 +3,7 @@ import { html } from "./html.js";
 import { useState } from "./vendor/hooks.mjs";
 import { letBack, pin, seek, settle, stopSearch, to, unpin } from "./actions.js";
 import { Chart } from "./chart.js";
+import { Choice, ofNames } from "./choice.js";
 import { endsOf, follows } from "./controls.js";
 import { Heat } from "./heat.js";
 import { Sign } from "./numbers.js";
@@ -27,16 +28,14 @@ function Goal() {
   const now = found.find(({ name }) => `steady_state.${name}` === state.goal.value);
   return html`
     <${Section} title="Pull a result">
-      <label class="line"><span>Result</span> <select id="goal" value=${state.goal.value} onChange=${({ target }) => (state.goal.value = target.value)}>
-        <option value="">none</option>
-        ${found.map(({ name, word, symbol }) => html`<option key=${name} value="steady_state.${name}" selected=${`steady_state.${name}` === state.goal.value}>${word}${symbol ? `, ${symbol.replace("_", " ")}` : ""}</option>`)}
-      </select></label>
+      <label class="line"><span>Result</span> <${Choice} id="goal" value=${state.goal.value} choose=${(/** @type {string} */ key) => (state.goal.value = key)}
+        options=${[["", "none"], ...found.map(({ name, word, symbol }) => [`steady_state.${name}`, [word, symbol && `, ${symbol.replace("_", " ")}`]])]} /></label>
       ${found.length ? null : html`<p class="about">A result can be pulled once there is a steady motion.</p>`}
       ${now ? html`<${Pull} now=${now} />` : null}
     <//>`;
 }
 
-/** @param {{ now: import("./types.js").Words & { value: number } }} props */
+/** @param {{ now: Words & { value: number } }} props */
 function Pull({ now }) {
   const { unit, factor } = shownUnit(now.unit, state.units.value);
   // While it is pulled the ends stay where they were.
@@ -104,11 +103,10 @@ function PointGoal() {
   if (!points.length) return null;
   return html`
     <${Section} title="Pull a point of a curve">
-      <label class="line"><span>Point</span> <select id="pulled" value=${state.pulled.value} onChange=${({ target }) => {
-        state.pulled.value = target.value;
-        state.trails.value = [...new Set([...state.trails.value, target.value])].filter(Boolean);
-      }}><option value="">none</option>
-        ${points.map((name) => html`<option key=${name} translate="no" value=${name} selected=${name === state.pulled.value}>${name}</option>`)}</select></label>
+      <label class="line"><span>Point</span> <${Choice} id="pulled" value=${state.pulled.value} options=${[["", "none"], ...ofNames(points)]} choose=${(/** @type {string} */ name) => {
+        state.pulled.value = name;
+        state.trails.value = [...new Set([...state.trails.value, name])].filter(Boolean);
+      }} /></label>
       ${state.pulled.value ? html`
         <p class="about">Drag it in the drawing: the entries that are ticked follow, within the ends of their sliders.</p>
         <div class="following of-point">${lengths.map(({ address }) => html`<${Tick} key=${address} address=${address} />`)}</div>` : null}
@@ -120,7 +118,7 @@ function Variants() {
   const shown = state.scalars.value.filter(({ key }) => HEADS.includes(key));
   return html`
     <${Section} title="Compare variants">
-      <button id="pin" disabled=${!state.results.value.length} onClick=${pin}>Pin this machine</button>
+      <button id="pin" disabled=${!state.results.value.length} onClick=${() => pin()}>Pin this machine</button>
       ${pins.length ? html`
         <div class="data-table" tabindex="0" role="region" aria-label="Measures of the variants"><table id="variants"><thead><tr><th scope="col">Measure</th><th scope="col">Now</th>${pins.map(({ name }, n) => html`<th scope="col" key=${n}>${name}</th>`)}</tr></thead>
         <tbody>${shown.map(({ key, word, unit: si, value }) => {
@@ -142,10 +140,11 @@ const against = (now, old) => (old ? `(${now >= old ? "+" : "−"}${number(Math.
 function Search() {
   const [kind, setKind] = useState("sweep");
   const [direction, setDirection] = useState("minimise");
-  const [asked, setAsked] = useState("steady_state.unevenness");
+  const [wanted, setAsked] = useState("steady_state.unevenness");
   const [picked, setPicked] = useState(["", ""]);
   const [steps, setSteps] = useState(41);
   const all = state.scalars.value;
+  const asked = all.some(({ key }) => key === wanted) ? wanted : all[0]?.key ?? "";
   const numbers = entries();
   const free = Object.keys(follows());
   const chosen = kind === "sweep" ? picked.filter(Boolean) : free;
@@ -161,27 +160,25 @@ function Search() {
   };
   return html`
     <${Section} title="Sweep or search">
-      <div class="line"><span>What</span> <select aria-label="What is done" value=${kind} onChange=${({ target }) => setKind(target.value)}>
-        <option value="sweep">Sweep entries</option><option value="optimise">Search for the best</option></select></div>
-      <label class="line"><span>Result</span> <select id="asked" value=${asked} onChange=${({ target }) => setAsked(target.value)}>
-        ${all.map(({ key, word }) => html`<option key=${key} value=${key} selected=${key === asked}>${word}</option>`)}</select></label>
+      <div class="line"><span>What</span> <${Choice} aria-label="What is done" value=${kind} choose=${setKind} options=${[["sweep", "Sweep entries"], ["optimise", "Search for the best"]]} /></div>
+      <label class="line"><span>Result</span> <${Choice} id="asked" value=${asked} choose=${setAsked} options=${all.map(({ key, word }) => [key, word])} /></label>
       ${kind === "sweep" ? [0, 1].map((n) => html`
-        <label class="line" key=${n}><span>${n ? "and over" : "over"}</span> <select id="over-${n}" value=${picked[n]} onChange=${({ target }) => setPicked(picked.map((each, k) => (k === n ? target.value : each)))}>
-          <option value="">${n ? "nothing more" : "choose an entry"}</option>${numbers.map(({ address }) => html`<option key=${address} value=${address} selected=${address === picked[n]}>${named(address)}</option>`)}</select></label>`) : html`
-        <div class="line"><span>Goal</span> <select aria-label="Direction" value=${direction} onChange=${({ target }) => setDirection(target.value)}><option value="minimise">Minimum</option><option value="maximise">Maximum</option></select></div>
+        <label class="line" key=${n}><span>${n ? "and over" : "over"}</span> <${Choice} id="over-${n}" value=${picked[n]} choose=${(/** @type {string} */ address) => setPicked(picked.map((each, k) => (k === n ? address : each)))}
+          options=${[["", n ? "nothing more" : "choose an entry"], ...numbers.map(({ address }) => [address, named(address)])]} /></label>`) : html`
+        <div class="line"><span>Goal</span> <${Choice} aria-label="Direction" value=${direction} choose=${setDirection} options=${[["minimise", "Minimum"], ["maximise", "Maximum"]]} /></div>
         <p class="about">${free.length ? `${free.length === 1 ? "The entry" : "The entries"} ${free.map(named).join(", ")} may vary.` : "Choose under Pull a result which entries may vary."}</p>`}
       ${kind === "sweep" ? html`<label class="line"><span>Values</span> <input type="number" min="2" max="401" value=${steps} onChange=${({ target }) => setSteps(Math.min(Math.max(Math.round(Number(target.value)) || 2, 2), 401))} /></label>` : null}
-      <p><button id="seek" class="main" disabled=${!chosen.length} onClick=${start}>Start</button> ${runs(state.search.value) ? html`<button onClick=${stopSearch}>Stop</button>` : null}</p>
+      <p><button id="seek" class="main" disabled=${!chosen.length || !asked} onClick=${start}>Start</button> ${runs(state.search.value) ? html`<button onClick=${stopSearch}>Stop</button>` : null}</p>
       <p class="about">Entries vary between the ends of their sliders.</p>
       <${Found} />
     <//>`;
 }
 
-/** Entries of the file that are numbers. @returns {import("./types.js").Entry[]} */
+/** Entries of the file that are numbers. @returns {Entry[]} */
 function entries() {
-  /** @type {import("./types.js").Entry[]} */
+  /** @type {Entry[]} */
   const found = [];
-  const walk = (/** @type {import("./types.js").Group} */ group) => {
+  const walk = (/** @type {Group} */ group) => {
     found.push(...group.entries.filter(({ holds, si }) => holds === "quantity" && typeof si === "number"));
     group.groups.forEach(walk);
   };
@@ -205,7 +202,7 @@ function Found() {
     ${Object.entries(found.reasons ?? {}).map(([why, count]) => html`<p class="about" key=${why}>${count} without an answer: ${why}</p>`)}`;
 }
 
-/** @param {{ found: any, words: import("./types.js").Words }} props */
+/** @param {{ found: any, words: Words }} props */
 function Swept({ found, words }) {
   const { axes, values } = found;
   const use = (/** @type {1 | -1} */ sign) => {
@@ -224,7 +221,7 @@ function Swept({ found, words }) {
     ${found.done === found.rows ? html`<p><button onClick=${() => use(1)}>Use the minimum</button> <button onClick=${() => use(-1)}>Use the maximum</button></p>` : null}`;
 }
 
-/** @param {{ found: any, words: import("./types.js").Words }} props */
+/** @param {{ found: any, words: Words }} props */
 function Course({ found, words }) {
   const { machines, best } = found.course;
   const plot = { key: "course", title: words.word, unit: words.unit, x: { name: "machines", word: "machines", symbol: "machines", unit: "", values: machines }, curves: [{ ...words, values: best }] };

@@ -1,12 +1,13 @@
 // What opens over the page: the gallery, saving, units, the same result elsewhere.
+import { Choice } from "./choice.js";
 import { html } from "./html.js";
 import { useEffect, useRef, useState } from "./vendor/hooks.mjs";
-import { save } from "./actions.js";
-import { folded } from "./folded.js";
+import { save, whole } from "./actions.js";
 import { Files } from "./files.js";
 import { Gallery } from "./gallery.js";
 import { Icon } from "./icons.js";
 import { unitSaid } from "./language.js";
+import { Enlarged } from "./plots.js";
 import * as state from "./state.js";
 import { SETS, UNITS, chosen } from "./units.js";
 
@@ -15,9 +16,7 @@ function Units() {
   return html`
     <div class="sets" role="group" aria-label="Sets of units">${SETS.map((word, n) => html`<button key=${word} onClick=${() => (state.units.value = chosen(n))}>${word}</button>`)}</div>
     <div class="units">${Object.entries(UNITS).map(([si, { word, units }]) => html`
-      <label key=${si}>${word}<select value=${choice[si]} onChange=${({ target }) => (state.units.value = { ...choice, [si]: target.value })}>
-        ${Object.keys(units).map((unit) => html`<option key=${unit} value=${unit} selected=${unit === choice[si]}>${unitSaid(unit)}</option>`)}
-      </select></label>`)}</div>
+      <label key=${si}>${word}<${Choice} value=${choice[si]} options=${Object.keys(units).map((unit) => [unit, unitSaid(unit)])} choose=${(/** @type {string} */ unit) => (state.units.value = { ...choice, [si]: unit })} /></label>`)}</div>
     <p class="about">The file keeps the units that it is written in. A number with a unit of its own, such as <code>8.5 in</code>, can be typed into every field.</p>`;
 }
 
@@ -50,10 +49,9 @@ function Copy({ words, label }) {
 function Elsewhere() {
   const [link, setLink] = useState("");
   const { place, name } = state.place.value;
-  const text = state.text.value;
   useEffect(() => {
-    folded(text).then((letters) => setLink(`#text=${letters}`));
-  }, [text]);
+    whole().then((letters) => setLink(`#state=${letters}`));
+  }, [state.text.value]);
   const file = place === "folder" || place === "library" ? name : "machine.toml";
   const first = place === "template" || state.unsaved.value ? "Save the file first: these lines read it.\n" : "";
   return html`
@@ -69,6 +67,7 @@ const DIALOGS = /** @type {Record<string, [string, any]>} */ ({
   files: ["Export", Files],
   units: ["Units", Units],
   elsewhere: ["The same elsewhere", Elsewhere],
+  diagram: ["Diagram", Enlarged],
 });
 
 export function Dialog() {

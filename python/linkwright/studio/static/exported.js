@@ -2,8 +2,6 @@
 import { pen } from "./frame.js";
 import { number } from "./units.js";
 
-/** @typedef {{ title: string, heads: string[], rows: ArrayLike<number>[], isToScale?: boolean }} Sheet */
-
 /** @param {Blob} blob @param {string} name */
 export function download(blob, name) {
   const link = document.createElement("a");

@@ -1,11 +1,12 @@
 // Files of the machine: its report as a page or PDF, its motion as GIF or MP4, the pose at this crank angle as DXF, SVG or PNG.
+import { Choice } from "./choice.js";
 import { html } from "./html.js";
 import { useState } from "./vendor/hooks.mjs";
 import { make, stopMaking } from "./actions.js";
 import { download } from "./exported.js";
 import * as state from "./state.js";
 import { between, placeOf } from "./timeline.js";
-import { UNITS, read } from "./units.js";
+import { listed, read } from "./units.js";
 
 const SECTIONS = /** @type {[string, string][]} */ ([
   ["summary", "Summary"], ["sketch", "Drawing"], ["results", "Results"], ["formulas", "Formulas"], ["data", "Data of the machine"], ["assumptions", "Assumptions"], ["repeat", "How to repeat it"],
@@ -34,7 +35,7 @@ export function Files() {
     setRunning(kind);
     const { place, name } = state.place.value;
     const file = place === "folder" || place === "library" ? name : "machine.toml";
-    const units = chosen.units ? Object.keys(UNITS).map((si) => state.units.value[si]) : [];
+    const units = chosen.units ? listed(state.units.value) : [];
     const variants = chosen.variants ? pins.map((pin) => ({ name: pin.name, text: pin.text })) : [];
     const blob = await make({ kind, of, sections: chosen.sections, company: chosen.company, units, variants, seconds: chosen.seconds, angle: angle(), command: `linkwright ${of === "torsion" ? "torsion" : "run"} ${file}` });
     setRunning("");
@@ -43,7 +44,7 @@ export function Files() {
   const buttons = (/** @type {[string, string][]} */ kinds, /** @type {boolean} */ on = true) => html`<p class="sets">${kinds.map(([kind, word]) => html`<button key=${kind} class="main" data-make=${kind} disabled=${!on || running !== ""} onClick=${() => run(kind)}>${word}</button>`)}</p>`;
   return html`
     <h3>Report</h3>
-    ${lanes.length > 1 ? html`<label class="line">Of <select value=${of} onChange=${({ target }) => set({ of: target.value })}><option value="study" selected=${of === "study"}>the whole machine</option><option value="torsion" selected=${of === "torsion"}>its torsional vibration</option></select></label>` : null}
+    ${lanes.length > 1 ? html`<label class="line">Of <${Choice} value=${of} choose=${(/** @type {string} */ one) => set({ of: one })} options=${[["study", "the whole machine"], ["torsion", "its torsional vibration"]]} /></label>` : null}
     <fieldset class="layers"><legend class="hidden">Sections</legend>${SECTIONS.map(([key, word]) => html`<label key=${key}><input type="checkbox" checked=${chosen.sections.includes(key)} onChange=${({ target }) => set({ sections: SECTIONS.map(([each]) => each).filter((each) => (each === key ? target.checked : chosen.sections.includes(each))) })} />${word}</label>`)}</fieldset>
     <label class="line">Company file for the letterhead <input value=${chosen.company} placeholder="company.toml" onChange=${({ target }) => set({ company: target.value.trim() })} /></label>
     <label class="check line"><input type="checkbox" checked=${chosen.units} onChange=${({ target }) => set({ units: target.checked })} />In the units of this page, not those of the file</label>

@@ -3,7 +3,6 @@
 const MARGIN = 64;
 
 /**
- * @typedef {{ scale: number, x: number, y: number }} Frame
  * @param {number[]} box minimum x, minimum y, maximum x, maximum y [m]
  * @param {number} width @param {number} height pixels
  * @param {number} [most] of margin

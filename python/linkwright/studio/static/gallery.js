@@ -4,6 +4,7 @@ import { useEffect, useRef, useState } from "./vendor/hooks.mjs";
 import { list, open, start, thumbnail } from "./actions.js";
 import { fit, pen } from "./frame.js";
 import { paintKnife } from "./knife.js";
+import { said } from "./language.js";
 import { paintMoving, paintStill } from "./painter.js";
 import * as state from "./state.js";
 import { colours } from "./theme.js";
@@ -70,7 +71,7 @@ function moving(canvas, scene) {
   };
 }
 
-/** @param {{ listed: import("./types.js").Listed }} props */
+/** @param {{ listed: Listed }} props */
 function Card({ listed: { place, name, title } }) {
   const canvas = useRef(/** @type {HTMLCanvasElement | null} */ (null));
   const [state_, setState] = useState("waiting");
@@ -92,11 +93,14 @@ function Card({ listed: { place, name, title } }) {
     };
   }, [place, name]);
   return html`
-    <button class="card ${state_}" onClick=${() => open(place, name)} data-open="${place}/${name}">
+    <button class="card ${state_}" onClick=${() => leaves() && open(place, name)} data-open="${place}/${name}">
       <canvas ref=${canvas} aria-hidden="true"></canvas>
       <b translate="no">${title}</b><small translate="no">${name}</small>
     </button>`;
 }
+
+/** Whether the machine at hand may be left. */
+const leaves = () => !state.unsaved.value || confirm(said("Leave the changes that are not saved?"));
 
 /** What a machine begins with that is built from nothing. */
 const EMPTY = 'format = 1\nname = "New machine"\n\n[mechanism]\n';
@@ -110,7 +114,7 @@ export function Gallery() {
   const found = state.listed.value.filter(({ title, name }) => `${title} ${name}`.toLowerCase().includes(seek));
   return html`
     <input type="search" class="seek" placeholder="Find a machine" aria-label="Find a machine" value=${wanted} onInput=${({ target }) => setWanted(target.value)} />
-    <p class="sets"><button id="empty" onClick=${() => start({ place: "", name: "" }, EMPTY, "")}>Start with an empty machine</button></p>
+    <p class="sets"><button id="empty" onClick=${() => leaves() && start({ place: "", name: "" }, EMPTY, "")}>Start with an empty machine</button></p>
     ${Object.entries(PLACES).map(([place, words]) => {
       const here = found.filter((each) => each.place === place);
       return here.length ? html`<h3>${words}</h3><div class="cards">${here.map((each) => html`<${Card} key="${place}/${each.name}" listed=${each} />`)}</div>` : null;

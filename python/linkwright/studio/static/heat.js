@@ -16,9 +16,7 @@ function colour(share) {
   return `rgb(${STOPS[n].map((from, k) => Math.round(from + (at - n) * (STOPS[n + 1][k] - from))).join(" ")})`;
 }
 
-/** @typedef {import("./types.js").Curve} Curve */
-
-/** @param {{ values: Float64Array, x: Curve, y: Curve, words: import("./types.js").Words }} props */
+/** @param {{ values: Float64Array, x: Curve, y: Curve, words: Words }} props */
 export function Heat({ values, x, y, words }) {
   const own = useRef(/** @type {HTMLCanvasElement | null} */ (null));
   const [data, setData] = useState(false);

@@ -5,6 +5,7 @@ import { useEffect, useRef } from "./vendor/hooks.mjs";
 import { rows, short } from "./chart.js";
 import { ticks } from "./exported.js";
 import { fit, pen, toMachine, toScreen } from "./frame.js";
+import { circle, fill } from "./ink.js";
 import { followers } from "./stage.js";
 import * as state from "./state.js";
 import { colours, shownLook } from "./theme.js";
@@ -19,7 +20,7 @@ const [LEFT, BELOW] = [52, 34];
 /** Ends of a component and the origin. @param {Float64Array} values */
 const ends = (values) => [Math.min(0, ...values.filter(Number.isFinite)), Math.max(0, ...values.filter(Number.isFinite))];
 
-/** @param {{ plot: import("./types.js").Plot }} props */
+/** @param {{ plot: Plot }} props */
 export function Hodograph({ plot }) {
   const holder = useRef(/** @type {HTMLCanvasElement | null} */ (null));
   const now = useRef(plot);
@@ -119,10 +120,8 @@ export function Hodograph({ plot }) {
     };
     /** @param {[number, number]} place @param {string} style */
     const dot = (place, style) => {
-      ctx.fillStyle = style;
-      ctx.beginPath();
-      ctx.arc(...toScreen(frame, ...place), 4, 0, 2 * Math.PI);
-      ctx.fill();
+      circle(ctx, ...toScreen(frame, ...place), 4);
+      fill(ctx, style);
     };
     const over = (/** @type {PointerEvent} */ event) => {
       at = [event.offsetX, event.offsetY];

@@ -1,11 +1,6 @@
 // The knife of a topper over the heads of a row, from above: the swept area grows, what is left uncut stays.
 import { pen } from "./frame.js";
-
-/**
- * @typedef {{ kind: "topper", law: Float64Array, rate: number, drift: number, phase: number, angle: number, length: number, speed: number,
- *   diameter: number, offset: number, heads: number[][], span: number[], box: number[], seconds: number }} Knife
- * @typedef {import("./moving.js").Paper} Paper
- */
+import { circle, fill, line, stroke } from "./ink.js";
 
 const TURN = 2 * Math.PI;
 
@@ -53,13 +48,9 @@ export function paintKnife(paper, view, t, names = true) {
     ctx.fillRect(0, Y(view.offset), width, 2 * view.offset * scale);
     ctx.globalAlpha = 1;
   }
-  ctx.strokeStyle = ink.soft;
-  ctx.lineWidth = 1;
   ctx.setLineDash([8, 4, 2, 4]);
-  ctx.beginPath();
-  ctx.moveTo(0, Y(0));
-  ctx.lineTo(width, Y(0));
-  ctx.stroke();
+  line(ctx, [[0, Y(0)], [width, Y(0)]]);
+  stroke(ctx, ink.soft, 1);
   ctx.setLineDash([]);
 
   const layers = sweptUpTo();
@@ -71,45 +62,24 @@ export function paintKnife(paper, view, t, names = true) {
   for (const [hx, hy] of view.heads) disc(hx, hy, "", 0);
 
   const here = place(t);
-  ctx.strokeStyle = ink.soft;
-  ctx.lineWidth = 1;
-  ctx.beginPath();
-  for (let n = 0; n <= done; n += 1) {
-    const [x, y] = place(instant(n));
-    ctx.lineTo(X(x), Y(y));
-  }
-  ctx.lineTo(X(here[0]), Y(here[1]));
-  ctx.stroke();
-  const [a, b] = ends(here);
-  ctx.strokeStyle = ink.ink;
-  ctx.lineWidth = names ? 5 : 3;
+  line(ctx, [...Array.from({ length: done + 1 }, (_, n) => place(instant(n))), here].map(([x, y]) => [X(x), Y(y)]));
+  stroke(ctx, ink.soft, 1);
   ctx.lineCap = "round";
-  ctx.beginPath();
-  ctx.moveTo(a[0], a[1]);
-  ctx.lineTo(b[0], b[1]);
-  ctx.stroke();
+  line(ctx, ends(here));
+  stroke(ctx, ink.ink, names ? 5 : 3);
   ctx.lineCap = "butt";
-  ctx.fillStyle = ink.panel;
-  ctx.beginPath();
-  ctx.arc(X(here[0]), Y(here[1]), 3.5, 0, TURN);
-  ctx.fill();
-  ctx.lineWidth = 2;
-  ctx.stroke();
+  circle(ctx, X(here[0]), Y(here[1]), 3.5);
+  fill(ctx, ink.panel);
+  stroke(ctx, ink.ink, 2);
 
   /** A head, filled or its rim. @param {number} x @param {number} y @param {string} colour @param {number} alpha */
   function disc(x, y, colour, alpha) {
-    ctx.beginPath();
-    ctx.arc(X(x), Y(y), radius, 0, TURN);
+    circle(ctx, X(x), Y(y), radius);
     if (alpha) {
-      ctx.globalAlpha = alpha;
-      ctx.fillStyle = colour;
-      ctx.fill();
-      ctx.globalAlpha = 1;
+      fill(ctx, colour, alpha);
       return;
     }
-    ctx.strokeStyle = ink.ink;
-    ctx.lineWidth = 1.5;
-    ctx.stroke();
+    stroke(ctx, ink.ink, 1.5);
   }
 
   /** Two layers: what was swept, and that over heads in the colour of a cut; only what is new is drawn. */
@@ -142,9 +112,7 @@ export function paintKnife(paper, view, t, names = true) {
       const [[a, b], [d, c]] = [ends(place(instant(known.done))), ends(place(instant(known.done + 1)))];
       for (const layer of known.layers) {
         const on = pen(layer);
-        on.beginPath();
-        for (const [x, y] of [a, b, c, d]) on.lineTo(x, y);
-        on.closePath();
+        line(on, [a, b, c, d], true);
         on.fill();
         // No seam between two slices.
         on.lineWidth = 0.6;

@@ -1,11 +1,6 @@
 // The page in the language of the user: its own texts, numbers and units. What the server says comes in that language.
 import { signal } from "./vendor/signals-core.mjs";
 
-/**
- * Texts with their translation, `{}` for what is put in; units; decimal sign.
- * @typedef {{ code: string, texts: Record<string, string>, units: Record<string, string>, decimal: string }} Catalogue
- */
-
 /** @type {Catalogue} */
 export const ENGLISH = { code: "en", texts: {}, units: {}, decimal: "." };
 

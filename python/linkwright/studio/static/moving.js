@@ -6,11 +6,6 @@ import { frames } from "./stage.js";
 import * as state from "./state.js";
 import { colours, shownLook } from "./theme.js";
 
-/**
- * What a picture is drawn with; `passed` is the time since the last frame on the page [s], 0 while it stands.
- * @typedef {{ ctx: CanvasRenderingContext2D, width: number, height: number, passed: number, ink: Record<string, string>, series: string[] }} Paper
- */
-
 /** Longest time between two frames that moves the picture [s]: a tab that was away does not jump. */
 const LONGEST = 0.1;
 

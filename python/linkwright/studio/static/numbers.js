@@ -15,9 +15,9 @@ const HEAD = [
 ];
 const HEAD_MOST = 6;
 
-/** Natural frequencies of a train at the head, and scalars that are none of its results. */
+/** Natural frequencies of a train at the head, and scalars that one does not look for first. */
 const MODES_MOST = 3;
-const NO_RESULT = ["scheme.diameter", "along.speed", "linkage.period_turns"];
+const NO_RESULT = /^(scheme|along|transient)\.|^linkage\.period_turns$|error/;
 
 /** Index marks of a symbol, as M_d,max. @param {{ symbol: string }} props */
 export function Sign({ symbol }) {
@@ -34,12 +34,13 @@ const titled = (name) => {
 export function Head() {
   const known = new Map(state.scalars.value.map((each) => [each.key, each]));
   const found = HEAD.flatMap((name) => known.get(name) ?? []);
-  const fill = [...known.entries()].flatMap(([name, each]) => (found.includes(each) || NO_RESULT.includes(name) ? [] : [each]));
+  const fill = [...known.entries()].flatMap(([name, each]) => (found.includes(each) || NO_RESULT.test(name) ? [] : [each]));
   const train = state.views.value.find(({ kind }) => kind === "train");
   const modes = Array.from(train && !state.isDrawn.value ? train.frequencies.subarray(0, MODES_MOST) : [], (/** @type {number} */ f, n) => ({ name: `mode_${n + 1}`, word: `natural frequency, mode ${n + 1}`, symbol: "f", unit: "Hz", value: f, of: "", key: "" }));
   const shown = [...modes, ...found, ...fill].slice(0, found.length >= 3 ? Math.min(found.length, HEAD_MOST) : HEAD_MOST);
-  if (!shown.length) return null;
-  return html`<dl class="head" aria-label="Main results">${shown.map((each) => {
+  const lead = state.headline.value;
+  if (!shown.length && !lead.length) return null;
+  return html`<dl class="head" aria-label="Main results">${lead.map(([word, value, unit]) => html`<div key=${word}><dt>${word}</dt><dd><b>${value}</b> <small translate="no">${unit}</small></dd></div>`)}${shown.map((each) => {
     const { unit, factor } = shownUnit(each.unit, state.units.value);
     return html`<div key=${each.name} data-name=${each.name}><dt>${/^(time|revolutions)$/.test(each.name) ? `${said(titled(each.of))}: ${each.word}` : each.word}</dt><dd><b data-value=${each.value}>${number(each.value / factor, 4)}</b> <small>${unit || "–"}</small></dd></div>`;
   })}</dl>`;
@@ -51,6 +52,7 @@ export function Numbers() {
   const groups = state.results.value
     .map(({ name, scalars }) => ({ name, scalars: scalars.filter(({ word, symbol, name: own }) => `${word} ${symbol} ${own}`.toLowerCase().includes(seek)) }))
     .filter(({ scalars }) => scalars.length);
+  const tables = state.tables.value.map((each) => ({ ...each, rows: each.rows.filter((row) => `${each.title} ${row}`.toLowerCase().includes(seek)) })).filter(({ rows }) => rows.length);
   return html`
     <input type="search" class="seek" placeholder="Find a quantity" aria-label="Find a quantity" value=${wanted} onInput=${({ target }) => setWanted(target.value)} />
     ${groups.map(({ name, scalars }) => html`
@@ -60,5 +62,9 @@ export function Numbers() {
           return html`<tr key=${each.name}><th scope="row">${each.word}</th><td><${Sign} symbol=${each.symbol} /></td><td class="value" data-scalar="${name}.${each.name}" data-value=${each.value}>${number(each.value / factor)}</td><td>${unit}</td></tr>`;
         })}
       </tbody></table>`)}
-    ${groups.length ? null : html`<p class="nothing">No such quantity among the results.</p>`}`;
+    ${tables.map(({ name, title, heads, rows }) => html`
+      <div key=${name} class="scrolled" tabindex="0" role="region" aria-label=${title}><table><caption>${title}</caption>
+        <thead><tr>${heads.map((head) => html`<th scope="col" translate="no">${head}</th>`)}</tr></thead>
+        <tbody>${rows.map((row) => html`<tr>${row.map((cell) => html`<td translate="no">${cell}</td>`)}</tr>`)}</tbody></table></div>`)}
+    ${groups.length || tables.length ? null : html`<p class="nothing">No such quantity among the results.</p>`}`;
 }

@@ -1,14 +1,8 @@
 // Draws the parts of a scene on a canvas at an instant, from behind to the front. Positions come with the scene: nothing is computed here
 // but where they lie on the screen.
 import { toScreen } from "./frame.js";
+import { circle, fill, line, stroke } from "./ink.js";
 import { between, pairAt } from "./timeline.js";
-
-/**
- * @typedef {import("./types.js").Scene} Scene
- * @typedef {import("./types.js").Part} Part
- * @typedef {import("./frame.js").Frame} Frame
- * @typedef {{ ctx: CanvasRenderingContext2D, scene: Scene, frame: Frame, k: number, ink: Record<string, string>, series: string[], light?: string }} View
- */
 
 const WIDTHS = /** @type {Record<string, number>} */ ({ crank: 9, cable: 2.5, arm: 5 });
 
@@ -29,7 +23,7 @@ const colour = (view, part) => view.series[(part.series ?? 0) % view.series.leng
 
 /**
  * Draws about the origin of a part, turned with its link.
- * @param {View} view @param {Part} part @param {(ctx: CanvasRenderingContext2D) => void} draw
+ * @param {View} view @param {Part} part @param {(ctx: Ctx) => void} draw
  */
 function carried(view, part, draw) {
   const { ctx } = view;
@@ -39,20 +33,6 @@ function carried(view, part, draw) {
   ctx.rotate(turned(view, part.link, part.angle));
   draw(ctx);
   ctx.restore();
-}
-
-/** @param {CanvasRenderingContext2D} ctx @param {number[][]} places @param {boolean} [closed] */
-function line(ctx, places, closed = false) {
-  ctx.beginPath();
-  places.forEach(([x, y], n) => (n ? ctx.lineTo(x, y) : ctx.moveTo(x, y)));
-  if (closed) ctx.closePath();
-}
-
-/** @param {CanvasRenderingContext2D} ctx @param {string} style @param {number} width */
-function stroke(ctx, style, width) {
-  ctx.strokeStyle = style;
-  ctx.lineWidth = width;
-  ctx.stroke();
 }
 
 /** @param {View} view @param {number} length */
@@ -75,7 +55,7 @@ function word({ ctx, ink }, text, x, y) {
   ctx.fillText(text, x, y);
 }
 
-/** @param {CanvasRenderingContext2D} ctx @param {Part} part @param {number} s @param {string} style @param {number} x @param {number} y */
+/** @param {Ctx} ctx @param {Part} part @param {number} s @param {string} style @param {number} x @param {number} y */
 function rod(ctx, part, s, style, x, y) {
   if (!part.rod) return;
   line(ctx, [[x, y], [part.rod[0] * s, -part.rod[1] * s]]);
@@ -101,8 +81,7 @@ export const STILL = {
     const { ctx, ink } = view;
     const [x, y] = at(view, part.name);
     line(ctx, [[x, y], [x - 13, y + 22], [x + 13, y + 22]], true);
-    ctx.fillStyle = ink.panel;
-    ctx.fill();
+    fill(ctx, ink.panel);
     stroke(ctx, ink.soft, 1.5);
     ctx.save();
     ctx.translate(x, y + 22);
@@ -148,12 +127,8 @@ export const MOVING = {
   gear(view, part) {
     const r = part.radius * view.frame.scale;
     carried(view, part, (ctx) => {
-      ctx.beginPath();
-      ctx.arc(0, 0, r, 0, 2 * Math.PI);
-      ctx.globalAlpha = 0.08;
-      ctx.fillStyle = colour(view, part);
-      ctx.fill();
-      ctx.globalAlpha = 1;
+      circle(ctx, 0, 0, r);
+      fill(ctx, colour(view, part), 0.08);
       stroke(ctx, colour(view, part), 2);
       if (!part.link) return;
       line(ctx, [[0, 0], [r, 0]]);
@@ -166,10 +141,7 @@ export const MOVING = {
       part.outlines.forEach((outline, n) => {
         line(ctx, outline.map(([x, y]) => [x * s, -y * s]), true);
         if (n === 0) {
-          ctx.globalAlpha = 0.14;
-          ctx.fillStyle = colour(view, part);
-          ctx.fill();
-          ctx.globalAlpha = 1;
+          fill(ctx, colour(view, part), 0.14);
         }
         stroke(ctx, colour(view, part), 2);
       });
@@ -183,10 +155,8 @@ export const MOVING = {
     const [x, y] = [part.place[0] * s, -part.place[1] * s];
     carried(view, part, (ctx) => {
       rod(ctx, part, s, colour(view, part), x, y);
-      ctx.beginPath();
-      ctx.arc(x, y, Math.max(part.radius * s, 4), 0, 2 * Math.PI);
-      ctx.fillStyle = view.ink.panel;
-      ctx.fill();
+      circle(ctx, x, y, Math.max(part.radius * s, 4));
+      fill(ctx, view.ink.panel);
       stroke(ctx, colour(view, part), 2.5);
     });
   },
@@ -231,8 +201,14 @@ export const MOVING = {
     const [low, high] = part.span;
     carried(view, part, (ctx) => {
       ctx.beginPath();
-      ctx.arc(0, 0, part.radius * view.frame.scale, -(low - 0.1), -(high + 0.1), true);
+      const arc = () => ctx.arc(0, 0, part.radius * view.frame.scale, -(low - 0.1), -(high + 0.1), true);
+      arc();
       stroke(ctx, colour(view, part), 6);
+      // It is part of its link.
+      ctx.beginPath();
+      ctx.moveTo(0, 0);
+      arc();
+      fill(ctx, colour(view, part), 0.18);
     });
   },
   link(view, part) {
@@ -245,10 +221,7 @@ export const MOVING = {
   plate(view, part) {
     const { ctx } = view;
     line(ctx, part.corners.map((name) => at(view, name)), true);
-    ctx.globalAlpha = 0.18;
-    ctx.fillStyle = colour(view, part);
-    ctx.fill();
-    ctx.globalAlpha = 1;
+    fill(ctx, colour(view, part), 0.18);
     stroke(ctx, colour(view, part), 1.5);
   },
   spring(view, part) {
@@ -266,8 +239,7 @@ export const MOVING = {
     carried(view, part, (ctx) => {
       ctx.beginPath();
       ctx.roundRect(-w / 2, -h / 2, w, h, 3);
-      ctx.fillStyle = view.ink.panel;
-      ctx.fill();
+      fill(ctx, view.ink.panel);
       stroke(ctx, colour(view, part), 3);
     });
   },
@@ -275,21 +247,15 @@ export const MOVING = {
     const s = view.frame.scale;
     carried(view, part, (ctx) => {
       const [x, y] = part.place ?? [0, 0];
-      ctx.beginPath();
-      ctx.arc(x * s, -y * s, part.place ? 4 : 9, 0, 2 * Math.PI);
-      ctx.fillStyle = view.ink.ink;
-      ctx.globalAlpha = part.place ? 0.75 : 0.3;
-      ctx.fill();
-      ctx.globalAlpha = 1;
+      circle(ctx, x * s, -y * s, part.place ? 4 : 9);
+      fill(ctx, view.ink.ink, part.place ? 0.75 : 0.3);
     });
   },
   point(view, part) {
     const { ctx, ink } = view;
     const [x, y] = at(view, part.name);
-    ctx.beginPath();
-    ctx.arc(x, y, 5, 0, 2 * Math.PI);
-    ctx.fillStyle = ink.panel;
-    ctx.fill();
+    circle(ctx, x, y, 5);
+    fill(ctx, ink.panel);
     stroke(ctx, view.light === part.name ? ink.accent : ink.ink, view.light === part.name ? 3.5 : 2);
     if (part.slides) word(view, part.name, x - 16, y - 24 - 15 * (part.series ?? 0));
   },

@@ -1,4 +1,5 @@
 // Play, step, scrub, playback speed, and what is drawn.
+import { Choice } from "./choice.js";
 import { html } from "./html.js";
 import { Icon } from "./icons.js";
 import * as state from "./state.js";
@@ -66,7 +67,6 @@ export function Playbar() {
     <fieldset class="layers"><legend class="hidden">What is drawn</legend>
       ${LAYERS.map(([key, word]) => html`<label key=${key}><input type="checkbox" checked=${state.layers.value[key]}
         onChange=${({ target }) => (state.layers.value = { ...state.layers.value, [key]: target.checked })} /><i class="dot ${key}"></i>${word}</label>`)}
-      <label>Trails <select id="trails" value="" onChange=${({ target }) => trail(target.value)}><option value="">${state.trails.value.length || "–"}</option>
-        <option value="*">${state.trails.value.length ? "none" : "all points"}</option>${points.map((name) => html`<option key=${name} translate="no" value=${name}>${state.trails.value.includes(name) ? "✓ " : ""}${name}</option>`)}</select></label>
+      <label>Trails <${Choice} id="trails" value="" choose=${trail} options=${[["", state.trails.value.length || "–"], ["*", state.trails.value.length ? "none" : "all points"], ...points.map((name) => [name, `${state.trails.value.includes(name) ? "✓ " : ""}${name}`, true])]} /></label>
     </fieldset>`;
 }

@@ -2,6 +2,7 @@
 import { html } from "./html.js";
 import { useMemo, useState } from "./vendor/hooks.mjs";
 import { Chart, rows, short } from "./chart.js";
+import { Choice, ofNames } from "./choice.js";
 import { csv, download, png, svg } from "./exported.js";
 import { Icon } from "./icons.js";
 import { Hodograph } from "./hodograph.js";
@@ -10,18 +11,16 @@ import * as state from "./state.js";
 import { colours } from "./theme.js";
 import { number, shownUnit } from "./units.js";
 
-/** @typedef {import("./types.js").Plot} Plot */
-
 /** Rows of a data table on the page; the CSV has all. */
 const ROWS_MOST = 181;
 
 /** Plots that say the same as another, or nothing that one looks for first. */
-const ASIDE = [/^hodograph\.joint/, /^forces\.(time|speed|acceleration|power_residual|crank_angle)$/, /\.time$/, /^forces\.shaking_force_/, /_moment$/, /^run_(up|down)\.(crank_angle)$/, /^reduction\./, /^steady_state\.power/, /^forces\.power/,
+const ASIDE = [/^hodograph\.joint/, /^forces\.(time|speed|acceleration|power_residual|crank_angle)$/, /\.time$/, /^forces\.shaking_force_/, /_moment$/, /^run_(up|down)\.(crank_angle)$/, /^motion\./, /^reduction\./, /^steady_state\.power/, /^forces\.power/,
   /^forced\.(mean_torques|torque_|.*_heat|power|unevenness_|shaft_torque_max)/, /^stress\.(mean|greatest|continuous|transient)/];
 
 const titled = (/** @type {string} */ words) => words[0].toUpperCase() + words.slice(1);
 
-/** @param {Plot} plot @param {boolean} [isDrawn] as a picture, in which a hodograph has no angle @returns {import("./exported.js").Sheet} */
+/** @param {Plot} plot @param {boolean} [isDrawn] as a picture, in which a hodograph has no angle @returns {Sheet} */
 function sheet(plot, isDrawn = false) {
   const heads = [plot.x, ...plot.curves].map(({ symbol, word, unit }) => {
     const { unit: shown } = shownUnit(unit, state.units.value);
@@ -86,12 +85,10 @@ export function Plots() {
   const others = all.filter(({ plot }) => isHidden(plot));
   return html`
     ${points.length ? html`
-      <label class="watch">Curves of a point <select value=${state.watched.value} onChange=${({ target }) => (state.watched.value = target.value)}>
-        <option value="">none</option>${points.map((name) => html`<option key=${name} translate="no" value=${name} selected=${name === state.watched.value}>${name}</option>`)}
-      </select></label>` : null}
+      <label class="watch">Curves of a point <${Choice} value=${state.watched.value} options=${[["", "none"], ...ofNames(points)]} choose=${(/** @type {string} */ name) => (state.watched.value = name)} /></label>` : null}
     <div class="panels">
       ${shown.map(({ plot, of }) => html`<${Panel} key=${plot.key} plot=${plot} of=${of} />`)}
-      ${all.length || state.figures.value.length ? null : html`<p class="nothing">${Object.values(state.lanes.value).includes("running") ? "Being computed …" : "No curves. The chips below the drawing say what stands in the way."}</p>`}
+      ${shown.length ? null : html`<p class="nothing">${Object.values(state.lanes.value).includes("running") ? "Being computed …" : state.figures.value.length ? "No curves to read; Numbers and Diagrams have the results." : "No curves. The chips below the drawing say what stands in the way."}</p>`}
     </div>
     ${others.length ? html`
       <details class="others"><summary>${others.length} more plots</summary>
@@ -104,7 +101,13 @@ export function Diagrams() {
     ${state.figures.value.length ? null : html`<p class="nothing">${Object.values(state.lanes.value).includes("running") ? "Being computed …" : "No diagrams of this machine."}</p>`}</div>`;
 }
 
-/** @param {{ figure: import("./types.js").Figure }} props */
+/** One diagram over the page. */
+export function Enlarged() {
+  const figure = state.figures.value.find(({ name }) => name === state.enlarged.value);
+  return figure ? html`<${Diagram} figure=${figure} />` : null;
+}
+
+/** @param {{ figure: Figure }} props */
 function Diagram({ figure }) {
   const drawn = useMemo(() => parsed(figure.svg), [figure.svg]);
   const put = (/** @type {HTMLElement | null} */ element) => element?.replaceChildren(drawn);
@@ -112,16 +115,16 @@ function Diagram({ figure }) {
     <figure class="diagram">
       <h3>${figure.title}</h3>
       <div ref=${put} role="img" aria-label=${figure.caption}></div>
-      <figcaption>${figure.caption} <button class="quiet" onClick=${() => download(new Blob([figure.svg], { type: "image/svg+xml" }), `${state.machine.value} ${figure.title}.svg`)}>SVG</button></figcaption>
+      <figcaption>${figure.caption} ${state.dialog.value === "diagram" ? null : html`<button class="quiet" onClick=${() => ((state.enlarged.value = figure.name), (state.dialog.value = "diagram"))}>Enlarge</button>`}<button class="quiet" onClick=${() => download(new Blob([figure.svg], { type: "image/svg+xml" }), `${state.machine.value} ${figure.title}.svg`)}>SVG</button></figcaption>
     </figure>`;
 }
 
 /**
- * A drawing of the server as an element: styles of its attributes are set one by one, since the page allows none in its text.
+ * A drawing of the server as an element: styles of its attributes are set one by one, since the page allows none in its text; those of the whole are in the page's.
  * @param {string} text
  */
 function parsed(text) {
-  const root = new DOMParser().parseFromString(text.replace(/ style="/g, ' data-style="'), "image/svg+xml").documentElement;
+  const root = new DOMParser().parseFromString(text.replace(/<style.*?<\/style>/gs, "").replace(/ style="/g, ' data-style="'), "image/svg+xml").documentElement;
   const drawn = document.importNode(root, true);
   for (const each of /** @type {NodeListOf<SVGElement>} */ (drawn.querySelectorAll("[data-style]"))) {
     each.style.cssText = each.dataset.style ?? "";

@@ -2,12 +2,10 @@
 // these and of forces.
 import * as state from "./state.js";
 
-/** @typedef {import("./types.js").Plot} Plot */
-
 /** @param {Float64Array} pairs @param {0 | 1} which */
 const column = (pairs, which) => Float64Array.from({ length: pairs.length / 2 }, (_, n) => pairs[2 * n + which]);
 
-/** @param {import("./types.js").Scene} scene */
+/** @param {Scene} scene */
 const angleOf = (scene) => ({ name: "crank_angle", word: "crank angle", symbol: "φ", unit: "rad", values: scene.angles });
 
 /** @returns {Plot[]} */

@@ -4,8 +4,6 @@ import { said, saidOf } from "./language.js";
 import * as state from "./state.js";
 import { number, shownUnit } from "./units.js";
 
-/** @typedef {import("./types.js").Entry} Entry @typedef {import("./types.js").Group} Group @typedef {import("./types.js").Slopes} Slopes */
-
 /** Share of an entry that one step of its arrow is about. */
 const STEP = 0.05;
 

@@ -2,14 +2,13 @@
 import { pack, unpack } from "./wire.js";
 
 /**
- * @typedef {{ ask: string, [key: string]: any }} Request
  * @param {{ answer: (number: number, body: any) => void, state: (connected: boolean) => void }} hear
  */
 export function connect(hear) {
   let number = 0;
   /** @type {WebSocket} */
   let socket;
-  /** @type {Request[]} */
+  /** @type {Asked[]} */
   let waiting = [];
   let onTheWay = 0;
   /** @type {Map<number, (body: any) => void>} */
@@ -39,14 +38,14 @@ export function connect(hear) {
     };
   }
 
-  /** @param {Request} body @returns {number} */
+  /** @param {Asked} body @returns {number} */
   function send(body) {
     number += 1;
     if (socket.readyState === WebSocket.OPEN) socket.send(pack(number, body));
     return number;
   }
 
-  /** @param {Request} body */
+  /** @param {Asked} body */
   function compute(body) {
     if (onTheWay) waiting = [...waiting.filter(({ held }) => !held), body];
     else onTheWay = send(body);
@@ -57,7 +56,7 @@ export function connect(hear) {
     compute,
     busy: () => onTheWay !== 0 || waiting.length > 0 || asked.size > 0,
     send,
-    /** @param {Request} body @returns {Promise<any>} */
+    /** @param {Asked} body @returns {Promise<any>} */
     ask: (body) => new Promise((resolve) => asked.set(send(body), resolve)),
   };
 }

@@ -8,6 +8,7 @@ import { paintArrows } from "./arrows.js";
 import { paintCentres } from "./centres.js";
 import { follows } from "./controls.js";
 import { barLength, fit, pen, toMachine, toScreen, zoomed } from "./frame.js";
+import { circle, line, stroke } from "./ink.js";
 import { paintMoving, paintStill } from "./painter.js";
 import * as state from "./state.js";
 import { colours, shownLook } from "./theme.js";
@@ -125,10 +126,10 @@ function run(holder, canvas) {
     }
   }
 
-  /** Paths that the user asked for. @param {import("./types.js").Scene} scene @returns {any[]} */
+  /** Paths that the user asked for. @param {Scene} scene @returns {any[]} */
   const trails = (scene) => state.trails.value.filter((name) => scene.points[name]).map((name) => ({ kind: "trace", name }));
 
-  /** The pose in which the linkage is at the limit where the drag stops. @param {import("./painter.js").View} view */
+  /** The pose in which the linkage is at the limit where the drag stops. @param {View} view */
   function limitPose(view) {
     const angle = state.limit.value;
     if (angle === null) return;
@@ -147,17 +148,15 @@ function run(holder, canvas) {
     ctx.globalAlpha = 1;
   }
 
-  /** @param {import("./painter.js").View} view */
+  /** @param {View} view */
   function ghost({ ctx, ink, scene, k }) {
     if (!gesture || !scene.points[gesture.point]) return;
     const [x, y] = toScreen(frame, gesture.x, gesture.y);
     if (gesture.onto) {
       const place = toScreen(frame, ...pairAt(scene.points[gesture.onto], k));
-      ctx.strokeStyle = ctx.fillStyle = ink.accent;
-      ctx.lineWidth = 3;
-      ctx.beginPath();
-      ctx.arc(...place, 14, 0, 2 * Math.PI);
-      ctx.stroke();
+      circle(ctx, ...place, 14);
+      stroke(ctx, ink.accent, 3);
+      ctx.fillStyle = ink.accent;
       ctx.font = "600 13px system-ui, sans-serif";
       ctx.fillText(saidOf("{} merges with {}", gesture.point, gesture.onto), place[0] + 20, place[1] - 12);
       return;
@@ -165,13 +164,9 @@ function run(holder, canvas) {
     const [X, Y] = toScreen(frame, ...pairAt(scene.points[gesture.point], k));
     if (Math.hypot(X - x, Y - y) < 4) return;
     ctx.setLineDash([4, 4]);
-    ctx.strokeStyle = ink.bad;
-    ctx.lineWidth = 1.5;
-    ctx.beginPath();
-    ctx.moveTo(X, Y);
-    ctx.lineTo(x, y);
-    ctx.moveTo(x + 8, y);
-    ctx.arc(x, y, 8, 0, 2 * Math.PI);
+    line(ctx, [[X, Y], [x, y]]);
+    stroke(ctx, ink.bad, 1.5);
+    circle(ctx, x, y, 8);
     ctx.stroke();
     ctx.setLineDash([]);
   }
@@ -181,20 +176,14 @@ function run(holder, canvas) {
     const { unit, factor } = shownUnit("m", state.units.value);
     const length = barLength({ ...frame, scale: frame.scale * factor });
     const pixels = length * factor * frame.scale;
-    ctx.strokeStyle = ink.soft;
-    ctx.lineWidth = 1.5;
-    ctx.beginPath();
-    ctx.moveTo(16, height - 20);
-    ctx.lineTo(16, height - 14);
-    ctx.lineTo(16 + pixels, height - 14);
-    ctx.lineTo(16 + pixels, height - 20);
-    ctx.stroke();
+    line(ctx, [[16, height - 20], [16, height - 14], [16 + pixels, height - 14], [16 + pixels, height - 20]]);
+    stroke(ctx, ink.soft, 1.5);
     ctx.fillStyle = ink.soft;
     ctx.font = "12px system-ui, sans-serif";
     ctx.fillText(`${number(length)} ${unit}`, 22, height - 20);
   }
 
-  /** @param {import("./types.js").Scene} scene @param {number} k */
+  /** @param {Scene} scene @param {number} k */
   function place(scene, k) {
     const words = /** @type {HTMLElement | null} */ (holder.querySelector(".reason"));
     if (words && gesture) {
@@ -239,13 +228,13 @@ function run(holder, canvas) {
 
   /** Crank angle of the drawing. */
   function angle() {
-    const scene = /** @type {import("./types.js").Scene} */ (state.scene.value);
+    const scene = /** @type {Scene} */ (state.scene.value);
     return between(scene.angles, placeOf(scene.times, state.time.value));
   }
 
   /** @param {string} point */
   function begin(point) {
-    const scene = /** @type {import("./types.js").Scene} */ (state.scene.value);
+    const scene = /** @type {Scene} */ (state.scene.value);
     const [x, y] = pairAt(scene.points[point], placeOf(scene.times, state.time.value));
     gesture = { point, x, y, moved: false };
     at = angle();

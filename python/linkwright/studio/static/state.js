@@ -1,5 +1,5 @@
 // What the page knows, as signals: what reads one is drawn again when it changes.
-import { computed, effect, signal } from "./vendor/signals-core.mjs";
+import { batch, computed, effect, signal } from "./vendor/signals-core.mjs";
 import { history } from "./history.js";
 import { chosen } from "./units.js";
 
@@ -35,15 +35,15 @@ export const past = signal({ of: history(""), turn: 0 });
 
 // -- the machine
 export const machine = signal("");
-/** @type {Signal<import("./types.js").Group | null>} */
+/** @type {Signal<Group | null>} */
 export const controls = signal(null);
 /** Entries that are being pulled at: address → SI. @type {Signal<Record<string, any>>} */
 export const live = signal({});
-/** @type {Signal<import("./types.js").Problem[]>} */
+/** @type {Signal<Problem[]>} */
 export const problems = signal([]);
-/** @type {Signal<import("./types.js").Chip[]>} */
+/** @type {Signal<Chip[]>} */
 export const chips = signal([]);
-/** @type {Signal<import("./types.js").Scene | null>} */
+/** @type {Signal<Scene | null>} */
 export const scene = signal(null);
 /** Entries that follow a handle, and points with one, as words: what is the same words draws nothing anew. */
 export const draggable = computed(() => (scene.value?.handles ?? []).flatMap(({ entries }) => entries).join("\n"));
@@ -60,7 +60,7 @@ export const pulled = signal("");
 export const building = signal(false);
 
 // -- answers, those of each lane apart, so that one does not wait for another
-/** @type {Signal<Record<string, { results: import("./types.js").Shown[], findings: string[], warnings: string[], figures: import("./types.js").Figure[], views?: any[] }>>} */
+/** @type {Signal<Record<string, { results: Shown[], findings: string[], warnings: string[], figures: Figure[], views?: any[], tables?: Table[], headline?: string[][] }>>} */
 export const answers = signal({});
 /** State of each lane: "ready", "running", "stopped". @type {Signal<Record<string, string>>} */
 export const lanes = signal({});
@@ -72,6 +72,8 @@ export const scalars = computed(() => results.value.flatMap(({ name, scalars: ow
 export const views = /** @type {any} */ (computed(() => inOrder.value.flatMap((each) => each.views ?? [])));
 /** The picture that was chosen. */
 export const seen = signal("mechanism");
+export const tables = computed(() => inOrder.value.flatMap((each) => each.tables ?? []));
+export const headline = computed(() => inOrder.value.flatMap((each) => each.headline ?? []));
 export const figures = computed(() => inOrder.value.flatMap((each) => each.figures));
 export const findings = computed(() => [...new Set(inOrder.value.flatMap((each) => each.findings))]);
 export const warnings = computed(() => [...new Set(inOrder.value.flatMap((each) => each.warnings))]);
@@ -91,11 +93,11 @@ export const ends = signal(/** @type {Record<string, [number, number]>} */ ({}))
 // -- design
 /** The result whose derivatives stand beside the entries; empty for none. */
 export const goal = kept("goal", "");
-/** @type {Signal<import("./types.js").Slopes | null>} */
+/** @type {Signal<Slopes | null>} */
 export const slopes = signal(null);
 /** Entries that follow the result that is pulled. @type {Signal<Record<string, boolean>>} */
 export const free = signal({});
-/** @type {Signal<import("./types.js").Pin[]>} */
+/** @type {Signal<Pin[]>} */
 export const pins = signal([]);
 /** What the last sweep or search has found so far. @type {Signal<any>} */
 export const search = signal(null);
@@ -111,7 +113,17 @@ export const watched = signal("");
 export const connected = signal(true);
 export const message = signal("");
 export const dialog = signal("");
-export const tab = signal("machine");
-/** @type {Signal<import("./types.js").Listed[]>} */
+/** Name of the diagram that is seen over the page. */
+export const enlarged = signal("");
+/** @type {Signal<Listed[]>} */
 export const listed = signal([]);
 export const seconds = signal(0);
+
+// -- what a link brings besides the machine
+const LINKED = /** @type {Record<string, Signal<any>>} */ ({ units, look, language, layers, pace, hidden, locks, ends, goal, free, trails, watched, pulled, seen });
+export const shared = () => Object.fromEntries(Object.entries(LINKED).map(([key, { value }]) => [key, value]));
+
+/** Values of the same kind as ours; a link may hold anything. @param {Record<string, any>} given */
+export const share = (given) => batch(() => {
+  for (const [key, own] of Object.entries(LINKED)) if (Object.prototype.toString.call(given[key]) === Object.prototype.toString.call(own.value)) own.value = given[key];
+});

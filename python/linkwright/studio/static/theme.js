@@ -2,8 +2,6 @@
 import { look } from "./state.js";
 import { computed, effect, signal } from "./vendor/signals-core.mjs";
 
-/** @typedef {Record<"ink" | "soft" | "grid" | "panel" | "paper" | "accent" | "bad", string> & { series: string[] }} Colours */
-
 /** @type {Colours | null} */
 let known = null;
 let of = "";

@@ -1,13 +1,6 @@
 // A shaft train from the side that twists in one of its modes: discs seen a little from the right, lines on the shafts that show their twist.
 
-/**
- * @typedef {{ name: string, x: number, row: number, half: number }} Disc
- * @typedef {{ name: string, kind: string, ends: (number | null)[], from: number[], to: number[], turned: boolean, share?: Float64Array, angles?: Float64Array }} Joint
- * @typedef {{ kind: "train", discs: Disc[], parts: Joint[], frequencies: Float64Array, shapes: Float64Array,
- *   nodes: { at: string, share: number }[][], box: number[] }} Train
- * @typedef {import("./moving.js").Paper} Paper
- * @typedef {Paper & { view: Train, mode: number, swing: number, names: boolean, leans: boolean, X: (x: number) => number, Y: (row: number) => number, unit: number }} Sight
- */
+import { circle, fill, line, stroke } from "./ink.js";
 
 /** Angle of the peak amplitude as it is drawn [rad]; the true one is far below what one sees. */
 const PEAK = 0.8;
@@ -59,32 +52,23 @@ function shaft(sight, part) {
       }
     }
   }
-  ctx.lineWidth = 1.1;
-  ctx.strokeStyle = series[isSoft ? 4 : 0];
-  ctx.stroke();
-  ctx.beginPath();
+  stroke(ctx, series[isSoft ? 4 : 0], 1.1);
   for (const side of [-r, r]) {
-    ctx.moveTo(x0, y + side);
-    ctx.lineTo(x1, y + side);
+    line(ctx, [[x0, y + side], [x1, y + side]]);
+    stroke(ctx, series[isSoft ? 4 : 0], 1.6);
   }
-  ctx.lineWidth = 1.6;
-  ctx.stroke();
   if (part.ends[1] === null) wall(sight, x1, y, x1 > x0 ? 1 : -1);
 }
 
 /** The ground at the end of a shaft. @param {Sight} sight @param {number} x @param {number} y @param {number} side */
 function wall({ ctx, ink, unit }, x, y, side) {
   const half = 0.32 * unit;
-  ctx.strokeStyle = ink.soft;
-  ctx.lineWidth = 1.5;
-  ctx.beginPath();
-  ctx.moveTo(x, y - half);
-  ctx.lineTo(x, y + half);
+  line(ctx, [[x, y - half], [x, y + half]]);
   for (let at = -half; at < half; at += 8) {
     ctx.moveTo(x, y + at);
     ctx.lineTo(x + 7 * side, y + at + 7);
   }
-  ctx.stroke();
+  stroke(ctx, ink.soft, 1.5);
 }
 
 /** What is no shaft: gears, a damper, a bridge. @param {Sight} sight @param {Joint} part */
@@ -96,13 +80,10 @@ function tie({ ctx, ink, series, view, X, Y, unit }, part) {
   const a = [X(part.from[0]), Y(part.from[1]) + way * rim(part.ends[0])];
   const b = [X(part.to[0]), Y(part.to[1]) - way * rim(part.ends[1])];
   ctx.setLineDash(isGear ? [2, 3] : [6, 4]);
-  ctx.strokeStyle = isGear ? series[1] : part.kind === "damper" ? series[2] : ink.soft;
-  ctx.lineWidth = isGear ? 3 : 2.5;
-  ctx.beginPath();
-  ctx.moveTo(a[0], a[1]);
+  line(ctx, [a]);
   if (a[1] === b[1] && part.kind !== "damper") ctx.quadraticCurveTo((a[0] + b[0]) / 2, a[1] - 0.6 * unit, b[0], b[1]);
   else ctx.lineTo(b[0], b[1]);
-  ctx.stroke();
+  stroke(ctx, isGear ? series[1] : part.kind === "damper" ? series[2] : ink.soft, isGear ? 3 : 2.5);
   ctx.setLineDash([]);
 }
 
@@ -123,42 +104,24 @@ function wheel(sight, disc, n) {
   ctx.fill();
   ctx.stroke();
   ctx.fillRect(x - thick, y - half, 2 * thick, 2 * half);
-  ctx.beginPath();
   for (const side of [-half, half]) {
-    ctx.moveTo(x - thick, y + side);
-    ctx.lineTo(x + thick, y + side);
+    line(ctx, [[x - thick, y + side], [x + thick, y + side]]);
+    ctx.stroke();
   }
-  ctx.stroke();
   face(x + thick);
-  ctx.fillStyle = ink.panel;
-  ctx.fill();
+  fill(ctx, ink.panel);
   // From where it rests to where it is.
   const rim = (/** @type {number} */ turn) => /** @type {const} */ ([x + thick + wide * Math.sin(turn), y - half * Math.cos(turn)]);
-  ctx.beginPath();
-  ctx.moveTo(x + thick, y);
-  for (let k = 0; k <= 12; k += 1) ctx.lineTo(...rim((k / 12) * angle));
-  ctx.closePath();
-  ctx.fillStyle = series[angle < 0 ? 0 : 1];
-  ctx.globalAlpha = 0.35;
-  ctx.fill();
-  ctx.globalAlpha = 1;
-  ctx.beginPath();
-  for (const turn of [angle, angle + Math.PI / 2, angle + Math.PI, angle - Math.PI / 2]) {
-    ctx.moveTo(x + thick, y);
-    ctx.lineTo(...rim(turn));
+  line(ctx, [[x + thick, y], ...Array.from({ length: 13 }, (_, k) => rim((k / 12) * angle))], true);
+  fill(ctx, series[angle < 0 ? 0 : 1], 0.35);
+  for (let k = 0; k < 4; k += 1) {
+    line(ctx, [[x + thick, y], rim(angle + (k * Math.PI) / 2)]);
+    stroke(ctx, ink.ink, 1);
   }
-  ctx.lineWidth = 1;
-  ctx.stroke();
-  ctx.beginPath();
-  ctx.moveTo(x + thick, y);
-  ctx.lineTo(...rim(angle));
-  ctx.lineWidth = 3;
-  ctx.strokeStyle = series[angle < 0 ? 0 : 1];
-  ctx.stroke();
+  line(ctx, [[x + thick, y], rim(angle)]);
+  stroke(ctx, series[angle < 0 ? 0 : 1], 3);
   face(x + thick);
-  ctx.lineWidth = 1.8;
-  ctx.strokeStyle = ink.ink;
-  ctx.stroke();
+  stroke(ctx, ink.ink, 1.8);
   if (!names) return;
   ctx.font = LETTERS;
   ctx.fillStyle = ink.ink;
@@ -179,13 +142,9 @@ function nodes({ ctx, ink, view, mode, X, Y }) {
     if (!part && !disc) continue;
     const way = part?.turned ? 1 - share : share;
     const [x, row] = part ? [part.from[0] + way * (part.to[0] - part.from[0]), part.from[1] + way * (part.to[1] - part.from[1])] : [disc?.x ?? 0, disc?.row ?? 0];
-    ctx.beginPath();
-    ctx.arc(X(x), Y(row), 4.5, 0, 2 * Math.PI);
-    ctx.fillStyle = ink.bad;
-    ctx.fill();
-    ctx.strokeStyle = ink.panel;
-    ctx.lineWidth = 1.5;
-    ctx.stroke();
+    circle(ctx, X(x), Y(row), 4.5);
+    fill(ctx, ink.bad);
+    stroke(ctx, ink.panel, 1.5);
   }
 }
 
@@ -231,33 +190,20 @@ export function paintTrain(paper, view, mode, swing, names = true) {
 function shape(sight, y, high) {
   const { ctx, ink, series, view, X, swing } = sight;
   const [low, far] = [X(view.box[0]), X(view.box[1])];
-  ctx.strokeStyle = ink.soft;
-  ctx.lineWidth = 1;
-  ctx.beginPath();
-  ctx.moveTo(low - 12, y);
-  ctx.lineTo(far + 12, y);
-  ctx.stroke();
+  line(ctx, [[low - 12, y], [far + 12, y]]);
+  stroke(ctx, ink.soft, 1);
   for (const part of view.parts.filter(({ kind }) => kind === "shaft" || kind === "coupling")) {
     const [shares, amplitudes] = along(sight, part);
     for (const [factor, wide] of /** @type {[number, number][]} */ ([[1, 1.2], [-1, 1.2], [swing, 2.6]])) {
-      ctx.beginPath();
-      shares.forEach((share, n) => ctx.lineTo(X(part.from[0]) + share * (X(part.to[0]) - X(part.from[0])), y - factor * high * amplitudes[n]));
-      ctx.strokeStyle = wide > 2 ? series[0] : ink.grid;
-      ctx.lineWidth = wide;
-      ctx.stroke();
+      line(ctx, shares.map((share, n) => [X(part.from[0]) + share * (X(part.to[0]) - X(part.from[0])), y - factor * high * amplitudes[n]]));
+      stroke(ctx, wide > 2 ? series[0] : ink.grid, wide);
     }
   }
   view.discs.forEach((disc, n) => {
     const at = y - swing * high * amplitude(sight, n);
-    ctx.beginPath();
-    ctx.moveTo(X(disc.x), y);
-    ctx.lineTo(X(disc.x), at);
-    ctx.strokeStyle = ink.soft;
-    ctx.lineWidth = 1;
-    ctx.stroke();
-    ctx.beginPath();
-    ctx.arc(X(disc.x), at, 3.5, 0, 2 * Math.PI);
-    ctx.fillStyle = ink.ink;
-    ctx.fill();
+    line(ctx, [[X(disc.x), y], [X(disc.x), at]]);
+    stroke(ctx, ink.soft, 1);
+    circle(ctx, X(disc.x), at, 3.5);
+    fill(ctx, ink.ink);
   });
 }

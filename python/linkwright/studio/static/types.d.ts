@@ -2,31 +2,52 @@
 
 
 /** A part of the drawing: which entries it has depends on its kind. */
-export type Part = { kind: string, name: string, series?: number, at: string, link?: string | null, angle: number, from: string, to: string,
+type Part = { kind: string, name: string, series?: number, at: string, link?: string | null, angle: number, from: string, to: string,
   ends: number[][] & number[], span: number[], bar: number[], offset: number, radius: number, radii: number[], crossed: boolean,
   outlines: number[][][], place: number[], along: number, rod?: number[] | null, corners: string[], heavy: boolean, slides: boolean,
   side: string, role: string };
 
-export type Scene = { angles: Float64Array, times: Float64Array, speeds: Float64Array, points: Record<string, Float64Array>,
+type Scene = { angles: Float64Array, times: Float64Array, speeds: Float64Array, points: Record<string, Float64Array>,
   headings: Record<string, Float64Array>, parts: Part[], box: number[], swings: boolean, true_speed: boolean,
   velocities: Record<string, Float64Array>, accelerations: Record<string, Float64Array>,
   forces: { name: string, point: string, force: Float64Array }[], handles: { point: string, entries: string[] }[],
   centres: Record<string, { at: string, angle: Float64Array, fixed: Float64Array, moving: Float64Array }> };
 
-export type Words = { name: string, word: string, symbol: string, unit: string };
-export type Curve = Words & { values: Float64Array, own?: boolean };
-export type Plot = { key: string, title: string, unit: string, x: Curve, curves: Curve[], isHodograph?: boolean };
-export type Shown = { name: string, scalars: (Words & { value: number })[], plots: Plot[] };
-export type Figure = { name: string, title: string, caption: string, svg: string };
-export type Chip = { name: string, word: string, lane: string, obstacle?: string, mend?: string, entries?: Record<string, any> };
+type Words = { name: string, word: string, symbol: string, unit: string };
+type Curve = Words & { values: Float64Array, own?: boolean };
+type Plot = { key: string, title: string, unit: string, x: Curve, curves: Curve[], isHodograph?: boolean };
+type Shown = { name: string, scalars: (Words & { value: number })[], plots: Plot[] };
+type Table = { name: string, title: string, heads: string[], rows: string[][] };
+type Figure = { name: string, title: string, caption: string, svg: string };
+type Chip = { name: string, word: string, lane: string, obstacle?: string, mend?: string, entries?: Record<string, any> };
 
-export type Entry = { address: string, key: string, about: string, written: any, holds: string, unit?: string, bounds?: Record<string, number>,
+type Entry = { address: string, key: string, about: string, written: any, holds: string, unit?: string, bounds?: Record<string, number>,
   si?: number | null, choices?: string[], expected?: string };
-export type Missing = { address: string, key: string, about: string, expected: string, usual: any, kinds: string[], choices?: string[],
+type Missing = { address: string, key: string, about: string, expected: string, usual: any, kinds: string[], choices?: string[],
   unit?: string };
-export type Group = { address: string, key: string, about: string, entries: Entry[], groups: Group[], missing: Missing[] };
-export type Problem = { key: string, found: string, expected: string, remedy: string, line: number | null };
-export type Listed = { place: string, name: string, title: string };
+type Group = { address: string, key: string, about: string, entries: Entry[], groups: Group[], missing: Missing[] };
+type Problem = { key: string, found: string, expected: string, remedy: string, line: number | null };
+type Listed = { place: string, name: string, title: string };
 
-export type Slopes = { response: string, word: string, symbol: string, unit: string, value: number, slopes: Record<string, number>, tie: string, responses: string[] };
-export type Pin = { name: string, text: string, scalars: Record<string, number>, plots: Record<string, { x: Float64Array, curves: Record<string, Float64Array> }> };
+type Slopes = { response: string, word: string, symbol: string, unit: string, value: number, slopes: Record<string, number>, tie: string, responses: string[] };
+type Pin = { name: string, text: string, scalars: Record<string, number>, plots: Record<string, { x: Float64Array, curves: Record<string, Float64Array> }> };
+
+/** A list to choose from: values with their words, and whether these are the user's own. */
+type Options = [value: string | number, words: any, isOwn?: boolean][];
+type Ctx = CanvasRenderingContext2D;
+type Sheet = { title: string, heads: string[], rows: ArrayLike<number>[], isToScale?: boolean };
+type Frame = { scale: number, x: number, y: number };
+type View = { ctx: Ctx, scene: Scene, frame: Frame, k: number, ink: Record<string, string>, series: string[], light?: string };
+/** What a picture is drawn with; `passed` is the time since the last frame on the page [s], 0 while it stands. */
+type Paper = { ctx: Ctx, width: number, height: number, passed: number, ink: Record<string, string>, series: string[] };
+type Knife = { kind: "topper", law: Float64Array, rate: number, drift: number, phase: number, angle: number, length: number, speed: number,
+  diameter: number, offset: number, heads: number[][], span: number[], box: number[], seconds: number };
+type Disc = { name: string, x: number, row: number, half: number };
+type Joint = { name: string, kind: string, ends: (number | null)[], from: number[], to: number[], turned: boolean, share?: Float64Array, angles?: Float64Array };
+type Train = { kind: "train", discs: Disc[], parts: Joint[], frequencies: Float64Array, shapes: Float64Array,
+  nodes: { at: string, share: number }[][], box: number[] };
+type Sight = Paper & { view: Train, mode: number, swing: number, names: boolean, leans: boolean, X: (x: number) => number, Y: (row: number) => number, unit: number };
+/** Texts with their translation, `{}` for what is put in; units; decimal sign. */
+type Catalogue = { code: string, texts: Record<string, string>, units: Record<string, string>, decimal: string };
+type Asked = { ask: string, [key: string]: any };
+type Colours = Record<"ink" | "soft" | "grid" | "panel" | "paper" | "accent" | "bad", string> & { series: string[] };

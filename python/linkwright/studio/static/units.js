@@ -20,10 +20,14 @@ export const UNITS = {
   "kg m²": { word: "Moment of inertia", units: { "kg m²": 1, "kg cm²": 1e-4, "lb ft²": 0.04214011009380480 }, sets: ["kg m²", "kg m²", "lb ft²"] },
   W: { word: "Power", units: { W: 1, kW: 1e3, hp: 745.6998715822701 }, sets: ["W", "kW", "hp"] },
   s: { word: "Time", units: { s: 1, ms: 1e-3, min: 60 }, sets: ["s", "s", "s"] },
+  J: { word: "Energy", units: { J: 1, kJ: 1e3, "kW h": 3.6e6, Btu: 1055.056 }, sets: ["J", "J", "Btu"] },
   Pa: { word: "Pressure", units: { Pa: 1, MPa: 1e6, bar: 1e5, psi: 6894.757293168361 }, sets: ["MPa", "MPa", "psi"] },
 };
 
 export const SETS = ["SI", "Workshop", "Inch"];
+
+/** The units of a choice, one of each kind. @param {Record<string, string>} choice */
+export const listed = (choice) => Object.entries(UNITS).map(([si, { sets }]) => choice[si] ?? sets[0]);
 
 /** @param {number} set @returns {Record<string, string>} */
 export const chosen = (set) => Object.fromEntries(Object.entries(UNITS).map(([si, { sets }]) => [si, sets[set]]));
@@ -32,7 +36,7 @@ export const chosen = (set) => Object.fromEntries(Object.entries(UNITS).map(([si
  * The unit as results print it: files write `kg m^2`.
  * @param {string} unit
  */
-export const printed = (unit) => unit.replace(/\^(-?\d)/g, (_, power) => power.replace("-", "⁻").replace(/\d/g, (/** @type {string} */ d) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[+d]));
+export const printed = (unit) => unit.replace(/\^(-?\d)/g, (_, power) => raised(power.replace("-", "⁻")));
 
 /**
  * Unit that is shown for an SI unit, and its factor.
@@ -46,30 +50,36 @@ export function shownUnit(si, choice) {
   return factor === undefined ? { unit: unitSaid(known), factor: 1 } : { unit: unitSaid(unit), factor };
 }
 
-/**
- * A number as it is read: so many significant digits, no exponent where none is needed, the decimal sign of the language.
- * @param {number} value @param {number} [digits]
- */
-export const number = (value, digits = 5) => decimal(written(value, digits));
+const RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹";
 
 /**
- * A number as files have it, but for the sign.
+ * A number as it is read: so many significant digits, a power of ten where it is very large or small, the decimal sign of the language.
  * @param {number} value @param {number} [digits]
  */
+export const number = (value, digits = 5) => decimal(written(value, digits).replaceAll("-", "−").replace(/e(−?)(\d+)/, (_, sign, power) => `·10${sign && "⁻"}${raised(power)}`));
+
+/** @param {string} digits */
+const raised = (digits) => digits.replace(/\d/g, (digit) => RAISED[+digit]);
+
+/** Below this, a number with more places than digits is written out: 20240 W, not 2.024·10⁴ W. */
+const LARGE = 1e7;
+
+/** A number as files have it. @param {number} value @param {number} [digits] */
 export function written(value, digits = 5) {
   if (!Number.isFinite(value)) return "–";
   if (value === 0) return "0";
   const size = Math.abs(value);
-  if (size >= 1e6 || size < 1e-4) return value.toExponential(digits - 1).replace(/\.?0+e/, "e").replace("e+", "e").replace("-", "−").replace("e-", "e−");
-  const text = value.toPrecision(digits);
-  const plain = text.includes("e") ? String(Number(text)) : text;
-  return (plain.includes(".") ? plain.replace(/\.?0+$/, "") : plain).replace("-", "−");
+  if (size >= LARGE || size < 1e-4) return value.toExponential(digits - 1).replace(/\.?0+e/, "e").replace("e+", "e");
+  return String(Number(value.toPrecision(digits)));
 }
 
-const WRITTEN = /^([-+−]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+−]?\d+)?)\s*(.*)$/;
+const WRITTEN = /^([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*(.*)$/i;
+
+/** What was typed, or shown before, as files have it: 1.5·10⁻⁷, 1.5*10^-7 and 1,5e−7 are 1.5e-7. @param {string} text */
+const plain = (text) => point(text.trim().replaceAll("−", "-")).replace(/ ?[·×*] ?10(?:\^(-?\d+)|(⁻?[⁰¹²³⁴⁵⁶⁷⁸⁹]+))/, (_, power, high) => `e${power ?? high.replace("⁻", "-").replace(/[^-]/g, (/** @type {string} */ digit) => RAISED.indexOf(digit))}`);
 
 /** A number in a field, or NaN. @param {string} text */
-export const read = (text) => Number(point(text.replaceAll("−", "-")));
+export const read = (text) => Number(plain(text));
 
 /**
  * What was typed into a field: a number in the unit that is shown, or a text with a unit of its own, which the file then has.
@@ -77,8 +87,7 @@ export const read = (text) => Number(point(text.replaceAll("−", "-")));
  * @returns {number | string | null} SI number, text, or null for nothing
  */
 export function typed(text, factor) {
-  const match = WRITTEN.exec(point(text.trim()));
+  const match = WRITTEN.exec(plain(text));
   if (!match) return text.trim() || null;
-  if (match[2]) return `${match[1].replaceAll("−", "-")} ${match[2]}`;
-  return Number(match[1].replaceAll("−", "-")) * factor;
+  return match[2] ? `${match[1]} ${match[2]}` : Number(match[1]) * factor;
 }

@@ -1,4 +1,5 @@
 // The picture above the results: the mechanism, the train in one of its modes, or the knife of a topper; a tab each where there are several.
+import { Choice } from "./choice.js";
 import { html } from "./html.js";
 import { useRef, useState } from "./vendor/hooks.mjs";
 import { paintKnife, across } from "./knife.js";
@@ -17,34 +18,33 @@ const REST = 1.5;
 
 const WORDS = /** @type {Record<string, string>} */ ({ mechanism: "Mechanism", train: "Shaft train", topper: "Topper from above" });
 
-/** @param {{ view: import("./twist.js").Train }} props */
+/** @param {{ view: Train }} props */
 function TrainView({ view }) {
   const [wanted, setMode] = useState(0);
   const time = useRef(0);
   const mode = Math.min(wanted, view.frequencies.length - 1);
   if (mode < 0) return html`<div class="stage"><p class="nothing">No mode of this train twists a shaft.</p></div>`;
   return html`
-    <div class="stage"><${Moving} label="Shaft train in mode ${mode + 1}" draw=${(/** @type {import("./moving.js").Paper} */ paper) => {
+    <div class="stage"><${Moving} label="Shaft train in mode ${mode + 1}" draw=${(/** @type {Paper} */ paper) => {
       time.current += (paper.passed / PERIOD) * 10 ** state.pace.value;
       paintTrain(paper, view, mode, Math.cos(2 * Math.PI * time.current));
     }} /></div>
     <div class="playbar" role="group" aria-label="Motion">
       <${Play} />
-      <label class="mode">Mode <select id="mode" value=${mode} onChange=${({ target }) => setMode(Number(target.value))}>
-        ${Array.from(view.frequencies, (f, n) => html`<option key=${n} value=${n} selected=${n === mode}>${`${n + 1}: ${number(f, 5)} ${shownUnit("Hz", state.units.value).unit}`}</option>`)}</select></label>
+      <label class="mode">Mode <${Choice} id="mode" value=${mode} choose=${(/** @type {string} */ n) => setMode(Number(n))} options=${Array.from(view.frequencies, (f, n) => [n, `${n + 1}: ${number(f, 5)} ${shownUnit("Hz", state.units.value).unit}`])} /></label>
       <span class="about words">Angles are drawn many times larger than they are. Red dots: nodes, at rest.</span>
       <${Speed} />
     </div>`;
 }
 
-/** @param {{ view: import("./knife.js").Knife }} props */
+/** @param {{ view: Knife }} props */
 function KnifeView({ view }) {
   const [first, last] = view.span;
   const own = useRef({ share: 0.5, rest: 0 });
   const slider = useRef(/** @type {HTMLInputElement | null} */ (null));
   const words = useRef(/** @type {HTMLOutputElement | null} */ (null));
   const [, again] = useState(0);
-  const draw = (/** @type {import("./moving.js").Paper} */ paper) => {
+  const draw = (/** @type {Paper} */ paper) => {
     const at = own.current;
     if (at.share >= 1) at.rest += paper.passed;
     at.share = Math.min(1, at.share + (paper.passed / view.seconds) * 10 ** state.pace.value);

@@ -154,7 +154,10 @@
       const d = `M${end(low - 0.1)}A${r} ${r} 0 ${high - low + 0.2 > Math.PI ? 1 : 0} 0 ${end(high + 0.1)}`;
       const curve = add("path", "link", { d, stroke: colour(part), fill: "none", "stroke-width": 6 });
       title(curve, part.name);
-      return carry(curve, part);
+      // The arc is part of its link.
+      const sector = add("path", "plate", { d: `${d}L0 0Z`, fill: colour(part), stroke: colour(part) });
+      const [carrySector, carryCurve] = [carry(sector, part), carry(curve, part)];
+      return (k) => [carrySector(k), carryCurve(k)];
     },
     link(part) {
       const line = add("line", "link", { stroke: colour(part), "stroke-width": WIDTHS[part.role] ?? 6 });

@@ -1,0 +1,100 @@
+// A studio with a page of Chromium for a file of tests, and what these ask it.
+import assert from "node:assert/strict";
+import { spawn } from "node:child_process";
+import { cpSync, mkdirSync, mkdtempSync, readdirSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { fileURLToPath } from "node:url";
+import { chromium } from "playwright-core";
+
+export const ROOT = fileURLToPath(new URL("../../../", import.meta.url));
+export const LINKWRIGHT = `${ROOT}.venv/bin/linkwright`;
+const ARGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"];
+// A machine that does other things too may be slow; what fails, fails by this.
+export const PATIENCE = Number(process.env.PATIENCE ?? 90_000);
+
+/** A folder with the two carts, and the examples if wanted. */
+export function folderWith({ examples = false } = {}) {
+  const folder = mkdtempSync(`${tmpdir()}/studio-`);
+  mkdirSync(`${folder}/examples`);
+  for (const name of examples ? readdirSync(`${ROOT}examples`) : []) {
+    cpSync(`${ROOT}examples/${name}`, `${folder}/examples/${name}`, { recursive: true, filter: (path) => !path.endsWith(".py") });
+  }
+  cpSync(`${ROOT}machines/roller_two_carts.toml`, `${folder}/carts.toml`);
+  return folder;
+}
+
+/** `linkwright studio` of a folder, and the address that it prints. */
+export async function studioOf(folder) {
+  const server = spawn(LINKWRIGHT, ["studio", "carts.toml", "--no-browser"], { cwd: folder, stdio: ["ignore", "pipe", "inherit"] });
+  const address = await new Promise((resolve) => {
+    let said = "";
+    server.stdout.on("data", (data) => {
+      said += data;
+      const match = /http:\S+/.exec(said);
+      if (match) resolve(match[0]);
+    });
+  });
+  return { server, address, origin: new URL(address).origin };
+}
+
+/** The studio in a browser, with its faults: errors and warnings of the console, and requests to elsewhere. */
+export async function served(options) {
+  const folder = folderWith(options);
+  const { server, address, origin } = await studioOf(folder);
+  const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ARGS });
+  const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, reducedMotion: "reduce", acceptDownloads: true });
+  const faults = [];
+  const page = await opened(context, address, faults);
+  const end = async () => {
+    await browser.close();
+    server.kill();
+    rmSync(folder, { recursive: true, force: true });
+  };
+  return { folder, server, origin, context, page, faults, end };
+}
+
+/** A tab at an address, whose faults are noted. */
+export async function opened(context, address, faults) {
+  const page = await context.newPage();
+  const { origin } = new URL(address);
+  page.setDefaultTimeout(PATIENCE);
+  page.on("console", (message) => ["error", "warning"].includes(message.type()) && faults.push(message.text()));
+  page.on("pageerror", (error) => faults.push(error.message));
+  page.on("request", (request) => new URL(request.url()).origin !== origin && !/^(blob|data):/.test(request.url()) && faults.push(request.url()));
+  page.on("dialog", (dialog) => dialog.accept());
+  await page.goto(address);
+  await known(page);
+  return page;
+}
+
+/** Waits until the answer to the last change is there. */
+export const known = (page) => page.waitForFunction(() => globalThis.studio?.state.machine.value && !globalThis.studio.busy());
+
+/** Waits until slow analyses have answered too. */
+export const complete = async (page) => {
+  await known(page);
+  await page.waitForFunction(() => !Object.values(globalThis.studio.state.lanes.value).includes("running"));
+};
+
+/** A number of the results, such as `steady_state.unevenness`. */
+export const scalar = (page, name) => page.evaluate((of) => globalThis.studio.state.scalars.value.find(({ key }) => key === of)?.value, name);
+
+/** Middle of the handle of a point on the screen, once the drawing stands. */
+export const handle = async (page, point) => {
+  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+  const box = await page.locator(`.handle[data-point="${point}"]`).boundingBox();
+  return [box.x + box.width / 2, box.y + box.height / 2];
+};
+
+/** What the page shows is painted after it is known: asked again until it is so. */
+export const shows = async (ask, is) => {
+  const end = Date.now() + PATIENCE;
+  for (;;) {
+    const answer = await ask();
+    if (is(answer)) return;
+    assert.ok(Date.now() < end, `${JSON.stringify(answer)} stays on the page`);
+    await new Promise((resolve) => setTimeout(resolve, 20));
+  }
+};
+
+export const near = (found, wanted) => assert.ok(Math.abs(found - wanted) <= 1e-9 * Math.abs(wanted), `${found} is not ${wanted}`);
