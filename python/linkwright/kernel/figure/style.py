@@ -114,7 +114,7 @@ def _for_reader(drawing: object) -> None:
 
 @cache
 def _figure_class() -> type[Figure]:
-    """Figures that a notebook shows as they are: those of matplotlib are shown once pyplot is loaded there."""
+    """Figures that a notebook shows: those of matplotlib alone are shown there once pyplot is loaded."""
     from matplotlib.figure import Figure
 
     class ShownFigure(Figure):
