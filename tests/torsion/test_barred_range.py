@@ -296,3 +296,54 @@ speed_rated = 100
     too_much = np.array([stressed(speed) > 6e6 for speed in speeds])
     assert len(found) == 2
     np.testing.assert_array_equal(barred, too_much)
+
+
+HELD_RING = """
+format = 1
+name = "A stiff fluid holds the ring of a damper"
+[train.discs]
+hub = {{ inertia = 1 }}
+end = {{ inertia = 2 }}
+[train.shafts.s]
+between = ["hub", "end"]
+stiffness = 1e4
+loss_factor = 0.02
+limit = {{ diameter = 0.05, stress_permitted = "{permitted} Pa", stress_transient = "1 GPa" }}
+[train.dampers.houde]
+on = "hub"
+kind = "viscous"
+ring_inertia = 0.6
+damping = {damping}
+[train.excitations.pulse]
+on = "end"
+harmonics = [{{ order = 2, torque = 80 }}]
+[train.run]
+speed_min = 20
+speed_max = 100
+points = 4
+"""
+
+
+@pytest.mark.parametrize("damping", [1e3, 1e5])
+def test_resonance_of_a_damper_whose_ring_is_held(damping: float) -> None:
+    """It lies a tenth below that of the hub alone, between speeds 27 rad/s apart."""
+
+    def stress(speed: float) -> float:
+        omega = 2 * speed
+        k, c = 1e4 * (1 + 0.02j), 1j * omega * damping
+        matrix = np.array([[k + c, -k, -c], [-k, k, 0], [-c, 0, c]]) - omega**2 * np.diag([1, 2, 0.6])
+        angle = np.linalg.solve(matrix, [0, 80, 0])
+        return abs(k * (angle[0] - angle[1])) / W
+
+    resonance = math.sqrt(1e4 * (1 / 1.6 + 1 / 2)) / 2
+    found = minimize_scalar(
+        lambda x: -stress(x), bounds=(resonance - 3, resonance + 3), options={"xatol": 1e-9}
+    )
+    peak = float(found.x)
+    permitted = 0.5 * stress(peak)
+    low, high = (
+        brentq(lambda x: stress(x) - permitted, *pair, xtol=1e-13) for pair in ((30, peak), (peak, 100))
+    )
+    (barred,) = barred_ranges(lw.loads(HELD_RING.format(damping=damping, permitted=permitted)))
+    assert (barred.speed_min, barred.speed_max) == pytest.approx((low, high), rel=1e-8)
+    assert barred.critical_speed == pytest.approx(peak, rel=1e-6)

@@ -8,6 +8,10 @@ engine gives. From a healthy engine on,
 
 until x stays, so that operating point and diagnosis belong together. A at the end tells the uncertainty.
 
+A coupling of a curve may pass a resonance as the mean torque changes: several x then fit better than all
+beside them. At one mean torque the speed is linear in x. The best fit over the mean torque shows them all;
+the method starts at each, and the best is taken.
+
 A late or leaking cylinder changes its torque in a way that no factor describes, and the others would have to
 answer for it. Where factors alone do not explain the measurement, the delay and the compression of every
 cylinder are fitted too: the intervals are wider then, and right.
@@ -15,6 +19,7 @@ cylinder are fitted too: the intervals are wider then, and right.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -40,6 +45,10 @@ _CHANCE = 0.01
 _HARDLY = 0.2
 # Share of a measurement that is rounding.
 _EXACT = 1e-9
+# Mean factors at which the best fit is looked at first; couplings bend over some tenths of them.
+_LOADS = np.linspace(0.0, 2.0, 201)
+# States at a time: enough for lanes, and little memory.
+_STATES = 256
 # A step that fits worse by more than this share is halved, at most so often: near the best fit, what is left
 # over says nothing more of the step.
 _WORSE, _HALVINGS = 1e-6, 10
@@ -85,19 +94,21 @@ def fitted(model: EngineSpeed, measured: MeasuredSpeed) -> Diagnosis:
     if model.rigid:
         # What neglecting torsion costs: its factors are no engine that would have an operating point.
         return diagnosed(*_linear_fit(model, measured, healthy), names, measured)
-    values, is_settled = _settled(model, measured, healthy)
+    tried = [_settled(model, measured, start) for start in _starts(model, measured)]
+    values, is_settled = min(tried, key=lambda fit: _squares(model, measured, fit[0][:, None])[0])
     fit, A = _linear_fit(model, measured, values)
-    if not is_settled:
-        raise ConvergenceError(_unsettled(values, fit.values), method="Gauss-Newton", iterations=_ROUNDS)
     warnings = []
     if (start := _wider(model, measured, values, fit)) is not None:
-        wider, is_settled = _settled(model, measured, start)
-        if is_settled:
+        wider, explains = _settled(model, measured, start)
+        if explains:
+            is_settled = True
             fit, A = _linear_fit(model, measured, wider)
         else:
             warnings.append(
                 "factors do not explain the measurement, and delay and compression do not converge"
             )
+    if not is_settled:
+        raise ConvergenceError(_unsettled(values, fit.values), method="Gauss-Newton", iterations=_ROUNDS)
     diagnosis = diagnosed(fit, A, names, measured)
     if diagnosis.is_refuted:
         # Noise is what neither the train nor its cylinders explain.
@@ -108,6 +119,48 @@ def fitted(model: EngineSpeed, measured: MeasuredSpeed) -> Diagnosis:
             diagnosis = replace(diagnosis, delay_deviation=deviations[0], compression_deviation=deviations[1])
         warnings.append("intervals treat the residual as noise")
     return replace(diagnosis, warnings=(*diagnosis.warnings, *warnings))
+
+
+def _starts(model: EngineSpeed, measured: MeasuredSpeed) -> list[Floats]:
+    """First values: the healthy ones, or the best at each mean torque that fits better than those beside."""
+    n = model.engine.n_cylinders
+    if not model.bends:
+        return [np.zeros(n)]
+    # At a mean factor: all cylinders alike, then each in turn stronger at the expense of all.
+    beside = np.column_stack([np.zeros(n), np.eye(n) - 1 / n])
+    parts = np.array_split(_LOADS, -(-beside.shape[1] * len(_LOADS) // _STATES))
+    fits = [fit for loads in parts for fit in _fits_at_loads(model, measured, loads, beside)]
+    left = np.array([np.inf, *(left for _, left in fits), np.inf])
+    lowest = np.flatnonzero((left[1:-1] <= left[:-2]) & (left[1:-1] <= left[2:]))
+    return [fits[k][0] for k in lowest]
+
+
+def _fits_at_loads(
+    model: EngineSpeed, measured: MeasuredSpeed, loads: Floats, beside: Floats
+) -> Iterator[tuple[Floats, float]]:
+    """Values that fit best at some mean factors, and the sum of squares left.
+
+    `beside`: (cylinders, 1 + cylinders) states less their mean.
+    """
+    states = (loads[:, None, None] - 1) + beside
+    rows = _left(model, measured, np.concatenate(list(states), axis=1))
+    for state, own in zip(states, rows.reshape(len(loads), beside.shape[1], -1), strict=True):
+        A = (own[0] - own[1:]).T
+        fit = least_squares(A, own[0], is_known=True)
+        left = own[0] - A @ fit.values
+        yield state[:, 0] + (state[:, 1:] - state[:, :1]) @ fit.values, float(left @ left)
+
+
+def _left(model: EngineSpeed, measured: MeasuredSpeed, states: Floats) -> Floats:
+    """What some states leave over of a measurement, (states, equations)."""
+    orders, speed = model.harmonics(states)
+    return equations(measured.harmonics - speed[:, places(orders, measured)], measured)
+
+
+def _squares(model: EngineSpeed, measured: MeasuredSpeed, states: Floats) -> Floats:
+    """Sum of squares of what some states leave over, (states,)."""
+    squares: Floats = (_left(model, measured, states) ** 2).sum(axis=1)
+    return squares
 
 
 def _unsettled(values: Floats, asked: Floats) -> str:
@@ -172,8 +225,6 @@ def _size(measured: MeasuredSpeed) -> float:
 def _share(model: EngineSpeed, measured: MeasuredSpeed, values: Floats, step: Floats) -> float:
     """Share of a step, halved until the speed fits no worse than before."""
     shares = 0.5 ** np.arange(_HALVINGS)
-    orders, speed = model.harmonics(values[:, None] + step[:, None] * np.append(0.0, shares))
-    left = equations(measured.harmonics - speed[:, places(orders, measured)], measured)
-    size = (left**2).sum(axis=1)
+    size = _squares(model, measured, values[:, None] + step[:, None] * np.append(0.0, shares))
     fits = np.flatnonzero(size[1:] <= size[0] * (1 + _WORSE))
     return float(shares[fits[0] if len(fits) else -1])

@@ -104,6 +104,12 @@ class EngineSpeed:
         self.referred = refer(self.train)
         self.gas = cylinder_torques(self.engine, np.array([speed]), highest_order(self.train))
 
+    @property
+    def bends(self) -> bool:
+        """Whether the stiffness follows the mean torque."""
+        train = self.machine.train
+        return train is not None and any(coupling.twist is not None for coupling in train.couplings.values())
+
     def states(self, values: Floats) -> ExcitedTrain:
         """The train in some states of its cylinders.
 

@@ -140,7 +140,7 @@ def overlay(seen: Survey, name: str, curve: MeasuredResponse) -> Overlay:
             f"{high:.6g} rpm, those of [train.run]; widen them, or leave the point out"
         )
     computed = _computed(seen, name, curve)
-    grid = np.unique(np.concatenate([known, [one.speed for one in seen.resonances]]))
+    grid = np.union1d(known, seen.resonant_speeds)
     return Overlay(
         name=name,
         part=curve.on,

@@ -22,6 +22,7 @@ from linkwright.machine.machine import Machine
 from linkwright.torsion.core.distributed import frequencies_below
 from linkwright.torsion.excitation.excited_train import ExcitedTrain, excited_train, loaded
 from linkwright.torsion.limits.criteria import Criterion, Exceedance, criteria, exceedances, peaks_between
+from linkwright.torsion.modes.damped import damped_modes, in_pieces
 from linkwright.torsion.response.forced import TorsionResponse, torsion_response
 from linkwright.torsion.response.stress import service_speed
 
@@ -74,6 +75,50 @@ def _frequencies(at: ExcitedTrain) -> Floats:
     return frequencies
 
 
+def damped_resonances(at: ExcitedTrain) -> Floats:
+    """Speeds at which an order meets a damped natural frequency far from those without damping, (n,) [rad/s].
+
+    A strong damper holds its ring, so that a train resonates where it does not without damping. Natural
+    frequencies are those of some speeds, each taken to hold halfway to the next.
+    """
+    if not _has_viscous_damping(at):
+        return np.empty(0)
+    speeds, undamped = at.torques.speeds, _frequencies(at)
+    changing = np.concatenate([at.operating.stiffness, at.operating.disc_damping])
+    size = 2 * len(at.referred.inertia)
+    count = int(np.clip(_EIGENVALUE_WORK / size**3, *_COLUMNS)) if np.ptp(changing, axis=1).any() else 1
+    places = np.unique(np.linspace(0, len(speeds) - 1, min(count, len(speeds))).round().astype(int))
+    halfway = 0.5 * (speeds[places[:-1]] + speeds[places[1:]])
+    ends = np.concatenate([speeds[:1], halfway, speeds[-1:]])
+    listed = [np.empty(0)]
+    for place, low, high in zip(places, ends[:-1], ends[1:], strict=True):
+        crossings = np.divide.outer(_moved(at, place, undamped[place]), at.torques.orders).ravel()
+        listed.append(crossings[(crossings >= low) & (crossings <= high)])
+    return np.unique(np.concatenate(listed))
+
+
+def _has_viscous_damping(at: ExcitedTrain) -> bool:
+    """Whether anything but hysteresis damps the train."""
+    return bool(at.referred.damping.any() or at.operating.disc_damping.any() or at.referred.ratios.any())
+
+
+def _moved(at: ExcitedTrain, place: int, undamped: Floats) -> Floats:
+    """Damped natural frequencies at one of the speeds, farther from undamped ones than their peaks are wide.
+
+    `undamped`: (modes,) [rad/s].
+    """
+    stiffness, damping = at.operating.stiffness[:, place], at.operating.disc_damping[:, place]
+    train = replace(at.referred, stiffness=np.ascontiguousarray(stiffness), disc_damping=damping)
+    if train.rods:
+        train = replace(in_pieces(train, len(undamped)), rods=())
+    eigenvalues, _ = damped_modes(train)
+    s = eigenvalues[eigenvalues.imag > 0]
+    nearest = np.abs(np.subtract.outer(s.imag, undamped)).min(axis=1, initial=np.inf)
+    # Half the width of a peak is σ.
+    moved: Floats = s.imag[nearest > -s.real]
+    return moved
+
+
 def _zeros(x: Floats, y: Floats) -> list[float]:
     """Where a curve through points passes zero."""
     n = np.flatnonzero(y[:-1] * y[1:] < 0)
@@ -89,6 +134,9 @@ _EQUAL = 1e-9
 
 # Share of a limit from which on a peak between the speeds might be above it.
 _NEAR = 0.8
+
+# Speeds whose damped natural frequencies are found, and cubes of sizes of their matrices: some 0.1 s.
+_COLUMNS, _EIGENVALUE_WORK = (3, 32), 3e6
 
 # Speeds that are looked at in one piece.
 _AT_ONCE = 256
@@ -135,7 +183,7 @@ class Survey:
         speeds, limits = self._joined(
             self.at.torques.speeds,
             criteria(self.machine, self.at, self.found, self.service),
-            self._resonances_between,
+            self.resonant_speeds,
         )
         places = [(n, k) for n, limit in enumerate(limits) for k in _highest(limit.ratio)]
         peaks = peaks_between(
@@ -148,7 +196,7 @@ class Survey:
 
     def _valleys(self, speeds: Floats, limits: list[Criterion], peaks: list[float]) -> list[float]:
         """Speeds of the lowest values between resonances and peaks, where a limit is exceeded all along."""
-        tops = np.unique(np.concatenate([self._resonances_between, peaks]))
+        tops = np.unique(np.concatenate([self.resonant_speeds, peaks]))
         places = np.searchsorted(speeds, tops[(tops >= speeds[0]) & (tops <= speeds[-1])])
         spans = [(low, high) for low, high in itertools.pairwise(places.tolist()) if low < high]
         high = [
@@ -217,10 +265,11 @@ class Survey:
             yield between(self.machine, self.at, speeds[first : first + _AT_ONCE])
 
     @cached_property
-    def _resonances_between(self) -> Floats:
-        """Speeds of resonances that the run does not have."""
+    def resonant_speeds(self) -> Floats:
+        """Speeds of resonances, without damping and with it, that the run does not have."""
         run = self.at.torques.speeds
-        every = np.unique([resonance.speed for resonance in self.resonances])
+        undamped = [resonance.speed for resonance in self.resonances]
+        every = np.unique(np.concatenate([undamped, damped_resonances(self.at)]))
         every = every[np.diff(every, prepend=-1.0) > _EQUAL * every]
         apart = np.abs(every[:, None] - run).min(axis=1, initial=np.inf) > _EQUAL * every
         speeds: Floats = every[apart]
@@ -322,7 +371,7 @@ def torque_peaks(seen: Survey) -> TorquePeaks:
 
     The highest of all speeds and resonances, sought between its neighbours as well.
     """
-    resonant = np.setdiff1d([resonance.speed for resonance in seen.resonances], seen.at.torques.speeds)
+    resonant = seen.resonant_speeds
     every, vibratory = seen.at.torques.speeds, seen.found.shaft_torque_vibratory
     if len(resonant):
         every = np.concatenate([every, resonant])

@@ -179,7 +179,7 @@ def damped_vibration(machine: Machine, speed: float | None = None) -> DampedVibr
     in_range(speed=(speed, positive(SPEED)))
     train, disc_damping = _at(machine, speed)
     count = modes_wanted(machine, train_of(machine))
-    referred = _cut(train, count) if train.rods else train
+    referred = in_pieces(train, count) if train.rods else train
     eigenvalues, masses = damped_modes(replace(referred, rods=()))
     if train.rods:
         eigenvalues, masses = eigenvalues[:count], masses[:count]
@@ -241,7 +241,7 @@ _STEPS, _NO_STEP = 12, 1e-11
 _ASIDE = 1e-6
 
 
-def _cut(referred: ReferredTrain, count: int) -> ReferredTrain:
+def in_pieces(referred: ReferredTrain, count: int) -> ReferredTrain:
     """A train with distributed inertia, cut into pieces short at the frequencies of its modes."""
     highest = float(natural_frequencies(referred, count)[-1])
     fine = (rod.refined(highest, _PIECE)[0] for rod in referred.rods)
