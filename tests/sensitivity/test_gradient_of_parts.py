@@ -1,0 +1,111 @@
+"""Derivatives of pumping units and of loaded cams against extrapolated differences of their analyses."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+from linkwright.cam.dynamics.loaded import cam_force
+from linkwright.kernel.errors import InputError
+from linkwright.sensitivity.sources import source
+
+# A roller in line with the cam, pressed by a spring or held in a groove, on which inertia prevails.
+CAM = """
+format = 1
+name = "Follower"
+[drive]
+speed = {speed}
+[mechanism.points]
+G = {{ x = 0.25, y = 0 }}
+[mechanism.cams.F]
+base_radius = 0.03
+roller_radius = 0.008
+width = 0.012
+closure = "{closure}"
+sections = [
+  {{ angle = "100 deg", lift = "9 mm", law = "cycloidal" }},
+  {{ angle = "80 deg", lift = "-9 mm", law = "cycloidal" }},
+  {{ angle = "180 deg" }},
+]
+[bodies]
+F = {{ mass = 0.6 }}
+[loads]
+spring = {{ kind = "spring", between = ["F", "G"], stiffness = 4000, free_length = 0.222 }}
+"""
+
+Measure = Callable[[lw.Machine], list[float]]
+
+
+def differences(machine: lw.Machine, entry: str, measure: Measure) -> np.ndarray:
+    """Central differences over h, 2h and 4h, extrapolated to sixth order."""
+    value = float(lw.get(machine, entry))
+    h = 1e-3 * (abs(value) or 1.0)
+    near = {n: np.array(measure(lw.replace(machine, {entry: value + n * h}))) for n in (-4, -2, -1, 1, 2, 4)}
+    once, twice, four = ((near[n] - near[-n]) / (2 * n * h) for n in (1, 2, 4))
+    found: np.ndarray = (64 * once - 20 * twice + four) / 45
+    return found
+
+
+def errors(
+    machine: lw.Machine, analysis: str, entries: list[str], measure: Callable[..., list[float]]
+) -> float:
+    """The largest error of a derivative, as a share of the largest change of its response."""
+    derived = source(machine, analysis, entries)
+    names = list(derived.tangents)
+    sizes = np.array([abs(float(lw.get(machine, entry))) or 1.0 for entry in derived.variables])
+    exact = np.array([derived.tangents[name].d for name in names]) * sizes
+    rough = [differences(machine, entry, lambda made: measure(made, names)) for entry in derived.variables]
+    scale = np.nanmax(np.abs(exact), axis=1, keepdims=True)
+    off: np.ndarray = np.abs(np.array(rough).T * sizes - exact) / scale
+    assert np.isfinite(off).sum() > 0.5 * off.size
+    return float(np.nanmax(off))
+
+
+def scalars(analyse: Callable[[lw.Machine], object]) -> Callable[[lw.Machine, list[str]], list[float]]:
+    return lambda machine, names: [getattr(analyse(machine), name.rpartition(".")[2]) for name in names]
+
+
+# Conventional, by API's example; Mark II and air-balanced with sizes of their kind.
+UNITS = {
+    "conventional": {"A": 1.83, "C": 1.63, "I": 1.63, "P": 1.89, "H": 2.95, "G": 1.04, "R": 0.6},
+    "mark_ii": {"A": 6.1, "C": 4.4, "I": 3.6, "P": 3.0, "H": 5.6, "G": 1.6, "R": 1.0},
+    "air_balanced": {"A": 6.1, "C": 4.4, "I": 3.6, "P": 3.0, "H": 5.6, "G": 1.6, "R": 0.9},
+}
+
+
+@pytest.mark.parametrize("geometry", UNITS)
+def test_pumping_units(geometry: str) -> None:
+    sizes = "\n".join(f"{letter} = {value}" for letter, value in UNITS[geometry].items())
+    unit = f'[pumping_unit]\ngeometry = "{geometry}"\n{sizes}\n'
+    machine = lw.loads(f'format = 1\nname = "Unit"\n[drive]\nspeed = "10 rpm"\n{unit}')
+    entries = [name for name in lw.addresses(machine) if name.startswith(("pumping_unit.", "drive.speed"))]
+    # Rounding over the step, and its sixth power.
+    assert errors(machine, "pumping_unit", entries, scalars(lw.pumping_unit)) < 1e-9
+
+
+@pytest.mark.parametrize(("closure", "speed"), [("spring", 25.0), ("groove", 80.0)])
+def test_loaded_cams(closure: str, speed: float) -> None:
+    machine = lw.loads(CAM.format(closure=closure, speed=speed))
+    entries = [name for name in lw.addresses(machine) if ".sections." not in name]
+    # The angle of an extreme is known to a millionth of a radian.
+    assert errors(machine, "cam_force", entries, scalars(cam_force)) < 3e-6
+
+
+def test_entries_that_move_a_joint_under_the_extreme_have_none() -> None:
+    machine = lw.loads(CAM.format(closure="spring", speed=25.0))
+    found = lw.gradient(machine, ["cam_force.F.force_max"])
+    assert "mechanism.cams.F.phase" in found.ties["cam_force.F.force_max"]
+    assert np.isnan(found.of("cam_force.F.force_max")["mechanism.cams.F.phase"])
+    with pytest.raises(InputError, match="sections"):
+        lw.gradient(machine, ["cam_force.F.force_max"], ["mechanism.cams.F.sections.0.lift"])
+
+
+def test_forces_of_a_follower_that_leaves_have_derivatives() -> None:
+    """The message about it is worked out from arrays with derivatives, too."""
+    machine = lw.loads(CAM.format(closure="spring", speed=80.0))
+    found = lw.gradient(machine, ["cam_force.F.force_min"], ["bodies.F.mass"])
+    assert found.values[0] < 0
+    assert np.isfinite(found.derivatives).all()
