@@ -194,16 +194,16 @@ def _too_slow(motion: Transient, steady: SteadyState, band: float) -> str:
 def _steady_speed(steady: SteadyState, angle: Floats) -> Floats:
     """Speed of steady motion at crank angles, by the cubic through speeds and slopes of its curve."""
     grid, omega = steady.crank_angle, steady.speed
-    slope = steady.acceleration / omega
     phi = angle % (2 * np.pi * steady.turns)
     k = grid[1:-1].searchsorted(phi, side="right")
     h = grid[k + 1] - grid[k]
     z = (phi - grid[k]) / h
+    slopes = [steady.acceleration[i] / omega[i] for i in (k, k + 1)]
     value: Floats = (
         (1 + 2 * z) * (1 - z) ** 2 * omega[k]
-        + z * (1 - z) ** 2 * h * slope[k]
+        + z * (1 - z) ** 2 * h * slopes[0]
         + z**2 * (3 - 2 * z) * omega[k + 1]
-        + z**2 * (z - 1) * h * slope[k + 1]
+        + z**2 * (z - 1) * h * slopes[1]
     )
     return value
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 from dataclasses import dataclass
 from enum import IntEnum
 from typing import Annotated, Any, NamedTuple
@@ -87,6 +88,10 @@ def _powers() -> Floats:
 
 
 _POWERS = _powers()
+
+# What the numbers of a motion are.
+_ANGLE, _SPEED = Quantity(ANGLE), Quantity(SPEED)
+_DURATION, _TURNS = positive(TIME), positive(COUNT)
 
 # Share of the duration by which a sum of times may miss the end of the motion.
 _ROUNDING = 1e-12
@@ -196,6 +201,8 @@ class Transient(Result):
     def _within(self, time: Floats) -> Floats:
         """Times of the motion; those that rounding put beyond an end are at that end."""
         first, last = float(self.time[0]), float(self.time[-1])
+        if time.size and time.min() >= first and time.max() <= last:
+            return time
         inside = np.clip(time, first, last)
         beyond = np.abs(time - inside) > _ROUNDING * last
         if beyond.any():
@@ -261,10 +268,10 @@ def transient(
     if duration == turns == np.inf:
         raise InputError("duration, turns: found neither, expected one of them as the end of the motion")
     in_range(
-        angle=(angle, Quantity(ANGLE)),
-        speed=(speed, Quantity(SPEED)),
-        duration=(None if duration == np.inf else duration, positive(TIME)),
-        turns=(None if turns == np.inf else turns, positive(COUNT)),
+        angle=(angle, _ANGLE),
+        speed=(speed, _SPEED),
+        duration=(None if duration == np.inf else duration, _DURATION),
+        turns=(None if turns == np.inf else turns, _TURNS),
     )
     if not 1e-14 <= accuracy <= 1e-2:
         raise InputError(f"accuracy {accuracy:g}: expected a number from 1e-14 to 1e-2")
@@ -279,7 +286,7 @@ def transient(
         require_full_turn(compiled, machine)
         require_sound_loads(compiled, machine)
         raise SteadyStateError(NO_INERTIA)
-    if not np.isfinite([motion.torque_drive_end, motion.torque_load_end]).all():
+    if not math.isfinite(motion.torque_drive_end + motion.torque_load_end):
         require_sound_loads(compiled, machine)
     last = float(motion.crank_angle[-1]), float(motion.speed[-1])
     if end == End.SLIDES or (end == End.INACCURATE and last[1] > 0 and is_held(compiled, *last)):

@@ -69,18 +69,25 @@ def number(name: str, value: Any, *, finite: bool = True, infinite: bool = False
 
     `infinite`: whether it may be infinite all the same.
     """
+    # Most are floats; whether a value is of an abstract class takes a microsecond to tell.
+    real = value if type(value) is float else _real(name, value)
+    if finite and (math.isnan(real) or (math.isinf(real) and not infinite)):
+        raise _wrong(name, value, "a finite number")
+    if name in RANGES:
+        _require_in_range(name, real, f"{real:g}")
+    return real
+
+
+def _real(name: str, value: Any) -> float:
+    """A real number of any kind as a float."""
     if isinstance(value, np.ndarray) and value.ndim == 0:
         value = value[()]
     if isinstance(value, bool | np.bool_) or not isinstance(value, numbers.Real):
         raise _wrong(name, value, "a number")
     try:
-        real = float(value)
+        return float(value)
     except OverflowError:
         raise _wrong(name, value, "a number below 1e308 in size") from None
-    if finite and (math.isnan(real) or (math.isinf(real) and not infinite)):
-        raise _wrong(name, value, "a finite number")
-    _require_in_range(name, real, f"{real:g}")
-    return real
 
 
 def integer(name: str, value: Any) -> int:
@@ -92,7 +99,8 @@ def integer(name: str, value: Any) -> int:
     # Beyond 2⁵³ whole numbers are no floats.
     if isinstance(value, bool | np.bool_) or abs(number) > 2**53:
         raise _wrong(name, value, "a whole number of usual size")
-    _require_in_range(name, number, shown(number))
+    if name in RANGES:
+        _require_in_range(name, number, shown(number))
     return number
 
 
@@ -416,8 +424,8 @@ _CHECKS: dict[str, Check] = {
 
 
 def _require_in_range(name: str, value: float, text: str) -> None:
-    allowed = RANGES.get(name)
-    if allowed is not None and not allowed.least <= value <= allowed.greatest:
+    allowed = RANGES[name]
+    if not allowed.least <= value <= allowed.greatest:
         limits = f"at least {allowed.least:.15g}, at most {allowed.greatest:.15g}"
         raise InputError(f"{name}: found {text}, expected {limits}")
 
