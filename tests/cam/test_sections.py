@@ -339,3 +339,22 @@ def test_extremes_of_every_section() -> None:
     assert {dwell[name] for name in dwell if name.startswith(("lift_d", "jerk")) and "angle" not in name} == {
         0.0
     }
+
+
+def test_the_remedy_is_an_entry_of_a_section_that_may_have_one() -> None:
+    """A section by a formula has no lift to change: the dwell behind it takes the remedy."""
+    text = """
+    format = 1
+    name = "formula"
+    [mechanism.cams.C]
+    base_radius = 0.04
+    [[mechanism.cams.C.sections]]
+    angle = "180 deg"
+    law = { kind = "formula", lift = "0.02*(z - sin(2*pi*z)/(2*pi))" }
+    [[mechanism.cams.C.sections]]
+    angle = "180 deg"
+    lift = 0
+    law = "cycloidal"
+    """
+    with pytest.raises(MachineFileError, match=r'sections\.1\.lift = "-0\.02 m" brings the follower back'):
+        lw.loads(text)

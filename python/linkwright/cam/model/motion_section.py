@@ -279,8 +279,10 @@ def _lift_faults(sections: Sequence[MotionSection], family: Family) -> Iterator[
     over, largest = math.fsum(lifts), max(map(abs, lifts))
     if abs(over) <= CLOSES * largest:
         return
-    # The last section that moves brings the follower home.
-    last = max(i for i, lift in enumerate(lifts) if lift)
+    # The last section that moves by an entry of its own brings the follower home; a law by points, or by a
+    # formula, has none.
+    given = [getattr(section, family) is not None for section in sections]
+    last = max(range(len(lifts)), key=lambda i: (given[i] and lifts[i] != 0.0, given[i], lifts[i] != 0.0, i))
     noun = "swings" if family == "swing" else "lifts"
     remedy = f'sections.{last}.{family} = "{_size(lifts[last] - over, family)}" brings the follower back'
     found = f"{noun} that add to {_size(over, family)}"
