@@ -25,8 +25,9 @@ from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import SteadySolution
 from linkwright.machine.tangents import Derivatives, Directions, directions
 
-# Relative accuracy of the motions whose derivatives are taken.
-_ACCURACY = 1e-11
+# Relative accuracy of the motions whose derivatives are taken: where a run-down ends softly, its time errs
+# some ten thousand times as much.
+_ACCURACY = 1e-12
 
 # An acceleration below this share of the mean one is zero: the peak of the speed is smooth there.
 _LEVEL = 1e-5
