@@ -71,7 +71,7 @@ def _worst(edge: Edge, offset: float, phase: float | None, measure: Measure) -> 
     phases = every if phase is None else np.array([phase], dtype=np.float64)
     offsets: Floats = np.asarray(np.linspace(-offset, offset, _OFFSETS if offset else 1))
     wide = [np.pi / n if len(phases) > 1 else 0.0, offset / (_OFFSETS - 1)]
-    best = _best(edge, phases, offsets, measure)
+    best = _best(edge, phases, offsets, measure, _SAME)
     for _ in range(rounds):
         share = np.arange(-_BESIDE, _BESIDE + 1) / _BESIDE
         phases = best.phase + 2 * wide[0] * share if wide[0] else np.array([best.phase])
@@ -85,13 +85,13 @@ def _worst(edge: Edge, offset: float, phase: float | None, measure: Measure) -> 
 _SAME = 1e-9
 
 
-def _best(edge: Edge, phases: Floats, offsets: Floats, measure: Measure) -> Worst:
-    """The maximum of a grid."""
+def _best(edge: Edge, phases: Floats, offsets: Floats, measure: Measure, same: float = 0.0) -> Worst:
+    """The maximum of a grid; of values that differ by less than a share the first."""
     phi, delta = (values.ravel() for values in np.meshgrid(phases, offsets, indexing="ij"))
     values = measure(edge, delta, phi)
     most = values.max()
     # Half a revolution later the mirror image of a head asks the same, but for rounding: the first of them.
-    at = int(np.argmax(values if np.isnan(most) else values >= most * (1 - _SAME)))
+    at = int(np.argmax(values if np.isnan(most) else values >= most * (1 - same)))
     return Worst(float(values[at]), float(phi[at]), float(delta[at]), edge)
 
 
