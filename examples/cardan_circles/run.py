@@ -19,9 +19,8 @@ def study(machine: lw.Machine) -> dict[str, float]:
     """
     radius, part = machine.mechanism.cranks["A"].radius, -0.4
     found, rolled = (lw.centrodes(machine, "S.rod", angles) for angles in (ANGLES, QUARTER))
-    ways = [
-        np.hypot(*np.diff(curve)).sum() for curve in ((rolled.x, rolled.y), (rolled.along, rolled.across))
-    ]
+    curves = (rolled.x, rolled.y), (rolled.along, rolled.across)
+    ways = [np.hypot(*np.diff(curve)).sum() for curve in curves]
     points = lw.kinematics(machine, ANGLES).points
     x, y = points["E"].position.T / radius
     return {
@@ -54,8 +53,7 @@ def figure(machine: lw.Machine):
 
 
 if __name__ == "__main__":
-    here = Path(__file__).parent
-    example = lw.read(here / "machine.toml")
+    here, example = Path(__file__).parent, lw.read(Path(__file__).with_name("machine.toml"))
     for name, value in study(example).items():
         print(f"{name:28} {value:.6g}")
     figure(example).savefig(here / "figure.png", dpi=120)

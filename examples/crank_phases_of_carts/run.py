@@ -31,7 +31,7 @@ def best(carts: int):
     while width > np.radians((0.03, 0.06, 3.0)[carts - 2]):
         found = delta(machine, grid)
         steps = product((-width, -width / 2, 0.0, width / 2, width), repeat=carts - 1)
-        middle, low = grid[np.nanargmin(found)], float(np.nanmin(found))
+        middle, low = grid[np.nanargmin(found.round(8))], float(np.nanmin(found))  # of like ones the first
         grid, width = middle + np.array(list(steps)), width / 2
     return middle, low, float(delta(machine, usual)[0])
 

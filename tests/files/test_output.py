@@ -43,9 +43,10 @@ def test_one_module_writes() -> None:
             if name in calls or (name == "open" and any(str(mode)[:1] in "wax" for mode in modes if mode)):
                 found.add(str(path.relative_to(PACKAGE)))
     # Figures are written into the memory; a folder for a drawing is made beside the module. A sweep puts its
-    # parts into its folder one by one, and completion goes into the files of the user's shell.
+    # parts into its folder one by one, the log of a search grows line by line, and completion goes into the
+    # files of the user's shell.
     others = {"kernel/figure/svg.py", "app/curves.py", "cam/manufacture/write.py"}
-    others |= {"studies/folder.py", "kernel/command/group.py"}
+    others |= {"studies/folder.py", "studies/search_log.py", "kernel/command/group.py"}
     assert found - others == WRITERS
 
 

@@ -34,7 +34,7 @@ def test_numbers_are_those_of_the_package(tab: Tab) -> None:
     # The studio asks for curves at other angles; measures are exact extremes at any.
     assert scalar(answer, "steady_state", "unevenness") == pytest.approx(steady.unevenness, rel=1e-9)
     assert answer["text"] == text.replace('radius = "0.2 m"', 'radius = "0.21 m"', 1)
-    assert [each["name"] for each in answer["chips"] if "obstacle" in each] == ["run_down"]
+    assert [each["name"] for each in answer["chips"] if "obstacle" in each] == ["run_down", "torsion"]
 
 
 def test_a_held_slider_changes_no_text(tab: Tab) -> None:

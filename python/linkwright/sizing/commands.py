@@ -261,13 +261,13 @@ def _answer(machine: Machine, motor: MotorChoice, flywheel: FlywheelChoice | Non
         results=lambda _: results,
         findings=[] if chosen else [motor.reason],
         warnings=[*motor.warnings, *(flywheel.warnings if flywheel else ())],
-        head=partial(_lead, motor, flywheel),
+        head=partial(_lead, machine.name, motor, flywheel),
         tables=partial(_tables_of_choice, motor),
         machine_file=partial(_file_text, fitted, chosen) if fitted and chosen else None,
     )
 
 
-def _lead(motor: MotorChoice, flywheel: FlywheelChoice | None) -> str:
+def _lead(name: str, motor: MotorChoice, flywheel: FlywheelChoice | None) -> str:
     """What is needed and what was chosen."""
     from linkwright.kernel.page.numbers import quantity
 
@@ -275,6 +275,7 @@ def _lead(motor: MotorChoice, flywheel: FlywheelChoice | None) -> str:
     power, speed = quantity(need.power, "W", 4, usual="kW"), quantity(need.speed, "rad/s", 4)
     load = quantity(need.torque_load_mean, "N m")
     lines = [
+        name,
         f"Required power {power} at {speed}",
         f"{need.formula}, mean load {load}, η {need.efficiency:.4g}",
     ]

@@ -130,9 +130,7 @@ def _no_run_up(machine: Machine) -> Obstacle | None:
 
 
 def _dc_motor(machine: Machine) -> dict[str, Any] | None:
-    """A DC motor that gives the needed torque at the speed of a motor that keeps it; None where none is
-    known.
-    """
+    """A DC motor with the needed torque at the speed that a motor keeps; None where none is known."""
     motor = machine.drive.motor if machine.drive is not None else None
     if not isinstance(motor, ConstantSpeedMotor):
         return None

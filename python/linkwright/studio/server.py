@@ -271,9 +271,8 @@ _FIRST, _PORTS = 49152, 16384
 
 
 def _bound_for(root: Path) -> socket.socket:
-    """A socket at the port of a folder: what a browser keeps belongs to a port, so that a studio that starts
-    again after a crash finds what was not saved. Where the port is taken, a free one.
-    """
+    """A socket at the port of a folder, or at a free one where that is taken."""
+    # What a browser keeps belongs to a port: a studio that starts again after a crash finds it there.
     digest = hashlib.sha256(str(root).encode("utf-8", "surrogateescape")).digest()
     try:
         return _bound(_FIRST + int.from_bytes(digest[:4]) % _PORTS)

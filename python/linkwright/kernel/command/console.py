@@ -138,8 +138,9 @@ def _drawn(table: Table) -> RenderableType:
     rows = table.rows[: _most(table)]
     # A column without any entry takes no room, such as that of symbols where nothing has one.
     kept = [n for n, head in enumerate(table.heads) if n == 0 or head or any(row[n] for row in rows)]
+    heads = [fill(table.heads[n], _HEAD).partition("\n")[0] for n in kept]
     wide = [
-        max(len(fill(table.heads[n], _HEAD).split("\n", 1)[0]), *(len(row[n]) for row in rows)) for n in kept
+        max(len(x) for x in (head, *(row[n] for row in rows))) for n, head in zip(kept, heads, strict=True)
     ]
     drawn = Drawn(
         title=table.title,
@@ -161,7 +162,7 @@ def _manner(table: Table, n: int) -> dict[str, Any]:
     """How a column is set: a narrow terminal may break words and lists of them, never a number."""
     # A name without a space is broken where the line ends, never cut.
     if n == 0:
-        longest = max(len(word) for row in table.rows for word in row[0].split() or [""])
+        longest = max((len(word) for row in table.rows for word in row[0].split()), default=0)
         return {"overflow": "fold", "min_width": min(longest, _NAME)}
     if n == 1:
         return {"style": "cyan", "no_wrap": True}

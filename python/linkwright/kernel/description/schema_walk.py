@@ -72,7 +72,7 @@ def words_of(annotation: Any) -> str:
         quoted = [f'"{choice}"' if isinstance(choice, str) else str(choice) for choice in choices]
         return quoted[0] if len(quoted) == 1 else "one of " + ", ".join(quoted)
     if any(_is_model(branch) or get_origin(branch) is dict for branch in bare):
-        return _table_words([branch for branch in bare if _is_model(branch)])
+        return "a table"
     lists = [branch for branch in bare if get_origin(branch) is tuple]
     if lists:
         inner = get_args(lists[0])[0]
@@ -89,18 +89,6 @@ def words_of(annotation: Any) -> str:
     if str in bare:
         return "a text"
     return "a number" if float in bare else "another value"
-
-
-# A table of at most so many keys is named by all of them.
-_FEW = 4
-
-
-def _table_words(models: list[type[BaseModel]]) -> str:
-    """A table, with the keys that it must have, or all of few, where it has one form."""
-    fields = models[0].model_fields if len(models) == 1 else {}
-    keys = {field.alias or name: field.is_required() for name, field in fields.items()}
-    named = [key for key, required in keys.items() if required] or (list(keys) if len(keys) <= _FEW else [])
-    return f"a table with {', '.join(named)}" if named else "a table"
 
 
 def _below(annotation: Any, key: str, data: object) -> Any:

@@ -138,10 +138,7 @@ def _starts(model: EngineSpeed, measured: MeasuredSpeed) -> list[Floats]:
 def _fits_at_loads(
     model: EngineSpeed, measured: MeasuredSpeed, loads: Floats, beside: Floats
 ) -> Iterator[tuple[Floats, float]]:
-    """Values that fit best at some mean factors, and the sum of squares left.
-
-    `beside`: (cylinders, 1 + cylinders) states less their mean.
-    """
+    """Values that fit best at some mean factors, and the squares left; `beside`: states less their mean."""
     states = (loads[:, None, None] - 1) + beside
     rows = _left(model, measured, np.concatenate(list(states), axis=1))
     for state, own in zip(states, rows.reshape(len(loads), beside.shape[1], -1), strict=True):

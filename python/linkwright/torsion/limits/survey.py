@@ -103,10 +103,7 @@ def _has_viscous_damping(at: ExcitedTrain) -> bool:
 
 
 def _moved(at: ExcitedTrain, place: int, undamped: Floats) -> Floats:
-    """Damped natural frequencies at one of the speeds, farther from undamped ones than their peaks are wide.
-
-    `undamped`: (modes,) [rad/s].
-    """
+    """Damped natural frequencies [rad/s] at a speed, farther from undamped ones than their peaks are wide."""
     stiffness, damping = at.operating.stiffness[:, place], at.operating.disc_damping[:, place]
     train = replace(at.referred, stiffness=np.ascontiguousarray(stiffness), disc_damping=damping)
     if train.rods:
