@@ -119,3 +119,10 @@ def test_angles_beyond_half_a_revolution_have_their_extremes(side: str, other: s
     assert high - low == pytest.approx(beside.maximum - beside.minimum, rel=1e-12)
     # A quarter of a degree of the crank beside an extreme changes an angle by less than 1e-3 rad.
     assert (curve.min(), curve.max()) == pytest.approx((low, high), abs=1e-3)
+
+
+def test_positions_reach_the_limits_of_the_crank() -> None:
+    """At the limit of a scissor lift the table lies on the floor: it was 8.7·10⁻⁶ m above it."""
+    found = lw.cycle_motion(lw.read("examples/scissor_lift/machine.toml")).extremes["post.place"]
+    assert (found.minimum, found.maximum) == (0.0, pytest.approx(0.6, rel=1e-12))
+    assert found.minimum_angle == pytest.approx(-25 * np.pi, rel=1e-12)

@@ -15,6 +15,7 @@ from linkwright.linkages.closure import closure
 from linkwright.linkages.cycle import LIMIT, PASSED, REVERSAL
 from linkwright.linkages.grashof import FourBar, four_bars
 from linkwright.linkages.kinematics import kinematics
+from linkwright.linkages.tables import loop_tables
 from linkwright.machine.program.compiled import compile_machine
 
 # Zeros are located to some units of rounding of the crank angle; what is computed from them keeps nine digits
@@ -493,3 +494,16 @@ def test_a_mechanism_that_closes_at_single_angles_does_not_move() -> None:
     gears = Path(__file__).parents[2] / "examples" / "gears_and_guides" / "machine.toml"
     with pytest.raises(AssemblyError, match="closes only"):
         lw.linkage(lw.read(gears, ["mechanism.rockers.C.rocker=1e-9"]))
+
+
+def test_dead_points_of_link_and_slide_of_one_name_are_told_apart() -> None:
+    found = lw.linkage(lw.read("examples/quick_returns/machine.toml"))
+    rows = next(table for table in loop_tables(found) if table.name == "dead_points").rows
+    names = [row[0].partition(":")[0] for row in rows]
+    assert names.count("shaper, position") == 2
+    assert "shaper, angle" in names
+    assert "shaper" not in names
+    assert {point.turns_back for point in found.dead_points if point.element == "shaper"} == {
+        "angle",
+        "position",
+    }

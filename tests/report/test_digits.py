@@ -7,6 +7,7 @@ import pytest
 
 import linkwright as lw
 from linkwright.kernel.page.numbers import number
+from linkwright.kernel.page.sentences import sentence
 from linkwright.kernel.page.table import row
 from linkwright.kinetostatics.tables import envelope_table
 
@@ -41,3 +42,16 @@ def test_forces_that_are_rounding_are_zero() -> None:
     cells = [cell for line in rows for cell in line[2:]]
     assert cells
     assert not [cell for cell in cells if "·10⁻¹" in cell and cell.endswith("N")]
+
+
+@pytest.mark.parametrize(
+    ("said", "shown"),
+    [
+        ("falls to -1152 N m: there", "falls to −1152 N m: there"),
+        ("at crank angles -4500.00° to 60°", "at crank angles −4500.00° to 60°"),
+        ("an error of 2.5e-06 m (-3e+07 N)", "an error of 2.5·10⁻⁶ m (−3·10⁷ N)"),
+        ('write "-3 m", or --set x=-3, of A-3 and 10-20', 'write "-3 m", or --set x=-3, of A-3 and 10-20'),
+    ],
+)
+def test_sentences_have_the_numbers_of_tables(said: str, shown: str) -> None:
+    assert sentence(said) == shown

@@ -56,6 +56,10 @@ _CONSTANT, _CONSTANT_RATE = 1e-12, 1e-9
 # shares of the range they differ by a factor of 100, and by about 1 where they are bounded.
 _LIMIT_FAR, _LIMIT_NEAR, _GROWS = 1e-4, 1e-8, 10.0
 
+# A position at a limit follows from the root of a radicand that is zero but for some rounding errors: below
+# this share of the span it is zero.
+_ROOT_OF_ROUNDING = 1e-7
+
 
 @dataclass(frozen=True)
 class Extremes(Record):
@@ -174,8 +178,38 @@ def cycle_motion_of(
     )
     search = _Search(machine, crank, list(cycle.curves())[len(_CRANK) :])
     looked = _looked_at(compiled, low, high, turns)
-    limit = None if known.closure.turns_fully else (low, high)
-    return CycleMotion(**{**vars(cycle), "extremes": search.extremes(looked, limit)})
+    extremes = search.extremes(looked, None if known.closure.turns_fully else (low, high))
+    if not (known.closure.turns_fully or cycle.is_steady):
+        extremes |= _with_limits(machine, extremes, np.array(known.closure.ranges[0]))
+    return CycleMotion(**{**vars(cycle), "extremes": extremes})
+
+
+def _with_limits(machine: Machine, extremes: dict[str, Extremes], ends: Floats) -> dict[str, Extremes]:
+    """Extremes of positions with those at the limits themselves, of which the search keeps clear."""
+    still = np.zeros(2)
+    with np.errstate(invalid="ignore"):
+        # Rates have no limit there.
+        curves = motion_along(machine, still, ends, still, still).curves()
+    places = {name: curves[name] for name in extremes if name.endswith((".x", ".y", ".place"))}
+    return {
+        name: _with_ends(extremes[name], ends, curve)
+        for name, curve in places.items()
+        if extremes[name].minimum is not None and np.isfinite(curve).all()
+    }
+
+
+def _with_ends(inside: Extremes, ends: Floats, values: Floats) -> Extremes:
+    """Extremes of a curve with its values at both ends of the range."""
+    assert inside.minimum is not None
+    assert inside.maximum is not None
+    span = max(inside.maximum, *values) - min(inside.minimum, *values)
+    values = np.where(np.abs(values) < _ROOT_OF_ROUNDING * span, 0.0, values)
+    places = [
+        (inside.minimum, inside.minimum_angle),
+        (inside.maximum, inside.maximum_angle),
+        *zip(values.tolist(), ends.tolist(), strict=True),
+    ]
+    return Extremes(*min(places, key=lambda place: place[0]), *max(places, key=lambda place: place[0]))
 
 
 # An angle that is past the end of a cycle by less than this share of it is the end.

@@ -56,12 +56,16 @@ class DeadPoint(NamedTuple):
         line, their rates not determined) or ``"dead centre of the output"``.
     multiplicity : int
         Of the zero: 1 where a sign changes, 2 where a radicand touches zero.
+    turns_back : str
+        What turns back at a dead centre, ``"angle"`` of a link or ``"position"`` of a slide, which may have
+        one name; else empty.
     """
 
     angle: float
     element: str
     kind: str
     multiplicity: int
+    turns_back: str = ""
 
 
 def dead_points(compiled: CompiledMachine, swept: LinkageSweep, where: Closure) -> list[DeadPoint]:
@@ -89,7 +93,8 @@ def _passed(swept: LinkageSweep) -> Iterator[DeadPoint]:
 def _reversals(swept: LinkageSweep) -> Iterator[DeadPoint]:
     for k, output in enumerate(swept.outputs):
         for angle in swept.reversals(k):
-            yield DeadPoint(swept.cycle.named(angle), output.name, REVERSAL, 1)
+            turns_back = "position" if output.kind == "stroke" else "angle"
+            yield DeadPoint(swept.cycle.named(angle), output.name, REVERSAL, 1, turns_back)
 
 
 # Difference of the rates of two links that stay parallel: rounding, lost near change points.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from linkwright.kernel.page.numbers import crank_angle, measured, number, parted, quantity
 from linkwright.kernel.page.table import Row, Table
-from linkwright.linkages.cycle import ElementMotion, Linkage
+from linkwright.linkages.cycle import DeadPoint, ElementMotion, Linkage
 
 # More dead points than this are the regular ones of many outputs, and tell nothing.
 _DEAD_POINTS_MAX = 24
@@ -104,5 +104,13 @@ def _loops(linkage: Linkage) -> Table:
 
 def _dead(linkage: Linkage) -> Table:
     points = linkage.dead_points if len(linkage.dead_points) <= _DEAD_POINTS_MAX else ()
-    rows: list[Row] = [(f"{point.element}: {point.kind}", "φ", crank_angle(point.angle)) for point in points]
+    names = [element.output for element in linkage.elements]
+    rows: list[Row] = [
+        (f"{_turning(point, names)}: {point.kind}", "φ", crank_angle(point.angle)) for point in points
+    ]
     return Table("dead_points", "Dead points", ("element", "", "crank angle"), rows)
+
+
+def _turning(point: DeadPoint, names: list[str]) -> str:
+    """The element of a dead point; of two with one name, whether link or slide turns back."""
+    return f"{point.element}, {point.turns_back}" if names.count(point.element) > 1 else point.element

@@ -32,14 +32,14 @@ def number(value: float | None, digits: int = 5, scale: float = 0.0) -> str:
         text = f"{float(text):.0f}"
     if "e" in text:
         head, power = text.split("e")
-        text = f"{head}·10{str(int(power)).translate(_RAISED)}"
+        text = f"{head}·10{str(int(power)).translate(RAISED)}"
     return text.replace("-", "−")
 
 
 # Below this, a number with more places than digits is written out: 20240 W, not 2.024·10⁴ W.
 _LARGE = 1e7
 
-_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 # An angle at which links are in line follows from a root: below that of some ten rounding errors it is zero

@@ -11,7 +11,7 @@ from collections.abc import Iterable
 from math import ceil, floor, log10, radians
 
 from linkwright.kernel.page.angle_zero import zero_shown
-from linkwright.kernel.page.numbers import degrees, number
+from linkwright.kernel.page.numbers import RAISED, degrees, number
 from linkwright.kernel.page.out_units import reader
 
 # Units that sentences are written in, those of several parts first.
@@ -26,6 +26,9 @@ _QUANTITY = re.compile(rf"({_NUMBER}) ({'|'.join(map(re.escape, _UNITS))}){_END}
 _ANGLE = r"[-−]?\d+(?:\.\d+)?(?:e[-+]?\d+)?°"
 _CRANK_ANGLES = re.compile(rf"((?:φ = |crank angles? (?:of )?))({_ANGLE}(?:(?:, | to | and ){_ANGLE})*)")
 
+# A number as Python writes it, alone or behind a bracket: no part of a name, a command or a quoted entry.
+_PLAIN = re.compile(r"(?<![^\s(±])(-?)(\d+(?:\.\d+)?)(?:e([-+]\d+))?(?=[\s),.;:°%]|$)")
+
 # Digits with which a number in another unit is written at least: 1 m is 3.28 ft.
 _DIGITS = 3
 
@@ -34,12 +37,18 @@ def sentence(text: str) -> str:
     """A sentence as the reader wants it."""
     if zero_shown().words:
         text = _CRANK_ANGLES.sub(_counted, text)
-    return _QUANTITY.sub(_in_units, text) if reader().chosen else text
+    return _PLAIN.sub(_typeset, _QUANTITY.sub(_in_units, text) if reader().chosen else text)
 
 
 def sentences(texts: Iterable[str]) -> list[str]:
     """Sentences as the reader wants them."""
     return [sentence(text) for text in texts]
+
+
+def _typeset(match: re.Match[str]) -> str:
+    """A number with a true minus sign and a power of ten, as in tables."""
+    sign, head, power = match.groups()
+    return f"{'−' if sign else ''}{head}{f'·10{str(int(power)).translate(RAISED)}' if power else ''}"
 
 
 def _counted(match: re.Match[str]) -> str:
