@@ -71,8 +71,9 @@ test("a link holds the whole state: machine, variants, units, layers, instant", 
   // It is no file of this folder, whatever its name: saving asks for one.
   assert.deepEqual({ ...state, pinned: 0, curves: 0 }, { unit: "in", velocities: true, ends: { [RADIUS]: [0.1, 0.3] }, pinned: 0, curves: 0, place: { place: "", name: "" }, unsaved: true });
   await other.close();
-  const broken = await opened(context, `${new URL(page.url()).origin}/#state=none`, []).catch(() => null);
-  assert.equal(broken, null);
+  const broken = await context.newPage();
+  await broken.goto(`${new URL(page.url()).origin}/#state=none`);
+  await broken.getByRole("alert").waitFor();
   for (const each of context.pages()) if (each !== page) await each.close();
   await page.evaluate(() => (globalThis.studio.state.units.value = { ...globalThis.studio.state.units.value, m: "m", "rad/s": "rad/s" }));
 });

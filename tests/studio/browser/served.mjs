@@ -23,9 +23,14 @@ export function folderWith({ examples = false } = {}) {
   return folder;
 }
 
+// A server that still runs holds the pipe to this process open, and the tests would never end.
+const servers = [];
+process.on("exit", () => servers.forEach((server) => server.kill("SIGKILL")));
+
 /** `linkwright studio` of a folder, and the address that it prints. */
 export async function studioOf(folder) {
   const server = spawn(LINKWRIGHT, ["studio", "carts.toml", "--no-browser"], { cwd: folder, stdio: ["ignore", "pipe", "inherit"] });
+  servers.push(server);
   const address = await new Promise((resolve) => {
     let said = "";
     server.stdout.on("data", (data) => {
@@ -47,7 +52,7 @@ export async function served(options) {
   const page = await opened(context, address, faults);
   const end = async () => {
     await browser.close();
-    server.kill();
+    for (const each of servers) each.kill();
     rmSync(folder, { recursive: true, force: true });
   };
   return { folder, server, origin, context, page, faults, end };
