@@ -50,7 +50,7 @@ _STATUS_WORDS = "0 where solved; else a key of `linkwright.drive.batch.STATUS`."
 
 
 @dataclass(frozen=True)
-class SteadyStates(Record):
+class SteadyStates(Record, evenness.Evenness[Floats]):
     """Steady motion of ``n`` machines; every array has shape (n,), NaN where there is no answer."""
 
     entries: Annotated[dict[str, Floats], About("What was varied, by address.")]
@@ -72,29 +72,9 @@ class SteadyStates(Record):
     turns: Annotated[int, Label("revolutions of a cycle", "", "")] = 1
 
     @property
-    def speed_mean_extremes(self) -> Annotated[Floats, Label("mean of the extreme speeds", "ω_m", "rad/s")]:
-        """(ω_max + ω_min)/2."""
-        return evenness.mean_of_extremes(self.speed_min, self.speed_max)
-
-    @property
     def speed_mean_time(self) -> Annotated[Floats, Label("mean speed over time", "ω_m", "rad/s")]:
         """Angle of a cycle over its duration."""
         return 2 * np.pi * self.turns / self.period
-
-    @property
-    def unevenness(self) -> Annotated[Floats, Label("coefficient of speed fluctuation", "δ", "")]:
-        """With the mean of the extremes."""
-        return evenness.unevenness(self.speed_min, self.speed_max, self.speed_mean_extremes)
-
-    @property
-    def dynamism(self) -> Annotated[Floats, Label("dynamic factor", "H", "")]:
-        """With the mean of the extremes."""
-        return evenness.dynamism(self.acceleration_min, self.acceleration_max, self.speed_mean_extremes)
-
-    @property
-    def motion_coefficient(self) -> Annotated[Floats, Label("combined non-uniformity index", "k_p", "")]:
-        """δ² + H."""
-        return evenness.motion_coefficient(self.unevenness, self.dynamism)
 
     def to_frame(self) -> pd.DataFrame:
         """Entries and results as a table, a row for each machine (needs pandas)."""

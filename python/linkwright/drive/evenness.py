@@ -17,7 +17,7 @@ References
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, TypeVar
+from typing import TYPE_CHECKING, Annotated, Generic, TypeVar
 
 import numpy as np
 
@@ -56,15 +56,51 @@ def motion_coefficient(delta: V, H: V) -> V:
     return delta**2 + H
 
 
+DELTA = Label("coefficient of speed fluctuation", "δ", "")
+DYNAMIC_FACTOR = Label("dynamic factor", "H", "")
+K_P = Label("combined non-uniformity index", "k_p", "")
+MEAN_SPEED = Label("mean of the extreme speeds", "ω_m", "rad/s")
+
+
+class Evenness(Generic[V]):
+    """δ, H and k_p of a motion, or of many, from the extremes; about the mean of the extremes."""
+
+    if TYPE_CHECKING:  # each motion declares its own extremes, in the order of its table
+        speed_min: V
+        speed_max: V
+        acceleration_min: V
+        acceleration_max: V
+
+    @property
+    def speed_mean_extremes(self) -> Annotated[V, MEAN_SPEED]:
+        """(ω_max + ω_min)/2."""
+        return mean_of_extremes(self.speed_min, self.speed_max)
+
+    @property
+    def unevenness(self) -> Annotated[V, DELTA]:
+        """δ = (ω_max − ω_min)/ω_m with the mean of the extremes, paper 1 (13)."""
+        return unevenness(self.speed_min, self.speed_max, self.speed_mean_extremes)
+
+    @property
+    def dynamism(self) -> Annotated[V, DYNAMIC_FACTOR]:
+        """H = |ε|_max/ω_m² with the mean of the extremes, paper 1 (14)."""
+        return dynamism(self.acceleration_min, self.acceleration_max, self.speed_mean_extremes)
+
+    @property
+    def motion_coefficient(self) -> Annotated[V, K_P]:
+        """k_p = δ² + H with the mean of the extremes, paper 1 (15)."""
+        return motion_coefficient(self.unevenness, self.dynamism)
+
+
 @dataclass(frozen=True)
 class ConstantEnergy(Result):
     """Speed fluctuation at constant kinetic energy."""
 
-    unevenness: Annotated[float, Label("coefficient of speed fluctuation", "δ", "")]
-    dynamism: Annotated[float, Label("dynamic factor", "H", "")]
+    unevenness: Annotated[float, DELTA]
+    dynamism: Annotated[float, DYNAMIC_FACTOR]
 
     @property
-    def motion_coefficient(self) -> Annotated[float, Label("combined non-uniformity index", "k_p", "")]:
+    def motion_coefficient(self) -> Annotated[float, K_P]:
         """k_p = δ² + H, paper 1 (15)."""
         return motion_coefficient(self.unevenness, self.dynamism)
 

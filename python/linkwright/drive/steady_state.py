@@ -90,7 +90,7 @@ _OTHERS = "Other periodic motions of the machine, from the fastest down to a hun
 
 
 @dataclass(frozen=True)
-class SteadyState(Result):
+class SteadyState(Result, evenness.Evenness[float]):
     """One cycle of steady motion; extremes are exact, not those of the curves.
 
     A cycle is a revolution of the crank, or as many as loads and mechanism take to repeat.
@@ -154,44 +154,22 @@ class SteadyState(Result):
         return super().to_dict(curves=curves) | {"others": [other._asdict() for other in self.others]}
 
     @property
-    def speed_mean_extremes(self) -> Annotated[float, Label("mean of the extreme speeds", "ω_m", "rad/s")]:
-        """(ω_max + ω_min)/2."""
-        return evenness.mean_of_extremes(self.speed_min, self.speed_max)
-
-    @property
     def speed_mean_time(self) -> Annotated[float, Label("mean speed over time", "ω_m", "rad/s")]:
         """Angle of a cycle over its duration."""
         return 2 * np.pi * self.turns / self.period
 
     @property
-    def unevenness(self) -> Annotated[float, Label("coefficient of speed fluctuation", "δ", "")]:
-        """δ = (ω_max − ω_min)/ω_m with the mean of the extremes, paper 1 (13)."""
-        return evenness.unevenness(self.speed_min, self.speed_max, self.speed_mean_extremes)
-
-    @property
-    def dynamism(self) -> Annotated[float, Label("dynamic factor", "H", "")]:
-        """H = |ε|_max/ω_m² with the mean of the extremes, paper 1 (14)."""
-        return evenness.dynamism(self.acceleration_min, self.acceleration_max, self.speed_mean_extremes)
-
-    @property
-    def motion_coefficient(self) -> Annotated[float, Label("combined non-uniformity index", "k_p", "")]:
-        """k_p = δ² + H with the mean of the extremes, paper 1 (15)."""
-        return evenness.motion_coefficient(self.unevenness, self.dynamism)
-
-    @property
-    def unevenness_time(self) -> Annotated[float, Label("coefficient of speed fluctuation", "δ", "")]:
+    def unevenness_time(self) -> Annotated[float, evenness.DELTA]:
         """δ with the mean over time."""
         return evenness.unevenness(self.speed_min, self.speed_max, self.speed_mean_time)
 
     @property
-    def dynamism_time(self) -> Annotated[float, Label("dynamic factor", "H", "")]:
+    def dynamism_time(self) -> Annotated[float, evenness.DYNAMIC_FACTOR]:
         """H with the mean over time."""
         return evenness.dynamism(self.acceleration_min, self.acceleration_max, self.speed_mean_time)
 
     @property
-    def motion_coefficient_time(
-        self,
-    ) -> Annotated[float, Label("combined non-uniformity index", "k_p", "")]:
+    def motion_coefficient_time(self) -> Annotated[float, evenness.K_P]:
         """k_p with the mean over time."""
         return evenness.motion_coefficient(self.unevenness_time, self.dynamism_time)
 

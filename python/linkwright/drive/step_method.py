@@ -43,7 +43,7 @@ _TURNS_MAX = 2000
 
 
 @dataclass(frozen=True)
-class StepMotion(Result):
+class StepMotion(Result, evenness.Evenness[float]):
     """Motion by the step method: all revolutions from rest, and the measures of the last."""
 
     crank_angle: Annotated[Floats, Label("crank angle", "φ", "rad", "Counted on over the revolutions.")]
@@ -63,26 +63,6 @@ class StepMotion(Result):
     acceleration_max: Annotated[
         float, Label("maximum acceleration", "ε_max", "rad/s²", "Over the last revolution.")
     ]
-
-    @property
-    def speed_mean_extremes(self) -> Annotated[float, Label("mean of the extreme speeds", "ω_m", "rad/s")]:
-        """(ω_max + ω_min)/2."""
-        return evenness.mean_of_extremes(self.speed_min, self.speed_max)
-
-    @property
-    def unevenness(self) -> Annotated[float, Label("coefficient of speed fluctuation", "δ", "")]:
-        """δ = (ω_max − ω_min)/ω_m, paper 1 (13)."""
-        return evenness.unevenness(self.speed_min, self.speed_max, self.speed_mean_extremes)
-
-    @property
-    def dynamism(self) -> Annotated[float, Label("dynamic factor", "H", "")]:
-        """H = |ε|_max/ω_m², paper 1 (14)."""
-        return evenness.dynamism(self.acceleration_min, self.acceleration_max, self.speed_mean_extremes)
-
-    @property
-    def motion_coefficient(self) -> Annotated[float, Label("combined non-uniformity index", "k_p", "")]:
-        """k_p = δ² + H, paper 1 (15)."""
-        return evenness.motion_coefficient(self.unevenness, self.dynamism)
 
 
 @public

@@ -143,8 +143,16 @@ def _declared(owner: type) -> dict[str, tuple[Any, Label | About]]:
         if get_origin(hint) is Annotated:
             mark = next((mark for mark in hint.__metadata__ if isinstance(mark, Label | About)), None)
             if mark is not None:
-                marks[name] = (hint.__origin__, mark)
+                marks[name] = (_bound(owner).get(hint.__origin__, hint.__origin__), mark)
     return marks
+
+
+def _bound(owner: type) -> dict[Any, Any]:
+    """What the type variables of a class's generic bases stand for."""
+    pairs: dict[Any, Any] = {}
+    for base in getattr(owner, "__orig_bases__", ()):
+        pairs |= dict(zip(getattr(get_origin(base), "__parameters__", ()), get_args(base), strict=False))
+    return pairs
 
 
 def _about(owner: type, name: str) -> str:
