@@ -151,3 +151,31 @@ def test_corners_of_the_acceleration_in_a_batch() -> None:
         for name in ("acceleration_min", "acceleration_max"):
             # What a batch promises, of the peak.
             assert abs(getattr(batch, name)[row] - getattr(alone, name)) < 1e-7 * peak, (row, name)
+
+
+def test_rows_whose_peaks_rounding_forbids_have_a_status() -> None:
+    """A drive so steep that the load alone makes the speed: ω = ω₀ (1 − M/M₀), and ε = ω dω/dφ.
+
+    Rounding of the speed, times the steepness, is more and more of the acceleration: a row is as exact as
+    promised, or has no numbers.
+    """
+    machine = lw.loads("""
+    format = 1
+    name = "steep"
+    mechanism.cranks.A.radius = "1 m"
+    bodies.A = { on = "A", inertia = 0.3 }
+    drive.motor = { kind = "dc", speed_no_load = 36, torque_stall = 1e7, inertia = 0 }
+    loads.L = { kind = "formula", on = "A", torque = "-(15 + 7*cos(phi))" }
+    """)
+    stall = np.logspace(6, 12, 61)
+    rows = lw.steady_states(machine, {"drive.motor.torque_stall": stall})
+    peak = 36.0**2 * 7.0 / stall
+    solved = rows.status == 0
+    # Peaks of acceleration count against at least 1e-4 ω², and are promised to 1e-6 of that. The formula
+    # neglects twice the load, at most 22 N m, over the stall torque.
+    counts = np.maximum(peak, 1e-4 * 36.0**2)
+    off = np.abs(rows.acceleration_max - peak)
+    assert (off <= 1e-6 * counts + 50.0 * peak / stall)[solved].all()
+    assert solved[:10].all()
+    assert set(rows.status[~solved]) == {3}
+    assert np.isnan(rows.speed_max[~solved]).all()

@@ -19,7 +19,7 @@ ONE_CART = "machines/roller_one_cart.toml"
 
 # When the signal comes, and how long a call may go on: a second is promised, four leave room for a busy
 # machine. Every call below takes longer if nothing stops it.
-SIGNAL, PATIENCE = 0.3, 4.0
+SIGNAL, PATIENCE = 0.1, 4.0
 
 pytestmark = pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="needs timers of Unix")
 

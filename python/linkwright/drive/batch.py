@@ -101,7 +101,8 @@ def steady_states(
     accuracy : float
         Relative accuracy for machines that must be solved one by one. Machines on smooth characteristics
         are solved in lanes with a fixed mesh: speeds, periods and work to 1e-7, peaks of acceleration to
-        1e-6.
+        1e-6. A row of which rounding forbids that, with a very steep motor, has no numbers but the status
+        that says so.
 
     Returns
     -------

@@ -5,7 +5,7 @@
 //! accuracy asked for (laws with kinks of their own, no convergence) are done again one by one by
 //! [`crate::drive::steady`], which also names the reason when there is no answer.
 
-use crate::drive::row_lanes::{Results, RowLanes};
+use crate::drive::row_lanes::{PEAKS_PROMISED, Results, RowLanes};
 use crate::drive::row_mesh::RowMesh;
 use crate::drive::rows::row_of;
 pub use crate::drive::rows::{QUANTITIES, Rows};
@@ -102,16 +102,16 @@ fn retry(
             continue;
         }
         let q = rows.row(first + i);
-        match steady(plan, &q, accuracy) {
-            Ok(found) => {
-                row.copy_from_slice(&row_of_steady(&found));
-                *status = Status::Ok;
-                sweeps += u64::from(found.sweeps);
-            }
-            Err(failure) => {
-                row.fill(f64::NAN);
-                *status = failure.status;
-            }
+        let found = steady(plan, &q, accuracy);
+        sweeps += found.as_ref().map_or(0, |found| u64::from(found.sweeps));
+        *status = match &found {
+            Ok(found) if found.reached <= accuracy.max(PEAKS_PROMISED) => Status::Ok,
+            Ok(_) => Status::Inaccurate,
+            Err(failure) => failure.status,
+        };
+        match found {
+            Ok(found) if *status == Status::Ok => row.copy_from_slice(&row_of_steady(&found)),
+            _ => row.fill(f64::NAN),
         }
     }
     sweeps

@@ -18,7 +18,7 @@ use crate::linkage::motion::Motion;
 const LEVELS: usize = 30;
 
 /// Rounding of a value that a few dozen operations lead to, relative.
-const ROUNDING: f64 = 2e-15;
+pub(super) const ROUNDING: f64 = 2e-15;
 
 /// Accelerations count against their peak, but at least against this share of ω², and torques and work
 /// against what makes it: at constant speed there is none, and rounding is all that there is.

@@ -340,6 +340,22 @@ impl Events<'_, f64> {
         passages
     }
 
+    /// ε on both sides of the ends of steps at kinks, where the motion passes these, with the number of the step before: under
+    /// a steep drive what is left of the way there changes it much more than u.
+    pub fn sides(&self, mesh: &Mesh, pieces: &[Piece], m: &mut Motion<f64>) -> Vec<(usize, [f64; 2])> {
+        let passages = self.passages(mesh, pieces, m);
+        let of_passage = |(k, passage): (usize, Passage<f64>)| {
+            let [before, behind] = [&pieces[k], &pieces[(k + 1) % pieces.len()]];
+            let late = passage.late();
+            let is_near = late.abs() < NEARLY * before.h.min(behind.h);
+            let late = if is_near { late } else { 0.0 };
+            let u = passage.before.mul_add(late, passage.u);
+            let ends = [(before, before.phi + before.h), (behind, behind.phi)];
+            (k, ends.map(|(piece, phi)| self.on_branch_of(piece, phi + late, u, m)))
+        };
+        passages.into_iter().map(of_passage).collect()
+    }
+
     /// Kinks that the motion may pass, by number: those of the drive near its speeds, and all of laws.
     fn within_reach(&self, pieces: &[Piece]) -> Vec<(usize, Event)> {
         let stages = pieces.iter().flat_map(|piece| piece.X);
@@ -507,21 +523,25 @@ impl Events<'_, f64> {
     ) -> Option<(f64, usize)> {
         let (mut first, speeds): (Option<(f64, usize)>, _) = (None, self.speeds.len());
         for nth in speeds..speeds + self.laws.len() {
-            let mut values = [self.on_side(nth, side); N];
+            let mut values = [self.value(self.nth(nth), piece.phi, piece.u, m); N];
             for i in 0..S {
                 let geometry = self.machine.geometry_at(geometry, i).to_vec();
                 values[i + 1] = self.on_side(nth, &Side { geometry, u: piece.X[i] });
             }
             let near = ON_KINK * self.size(self.nth(nth), &values);
+            // A step may start on the kink itself, or beyond it by rounding.
+            let from = self.on_side(nth, side).signum();
+            let start = from * near.max(from * values[0]);
             let machine = side.of(&self.machine);
             let mut excess = |x: f64| {
                 let end = machine.advance(piece.phi, piece.u, x, m).0.end();
                 self.value(self.nth(nth), piece.phi + x, end, m)
             };
             let mut nodes: Vec<(f64, f64)> = AT.into_iter().zip(values).collect();
+            nodes[0].1 = start;
             nodes.extend(turns_near_zero(&values).into_iter().map(|share| (share, excess(share * piece.h))));
             nodes.sort_by(|a, b| a.0.total_cmp(&b.0));
-            let is_passed = |node: &(f64, f64)| node.1 * values[0] < 0.0 && node.1.abs() > near;
+            let is_passed = |node: &(f64, f64)| node.1 * from < 0.0 && node.1.abs() > near;
             let Some(to) = nodes.iter().position(is_passed) else { continue };
             let [from, to] = [nodes[to - 1], nodes[to]];
             let (start, length) = (from.0 * piece.h, (to.0 - from.0) * piece.h);

@@ -6,8 +6,8 @@
 //! what it may fall short by.
 
 use crate::drive::between::Between;
-use crate::drive::cycle::{Machine, REFERENCE, Turn, stages_of_part};
-use crate::drive::layout::{Layout, unbundle};
+use crate::drive::cycle::{Machine, REFERENCE, Step, Turn, stages_of_part};
+use crate::drive::layout::{Layout, bundle, unbundle};
 use crate::kernel::radau::{AT, N, S, slope_and_bend, through};
 use crate::kernel::real::Real;
 use crate::kernel::series::{TERMS, derivatives, value as on_series};
@@ -28,6 +28,14 @@ impl<R: Real> Extreme<R> {
     fn keep_larger(&mut self, other: &Self) {
         self.phi = self.value.select_lt(other.value, other.phi, self.phi);
         self.value = self.value.max(other.value);
+    }
+
+    /// Nothing where its place, a share of a step, is an end: what lies there is known, and at a kink only to one side.
+    #[inline(always)]
+    fn inside(self, at: R) -> Self {
+        let zero = R::splat(0.0);
+        let room = at.min(R::splat(1.0) - at);
+        Extreme { value: zero.select_lt(room, self.value, R::splat(f64::NEG_INFINITY)), ..self }
     }
 }
 
@@ -140,19 +148,16 @@ const QUANTITIES: [Quantity; 4] = [
 
 impl<R: Real> Turn<R> {
     /// Extremes of speed and acceleration; read from series `between` the ends of the steps where there are any. `starts`
-    /// is ε at the starts of the steps where it is known.
+    /// is ε at the starts of the steps.
     #[inline(always)]
     pub fn extremes(
         &self,
         machine: &Machine<'_, R>,
         between: Option<&[Between<R>]>,
-        starts: Option<&[R]>,
+        starts: &[R],
         m: &mut Motion<R>,
     ) -> Extremes<R> {
-        let samples = R::out_of_line(
-            #[inline(always)]
-            || self.samples(machine, starts, m),
-        );
+        let samples = self.samples(starts);
         let numbers = self.numbers(&samples, between);
         let hints = R::out_of_line(
             #[inline(always)]
@@ -182,33 +187,48 @@ impl<R: Real> Turn<R> {
         Extremes { speed_min, speed_max, acceleration_min, acceleration_max }
     }
 
+    /// ε at the starts of the steps.
+    #[inline(always)]
+    pub fn starts(&self, machine: &Machine<'_, R>, m: &mut Motion<R>) -> Vec<R> {
+        let mut geometry = Vec::with_capacity(machine.plan.laws.len());
+        let of_step = |(k, step): (usize, &Step<R>)| {
+            geometry.clear();
+            let row = machine.row(step.phi, m, &mut geometry);
+            if machine.keeps_branch {
+                let known = machine.geometry_at(self.geometry_of(machine, k), REFERENCE);
+                machine.acceleration_on_branch(&row, &geometry, step.u, (known, step.X[REFERENCE])).value
+            } else {
+                machine.acceleration(&row, &geometry, step.u).value
+            }
+        };
+        self.steps.iter().enumerate().map(of_step).collect()
+    }
+
+    /// Takes ε at some ends of steps, numbered one by one, to both sides: into their last stages, and into the `starts`.
+    #[inline(always)]
+    pub fn take_sides(&mut self, sides: &[(usize, [f64; 2])], starts: &mut [R]) {
+        let mut ends = unbundle(&self.steps.iter().map(|step| step.K[S - 1]).collect::<Vec<_>>());
+        let mut first = unbundle(starts);
+        let n = self.pieces().len();
+        for &(k, [before, behind]) in sides {
+            (ends[k], first[(k + 1) % n]) = (before, behind);
+        }
+        for (step, end) in self.steps.iter_mut().zip(bundle(&ends)) {
+            step.K[S - 1] = end;
+        }
+        starts.copy_from_slice(&bundle(&first));
+    }
+
     /// (u, ε) at start and stages of every step.
     #[inline(always)]
-    fn samples(&self, machine: &Machine<'_, R>, starts: Option<&[R]>, m: &mut Motion<R>) -> Vec<Samples<R>> {
-        let mut samples = Vec::with_capacity(self.steps.len());
-        let mut geometry = Vec::with_capacity(machine.plan.laws.len());
-        for (k, step) in self.steps.iter().enumerate() {
-            let (mut u, mut epsilon) = ([step.u; N], [step.u; N]);
-            epsilon[0] = match starts {
-                Some(starts) => starts[k],
-                None => {
-                    geometry.clear();
-                    let row = machine.row(step.phi, m, &mut geometry);
-                    if machine.keeps_branch {
-                        let known = machine.geometry_at(self.geometry_of(machine, k), REFERENCE);
-                        machine
-                            .acceleration_on_branch(&row, &geometry, step.u, (known, step.X[REFERENCE]))
-                            .value
-                    } else {
-                        machine.acceleration(&row, &geometry, step.u).value
-                    }
-                }
-            };
+    fn samples(&self, starts: &[R]) -> Vec<Samples<R>> {
+        let of_step = |(step, &start): (&Step<R>, &R)| {
+            let (mut u, mut epsilon) = ([step.u; N], [start; N]);
             u[1..].copy_from_slice(&step.X);
             epsilon[1..].copy_from_slice(&step.K);
-            samples.push([u, epsilon]);
-        }
-        samples
+            [u, epsilon]
+        };
+        self.steps.iter().zip(starts).map(of_step).collect()
     }
 
     /// The numbers of all steps in a row: step by step, number by number, lane by lane.
@@ -449,7 +469,7 @@ impl<R: Real> Promise<R> {
             let (places, mut values) = ([middle - aside, middle, middle + aside], [middle; 3]);
             for i in 0..places.len() {
                 let found = self.read(machine, limit, places[i], m);
-                best.keep_larger(&found);
+                best.keep_larger(&found.inside(places[i]));
                 values[i] = found.value;
             }
             let [left, centre, right] = values;
@@ -461,7 +481,7 @@ impl<R: Real> Promise<R> {
             let better = middle + bend.select_lt(R::splat(0.0), top, uphill);
             place = better.max(R::splat(0.0)).min(R::splat(1.0));
         }
-        best.keep_larger(&self.read(machine, limit, place, m));
+        best.keep_larger(&self.read(machine, limit, place, m).inside(place));
         best
     }
 

@@ -12,7 +12,7 @@
 //! from that at ten nodes.
 
 use crate::drive::between::Between;
-use crate::drive::check::EVEN;
+use crate::drive::check::{EVEN, ROUNDING};
 use crate::drive::cycle::{Machine, REFERENCE, Row, Turn};
 use crate::drive::law::LawGeometry;
 use crate::drive::measures::{INTEGRALS, Totals};
@@ -64,6 +64,8 @@ pub(super) struct NodeSolution<R> {
     pub starts: Vec<R>,
     /// The relative error of each step in each lane.
     pub errors: Vec<R>,
+    /// What rounding of the speed may leave of the acceleration in each lane, relative to its peak.
+    pub noise: R,
 }
 
 impl<R: Real> NodeSolution<R> {
@@ -75,6 +77,7 @@ impl<R: Real> NodeSolution<R> {
             between: Vec::new(),
             starts: Vec::new(),
             errors: Vec::new(),
+            noise: R::splat(0.0),
         }
     }
 
@@ -290,8 +293,10 @@ impl<R: Real> NodeSolution<R> {
         let per_growth = turn.multiplier * (1.0 / WON);
         // Per torque at the crank: the motor's, by its root mean square.
         let per_torque = (sums[0] / heat).sqrt() / machine.q[machine.plan.drive.ratio];
+        self.noise = zero;
         self.errors.clear();
         for ((step, solved), carried) in self.steps.iter().zip(&turn.steps).zip(carried) {
+            self.noise = self.noise.max(step.steepest * step.x[START] * per_epsilon * ROUNDING);
             let off = step.of_inside + carried.abs();
             let of_acceleration = off * step.steepest;
             let of_torque = (step.integrals[5] * per_heat).max(step.integrals[4] * per_impulse);

@@ -32,6 +32,9 @@ const PLACED: f64 = 1e-6;
 /// Relative error that a row in lanes may have, as measured.
 const PROMISED: f64 = 1e-7;
 
+/// The same of peaks of acceleration, which rounding of the speed alone may cost where the drive is steep.
+pub(super) const PEAKS_PROMISED: f64 = 1e-6;
+
 /// Most meshes that a row is solved on; rows that ask for more are solved one by one.
 const MESHES_MAX: usize = 4;
 
@@ -316,7 +319,7 @@ impl<'a, R: Real> RowLanes<'a, R> {
         }
         let extremes = R::out_of_line(
             #[inline(always)]
-            || turn.extremes(&machine, Some(&nested.between), Some(&nested.starts), m),
+            || turn.extremes(&machine, Some(&nested.between), &nested.starts, m),
         );
         let may_have_faster = R::out_of_line(
             #[inline(always)]
@@ -332,6 +335,7 @@ impl<'a, R: Real> RowLanes<'a, R> {
         let is_stable = turn.multiplier.select_lt(one, one, zero);
         let is_fastest = may_have_faster.select_lt(R::splat(0.5), is_stable, zero);
         let is_answer = displaced.select_lt(R::splat(PLACED), is_fastest, zero);
+        let is_answer = nested.noise.select_lt(R::splat(PEAKS_PROMISED), is_answer, zero);
         let is_answer = zero.select_lt(extremes.speed_min.value, is_answer, zero);
         let is_answer = unbundle(&[is_answer]);
         let numbers = unbundle(&row_of(turn.multiplier, &extremes, &totals));

@@ -302,7 +302,7 @@ impl Search<'_> {
         Search {
             mesh: Mesh { crossings: motion.crossings.clone(), ..Mesh::new(edges) },
             start: Some(motion.pieces.clone()),
-            any: told,
+            any: true,
             accuracy,
             ..self.clone()
         }
@@ -386,13 +386,17 @@ impl Job for Search<'_> {
                 let corners = if may_jump { Vec::new() } else { events.corners(&pieces, &mut plain_motion) };
                 let hints = turn.hints(&machine);
                 let (between, off) = turn.between(&machine, accuracy, scale, &mut m).unzip();
+                let mut starts = turn.starts(&machine, &mut m);
+                if may_jump {
+                    turn.take_sides(&events.sides(&mesh, &pieces, &mut plain_motion), &mut starts);
+                }
                 return Ok(Steady {
                     marks: turn.marks(),
                     between: between.as_ref().map(|series| turn.in_a_row(series)),
                     crossings: mesh.crossings,
                     multiplier,
                     extremes: turn
-                        .extremes(&machine, between.as_deref(), None, &mut m)
+                        .extremes(&machine, between.as_deref(), &starts, &mut m)
                         .first_lane()
                         .with_corners(&corners),
                     totals: turn.totals(&machine).first_lane(),
