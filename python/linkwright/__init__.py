@@ -62,6 +62,7 @@ _HOME = {
     "balance": "kinetostatics.balancing",
     "partial_balance": "kinetostatics.balancing",
     "harmonics": "kinetostatics.envelope",
+    "shaking_orders": "kinetostatics.shaking_orders",
     "mobility": "linkages.model.mobility",
     "cam_laws": "cam.law_factors",
     "law_factors": "cam.law_factors",

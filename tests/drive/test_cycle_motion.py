@@ -126,3 +126,11 @@ def test_positions_reach_the_limits_of_the_crank() -> None:
     found = lw.cycle_motion(lw.read("examples/scissor_lift/machine.toml")).extremes["post.place"]
     assert (found.minimum, found.maximum) == (0.0, pytest.approx(0.6, rel=1e-12))
     assert found.minimum_angle == pytest.approx(-25 * np.pi, rel=1e-12)
+
+
+def test_limits_that_do_not_close_by_rounding_have_extremes() -> None:
+    """A rod half as long as its crank stops at ±30°; at 30° itself its radicand is negative by rounding."""
+    machine = lw.read("roller_two_carts", {"mechanism.sliders.cart1.rod": 0.1, "drive.motor": None})
+    place = lw.cycle_motion(machine).extremes["cart1.place"]
+    assert place.maximum is not None
+    assert abs(place.maximum) <= 0.2 * np.cos(np.pi / 6) + 0.1

@@ -15,6 +15,7 @@ from linkwright.app.study import Study, study
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.files.library import template, templates
 from linkwright.kernel.page.numbers import number
+from linkwright.kernel.page.sentences import sentence
 from linkwright.machine.read import loads, read
 
 TWO_CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"
@@ -114,8 +115,8 @@ def test_page_needs_nothing_from_outside(case: str) -> None:
 @pytest.mark.parametrize("case", CASES)
 def test_page_tells_findings_and_warnings(case: str) -> None:
     words = "".join(Page(page(case)).words)
-    for sentence in (*studied(case).findings, *studied(case).warnings, studied(case).machine.name):
-        assert sentence in words
+    for text in (*studied(case).findings, *studied(case).warnings, studied(case).machine.name):
+        assert sentence(text) in words
 
 
 def test_page_holds_the_numbers() -> None:

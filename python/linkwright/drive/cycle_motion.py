@@ -60,6 +60,9 @@ _LIMIT_FAR, _LIMIT_NEAR, _GROWS = 1e-4, 1e-8, 10.0
 # this share of the span it is zero.
 _ROOT_OF_ROUNDING = 1e-7
 
+# Doublings of a unit in the last place within which the links meet behind a limit that is good to rounding.
+_ULPS = 20
+
 
 @dataclass(frozen=True)
 class Extremes(Record):
@@ -180,22 +183,38 @@ def cycle_motion_of(
     looked = _looked_at(compiled, low, high, turns)
     extremes = search.extremes(looked, None if known.closure.turns_fully else (low, high))
     if not (known.closure.turns_fully or cycle.is_steady):
-        extremes |= _with_limits(machine, extremes, np.array(known.closure.ranges[0]))
+        extremes |= _with_limits(machine, compiled, extremes, np.array(known.closure.ranges[0]))
     return CycleMotion(**{**vars(cycle), "extremes": extremes})
 
 
-def _with_limits(machine: Machine, extremes: dict[str, Extremes], ends: Floats) -> dict[str, Extremes]:
+def _with_limits(
+    machine: Machine, compiled: CompiledMachine, extremes: dict[str, Extremes], ends: Floats
+) -> dict[str, Extremes]:
     """Extremes of positions with those at the limits themselves, of which the search keeps clear."""
-    still = np.zeros(2)
+    still, inside = np.zeros(2), _inside(compiled, ends)
+    if inside is None:
+        return {}
     with np.errstate(invalid="ignore"):
         # Rates have no limit there.
-        curves = motion_along(machine, still, ends, still, still).curves()
+        curves = motion_along(machine, still, inside, still, still).curves()
     places = {name: curves[name] for name in extremes if name.endswith((".x", ".y", ".place"))}
     return {
         name: _with_ends(extremes[name], ends, curve)
         for name, curve in places.items()
         if extremes[name].minimum is not None and np.isfinite(curve).all()
     }
+
+
+def _inside(compiled: CompiledMachine, ends: Floats) -> Floats | None:
+    """The first angles behind both limits at which the mechanism closes to the last digit."""
+    inside, step = ends.copy(), np.array([1.0, -1.0]) * np.spacing(np.abs(ends).max())
+    for _ in range(_ULPS):
+        closes = (compiled.gaps(inside) >= 0).all(axis=0)
+        if closes.all():
+            return inside
+        inside = np.where(closes, inside, inside + step)
+        step *= 2
+    return None
 
 
 def _with_ends(inside: Extremes, ends: Floats, values: Floats) -> Extremes:

@@ -8,6 +8,7 @@
 | `collect` | From the unknowns to the result |
 | `commands` | ``linkwright forces`` and ``linkwright balance`` |
 | `envelope` | Peaks, root mean squares, means and harmonics of forces; load cases side by side |
+| `couple` | Forces of inertia along the crankshaft: shaking couples |
 | `equilibrium` | The linear system, its solution, and the iteration over friction |
 | `figures` | Figures of forces over the crank angle, with their captions |
 | `forces` | Which are its joint reactions, its driving torque, its shaking force? |
@@ -18,6 +19,7 @@
 | `pairs` | What each pair can do: directions of its unknown forces, and its friction |
 | `places` | Where members, points and guides are, and how they move |
 | `result` | The forces by name |
+| `shaking_orders` | Primary and secondary shaking forces and couples, and those of higher orders |
 | `tables` | Forces as tables of text |
 | `wrench` | Forces and couples on members |
 """

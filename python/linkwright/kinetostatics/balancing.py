@@ -6,7 +6,9 @@ A counterweight on a link that turns about a fixed point adds to the shaking for
 
 which is linear in its moment **u** about the pivot: the best counterweights are a linear problem of least
 squares. For a four-bar on whose crank and rocker they sit, the rest is zero, and they are those of Berkof and
-Lowen. Formulas give counterweights for a share of a slider's mass, and for the full balance of a four-bar.
+Lowen. In two planes across the crankshaft they balance the couple as well: the shaking force is divided
+between both planes, as between two bearings, and the squares of both parts are minimised. Formulas give
+counterweights for a share of a slider's mass, and for the full balance of a four-bar.
 """
 
 from __future__ import annotations
@@ -19,12 +21,13 @@ import numpy as np
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
-from linkwright.kernel.errors import MachineError, Problem
+from linkwright.kernel.errors import InputError, MachineError, Problem
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record
 from linkwright.kernel.units import LENGTH, RATIO, SPEED, not_negative, positive
+from linkwright.kinetostatics.couple import couple_of
 from linkwright.kinetostatics.forces import forces
 from linkwright.kinetostatics.model.body import Body
 from linkwright.kinetostatics.motion import Motion, motion_at
@@ -47,6 +50,7 @@ class Counterweight(Record):
     angle: Annotated[float, Label("direction from that of the link", "", "rad")]
     mass: Annotated[float, Label("mass", "", "kg")]
     radius: Annotated[float, Label("distance from the pivot", "", "m")]
+    axial: Annotated[float, Label("place along the crankshaft", "z", "m")] = 0.0
 
 
 @dataclass(frozen=True)
@@ -62,17 +66,24 @@ class Balance(Record):
         """Root mean squares over time without and with the counterweights.
 
         ``shaking_force`` [N], that of inertia alone; ``shaking_moment`` about the origin, of inertia alone [N
-        m]; ``torque_drive``, all of it [N m].
+        m]; ``torque_drive``, all of it [N m]; ``shaking_couple`` about the plane z = 0 [N m], where a body
+        has a place along the crankshaft.
         """
-        return {name: (_rms(self.before, name), _rms(self.after, name)) for name in _MEASURES}
+        names = [*_MEASURES, *(["shaking_couple"] if self.after.shaking_couple is not None else [])]
+        return {name: (_rms(self.before, name), _rms(self.after, name)) for name in names}
 
 
 _MEASURES = ("shaking_force", "shaking_moment", "torque_drive")
 
+# Measures that are of inertia alone by themselves.
+_WHOLE = ("torque_drive", "shaking_couple")
+
 
 def _rms(result: Forces, name: str) -> float:
     """Root mean square over time, of shaking forces the share of inertia."""
-    values = getattr(result if name == "torque_drive" else result.contributions["inertia"], name)
+    values = getattr(result if name in _WHOLE else result.contributions["inertia"], name)
+    if values is None:
+        return 0.0
     squares = values**2 if values.ndim == 1 else (values**2).sum(axis=1)
     return float(np.sqrt(result.motion.mean(squares)))
 
@@ -84,9 +95,12 @@ def balance(
     *,
     speed: float | None = None,
     radius: float | Mapping[str, float] | None = None,
+    planes: Sequence[float] = (0.0,),
     n: int = 360,
 ) -> Balance:
     """Counterweights on given links that minimise the rms of the shaking force of inertia.
+
+    In two planes they minimise its couple as well.
 
     Parameters
     ----------
@@ -99,6 +113,8 @@ def balance(
     radius : float or mapping of str to float, optional
         Distance of the counterweights from their pivots, of all or by link [m]. Default: the link's
         length.
+    planes : sequence of float
+        Places along the crankshaft at which each link has a counterweight, one or two [m].
     n : int
         Intervals of the revolution.
 
@@ -112,7 +128,7 @@ def balance(
     MachineError
         A link that does not exist or does not turn about a fixed point.
     InputError
-        A speed of 0, or a radius that is not positive.
+        A speed of 0, a radius that is not positive, or other than one plane or two.
 
     References
     ----------
@@ -123,13 +139,39 @@ def balance(
     scene = Scene(machine, motion_at(machine, None, speed=speed, n=n))
     _check_links(scene, links)
     before = forces(machine, scene.motion)
-    columns = [column for link in links for column in _unit_forces(scene, link)]
+    places = [(link, plane) for link in links for plane in _checked_planes(planes)]
     weights = np.sqrt(_time_weights(scene.motion))[:, None]
-    A = np.stack([(weights * column).ravel() for column in columns], axis=-1)
-    b = (weights * before.contributions["inertia"].shaking_force).ravel()
+
+    def divided(force: Floats, couple: Floats) -> Floats:
+        """The shaking force in each plane, weighted over time."""
+        return np.concatenate([(weights * part).ravel() for part in _in_planes(force, couple, planes)])
+
+    units = [(force, couple_of(force, z)) for link, z in places for force in _unit_forces(scene, link)]
+    A = np.stack([divided(*unit) for unit in units], axis=-1)
+    still = np.zeros((scene.n, 2))
+    couple = still if before.shaking_couple is None else before.shaking_couple
+    b = divided(before.contributions["inertia"].shaking_force, couple)
     known = np.isfinite(b)
     u = np.linalg.lstsq(A[known], -b[known], rcond=None)[0].reshape(-1, 2)
-    return with_counterweights(machine, scene, dict(zip(links, u, strict=True)), radius, before)
+    return with_counterweights(machine, scene, dict(zip(places, u, strict=True)), radius, before)
+
+
+def _checked_planes(planes: Sequence[float]) -> Sequence[float]:
+    """One plane, or two that are apart."""
+    if len(planes) not in (1, 2) or len(set(planes)) < len(planes) or not np.isfinite(planes).all():
+        found = ", ".join(f"{plane:.6g} m" for plane in planes) or "none"
+        raise InputError(f"planes: found {found}, expected one plane, or two that are apart")
+    return planes
+
+
+def _in_planes(force: Floats, couple: Floats, planes: Sequence[float]) -> list[Floats]:
+    """Force (n, 2) with its couple about x and y, as forces in one plane or two."""
+    if len(planes) == 1:
+        return [force]
+    first, second = planes
+    moment = np.stack((couple[:, 1], -couple[:, 0]), axis=-1)  # Σ z F
+    far = (moment - first * force) / (second - first)
+    return [force - far, far]
 
 
 def _check_links(scene: Scene, links: Sequence[str]) -> None:
@@ -160,24 +202,30 @@ def _time_weights(motion: Motion) -> Floats:
 
 
 def with_counterweights(
-    machine: Machine, scene: Scene, moments: Mapping[str, Floats], radius: Any, before: Forces
+    machine: Machine,
+    scene: Scene,
+    moments: Mapping[tuple[str, float], Floats],
+    radius: Any,
+    before: Forces,
 ) -> Balance:
     """A machine with counterweights of given moments.
 
-    `moments` (2,): link → mass times place along the link and to its left [kg m]. Returns: with the forces of
-    the new machine.
+    `moments` (2,): link and place along the crankshaft → mass times place along the link and to its left
+    [kg m]. Returns: with the forces of the new machine.
     """
     largest = max(float(np.hypot(*u)) for u in moments.values())
     counterweights, bodies = [], dict(machine.bodies)
-    for link, u in moments.items():
+    for (link, axial), u in moments.items():
         at = radius.get(link) if isinstance(radius, Mapping) else radius
         at = scene.links[link].length if at is None else at
         in_range(**{f"radius of {link}": (at, positive(LENGTH))})
         size, angle = float(np.hypot(*u)), float(np.arctan2(u[1], u[0]))
-        counterweights.append(Counterweight(link, size, angle, size / at, at))
+        counterweights.append(Counterweight(link, size, angle, size / at, at, axial))
         if size > _NOTHING * largest:
             place = {"along": at * float(np.cos(angle)), "across": at * float(np.sin(angle))}
-            bodies[_free_name(link, bodies)] = Body(on=link, mass=size / at, inertia=0.0, **place)
+            bodies[_free_name(link, bodies)] = Body(
+                on=link, mass=size / at, inertia=0.0, axial=axial, **place
+            )
     balanced = machine.with_entries({"bodies": bodies})
     return Balance(balanced, tuple(counterweights), before, forces(balanced, scene.motion))
 
@@ -264,7 +312,7 @@ def partial_balance(
             at_slider = mass * place[0] / part.rod
             moment += (mass - at_slider) * pin + share * at_slider * pin
     before = forces(machine, scene.motion)
-    return with_counterweights(machine, scene, {part.crank: -moment}, radius, before)
+    return with_counterweights(machine, scene, {(part.crank, 0.0): -moment}, radius, before)
 
 
 def four_bar_moments(machine: Machine, rocker: str) -> dict[str, complex]:

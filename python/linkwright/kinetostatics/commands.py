@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from linkwright.kinetostatics.balancing import Balance
     from linkwright.kinetostatics.friction import Friction
     from linkwright.kinetostatics.result import Forces
+    from linkwright.kinetostatics.shaking_orders import ShakingOrders
     from linkwright.machine.machine import Machine
 
 Speed = Annotated[
@@ -92,6 +93,9 @@ Angle = Annotated[str, Option("--pressure-angle", metavar="ANGLE", help="Pressur
 # Intervals between the ends of --angles.
 _ANGLES = 360
 
+# What a revolution may differ from 2π [rad].
+_WHOLE_TURN = 1e-6
+
 
 def forces(
     file: File,
@@ -128,12 +132,13 @@ def forces(
     if at is not None:
         options["angles"] = [_angle_at(read_with([]), at, zero)]
     cases, machine = _cases(read_with, case or [], friction or [], options)
+    orders = _orders(machine, cases)
     speeds = {
         name: speeds_of(result.speed, machine, speed, is_pose=at is not None)
         for name, result in cases.items()
     }
     counted = _zero(machine, zero, cases)
-    hand_over(_answer(machine, cases, speeds, counted), json=json, curves=curves, folder=folder)
+    hand_over(_answer(machine, cases, speeds, counted, orders), json=json, curves=curves, folder=folder)
 
 
 def _angle_at(machine: Machine, at: str, zero: str | None) -> float:
@@ -161,19 +166,23 @@ def _zero(machine: Machine, where: str | None, cases: dict[str, Forces]) -> Zero
 
 
 def _answer(
-    machine: Machine, cases: dict[str, Forces], speeds: dict[str, dict[str, Any]], zero: Zero
+    machine: Machine,
+    cases: dict[str, Forces],
+    speeds: dict[str, dict[str, Any]],
+    zero: Zero,
+    orders: ShakingOrders | None,
 ) -> Answer:
     """What was found, case by case."""
     return Answer(
         machine=machine.name,
         units=machine.units,
         zero=zero,
-        results=partial(_results, cases, speeds),
+        results=partial(_results, cases, speeds, orders),
         findings=[
             _named(name, finding, cases) for name, result in cases.items() for finding in result.findings
         ],
         head=partial(_head, speeds),
-        tables=partial(_tables, cases),
+        tables=partial(_tables, cases, orders),
         files=partial(_files, cases),
         figures=partial(_figures, cases),
     )
@@ -187,16 +196,38 @@ def _head(speeds: dict[str, dict[str, Any]]) -> str:
     )
 
 
-def _tables(cases: dict[str, Forces]) -> list[Table]:
+def _orders(machine: Machine, cases: dict[str, Forces]) -> ShakingOrders | None:
+    """Orders of the shaking force and couple of a whole revolution, if bodies have places along it."""
+    from math import pi
+
+    from linkwright.kinetostatics.couple import has_axial
+    from linkwright.kinetostatics.shaking_orders import shaking_orders
+
+    (first, *more) = cases.values()
+    motion = first.motion
+    turn = float(motion.crank_angle[-1] - motion.crank_angle[0])
+    if more or not has_axial(machine) or abs(turn - 2 * pi) > _WHOLE_TURN or not motion.speed.all():
+        return None
+    return shaking_orders(machine, speed=turn / float(motion.time[-1] - motion.time[0]))
+
+
+def _tables(cases: dict[str, Forces], orders: ShakingOrders | None) -> list[Table]:
     """The cases beside each other, or all about the one."""
-    from linkwright.kinetostatics.tables import cases_table, contribution_table, envelope_table, pose_tables
+    from linkwright.kinetostatics.tables import (
+        cases_table,
+        contribution_table,
+        envelope_table,
+        orders_table,
+        pose_tables,
+    )
 
     if all(len(result.crank_angle) == 1 for result in cases.values()):
         return pose_tables(cases)
     if len(cases) > 1:
         return [cases_table(cases)]
     (only,) = cases.values()
-    return [envelope_table(only), contribution_table(only)]
+    by_order = [] if orders is None else [orders_table(orders)]
+    return [envelope_table(only), *by_order, contribution_table(only)]
 
 
 def _named(name: str, finding: str, cases: dict[str, Forces]) -> str:
@@ -280,7 +311,10 @@ def _friction(entries: str, *, is_pin: bool) -> Friction:
 
 
 def _results(
-    cases: dict[str, Forces], speeds: dict[str, dict[str, Any]], curves: bool
+    cases: dict[str, Forces],
+    speeds: dict[str, dict[str, Any]],
+    orders: ShakingOrders | None,
+    curves: bool,
 ) -> dict[str, dict[str, Any]]:
     """The results of each case, its speed and what each pair bears."""
     from linkwright.kinetostatics.envelope import envelope
@@ -293,6 +327,8 @@ def _results(
         # A pose has no course: what its table shows are curves of one point.
         with_curves = curves or len(result.crank_angle) == 1
         results[name] = result.to_dict(curves=with_curves) | speeds[name] | {"envelope": rows}
+        if orders is not None:
+            results[name]["shaking_orders"] = orders.to_dict()
     return results
 
 
@@ -355,6 +391,15 @@ Radius = Annotated[
         help="Distance of the counterweights from their pivots. Default: the length of the link.",
     ),
 ]
+Planes = Annotated[
+    str | None,
+    Option(
+        "--planes",
+        metavar='"LENGTH, LENGTH"',
+        help="With --links: one or two places along the crankshaft, each with a counterweight on every link; "
+        "two balance the shaking couple of bodies with axial as well.",
+    ),
+]
 OutFile = Annotated[Path | None, out_option("Write the machine with counterweights there.", "FILE")]
 
 
@@ -366,6 +411,7 @@ def balance(
     slider: Partial = None,
     share: Share = 0.5,
     radius: Radius = None,
+    planes: Planes = None,
     speed: Speed = None,
     json: Json = False,
     out: OutFile = None,
@@ -379,7 +425,7 @@ def balance(
     from linkwright.machine.read import read
 
     machine = read(file, set or (), allow_outside=allow_outside)
-    balanced = _counterweights(machine, links, slider, share, radius, speed)
+    balanced = _counterweights(machine, links, slider, share, radius, planes, speed)
     speeds = speeds_of(balanced.before.speed, machine, speed)
     hand_over(_balance_answer(machine, balanced, speeds), json=json, out=out, force=force)
 
@@ -390,6 +436,7 @@ def _counterweights(
     slider: str | None,
     share: float,
     radius: str | None,
+    planes: str | None,
     speed: str | None,
 ) -> Balance:
     """The counterweights that the options ask for."""
@@ -402,10 +449,13 @@ def _counterweights(
     if (links is None) == (slider is None):
         found = "neither" if links is None else "both"
         raise InputError(f"--links or --slider: found {found}, expected one of them")
+    if slider is not None and planes is not None:
+        raise InputError("--planes: it belongs to --links")
     if slider is not None:
         return partial_balance(machine, slider, share=share, speed=omega, radius=at)
     names = [name.strip() for name in (links or "").split(",") if name.strip()]
-    return fit(machine, names, speed=omega, radius=at)
+    at_planes = [option_value("--planes", text.strip(), LENGTH) for text in (planes or "0 m").split(",")]
+    return fit(machine, names, speed=omega, radius=at, planes=at_planes)
 
 
 def _balance_answer(machine: Machine, balanced: Balance, speeds: dict[str, Any]) -> Answer:

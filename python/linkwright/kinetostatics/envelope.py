@@ -68,8 +68,10 @@ def envelope(result: Forces) -> list[Extent]:
 
 def _quantities(result: Forces) -> Iterator[tuple[str, str, Floats]]:
     """Name, unit and values of what there is."""
-    for name in ("torque_drive", "shaking_force", "shaking_moment"):
+    for name in ("torque_drive", "shaking_force", "shaking_moment", "shaking_couple"):
         values = getattr(result, name)
+        if values is None:
+            continue
         yield name, result.unit_of(name), values if values.ndim == 1 else np.hypot(*values.T)
     for name, pair in result.pairs.items():
         yield from _of_pair(name, pair)

@@ -26,6 +26,7 @@ from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.units import ANGLE, Bound, Quantity
 from linkwright.kinetostatics.applied import AppliedLoad, applied, together
 from linkwright.kinetostatics.collect import Collector
+from linkwright.kinetostatics.couple import has_axial, inertia_force_and_couple
 from linkwright.kinetostatics.equilibrium import Equilibrium, Solution
 from linkwright.kinetostatics.friction import Friction, checked
 from linkwright.kinetostatics.motion import Motion, motion_at
@@ -113,6 +114,8 @@ def forces(
     columns = sources if contributions else {"": together(scene, sources.values())}
     solution, _ = solved(scene, models, columns)
     result = Collector(scene, models, sources, columns, solution).forces()
+    if has_axial(machine):
+        result = replace(result, shaking_couple=inertia_force_and_couple(scene)[1])
     return result if contributions else replace(result, contributions={})
 
 

@@ -110,6 +110,16 @@ class Forces(Result):
     load_torques: Annotated[
         dict[str, Floats], About("Torque of each load on a link or on the crankshaft [N m].")
     ] = field(default_factory=dict)
+    shaking_couple: Annotated[
+        Floats | None,
+        Label(
+            "shaking couple of inertia about x and y",
+            "C_g",
+            "N m",
+            "About the plane z = 0; None without a body that has a place along the crankshaft.",
+            shape="(n, 2)",
+        ),
+    ] = field(default=None)
     findings: Annotated[
         tuple[str, ...], About("Where forces are unbounded, friction locks, or a cable pushes, in sentences.")
     ] = field(default=())
@@ -146,6 +156,10 @@ class Forces(Result):
         """Components of the forces by name and unit: the frame, each pair with its moment, each driver."""
         unit = self.unit_of("shaking_force")
         columns = {f"shaking_force_{axis} [{unit}]": self.shaking_force[:, k] for k, axis in enumerate("xy")}
+        if self.shaking_couple is not None:
+            columns |= {
+                f"shaking_couple_{axis} [N m]": self.shaking_couple[:, k] for k, axis in enumerate("xy")
+            }
         for name, pair in self.pairs.items():
             columns |= {f"{name}_{axis} [N]": pair.force[:, k] for k, axis in enumerate("xy")}
             columns[f"{name}_moment [N m]"] = pair.moment

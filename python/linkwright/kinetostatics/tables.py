@@ -6,12 +6,13 @@ import math
 from collections.abc import Iterable, Mapping
 
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.page.numbers import crank_angle, degrees, measured, number
+from linkwright.kernel.page.numbers import crank_angle, degrees, measured, number, quantity
 from linkwright.kernel.page.table import Row, Table
 from linkwright.kernel.quantities import declared, shown
 from linkwright.kinetostatics.balancing import Balance
 from linkwright.kinetostatics.envelope import Extent, envelope
 from linkwright.kinetostatics.result import Forces
+from linkwright.kinetostatics.shaking_orders import ShakingOrders
 
 _KINDS = {
     "pin": "pin",
@@ -58,6 +59,23 @@ def _words(name: str, forces: Forces) -> tuple[str, str]:
         return "guide, moment", name.removesuffix(" moment")
     pair = forces.pairs[name]
     return f"{_KINDS[pair.kind]}, {pair.first} on {pair.second}", name
+
+
+# Orders above these of engines and presses say little.
+_ORDERS = 6
+
+
+def orders_table(orders: ShakingOrders) -> Table:
+    """Primary, secondary and higher shaking forces and couples at a constant speed."""
+    scales = [float(values.max()) for values in (orders.force_max, orders.couple_max)]
+    rows: list[Row] = [
+        (f"order {order:g}", "", measured(force, "N", scales[0]), measured(couple, "N m", scales[1]))
+        for order, force, couple in list(
+            zip(orders.order.tolist(), orders.force_max.tolist(), orders.couple_max.tolist(), strict=True)
+        )[:_ORDERS]
+    ]
+    title = f"Shaking force and couple of inertia at {quantity(orders.speed, 'rad/s')}"
+    return Table("shaking_orders", title, ("", "", "maximum force", "maximum couple"), rows)
 
 
 def cases_table(cases: Mapping[str, Forces]) -> Table:
@@ -147,6 +165,7 @@ def contribution_table(forces: Forces) -> Table:
 
 def balance_tables(balance: Balance) -> list[Table]:
     """The counterweights, and root mean squares before and after."""
+    has_planes = any(counterweight.axial for counterweight in balance.counterweights)
     weights: list[Row] = [
         (
             counterweight.link,
@@ -155,10 +174,12 @@ def balance_tables(balance: Balance) -> list[Table]:
             measured(counterweight.radius, "m"),
             degrees(counterweight.angle),
             measured(counterweight.moment, "kg m"),
+            *([measured(counterweight.axial, "m")] if has_planes else []),
         )
         for counterweight in balance.counterweights
     ]
-    heads = ("link", "", "mass", "radius", "direction from the link", "moment")
+    along = ("along the crankshaft",) if has_planes else ()
+    heads = ("link", "", "mass", "radius", "direction from the link", "moment", *along)
     rows: list[Row] = []
     measures = balance.measures()
     scales: dict[str, float] = {}

@@ -123,6 +123,7 @@ class Mass(NamedTuple):
     centre: Floats
     d1: Floats
     d2: Floats
+    axial: float  # place along the crankshaft [m]
 
     def acceleration(self, scene: Scene) -> Floats:
         """Of the centre, (n, 2) [m/s²]."""
@@ -136,11 +137,12 @@ def masses(scene: Scene) -> Iterator[Mass]:
     for name, body in scene.machine.bodies.items():
         on = body.on or name
         if on not in scene.links:
-            places = [scene.point(on, order) for order in (0, 1, 2)]
-            yield Mass(name, scene.carrier(on), 0.0 if body.mass is None else body.mass, 0.0, *places)
+            centre, d1, d2 = (scene.point(on, order) for order in (0, 1, 2))
+            mass = 0.0 if body.mass is None else body.mass
+            yield Mass(name, scene.carrier(on), mass, 0.0, centre, d1, d2, body.axial)
             continue
         along, across, mass, inertia = link_body(body, scene.links[on].length)
-        yield Mass(name, on, mass, inertia, *_on_link(scene, on, along, across))
+        yield Mass(name, on, mass, inertia, *_on_link(scene, on, along, across), body.axial)
 
 
 def _on_link(scene: Scene, link: str, along: float, across: float) -> tuple[Floats, Floats, Floats]:

@@ -40,6 +40,11 @@ class Body(CheckedDescription):
         description="Centre of mass, from the start of the link along it. Default: the middle.",
     )
     across: Length = Field(0.0, description="Centre of mass, to the left of the link.")
+    axial: Length = Field(
+        0.0,
+        description="Place along the axis of the crankshaft, towards who sees it turn counter-clockwise, for "
+        "the shaking couple.",
+    )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         if self.mass_per_length is not None:
