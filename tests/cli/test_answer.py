@@ -348,7 +348,6 @@ def test_json_makes_nothing_for_people(capsys: pytest.CaptureFixture[str]) -> No
         head=_unwanted,
         tables=_unwanted,
         tail=_unwanted,
-        show=_unwanted,
         files=_unwanted,
         figures=_unwanted,
     )

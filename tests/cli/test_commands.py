@@ -53,7 +53,7 @@ def test_check_finds_what_the_geometry_does_not_allow(name: str, change: str, wo
     assert done.exit_code == 1
     assert "OK" not in done.stdout
     assert re.search(rf"FINDING  .*{words}", done.stdout)
-    assert re.search(r"\n  checked +\w", done.stdout)
+    assert re.search(r"\nChecked *\npart +what *\n─+\n\w+ ", done.stdout)
     assert run("run", file, "--set", change).exit_code == 1
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -57,8 +58,8 @@ def test_dead_centre(tmp_path: Path) -> None:
     out = tmp_path / "m.toml"
     done = run("dead-centre", "--swing", "60 deg", "--time-ratio", "1.2", "--frame", "200 mm", "--out", out)
     assert done.exit_code == 0
-    assert "swing                      60°" in done.stdout
-    assert "frame                      0.2 m" in done.stdout
+    assert re.search(r"swing of the rocker +ψ_0 +60°", done.stdout)
+    assert re.search(r"length of the frame +0\.2 m", done.stdout)
     opened = CliRunner().invoke(application(), ["run", str(out), "--json"])
     assert opened.exit_code == 0
     done = run("dead-centre", "--stroke", "100 mm", "--time-ratio", "1.2", "--json")
@@ -71,7 +72,7 @@ def test_cautions_are_printed(task: Path) -> None:
     told = json.loads(run(*wide, "--json").stdout)
     assert "transmission angle falls to" in told["warnings"][0]
     assert "warnings" not in told["results"]["crank_rocker"]
-    assert f"Warning: {told['warnings'][0]}" in run(*wide).stdout
+    assert told["warnings"][0] in re.sub(r"\s+", " ", run(*wide).stdout)
     task.write_text(PATH)
     found = json.loads(run("path", "--task", task, "--json").stdout)["results"]["path_generator"]
     assert found["starts"] >= found["found_by"] > 0
@@ -139,8 +140,8 @@ def test_units_of_the_reader(task: Path) -> None:
     found = json.loads(run("motion", task, "--json").stdout)["results"]["pose_guide"]
     text = run("motion", task, "--units", "mm").stdout
     assert f"{1e3 * found['frame']:.6g} mm" in text
-    assert "pose error                 0 mm" in text
-    assert "angle error                0°" in text
+    assert re.search(r"origin from its place +0 mm", text)
+    assert re.search(r"deviation of the body's rotation +0°", text)
     assert "244 um" in run("line", "--list", "--length", "0.2 m", "--units", "µm").stdout
 
 

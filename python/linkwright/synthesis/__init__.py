@@ -2,7 +2,7 @@
 
 | module | |
 | --- | --- |
-| `commands` | ``linkwright synthesise``: the kinds of synthesis, their tables and words |
+| `commands` | ``linkwright synthesise``: the kinds of synthesis |
 | `dead_centre` | Dead-centre design |
 | `expression` | A function y(x) given as text, read as an expression and nothing else |
 | `four_bar` | A four-bar linkage in the plane of complex numbers: what its lengths say without moving it |
@@ -18,6 +18,7 @@
 | `slider_pose` | Points of a body that stay on a straight line through three poses |
 | `straight_line` | Straight lines from a catalogue |
 | `stroke` | Dead-centre design of a slider-crank |
+| `tables` | What was found of one linkage, and the catalogue of straight-line linkages |
 | `task` | What a linkage shall do, as a file says it |
 | `verification` | What a synthesis returns, analysed again |
 """

@@ -1,12 +1,9 @@
-"""``linkwright synthesise``: the kinds of synthesis, their tables and words."""
+"""``linkwright synthesise``: the kinds of synthesis."""
 
 from __future__ import annotations
 
-from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
-
-import click
+from typing import TYPE_CHECKING, Annotated
 
 from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import Curves, Json, Outside, Sets, option_value
@@ -175,6 +172,7 @@ def line(
     """Straight-line linkage from the catalogue, exact or approximate."""
     from linkwright.kernel.units import LENGTH
     from linkwright.synthesis.straight_line import straight_line, straight_lines
+    from linkwright.synthesis.tables import catalogue_table
 
     wanted = option_value("--length", length, LENGTH)
     if kind is None and not list:
@@ -184,7 +182,7 @@ def line(
         answer = Answer(
             machine=None,
             results=lambda _: {"straight_lines": [line.to_dict() for line in lines]},
-            show=partial(print_catalogue, lines),
+            tables=lambda: [catalogue_table(lines)],
         )
         hand_over(answer, json=json)
         return
@@ -211,6 +209,7 @@ def _finish(
 ) -> None:
     """Write the machine and print the result."""
     from linkwright.machine.write import dumps
+    from linkwright.synthesis.tables import linkage_table
 
     machine: Machine = result.machine  # type: ignore[attr-defined]
     entries = result.to_dict(curves=curves)
@@ -221,62 +220,9 @@ def _finish(
         units=machine.units,
         results=lambda _: {what: entries},
         warnings=warnings,
-        show=partial(_print, result, entries, warnings, out),
+        head=lambda: machine.name,
+        tables=lambda: [linkage_table(result, entries)],
+        tail=lambda: f"Written: {out}\n" if out else "--out FILE writes the machine file.\n",
         machine_file=lambda: dumps(machine),
     )
     hand_over(answer, json=json, out=out, force=force)
-
-
-def _print(result: Result, entries: dict[str, Any], warnings: list[str], out: Path | None) -> None:
-    """A line for each entry, and where the machine file is."""
-    click.echo(result.machine.name)  # type: ignore[attr-defined]
-    units = {key: result.unit_of(key) for key in entries}
-    size = max((abs(entries[key] or 0.0) for key, unit in units.items() if unit == "m"), default=0.0)
-    for key, value in entries.items():
-        click.echo(f"  {key.replace('_', ' '):<26} {_words(value, units[key], size)}")
-    for warning in warnings:
-        click.echo(f"Warning: {warning}")
-    click.echo(f"Written: {out}" if out else "--out FILE writes the machine file.")
-
-
-def _words(value: Any, unit: str, size: float) -> str:
-    """A value for people, in the units that they want: angles in degrees without others."""
-    # `size`: of the linkage [m]; lengths that are rounding beside it are zero, and angles beside half a
-    # revolution.
-    from math import pi
-
-    from linkwright.kernel.page.numbers import quantity
-    from linkwright.kernel.units import is_number
-
-    if value is None:
-        return "–"
-    if isinstance(value, tuple | list):
-        return ", ".join(map(str, value)) or "–"
-    if not is_number(value):
-        return _yes_or_no(value) if isinstance(value, bool) else str(value)
-    if unit == "rad":
-        return quantity(value, unit, 6, pi, usual="deg")
-    return quantity(value, unit, 6, size) if unit else f"{value:.6g}"
-
-
-def _yes_or_no(value: bool) -> str:
-    return "yes" if value else "no"
-
-
-def print_catalogue(lines: tuple[Any, ...]) -> None:
-    """The straight-line linkages with what their lines are like."""
-    from math import degrees
-
-    from linkwright.kernel.page.numbers import quantity
-
-    click.echo(
-        f"{'kind':<14} {'exact':<6} {'links':>5} {'deviation':>11} {'crank range':>20} "
-        f"{'longest':>9}  rotates"
-    )
-    for kind in lines:
-        span = f"{degrees(kind.crank_angle_start):.1f}° to {degrees(kind.crank_angle_end):.1f}°"
-        deviation = "0" if kind.exact else quantity(kind.deviation, "m", 3)
-        click.echo(
-            f"{kind.kind:<14} {_yes_or_no(kind.exact):<6} {kind.links:>5} {deviation:>11} {span:>20} "
-            f"{quantity(kind.size, 'm', 3):>9}  {_yes_or_no(kind.turns_fully)}"
-        )

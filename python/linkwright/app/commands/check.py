@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
-
-import click
 
 from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import File, Json, Outside, Sets
 from linkwright.kernel.errors import AssemblyError
 from linkwright.kernel.page.numbers import quantity
+from linkwright.kernel.page.table import Row, Table
 
 if TYPE_CHECKING:
     from linkwright.linkages.model.mechanism import Mechanism
@@ -30,15 +30,13 @@ def check(file: File, set: Sets = None, allow_outside: Outside = False, json: Js
     judged = soundness(machine)
     count = len(judged.findings)
     verdict = f"{count} FINDING{'S' if count > 1 else ''}" if count else "OK"
-    checked = f"\n  {'':<14} ".join(judged.looked_at)
-    report = [f"{verdict}  {file}\n\n{summary(machine)}\n\n  {'checked':<14} {checked}"]
-    report += [f"\nFINDING  {text}" for text in judged.findings]
     answer = Answer(
         machine=machine.name,
         units=machine.units,
         results=lambda curves: {"checked": list(judged.looked_at)},
         findings=judged.findings,
-        show=lambda: click.echo("\n".join(report)),
+        head=lambda: f"{verdict}  {file}\n\n{summary(machine)}",
+        tables=lambda: [_checks(judged.looked_at)],
     )
     hand_over(answer, json=json)
 
@@ -55,6 +53,15 @@ def summary(machine: Machine) -> str:
     rows += _train(machine)
     rows += [("bodies", ", ".join(machine.bodies)), ("loads", _loads(machine))]
     return "\n".join(f"  {word:<14} {text}" for word, text in rows if text)
+
+
+def _checks(looked_at: Sequence[str]) -> Table:
+    """What was looked at of each part."""
+    rows: list[Row] = []
+    for text in looked_at:
+        part, _, words = text.partition(": ")
+        rows.append((part, "", words))
+    return Table("checked", "Checked", ("part", "", "what"), rows, is_whole=True)
 
 
 def _diagram(machine: Machine) -> list[tuple[str, str]]:

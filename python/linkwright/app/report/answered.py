@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import redirect_stdout
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from io import StringIO
 from typing import NamedTuple
 
 from linkwright.kernel.command.answer import Answer, shown_head
@@ -39,26 +37,16 @@ def answered(answer: Answer, command: str) -> Content:
         return replace(answer.report(), command=command)
     tables = list(answer.tables())
     figures = [CaptionedFigure(name, _title(name), "", figure) for name, figure in answer.figures().items()]
-    printed = _printed(answer.show) if answer.show is not None and not tables else ""
-    if not (tables or figures or printed or answer.findings):
+    if not (tables or figures or answer.findings):
         raise InputError("there is nothing to report: this command gives neither tables nor figures")
     return Content(
         title=answer.machine or "Linkwright",
         lead=". ".join(line.strip().rstrip(".") for line in shown_head(answer).split("\n")),
         findings=sentences(answer.findings),
         warnings=sentences(answer.warnings),
-        printed=printed,
         parts=[Part("Results", tables, figures)] if tables or figures else [],
         command=command,
     )
-
-
-def _printed(show: Callable[[], None]) -> str:
-    """What a command prints for people that has no tables."""
-    text = StringIO()
-    with redirect_stdout(text):
-        show()
-    return text.getvalue().strip("\n")
 
 
 def _title(name: str) -> str:

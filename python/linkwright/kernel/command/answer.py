@@ -54,7 +54,6 @@ class Answer:
     head: Callable[[], str] = str
     tables: Callable[[], Sequence[Table]] = tuple
     tail: Callable[[], str] = str
-    show: Callable[[], None] | None = None  # prints all of it for people, where that is no head and tables
     machine_file: Callable[[], str] | None = None  # text of the machine file that `--out FILE` asks for
     results_file: str = "results.json"  # name of the file with the JSON object; empty if none is written
     # Further files by name; figures by name without ending.
@@ -135,9 +134,6 @@ def shown_head(answer: Answer) -> str:
 
 def print_answer(answer: Answer) -> None:
     """Print an answer for people: tables, findings in red, warnings in yellow."""
-    if answer.show is not None:
-        answer.show()
-        return
     from linkwright.kernel.command.console import print_tables
     from linkwright.kernel.page.sentences import sentences
 

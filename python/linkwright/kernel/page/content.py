@@ -81,7 +81,6 @@ class Content:
     # Data of the moving drawings, by what they show: `"mechanism"`, `"topper"`.
     scenes: Mapping[str, dict[str, Any]] = field(default_factory=dict)
     sketch: Callable[[], Figure] | None = None  # draws the machine at one instant, for paper
-    printed: str = ""  # results that are lines of a terminal
     parts: Sequence[Part] = ()  # the results
     formulas: Sequence[Formula] = ()  # what the numbers rest on
     papers: str = ""  # where the formulas are from
@@ -102,7 +101,7 @@ class Content:
         empty: dict[str, dict[str, Any]] = {
             "summary": {"headline": ()},
             "sketch": {"scenes": {}, "sketch": None},
-            "results": {"parts": (), "printed": ""},
+            "results": {"parts": ()},
             "formulas": {"formulas": (), "papers": ""},
             "data": {"groups": ()},
             "assumptions": {"assumptions": ()},

@@ -78,8 +78,6 @@ def _lines(content: Content) -> Iterator[str]:
         yield f"#grid(columns: (1fr,) * {columns}, gutter: 6pt, {cells})"
     if content.sketch is not None:
         yield f'== {words("The mechanism")}\n#image("sketch.svg", width: 100%)'
-    if content.printed:
-        yield f"== {words('Results')}\n#code({_string(content.printed)})"
     for part in content.parts:
         if part.tables:
             yield f"== {_text(part.title)}"
