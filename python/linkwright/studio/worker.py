@@ -11,9 +11,11 @@ import json
 import os
 import struct
 import sys
+import threading
 from asyncio.subprocess import PIPE, Process
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Iterator
 from functools import partial
+from queue import SimpleQueue
 from typing import Any
 
 # Length of a body, and whether it is the last of its job.
@@ -23,8 +25,22 @@ _HEAD = struct.Struct("<I?")
 _LINE_BYTES = 4_000_000
 
 
+def _jobs() -> Iterator[bytes]:
+    """Lines of the studio; this process ends with it, whatever is being computed."""
+    lines = SimpleQueue[bytes]()
+
+    def read() -> None:
+        for line in sys.stdin.buffer:
+            lines.put(line)
+        os._exit(0)
+
+    threading.Thread(target=read, daemon=True).start()
+    while True:
+        yield lines.get()
+
+
 def main() -> None:
-    """Answer jobs until there are no more."""
+    """Answer jobs until the studio ends."""
     from linkwright.kernel.errors import LinkwrightError
     from linkwright.machine.read import loads
     from linkwright.studio.analyses import beside, failed
@@ -40,7 +56,7 @@ def main() -> None:
         out.write(_HEAD.pack(len(body), is_last) + body)
         out.flush()
 
-    for line in sys.stdin.buffer:
+    for line in _jobs():
         job = json.loads(line)
         number, lane, code = job["number"], job["lane"], job["language"]
         try:

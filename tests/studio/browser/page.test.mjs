@@ -4,7 +4,7 @@ import { execFileSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { after, before, test } from "node:test";
 import * as studio from "./served.mjs";
-import { LINKWRIGHT, ROOT, complete, handle, known, near, opened, scalar, shows, studioOf } from "./served.mjs";
+import { LINKWRIGHT, PATIENCE, ROOT, complete, grip, handle, known, near, opened, scalar, shows, studioOf } from "./served.mjs";
 
 const AXE = readFileSync(`${ROOT}node_modules/axe-core/axe.min.js`, "utf8");
 const RADIUS = "mechanism.cranks.A1.radius";
@@ -71,10 +71,10 @@ test("a link holds the whole state: machine, variants, units, layers, instant", 
   // It is no file of this folder, whatever its name: saving asks for one.
   assert.deepEqual({ ...state, pinned: 0, curves: 0 }, { unit: "in", velocities: true, ends: { [RADIUS]: [0.1, 0.3] }, pinned: 0, curves: 0, place: { place: "", name: "" }, unsaved: true });
   await other.close();
-  const broken = await context.newPage();
-  await broken.goto(`${new URL(page.url()).origin}/#state=none`);
-  await broken.getByRole("alert").waitFor();
-  for (const each of context.pages()) if (each !== page) await each.close();
+  const broken = await opened(context, `${new URL(page.url()).origin}/#state=none`, faults);
+  await broken.getByRole("alert").getByText("The link holds no state").waitFor();
+  assert.match(await broken.locator("h1").textContent(), /two carts/);
+  await broken.close();
   await page.evaluate(() => (globalThis.studio.state.units.value = { ...globalThis.studio.state.units.value, m: "m", "rad/s": "rad/s" }));
 });
 
@@ -154,7 +154,7 @@ test("the keyboard alone builds a machine from nothing, moves a joint, and saves
   await page.keyboard.type("by keys.toml");
   await page.keyboard.press("Enter");
   await page.waitForFunction(() => !globalThis.studio.state.unsaved.value);
-  const { results } = JSON.parse(execFileSync(LINKWRIGHT, ["run", "by keys.toml", "--json"], { cwd: folder, encoding: "utf8" }));
+  const { results } = JSON.parse(execFileSync(LINKWRIGHT, ["run", "by keys.toml", "--json"], { cwd: folder, encoding: "utf8", timeout: PATIENCE }));
   near(await scalar(page, "steady_state.torque_motor_rms"), results.steady_state.torque_motor_rms);
 });
 
@@ -175,14 +175,16 @@ test("every drag is done by clicks too: one entry a gesture, none if nothing mov
   await page.keyboard.press("Control+z");
   await known(page);
   assert.equal(await text(), before);
+  // The mouse holds nothing any more.
+  const place = await handle(page, "A1");
+  await page.mouse.move(x + 60, y - 80, { steps: 2 });
+  assert.deepEqual(await handle(page, "A1"), place);
 });
 
 test("a locked entry holds while a joint is dragged, beyond the edge of the drawing too", async () => {
   const before = await text();
   await page.getByRole("button", { name: "Lock radius of A1" }).click();
-  const [x, y] = await handle(page, "A1");
-  await page.mouse.move(x, y);
-  await page.mouse.down();
+  const [x, y] = await grip(page, "A1");
   await page.mouse.move(x + 30, y - 60, { steps: 3 });
   await page.mouse.move(x + 30, 20, { steps: 2 });
   await page.mouse.up();
@@ -223,7 +225,7 @@ test("a peak of the speed is pulled, and the command line finds it there", async
   await page.getByLabel("Wanted value").press("Enter");
   await shows(() => scalar(page, "steady_state.speed_max"), (value) => Math.abs(value / wanted - 1) < 1e-6);
   const phase = /phase = "([\d.]+ deg)"/.exec(await text())[1];
-  const { results } = JSON.parse(execFileSync(LINKWRIGHT, ["run", `${ROOT}machines/roller_two_carts.toml`, "--json", "--set", `mechanism.cranks.A2.phase=${phase}`], { encoding: "utf8" }));
+  const { results } = JSON.parse(execFileSync(LINKWRIGHT, ["run", `${ROOT}machines/roller_two_carts.toml`, "--json", "--set", `mechanism.cranks.A2.phase=${phase}`], { encoding: "utf8", timeout: PATIENCE }));
   near(await scalar(page, "steady_state.speed_max"), results.steady_state.speed_max);
   await page.locator("#goal").selectOption("");
   await write(CARTS);

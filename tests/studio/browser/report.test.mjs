@@ -4,19 +4,20 @@ import { execFileSync } from "node:child_process";
 import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { after, before, test } from "node:test";
-import { fileURLToPath, pathToFileURL } from "node:url";
+import { pathToFileURL } from "node:url";
 import { chromium } from "playwright-core";
+import { ARGS, PATIENCE, ROOT, bounded } from "./served.mjs";
 
-const ROOT = fileURLToPath(new URL("../../../", import.meta.url));
 let browser, page, folder;
 const faults = [];
 
 before(async () => {
+  bounded(40_000);
   folder = mkdtempSync(`${tmpdir()}/report-`);
-  execFileSync(`${ROOT}.venv/bin/linkwright`, ["report", "--to", "carts.html", "run", `${ROOT}machines/roller_two_carts.toml`], { cwd: folder });
-  browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox", "--disable-gpu"] });
+  execFileSync(`${ROOT}.venv/bin/linkwright`, ["report", "--to", "carts.html", "run", `${ROOT}machines/roller_two_carts.toml`], { cwd: folder, timeout: PATIENCE });
+  browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ARGS });
   page = await browser.newPage({ viewport: { width: 1440, height: 900 } });
-  page.setDefaultTimeout(90_000);
+  page.setDefaultTimeout(PATIENCE);
   const address = pathToFileURL(`${folder}/carts.html`).href;
   page.on("console", (message) => ["error", "warning"].includes(message.type()) && faults.push(message.text()));
   page.on("pageerror", (error) => faults.push(error.message));

@@ -8,9 +8,21 @@ import { chromium } from "playwright-core";
 
 export const ROOT = fileURLToPath(new URL("../../../", import.meta.url));
 export const LINKWRIGHT = `${ROOT}.venv/bin/linkwright`;
-const ARGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"];
-// A machine that does other things too may be slow; what fails, fails by this.
-export const PATIENCE = Number(process.env.PATIENCE ?? 90_000);
+export const ARGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"];
+// Milliseconds for what a user waits for, on a machine that does other things too; and for a file of tests as a whole,
+// so that all of them end within ten minutes, whatever hangs.
+export const PATIENCE = Number(process.env.PATIENCE ?? 45_000);
+const WHOLE = 260_000;
+
+/** What is open: closed at the end of the tests, and however else the process ends. @type {Set<() => unknown>} */
+const open = new Set();
+process.on("exit", () => open.forEach((end) => end()));
+
+/** Ends the process if its tests do not; what they left open goes with it. */
+export const bounded = (milliseconds = WHOLE) => setTimeout(() => {
+  console.error(`These tests have not ended within ${milliseconds / 1000} s.`);
+  process.exit(1);
+}, milliseconds).unref();
 
 /** A folder with the two carts, and the examples if wanted. */
 export function folderWith({ examples = false } = {}) {
@@ -23,16 +35,15 @@ export function folderWith({ examples = false } = {}) {
   return folder;
 }
 
-// A server that still runs holds the pipe to this process open, and the tests would never end.
-const servers = [];
-process.on("exit", () => servers.forEach((server) => server.kill("SIGKILL")));
-
 /** `linkwright studio` of a folder, and the address that it prints. */
 export async function studioOf(folder) {
   const server = spawn(LINKWRIGHT, ["studio", "carts.toml", "--no-browser"], { cwd: folder, stdio: ["ignore", "pipe", "inherit"] });
-  servers.push(server);
-  const address = await new Promise((resolve) => {
+  const end = () => server.kill("SIGKILL");
+  open.add(end);
+  const address = await new Promise((resolve, reject) => {
     let said = "";
+    setTimeout(() => reject(new Error(`the studio has not begun: ${said}`)), PATIENCE).unref();
+    server.once("exit", () => open.delete(end) && reject(new Error(`the studio has ended: ${said}`)));
     server.stdout.on("data", (data) => {
       said += data;
       const match = /http:\S+/.exec(said);
@@ -44,6 +55,7 @@ export async function studioOf(folder) {
 
 /** The studio in a browser, with its faults: errors and warnings of the console, and requests to elsewhere. */
 export async function served(options) {
+  bounded();
   const folder = folderWith(options);
   const { server, address, origin } = await studioOf(folder);
   const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ARGS });
@@ -52,7 +64,7 @@ export async function served(options) {
   const page = await opened(context, address, faults);
   const end = async () => {
     await browser.close();
-    for (const each of servers) each.kill();
+    for (const each of open) each();
     rmSync(folder, { recursive: true, force: true });
   };
   return { folder, server, origin, context, page, faults, end };
@@ -84,11 +96,25 @@ export const complete = async (page) => {
 /** A number of the results, such as `steady_state.unevenness`. */
 export const scalar = (page, name) => page.evaluate((of) => globalThis.studio.state.scalars.value.find(({ key }) => key === of)?.value, name);
 
-/** Middle of the handle of a point on the screen, once the drawing stands. */
-export const handle = async (page, point) => {
-  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
-  const box = await page.locator(`.handle[data-point="${point}"]`).boundingBox();
-  return [box.x + box.width / 2, box.y + box.height / 2];
+/** Middle of the handle of a point on the screen, once the drawing stands: in the same place a frame later. */
+export const handle = (page, point) => page.waitForFunction((name) => new Promise((resolve) => {
+  const place = () => {
+    const box = document.querySelector(`.handle[data-point="${name}"]`)?.getBoundingClientRect();
+    return box && [box.x + box.width / 2, box.y + box.height / 2];
+  };
+  requestAnimationFrame(() => requestAnimationFrame(() => {
+    const before = place();
+    requestAnimationFrame(() => resolve(String(before) === String(place()) && before));
+  }));
+}), point).then((found) => found.jsonValue());
+
+/** Presses the mouse on the handle of a point, and says where: what is under the mouse is what a user would press. */
+export const grip = async (page, point) => {
+  const [x, y] = await handle(page, point);
+  await page.mouse.move(x, y);
+  assert.deepEqual(await handle(page, point), [x, y], `the handle of ${point} moves away from the mouse`);
+  await page.mouse.down();
+  return [x, y];
 };
 
 /** What the page shows is painted after it is known: asked again until it is so. */

@@ -4,7 +4,7 @@ import { execFileSync } from "node:child_process";
 import { readFileSync, readdirSync, statSync } from "node:fs";
 import { after, before, test } from "node:test";
 import * as studio from "./served.mjs";
-import { LINKWRIGHT, ROOT, near, shows } from "./served.mjs";
+import { LINKWRIGHT, PATIENCE, ROOT, near, shows } from "./served.mjs";
 
 const AXE = readFileSync(`${ROOT}node_modules/axe-core/axe.min.js`, "utf8");
 const RADIUS = "mechanism.cranks.A1.radius";
@@ -21,7 +21,8 @@ after(() => end?.());
 const known = () => studio.known(page);
 const scalar = (name) => studio.scalar(page, name);
 const handle = (point) => studio.handle(page, point);
-const cli = (...words) => JSON.parse(execFileSync(LINKWRIGHT, ["run", "carts.toml", "--json", ...words], { cwd: folder, encoding: "utf8" })).results;
+const grip = (point) => studio.grip(page, point);
+const cli = (...words) => JSON.parse(execFileSync(LINKWRIGHT, ["run", "carts.toml", "--json", ...words], { cwd: folder, encoding: "utf8", timeout: PATIENCE })).results;
 
 test("the address has lost its token, and opens once", async () => {
   assert.ok(!page.url().includes("token"));
@@ -62,16 +63,13 @@ test("a slider changes the number as the command line does, and one undo takes t
 
 test("a joint drags, its lengths follow, Escape gives the pose back, release outside ends it", async () => {
   const text = await page.evaluate(() => globalThis.studio.state.text.value);
-  const [x, y] = await handle("A1");
-  await page.mouse.move(x, y);
-  await page.mouse.down();
+  const [x, y] = await grip("A1");
   await page.mouse.move(x + 20, y - 20, { steps: 4 });
   await page.keyboard.press("Escape");
   await page.mouse.up();
   await known();
   assert.equal(await page.evaluate(() => globalThis.studio.state.text.value), text);
-  await page.mouse.move(x, y);
-  await page.mouse.down();
+  assert.deepEqual(await grip("A1"), [x, y]);
   await page.mouse.move(x + 12, y - 25, { steps: 4 });
   await page.mouse.up();
   await known();
@@ -85,9 +83,7 @@ test("a joint drags, its lengths follow, Escape gives the pose back, release out
 });
 
 test("a drag stops where the linkage no longer closes, and says why", async () => {
-  const [x, y] = await handle("cart1");
-  await page.mouse.move(x, y);
-  await page.mouse.down();
+  const [x, y] = await grip("cart1");
   await page.mouse.move(x - 330, y, { steps: 3 });
   await page.waitForFunction(() => /closes only/.test(document.querySelector(".reason")?.textContent ?? ""));
   await page.keyboard.press("Escape");
@@ -99,9 +95,7 @@ test("a drag stops where the linkage no longer closes, and says why", async () =
 const drawn = () => page.evaluate(() => document.querySelector(".stage canvas").toDataURL());
 
 test("the ghost of the pose at the limit stands with its reason where a drag stops", async () => {
-  const [x, y] = await handle("cart1");
-  await page.mouse.move(x, y);
-  await page.mouse.down();
+  const [x, y] = await grip("cart1");
   await page.mouse.move(x - 330, y, { steps: 3 });
   await page.waitForFunction(() => globalThis.studio.state.limit.value !== null && !globalThis.studio.busy());
   const angle = await page.evaluate(() => globalThis.studio.state.limit.value);
@@ -278,7 +272,7 @@ test("a result is pulled, and the entries that follow give it on the command lin
   const phase = await page.evaluate((of) => document.querySelector(`[data-slider="${of}"]`).value, PHASE);
   const found = await scalar("steady_state.unevenness");
   assert.ok(found > 1.1 * before);
-  near(found, JSON.parse(execFileSync(LINKWRIGHT, ["run", `${ROOT}machines/roller_two_carts.toml`, "--json", "--set", `${PHASE}=${phase} rad`], { encoding: "utf8" })).results.steady_state.unevenness);
+  near(found, JSON.parse(execFileSync(LINKWRIGHT, ["run", `${ROOT}machines/roller_two_carts.toml`, "--json", "--set", `${PHASE}=${phase} rad`], { encoding: "utf8", timeout: PATIENCE })).results.steady_state.unevenness);
   await page.getByLabel("Wanted value").fill("0.001");
   await page.getByLabel("Wanted value").press("Enter");
   await page.locator(".design .problem").waitFor();
@@ -333,10 +327,8 @@ test("a point of a curve is pulled, and the entries that were ticked follow", as
   for (const entry of ["mechanism.cranks.A.radius", "mechanism.rockers.C.coupler", "mechanism.rigid_points.K.across"]) await page.locator(`.of-point [data-free="${entry}"]`).check();
   await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
   const place = () => page.evaluate(() => Array.from(globalThis.studio.state.scene.value.points.K.subarray(0, 2)));
-  const [x, y] = await handle("K");
   const [u, v] = await place();
-  await page.mouse.move(x, y);
-  await page.mouse.down();
+  const [x, y] = await grip("K");
   await page.mouse.move(x + 4, y - 9, { steps: 3 });
   await page.mouse.up();
   await known();
@@ -357,9 +349,8 @@ test("a joint that is dropped on another merges with it while a linkage is built
   await page.evaluate((text) => globalThis.studio.write(text), readFileSync(`${ROOT}machines/roller_two_carts.toml`, "utf8"));
   await known();
   await page.locator("details.build > summary").click();
-  const [[x, y], [X, Y]] = [await handle("A2"), await handle("A1")];
-  await page.mouse.move(x, y);
-  await page.mouse.down();
+  await grip("A2");
+  const [X, Y] = await handle("A1");
   await page.mouse.move(X, Y, { steps: 5 });
   await page.mouse.up();
   await known();
@@ -420,7 +411,7 @@ test("a train twists in its modes, and a knife goes over the heads", async () =>
   await known();
   const modes = page.locator("#mode");
   await modes.waitFor();
-  const { results } = JSON.parse(execFileSync(LINKWRIGHT, ["torsion", "v8_diesel", "--json", "--curves"], { encoding: "utf8", maxBuffer: 1e9 }));
+  const { results } = JSON.parse(execFileSync(LINKWRIGHT, ["torsion", "v8_diesel", "--json", "--curves"], { encoding: "utf8", timeout: PATIENCE, maxBuffer: 1e9 }));
   const lowest = results.free.natural_frequencies.find((f) => f > 0);
   assert.match(await modes.locator("option").first().textContent(), new RegExp(`^1: ${lowest.toPrecision(5)} Hz`));
   const first = await picture();

@@ -2,11 +2,9 @@
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { after, before, test } from "node:test";
-import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
+import { ARGS, PATIENCE, ROOT, bounded } from "./served.mjs";
 
-const ROOT = fileURLToPath(new URL("../../../", import.meta.url));
-const ARGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"];
 
 /** The module, and the traits of the two carts. */
 const MADE = `
@@ -21,9 +19,11 @@ let browser, page;
 const faults = [];
 
 before(async () => {
-  const made = JSON.parse(execFileSync(`${ROOT}.venv/bin/python`, ["-c", MADE], { encoding: "utf8", maxBuffer: 1e9 }));
+  bounded(40_000);
+  const made = JSON.parse(execFileSync(`${ROOT}.venv/bin/python`, ["-c", MADE], { encoding: "utf8", timeout: PATIENCE, maxBuffer: 1e9 }));
   browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ARGS });
   page = await browser.newPage({ viewport: { width: 700, height: 420 } });
+  page.setDefaultTimeout(PATIENCE);
   page.on("console", (message) => ["error", "warning"].includes(message.type()) && faults.push(message.text()));
   page.on("pageerror", (error) => faults.push(error.message));
   await page.setContent('<!doctype html><html lang="en"><title>Notebook</title><body data-jp-theme-light="true"><main id="cell"></main>');

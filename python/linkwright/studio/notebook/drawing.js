@@ -4,7 +4,7 @@
 
 import { paintArrows } from "../static/arrows.js";
 import { paintCentres } from "../static/centres.js";
-import { fit, pen } from "../static/frame.js";
+import { blank, fit } from "../static/frame.js";
 import { paintMoving, paintStill } from "../static/painter.js";
 import { between, onward, placeOf, watchable } from "../static/timeline.js";
 import { unpack } from "../static/wire.js";
@@ -47,11 +47,9 @@ function render({ model, el }) {
   function draw() {
     const looks = model.get("looks")[isDark() ? "dark" : "light"];
     const series = ["blue", "red", "green", "purple", "orange", "sky"].map((name) => looks[name]);
-    const [ratio, width, height] = [devicePixelRatio || 1, el.clientWidth || 640, model.get("height")];
-    [canvas.width, canvas.height] = [Math.round(width * ratio), Math.round(height * ratio)];
+    const [width, height] = [el.clientWidth || 640, model.get("height")];
     canvas.style.cssText = `width: ${width}px; height: ${height}px; background: ${looks.panel}`;
-    const ctx = pen(canvas);
-    ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+    const ctx = blank(canvas, width, height);
     const k = placeOf(scene.times, time);
     const layers = Object.fromEntries(model.get("layers").map((/** @type {string} */ name) => [name, true]));
     const view = { ctx, scene, frame: fit(scene.box, width, height), k, ink: looks, series };

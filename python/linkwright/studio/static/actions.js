@@ -342,10 +342,18 @@ async function begin() {
   const words = new URLSearchParams(location.hash.slice(1));
   const [place, ...rest] = (words.get("open") ?? "").split("/");
   const packed = words.get("state");
-  if (packed) return restore(packed).catch(() => (state.message.value = "The link holds no state of a studio."));
+  let problem = "";
+  if (packed) {
+    try {
+      return await restore(packed);
+    } catch {
+      problem = "The link holds no state of a studio.";
+    }
+  }
   const last = JSON.parse(localStorage.getItem(LAST) ?? "null");
   const of = rest.length ? { place, name: rest.join("/") } : last && localStorage.getItem(keptAs(last)) !== null ? last : { place: "library", name: "roller_two_carts" };
   if (of.name) await open(of.place, of.name);
   else start(of, "", "");
   recover();
+  if (problem) state.message.value = problem;
 }

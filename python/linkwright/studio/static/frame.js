@@ -42,3 +42,13 @@ export function barLength(frame, most = 120) {
 
 /** What draws on a canvas. @param {HTMLCanvasElement} canvas */
 export const pen = (canvas) => /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
+
+/** The same over an empty sheet of so many pixels of the page. @param {HTMLCanvasElement} canvas @param {number} width @param {number} height */
+export function blank(canvas, width, height) {
+  const [ctx, ratio] = [pen(canvas), devicePixelRatio || 1];
+  const [wide, high] = [width, height].map((size) => Math.max(1, Math.round(size * ratio)));
+  if (canvas.width !== wide || canvas.height !== high) [canvas.width, canvas.height] = [wide, high];
+  ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+  ctx.clearRect(0, 0, width, height);
+  return ctx;
+}

@@ -2,7 +2,7 @@
 import { html } from "./html.js";
 import { useEffect, useRef, useState } from "./vendor/hooks.mjs";
 import { list, open, start, thumbnail } from "./actions.js";
-import { fit, pen } from "./frame.js";
+import { blank, fit } from "./frame.js";
 import { paintKnife } from "./knife.js";
 import { said } from "./language.js";
 import { paintMoving, paintStill } from "./painter.js";
@@ -24,13 +24,12 @@ const known = new Map();
 /** @param {string} place @param {string} name */
 function sceneOf(place, name) {
   const key = `${place}/${name}`;
-  if (!known.has(key)) known.set(key, (queue = queue.then(() => thumbnail(place, name)).catch(() => null)));
+  if (!known.has(key)) known.set(key, (queue = queue.then(() => thumbnail(place, name))));
   return known.get(key).then((/** @type {any} */ body) => body?.scene ?? body?.view ?? null);
 }
 
 /** @param {HTMLCanvasElement} canvas @param {any} scene @returns {() => void} */
 function moving(canvas, scene) {
-  const ctx = pen(canvas);
   const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
   let [time, way, before, handle, seen] = [0, 1, 0, 0, true];
   const watch = new IntersectionObserver(([entry]) => (seen = entry.isIntersecting));
@@ -44,22 +43,19 @@ function moving(canvas, scene) {
     if (!still) handle = requestAnimationFrame(step);
   }
   function draw() {
-    const [ratio, ink] = [devicePixelRatio || 1, colours()];
+    const ink = colours();
     const { clientWidth: width, clientHeight: height } = canvas;
-    if (canvas.width !== Math.round(width * ratio)) [canvas.width, canvas.height] = [Math.round(width * ratio), Math.round(height * ratio)];
-    if (!scene.times) return beside(width, height, ratio, ink);
+    const ctx = blank(canvas, width, height);
+    if (!scene.times) return beside(ctx, width, height, ink);
     const zoom = 0.45;
-    ctx.setTransform(ratio * zoom, 0, 0, ratio * zoom, 0, 0);
-    ctx.clearRect(0, 0, width / zoom, height / zoom);
+    ctx.scale(zoom, zoom);
     const parts = scene.parts.map((/** @type {any} */ part) => ({ ...part, slides: false, name: part.kind === "point" || part.kind === "trace" || part.kind === "ground" ? part.name : "" }));
     const view = { ctx, scene: { ...scene, parts }, frame: fit(scene.box, width / zoom, height / zoom), k: placeOf(scene.times, time), ink, series: ink.series };
     paintStill({ ...view, scene: { ...scene, parts: parts.filter((/** @type {any} */ { kind }) => kind !== "ground") } });
     paintMoving(view);
   }
-  /** A train in its lowest mode, or a knife on its way. @param {number} width @param {number} height @param {number} ratio @param {any} ink */
-  function beside(width, height, ratio, ink) {
-    ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
-    ctx.clearRect(0, 0, width, height);
+  /** A train in its lowest mode, or a knife on its way. @param {CanvasRenderingContext2D} ctx @param {number} width @param {number} height @param {any} ink */
+  function beside(ctx, width, height, ink) {
     const paper = { ctx, width, height, passed: 0, ink, series: ink.series };
     if (scene.kind === "topper") paintKnife(paper, scene, scene.span[0] + (still ? 0.5 : time / scene.seconds) * (scene.span[1] - scene.span[0]), false);
     else if (scene.frequencies.length) paintTrain(paper, scene, 0, Math.cos((2 * Math.PI * time) / PERIOD), false);

@@ -4,7 +4,7 @@ import { html } from "./html.js";
 import { useEffect, useRef } from "./vendor/hooks.mjs";
 import { rows, short } from "./chart.js";
 import { ticks } from "./exported.js";
-import { fit, pen, toMachine, toScreen } from "./frame.js";
+import { blank, fit, toMachine, toScreen } from "./frame.js";
 import { circle, fill } from "./ink.js";
 import { followers } from "./stage.js";
 import * as state from "./state.js";
@@ -28,7 +28,6 @@ export function Hodograph({ plot }) {
   now.current = plot;
   useEffect(() => {
     const canvas = /** @type {HTMLCanvasElement} */ (holder.current);
-    const ctx = pen(canvas);
     let [seen, zoom, at, from] = /** @type {[boolean, number[] | null, number[] | null, number[] | null]} */ ([true, null, null, null]);
     let frame = { scale: 1, x: 0, y: 0 };
     /** The sample that is nearest to the pointer. @param {Float64Array[]} own */
@@ -43,11 +42,13 @@ export function Hodograph({ plot }) {
       const own = rows(now.current);
       const [phi, xs, ys] = own;
       const ink = colours();
-      const ratio = devicePixelRatio || 1;
       const [width, height] = [canvas.clientWidth, HEIGHT];
-      if (canvas.width !== Math.round(width * ratio)) [canvas.width, canvas.height] = [Math.round(width * ratio), height * ratio];
-      ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
-      ctx.clearRect(0, 0, width, height);
+      const ctx = blank(canvas, width, height);
+      /** @param {[number, number]} place @param {string} style */
+      const dot = (place, style) => {
+        circle(ctx, ...toScreen(frame, ...place), 4);
+        fill(ctx, style);
+      };
       const [[left, right], [bottom, top]] = [ends(xs), ends(ys)];
       frame = fit(zoom ?? [left, bottom, right, top], width - LEFT, height - BELOW, 18);
       frame.x += LEFT;
@@ -117,11 +118,6 @@ export function Hodograph({ plot }) {
         ctx.strokeRect(from[0], from[1], at[0] - from[0], at[1] - from[1]);
       }
       ctx.restore();
-    };
-    /** @param {[number, number]} place @param {string} style */
-    const dot = (place, style) => {
-      circle(ctx, ...toScreen(frame, ...place), 4);
-      fill(ctx, style);
     };
     const over = (/** @type {PointerEvent} */ event) => {
       at = [event.offsetX, event.offsetY];

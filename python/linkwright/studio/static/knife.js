@@ -1,5 +1,5 @@
 // The knife of a topper over the heads of a row, from above: the swept area grows, what is left uncut stays.
-import { pen } from "./frame.js";
+import { blank, pen } from "./frame.js";
 import { circle, fill, line, stroke } from "./ink.js";
 
 const TURN = 2 * Math.PI;
@@ -84,20 +84,18 @@ export function paintKnife(paper, view, t, names = true) {
 
   /** Two layers: what was swept, and that over heads in the colour of a cut; only what is new is drawn. */
   function sweptUpTo() {
-    const ratio = devicePixelRatio || 1;
-    const key = [width, height, ratio, ink.panel].join("|");
+    const key = [width, height, devicePixelRatio, ink.panel].join("|");
     let known = swept.get(view);
     if (!known || known.key !== key || known.done > done) {
       const layers = [0, 1].map(() => {
         const layer = document.createElement("canvas");
-        [layer.width, layer.height] = [Math.max(1, Math.round(width * ratio)), Math.max(1, Math.round(height * ratio))];
+        blank(layer, width, height);
         return layer;
       });
       known = { key, done: 0, layers };
       swept.set(view, known);
       for (const [n, layer] of layers.entries()) {
         const on = pen(layer);
-        on.setTransform(ratio, 0, 0, ratio, 0, 0);
         on.fillStyle = on.strokeStyle = n ? "#f2c230" : series[0];
         if (!n) continue;
         on.beginPath();

@@ -1,7 +1,7 @@
 // A canvas that is drawn anew at every frame while its picture moves, and once after every change.
 import { html } from "./html.js";
 import { useEffect, useLayoutEffect, useRef } from "./vendor/hooks.mjs";
-import { pen } from "./frame.js";
+import { blank } from "./frame.js";
 import { frames } from "./stage.js";
 import * as state from "./state.js";
 import { colours, shownLook } from "./theme.js";
@@ -20,7 +20,6 @@ export function Moving({ label, draw }) {
   });
   useEffect(() => {
     const canvas = /** @type {HTMLCanvasElement} */ (own.current);
-    const ctx = pen(canvas);
     let [handle, before] = [0, 0];
     const observer = new ResizeObserver(() => (isDirty.current = true));
     observer.observe(canvas);
@@ -30,13 +29,9 @@ export function Moving({ label, draw }) {
       before = at;
       if (passed || isDirty.current) {
         isDirty.current = false;
-        const [ratio, { clientWidth: width, clientHeight: height }] = [devicePixelRatio || 1, canvas];
-        const wanted = [Math.max(1, Math.round(width * ratio)), Math.max(1, Math.round(height * ratio))];
-        if (canvas.width !== wanted[0] || canvas.height !== wanted[1]) [canvas.width, canvas.height] = wanted;
-        ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
-        ctx.clearRect(0, 0, width, height);
+        const { clientWidth: width, clientHeight: height } = canvas;
         const ink = colours();
-        now.current({ ctx, width, height, passed, ink, series: ink.series });
+        now.current({ ctx: blank(canvas, width, height), width, height, passed, ink, series: ink.series });
         frames.count += 1;
       }
       handle = requestAnimationFrame(step);

@@ -17,10 +17,12 @@ export function connect(hear) {
   function open() {
     socket = new WebSocket(`ws://${location.host}/socket`);
     socket.binaryType = "arraybuffer";
-    socket.onopen = () => hear.state(true);
+    socket.onopen = () => {
+      forget();
+      hear.state(true);
+    };
     socket.onclose = () => {
-      onTheWay = 0;
-      waiting = [];
+      forget();
       hear.state(false);
       setTimeout(open, 1500);
     };
@@ -36,6 +38,15 @@ export function connect(hear) {
       if (told) told(body);
       else hear.answer(of, body);
     };
+  }
+
+  /** What was asked over a socket that was cut, or while there was none, has no answer. */
+  function forget() {
+    onTheWay = 0;
+    waiting = [];
+    const without = [...asked.values()];
+    asked.clear();
+    for (const told of without) told({ of: "lost", words: "The connection was lost before the answer came." });
   }
 
   /** @param {Asked} body @returns {number} */

@@ -7,7 +7,7 @@ import { letBack, merge, pull } from "./actions.js";
 import { paintArrows } from "./arrows.js";
 import { paintCentres } from "./centres.js";
 import { follows } from "./controls.js";
-import { barLength, fit, pen, toMachine, toScreen, zoomed } from "./frame.js";
+import { barLength, blank, fit, pen, toMachine, toScreen, zoomed } from "./frame.js";
 import { circle, line, stroke } from "./ink.js";
 import { paintMoving, paintStill } from "./painter.js";
 import * as state from "./state.js";
@@ -65,12 +65,7 @@ function run(holder, canvas) {
   let gesture = null;
 
   function sized() {
-    const ratio = devicePixelRatio || 1;
     [width, height] = [holder.clientWidth, holder.clientHeight];
-    for (const each of [canvas, still, shade]) {
-      each.width = Math.max(1, Math.round(width * ratio));
-      each.height = Math.max(1, Math.round(height * ratio));
-    }
     if (state.scene.value) frame = fit(state.scene.value.box, width, height);
     stillFor = null;
     dirty = true;
@@ -94,18 +89,13 @@ function run(holder, canvas) {
 
   function draw() {
     const scene = state.scene.value;
-    const ratio = devicePixelRatio || 1;
-    ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
-    ctx.clearRect(0, 0, width, height);
+    blank(canvas, width, height);
     if (!scene) return;
     const ink = colours();
     const k = placeOf(scene.times, state.time.value);
     const view = { ctx, scene, frame, k, ink, series: ink.series, light: state.picked.value };
     if (stillFor !== scene) {
-      const behind = pen(still);
-      behind.setTransform(ratio, 0, 0, ratio, 0, 0);
-      behind.clearRect(0, 0, width, height);
-      paintStill({ ...view, ctx: behind, scene: { ...scene, parts: [...(state.layers.value.paths ? scene.parts : scene.parts.filter(({ kind }) => kind !== "trace")), ...trails(scene)] } });
+      paintStill({ ...view, ctx: blank(still, width, height), scene: { ...scene, parts: [...(state.layers.value.paths ? scene.parts : scene.parts.filter(({ kind }) => kind !== "trace")), ...trails(scene)] } });
       stillFor = scene;
     }
     ctx.drawImage(still, 0, 0, width, height);
@@ -133,10 +123,7 @@ function run(holder, canvas) {
   function limitPose(view) {
     const angle = state.limit.value;
     if (angle === null) return;
-    const over = pen(shade);
-    const ratio = devicePixelRatio || 1;
-    over.setTransform(ratio, 0, 0, ratio, 0, 0);
-    over.clearRect(0, 0, width, height);
+    const over = blank(shade, width, height);
     const parts = view.scene.parts.map((part) => ({ ...part, slides: false }));
     paintMoving({ ...view, ctx: over, scene: { ...view.scene, parts }, k: placeOf(view.scene.angles, angle) });
     over.globalCompositeOperation = "source-in";
@@ -283,20 +270,16 @@ function run(holder, canvas) {
     state.limit.value = null;
   }
 
-  /** @type {{ x: number, y: number, left: boolean } | null} */
+  /** Where the drawing was taken hold of, and whether it has left that place. @type {{ x: number, y: number, left: boolean } | null} */
   let panned = null;
   /** @param {PointerEvent} event */
   function down(event) {
-    const button = /** @type {HTMLElement} */ (event.target).closest?.(".handle");
     if (event.button !== 0) return;
-    if (button instanceof HTMLElement) {
-      begin(button.dataset.point ?? "");
-      holder.setPointerCapture(event.pointerId);
-      return;
-    }
-    if (gesture && !gesture.moved) return;
-    panned = { x: event.clientX, y: event.clientY, left: false };
     holder.setPointerCapture(event.pointerId);
+    const point = /** @type {HTMLElement} */ (event.target).closest?.(".handle")?.getAttribute("data-point");
+    // A joint in hand follows the mouse, so that its own handle is under it where it is put down.
+    if (point && !gesture?.moved) begin(point);
+    else if (!gesture) panned = { x: event.clientX, y: event.clientY, left: false };
   }
   /** @param {PointerEvent} event */
   function over(event) {
@@ -311,16 +294,19 @@ function run(holder, canvas) {
   }
   /** @param {PointerEvent} event */
   function up(event) {
-    if (gesture?.moved) return end(true);
-    const isClick = panned && !panned.left;
     panned = null;
+    if (!gesture) return;
     // A joint that was picked by a click goes where the next click is.
-    if (gesture && !gesture.key) gesture.key = true;
-    else if (gesture && isClick) {
-      move(...under(event));
-      end(true);
-      state.picked.value = "";
-    }
+    const isPicked = gesture.key;
+    gesture.key = true;
+    if (isPicked && !gesture.moved) move(...under(event));
+    if (!gesture.moved) return;
+    end(true);
+    if (isPicked) state.picked.value = "";
+  }
+  function cancelled() {
+    panned = null;
+    end(false);
   }
   /** @param {KeyboardEvent} event */
   function key(event) {
@@ -364,7 +350,7 @@ function run(holder, canvas) {
     state.layers.value = { ...state.layers.value };
   }
   const heard = /** @type {[string, any, any?][]} */ ([
-    ["pointerdown", down], ["pointermove", over], ["pointerup", up], ["pointercancel", () => end(false)],
+    ["pointerdown", down], ["pointermove", over], ["pointerup", up], ["pointercancel", cancelled],
     ["keydown", key], ["keyup", keyUp], ["wheel", wheel, { passive: false }], ["dblclick", refit],
   ]);
   for (const [name, listen, options] of heard) holder.addEventListener(name, listen, options);
