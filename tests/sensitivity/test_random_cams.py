@@ -150,9 +150,13 @@ def _check(machine: lw.Machine, what: object) -> tuple[int, int]:
     return compared, len(found.ties)
 
 
+# The smallest radius lies a third of a thousandth of a radian behind a joint.
+_BESIDE_JOINTS = (5025,)
+
+
 def test_derivatives_are_those_of_the_cam() -> None:
     compared = 0
-    for case in range(cases(25, 1000)):
+    for case in (*range(cases(25, 1000)), *_BESIDE_JOINTS):
         try:
             machine = _machine(np.random.default_rng([7, case]))
             faults = lw.cam_faults(lw.cam_profile(machine, "c"))

@@ -80,6 +80,9 @@ def test_a_drive_for_the_minimum_cost() -> None:
     ("words", "message"),
     [
         (("roller_two_carts", "--run-up-time", "2 s"), "--minimum-cost"),
+        (("roller_two_carts", "--per-kilowatt", "90"), "--minimum-cost"),
+        (("roller_two_carts", "--minimum-cost", "--per-kilogram", "0"), "--per-kilogram"),
+        (("roller_two_carts", "--minimum-cost", "--flywheel-radius", "0 m"), "radius"),
         (("roller_two_carts", "--minimum-cost", "--pressure-angle", "30 deg"), "one of them"),
         (("roller_two_carts", "--pressure-angle", "30 mm"), "length"),
         (("roller_two_carts", "--pressure-angle", "30 deg"), "cam"),
@@ -92,6 +95,20 @@ def test_questions_that_make_no_sense(words: tuple[str, ...], message: str) -> N
     answer = size(*words)
     assert answer.exit_code == 2
     assert message in answer.output
+
+
+def test_prices_of_the_command(monkeypatch: pytest.MonkeyPatch) -> None:
+    """They are those of the study: the flywheel of a disc of 0.4 m has 2.25 times the mass."""
+    seen = []
+    monkeypatch.setattr(
+        "linkwright.studies.commands.optimise.hand_over_optimum", lambda plan, *_, **__: seen.append(plan)
+    )
+    words = ("--per-kilowatt", "90", "--per-kilogram", "4", "--flywheel-radius", "400 mm")
+    assert size("roller_two_carts", "--minimum-cost", *words).exit_code == 0
+    one = {"motor": np.array([1.0]), "ratio": np.array([9.8]), "flywheel": np.array([120.0])}
+    row = lw.evaluate(seen[0], one)
+    cost = 0.09 * row.columns["power"][0] + 4 * 2 * 120.0 / 0.4**2
+    assert row.columns["cost"][0] == pytest.approx(cost, rel=1e-12)
 
 
 def test_the_command(tmp_path: Path) -> None:

@@ -116,12 +116,15 @@ def test_what_limits_cost(tmp_path: Path) -> None:
     assert found.multipliers == {"upper end of a": pytest.approx(0.03, rel=1e-4)}
 
 
+# Squared distances to two places.
+FRONT = TEXT.replace('far = "minimise"\n', 'far = "minimise"\nother = "minimise"\n').replace(
+    "[goals]", 'other = { formula = "(x - 0.05)^2 + (y - 0.15)^2" }\n[goals]'
+)
+
+
 def test_a_front_of_two_goals(tmp_path: Path) -> None:
-    """Squared distances to two places: the front is the line between them, √f₁ + √f₂ their distance."""
-    goals = 'far = "minimise"\nother = "minimise"\n'
-    text = TEXT.replace('far = "minimise"\n', goals)
-    text = text.replace("[goals]", 'other = { formula = "(x - 0.05)^2 + (y - 0.15)^2" }\n[goals]')
-    (tmp_path / "study.toml").write_text(text)
+    """The front is the line between both places, √f₁ + √f₂ their distance."""
+    (tmp_path / "study.toml").write_text(FRONT)
     found = lw.front(lw.read_study(tmp_path / "study.toml"), 4, method="gradient", starts=1)
     assert len(found.machines) == 4
     # 0.0225 (0.15 m)² in three equal steps.
@@ -169,6 +172,27 @@ def counted(calls: list[str], made: Callable[..., Any]) -> Callable[..., Any]:
         return made(*given)
 
     return listed
+
+
+def test_a_front_that_was_stopped_goes_on_from_its_log(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """One file for all its searches."""
+    (tmp_path / "study.toml").write_text(FRONT)
+    plan, log = lw.read_study(tmp_path / "study.toml"), tmp_path / "front.log"
+    whole = lw.front(plan, 4, method="gradient", starts=1)
+    assert lw.front(plan, 4, method="gradient", starts=1, log=log).to_dict() == whole.to_dict()
+    text = log.read_bytes()
+    for share in (0.4, 1.0):
+        log.write_bytes(text[: int(share * len(text))])
+        kept = log.read_bytes().count(b"\n")
+        calls: list[str] = []
+        for name in ("evaluate", "slopes"):
+            monkeypatch.setattr(search_log, name, counted(calls, getattr(search_log, name)))
+        assert lw.front(plan, 4, method="gradient", starts=1, log=log).to_dict() == whole.to_dict()
+        monkeypatch.undo()
+        assert len(calls) == text.count(b"\n") - kept
+        assert log.read_bytes() == text
 
 
 def test_a_search_that_was_stopped_goes_on_from_its_log(

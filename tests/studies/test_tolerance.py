@@ -89,6 +89,29 @@ def test_worst_case_holds_all(tmp_path: Path) -> None:
     assert each["worst_low"] < each["band_low"] < each["band_high"] < each["worst_high"]
 
 
+def test_tolerance_and_clearance_of_one_length_add_up(tmp_path: Path) -> None:
+    """Variances add; the ends too. The sum against a million sums of both."""
+    text = TEXT.replace('distribution = { kind = "normal", mean = "0.8 m", deviation = "1 mm" }', "X", 1)
+    both = 'tolerance = "± 0.3 mm"\nclearance = "0.4 mm"'
+    axis = plan_of(tmp_path, text.replace("X", both)).axes[0]
+    assert (axis.low, axis.high) == pytest.approx((0.7995, 0.8005), abs=1e-15)
+    shares = (np.arange(20_000) + 0.5) / 20_000
+    values = axis.values(shares)
+    # Normal, of which 0.27 % are sorted out, and an arcsine.
+    rng = np.random.default_rng(1)
+    length = rng.normal(0.0, 0.1e-3, 1_000_000)
+    length = length[np.abs(length) <= 0.3e-3]
+    sums = np.sort(0.8 + length + 0.2e-3 * np.cos(rng.uniform(0, 2 * np.pi, len(length))))
+    assert values.mean() == pytest.approx(0.8, abs=1e-10)
+    assert values.std() == pytest.approx(np.hypot(length.std(), 0.2e-3 / np.sqrt(2)), rel=3e-3)
+    # A share of a million is known to 5e-4, and the density is above 5e2 per metre there.
+    picked = values[[1000, 5000, 10_000, 19_000]]
+    expected = sums[(np.array([1000.5, 5000.5, 10_000.5, 19_000.5]) / 20_000 * len(sums)).astype(int)]
+    np.testing.assert_allclose(picked, expected, atol=2e-6)
+    with pytest.raises(InputError, match="nothing beside clearance"):
+        plan_of(tmp_path, text.replace("X", f"{both}\ncost = 2"))
+
+
 def test_joint_clearance_as_a_tolerance(tmp_path: Path) -> None:
     """Half the clearance times a cosine: σ = c/(2√2); 25 H7/g6 has 0.021/2 + 0.007 + 0.013/2 = 0.024 mm."""
     text = TEXT.replace('distribution = { kind = "normal", mean = "0.8 m", deviation = "1 mm" }', "X", 1)

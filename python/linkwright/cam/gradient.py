@@ -53,6 +53,9 @@ _COMPARED = 24
 # Rounds of Newton's method for the place of an extreme, and share of the interval for the bend there.
 _ROUNDS, _ASIDE = 8, 1e-3
 
+# Share of the interval by which it keeps off its ends: far less than the bend's.
+_OFF_JOINT = 1e-6
+
 # An angle this near to a joint [rad] is the joint; joints are good to rounding.
 _AT_JOINT = 1e-11
 
@@ -321,8 +324,10 @@ def _peaks(curve: _Curve, sign: float) -> list[tuple[float, Side]]:
             continue
         side: Side = "before" if before[i] else "after"
         places.append((float(values[i]), float(angles[i]), side))
-        if len(near) == 2 and any(values[k] < values[i] for k in near):
-            place = _inside(curve, float(angles[near[0]]), float(angles[near[-1]]), float(angles[i]))
+        if any(values[k] < values[i] for k in near):
+            # Beside a joint the curve may rise further before it falls to the next angle.
+            ends = sorted(float(angles[k]) for k in (*near, i))
+            place = _inside(curve, ends[0], ends[-1], float(angles[i]))
             places.append((sign * float(curve.plain(np.array([place]), "after")[0]), place, "after"))
     top = max(value for value, _, _ in places)
     high = [place for place in places if place[0] >= top - _TIE * span]
@@ -333,8 +338,11 @@ def _peaks(curve: _Curve, sign: float) -> list[tuple[float, Side]]:
 
 
 def _inside(curve: _Curve, low: float, high: float, start: float) -> float:
-    """Where the slope of a curve is zero between two angles inside a piece, by Newton's method."""
-    angle, aside = start, _ASIDE * (high - low)
+    """Where the slope of a curve is zero between two angles of a piece, by Newton's method."""
+    aside = _ASIDE * (high - low)
+    # At a joint the slope is that of the next piece.
+    low, high = low + _OFF_JOINT * (high - low), high - _OFF_JOINT * (high - low)
+    angle = float(np.clip(start, low, high))
     for _ in range(_ROUNDS):
         around = np.clip([angle - aside, angle, angle + aside], low, high)
         slopes = curve.slope(around)

@@ -65,6 +65,20 @@ MinimumCost = Annotated[
     bool,
     Option("--minimum-cost", help="Choose motor, gear ratio and flywheel together for the minimum cost."),
 ]
+PerKilowatt = Annotated[
+    float | None,
+    Option("--per-kilowatt", metavar="X", help="Price of a kilowatt of motor, with --minimum-cost: 150."),
+]
+PerKilogram = Annotated[
+    float | None,
+    Option("--per-kilogram", metavar="X", help="Price of a kilogram of flywheel, with --minimum-cost: 1.5."),
+]
+FlywheelRadius = Annotated[
+    str | None,
+    Option(
+        "--flywheel-radius", metavar="LENGTH", help="Of the flywheel, a disc, with --minimum-cost: 0.6 m."
+    ),
+]
 RunUpTime = Annotated[
     str | None,
     Option("--run-up-time", metavar="TIME", help="Permitted time of the run-up, with --minimum-cost."),
@@ -108,6 +122,9 @@ def size(
     inertia: Inertia = None,
     catalogue: Catalogue = None,
     minimum_cost: MinimumCost = False,
+    per_kilowatt: PerKilowatt = None,
+    per_kilogram: PerKilogram = None,
+    flywheel_radius: FlywheelRadius = None,
     run_up_time: RunUpTime = None,
     pressure_angle: PressureAngle = None,
     contact_stress: ContactStress = None,
@@ -131,8 +148,10 @@ def size(
     from linkwright.sizing.motor import choose_motor
 
     machine = read(file, set or (), allow_outside=allow_outside)
+    prices = _Prices(per_kilowatt, per_kilogram, flywheel_radius)
     limits = _Limits(run_up_time, pressure_angle, contact_stress, shaft, stress, torque)
-    if (plan := _study(machine, limits, minimum_cost, unevenness, part)) is not None:
+    _require_together(limits, prices, minimum_cost, part)
+    if (plan := _study(machine, limits, prices if minimum_cost else None, unevenness, part)) is not None:
         from linkwright.studies.commands.optimise import hand_over_optimum
 
         hand_over_optimum(plan, {"method": "gradient", "starts": _STARTS}, json=json, out=out, force=force)
@@ -153,6 +172,23 @@ def size(
     hand_over(_answer(machine, motor, flywheel), json=json, out=out, force=force)
 
 
+class _Prices(NamedTuple):
+    """What a minimum cost is made of, as it was given; None where the study has its own."""
+
+    per_kilowatt: float | None
+    per_kilogram: float | None
+    flywheel_radius: str | None
+
+    def given(self) -> dict[str, float]:
+        """Arguments of the study, in SI."""
+        from linkwright.kernel.units import LENGTH
+
+        named = {"per_kilowatt": self.per_kilowatt, "per_kilogram": self.per_kilogram}
+        if self.flywheel_radius is not None:
+            named["radius"] = option_value("--flywheel-radius", self.flywheel_radius, LENGTH)
+        return {name: value for name, value in named.items() if value is not None}
+
+
 class _Limits(NamedTuple):
     """Limits as they were given; None where there is none."""
 
@@ -165,7 +201,7 @@ class _Limits(NamedTuple):
 
 
 def _study(
-    machine: Machine, limits: _Limits, minimum_cost: bool, unevenness: float, part: str | None
+    machine: Machine, limits: _Limits, prices: _Prices | None, unevenness: float, part: str | None
 ) -> StudyPlan | None:
     """The study that sizes for a cost or within limits; None where motor and flywheel are chosen."""
     from linkwright.kernel.units import ANGLE, PRESSURE, TIME, TORQUE
@@ -175,9 +211,9 @@ def _study(
         given = getattr(limits, name)
         return None if given is None else option_value(f"--{name.replace('_', '-')}", given, kind)
 
-    _require_together(limits, minimum_cost, part)
-    if minimum_cost:
-        return drive_study(machine, unevenness=unevenness, run_up_time=read("run_up_time", TIME))
+    if prices is not None:
+        time = read("run_up_time", TIME)
+        return drive_study(machine, unevenness=unevenness, run_up_time=time, **prices.given())
     angle = read("pressure_angle", ANGLE)
     if angle is not None:
         stress = read("contact_stress", PRESSURE)
@@ -188,7 +224,7 @@ def _study(
     return None
 
 
-def _require_together(limits: _Limits, minimum_cost: bool, part: str | None) -> None:
+def _require_together(limits: _Limits, prices: _Prices, minimum_cost: bool, part: str | None) -> None:
     """Refuse two questions at once, and limits of a question that is not asked."""
     from linkwright.kernel.errors import InputError
 
@@ -200,7 +236,11 @@ def _require_together(limits: _Limits, minimum_cost: bool, part: str | None) -> 
     asked = [name for name, value in given.items() if value]
     if len(asked) > 1:
         raise InputError(f"{asked[1]}: found it beside {asked[0]}, expected one of them")
-    belong = {
+    belong: dict[str, tuple[object, tuple[str, ...]]] = {
+        **{
+            f"--{name.replace('_', '-')}": (value, ("--minimum-cost",))
+            for name, value in prices._asdict().items()
+        },
         "--run-up-time": (limits.run_up_time, ("--minimum-cost",)),
         "--contact-stress": (limits.contact_stress, ("--pressure-angle",)),
         "--stress": (limits.stress, ("--shaft",)),

@@ -44,6 +44,7 @@ class Axis:
     is_log: bool = False
     is_whole: bool = False
     distribution: tuple[str, float, float] | None = None  # kind, mean and deviation of a scatter
+    play: float = 0.0  # half the clearance of a joint that adds to the scatter [m]; within the ends
 
     @property
     def is_number(self) -> bool:
@@ -71,6 +72,10 @@ class Axis:
             listed = self.choices if self.is_number else range(len(self.choices))
             picked: Floats = np.array(listed, dtype=float)[places]
             return picked
+        if self.distribution is not None and self.play:
+            return _loosened(
+                *self.distribution, self.low + self.play, self.high - self.play, self.play, shares
+            )
         if self.distribution is not None:
             return _scattered(*self.distribution, self.low, self.high, shares)
         if self.is_whole:
@@ -106,7 +111,14 @@ def axis(machine: Machine, name: str, variable: Variable) -> Axis:
     if variable.tolerance is not None:
         low, high = _toleranced(name, get(machine, variable.address[0]), variable.tolerance, kind)
         scatter = ("normal", 0.5 * (low + high), (high - low) / _SPREAD)
-        return Axis(**known, low=low, high=high, steps=variable.steps or 0, distribution=scatter)
+        play = 0.0
+        if variable.clearance is not None:
+            ends = _loose(name, get(machine, variable.address[0]), variable.clearance, kind)
+            play = 0.5 * (ends[1] - ends[0])
+        ends = low - play, high + play
+        return Axis(
+            **known, low=ends[0], high=ends[1], steps=variable.steps or 0, distribution=scatter, play=play
+        )
     if variable.clearance is not None:
         low, high = _loose(name, get(machine, variable.address[0]), variable.clearance, kind)
         return Axis(**known, low=low, high=high, steps=variable.steps or 0, distribution=_of_pin(low, high))
@@ -287,6 +299,28 @@ def _scattered(kind: str, mean: float, deviation: float, low: float, high: float
     start, end = _normal_shares(kind, mean, deviation, low, high)
     within = np.clip(start + (end - start) * shares, 2.0**-53, 1 - 2.0**-53)
     return np.clip(_unscored(kind, mean, deviation, ndtri(within)), low, high)
+
+
+# Places of the sum of two scatters, and directions of a pin: the sum is smooth over a deviation of the first.
+_PLACES, _DIRECTIONS = 16_385, 64
+
+
+def _loosened(
+    kind: str, mean: float, deviation: float, low: float, high: float, play: float, shares: Floats
+) -> Floats:
+    """Values below which shares of a scatter lie to which a pin adds its play times a cosine."""
+    from scipy.special import ndtr
+
+    start, end = _normal_shares(kind, mean, deviation, low, high)
+    count = max(_DIRECTIONS, math.ceil(8 * play / deviation))
+    # Chebyshev's nodes: all directions are alike.
+    shifts = play * np.cos((np.arange(count) + 0.5) * np.pi / count)
+    places = np.linspace(low - play, high + play, _PLACES)
+    below = np.zeros(_PLACES)
+    for shift in shifts.tolist():
+        below += np.clip((ndtr((places - shift - mean) / deviation) - start) / (end - start), 0.0, 1.0)
+    values: Floats = np.interp(shares, below / count, places)
+    return values
 
 
 def _normal_shares(kind: str, mean: float, deviation: float, low: float, high: float) -> tuple[float, float]:

@@ -12,7 +12,10 @@ References
 
 from __future__ import annotations
 
+import os
+from contextlib import closing
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
@@ -21,8 +24,9 @@ from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-from linkwright.studies.optimise import Method, Optimum, optimise
+from linkwright.studies.optimise import Method, Optimum, check, searched
 from linkwright.studies.plan import StudyPlan
+from linkwright.studies.search_log import SearchLog
 
 # Machines whose goals differ by less, relative to the range of the front, are one.
 _SAME = 1e-9
@@ -59,6 +63,7 @@ def front(
     seed: int = 0,
     method: Method = "both",
     starts: int = 8,
+    log: str | os.PathLike[str] | None = None,
 ) -> Front:
     """Seek the machines of which none is better in both of two goals.
 
@@ -76,6 +81,8 @@ def front(
         As of `optimise`.
     starts : int
         As of `optimise`.
+    log : path-like, optional
+        As of `optimise`: one file for all searches of the front.
 
     Returns
     -------
@@ -95,19 +102,21 @@ def front(
         raise InputError(f"points {points}: expected 3 to 1000")
     (first, _), (second, way) = plan.study.goals.items()
 
-    def sought(goal: str, limit: float | None = None) -> Optimum:
-        return optimise(
-            _of_one(plan, goal, second, limit), evaluations, seed=seed, method=method, starts=starts
-        )
+    check(_of_one(plan, first, second, None), evaluations, method, starts)
+    with closing(SearchLog(plan, None if log is None else Path(log))) as known:
 
-    ends = sought(first), sought(second)
-    optimums, failed = list(ends), {}
-    for limit in np.linspace(ends[0].responses[second], ends[1].responses[second], points)[1:-1]:
-        try:
-            optimums.append(sought(first, float(limit)))
-        except FindingError as error:
-            word = "at most" if way == "minimise" else "at least"
-            failed[f"{second} {word} {limit:.6g} {plan.units[second]}".rstrip()] = str(error)
+        def sought(goal: str, limit: float | None = None) -> Optimum:
+            study = _of_one(plan, goal, second, limit)
+            return searched(study, evaluations, known, seed, method, starts)
+
+        ends = sought(first), sought(second)
+        optimums, failed = list(ends), {}
+        for limit in np.linspace(ends[0].responses[second], ends[1].responses[second], points)[1:-1]:
+            try:
+                optimums.append(sought(first, float(limit)))
+            except FindingError as error:
+                word = "at most" if way == "minimise" else "at least"
+                failed[f"{second} {word} {limit:.6g} {plan.units[second]}".rstrip()] = str(error)
     signs = np.array([1.0 if goal == "minimise" else -1.0 for goal in plan.study.goals.values()])
     return Front(
         (first, second),

@@ -72,7 +72,8 @@ class Variable(CheckedDescription):
     clearance: Value | None = Field(
         None,
         description='Diametral clearance of a pin joint at an end of the length, "0.05 mm", or the fit of '
-        'pin and hole by ISO 286, "25 H7/g6", with both in the middle of their limits.',
+        'pin and hole by ISO 286, "25 H7/g6", with both in the middle of their limits. Beside a tolerance of '
+        "the length it adds to this.",
     )
     cost: float | None = Field(
         None, gt=0, description="Cost of this tolerance; allocation changes tolerances with a cost."
@@ -82,8 +83,16 @@ class Variable(CheckedDescription):
         if self.cost is not None and self.tolerance is None:
             yield fault("cost", found=self.cost, expected="nothing without tolerance")
         given = [way for way in WAYS if getattr(self, way) is not None]
-        if len(given) > 1:
-            yield fault(given[1], found=" and ".join(given), expected=f"one of {', '.join(WAYS)}")
+        is_loose = given == ["tolerance", "clearance"]
+        if self.cost is not None and is_loose:
+            remedy = "allocate without the clearance, or give the clearance alone"
+            yield fault("cost", found=self.cost, expected="nothing beside clearance", remedy=remedy)
+        if len(given) > 1 and not is_loose:
+            yield fault(
+                given[1],
+                found=" and ".join(given),
+                expected=f"one of {', '.join(WAYS)}; tolerance and clearance add up",
+            )
         if self.steps is not None and self.values is not None:
             yield fault("steps", found=self.steps, expected="nothing beside values")
         if self.whole and given and self.range is None:

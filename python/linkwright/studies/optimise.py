@@ -130,18 +130,32 @@ def optimise(
     FindingError
         No machine has an answer and keeps the constraints; says what fails.
     """
-    _check(plan, evaluations, method, starts)
-    goal = next(iter(plan.study.goals.items()))
+    check(plan, evaluations, method, starts)
     with closing(SearchLog(plan, None if log is None else Path(log))) as known:
-        search = _Search(plan, *goal, watch, known)
-        choices = [axis for axis in plan.axes if axis.choices]
-        for shares in product(*(choice.levels for choice in choices)):
-            fixed = {choice.name: float(s) for choice, s in zip(choices, shares, strict=True)}
-            search.run(fixed, evaluations, seed, method, starts)
+        return searched(plan, evaluations, known, seed, method, starts, watch)
+
+
+def searched(
+    plan: StudyPlan,
+    evaluations: int,
+    log: SearchLog,
+    seed: int,
+    method: Method,
+    starts: int,
+    watch: Callable[..., None] | None = None,
+) -> Optimum:
+    """The best machine of a checked study with one goal, whose computations a log has or takes."""
+    goal = next(iter(plan.study.goals.items()))
+    search = _Search(plan, *goal, watch, log)
+    choices = [axis for axis in plan.axes if axis.choices]
+    for shares in product(*(choice.levels for choice in choices)):
+        fixed = {choice.name: float(s) for choice, s in zip(choices, shares, strict=True)}
+        search.run(fixed, evaluations, seed, method, starts)
     return search.result()
 
 
-def _check(plan: StudyPlan, evaluations: int, method: str, starts: int) -> None:
+def check(plan: StudyPlan, evaluations: int, method: str, starts: int) -> None:
+    """Refuse a study that cannot be searched."""
     if len(plan.study.goals) != 1:
         found = ", ".join(plan.study.goals) or "none"
         raise InputError(f'goals: found {found}, expected one, such as delta = "minimise"; limit the others')

@@ -17,7 +17,7 @@ from typing import Any
 from linkwright.drive.model.catalogue import CatalogueMotor, motors
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.units import ANGLE, PRESSURE, RATIO, TIME, TORQUE, positive
+from linkwright.kernel.units import ANGLE, LENGTH, PRESSURE, RATIO, TIME, TORQUE, positive
 from linkwright.machine.address import replace
 from linkwright.machine.machine import Machine
 from linkwright.sizing.flywheel import choose_flywheel
@@ -79,6 +79,7 @@ def drive_study(
     prices = {
         "per_kilowatt": (per_kilowatt, positive(RATIO)),
         "per_kilogram": (per_kilogram, positive(RATIO)),
+        "radius": (radius, positive(LENGTH)),
     }
     in_range(unevenness=(unevenness, positive(RATIO)), run_up_time=(run_up_time, positive(TIME)), **prices)
     need = required_power(machine)

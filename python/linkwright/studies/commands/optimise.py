@@ -9,7 +9,7 @@ from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import Json, Outside, Sets
 from linkwright.kernel.command.out import Force, Out
 from linkwright.kernel.command.parameter import Option
-from linkwright.kernel.errors import FindingError, InputError
+from linkwright.kernel.errors import FindingError
 from linkwright.studies.commands.sweep import StudyArgument
 
 if TYPE_CHECKING:
@@ -61,9 +61,7 @@ def optimise(
 
     plan = read_study(file, set or [], allow_outside=allow_outside)
     if len(plan.study.goals) == 2:
-        options = {"seed": seed, "method": method, "starts": starts}
-        if log is not None:
-            raise InputError("--log: found it beside two goals, expected one goal")
+        options = {"seed": seed, "method": method, "starts": starts, "log": log}
         _hand_over_front(plan, points, evaluations, options, json=json, out=out, force=force)
         return
     search = {"evaluations": evaluations, "seed": seed, "method": method, "starts": starts, "log": log}
