@@ -140,3 +140,25 @@ def test_json_and_report_tell_the_methods() -> None:
     told = methods_sentence(result.motion)
     assert "Radau IIA" in told
     assert sum(int(each) for each in re.findall(r"(\d+) steps", told)) == result.motion.steps
+
+
+@pytest.mark.parametrize("stall", [1e2, 1e3, 1e4, 1e5, 1e6])
+def test_a_load_that_jumps_over_time_acts_from_its_instant_on(stall: float) -> None:
+    """J ω̇ = M₀ (1 − ω/ω₀) − L from t₁ on: ω/ω₀ = 1 − L/M₀ (1 − e^(−kτ)), wherever t₁ lies in a step."""
+    steepness = stall / (INERTIA * NO_LOAD)
+    for jump in np.linspace(0.003, 1.95, 40):
+        machine = lw.loads(f"""
+        format = 1
+        name = "flywheel under a load that begins"
+        drive.motor = {{ kind = "dc", speed_no_load = {NO_LOAD}, torque_stall = {stall} }}
+        drive.flywheel.inertia = {INERTIA}
+        mechanism.cranks.A.radius = 0.2
+        loads.lift = {{ kind = "formula", on = "A", torque = "-where(t > {float(jump)!r}, {LIFT}, 0)" }}
+        """)
+        motion = lw.transient(machine, speed=NO_LOAD, duration=2.0, accuracy=1e-9)
+        passed = 2.0 - jump
+        lost = NO_LOAD * LIFT / stall
+        grown = 1.0 - np.exp(-steepness * passed)
+        assert motion.speed[-1] == pytest.approx(NO_LOAD - lost * grown, rel=1e-8)
+        turned = NO_LOAD * 2.0 - lost * (passed - grown / steepness)
+        assert motion.crank_angle[-1] == pytest.approx(turned, rel=1e-8)

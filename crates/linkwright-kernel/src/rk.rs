@@ -212,11 +212,7 @@ impl<Y: State> Stages<Y> {
 
     /// Number `n` of the state, which starts from `y`, at a share 0…1 of the step, after [`Stages::fill`].
     pub fn component(&self, share: f64, y: f64, n: usize) -> f64 {
-        let mut sum = 0.0;
-        for (i, row) in self.polynomial.iter().enumerate().rev() {
-            sum = (sum + row.as_ref()[n]) * if i % 2 == 0 { share } else { 1.0 - share };
-        }
-        y + sum
+        y + rise(&self.polynomial(n), share)
     }
 
     /// All numbers of the state, which start from `y`, at a share of the step, after [`Stages::fill`].
@@ -269,6 +265,12 @@ impl<Y: State> Stages<Y> {
     pub fn polynomial(&self, n: usize) -> [f64; 7] {
         self.polynomial.each_ref().map(|row| row.as_ref()[n])
     }
+}
+
+/// Value of a polynomial with these factors ([`Stages::polynomial`]) at a share of the step.
+pub fn rise(factors: &[f64], share: f64) -> f64 {
+    let each = factors.iter().enumerate().rev();
+    each.fold(0.0, |sum, (i, factor)| (sum + factor) * if i % 2 == 0 { share } else { 1.0 - share })
 }
 
 /// A polynomial without constant part by its factors of z, z (1 − z), z² (1 − z), … ([`Stages::polynomial`]).

@@ -194,7 +194,8 @@ impl<'a, R: Real> Events<'a, R> {
             Event::Law(kink) => {
                 let mut geometry = Vec::new();
                 self.machine.row(phi, m, &mut geometry);
-                self.machine.plan.speed_kink_value(self.machine.q, kink, &geometry, omega)
+                let at = [omega, R::splat(f64::NAN)];
+                self.machine.plan.speed_kink_value(self.machine.q, kink, &geometry, at)
             }
         }
     }
@@ -556,7 +557,8 @@ impl Events<'_, f64> {
     /// The quantity whose zero the kink of a law is, on a side.
     fn on_side(&self, nth: usize, side: &Side) -> f64 {
         let kink = self.laws[nth - self.speeds.len()];
-        self.machine.plan.speed_kink_value(self.machine.q, kink, &side.geometry, (2.0 * side.u).sqrt())
+        let at = [(2.0 * side.u).sqrt(), f64::NAN];
+        self.machine.plan.speed_kink_value(self.machine.q, kink, &side.geometry, at)
     }
 
     /// The side of a motion that goes on at a crank angle, a little ahead.
@@ -659,7 +661,7 @@ impl<R: Real> Turn<R> {
 }
 
 /// Shares of a step at which a quantity with these values at its start and stages turns near its zero or beyond it.
-fn turns_near_zero(values: &[f64; N]) -> Vec<f64> {
+pub fn turns_near_zero(values: &[f64; N]) -> Vec<f64> {
     let quintic = through(values);
     let room = NEARLY * values.iter().fold(0.0, |size: f64, value| value.abs().max(size));
     let is_near = |share: &f64| {

@@ -33,7 +33,7 @@ pub struct LawGeometry<R> {
     g: R,
 }
 
-/// A place where a law has a kink or a jump that depends on the speed.
+/// A place where a law has a kink or a jump that depends on the speed, or on time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpeedKink {
     law: usize,
@@ -304,19 +304,19 @@ impl Plan {
         found
     }
 
-    /// The quantity whose zero is a moving kink.
+    /// The quantity whose zero is a moving kink; of a steady motion, whose laws know no time, that is NaN.
     #[inline(always)]
     pub fn speed_kink_value<R: Real>(
         &self,
         q: &[R],
         kink: SpeedKink,
         geometry: &[LawGeometry<R>],
-        omega: R,
+        [omega, time]: [R; 2],
     ) -> R {
         let geometry = &geometry[kink.law];
         match (kink.at, self.laws[kink.law]) {
             (KinkPlace::Switch(at), Law::Formula(load)) => {
-                self.formulas[load.formula].switch(at, q, &geometry.inputs(omega, R::splat(f64::NAN)))
+                self.formulas[load.formula].switch(at, q, &geometry.inputs(omega, time))
             }
             (KinkPlace::Knot(knot), _) => geometry.g * omega - knot,
             (KinkPlace::Switch(_), Law::Damper { .. }) => R::splat(f64::NAN),

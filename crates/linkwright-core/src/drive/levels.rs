@@ -220,8 +220,10 @@ impl<R: Real> Turn<R> {
                 let geometry = self.geometry_of(machine, k);
                 for i in 0..S {
                     let known = machine.geometry_at(geometry, i);
-                    let value =
-                        |u: R| machine.plan.speed_kink_value(machine.q, kink, known, (u * 2.0).sqrt());
+                    let value = |u: R| {
+                        let at = [(u * 2.0).sqrt(), R::splat(f64::NAN)];
+                        machine.plan.speed_kink_value(machine.q, kink, known, at)
+                    };
                     let u = level_of(value, step.X[i]);
                     let energy = (u - step.X[i]) / step.rows[i].inverse;
                     (low, high) = (energy.select_lt(low, energy, low), high.select_lt(energy, energy, high));

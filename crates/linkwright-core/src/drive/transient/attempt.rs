@@ -3,7 +3,7 @@
 //! [`Attempts`] is what events are met with; here by the explicit method, in [`super::stiff`] by the implicit one.
 
 use super::equation::{Equation, Jump, Y};
-use crate::kernel::rk::{Stages, Trial, over, worse};
+use crate::kernel::rk::{Stages, Trial, over, rise, worse};
 
 /// Share of the working speed that is added to a speed before the accuracy is taken of it.
 const SMALL: f64 = 0.01;
@@ -19,6 +19,13 @@ pub struct Piece {
     pub rate: Y,
     /// Polynomials of angle and speed.
     pub between: [[f64; 7]; 2],
+}
+
+impl Piece {
+    /// State at a share of the piece, which starts from another.
+    pub fn state(&self, from: &Y, share: f64) -> Y {
+        std::array::from_fn(|n| from[n] + rise(&self.between[n], share))
+    }
 }
 
 /// Steps of any length from one instant.
@@ -38,8 +45,8 @@ pub trait Attempts {
     /// Order of the error that `fill` tells.
     fn order(&self) -> f64;
 
-    /// The quantities whose zeros are kinks of laws, at a state.
-    fn at_law_kinks(&mut self, y: &Y) -> Vec<f64>;
+    /// The quantities whose zeros are kinks of laws, at a time and a state.
+    fn at_law_kinks(&mut self, t: f64, y: &Y) -> Vec<f64>;
 
     /// The kink of a law with a number, at a time and a state that lies on it.
     fn jump(&mut self, nth: usize, t: f64, y: &Y) -> Jump;
@@ -109,8 +116,8 @@ impl Attempts for ExplicitAttempt<'_, '_> {
         8.0
     }
 
-    fn at_law_kinks(&mut self, y: &Y) -> Vec<f64> {
-        self.equation.at_law_kinks(y)
+    fn at_law_kinks(&mut self, t: f64, y: &Y) -> Vec<f64> {
+        self.equation.at_law_kinks(t, y)
     }
 
     fn jump(&mut self, nth: usize, t: f64, y: &Y) -> Jump {

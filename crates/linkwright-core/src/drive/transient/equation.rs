@@ -39,7 +39,7 @@ const ASIDE: f64 = 1e-6;
 /// What the motion comes to where a law may jump.
 #[derive(Clone, Copy, Debug)]
 pub struct Jump {
-    /// By how much the acceleration changes from the lower speed to the higher \[rad/s²\].
+    /// By how much the acceleration changes from the lower speed to the higher, or at one over time alone \[rad/s²\].
     pub leap: f64,
     /// Whether the torques of both sides drive the motion back to it.
     pub holds: bool,
@@ -104,8 +104,8 @@ impl Equation<'_> {
         (net.value / J, net.d / J)
     }
 
-    /// The quantities whose zeros are kinks of laws, at a state.
-    pub fn at_law_kinks(&mut self, y: &Y) -> Vec<f64> {
+    /// The quantities whose zeros are kinks of laws, at a time and a state.
+    pub fn at_law_kinks(&mut self, t: f64, y: &Y) -> Vec<f64> {
         if self.law_kinks.is_empty() {
             return Vec::new();
         }
@@ -115,7 +115,7 @@ impl Equation<'_> {
         self.geometry.clear();
         plan.add_geometry(q, phi, &self.motion, &mut self.geometry);
         let omega = self.turning.crank * y[1];
-        let value = |&kink: &SpeedKink| plan.speed_kink_value(q, kink, &self.geometry, omega);
+        let value = |&kink: &SpeedKink| plan.speed_kink_value(q, kink, &self.geometry, [omega, t]);
         self.law_kinks.iter().map(value).collect()
     }
 
@@ -123,16 +123,21 @@ impl Equation<'_> {
     /// g_φ ω + g_ω ε.
     pub fn jump(&mut self, nth: usize, t: f64, y: &Y) -> Jump {
         let near = |share: f64| [y[0], y[1] * (1.0 + share)];
-        let by_omega = self.at_law_kinks(&near(ASIDE))[nth] - self.at_law_kinks(&near(-ASIDE))[nth];
+        let by_omega = self.at_law_kinks(t, &near(ASIDE))[nth] - self.at_law_kinks(t, &near(-ASIDE))[nth];
         let by_omega = by_omega / (2.0 * ASIDE * y[1]);
         let turned = |angle: f64| [y[0] + angle, y[1]];
-        let by_phi = self.at_law_kinks(&turned(ASIDE))[nth] - self.at_law_kinks(&turned(-ASIDE))[nth];
+        let by_phi = self.at_law_kinks(t, &turned(ASIDE))[nth] - self.at_law_kinks(t, &turned(-ASIDE))[nth];
         let by_phi = by_phi / (2.0 * ASIDE);
         let [below, above] = [-ASIDE, ASIDE]
             .map(|side| 2.0 * self.derivative(t, &near(side))[1] - self.derivative(t, &near(2.0 * side))[1]);
         // How fast the speed leaves the kink on either side.
         let [from_below, from_above] = [below, above].map(|epsilon| epsilon + by_phi / by_omega * y[1]);
-        Jump { leap: above - below, holds: from_below > 0.0 && from_above < 0.0 }
+        // One over time has both its sides at the same speed.
+        let later = ASIDE / self.speed_scale;
+        let [before, behind] = [-later, later]
+            .map(|by| 2.0 * self.derivative(t + by, y)[1] - self.derivative(t + 2.0 * by, y)[1]);
+        let leap = if by_omega == 0.0 { behind - before } else { above - below };
+        Jump { leap, holds: from_below > 0.0 && from_above < 0.0 }
     }
 
     /// Torque of the laws at an angle for which the mechanism has been placed.

@@ -30,9 +30,11 @@ use self::equation::{AT_REST, Equation, Jump, Y};
 use self::reduced::ReducedCurves;
 use self::stiff::StiffAttempt;
 use crate::drive::cycle::Machine;
+use crate::drive::events::turns_near_zero;
 use crate::drive::mesh::crossing;
 use crate::drive::structure::Plan;
 use crate::kernel::call::poll;
+use crate::kernel::radau::{AT, N};
 use crate::kernel::rk::{Trial, next_factor_of};
 use crate::kernel::turns::{Bernstein, passed_and_back};
 use crate::linkage::motion::Motion;
@@ -397,6 +399,10 @@ impl Path {
                 longest = h * share;
                 continue;
             }
+            if let Some(turn) = self.touches(attempt, (t, y), &pieces) {
+                longest = turn;
+                continue;
+            }
             let passing = self.passing(attempt, (t, y), (h, &end));
             if let Some(Passing { shorter: Some(shorter), .. }) = passing {
                 longest = shorter;
@@ -412,6 +418,31 @@ impl Path {
         Err(reason)
     }
 
+    /// The length at which to cut a step that passes a kink of a law and comes back inside: where it is beyond, by more than
+    /// the speed may err.
+    fn touches(&self, attempt: &mut impl Attempts, (t, y): (f64, &Y), pieces: &[Piece]) -> Option<f64> {
+        let kinks = attempt.at_law_kinks(t, y).len();
+        if kinks == 0 {
+            return None;
+        }
+        let whole: f64 = pieces.iter().map(|piece| piece.h).sum();
+        let looks = AT.map(|share| attempt.at_law_kinks(t + share * whole, &state(y, pieces, share * whole)));
+        for nth in 0..kinks {
+            let values = std::array::from_fn(|i| looks[i][nth]);
+            let ends = [values[0], values[N - 1]];
+            for share in turns_near_zero(&values).into_iter().filter(|_| ends[0] * ends[1] > 0.0) {
+                let there = attempt.to(share * whole).y;
+                let at = t + share * whole;
+                let beyond = attempt.at_law_kinks(at, &there)[nth];
+                let faster = attempt.at_law_kinks(at, &[there[0], there[1] * (1.0 + self.accuracy)])[nth];
+                if beyond * ends[0] < 0.0 && beyond.abs() > (faster - beyond).abs() {
+                    return Some(share * whole);
+                }
+            }
+        }
+        None
+    }
+
     /// How a step passes a jump of a law, if it does. An implicit step does not see what jumps before its first stage, and an
     /// explicit one sees it too well: a step passes a jump only where it is so short that the jump does not count.
     fn passing(
@@ -420,12 +451,12 @@ impl Path {
         (t, y): (f64, &Y),
         (h, end): (f64, &Y),
     ) -> Option<Passing> {
-        let (before, behind) = (attempt.at_law_kinks(y), attempt.at_law_kinks(end));
+        let (before, behind) = (attempt.at_law_kinks(t, y), attempt.at_law_kinks(t + h, end));
         let mut found: Option<Passing> = None;
         for nth in (0..before.len()).filter(|&nth| before[nth] * behind[nth] < 0.0) {
             let excess = |x: f64| {
                 let there = attempt.to(x).y;
-                attempt.at_law_kinks(&there)[nth]
+                attempt.at_law_kinks(t + x, &there)[nth]
             };
             let at = crossing(excess, h, before[nth], behind[nth]);
             let there = attempt.to(at).y;
@@ -509,7 +540,7 @@ impl Equation<'_> {
             let mut there = *y;
             for _ in 0..LEVEL_SWEEPS {
                 let near = [there[0], there[1] * (1.0 + NEAR_JUMP)];
-                let (value, beside) = (self.at_law_kinks(&there)[nth], self.at_law_kinks(&near)[nth]);
+                let (value, beside) = (self.at_law_kinks(t, &there)[nth], self.at_law_kinks(t, &near)[nth]);
                 there[1] -= value * NEAR_JUMP * there[1] / (beside - value);
             }
             let is_near = there[1] > 0.0 && (there[1] / y[1] - 1.0).abs() <= NEAR_JUMP;
@@ -526,6 +557,19 @@ fn time_to(angle: f64, omega: f64, epsilon: f64) -> f64 {
     }
     let speed = omega + root.sqrt();
     if speed > 0.0 { 2.0 * angle / speed } else { f64::INFINITY }
+}
+
+/// Angle and speed at a time since the start of a step, from which its pieces begin.
+fn state(start: &Y, pieces: &[Piece], time: f64) -> Y {
+    let (mut from, mut left) = (*start, time);
+    for piece in &pieces[..pieces.len() - 1] {
+        if left <= piece.h {
+            return piece.state(&from, left / piece.h);
+        }
+        (from, left) = (piece.y, left - piece.h);
+    }
+    let last = &pieces[pieces.len() - 1];
+    last.state(&from, left / last.h)
 }
 
 /// Newton on the length of the step until it ends on the target angle.

@@ -217,8 +217,8 @@ impl Attempts for StiffAttempt<'_, '_> {
         6.0
     }
 
-    fn at_law_kinks(&mut self, y: &Y) -> Vec<f64> {
-        self.equation.at_law_kinks(y)
+    fn at_law_kinks(&mut self, t: f64, y: &Y) -> Vec<f64> {
+        self.equation.at_law_kinks(t, y)
     }
 
     fn jump(&mut self, nth: usize, t: f64, y: &Y) -> Jump {

@@ -26,6 +26,7 @@ use crate::kernel::matrix::LuFactors;
 use crate::kernel::plane::Angle;
 use crate::kernel::radau::{A, B, C, S};
 use crate::kernel::real::Real;
+use crate::kernel::rk::rise;
 use crate::linkage::motion::Motion;
 
 /// Share of a step by which what lies at its end is read inside it, on its side of a kink there, and carried on to the end:
@@ -320,11 +321,8 @@ impl<R: Real> Along<'_, R> {
     /// Angle and speed at a share of a step.
     fn state(&self, k: usize, share: f64) -> Y {
         let of = self.motion;
-        let rise = |which: usize| {
-            let each = of.between[14 * k + 7 * which..][..7].iter().enumerate().rev();
-            each.fold(0.0, |sum, (i, factor)| (sum + factor) * if i % 2 == 0 { share } else { 1.0 - share })
-        };
-        [of.phi[k] + rise(0), of.omega[k] + rise(1)]
+        let [angle, speed] = [0, 1].map(|which| rise(&of.between[14 * k + 7 * which..][..7], share));
+        [of.phi[k] + angle, of.omega[k] + speed]
     }
 
     /// Angle and speed at an instant of the motion.
