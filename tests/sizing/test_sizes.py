@@ -82,7 +82,7 @@ def test_a_drive_for_the_minimum_cost() -> None:
         (("roller_two_carts", "--run-up-time", "2 s"), "--minimum-cost"),
         (("roller_two_carts", "--per-kilowatt", "90"), "--minimum-cost"),
         (("roller_two_carts", "--minimum-cost", "--per-kilogram", "0"), "--per-kilogram"),
-        (("roller_two_carts", "--minimum-cost", "--flywheel-radius", "0 m"), "radius"),
+        (("roller_two_carts", "--minimum-cost", "--flywheel-radius", "0 m"), "--flywheel-radius"),
         (("roller_two_carts", "--minimum-cost", "--pressure-angle", "30 deg"), "one of them"),
         (("roller_two_carts", "--pressure-angle", "30 mm"), "length"),
         (("roller_two_carts", "--pressure-angle", "30 deg"), "cam"),

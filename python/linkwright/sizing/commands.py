@@ -185,7 +185,7 @@ class _Prices(NamedTuple):
 
         named = {"per_kilowatt": self.per_kilowatt, "per_kilogram": self.per_kilogram}
         if self.flywheel_radius is not None:
-            named["radius"] = option_value("--flywheel-radius", self.flywheel_radius, LENGTH)
+            named["flywheel_radius"] = option_value("--flywheel-radius", self.flywheel_radius, LENGTH)
         return {name: value for name, value in named.items() if value is not None}
 
 

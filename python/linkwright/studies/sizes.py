@@ -49,7 +49,7 @@ def drive_study(
     run_up_time: float | None = None,
     per_kilowatt: float = _PER_KILOWATT,
     per_kilogram: float = _PER_KILOGRAM,
-    radius: float = _RADIUS,
+    flywheel_radius: float = _RADIUS,
 ) -> StudyPlan:
     """Make a study of motor, gear ratio and flywheel for the minimum cost, for `optimise`.
 
@@ -63,7 +63,7 @@ def drive_study(
         Permitted time of the run-up [s].
     per_kilowatt, per_kilogram : float
         Prices of a motor by its rated power and of a flywheel by its mass, in one currency.
-    radius : float
+    flywheel_radius : float
         Of the disc that the flywheel is [m].
 
     Returns
@@ -79,7 +79,7 @@ def drive_study(
     prices = {
         "per_kilowatt": (per_kilowatt, positive(RATIO)),
         "per_kilogram": (per_kilogram, positive(RATIO)),
-        "radius": (radius, positive(LENGTH)),
+        "flywheel_radius": (flywheel_radius, positive(LENGTH)),
     }
     in_range(unevenness=(unevenness, positive(RATIO)), run_up_time=(run_up_time, positive(TIME)), **prices)
     need = required_power(machine)
@@ -107,7 +107,9 @@ def drive_study(
         "breakdown": {"entry": "drive.motor.torque_breakdown"},
         "load": {"formula": "rms/rated"},
         "overload": {"formula": "peak/breakdown"},
-        "cost": {"formula": f"{per_kilowatt!r}*power/1000 + {per_kilogram!r}*2*flywheel/{radius!r}^2"},
+        "cost": {
+            "formula": f"{per_kilowatt!r}*power/1000 + {per_kilogram!r}*2*flywheel/{flywheel_radius!r}^2"
+        },
     }
     if run_up_time is not None:
         responses["start"], limits["start"] = "run_up.time", {"max": run_up_time}
