@@ -64,17 +64,6 @@ def require_sound_loads(compiled: CompiledMachine, machine: Machine) -> None:
             raise FindingError(_no_value(name, load, float(phi[np.argmin(np.isfinite(torques))])))
 
 
-def is_held(compiled: CompiledMachine, angle: float, speed: float) -> bool:
-    """Whether a load jumps near a speed, and the torques of both sides drive the crank back there."""
-    phi, omega = np.array([angle]), speed * (1.0 + np.array([-_NEAR, _NEAR]))
-    loads = compiled.law_torques(phi, omega)[:, 0]
-    at = compiled.reductions(phi)
-    resisting = at.load + at.dry + at.viscous * omega + compiled.speed_load(omega) + loads
-    net = compiled.motor_torques(omega).crank - resisting - 0.5 * at.inertia_slope * omega**2
-    jumps = abs(loads[1] - loads[0]) > _JUMPS * np.abs(loads).sum()
-    return bool(compiled.has_laws and jumps and net[0] > 0.0 > net[1])
-
-
 def sliding(machine: Machine, angle: float, speed: float) -> SteadyStateError:
     """The error for a motion that a jump of a load holds at an angle and a speed, with the load that jumps.
 

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from linkwright.drive.model.motor import ConstantSpeedMotor, ConstantTorqueMotor
 from linkwright.drive.reduction import NO_INERTIA
-from linkwright.drive.sound_loads import is_held, require_half_turns, require_sound_loads, sliding
+from linkwright.drive.sound_loads import require_half_turns, require_sound_loads, sliding
 from linkwright.kernel.arrays import Bools, Floats, Indices
 from linkwright.kernel.errors import ConvergenceError, InputError, SteadyStateError
 from linkwright.kernel.public import public
@@ -289,7 +289,7 @@ def transient(
     if not math.isfinite(motion.torque_drive_end + motion.torque_load_end):
         require_sound_loads(compiled, machine)
     last = float(motion.crank_angle[-1]), float(motion.speed[-1])
-    if end == End.SLIDES or (end == End.INACCURATE and last[1] > 0 and is_held(compiled, *last)):
+    if end == End.SLIDES:
         raise sliding(machine, *last)
     if end == End.INACCURATE:
         raise ConvergenceError(
