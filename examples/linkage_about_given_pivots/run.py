@@ -1,6 +1,6 @@
 """Which linkage about two bearings that are there already guides a tool along a path, or through three poses?
 
-With task files: `linkwright synthesise path task.toml`, `linkwright synthesise pose task.toml`.
+With task files: `linkwright synthesise path task.toml`, `linkwright synthesise motion task.toml`.
 """
 
 from pathlib import Path

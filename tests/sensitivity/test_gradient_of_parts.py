@@ -90,8 +90,8 @@ def test_pumping_units(geometry: str) -> None:
 def test_loaded_cams(closure: str, speed: float) -> None:
     machine = lw.loads(CAM.format(closure=closure, speed=speed))
     entries = [name for name in lw.addresses(machine) if ".sections." not in name]
-    # The angle of an extreme is known to a millionth of a radian.
-    assert errors(machine, "cam_force", entries, scalars(cam_force)) < 3e-6
+    # The angle of an extreme is known to 1e-8 rad.
+    assert errors(machine, "cam_force", entries, scalars(cam_force)) < 1e-7
 
 
 def test_entries_that_move_a_joint_under_the_extreme_have_none() -> None:
