@@ -436,14 +436,11 @@ impl<R: Real> Turn<R> {
     /// The solution at the starts of the steps, those of no length left out.
     #[inline(always)]
     fn marks(&self) -> Vec<Mark> {
-        let durations =
-            unbundle(&self.steps.iter().map(crate::drive::cycle::Step::duration).collect::<Vec<_>>());
         let mut t = 0.0;
-        let mut marks = Vec::with_capacity(durations.len());
-        // Steps of no length come last.
-        for (piece, duration) in self.pieces().into_iter().zip(durations) {
+        let mut marks = Vec::new();
+        for piece in self.pieces() {
             marks.push(Mark { phi: piece.phi, u: piece.u, t, h: piece.h, X: piece.X });
-            t += duration;
+            t += piece.duration();
         }
         marks
     }
