@@ -22,7 +22,8 @@ from typing import TYPE_CHECKING, Any
 
 from linkwright.drive.cycle_motion import CycleMotion, cycle_motion_of
 from linkwright.drive.sound_loads import require_turn
-from linkwright.drive.steady_state import SteadyState
+from linkwright.drive.steady_state import SteadyState, require_accuracy
+from linkwright.drive.step_method import whole_steps
 from linkwright.drive.study import INTERVALS, DriveStudy, drive_study, has_motor
 from linkwright.kernel.findings import Findings
 from linkwright.kernel.public import public
@@ -194,6 +195,9 @@ def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = Non
     InputError
         The accuracy or the step makes no sense.
     """
+    require_accuracy(accuracy)
+    if step is not None:
+        whole_steps(step)
     findings = Findings()
     diagram = _diagram(machine, findings)
     if machine.is_diagram_alone:

@@ -259,6 +259,12 @@ def steady_state(
     return solved_state(machine, accuracy, n if angles is None else angles)[0]
 
 
+def require_accuracy(accuracy: float) -> None:
+    """Refuse a relative accuracy that no steady motion is computed to."""
+    if not 1e-13 <= accuracy <= 1e-2:
+        raise InputError(f"accuracy {accuracy:g}: expected a number from 1e-13 to 1e-2")
+
+
 def solved_state(
     machine: Machine, accuracy: float, at: Floats | int
 ) -> tuple[SteadyState, SteadySolution | None]:
@@ -268,8 +274,7 @@ def solved_state(
     """
     if machine.drive is None or machine.drive.motor is None:
         raise InputError(f"{machine.name}: steady motion needs a motor; add [drive.motor]")
-    if not 1e-13 <= accuracy <= 1e-2:
-        raise InputError(f"accuracy {accuracy:g}: expected a number from 1e-13 to 1e-2")
+    require_accuracy(accuracy)
     compiled = compile_machine(machine)
     require_full_turn(compiled, machine)
     compiled = over_whole_cycle(compiled)

@@ -18,7 +18,7 @@ from linkwright.drive.sound_loads import require_half_turns, require_sound_loads
 from linkwright.kernel.arrays import Bools, Floats, Indices
 from linkwright.kernel.errors import ConvergenceError, InputError, SteadyStateError
 from linkwright.kernel.public import public
-from linkwright.kernel.public.arguments import array
+from linkwright.kernel.public.arguments import array, number
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
@@ -193,6 +193,7 @@ class Transient(Result):
 
     def slope(self, time: float) -> float:
         """Acceleration at a time, at the end of a step that before it [rad/s²]."""
+        time = float(self._within(np.array(number("time", time))))
         k = int(self.time[1:-1].searchsorted(time))
         h = self.time[k + 1] - self.time[k]
         rate = polynomial.polyder(self.between.coefficients(1)[k])

@@ -26,7 +26,7 @@ from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record
-from linkwright.kernel.units import LENGTH, RATIO, SPEED, not_negative, positive
+from linkwright.kernel.units import LENGTH, MASS, RATIO, SPEED, not_negative, positive
 from linkwright.kinetostatics.couple import couple_of
 from linkwright.kinetostatics.forces import forces
 from linkwright.kinetostatics.model.body import Body
@@ -222,6 +222,7 @@ def with_counterweights(
         size, angle = float(np.hypot(*u)), float(np.arctan2(u[1], u[0]))
         counterweights.append(Counterweight(link, size, angle, size / at, at, axial))
         if size > _NOTHING * largest:
+            in_range(**{f"mass of the counterweight on {link}": (size / at, not_negative(MASS))})
             place = {"along": at * float(np.cos(angle)), "across": at * float(np.sin(angle))}
             bodies[_free_name(link, bodies)] = Body(
                 on=link, mass=size / at, inertia=0.0, axial=axial, **place

@@ -16,6 +16,7 @@ from linkwright.kernel.command.common import (
     Outside,
     Sets,
     ZeroAt,
+    belong_to,
     named_entries,
     option_value,
 )
@@ -453,6 +454,7 @@ def _counterweights(
         raise InputError("--planes: it belongs to --links")
     if slider is not None:
         return partial_balance(machine, slider, share=share, speed=omega, radius=at)
+    belong_to("--slider", "share")
     names = [name.strip() for name in (links or "").split(",") if name.strip()]
     at_planes = [option_value("--planes", text.strip(), LENGTH) for text in (planes or "0 m").split(",")]
     return fit(machine, names, speed=omega, radius=at, planes=at_planes)

@@ -43,7 +43,9 @@ class Motion(Record):
             return float(np.mean(values[known])) if known.any() else float("nan")
         omega, phi = self.speed[known], self.crank_angle[known]
         if (omega > 0).all() or (omega < 0).all():
-            return float(np.trapezoid(values[known] / omega, phi) / np.trapezoid(1 / omega, phi))
+            # Over the slowest speed, so that a motion however slow has a mean.
+            weight = np.abs(omega).min() / omega
+            return float(np.trapezoid(values[known] * weight, phi) / np.trapezoid(weight, phi))
         t = self.time[known]
         return float(np.trapezoid(values[known], t) / (t[-1] - t[0]))
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
 
 from linkwright.kernel.command.answer import Answer, hand_over
-from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
+from linkwright.kernel.command.common import File, Json, Outside, Sets, belong_to, option_value
 from linkwright.kernel.command.console import bar
 from linkwright.kernel.command.out import Force, out_option
 from linkwright.kernel.command.parameter import Option
@@ -211,6 +211,11 @@ def _study(
         given = getattr(limits, name)
         return None if given is None else option_value(f"--{name.replace('_', '-')}", given, kind)
 
+    if asked := _asked(limits, prices is not None):
+        names = ("reserve", "by", "free_ratio", "together", "inertia", "catalogue")
+        belong_to(f"a choice of motor and flywheel, without {asked[0]}", *names)
+        if prices is None:
+            belong_to("a flywheel", "unevenness")
     if prices is not None:
         time = read("run_up_time", TIME)
         return drive_study(machine, unevenness=unevenness, run_up_time=time, **prices.given())
@@ -224,16 +229,21 @@ def _study(
     return None
 
 
+def _asked(limits: _Limits, minimum_cost: bool) -> list[str]:
+    """The options that ask for a study."""
+    given = {
+        "--minimum-cost": minimum_cost,
+        "--pressure-angle": limits.pressure_angle is not None,
+        "--shaft": limits.shaft is not None,
+    }
+    return [name for name, value in given.items() if value]
+
+
 def _require_together(limits: _Limits, prices: _Prices, minimum_cost: bool, part: str | None) -> None:
     """Refuse two questions at once, and limits of a question that is not asked."""
     from linkwright.kernel.errors import InputError
 
-    given = {
-        "--minimum-cost": minimum_cost,
-        "--pressure-angle": limits.pressure_angle,
-        "--shaft": limits.shaft,
-    }
-    asked = [name for name, value in given.items() if value]
+    asked = _asked(limits, minimum_cost)
     if len(asked) > 1:
         raise InputError(f"{asked[1]}: found it beside {asked[0]}, expected one of them")
     belong: dict[str, tuple[object, tuple[str, ...]]] = {

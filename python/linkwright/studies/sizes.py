@@ -260,10 +260,10 @@ def _one(name: str | None, known: Collection[str], what: str) -> str:
     if name is None and len(known) == 1:
         return next(iter(known))
     if name is None or name not in known:
+        if not known:
+            raise InputError(f"the machine has no {what} to size")
         found = f'"{name}"' if name else "no name"
-        raise InputError(
-            f"{what}: found {found}, expected one of {', '.join(known) or 'none: there is no such part'}"
-        )
+        raise InputError(f"{what}: found {found}, expected one of {', '.join(known)}")
     return name
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import asyncio
 import json
 import os
+import signal
 import struct
 import sys
 import threading
@@ -40,7 +41,17 @@ def _jobs() -> Iterator[bytes]:
 
 
 def main() -> None:
-    """Answer jobs until the studio ends."""
+    """Answer jobs until there are no more; without a word once the server is gone or interrupted."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    try:
+        _answer_jobs()
+    except BrokenPipeError:
+        # At once: what is still to be written would be tried again at an ordinary end.
+        os._exit(0)
+
+
+def _answer_jobs() -> None:
+    """Answer each line of standard input."""
     from linkwright.kernel.errors import LinkwrightError
     from linkwright.machine.read import loads
     from linkwright.studio.analyses import beside, failed

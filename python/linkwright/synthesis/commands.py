@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from linkwright.kernel.command.answer import Answer, hand_over
-from linkwright.kernel.command.common import Curves, Json, Outside, Sets, option_value
+from linkwright.kernel.command.common import Curves, Json, Outside, Sets, belong_to, option_value
 from linkwright.kernel.command.console import bar
 from linkwright.kernel.command.out import Force, out_option
 from linkwright.kernel.command.parameter import Argument, Option
@@ -72,6 +72,7 @@ def dead_centre(
     if (swing is None) == (stroke is None):
         raise InputError("expected --swing ANGLE for a crank-rocker, or --stroke LENGTH for a slider-crank")
     if swing is not None:
+        belong_to("--stroke", "rod")
         size = option_value("--frame", frame, LENGTH)
         angle = option_value("--swing", swing, ANGLE)
         _finish(
@@ -83,6 +84,7 @@ def dead_centre(
         )
         return
     assert stroke is not None
+    belong_to("--swing", "frame", "coupler_max")
     length = None if rod is None else option_value("--rod", rod, LENGTH)
     way = option_value("--stroke", stroke, LENGTH)
     _finish("slider_crank", slider_crank(way, time_ratio, rod=length), json, out, force)

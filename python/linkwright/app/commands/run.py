@@ -7,7 +7,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from linkwright.kernel.command.answer import Answer, hand_over
-from linkwright.kernel.command.common import Curves, File, Json, Outside, Sets, ZeroAt, option_value
+from linkwright.kernel.command.common import (
+    Curves,
+    File,
+    Json,
+    Outside,
+    Sets,
+    ZeroAt,
+    belong_to,
+    option_value,
+)
 from linkwright.kernel.command.out import Force, command_line, out_option, output_folder
 from linkwright.kernel.command.parameter import Option
 
@@ -48,6 +57,8 @@ def run(
     from linkwright.kernel.command.console import progress
 
     folder = output_folder(out, force=force)
+    if method != "baranov":
+        belong_to("--method baranov", "step")
     steps = step if method == "baranov" else None
     with nullcontext() if json else progress("computing"):
         study = _studied(file, set or [], accuracy, steps, allow_outside=allow_outside)

@@ -16,8 +16,10 @@ import numpy as np
 
 from linkwright.cam.laws.piece import Harmonic, Piece, zeros
 from linkwright.kernel.arrays import Floats
+from linkwright.kernel.errors import InputError
 from linkwright.kernel.numerics.tangent import Tangent, total
 from linkwright.kernel.numerics.tangent_array import lifted, primal, variables_of
+from linkwright.kernel.public.arguments import array, integer, shown
 
 __all__ = ["Extreme", "Harmonic", "MotionLaw", "Piece", "combined", "joined"]
 
@@ -25,6 +27,12 @@ Side = Literal["after", "before"]
 
 # Share of the whole domain below which two breaks are one.
 _SAME = 1e-12
+
+# Beyond this angle, or time, the powers of a polynomial leave the range of numbers.
+_FAR = 1e9
+
+# Derivatives beyond are of no use, and beyond the range of numbers before long.
+_ORDER_MAX = 100
 
 
 class Extreme(NamedTuple):
@@ -43,6 +51,15 @@ class Extreme(NamedTuple):
     at: float
     value: float
     side: Side
+
+
+def _places(x: Any) -> Floats:
+    """Places of a law as an array; an `InputError` where a polynomial would pass the range of numbers."""
+    places: Floats = array("x", x)
+    farthest = np.abs(places).max(initial=0.0)
+    if farthest > _FAR:
+        raise InputError(f"x: found {farthest:.6g} in size, expected {_FAR:g} at most")
+    return places
 
 
 @dataclass(frozen=True)
@@ -93,8 +110,10 @@ class MotionLaw:
         `side`: which piece counts at a break, that ``"after"`` or ``"before"`` it. With derivatives where the
         law or x has some.
         """
+        if not isinstance(side, str) or side not in ("after", "before"):
+            raise InputError(f'side: found {shown(side)}, expected "after" or "before"')
         n = variables_of((x,)) or self.variables
-        x = np.asarray(x, dtype=float) if n is None else lifted(x, n)
+        x = _places(x) if n is None else lifted(x, n)
         law = self.derivative(order)
         inner = np.array(self.primal.breaks[1:-1])
         index = np.searchsorted(inner, primal(x), side="right" if side == "after" else "left")
@@ -125,6 +144,8 @@ class MotionLaw:
 
     def derivative(self, order: int = 1) -> MotionLaw:
         """The law's derivative of any order, piece by piece; jumps at breaks are left out."""
+        if not 0 <= integer("derivative", order) <= _ORDER_MAX:
+            raise InputError(f"derivative: found {shown(order)}, expected an order from 0 to {_ORDER_MAX}")
         law = self
         for _ in range(order):
             law = law._derivative
@@ -208,6 +229,7 @@ class MotionLaw:
 
     def extremes(self, order: int = 0) -> tuple[Extreme, Extreme]:
         """Minimum and maximum of the law, or of its derivative of an order; of equal ones the first."""
+        order = integer("order", order)
         ends = [(x, "after") for x in self.breaks[:-1]] + [(x, "before") for x in self.breaks[1:]]
         listed: list[Extreme] = []
         for side in ("after", "before"):

@@ -22,6 +22,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, ParamSpec, TypeVar
 
 import click
+from click.core import ParameterSource
 
 from linkwright.kernel.command.answer import Answer, is_taken, json_text
 from linkwright.kernel.command.interrupt import EXIT_CODE
@@ -126,6 +127,17 @@ def _by_options(error: LinkwrightError) -> str:
     }
     named = re.sub(r"[^\W\d]\w*", lambda word: options.get(word[0], word[0]), head[0])
     return named + str(error)[head.end() :]
+
+
+def belong_to(owner: str, *names: str) -> None:
+    """Refuse those of the options that were given, since without their owner they would say nothing."""
+    context = click.get_current_context(silent=True)
+    if context is None:
+        return
+    for option in context.command.params:
+        is_given = context.get_parameter_source(option.name or "") is ParameterSource.COMMANDLINE
+        if option.name in names and is_given:
+            raise InputError(f"{option.opts[0]}: it belongs to {owner}")
 
 
 def named_entries(option: str, text: str, example: str) -> tuple[str, list[str]]:

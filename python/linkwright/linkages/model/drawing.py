@@ -29,6 +29,7 @@ from linkwright.kernel.description.base import Description, fault, suggestion
 from linkwright.kernel.description.place import keys, look
 from linkwright.kernel.errors import UnitError
 from linkwright.kernel.units import ANGLE, LENGTH, Kind, Lengths, parse, parse_list, positive
+from linkwright.linkages.model.dxf_points import Layers
 from linkwright.linkages.model.topology import ORIGIN, Topology
 
 Point = tuple[float, float]
@@ -95,6 +96,7 @@ def _places(
         for key in drawing
         if key not in ("points", "file", "unit")
     ]
+    faults += _file_faults(drawing)
     for name in keys(drawing.get("points")):
         value = look(drawing["points"], name)
         try:
@@ -117,6 +119,16 @@ def _places(
     return places, faults
 
 
+def _file_faults(drawing: Mapping[str, Any]) -> Iterator[InitErrorDetails]:
+    """What is wrong with the name and the unit of a DXF file; the unit of one that was read is used up."""
+    file = drawing.get("file")
+    if "file" in drawing and not isinstance(file, Layers):
+        yield fault("drawing", "file", found=file, expected='the name of a DXF file, such as "linkage.dxf"')
+    elif "unit" in drawing:
+        found = drawing["unit"]
+        yield fault("drawing", "unit", found=found, expected="it beside a file, whose unit it is")
+
+
 def _number(entry: object, key: str, kind: Kind) -> float | None:
     """A number of a raw table in SI; None where it is left out, or wrong, which its own field reports."""
     value = look(entry, key)
@@ -129,7 +141,7 @@ def _number(entry: object, key: str, kind: Kind) -> float | None:
 def _layers(drawing: Mapping[str, Any]) -> Mapping[str, Any]:
     """Places by layer of a DXF file that has been read."""
     file = drawing.get("file")
-    return file if isinstance(file, Mapping) else {}
+    return file if isinstance(file, Layers) else {}
 
 
 def _unknown(

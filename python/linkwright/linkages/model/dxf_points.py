@@ -25,6 +25,10 @@ _SAME = 1e-6
 _UNITS = {1: 0.0254, 2: 0.3048, 4: 1e-3, 5: 1e-2, 6: 1.0, 13: 1e-6, 14: 1e-1}
 
 
+class Layers(dict[str, list[list[float]]]):
+    """Places in each layer of a DXF file [m], in place of its name."""
+
+
 def with_dxf_points(tables: dict[str, Any], folder: Path, *, allow_outside: bool = False) -> None:
     """Put the places of the DXF file that a drawing names in place of its name; `tables` is changed.
 
@@ -41,7 +45,7 @@ def with_dxf_points(tables: dict[str, Any], folder: Path, *, allow_outside: bool
     drawing["file"] = _places(path, drawing.pop("unit", None))
 
 
-def _places(path: Path, unit: Any) -> dict[str, list[list[float]]]:
+def _places(path: Path, unit: Any) -> Layers:
     """Places in each layer [m]; circles about one centre are one."""
     drawn, code = _read(path)
     size = _unit(code, unit, path)
@@ -57,7 +61,7 @@ def _places(path: Path, unit: Any) -> dict[str, list[list[float]]]:
     if all(len(group) > 1 for group in apart.values()):
         listed = ", ".join(places)
         raise _wrong(path, f"several places in each of the layers {listed}", "one point in a layer")
-    return {layer: [[x * size, y * size] for x, y in group] for layer, group in apart.items()}
+    return Layers({layer: [[x * size, y * size] for x, y in group] for layer, group in apart.items()})
 
 
 def _apart(group: list[tuple[float, float]], same: float) -> Iterator[tuple[float, float]]:

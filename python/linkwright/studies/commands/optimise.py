@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from linkwright.kernel.command.answer import Answer, hand_over
-from linkwright.kernel.command.common import Json, Outside, Sets
+from linkwright.kernel.command.common import Json, Outside, Sets, belong_to
 from linkwright.kernel.command.out import Force, Out
 from linkwright.kernel.command.parameter import Option
 from linkwright.kernel.errors import FindingError
@@ -60,10 +60,18 @@ def optimise(
     from linkwright.studies.read import read_study
 
     plan = read_study(file, set or [], allow_outside=allow_outside)
+    belong_to(
+        *(
+            ("--method both or global", "evaluations")
+            if method == "gradient"
+            else ("--method gradient", "starts")
+        )
+    )
     if len(plan.study.goals) == 2:
         options = {"seed": seed, "method": method, "starts": starts, "log": log}
         _hand_over_front(plan, points, evaluations, options, json=json, out=out, force=force)
         return
+    belong_to("a study of two goals", "points")
     search = {"evaluations": evaluations, "seed": seed, "method": method, "starts": starts, "log": log}
     hand_over_optimum(plan, search, json=json, out=Path(out) if out else None, force=force)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Annotated
 
 from linkwright.kernel.command.answer import Answer, hand_over
-from linkwright.kernel.command.common import Json, Outside, Sets
+from linkwright.kernel.command.common import Json, Outside, Sets, belong_to
 from linkwright.kernel.command.parameter import Option
 from linkwright.studies.commands.sweep import StudyArgument
 
@@ -54,8 +54,10 @@ def tolerance(
 
     plan = read_study(file, set or [], allow_outside=allow_outside)
     if wanted is not None:
+        belong_to("the scatter of the tolerances as they are, without --allocate", "indices")
         _hand_over_allocation(plan, wanted, power, rows, seed, json=json)
         return
+    belong_to("--allocate", "power")
     scatter = compute(plan, rows, seed=seed, indices=indices)
     failed = (
         f"{scatter.n_failed} of {scatter.n_rows} machines have no result; they count as outside the limits."

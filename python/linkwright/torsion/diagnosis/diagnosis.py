@@ -178,7 +178,8 @@ class Diagnosis(Result):
         Parameters
         ----------
         level : float
-            Probability that none is named in a healthy engine; shared out to the cylinders (Bonferroni).
+            Probability that none is named in a healthy engine; shared out to the cylinders, and to strength,
+            delay and compression where all three are estimated (Bonferroni).
 
         Returns
         -------
@@ -222,8 +223,9 @@ class Diagnosis(Result):
         return self._below(self.compression - 1, self.compression_deviation, level)
 
     def _below(self, value: Floats, deviation: Floats, level: float) -> tuple[str, ...]:
-        """Cylinders whose one-sided intervals lie below 0, at a level for all of them together."""
-        single = 1 - 2 * (1 - level) / len(self.cylinders)
+        """Cylinders whose one-sided intervals lie below 0, at a level for all intervals together."""
+        intervals = len(self.cylinders) * (1 if self.delay is None else 3)
+        single = 1 - 2 * (1 - level) / intervals
         below = value + self.coverage(single) * deviation < 0
         return tuple(self.cylinders[n] for n in np.argsort(value) if below[n])
 

@@ -28,6 +28,7 @@ from numpy.typing import ArrayLike
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.public import public
+from linkwright.kernel.public.arguments import number
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import Label
 from linkwright.kernel.result import Result
@@ -57,7 +58,7 @@ class Waterfall(Result):
 
     def order(self, wanted: float) -> Floats:
         """Amplitudes of the order nearest to the wanted one, (windows,), in the unit of the signal."""
-        amplitudes: Floats = self.amplitudes[:, int(np.abs(self.orders - wanted).argmin())]
+        amplitudes: Floats = self.amplitudes[:, int(np.abs(self.orders - number("order", wanted)).argmin())]
         return amplitudes
 
 
