@@ -25,6 +25,11 @@ from linkwright.machine.machine import Machine
 # Relative accuracy of a step.
 _ACCURACY = 1e-9
 
+# Steady speeds are read between angles at most so far apart [rad], and between so many where the motion
+# settles.
+_SPACING = np.radians(1.01)
+_NEAR = 9
+
 # Turns after which it is looked again whether the motion has settled; most drives settle in the first ten.
 _FIRST_TURNS = 10.0
 
@@ -97,6 +102,8 @@ def run_up(machine: Machine, *, steady: SteadyState | None = None) -> RunUp:
 def accurate_run_up(machine: Machine, steady: SteadyState, accuracy: float) -> RunUp:
     """`run_up` of a machine that starts, with the relative accuracy of a step."""
     options = machine.run_up
+    if not _is_dense(steady):
+        steady = steady_state(machine)
     turns = min(_FIRST_TURNS, options.turns_max)
     while True:
         motion = transient(
@@ -108,7 +115,7 @@ def accurate_run_up(machine: Machine, steady: SteadyState, accuracy: float) -> R
         )
         if motion.came_to_rest:
             raise StartError(_why_not(motion))
-        settled = _settled(motion, steady, options.settled)
+        settled = _settled(machine, motion, steady, accuracy)
         # Settled well before the end: otherwise the speed may yet leave the band again.
         if settled is not None and (settled[0] <= 0.8 * turns or turns >= options.turns_max):
             break
@@ -131,7 +138,7 @@ def accurate_run_up(machine: Machine, steady: SteadyState, accuracy: float) -> R
 def _steady_or_stall(machine: Machine) -> SteadyState:
     """The steady motion; where there is none because the machine comes to rest, a `StartError` says where."""
     try:
-        return steady_state(machine, n=1440)
+        return steady_state(machine)
     except SteadyStateError:
         options = machine.run_up
         motion = transient(
@@ -184,17 +191,26 @@ def _too_slow(motion: Transient, steady: SteadyState, band: float) -> str:
                 f"{other.speed_min:.4g} to {other.speed_max:.4g} rad/s; choose a motor with more torque at "
                 "low speed, or start at a higher run_up.speed_start"
             )
-    off = abs(motion.speed[-1] / _steady_speed(steady, motion.crank_angle[-1:])[0] - 1)
+    off = abs(motion.speed[-1] / _steady_speed(steady, steady.crank_angle, motion.crank_angle[-1:])[0] - 1)
     return (
         f"has not settled after {motion.turns:.0f} revolutions ({motion.time[-1]:.1f} s): its speed still "
         f"differs from it by {100 * off:.2g} %, more than {100 * band:.2g} %; raise run_up.turns_max"
     )
 
 
-def _steady_speed(steady: SteadyState, angle: Floats) -> Floats:
-    """Speed of steady motion at crank angles, by the cubic through speeds and slopes of its curve."""
-    grid, omega = steady.crank_angle, steady.speed
-    phi = angle % (2 * np.pi * steady.turns)
+def _is_dense(steady: SteadyState) -> bool:
+    """Whether the curves go all round, with angles near enough to each other to read speeds between them."""
+    grid = steady.crank_angle
+    if len(grid) < 2 or grid[0] != 0 or grid[-1] < 2 * np.pi * steady.turns * (1 - 1e-12):
+        return False
+    steps = np.diff(grid)
+    return bool((steps > 0).all() and (steps <= _SPACING).all())
+
+
+def _steady_speed(steady: SteadyState, grid: Floats, angle: Floats) -> Floats:
+    """Speed at crank angles, by the cubic through speeds and slopes over a grid that begins anywhere."""
+    omega = steady.speed
+    phi = (angle - grid[0]) % (2 * np.pi * steady.turns) + grid[0]
     k = grid[1:-1].searchsorted(phi, side="right")
     h = grid[k + 1] - grid[k]
     z = (phi - grid[k]) / h
@@ -208,22 +224,28 @@ def _steady_speed(steady: SteadyState, angle: Floats) -> Floats:
     return value
 
 
-def _settled(motion: Transient, steady: SteadyState, band: float) -> tuple[float, float] | None:
+def _settled(
+    machine: Machine, motion: Transient, steady: SteadyState, accuracy: float
+) -> tuple[float, float] | None:
     """Turns and time at which the motion last enters the band about steady motion; None if never."""
-    limit = band * steady.speed_mean_time
+    limit = machine.run_up.settled * steady.speed_mean_time
 
-    def excess(time: Floats) -> Floats:
+    def excess(time: Floats, of: SteadyState, grid: Floats) -> Floats:
         angle, speed = motion.at(time)
-        return np.abs(speed - _steady_speed(steady, angle)) - limit
+        return np.abs(speed - _steady_speed(of, grid, angle)) - limit
 
     looks = _looks(motion)
-    outside = np.flatnonzero(excess(looks) > 0)
+    outside = np.flatnonzero(excess(looks, steady, steady.crank_angle) > 0)
     if not len(outside):
         return 0.0, 0.0
     if outside[-1] == len(looks) - 1:
         return None
-    ends = zeros(excess, looks[outside[-1:]], looks[outside[-1:] + 1])
-    settled = np.maximum(*ends)
+    low, high = looks[outside[-1:]], looks[outside[-1:] + 1]
+    first, last = motion.at(np.append(low, high))[0]
+    # A little beyond both ends, which rounding may leave.
+    grid = first + (last - first) * np.linspace(-0.1, 1.1, _NEAR)
+    near = steady_state(machine, angles=grid % (2 * np.pi * steady.turns), accuracy=accuracy)
+    settled = np.maximum(*zeros(lambda time: excess(time, near, grid), low, high))
     angle = motion.at(settled)[0][0]
     return float(angle - motion.crank_angle[0]) / (2 * np.pi), float(settled[0])
 
