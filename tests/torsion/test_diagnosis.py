@@ -260,3 +260,20 @@ def test_normal_quantile_and_levels_that_are_none() -> None:
     assert coverage_factor(0.95) == pytest.approx(stats.norm.ppf(0.975), rel=1e-12)
     with pytest.raises(InputError, match="level of confidence"):
         coverage_factor(1.0)
+
+
+def test_all_that_is_estimated_accuses_at_the_level_together() -> None:
+    """Strength, delay and compression of eight healthy cylinders with known noise: 95 of 100 engines pass.
+
+    Of 4000 engines 5 % are 200 ± 14; each of the three by itself at that level would be 14 %.
+    """
+    draws = np.random.default_rng(3).normal(size=(4000, 3, 8))
+    one = np.ones(8)
+    names = tuple("12345678")
+    named = 0
+    for strength, delay, compression in draws:
+        found = Diagnosis(
+            names, 1 + strength, one, np.eye(8), 1.0, 1.0, 72, True, (), delay, one, 1 + compression, one
+        )
+        named += bool({*found.weak(), *found.late(), *found.leaking()})
+    assert 150 < named < 250
