@@ -225,3 +225,17 @@ def test_figure() -> None:
     assert sizes[amplitudes.argmax()] > 10 * sizes.min()
     plain = campbell_figure(lw.campbell(machine, [40.0], (15.0, 16.0))).axes[0]
     assert not plain.get_legend_handles_labels()[0] or not plain.collections
+
+
+def test_orders_stand_free_of_the_legend() -> None:
+    """Numbers on the upper edge and the legend above it share no place."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+    found = lw.campbell(two_discs(), np.arange(0.5, 8.1, 0.5), (10.0, 200.0), excitation=np.ones((16, 2)))
+    canvas = FigureCanvasAgg(campbell_figure(found))
+    canvas.draw()
+    axes = canvas.figure.axes[0]
+    legend, renderer = axes.get_legend().get_window_extent(), canvas.get_renderer()
+    words = [text for text in axes.texts if text.get_window_extent(renderer).overlaps(legend)]
+    assert len(axes.texts) > 4
+    assert [text.get_text() for text in words] == []

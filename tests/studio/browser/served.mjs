@@ -12,7 +12,7 @@ export const ARGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-fi
 // Milliseconds for what a user waits for, on a machine that does other things too; and for a file of tests as a whole,
 // so that all of them end within ten minutes, whatever hangs.
 export const PATIENCE = Number(process.env.PATIENCE ?? 45_000);
-const WHOLE = 260_000;
+const WHOLE = 250_000;
 
 /** What is open: closed at the end of the tests, and however else the process ends. @type {Set<() => unknown>} */
 const open = new Set();
@@ -55,7 +55,7 @@ export async function studioOf(folder) {
 
 /** The studio in a browser, with its faults: errors and warnings of the console, and requests to elsewhere. */
 export async function served(options) {
-  bounded();
+  bounded(options?.whole);
   const folder = folderWith(options);
   const { server, address, origin } = await studioOf(folder);
   const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ARGS });

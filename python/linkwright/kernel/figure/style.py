@@ -144,9 +144,9 @@ def turn_axis(axes: Axes, degrees: np.ndarray | None = None, *, label: bool = Tr
         axes.set_xlabel("crank angle φ [°]")
 
 
-def legend_above(axes: Axes) -> None:
-    """A legend in one line above the axes, where no line runs through it."""
-    axes.legend(loc="lower left", bbox_to_anchor=(0, 1.0), ncols=4, borderaxespad=0.2, handlelength=1.8)
+def legend_above(axes: Axes, gap: float = 0.2) -> None:
+    """A legend in one line above the axes, where no line runs through it; `gap` in heights of its letters."""
+    axes.legend(loc="lower left", bbox_to_anchor=(0, 1.0), ncols=4, borderaxespad=gap, handlelength=1.8)
 
 
 def level(axes: Axes, value: float, text: str, colour: str = SOFT) -> None:

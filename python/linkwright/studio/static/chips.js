@@ -1,6 +1,6 @@
 // What can be computed: ready, running, or what data are missing and how to add them; findings and warnings.
 import { html } from "./html.js";
-import { settle, stop } from "./actions.js";
+import { settle, stop, undo } from "./actions.js";
 import * as state from "./state.js";
 
 /** @param {{ chip: Chip }} props */
@@ -13,7 +13,8 @@ function Chip({ chip }) {
   const now = lane === "fast" ? (state.results.value.some((each) => each.name === name) || (name === "motion" && state.scene.value) ? "ready" : "failed") : state.lanes.value[lane] ?? "ready";
   const looks = /** @type {Record<string, [string, string]>} */ ({ ready: ["●", "ready"], running: ["◌", "running"], stopped: ["■", "stopped"], failed: ["▲", "cannot be computed; see the findings"] });
   const [mark, about] = looks[now];
-  return html`<span class="chip ${now}" title="${word}: ${about}"><i aria-hidden="true">${mark}</i>${word}${now === "ready" ? null : html`<small>${now === "failed" ? "see findings" : now}</small>`}</span>`;
+  return html`<span class="chip ${now}" title="${word}: ${about}"><i aria-hidden="true">${mark}</i>${word}${now === "ready" ? null : html`<small>${now === "failed" ? "see findings" : now}</small>`}
+      ${now === "failed" && state.past.value.of.canUndo ? html`<button onClick=${undo}>Undo</button>` : null}</span>`;
 }
 
 export function Chips() {

@@ -150,7 +150,8 @@ def campbell_figure(diagram: CampbellDiagram) -> Figure:
     axes.set_xlabel("speed [rpm]")
     axes.set_ylabel("frequency [Hz]")
     if axes.get_legend_handles_labels()[0]:
-        legend_above(axes)
+        # Above the numbers of the orders, which stand on the upper edge.
+        legend_above(axes, gap=1.5)
     return figure
 
 
