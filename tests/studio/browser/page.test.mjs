@@ -13,7 +13,7 @@ const CARTS = readFileSync(`${ROOT}machines/roller_two_carts.toml`, "utf8");
 let folder, server, page, context, faults, end;
 
 before(async () => {
-  ({ folder, server, page, context, faults, end } = await studio.served({ whole: 290_000 }));
+  ({ folder, server, page, context, faults, end } = await studio.served());
 });
 
 after(() => end?.());

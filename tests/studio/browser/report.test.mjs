@@ -12,7 +12,7 @@ let browser, page, folder;
 const faults = [];
 
 before(async () => {
-  bounded(30_000);
+  bounded();
   folder = mkdtempSync(`${tmpdir()}/report-`);
   execFileSync(`${ROOT}.venv/bin/linkwright`, ["report", "--to", "carts.html", "run", `${ROOT}machines/roller_two_carts.toml`], { cwd: folder, timeout: PATIENCE });
   browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ARGS });

@@ -19,7 +19,7 @@ let browser, page;
 const faults = [];
 
 before(async () => {
-  bounded(30_000);
+  bounded();
   const made = JSON.parse(execFileSync(`${ROOT}.venv/bin/python`, ["-c", MADE], { encoding: "utf8", timeout: PATIENCE, maxBuffer: 1e9 }));
   browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ARGS });
   page = await browser.newPage({ viewport: { width: 700, height: 420 } });
