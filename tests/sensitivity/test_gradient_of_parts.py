@@ -109,3 +109,43 @@ def test_forces_of_a_follower_that_leaves_have_derivatives() -> None:
     found = lw.gradient(machine, ["cam_force.F.force_min"], ["bodies.F.mass"])
     assert found.values[0] < 0
     assert np.isfinite(found.derivatives).all()
+
+
+LOAD = "position = [0, 0.3, 1]\nup = [30e3, 41e3, 37e3]\ndown = [30e3, 22e3, 18e3]\nefficiency = 0.95"
+
+
+def geared(counterbalance: str) -> lw.Machine:
+    sizes = "\n".join(f"{letter} = {value}" for letter, value in UNITS["conventional"].items())
+    unit = f'[pumping_unit]\ngeometry = "conventional"\n{sizes}\n[pumping_unit.load]\n{LOAD}\n'
+    return lw.loads(f'format = 1\nname = "Unit"\n[drive]\nspeed = "10 rpm"\n{unit}{counterbalance}\n')
+
+
+def torques(machine: lw.Machine, names: list[str]) -> list[float]:
+    gear = lw.pumping_unit(machine, n=8).gear
+    return [getattr(gear, name.rpartition(".")[2]) for name in names]
+
+
+def test_gear_of_a_pumping_unit() -> None:
+    """Also where the largest torque is reached at a corner of the table of the load."""
+    machine = geared("counterbalance = 20e3")
+    entries = ["pumping_unit.A", "pumping_unit.R", "pumping_unit.load.efficiency"]
+    derived = source(machine, "pumping_unit", [*entries, "pumping_unit.load.counterbalance"])
+    names = [f"pumping_unit.gear.torque_net_{end}" for end in ("up", "down", "min")]
+    assert not derived.ties
+    for place, entry in enumerate(entries):
+        rough = differences(machine, entry, lambda made: torques(made, names))
+        np.testing.assert_allclose([derived.tangents[name].d[place] for name in names], rough, rtol=1e-9)
+
+
+def test_counterbalance_of_equal_peaks() -> None:
+    """It moves so that both peaks stay equal."""
+    machine = geared("")
+    derived = source(machine, "pumping_unit", ["pumping_unit.R"])
+    names = [f"pumping_unit.gear.{name}" for name in ("torque_net_up", "torque_net_down", "counterbalance")]
+    up, down, balance = (float(derived.tangents[name].d[0]) for name in names)
+    assert up == pytest.approx(down, rel=1e-9)
+    value, h = UNITS["conventional"]["R"], 1e-3
+    near = [torques(lw.replace(machine, {"pumping_unit.R": value + way * h}), names) for way in (-1, 1)]
+    # Central differences miss by h² of a third derivative.
+    rough = (np.array(near[1]) - near[0]) / (2 * h)
+    np.testing.assert_allclose([up, down, balance], rough, rtol=1e-4)

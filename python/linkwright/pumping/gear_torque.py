@@ -26,6 +26,7 @@ import numpy as np
 
 from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.errors import FindingError
+from linkwright.kernel.numerics.tangent_array import numbers
 from linkwright.kernel.numerics.turn_curve import TurnCurve
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.numerics.zeros import zero, zeros
@@ -119,7 +120,7 @@ class GearTorque(Result):
 
 
 @dataclass(frozen=True)
-class _Stroke:
+class StrokeLoad:
     """What acts on the crank at crank angles, and the counterbalance of size one."""
 
     unit: PumpingUnit
@@ -154,13 +155,13 @@ def gear_torque(
     assert load is not None, "a unit with a load"
     is_air = unit.geometry == "air_balanced"
     given = load.counterbalance_effect if is_air else load.counterbalance
-    strokes = _Strokes(unit, load, motion, ends)
+    strokes = Strokes(unit, load, motion, ends)
     size = float(given) if isinstance(given, int | float) else strokes.equal_peaks()
     up, down = strokes.curves(size)
     mean, _, work = (up.integral() + down.integral()) / (2 * np.pi)
     span = np.array([np.ptp(up.ends), np.ptp(down.ends)]) / (2 * np.pi)
     rms = float(np.sqrt(span @ [up.rms()[0] ** 2, down.rms()[0] ** 2]))
-    shown, rating = _stroke(unit, load, motion(angles), angles), unit.rating
+    shown, rating = stroke_load(unit, load, motion(angles), angles), unit.rating
     return GearTorque(
         crank_angle=angles,
         rod_load=shown.load,
@@ -183,7 +184,7 @@ def gear_torque(
 
 
 @dataclass(frozen=True)
-class _Strokes:
+class Strokes:
     """Upstroke and downstroke of a unit under its load."""
 
     unit: PumpingUnit
@@ -196,7 +197,7 @@ class _Strokes:
 
         def of(angles: Floats) -> Floats:
             at = angles % (2 * np.pi)
-            stroke = _stroke(self.unit, self.load, self.motion(at), at)
+            stroke = stroke_load(self.unit, self.load, self.motion(at), at)
             return np.stack([stroke.net(size), stroke.load, stroke.load * stroke.factor])
 
         up, down = self._spans()
@@ -219,7 +220,7 @@ class _Strokes:
         More counterbalance lowers the peak of the upstroke and raises that of the downstroke.
         """
         fine: Floats = np.linspace(0.0, 2 * np.pi, _ANGLES, endpoint=False)
-        turn = _stroke(self.unit, self.load, self.motion(fine), fine)
+        turn = stroke_load(self.unit, self.load, self.motion(fine), fine)
         is_up = (fine - self.ends[0]) % (2 * np.pi) <= (self.ends[1] - self.ends[0]) % (2 * np.pi)
         guess = _equal_peaks(turn, is_up)
 
@@ -233,26 +234,29 @@ class _Strokes:
         return float(zeros(excess, guess - reach, guess + reach)[0][0])
 
 
-def _stroke(unit: PumpingUnit, load: PolishedRodLoad, motion: Floats, angles: Floats) -> _Stroke:
+def stroke_load(unit: PumpingUnit, load: PolishedRodLoad, motion: Floats, angles: Floats) -> StrokeLoad:
     """Load and torques at crank angles."""
     travel, factor, _ = motion
     force = _force(load, angles, travel / unit.stroke, factor)
-    return _Stroke(unit, force, factor, np.sin(angles + load.phase))
+    return StrokeLoad(unit, force, factor, np.sin(angles + load.phase))
 
 
 def _force(load: PolishedRodLoad, angles: Floats, position: Floats, factor: Floats) -> Floats:
     """Load of the polished rod at crank angles, from its table."""
     if load.angle is not None:
         assert load.force is not None
-        return np.interp(angles, load.angle, load.force, period=2 * np.pi)
+        by_angle: Floats = np.interp(angles, numbers(load.angle), numbers(load.force), period=2 * np.pi)
+        return by_angle
     assert load.position is not None
     assert load.up is not None
     assert load.down is not None
-    up, down = (np.interp(position, load.position, values) for values in (load.up, load.down))
+    up, down = (
+        np.interp(position, numbers(load.position), numbers(values)) for values in (load.up, load.down)
+    )
     return np.where(factor >= 0, up, down)
 
 
-def _equal_peaks(turn: _Stroke, is_up: Bools) -> float:
+def _equal_peaks(turn: StrokeLoad, is_up: Bools) -> float:
     """The counterbalance with which both strokes have equal peaks among samples."""
 
     def excess(size: float) -> float:

@@ -219,10 +219,16 @@ def _cam_forces(machine: Machine, variables: Sequence[str]) -> Source:
 
 def _pumping(machine: Machine, variables: Sequence[str]) -> Source:
     """Stroke, torque factors and motion of the polished rod."""
+    from linkwright.pumping.gear_torque import GearTorque
     from linkwright.pumping.gradient import pumping_tangents
     from linkwright.pumping.unit import PumpingUnitMotion
 
-    return _of_scalars("pumping_unit", PumpingUnitMotion, pumping_tangents(machine, variables))
+    derived = pumping_tangents(machine, variables)
+    gear = [name for name in derived.tangents if name.startswith("gear.")]
+    marks = {name: shown(GearTorque, name.partition(".")[2]) for name in gear}
+    words = {name: f"{mark.word} {mark.symbol}".strip() for name, mark in marks.items()}
+    units = {name: mark.unit for name, mark in marks.items()}
+    return _of_scalars("pumping_unit", PumpingUnitMotion, derived, words, units)
 
 
 def _joined(variables: tuple[str, ...], parts: Sequence[Source], refused: Mapping[str, str]) -> Source:
