@@ -253,7 +253,8 @@ def _force(load: PolishedRodLoad, angles: Floats, position: Floats, factor: Floa
     up, down = (
         np.interp(position, numbers(load.position), numbers(values)) for values in (load.up, load.down)
     )
-    return np.where(factor >= 0, up, down)
+    by_place: Floats = np.where(factor >= 0, up, down)
+    return by_place
 
 
 def _equal_peaks(turn: StrokeLoad, is_up: Bools) -> float:

@@ -105,7 +105,8 @@ def _at_place(rod: PolishedRod, along: Any, angle: float) -> StrokeLoad:
     heights = load.up if rate[0] > 0 else load.down
     force = lifted(numbers((heights[corner],)), position.d.shape[-1])
     factor = factor + bend.value * (moved - place)
-    return StrokeLoad(along.unit, force, factor, np.sin(moved + load.phase))
+    moment: Any = np.sin(moved + load.phase)
+    return StrokeLoad(along.unit, force, factor, moment)
 
 
 def _balanced(at: dict[str, StrokeLoad], size: float) -> Any:
