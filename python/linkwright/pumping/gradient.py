@@ -103,7 +103,7 @@ def _at_place(rod: PolishedRod, along: Any, angle: float) -> StrokeLoad:
     is_end = bool(np.abs(rate[0]) < _ON_CORNER)
     moved = TangentArray(place, np.full_like(position.d, np.nan) if is_end else -position.d / rate[:, None])
     heights = load.up if rate[0] > 0 else load.down
-    force = lifted(numbers((heights[corner],)), position.d.shape[-1])
+    force: Any = lifted(numbers((heights[corner],)), position.d.shape[-1])
     factor = factor + bend.value * (moved - place)
     moment: Any = np.sin(moved + load.phase)
     return StrokeLoad(along.unit, force, factor, moment)
