@@ -19,10 +19,10 @@ const HEAD_MOST = 6;
 const MODES_MOST = 3;
 const NO_RESULT = /^(scheme|along|transient)\.|^linkage\.period_turns$|error/;
 
-/** Index marks of a symbol, as M_d,max. @param {{ symbol: string }} props */
+/** Index marks of a symbol, as M_d,max or φ(ω_min). @param {{ symbol: string }} props */
 export function Sign({ symbol }) {
-  const [head, ...rest] = symbol.split("_");
-  return html`<span class="symbol">${head}${rest.length ? html`<sub>${rest.join("_")}</sub>` : null}</span>`;
+  const [head, index, rest] = (/^([^_]*)_?([^)]*)(.*)$/.exec(symbol) ?? []).slice(1);
+  return html`<span class="symbol">${head}${index ? html`<sub>${index}</sub>` : null}${rest}</span>`;
 }
 
 /** @param {string} name */
