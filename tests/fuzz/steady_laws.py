@@ -20,6 +20,9 @@ Floats = NDArray[np.float64]
 # Nodes of a panel: Gauss's rule of degree 11.
 _X, _W = np.polynomial.legendre.leggauss(6)
 
+# Accelerations count at least against this share of ω²: of a drive that idles rounding is all that there is.
+_EVEN = 1e-4
+
 # Rounding of a sum of torques that nearly cancel.
 _ROUNDING = 1e-13
 
@@ -75,14 +78,18 @@ def _curves(steady: SteadyState) -> list[Floats]:
 def _peak(steady: SteadyState) -> float:
     """What accelerations count against."""
     peak = max(abs(steady.acceleration_min), abs(steady.acceleration_max))
-    return max(peak, 1e-4 * steady.speed_max**2)
+    return max(peak, _EVEN * steady.speed_max**2)
 
 
 def _energy(machine: Machine, steady: SteadyState) -> float:
-    """Work at the crank against that of the loads, as a share of what oscillates, rounding apart."""
+    """Work at the crank against that of the loads, as a share of what oscillates, rounding apart.
+
+    Work counts at least against what the acceleration of `_EVEN` takes, as in the accuracy that is told.
+    """
     size = float(np.trapezoid(np.abs(steady.torque_load) + np.abs(steady.torque_drive), steady.crank_angle))
     idle = _ROUNDING * float((steady.inertia_reduced * steady.speed**2).max())
     idle += 2 * np.pi * rounding(steady, compile_machine(machine))
+    size = max(size, 2 * np.pi * _EVEN * float((steady.inertia_reduced * steady.speed**2).max()))
     return max(abs(steady.energy_drive - steady.energy_load) - idle, 0.0) / max(size, idle)
 
 

@@ -17,6 +17,7 @@ import pytest
 import linkwright as lw
 from linkwright.kernel.errors import InputError
 from linkwright.studies.engine import numbers, sound_variant
+from linkwright.studies.figures import StudyRows, figures
 from linkwright.studies.folder import opened, plan_of
 from linkwright.studies.plan import plan as plan_with
 
@@ -251,3 +252,14 @@ def test_a_cluster_with_a_worker_killed(
     monkeypatch.setattr("linkwright.studies.workers._PATIENCE", 0.5)
     with pytest.raises(InputError, match="found no scheduler"):
         lw.sweep(plan, tmp_path / "other", cluster="nowhere:1")
+
+
+def test_rows_that_lack_a_response_are_drawn_without_lines() -> None:
+    """A line goes through all columns: without a row that has them all there is no picture of lines."""
+    full, gaps = np.arange(3.0), np.array([np.nan, 1.0, np.nan])
+    columns = {"a": full, "b": full, "first": gaps, "second": np.array([2.0, np.nan, np.nan])}
+    names = {name: name for name in columns}
+    shown = StudyRows(columns, names, ("a", "b"), ("first", "second"), is_grid=False)
+    assert set(figures(shown)) == {"scatter"}
+    columns["second"] = full
+    assert set(figures(shown)) == {"scatter", "parallel"}

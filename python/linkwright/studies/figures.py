@@ -116,8 +116,7 @@ def parallel_figure(shown: StudyRows) -> Figure:
 
     names = _chosen(shown)
     figure, (panel,) = panels(1, height=4.2)
-    solved = np.isfinite(np.stack([shown.columns[name] for name in names])).all(axis=0)
-    rows = np.flatnonzero(solved)
+    rows = _whole_rows(shown)
     rows = rows[_spread(len(rows), _LINES)]
     scaled = np.stack([_scaled(shown.columns[name][rows]) for name in names], axis=1)
     order = np.argsort(scaled[:, -1])
@@ -144,7 +143,15 @@ def figures(shown: StudyRows) -> dict[str, Figure]:
     if shown.is_grid and len(shown.variables) == 2:
         drawn |= {f"map_{response}": map_figure(shown, response) for response in shown.responses}
         return drawn
-    return {"scatter": scatter_figure(shown), "parallel": parallel_figure(shown)}
+    drawn["scatter"] = scatter_figure(shown)
+    if _whole_rows(shown).size:
+        drawn["parallel"] = parallel_figure(shown)
+    return drawn
+
+
+def _whole_rows(shown: StudyRows) -> Indices:
+    """Numbers of the rows in which each column has a value: a line goes through all of them."""
+    return np.flatnonzero(np.isfinite(np.stack([shown.columns[name] for name in _chosen(shown)])).all(axis=0))
 
 
 def _chosen(shown: StudyRows) -> Sequence[str]:
