@@ -84,7 +84,7 @@ def _peak(steady: SteadyState) -> float:
 def _energy(machine: Machine, steady: SteadyState) -> float:
     """Work at the crank against that of the loads, as a share of what oscillates, rounding apart.
 
-    Work counts at least against what the acceleration of `_EVEN` takes, as in the accuracy that is told.
+    Work counts at least against what the acceleration of `_EVEN` takes, as the accuracy of the product says.
     """
     size = float(np.trapezoid(np.abs(steady.torque_load) + np.abs(steady.torque_drive), steady.crank_angle))
     idle = _ROUNDING * float((steady.inertia_reduced * steady.speed**2).max())

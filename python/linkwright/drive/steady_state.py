@@ -84,7 +84,7 @@ _MULTIPLIER = (
 )
 _ACCURACY = (
     "Measured relative error of speeds, of accelerations (relative to their peak, or to 1e-4 ω² if that is "
-    "larger), and of the integrals (relative to the sum of their parts, or to what such an acceleration takes "
+    "larger), and of the integrals (relative to the sum of their parts, or to what that acceleration takes "
     "if that is larger). Every step is compared with two half steps."
 )
 _OTHERS = "Other periodic motions of the machine, from the fastest down to a hundredth of the working speed."
