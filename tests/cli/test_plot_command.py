@@ -99,3 +99,13 @@ def test_the_list_of_curves_is_whole() -> None:
     listed = json.loads(run("--json").stdout)["results"]["curves"]
     assert all(name in told.stdout for name in listed)
     assert "more rows" not in told.stdout
+
+
+def test_what_is_rounding_beside_other_places_is_zero(tmp_path: Path) -> None:
+    """The ram moves along a vertical guide through the shaft: its x is rounding of cos 90°."""
+    table = tmp_path / "x.csv"
+    done = run("motion.ram.x", "--units", "mm", "--out", str(table))
+    assert done.exit_code == 0, done.output
+    rows = list(csv.DictReader(table.read_text(encoding="utf-8").splitlines()))
+    assert {row["motion.ram.x [mm]"] for row in rows} == {"0.0"}
+    assert "·10" not in done.stdout

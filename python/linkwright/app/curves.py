@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from io import BytesIO
 from typing import TYPE_CHECKING, NamedTuple
@@ -41,6 +41,7 @@ class Curve:
     over: str
     over_unit: str
     x: Floats  # (n,): what it runs over
+    scale: float = 0.0  # largest value of its analysis with its unit; what is rounding beside it is zero
 
 
 def curves_of(study: Study) -> dict[str, Curve]:
@@ -57,11 +58,23 @@ def _of(analysis: str, result: Result) -> Iterator[Curve]:
         curves[name], units[name] = curve, "" if unit == "-]" else unit.rstrip("]")
     # A motion is known over the time, and asked for over the crank angle.
     first = CRANK_ANGLE if isinstance(result, Motion) else next(iter(curves), "")
+    scales = _scales(curves, units)
     for name, curve in curves.items():
         is_declared = name in declared(type(result)) and not isinstance(result, Motion)
         along = over(type(result), name) if is_declared else first
         if along and along in curves and name != along:
-            yield Curve(f"{analysis}.{name}", curve, units[name], along, units[along], curves[along])
+            scale = scales.get(units[name], 0.0)
+            yield Curve(f"{analysis}.{name}", curve, units[name], along, units[along], curves[along], scale)
+
+
+def _scales(curves: Mapping[str, Floats], units: Mapping[str, str]) -> dict[str, float]:
+    """Largest magnitude of the curves of each unit; plain numbers stand beside no other."""
+    scales: dict[str, float] = {}
+    for name, curve in curves.items():
+        if unit := units[name]:
+            largest = float(np.nanmax(np.abs(curve), initial=0.0))
+            scales[unit] = max(scales.get(unit, 0.0), largest if np.isfinite(largest) else 0.0)
+    return scales
 
 
 def chosen(study: Study, names: Sequence[str], along: str | None = None) -> list[Curve]:

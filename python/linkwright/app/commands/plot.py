@@ -194,15 +194,17 @@ def _csv(curves: Sequence[Curve]) -> str:
             )
             last = curve.x
         unit, factor = reader().shown(curve.unit, _usual(curve.unit))
-        columns[f"{curve.name} [{unit or '-'}]"] = _long(_known(curve.values / factor), most)
+        columns[f"{curve.name} [{unit or '-'}]"] = _long(
+            _known(curve.values / factor, curve.scale / factor), most
+        )
     return columns_csv(columns)
 
 
-def _known(values: Any) -> Any:
-    """Without the digits that are rounding beside the largest value."""
+def _known(values: Any, scale: float = 0.0) -> Any:
+    """Without the digits that are rounding beside the largest value, or a scale."""
     import numpy as np
 
-    largest = float(np.nanmax(np.abs(values), initial=0.0))
+    largest = max(float(np.nanmax(np.abs(values), initial=0.0)), scale)
     if not 0 < largest < np.inf:
         return values
     # The sum turns -0 into 0.
@@ -227,7 +229,7 @@ def _extremes(study: Study, curves: Sequence[Curve], zero: float) -> Table:
         extreme = extremes(study, curve, zero)
         if not extreme.is_exact:
             rough.append(curve.name)
-        scale = max(abs(extreme.minimum), abs(extreme.maximum))
+        scale = max(abs(extreme.minimum), abs(extreme.maximum), curve.scale)
         values = [_shown(value, curve.unit, scale) for value in (extreme.minimum, extreme.maximum)]
         places = [_shown(at, curve.over_unit, _PLACE) for at in (extreme.minimum_at, extreme.maximum_at)]
         rows.append((curve.name, "", values[0], places[0], values[1], places[1]))
@@ -249,7 +251,7 @@ def _values(curves: Sequence[Curve]) -> Table:
         (
             _cell(first.x, int(k), first.over_unit),
             "",
-            *(_cell(curve.values, int(k), curve.unit) for curve in same),
+            *(_cell(curve.values, int(k), curve.unit, curve.scale) for curve in same),
         )
         for k in at
     ]
@@ -257,11 +259,11 @@ def _values(curves: Sequence[Curve]) -> Table:
     return Table("values", "Values", (first.over, "", *heads), rows)
 
 
-def _cell(values: Any, k: int, si: str) -> str:
-    """A value with its unit; zero where nothing but rounding is left beside the largest one."""
+def _cell(values: Any, k: int, si: str, scale: float = 0.0) -> str:
+    """A value with its unit; zero where nothing but rounding is left beside the largest one, or a scale."""
     import numpy as np
 
-    return _shown(float(values[k]), si, float(np.nanmax(np.abs(values))))
+    return _shown(float(values[k]), si, max(float(np.nanmax(np.abs(values))), scale))
 
 
 def _shown(value: float, si: str, scale: float = 0.0) -> str:
