@@ -244,3 +244,31 @@ if __name__ == "__main__":
     print(
         f"{held} of {intervals} intervals hold the truth: {100 * held / intervals:.2f} %, expected 94 to 96 %"
     )
+
+
+def test_a_sample_with_a_slipped_exponent_is_no_warning(tmp_path: Path) -> None:
+    """The method of least squares comes where a number changes nothing; the fit ends as any other does."""
+    example = Path(__file__).parents[2] / "examples" / "fit_from_run_down"
+    (tmp_path / "machine.toml").write_text((example / "machine.toml").read_text(encoding="utf-8"), "utf-8")
+    head, names, *rows = (example / "run_down.csv").read_text(encoding="utf-8").splitlines()
+    assert names.startswith("time"), "a comment stands before the heads"
+    record = [names, "0.675,6.406300000000001e-08", *rows[19::10]]
+    (tmp_path / "run_down.csv").write_text("\n".join([head, *record]), "utf-8")
+    (tmp_path / "study.toml").write_text(
+        """
+        machine = "machine.toml"
+        [variables.flywheel]
+        address = "drive.flywheel.inertia"
+        range = ["20 kg m^2", "500 kg m^2"]
+        [variables.guide]
+        address = "loads.guide.force"
+        [fit]
+        record = "run_down.csv"
+        motion = "coast"
+        angle_start = "40 deg"
+        """,
+        "utf-8",
+    )
+    done = CliRunner().invoke(application(), ["fit", str(tmp_path / "study.toml")])
+    assert done.exception is None or isinstance(done.exception, SystemExit)
+    assert done.exit_code in (0, 1)

@@ -100,10 +100,12 @@ def _least_squares(model: RecordModel, x: Floats, noise: Floats) -> Floats:
 
     # Changes that are lost in any interval: the sum of squares and the numbers, relative.
     options: Any = {"ftol": 1e-10, "xtol": 1e-9, "gtol": None, "max_nfev": 300, "x_scale": "jac"}
-    solution = least_squares(
-        residuals, np.clip(x / scale, low, high), jac=jacobian, bounds=(low, high), **options
-    )
-    if not solution.success:
+    # A number that changes nothing somewhere leaves a column of zeros, of which the method makes 0/0 inside.
+    with np.errstate(invalid="ignore", divide="ignore"):
+        solution = least_squares(
+            residuals, np.clip(x / scale, low, high), jac=jacobian, bounds=(low, high), **options
+        )
+    if not (solution.success and np.isfinite(solution.x).all() and np.isfinite(solution.cost)):
         raise ConvergenceError(
             "the fit did not converge; start nearer to the solution, or fit fewer parameters",
             method="trust region",
