@@ -62,7 +62,7 @@ _PARTS = ("discs", "shafts")
 PAIRS = "forces.reaction_max"
 
 # What the core gives of the steady motion of many machines.
-_OF_BATCH = {*SteadyStates.__dataclass_fields__, *vars(SteadyStates)}
+_OF_BATCH = frozenset(declared(SteadyStates))
 
 # Crank angles per revolution at which a motion is sampled for its extremes: an extreme between them is missed
 # by at most (half a step)²/2 of the second derivative, 4e-5 of a harmonic motion's amplitude.
