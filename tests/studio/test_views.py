@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.drive.tables import numerical_tables
 from linkwright.studio.analyses import beside, fast
 from linkwright.studio.files import Folder
 from linkwright.studio.shown import shown
@@ -80,6 +81,18 @@ def test_the_gallery_shows_what_has_no_mechanism(name: str, kind: str) -> None:
     shown = thumbnail(Folder.of(ROOT), "library", name)
     assert shown["scene"] is None
     assert shown["view"]["kind"] == kind
+
+
+def test_a_disturbance_of_which_nothing_is_left_is_zero() -> None:
+    """A steep motor damps disturbances by the same share every radian: after a revolution none is left."""
+    study = lw.study(lw.read(ROOT / "machines/roller_cam.toml"))
+    steady = study.steady_state
+    assert steady is not None
+    assert 0 < steady.multiplier < 1e-12
+    scalars = {one["name"]: one["value"] for one in shown("steady_state", steady)["scalars"]}
+    assert scalars["multiplier"] == 0
+    numerical = next(numerical_tables(study))
+    assert [row[2] for row in numerical.rows if row[0] == "Floquet multiplier"] == ["0"]
 
 
 def test_rounding_beside_the_quantities_of_its_unit_is_zero() -> None:

@@ -123,7 +123,8 @@ class SteadyState(Result, evenness.Evenness[float]):
     period: Annotated[float, Label("period", "T", "s", "Duration of a cycle.", table="steady_state")]
     multiplier: Annotated[
         float,
-        Label("Floquet multiplier", "G", "", _MULTIPLIER, table="steady_state"),
+        # A disturbance of which less than rounding is left is gone.
+        Label("Floquet multiplier", "G", "", _MULTIPLIER, table="steady_state", scale=1.0),
     ]
     energy_motor: Annotated[float, Label("work of the motor per revolution", "A_m", "J", table="drive")]
     energy_drive: Annotated[float, Label("work at the crank per revolution", "A_d", "J", table="drive")]

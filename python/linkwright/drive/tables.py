@@ -56,10 +56,6 @@ def numerical_tables(study: DriveStudy) -> Iterator[Table]:
         heads = ("quantity", "", "value", "")
         without = [name for name in in_table(type(steady), "steady_state") if name not in _NUMERICAL]
         rows = _rows(steady, "steady_state", without=without)
-        word = shown(type(steady), "multiplier").word
-        # A disturbance of which less than rounding is left is gone.
-        left = number(steady.multiplier, 5, 1.0)
-        rows = [(*row[:2], left, *row[3:]) if row[0] == word else row for row in rows]
         yield Table("numerical", "Numerical details of the steady motion", heads, rows)
 
 

@@ -39,6 +39,9 @@ class Label(NamedTuple):
         Name of the table that has a row for it; empty for none.
     before : str
         Attribute of that table that it stands before; without it, rows have the order of the declarations.
+    scale : float
+        Size beside which a value is rounding and shows as zero, where it has no others of its unit to compare
+        with; 0 if every digit counts.
     """
 
     word: str
@@ -49,6 +52,7 @@ class Label(NamedTuple):
     over: str = ""
     table: str = ""
     before: str = ""
+    scale: float = 0.0
 
 
 class About(NamedTuple):
@@ -73,6 +77,8 @@ class DeclaredQuantity(NamedTuple):
         What else is to be known, in sentences.
     over : str
         Of a curve, name of the attribute that it runs over; empty for that one itself and for scalars.
+    scale : float
+        Size beside which a value is rounding; 0 if every digit counts.
     """
 
     name: str
@@ -82,6 +88,7 @@ class DeclaredQuantity(NamedTuple):
     unit: str
     about: str
     over: str
+    scale: float
 
 
 def quantities_of(owner: type) -> Iterator[DeclaredQuantity]:
@@ -90,7 +97,14 @@ def quantities_of(owner: type) -> Iterator[DeclaredQuantity]:
         if isinstance(mark, Label):
             kind = "curve" if is_array(owner, name) else "scalar"
             yield DeclaredQuantity(
-                name, kind, mark.word, mark.symbol, mark.unit, _about(owner, name), over(owner, name)
+                name,
+                kind,
+                mark.word,
+                mark.symbol,
+                mark.unit,
+                _about(owner, name),
+                over(owner, name),
+                mark.scale,
             )
 
 

@@ -62,7 +62,8 @@ def _scalars(result: Result, declared: list[DeclaredQuantity]) -> Iterator[dict[
     }
     scales = _scales(result, declared, known)
     for quantity, value in known.items():
-        is_rounding = quantity.unit and abs(value) <= NOISE * scales[quantity.unit]
+        scale = quantity.scale or (scales[quantity.unit] if quantity.unit else 0.0)
+        is_rounding = abs(value) <= NOISE * scale
         yield {**_words(quantity), "value": 0.0 if is_rounding else value}
 
 

@@ -49,7 +49,9 @@ def row(result: Result, name: str, at: str = "", *, length: str = "") -> Row:
 
 
 def _scale(result: Result, mark: Label) -> float:
-    """Peak absolute value of the quantities of one unit in a table; those without a unit have none."""
+    """Peak absolute value of the quantities of one unit in a table; without a unit, what is declared."""
+    if mark.scale:
+        return mark.scale
     beside = in_table(type(result), mark.table) if mark.table and mark.unit else ()
     same = (getattr(result, name) for name in beside if shown(type(result), name).unit == mark.unit)
     return max((abs(value) for value in same if value is not None and math.isfinite(value)), default=0.0)

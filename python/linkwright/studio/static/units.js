@@ -56,10 +56,13 @@ const RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹";
  * A number as it is read: so many significant digits, a power of ten where it is very large or small, the decimal sign of the language.
  * @param {number} value @param {number} [digits]
  */
-export const number = (value, digits = 5) => decimal(written(Math.abs(value) < 1e-99 ? 0 : value, digits).replaceAll("-", "−").replace(/e(−?)(\d+)/, (_, sign, power) => `·10${sign && "⁻"}${raised(power)}`));
+export const number = (value, digits = 5) => decimal(written(Math.abs(value) < TINY ? 0 : value, digits).replaceAll("-", "−").replace(/e(−?)(\d+)/, (_, sign, power) => `·10${sign && "⁻"}${raised(power)}`));
 
 /** @param {string} digits */
 const raised = (digits) => digits.replace(/\d/g, (digit) => RAISED[+digit]);
+
+/** Below the smallest normal number, a double has lost its digits. */
+const TINY = 2.3e-308;
 
 /** Below this, a number with more places than digits is written out: 20240 W, not 2.024·10⁴ W. */
 const LARGE = 1e7;
