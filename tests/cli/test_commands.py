@@ -159,6 +159,46 @@ def test_new_names_its_templates() -> None:
     assert '"press"' in unknown.stderr
 
 
+@pytest.mark.parametrize(
+    ("name", "command"), [("poses", "motion"), ("function", "function"), ("path", "path")]
+)
+def test_templates_of_tasks_have_a_linkage(name: str, command: str, tmp_path: Path) -> None:
+    task = tmp_path / "task.toml"
+    assert run("new", name, "--out", task).exit_code == 0
+    assert f"  {name} " in run("new", "--list").stdout
+    done = run("synthesise", command, task, "--json")
+    assert done.exit_code == 0, done.stdout + done.stderr
+
+
+def test_forces_of_a_machine_without_masses_and_loads_say_so() -> None:
+    done = run("forces", "press_motion", "--json")
+    assert done.exit_code == 0
+    assert "no masses and no loads" in json.loads(done.stdout)["warnings"][0]
+    assert "[pumping_unit.load]" in run("forces", "pumping_unit_torque").stdout
+    assert json.loads(run("forces", "press_with_flywheel", "--json").stdout)["warnings"] == []
+
+
+def test_a_power_without_its_unit_may_be_watts_or_kilowatts() -> None:
+    done = run("motors", "--power-min", "5.5")
+    assert done.exit_code == 2
+    assert '--power-min "5.5 kW"' in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("run", "marine_turbine"), "linkwright torsion"),
+        (("size", "flywheel_four_stroke"), "turning_moment.unevenness"),
+        (("torsion", "propeller_shaft_line", "--measured", "no.csv"), "--measured"),
+        (("new", "bench"), "linkwright new --list"),
+    ],
+)
+def test_a_refusal_names_the_way(words: tuple[str, ...], said: str) -> None:
+    done = run(*words)
+    assert done.exit_code == 2
+    assert said in done.stderr
+
+
 def test_out_in_a_folder_that_does_not_exist(tmp_path: Path) -> None:
     done = run("new", "press", "--out", tmp_path / "no" / "x.toml")
     assert done.exit_code == 2

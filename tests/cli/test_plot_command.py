@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import re
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,8 @@ from click.testing import CliRunner, Result
 
 import linkwright as lw
 from linkwright.app.application import application
+from linkwright.app.curves import chosen, curves_figure
+from linkwright.app.study import study
 
 PRESS = Path(__file__).parents[2] / "examples" / "press_with_flywheel" / "machine.toml"
 
@@ -109,3 +112,37 @@ def test_what_is_rounding_beside_other_places_is_zero(tmp_path: Path) -> None:
     rows = list(csv.DictReader(table.read_text(encoding="utf-8").splitlines()))
     assert {row["motion.ram.x [mm]"] for row in rows} == {"0.0"}
     assert "·10" not in done.stdout
+
+
+def test_axes_legends_and_heads_say_what_they_hold() -> None:
+    """An axis has words and a unit; a table says position and velocity, not the keys of a file."""
+    study_of = study(lw.read(PRESS))
+    curves = chosen(
+        study_of, ["ram.place", "ram.velocity", "steady_state.torque_drive", "ram.rod.angle.velocity"]
+    )
+    assert [curve.words for curve in curves] == [
+        "ram, position",
+        "ram, velocity",
+        "driving torque at the crank",
+        "ram.rod, angular velocity",
+    ]
+    axes = curves_figure(curves).axes
+    assert [one.get_ylabel() for one in axes] == [
+        "position [m]",
+        "velocity [m/s]",
+        "torque [N m]",
+        "speed [rad/s]",
+    ]
+    told = run("ram.velocity").stdout
+    assert "crank angle" in told
+    assert "_" not in told.split("WARNING")[0]
+
+
+def test_the_report_of_a_plot_speaks_ukrainian(tmp_path: Path) -> None:
+    page = tmp_path / "ram.html"
+    words = ["report", "--lang", "uk", "--to", str(page), "plot", str(PRESS), "ram.velocity", "--zero", "top"]
+    done = CliRunner().invoke(application(), words)
+    assert done.exit_code == 0, done.output
+    text = page.read_text(encoding="utf-8")
+    for english in ("Extremes", "Values", "crank angle", "Crank angles", ", velocity", "curve<"):
+        assert english not in re.sub(r"<(script|style).*?</\1>|<code.*?</code>", "", text, flags=re.DOTALL)

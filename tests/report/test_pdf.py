@@ -89,15 +89,19 @@ def test_a_picture_fits_on_its_page(width: int, height: int, millimetres: float)
     assert found == pytest.approx(millimetres, abs=0.01)
 
 
-def test_text_flows_on_where_a_picture_has_no_room() -> None:
-    """A picture that does not fit goes to the head of the next page; what follows it fills the page."""
+def test_a_picture_stands_where_the_text_has_it() -> None:
+    """A picture that does not fit goes to the next page, and what follows it stays behind it: in front of it,
+    a list or a table would be cut in two.
+    """
     typst = pytest.importorskip("typst")
     style = _STYLE.format(title='""', foot="", language='"en"')
     picture = "#figure-with([== Picture\n#rect(height: 100mm) #metadata(none) <picture>])"
-    page = f"#rect(height: 150mm)\n{picture}\n\n#box[Text #metadata(none) <text>]\n"
-    tell = "#context [#metadata((<picture>, <text>).map(it => locate(it).page())) <pages>]"
+    page = f"- First\n#rect(height: 150mm)\n{picture}\n\n- Second #metadata(none) <text>\n"
+    tell = "#context [#metadata((<picture>, <text>).map(it => locate(it).position())) <places>]"
     files = {"main.typ": (style + page + tell).encode()}
-    assert json.loads(typst.query(files, "<pages>", field="value")) == [[2, 1]]
+    ((drawn, text),) = json.loads(typst.query(files, "<places>", field="value"))
+    assert (drawn["page"], text["page"]) == (2, 2)
+    assert float(text["y"].removesuffix("pt")) > float(drawn["y"].removesuffix("pt"))
 
 
 def test_a_table_over_two_pages_has_its_title_on_both() -> None:

@@ -11,7 +11,7 @@ from linkwright.app.report.tables import tables
 from linkwright.app.study import study
 from linkwright.kernel.files.library import template
 from linkwright.kernel.page.numbers import number
-from linkwright.kernel.page.table import curves_csv
+from linkwright.kernel.page.table import columns_csv, curves_csv
 from linkwright.machine.read import loads, read
 from linkwright.machine.table import machine_parts
 
@@ -70,3 +70,15 @@ def test_machine_parts_have_units_and_what_follows_is_marked() -> None:
     slider = {entry.word: entry.value for entry in parts["Sliders", "ram"]}
     assert slider["angle"] == "−90°"
     assert "offset" not in slider
+
+
+def test_what_is_rounding_beside_its_unit_is_zero_in_csv() -> None:
+    """Numbers of one unit stand beside each other; a plain number beside its own column alone."""
+    columns = {
+        "force [N]": np.array([5e4, -2.0]),
+        "side [N]": np.array([3.9e-13, 1e-6]),
+        "ratio [-]": np.array([1e-14, 2e-14]),
+        "gap [mm]": np.array([np.nan, 1e-20]),
+    }
+    rows = columns_csv(columns).splitlines()[1:]
+    assert rows == ["50000.0,0.0,1e-14,", "-2.0,1e-06,2e-14,1e-20"]

@@ -16,7 +16,7 @@ from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.figure.style import LINES, legend_above, named, panels, roomy, styled, zero_line
 from linkwright.kernel.page.out_units import reader
-from linkwright.kernel.quantities import declared, over
+from linkwright.kernel.quantities import Label, declared, over
 from linkwright.kernel.result import Result
 from linkwright.linkages.motion import Motion
 
@@ -28,6 +28,27 @@ if TYPE_CHECKING:
 _OTHER_WORDS = {"position": "place", "displacement": "place"}
 
 CRANK_ANGLE = "crank_angle"
+
+# Derivatives by the time, the last part of a name.
+_RATES = ("velocity", "acceleration", "jerk")
+
+_COORDINATES = {"place": "position", "angle": "angle"}
+
+# What an axis holds, by its SI unit.
+_HELD = {
+    "m": "position",
+    "m/s": "velocity",
+    "m/s²": "acceleration",
+    "rad": "angle",
+    "rad/s": "speed",
+    "rad/s²": "angular acceleration",
+    "N": "force",
+    "N m": "torque",
+    "W": "power",
+    "J": "energy",
+    "s": "time",
+    "kg m²": "moment of inertia",
+}
 
 
 @dataclass(frozen=True)
@@ -42,6 +63,28 @@ class Curve:
     over_unit: str
     x: Floats  # (n,): what it runs over
     scale: float = 0.0  # largest value of its analysis with its unit; what is rounding beside it is zero
+    word: str = ""  # of a declared quantity: ``"driving torque"``
+
+    @property
+    def words(self) -> str:
+        """What tables and legends call it: ``"ram, velocity"``."""
+        return self.word or coordinate_words(self.name.split(".", 1)[1])
+
+    @property
+    def over_words(self) -> str:
+        """What it runs over."""
+        return coordinate_words(self.over).replace("_", " ")
+
+
+def coordinate_words(name: str) -> str:
+    """A coordinate and its derivative: ``"ram.place.velocity"`` is ``"ram, velocity"``."""
+    whole, _, last = name.rpartition(".")
+    if whole and last in _RATES:
+        link = whole.removesuffix(".angle")
+        return f"{whole.removesuffix('.place')}, {last}" if link == whole else f"{link}, angular {last}"
+    if whole and last in _COORDINATES:
+        return f"{whole}, {_COORDINATES[last]}"
+    return name
 
 
 def curves_of(study: Study) -> dict[str, Curve]:
@@ -64,7 +107,11 @@ def _of(analysis: str, result: Result) -> Iterator[Curve]:
         along = over(type(result), name) if is_declared else first
         if along and along in curves and name != along:
             scale = scales.get(units[name], 0.0)
-            yield Curve(f"{analysis}.{name}", curve, units[name], along, units[along], curves[along], scale)
+            mark = declared(type(result))[name][1] if is_declared else None
+            word = mark.word if isinstance(mark, Label) else ""
+            yield Curve(
+                f"{analysis}.{name}", curve, units[name], along, units[along], curves[along], scale, word
+            )
 
 
 def _scales(curves: Mapping[str, Floats], units: Mapping[str, str]) -> dict[str, float]:
@@ -272,8 +319,8 @@ def curves_figure(curves: Sequence[Curve], zero: str = "") -> Figure:
     for panel, ((unit, factor), group) in zip(axes, by_unit.items(), strict=True):
         for member in group:
             x = member.x / _shown(member.over_unit)[1]
-            panel.plot(x, member.values / factor, color=next(colours), label=named(_short(member)))
-        panel.set_ylabel(f"[{unit or '–'}]")
+            panel.plot(x, member.values / factor, color=next(colours), label=named(member.words))
+        panel.set_ylabel(f"{_HELD.get(group[0].unit, group[0].words)} [{unit or '–'}]")
         roomy(panel, *(member.values[np.isfinite(member.values)] / factor for member in group))
         zero_line(panel)
         legend_above(panel)
@@ -285,7 +332,7 @@ def _under(axes: Axes, curves: Sequence[Curve], zero: str) -> None:
     """What is along x."""
     first = curves[0]
     unit, factor = _shown(first.over_unit)
-    word = "crank angle φ" if first.over == CRANK_ANGLE else first.over
+    word = "crank angle φ" if first.over == CRANK_ANGLE else first.over_words
     if zero and first.over == CRANK_ANGLE:
         word += f" from the {zero}"
     axes.set_xlabel(f"{word} [{unit or '–'}]")
@@ -302,11 +349,6 @@ def _under(axes: Axes, curves: Sequence[Curve], zero: str) -> None:
 def _shown(unit: str) -> tuple[str, float]:
     """The unit of an axis and its size: angles in degrees, unless another unit of angles is wanted."""
     return reader().shown(unit, "deg" if unit == "rad" else "")
-
-
-def _short(curve: Curve) -> str:
-    """A name without the analysis."""
-    return curve.name.split(".", 1)[1]
 
 
 @styled

@@ -182,11 +182,22 @@ def _answer(
         findings=[
             _named(name, finding, cases) for name, result in cases.items() for finding in result.findings
         ],
+        warnings=_nothing_to_carry(machine),
         head=partial(_head, speeds),
         tables=partial(_tables, cases, orders),
         files=partial(_files, cases),
         figures=partial(_figures, cases),
     )
+
+
+def _nothing_to_carry(machine: Machine) -> list[str]:
+    """Why all forces are zero, if nothing makes any."""
+    if machine.bodies or machine.loads:
+        return []
+    words = "The machine has no masses and no loads: all forces are zero. Add [bodies] and [loads]."
+    if machine.pumping_unit is not None and machine.pumping_unit.load is not None:
+        words += " The load of [pumping_unit.load] belongs to the torque factors of `linkwright run`."
+    return [words]
 
 
 def _head(speeds: dict[str, dict[str, Any]]) -> str:

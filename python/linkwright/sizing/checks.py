@@ -75,6 +75,15 @@ DECISIVE = {
 }
 
 
+# What tables and sentences call the checks whose names are not words already.
+_WORDS = {
+    "starting_torque_worst": "starting torque, worst angle",
+    "run_up": "run-up time",
+    "torque_rms": "root mean square torque",
+    "torque_peak": "peak torque",
+}
+
+
 @dataclass(frozen=True)
 class Check(Record):
     """One check."""
@@ -95,9 +104,14 @@ class Check(Record):
         return self.value / self.limit if self.at_most else self.limit / self.value
 
     @property
+    def title(self) -> str:
+        """What it compares."""
+        return _WORDS.get(self.name, self.name.replace("_", " "))
+
+    @property
     def words(self) -> str:
         """The check in one line."""
-        title = self.name.replace("_", " ")
+        title = self.title
         if self.value is None or self.limit is None:
             return f"{title}: {self.note}"
         wanted = "at most" if self.at_most else "at least"
@@ -108,7 +122,7 @@ class Check(Record):
     @property
     def brief(self) -> str:
         """How it fails, in a few words."""
-        title = self.name.replace("_", " ")
+        title = self.title
         if self.passed is None:
             return f"{title} not known"
         return f"{title}{self._factor().lstrip(':')}" if self._factor() else f"{title} fails"

@@ -370,7 +370,7 @@ def _checks(name: str, title: str, checks: Sequence[Check]) -> Table:
     words = {True: "passes", False: "fails", None: "not known"}
     rows: list[Row] = [
         (
-            check.name.replace("_", " "),
+            check.title,
             "",
             measured(check.value, check.unit, digits=4),
             measured(check.limit, check.unit, digits=4, before="≤ " if check.at_most else "≥ "),
@@ -418,7 +418,7 @@ def _flywheel_words(flywheel: FlywheelChoice) -> list[str]:
     without = flywheel.unevenness_without
     bare = "there is no steady motion" if without is None else f"the speed fluctuation is {without:.4f}"
     if flywheel.inertia == 0:
-        return [f"No flywheel is needed: {bare}, at most {flywheel.unevenness_wanted:g} is wanted"]
+        return [f"No flywheel is needed: {bare}, required is at most {flywheel.unevenness_wanted:g}"]
     size, estimate = (quantity(x, "kg m²", 4) for x in (flywheel.inertia, flywheel.inertia_estimate))
     return [
         f"Flywheel {size} on the crankshaft for a speed fluctuation of {flywheel.unevenness:.6g}; without it "

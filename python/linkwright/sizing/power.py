@@ -87,7 +87,8 @@ def required_power(machine: Machine) -> RequiredPower:
     drive = machine.drive
     if machine.turning_moment is not None:
         raise InputError(
-            f"{machine.name}: a turning-moment diagram knows no motor; linkwright run finds its flywheel"
+            f"{machine.name}: a turning-moment diagram has no motor; `linkwright run` sizes its flywheel, "
+            "also for another δ: --set turning_moment.unevenness=0.02"
         )
     if drive is None or drive.speed is None:
         raise InputError(f'{machine.name}: sizing needs the design speed; add speed = "… rad/s" to [drive]')

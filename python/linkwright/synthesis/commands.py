@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 OutFile = Annotated[Path | None, out_option("Write the machine there.", "FILE")]
 TaskFile = Annotated[Path | None, Argument("TASK", "Task file of the linkage.")]
-TaskOption = Annotated[Path | None, Option("--task", metavar="FILE", help="The same as an option.")]
+TaskOption = Annotated[Path | None, Option("--task", metavar="FILE", help="Task file, in place of TASK.")]
 Swing = Annotated[
     str | None, Option("--swing", metavar="ANGLE", help="Swing of the rocker, for a crank-rocker.")
 ]

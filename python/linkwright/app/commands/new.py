@@ -1,4 +1,4 @@
-"""``linkwright new TEMPLATE``: a machine file or a study file to start from."""
+"""``linkwright new TEMPLATE``: a machine file, a study or a task of synthesis to start from."""
 
 from __future__ import annotations
 
@@ -33,16 +33,17 @@ def new(
     force: Force = False,
     list: List = False,
 ) -> None:
-    """Write a machine file or a study to start from.
+    """Write a machine file, a study or a task of synthesis to start from.
 
     It goes to standard output, or to --out.
     """
-    from linkwright.kernel.files.library import study_templates, templates
+    from linkwright.kernel.files.library import study_templates, task_templates, templates
     from linkwright.kernel.files.library import template as text_of
     from linkwright.pumping.model.unit_catalogue import unit_template
 
     if list or template is None:
-        click.echo("\n".join(_units() if template == _UNIT else _rows(templates() | study_templates())))
+        known = templates() | study_templates() | task_templates()
+        click.echo("\n".join(_units() if template == _UNIT else _rows(known)))
         return
     if template == _UNIT:
         put(unit_template(designation, hole), out, force=force)

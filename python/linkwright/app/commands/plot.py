@@ -74,6 +74,7 @@ def plot(
     from linkwright.app.curves import chosen, curves_figure, curves_of, from_zero, on_common_points
     from linkwright.app.study import study
     from linkwright.kernel.page.angle_zero import Zero
+    from linkwright.kernel.page.numbers import zero_words
     from linkwright.linkages.zero import zero_angle
     from linkwright.machine.read import read
 
@@ -97,7 +98,7 @@ def plot(
         warnings=results.warnings,
         tables=lambda: [_extremes(results, curves, counted.angle), _values(listed)],
         figures=lambda: {"curves": curves_figure(curves, counted.words)},
-        head=lambda: f"Crank angles from the {counted.words}" if counted.words else "",
+        head=lambda: zero_words(counted),
     )
     if written:
         say_written(written, quiet=True)
@@ -220,7 +221,7 @@ def _long(values: Any, length: int) -> Any:
 
 def _extremes(study: Study, curves: Sequence[Curve], zero: float) -> Table:
     """Minimum and maximum of each curve, and where."""
-    from linkwright.app.curves import extremes
+    from linkwright.app.curves import CRANK_ANGLE, extremes
     from linkwright.kernel.page.table import Table
 
     rows: list[Row] = []
@@ -233,7 +234,8 @@ def _extremes(study: Study, curves: Sequence[Curve], zero: float) -> Table:
         values = [_shown(value, curve.unit, scale) for value in (extreme.minimum, extreme.maximum)]
         places = [_shown(at, curve.over_unit, _PLACE) for at in (extreme.minimum_at, extreme.maximum_at)]
         rows.append((curve.name, "", values[0], places[0], values[1], places[1]))
-    heads = ("curve", "", "minimum", f"at {curves[0].over}", "maximum", f"at {curves[0].over}")
+    at = "at φ" if curves[0].over == CRANK_ANGLE else f"at {curves[0].over_words}"
+    heads = ("curve", "", "minimum", at, "maximum", at)
     title = f"Extremes; of {', '.join(rough)} among the points of the curve" if rough else "Extremes"
     return Table("extremes", title, heads, rows)
 
@@ -255,8 +257,7 @@ def _values(curves: Sequence[Curve]) -> Table:
         )
         for k in at
     ]
-    heads = (curve.name.split(".", 1)[1].replace(".", " ") for curve in same)
-    return Table("values", "Values", (first.over, "", *heads), rows)
+    return Table("values", "Values", (first.over_words, "", *(curve.words for curve in same)), rows)
 
 
 def _cell(values: Any, k: int, si: str, scale: float = 0.0) -> str:

@@ -151,13 +151,17 @@ def named_entries(option: str, text: str, example: str) -> tuple[str, list[str]]
 def option_value(option: str, text: str, kind: Kind) -> float:
     """The value of an option that is a quantity; a bare number is SI, where it can mean but one unit.
 
-    Raises `InputError`, which names the option, for anything else, and for an angle or a speed without its
-    unit.
+    Raises `InputError`, which names the option, for anything else, and for an angle, a speed or a power
+    without its unit.
     """
-    from linkwright.kernel.units import ANGLE, SPEED, parse
+    from linkwright.kernel.units import ANGLE, POWER, SPEED, parse
 
     # On a command line people mean degrees as often as radians; zero is the same in both.
-    choices = {ANGLE.dimension: ("deg", "rad"), SPEED.dimension: ("rpm", "rad/s")}
+    choices = {
+        ANGLE.dimension: ("deg", "rad"),
+        SPEED.dimension: ("rpm", "rad/s"),
+        POWER.dimension: ("kW", "W"),
+    }
     units = choices.get(kind.dimension)
     if _is_number(text) and not math.isfinite(float(text)):
         raise InputError(f"{option}: found {cut(text)}, expected a finite number with its unit")

@@ -40,6 +40,7 @@ def studies() -> dict[str, Path]:
 
 _MACHINES = Path(__file__).with_name("templates")
 _STUDIES = _PACKAGE / "studies" / "templates"
+_TASKS = _PACKAGE / "synthesis" / "templates"
 
 
 def templates() -> dict[str, str]:
@@ -52,6 +53,11 @@ def study_templates() -> dict[str, str]:
     return _described(_STUDIES)
 
 
+def task_templates() -> dict[str, str]:
+    """Names of the templates of tasks of synthesis → what they describe."""
+    return _described(_TASKS)
+
+
 def _described(folder: Path) -> dict[str, str]:
     """The first lines of the files of a folder, by name."""
     paths = sorted(folder.glob("*.toml"))
@@ -60,8 +66,11 @@ def _described(folder: Path) -> dict[str, str]:
 
 def template(name: str) -> str:
     """The text of a template such as ``"slider-crank"``; an `InputError` names close ones if none has it."""
-    known = templates() | study_templates()
-    if name not in known:
-        raise InputError(f'there is no template "{name}": {suggestion(name, known)}')
-    folder = _MACHINES if name in templates() else _STUDIES
-    return (folder / f"{name}.toml").read_text(encoding="utf-8")
+    folders = {known: folder for folder in (_TASKS, _STUDIES, _MACHINES) for known in _described(folder)}
+    if name not in folders:
+        close = suggestion(name, tuple(folders))
+        listed = "`linkwright new --list` names them all"
+        raise InputError(
+            f'there is no template "{name}"; ' + "; ".join(part for part in (close, listed) if part)
+        )
+    return (folders[name] / f"{name}.toml").read_text(encoding="utf-8")

@@ -20,7 +20,7 @@ from typing import NamedTuple
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.page.angle_zero import counted_columns
-from linkwright.kernel.page.numbers import measured
+from linkwright.kernel.page.numbers import NOISE, measured
 from linkwright.kernel.page.out_units import shown_columns
 from linkwright.kernel.quantities import Label, in_table, shown
 from linkwright.kernel.result import Result
@@ -125,11 +125,28 @@ def columns_csv(columns: Mapping[str, Floats]) -> str:
     """Columns as CSV in the units, and from the zero of crank angles, that the reader wants: head with the
     unit → values, (n,).
 
-    Numbers read back exactly; NaN is an empty cell.
+    Numbers read back exactly; one that is rounding beside the largest of its unit is 0. NaN is an empty cell.
     """
-    shown = shown_columns(counted_columns(columns))
+    shown = _known(shown_columns(counted_columns(columns)))
     rows = zip(*(column.tolist() for column in shown.values()), strict=True)
     return csv_text(list(shown), rows)
+
+
+def _known(columns: Mapping[str, Floats]) -> dict[str, Floats]:
+    """Columns in which what is rounding beside the largest of its unit is zero; a plain number stands beside
+    those of its own column alone.
+    """
+    import numpy as np
+
+    unit_of = {name: unit if (unit := name.rpartition("[")[2]) != "-]" else name for name in columns}
+    sizes: dict[str, float] = {}
+    for name, values in columns.items():
+        size = np.abs(values[np.isfinite(values)]).max(initial=0.0)
+        sizes[unit_of[name]] = max(sizes.get(unit_of[name], 0.0), float(size))
+    return {
+        name: np.where(np.abs(values) <= NOISE * sizes[unit_of[name]], 0.0, values)
+        for name, values in columns.items()
+    }
 
 
 def head(result: Result, name: str) -> str:

@@ -262,7 +262,8 @@ _STYLE = """#set document(title: {title}, date: none)
   let share(size) = if fits(letters) {{ size }} else {{ auto }}
   block(above: 1.2em, below: 1.2em, set_in(letters, share(1.6fr), share(1fr)))
 }})
-#let figure-with(body) = place(auto, float: true, clearance: 1em, block(width: 100%, align(left, body)))
+// It stands where the text has it: one that floats would cut a table or a list in two.
+#let figure-with(body) = block(width: 100%, breakable: false, above: 1.2em, align(left, body))
 #let picture(place) = layout(page => {{
   // One that is drawn for less than the width of the page is not made larger.
   let wide = calc.min(page.width, measure(image(place)).width)

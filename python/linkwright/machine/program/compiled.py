@@ -306,9 +306,7 @@ def compile_machine(machine: Machine, *, motor: bool = True, brake: bool = False
 def _require_mechanism(machine: Machine) -> None:
     """Refuse what no crank moves."""
     if machine.is_train_alone:
-        raise InputError(
-            f"{machine.name} is a train without a [mechanism]: its analyses are those of torsion"
-        )
+        raise InputError(f"{machine.name} is a train without a [mechanism]: use `linkwright torsion`")
     if machine.is_diagram_alone:
         raise InputError(
             f"{machine.name} is a turning-moment diagram without a [mechanism]: `linkwright run` has what "

@@ -274,6 +274,9 @@ def read_measured(path: str | os.PathLike[str]) -> dict[str, MeasuredResponse]:
         The file cannot be read, has no such head or holds something else; with file and line.
     """
     place = Path(path)
+    if not place.exists():
+        expected = "a CSV file of speeds and measured curves"
+        raise MachineFileError([Problem("--measured", f"{place}, no such file", expected)])
     speed = read_columns(place, {"speed": SPEED})["speed"]
     columns, lines = columns_of(place, "", "response")
     curves = [name for name in columns if name != "speed"]
