@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from html import escape
+
 import numpy as np
 import pytest
 
@@ -25,6 +27,25 @@ def test_a_machine_and_its_study_are_shown_and_names_are_letters() -> None:
     shown = lw.study(machine)._repr_html_()
     assert "The motor is overloaded" in shown
     assert "run_up" in shown
+
+
+def test_a_study_of_torsion_is_shown_with_its_numbers() -> None:
+    study = lw.torsion_study(lw.read("v8_diesel"))
+    shown = study._repr_html_()
+    assert study.machine.name in shown
+    assert all(escape(words, quote=True) in shown for words in (*study.findings, *study.warnings))
+    assert study.forced is not None
+    assert ">forced</caption>" in shown
+
+
+def test_many_machines_are_shown_by_the_range_of_their_numbers() -> None:
+    machine = lw.read("roller_two_carts")
+    phases = np.radians([80.0, 90.0, 100.0])
+    many = lw.steady_states(machine, {"mechanism.cranks.A2.phase": phases})
+    shown = many._repr_html_()
+    assert "3 of 3 machines solved" in shown
+    assert f"{many.unevenness.min():.5g} … {many.unevenness.max():.5g}" in shown
+    assert "nan" not in shown
 
 
 def test_curves_are_plotted_an_axis_for_each_unit() -> None:

@@ -10,7 +10,7 @@ import pytest
 import linkwright as lw
 from linkwright.kernel.page.language import language
 from linkwright.machine.read import loads
-from linkwright.studio.analyses import beside, chips, fast
+from linkwright.studio.analyses import chips, fast, found, said
 from linkwright.studio.document import changed
 from linkwright.studio.language import as_read, in_units
 
@@ -72,11 +72,11 @@ def test_transfer_functions_are_those_of_the_package() -> None:
 
 def test_tables_of_the_report_are_there_in_the_language() -> None:
     machine = lw.read(ROOT / "machines" / "v8_diesel.toml")
-    answer = beside(machine, "torsion", language("uk"))
+    answer = said(found(machine, "torsion"), "torsion", language("uk"))
     titles = [table["title"] for table in answer.tables]
     assert any("частот" in title for title in titles), titles
     assert answer.headline
-    english = beside(machine, "torsion")
+    english = said(found(machine, "torsion"), "torsion")
     lowest = next(f for f in lw.free_vibration(machine).natural_frequencies.tolist() if f > 0)
     cells = [cell for table in english.tables for row in table["rows"] for cell in row]
     assert any(cell.startswith(f"{lowest:.4g}") for cell in cells)
@@ -85,7 +85,7 @@ def test_tables_of_the_report_are_there_in_the_language() -> None:
 def test_sentences_and_diagrams_are_in_the_units_of_the_page() -> None:
     machine = lw.read(ROOT / "machines" / "roller_two_carts.toml")
     with in_units(["mm", "rpm", "kW"]):
-        body = as_read(beside(machine, "study").body())
+        body = as_read(said(found(machine, "study"), "study").body())
     assert any(" rpm" in words for words in body["warnings"])
     assert not any("rad/s" in words for words in body["warnings"])
     motion = next(figure for figure in body["figures"] if figure["name"].startswith("motion"))

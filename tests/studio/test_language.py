@@ -8,9 +8,12 @@ from typing import Any
 
 import pytest
 
+from linkwright.studio import analyses, worker
 from linkwright.studio.controls import controls
-from linkwright.studio.language import in_words, page_texts
+from linkwright.studio.language import in_words, page_texts, spoken
 from linkwright.studio.wire import WireError
+
+from .conftest import Tab
 
 ROOT = Path(__file__).parents[2]
 MACHINES = sorted([*ROOT.glob("machines/*.toml"), *ROOT.glob("examples/*/machine.toml")])
@@ -70,3 +73,33 @@ def test_an_unknown_language_ends_the_socket() -> None:
     assert session.language == "uk"
     with pytest.raises(WireError):
         session.take(packed(2, {"ask": "language", "code": "../uk"}))
+
+
+def test_another_language_says_slow_analyses_anew_and_computes_nothing(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    text = (ROOT / "machines" / "roller_two_carts.toml").read_text()
+    computed = []
+    study = analyses._LANES["study"]
+    counted = study._replace(found=lambda machine: computed.append(machine) or study.found(machine))
+    monkeypatch.setitem(analyses._LANES, "study", counted)
+    worker._found.cache_clear()
+    english, ukrainian = (
+        analyses.said(worker._found(text, "", "study"), "study", spoken(code)) for code in ("en", "uk")
+    )
+    assert len(computed) == 1
+    assert english.results == ukrainian.results
+    assert english.tables[0]["title"] != ukrainian.tables[0]["title"]
+
+
+def test_slow_analyses_answer_in_the_language_that_was_chosen_last(tab: Tab) -> None:
+    text = (ROOT / "machines" / "v8_diesel.toml").read_text()
+    tab.ask(ask="compute", text=text)
+    tab.send(ask="language", code="uk")
+    last = tab.send(ask="compute", text=text)
+    while True:
+        number, answer = tab.hear()
+        if answer["of"] == "beside":
+            break
+    assert number == last
+    assert not [words for words, *_ in answer["headline"] if english(words)]

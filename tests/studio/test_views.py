@@ -9,7 +9,7 @@ import pytest
 
 import linkwright as lw
 from linkwright.drive.tables import numerical_tables
-from linkwright.studio.analyses import beside, fast
+from linkwright.studio.analyses import fast, found, said
 from linkwright.studio.files import Folder
 from linkwright.studio.shown import shown
 from linkwright.studio.views import thumbnail, train_view
@@ -62,12 +62,13 @@ def test_nodes_lie_where_the_drawn_shape_crosses_zero() -> None:
 
 def test_modes_follow_at_once_and_the_knife_beside() -> None:
     assert [view["kind"] for view in fast(lw.read("v8_diesel"), held=True).views] == ["train"]
-    assert [view["kind"] for view in beside(lw.read("topper"), "study").views] == ["topper"]
+    assert [view["kind"] for view in said(found(lw.read("topper"), "study"), "study").views] == ["topper"]
     assert not fast(lw.read("roller_two_carts"), held=True).views
 
 
 def test_vibratory_torques_have_a_curve_for_each_shaft() -> None:
-    shown = {each["name"]: each for each in beside(lw.read("v8_diesel"), "torsion").results}
+    answer = said(found(lw.read("v8_diesel"), "torsion"), "torsion")
+    shown = {each["name"]: each for each in answer.results}
     plot = next(plot for plot in shown["forced"]["plots"] if plot["key"] == "forced.shaft_torque_vibratory")
     forced = lw.torsion_study(lw.read("v8_diesel")).forced
     assert forced is not None

@@ -140,14 +140,9 @@ class Study(DriveStudy):
 
     def _repr_html_(self) -> str:
         """Failed checks, warnings and all results, as a notebook shows them."""
-        from linkwright.kernel.page.notebook import result_html, table_html
-        from linkwright.kernel.page.out_units import with_units_of
+        from linkwright.kernel.page.notebook import study_html
 
-        words = [("failed check", finding) for finding in self.findings]
-        words += [("warning", warning) for warning in self.warnings]
-        head = table_html(self.machine.name, words or [("checks", "none failed")])
-        with with_units_of(self.machine.units):
-            return head + "".join(result_html(result, name) for name, result in self.results().items())
+        return study_html(self, self.results())
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Name, results, findings and warnings, ready for JSON.

@@ -76,6 +76,12 @@ class SteadyStates(Record, evenness.Evenness[Floats]):
         """Angle of a cycle over its duration."""
         return 2 * np.pi * self.turns / self.period
 
+    def _repr_html_(self) -> str:
+        """The range of each quantity, as a notebook shows it."""
+        from linkwright.kernel.page.notebook import batch_html
+
+        return batch_html(self)
+
     def to_frame(self) -> pd.DataFrame:
         """Entries and results as a table, a row for each machine (needs pandas)."""
         import pandas as pd

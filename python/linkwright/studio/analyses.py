@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, fields
-from typing import Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -40,6 +40,9 @@ from linkwright.studio.document import short
 from linkwright.studio.drawing import drawing
 from linkwright.studio.shown import shown
 from linkwright.studio.views import knife_view, train_view
+
+if TYPE_CHECKING:
+    from linkwright.torsion.study import TorsionStudy
 
 # Intervals of the revolution of steady motion that the drawing and its plots follow, and of the forces while
 # a slider is held: no line shows more.
@@ -211,11 +214,14 @@ def _forces(machine: Machine, steady: SteadyState, every: int) -> Any:
     )
 
 
-def beside(machine: Machine, lane: str, to: Language = ENGLISH) -> Answers:
-    """What runs beside, in the lane ``"study"`` or ``"torsion"``: results with the figures that are more than
-    curves, in a language.
-    """
-    return _LANES[lane](machine, to)
+def found(machine: Machine, lane: str) -> Any:
+    """What the lane ``"study"`` or ``"torsion"`` computes: the same in every language and unit."""
+    return _LANES[lane].found(machine)
+
+
+def said(results: Any, lane: str, to: Language = ENGLISH) -> Answers:
+    """What a lane beside has found, with the figures that are more than curves, in a language."""
+    return _LANES[lane].said(results, to)
 
 
 def lanes(machine: Machine) -> list[str]:
@@ -223,11 +229,10 @@ def lanes(machine: Machine) -> list[str]:
     return [*([] if machine.is_train_alone else ["study"]), *(["torsion"] if has_train(machine) else [])]
 
 
-def _study(machine: Machine, to: Language) -> Answers:
+def _study(results: Study, to: Language) -> Answers:
     from linkwright.app.report.figures import figures
     from linkwright.app.report.tables import tables
 
-    results = study(machine)
     known = [shown(name, result) for name, result in _new_results(results)]
     drawn = [figure for figure in figures(results) if figure.name not in _CURVES]
     knife = knife_view(results)
@@ -237,7 +242,7 @@ def _study(machine: Machine, to: Language) -> Answers:
         results.warnings,
         figures=tuple(_svg(one, to) for one in drawn),
         views=() if knife is None else (knife,),
-        tables=tuple(_tables(Content(title="", parts=[Part("", tables(results))]), machine, to)),
+        tables=tuple(_tables(Content(title="", parts=[Part("", tables(results))]), results.machine, to)),
     )
 
 
@@ -251,19 +256,23 @@ def _new_results(results: Study) -> Iterator[tuple[str, Result]]:
     yield from ((name, result) for name, result in results.results().items() if name not in known)
 
 
-def _torsion(machine: Machine, to: Language) -> Answers:
-    from linkwright.torsion.figures.captions import torsion_figures
-    from linkwright.torsion.page import torsion_content
+def _torsion_study(machine: Machine) -> TorsionStudy:
     from linkwright.torsion.study import torsion_study
 
-    results = torsion_study(machine)
+    return torsion_study(machine)
+
+
+def _torsion(results: TorsionStudy, to: Language) -> Answers:
+    from linkwright.torsion.figures.captions import torsion_figures
+    from linkwright.torsion.page import torsion_content
+
     parts = {field.name: getattr(results, field.name) for field in fields(results)}
     known = [shown(name, part) for name, part in parts.items() if isinstance(part, Result)]
     content = torsion_content(results)
     return Answers(
         known,
         figures=tuple(_svg(one, to) for one in torsion_figures(results)),
-        tables=tuple(_tables(content, machine, to)),
+        tables=tuple(_tables(content, results.machine, to)),
         headline=tuple(in_language(content, to).headline),
     )
 
@@ -288,7 +297,14 @@ def _svg(drawn: CaptionedFigure, to: Language) -> dict[str, str]:
     return {"name": drawn.name, "title": drawn.title, "caption": sentence(drawn.caption), "svg": text}
 
 
-_LANES: dict[str, Callable[[Machine, Language], Answers]] = {"study": _study, "torsion": _torsion}
+class _Lane(NamedTuple):
+    """A lane beside: what computes, and what says in a language what was found."""
+
+    found: Callable[[Machine], Any]
+    said: Callable[[Any, Language], Answers]
+
+
+_LANES = {"study": _Lane(study, _study), "torsion": _Lane(_torsion_study, _torsion)}
 
 
 def failed(error: LinkwrightError) -> Answers:

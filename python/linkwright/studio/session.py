@@ -263,7 +263,8 @@ class Session:
                 await self.worker.end()
         self.running = ""
         message = task.result()
-        if self.due is due:
+        # What is said in a language that was left is asked for again.
+        if self.due is due and job["language"] == self.language:
             stopped = packed(number, {"of": "stopped", "lane": lane})
             await self.send(message if message is not None else stopped)
 

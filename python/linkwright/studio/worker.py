@@ -15,7 +15,7 @@ import sys
 import threading
 from asyncio.subprocess import PIPE, Process
 from collections.abc import AsyncIterator, Iterator
-from functools import partial
+from functools import lru_cache, partial
 from queue import SimpleQueue
 from typing import Any
 
@@ -50,11 +50,21 @@ def main() -> None:
         os._exit(0)
 
 
+# A machine has two lanes at most.
+@lru_cache(2)
+def _found(text: str, path: str, lane: str) -> Any:
+    """What a slow analysis finds of a file: in another language or unit it is said anew, not computed."""
+    from linkwright.machine.read import loads
+    from linkwright.studio.analyses import found
+
+    return found(loads(text, path=path), lane)
+
+
 def _answer_jobs() -> None:
     """Answer each line of standard input."""
     from linkwright.kernel.errors import LinkwrightError
     from linkwright.machine.read import loads
-    from linkwright.studio.analyses import beside, failed
+    from linkwright.studio.analyses import failed, said
     from linkwright.studio.language import as_read, in_units, in_words, spoken
     from linkwright.studio.wire import packed
 
@@ -71,18 +81,20 @@ def _answer_jobs() -> None:
         job = json.loads(line)
         number, lane, code = job["number"], job["lane"], job["language"]
         try:
-            machine = loads(job["text"], path=job["path"])
+            text, path = job["text"], job["path"]
             if lane == "search":
                 from linkwright.studio.search import search
 
-                answer = search(machine, job["search"], partial(send, number, code, is_last=False))
+                answer = search(
+                    loads(text, path=path), job["search"], partial(send, number, code, is_last=False)
+                )
             elif lane == "export":
                 from linkwright.studio.export import export
 
-                answer = export(machine, job["export"], code)
+                answer = export(loads(text, path=path), job["export"], code)
             else:
                 with in_units(job["units"]):
-                    answers = as_read(beside(machine, lane, spoken(code)).body())
+                    answers = as_read(said(_found(text, path, lane), lane, spoken(code)).body())
                 answer = {"of": "beside", "lane": lane, **answers}
         except LinkwrightError as error:
             if lane == "search":

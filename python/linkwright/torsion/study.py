@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import Any
 
 import numpy as np
@@ -153,6 +153,13 @@ class TorsionStudy(PlainRecord):
     def warnings(self) -> list[str]:
         """What the numbers leave out, in sentences."""
         return list(_warnings(self))
+
+    def _repr_html_(self) -> str:
+        """Exceeded limits, warnings and all results, as a notebook shows them."""
+        from linkwright.kernel.page.notebook import study_html
+
+        parts = {entry.name: getattr(self, entry.name) for entry in fields(self)}
+        return study_html(self, {name: part for name, part in parts.items() if isinstance(part, Result)})
 
     def results(self) -> dict[str, Any]:
         """Results by name, ready for JSON but for numbers that it does not know."""

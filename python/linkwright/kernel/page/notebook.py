@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from typing import Any
 
+import numpy as np
+
 from linkwright.kernel.page.numbers import parted
+from linkwright.kernel.page.out_units import with_units_of
 from linkwright.kernel.quantities import quantities_of
 from linkwright.kernel.units import is_number
 
@@ -41,3 +44,25 @@ def result_html(result: Any, title: str = "") -> str:
     if curves:
         rows.append(("curves, for .plot()", "", ", ".join(curves), ""))
     return table_html(title or owner.__name__, rows)
+
+
+def study_html(study: Any, results: Mapping[str, Any]) -> str:
+    """Failed checks, warnings and all results of a study as HTML, in the units of its machine."""
+    words = [("failed check", finding) for finding in study.findings]
+    words += [("warning", warning) for warning in study.warnings]
+    head = table_html(study.machine.name, words or [("checks", "none failed")])
+    with with_units_of(study.machine.units):
+        return head + "".join(result_html(result, name) for name, result in results.items())
+
+
+def batch_html(batch: Any) -> str:
+    """The range of each quantity of many machines as HTML, of the rows with an answer."""
+    rows = []
+    for quantity in quantities_of(type(batch)):
+        values = getattr(batch, quantity.name)
+        known = values[np.isfinite(values)] if isinstance(values, np.ndarray) else np.array(())
+        if quantity.symbol and known.size:
+            (low, unit), (high, _) = (parted(float(end), quantity.unit) for end in (known.min(), known.max()))
+            rows.append((quantity.word, quantity.symbol, f"{low} … {high}", unit))
+    count = f"{np.count_nonzero(batch.status == 0)} of {len(batch.status)} machines solved"
+    return table_html(f"{type(batch).__name__}: {count}", rows)

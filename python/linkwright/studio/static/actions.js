@@ -204,6 +204,9 @@ effect(() => {
   const now = [state.language.value, ...listed(state.units.value)].join();
   if (spoken && now !== spoken) {
     tongue();
+    // What was said in the language before goes, unless its answer comes anew at once.
+    const { fast } = state.answers.peek();
+    if (now.slice(0, 2) !== spoken.slice(0, 2)) state.answers.value = fast && !state.problems.peek().length ? { fast } : {};
     if (state.text.peek()) compute({ text: state.text.peek() });
   }
   spoken = now;
