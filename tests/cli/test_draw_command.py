@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+import os
+import signal
+import sys
+import time
 from io import BytesIO
 from pathlib import Path
+from subprocess import PIPE, STDOUT, Popen
 
 import ezdxf
 import numpy as np
@@ -52,6 +57,44 @@ def test_mp4_is_one() -> None:
     scene = moving_scene(lw.read(CARTS), None)
     assert scene is not None
     assert mp4(scene, 0.2)[4:8] == b"ftyp"
+
+
+def _encoder(folder: Path, lines: str) -> Path:
+    """A program in place of the encoder."""
+    place = folder / "encoder"
+    place.write_text(f"#!/bin/sh\n{lines}\n")
+    place.chmod(0o755)
+    return place
+
+
+def test_an_interrupted_mp4_says_nothing_and_leaves_nothing(tmp_path: Path) -> None:
+    # It takes nothing for a while, so that Ctrl-C comes in the midst of a picture.
+    encoder = _encoder(tmp_path, "sleep 3; cat > /dev/null; echo corrupt input packet >&2")
+    words = ["draw", CARTS, "--out", str(tmp_path / "motion.mp4")]
+    call = f"import sys; from linkwright.app import main; sys.argv[1:] = {words}; main()"
+    process = Popen(
+        [sys.executable, "-c", call],
+        stdout=PIPE,
+        stderr=STDOUT,
+        start_new_session=True,
+        env={**os.environ, "IMAGEIO_FFMPEG_EXE": str(encoder)},
+    )
+    begun = Path(f"/proc/{process.pid}/task/{process.pid}/children")
+    end = time.monotonic() + 120
+    while not begun.read_text() and time.monotonic() < end:
+        time.sleep(0.02)
+    time.sleep(0.3)
+    os.killpg(process.pid, signal.SIGINT)
+    assert process.communicate(timeout=120) == (b"", None)
+    assert process.returncode == 130
+    assert list(tmp_path.iterdir()) == [encoder]
+
+
+def test_what_an_encoder_says_is_read_when_it_fails(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    encoder = _encoder(tmp_path, "echo no such codec >&2; exit 3")
+    monkeypatch.setenv("IMAGEIO_FFMPEG_EXE", str(encoder))
+    result = called(CARTS, "--out", str(tmp_path / "motion.mp4"), "--seconds", "0.2")
+    assert (result.exit_code, "made no MP4: no such codec" in result.output) == (2, True), result.output
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from io import BytesIO, StringIO
+from itertools import chain
 from pathlib import Path
+from subprocess import PIPE, Popen
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
@@ -44,23 +46,48 @@ def gif(scene: Scene, seconds: float) -> bytes:
 def mp4(scene: Scene, seconds: float) -> bytes:
     """The motion as MP4 (H.264); ``seconds`` for all of it. An `InputError` without the encoder."""
     try:
-        from imageio_ffmpeg import write_frames
+        from imageio_ffmpeg import get_ffmpeg_exe
     except ImportError:
         raise InputError("an MP4 needs an encoder: pip install 'linkwright[video]'") from None
 
     with TemporaryDirectory() as folder:
         place = Path(folder) / "motion.mp4"
-        writer = None
-        for frame in _frames(scene, seconds):
-            # The encoder takes even numbers of dots alone.
-            height, width = (size - size % 2 for size in frame.shape[:2])
-            if writer is None:
-                writer = write_frames(str(place), (width, height), fps=_RATE, macro_block_size=2)
-                writer.send(None)
-            writer.send(np.ascontiguousarray(frame[:height, :width]).tobytes())
-        assert writer is not None
-        writer.close()
+        _encode(get_ffmpeg_exe(), _frames(scene, seconds), place)
         return place.read_bytes()
+
+
+def _encode(encoder: str, frames: Iterator[Bytes], place: Path) -> None:
+    """Write pictures as H.264. What the encoder says is read if it fails, and never printed."""
+    # It takes even numbers of dots alone.
+    even = (frame[: len(frame) // 2 * 2, : frame.shape[1] // 2 * 2] for frame in frames)
+    first = next(even)
+    height, width, _ = first.shape
+    taken = ("-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}", "-r", str(_RATE), "-i", "-")
+    made = ("-an", "-c:v", "libx264", "-pix_fmt", "yuv420p", "-v", "error", str(place))
+    words = (encoder, *taken, *made)
+    with place.with_suffix(".log").open("w+", encoding="utf-8") as log:
+        # Ctrl-C is for this process alone, which ends the encoder in the midst of a picture.
+        with Popen(words, stdin=PIPE, stderr=log, start_new_session=True, bufsize=0) as process:
+            try:
+                for frame in chain((first,), even):
+                    _write(process.stdin, frame.tobytes())
+            except BrokenPipeError:
+                # It has ended by itself, and its words say why.
+                process.wait()
+            except BaseException:
+                process.kill()
+                raise
+        if process.returncode:
+            log.seek(0)
+            reason = log.read().strip() or f"it ended with code {process.returncode}"
+            raise InputError(f"{encoder} made no MP4: {reason}")
+
+
+def _write(pipe: Any, data: bytes) -> None:
+    """Write all of it: a pipe without a buffer may take less at once."""
+    left = memoryview(data)
+    while left:
+        left = left[pipe.write(left) :]
 
 
 @styled
