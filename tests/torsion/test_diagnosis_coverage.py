@@ -16,7 +16,6 @@ from sizes import cases
 
 import linkwright as lw
 from linkwright.kernel.errors import ConvergenceError
-from linkwright.kernel.numerics.confidence import chance_of_ratio
 from linkwright.torsion.diagnosis.diagnosis import Diagnosis
 from linkwright.torsion.diagnosis.engine_diagnosis import fitted
 from linkwright.torsion.diagnosis.engine_speed import EngineSpeed
@@ -42,11 +41,18 @@ DEFECTS = {
     "misfire": (-1.0, 0.0, 0.0),
     "weak": (-0.3, 0.0, 0.0),
     "leaking": (-0.15, 0.0, -0.15),
+    # So little that no test of what is left over shows it.
+    "hardly leaking": (-0.03, 0.0, -0.05),
     "late": (-0.05, np.radians(6.0), 0.0),
+    # By five radians of the highest order.
+    "very late": (-0.09, np.radians(12.0), 0.0),
+    "early": (0.02, np.radians(-4.0), 0.0),
+    "healthy": (0.0, 0.0, 0.0),
 }
-# Repetitions of each, with eight cylinders: some six hundred intervals a test, or more than two thousand. Of
-# so many, the share that holds the truth scatters by a hundredth, or by half of it.
-REPEATED = cases(6, 24)
+# Repetitions of each. Of 24 values each, the share of intervals that hold the truth scatters by a hundredth,
+# or by a third of it.
+REPEATED = cases(1, 12)
+COUPLED = ("linear", "stiffening", "progressive")
 
 
 @cache
@@ -85,50 +91,74 @@ def test_diagnosis_is_exact_without_noise(coupling: str, defect: str) -> None:
     found = fitted(engine(coupling), measured(coupling, defect))
     np.testing.assert_allclose(found.factor, 1 + state(defect)[:8], atol=1e-6)
     assert set(found.weak()) <= {"3"}
-    if defect == "late":
-        assert found.late() == ("3",)
-        assert found.delay is not None
-        assert found.delay[2] == pytest.approx(np.radians(6.0), abs=1e-6)
-    if defect == "leaking":
-        assert found.leaking() == ("3",)
+    assert found.delay is not None
+    assert found.compression is not None
+    burns = found.factor > 0.2
+    np.testing.assert_allclose(found.delay[burns], state(defect)[8:16][burns], atol=1e-6)
+    np.testing.assert_allclose(found.compression, 1 + state(defect)[16:], atol=1e-6)
 
 
 @cache
-def repeated(is_known: bool) -> list[tuple[np.ndarray, Diagnosis]]:
-    """Factors as they are, and what is said of them, in many noisy repetitions."""
+def repeated(is_known: bool) -> list[tuple[str, Diagnosis]]:
+    """What is wrong, and what is said of it, in many noisy repetitions."""
     generator = np.random.default_rng(11)
     found = []
-    for coupling in ("linear", "stiffening", "progressive"):
+    for coupling in COUPLED:
         for defect in DEFECTS:
             for _ in range(REPEATED):
                 noise = generator.normal(0, NOISE, (2, 48))
                 seen = measured(coupling, defect, noise, is_known=is_known)
-                found.append((1 + state(defect)[:8], fitted(engine(coupling), seen)))
+                found.append((defect, fitted(engine(coupling), seen)))
     return found
 
 
-@pytest.mark.deep
+def hold(defect: str, found: Diagnosis) -> list[np.ndarray]:
+    """Which 95 % intervals hold the truth, of combustion, delay and compression."""
+    assert found.delay is not None
+    assert found.compression is not None
+    true, factor = state(defect).reshape(3, 8), found.coverage(0.95)
+    values = (found.factor - 1, found.delay, found.compression - 1)
+    deviations = (found.deviation, found.delay_deviation, found.compression_deviation)
+    told = [np.isfinite(deviation) for deviation in deviations]
+    return [
+        (np.abs(value - truth) <= factor * deviation)[is_told]
+        for value, truth, deviation, is_told in zip(values, true, deviations, told, strict=True)
+    ]
+
+
 @pytest.mark.parametrize("is_known", [True, False])
 def test_intervals_hold_the_truth(is_known: bool) -> None:
-    hold = [np.abs(found.factor - truth) <= found.half_width() for truth, found in repeated(is_known)]
-    assert 0.93 <= np.mean(hold) <= 0.97
+    """Of combustion, delay and compression each, also where what is wrong is too little to be seen."""
+    every = [hold(defect, found) for defect, found in repeated(is_known)]
+    for kind in zip(*every, strict=True):
+        assert 0.93 <= np.concatenate(kind).mean() <= 0.97
 
 
-@pytest.mark.deep
 def test_healthy_cylinders_are_not_accused() -> None:
     """All seven of them together, in at most one engine of twenty; the sick one is always found."""
-    every = [found for is_known in (True, False) for _, found in repeated(is_known)]
-    assert np.mean([bool(set(found.weak()) - {"3"}) for found in every]) <= 0.05
-    for found in every:
-        assert "3" in {*found.weak(), *found.late(), *found.leaking()}
+    every = [one for is_known in (True, False) for one in repeated(is_known)]
+    named = [{*f.weak(), *f.late(), *f.early(), *f.leaking()} for _, f in every]
+    false = [
+        bool(names - ({"3"} if defect != "healthy" else set()))
+        for (defect, _), names in zip(every, named, strict=True)
+    ]
+    assert np.mean(false) <= 0.05
+    for (defect, found), names in zip(every, named, strict=True):
+        if defect not in ("healthy", "hardly leaking"):
+            assert "3" in names
+        assert ("3" in found.early()) == (defect == "early")
+        assert ("3" in found.late()) == (defect in ("late", "very late"))
 
 
-@pytest.mark.parametrize(("coupling", "defect"), [("stiffening", "weak"), ("resonant", "misfire")])
-def test_factors_alone_where_they_explain_all(coupling: str, defect: str) -> None:
-    """Delays and compression are not fitted into noise, nor into other factors that fit nearly as well."""
-    found = fitted(engine(coupling), measured(coupling, defect))
+def test_few_orders_take_all_cylinders_as_tight() -> None:
+    """Twelve orders do not tell 24 values; the diagnosis says so."""
+    seen = measured("linear", "weak")
+    first = MeasuredSpeed("flywheel", seen.orders[:12], seen.harmonics[:12], seen.noise[:12])
+    found = fitted(engine("linear"), first)
     assert found.delay is None
-    assert found.half_width().max() < 0.012
+    assert found.early() == ()
+    assert "measure more than 12 orders" in found.warnings[-1]
+    np.testing.assert_allclose(found.factor, 1 + state("weak")[:8], atol=1e-6)
 
 
 def test_what_nothing_explains_widens_the_intervals() -> None:
@@ -141,15 +171,7 @@ def test_what_nothing_explains_widens_the_intervals() -> None:
 
 
 def test_factors_that_do_not_settle_are_a_finding(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("linkwright.torsion.diagnosis.engine_diagnosis._ROUNDS", 2)
+    monkeypatch.setattr("linkwright.torsion.diagnosis.engine_fit._SETTLED", 1e-300)
+    monkeypatch.setattr("linkwright.torsion.diagnosis.engine_fit._SETTLED_SHARE", 1e-300)
     with pytest.raises(ConvergenceError, match="factors do not converge"):
         fitted(engine("progressive"), measured("progressive", "misfire"))
-
-
-@pytest.mark.parametrize(("above", "below"), [(16, None), (16, 40), (24, 72)])
-@pytest.mark.parametrize("chance", [0.5, 0.05, 0.01])
-def test_ratio_of_variances(above: int, below: int | None, chance: float) -> None:
-    from scipy import stats
-
-    law = stats.f(above, 10**9 if below is None else below)
-    assert chance_of_ratio(law.isf(chance), above, below) == pytest.approx(chance, rel=0.05)

@@ -54,7 +54,7 @@ def test_weak_cylinders_of_a_v12_are_found_at_both_ends(v12: lw.Machine) -> None
         # Its loads take less, and pulsate and damp by that share less.
         np.testing.assert_allclose(found.factor, wanted, atol=1e-8)
         noisy = engine_diagnosis(v12, measured(sick, disc, seed=1), SPEED)
-        assert noisy.weak()[:2] == ("7", "2")
+        assert noisy.weak()[:2] == (("7", "2") if disc == "front" else ("7",))
         assert (np.abs(noisy.factor - wanted) < 5 * noisy.deviation).all()
 
 
@@ -145,7 +145,7 @@ def test_survey_looks_at_the_run_and_at_every_resonance(v12: lw.Machine) -> None
 
 @pytest.mark.parametrize(
     ("disc", "factor", "deviation", "misfit", "weakest"),
-    [("front", -34, 0.001, 245, "1"), ("flywheel", 10.0, 0.002, 72, None)],
+    [("front", -34, 0.002, 245, "1"), ("flywheel", 10.0, 0.012, 72, None)],
 )
 def test_numbers_of_the_page_on_diagnosis(
     v12: lw.Machine, disc: str, factor: float, deviation: float, misfit: float, weakest: str | None

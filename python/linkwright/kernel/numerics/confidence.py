@@ -1,4 +1,4 @@
-"""How far estimates may be from the truth: Student's distribution, and the chances of a ratio of variances.
+"""How far estimates may be from the truth: Student's distribution.
 
 SciPy has the distributions; it is imported when one is asked for.
 """
@@ -23,15 +23,3 @@ def coverage_factor(level: float, freedom: int | None = None) -> float:
     from scipy.special import stdtrit
 
     return float(stdtrit(freedom, 0.5 + level / 2))
-
-
-def chance_of_ratio(ratio: float, above: int, below: int | None = None) -> float:
-    """Probability that a ratio of two variances is at least as large by chance.
-
-    `above`, `below`: degrees of freedom of the two; without those below, that one is known.
-    """
-    from scipy.special import chdtrc, fdtrc
-
-    if ratio <= 0:
-        return 1.0
-    return float(chdtrc(above, ratio * above) if below is None else fdtrc(above, below, ratio))

@@ -86,6 +86,7 @@ def _answer(machine: Machine, read: RecordDiagnosis, level: float) -> Answer:
         "half_width": diagnosis.half_width(level).tolist(),
         "weak": list(read.weak(level)),
         "late": list(read.late(level)),
+        "early": list(read.early(level)),
         "leaking": list(read.leaking(level)),
     }
     # They stand beside the results, with those of the record.

@@ -109,7 +109,7 @@ class Diagnosis(Result):
             "crank angle by which the combustion is late",
             "",
             "rad",
-            "None unless the strength of the cylinders alone does not explain the measurement.",
+            "None where the orders measured do not tell it.",
             shape="(cylinders,)",
             over="delay",
         ),
@@ -178,13 +178,14 @@ class Diagnosis(Result):
         Parameters
         ----------
         level : float
-            Probability that none is named in a healthy engine; shared out to the cylinders, and to strength,
-            delay and compression where all three are estimated (Bonferroni).
+            Probability that the intervals of all cylinders hold the truth together, in strength, delay and
+            compression where these are estimated; shared out to them (Bonferroni). None is then named in a
+            healthy engine, with this probability or a larger one.
 
         Returns
         -------
         tuple of str
-            Those whose intervals, one-sided, lie below 1.
+            Those whose intervals lie below 1.
         """
         return self._below(self.factor - 1, self.deviation, level)
 
@@ -199,11 +200,28 @@ class Diagnosis(Result):
         Returns
         -------
         tuple of str
-            Those whose intervals, one-sided, lie above 0.
+            Those whose intervals lie above 0.
         """
         if self.delay is None or self.delay_deviation is None:
             return ()
         return self._below(-self.delay, self.delay_deviation, level)
+
+    def early(self, level: float = 0.95) -> tuple[str, ...]:
+        """Cylinders that fire early, the earliest first; none where the measurement says nothing of it.
+
+        Parameters
+        ----------
+        level : float
+            As of `weak`.
+
+        Returns
+        -------
+        tuple of str
+            Those whose intervals lie below 0.
+        """
+        if self.delay is None or self.delay_deviation is None:
+            return ()
+        return self._below(self.delay, self.delay_deviation, level)
 
     def leaking(self, level: float = 0.95) -> tuple[str, ...]:
         """Cylinders that compress less than a tight one, the worst first; none where nothing is said of it.
@@ -216,16 +234,16 @@ class Diagnosis(Result):
         Returns
         -------
         tuple of str
-            Those whose intervals, one-sided, lie below 1.
+            Those whose intervals lie below 1.
         """
         if self.compression is None or self.compression_deviation is None:
             return ()
         return self._below(self.compression - 1, self.compression_deviation, level)
 
     def _below(self, value: Floats, deviation: Floats, level: float) -> tuple[str, ...]:
-        """Cylinders whose one-sided intervals lie below 0, at a level for all intervals together."""
+        """Cylinders whose intervals lie below 0, at a level for all intervals together."""
         intervals = len(self.cylinders) * (1 if self.delay is None else 3)
-        single = 1 - 2 * (1 - level) / intervals
+        single = 1 - (1 - level) / intervals
         below = value + self.coverage(single) * deviation < 0
         return tuple(self.cylinders[n] for n in np.argsort(value) if below[n])
 

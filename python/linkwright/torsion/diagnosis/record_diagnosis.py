@@ -83,6 +83,21 @@ class RecordDiagnosis:
         """
         return self.found.late(level) if self.is_plausible else ()
 
+    def early(self, level: float = 0.95) -> tuple[str, ...]:
+        """Cylinders that fire early; none where the factors are not plausible.
+
+        Parameters
+        ----------
+        level : float
+            As of `Diagnosis.early`.
+
+        Returns
+        -------
+        tuple of str
+            The earliest first.
+        """
+        return self.found.early(level) if self.is_plausible else ()
+
     def leaking(self, level: float = 0.95) -> tuple[str, ...]:
         """Cylinders that compress less than a tight one; none where the factors are not plausible.
 

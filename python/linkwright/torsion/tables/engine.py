@@ -97,11 +97,12 @@ def _verdicts(read: RecordDiagnosis, level: float) -> Iterator[tuple[str, str]]:
     diagnosis = read.found
     for n, name in enumerate(diagnosis.cylinders):
         words = ["weak"] if name in read.weak(level) else []
-        if name in read.late(level) and diagnosis.delay is not None and diagnosis.delay_deviation is not None:
+        is_off = name in (*read.late(level), *read.early(level))
+        if is_off and diagnosis.delay is not None and diagnosis.delay_deviation is not None:
             angle, half = np.degrees(
                 [diagnosis.delay[n], diagnosis.coverage(level) * diagnosis.delay_deviation[n]]
             )
-            words.append(f"late by {angle:.2f}° ± {half:.2f}°")
+            words.append(f"{'late' if angle > 0 else 'early'} by {abs(angle):.2f}° ± {half:.2f}°")
         if name in read.leaking(level) and diagnosis.compression is not None:
             words.append(f"leaking, {diagnosis.compression[n]:.3f} of its compression")
         if words:
