@@ -97,6 +97,13 @@ def test_what_is_no_lift_is_refused(formula: str, said: str) -> None:
         lw.cam_profile(cam(f'law = {{ kind = "formula", lift = "{formula}" }}'))
 
 
+def test_a_lift_of_the_section_beside_that_of_the_formula_is_refused() -> None:
+    law = 'law = { kind = "formula", lift = "0.02*z^3*(10 - 15*z + 6*z^2)" }'
+    assert lw.cam_profile(cam(f'lift = "20 mm", {law}')).stroke == pytest.approx(0.02)
+    with pytest.raises(LinkwrightError, match="leave it out"):
+        lw.cam_profile(lw.loads((HEAD % f'lift = "10 mm", {law}').replace("-20 mm", "-10 mm")))
+
+
 def test_a_kink_inside_is_told() -> None:
     def bent(z: np.ndarray) -> np.ndarray:
         return np.array([np.abs(z - 0.4), np.sign(z - 0.4), 0 * z, 0 * z])

@@ -138,3 +138,24 @@ def test_papers_of_the_topper(tmp_path: Path) -> None:
     # Square brackets of a formula are no markup.
     assert "d[(v_h/v)" in shown
     assert "500…600 mm" in shown
+
+
+def test_the_flywheel_alone_for_the_motor_of_the_file(tmp_path: Path) -> None:
+    out = tmp_path / "even.toml"
+    done = run("size", TWO_CARTS, "--keep-motor", "--unevenness", "0.05", "--out", out, "--json")
+    assert done.exit_code == 0, done.output
+    assert list(json.loads(done.stdout)["results"]) == ["flywheel"]
+    fitted, given = read(out), read(TWO_CARTS)
+    assert steady_state(fitted).unevenness == pytest.approx(0.05, rel=1e-6)
+    assert fitted.drive is not None
+    assert given.drive is not None
+    assert fitted.drive.motor == given.drive.motor
+    told = run("size", TWO_CARTS, "--keep-motor", "--free-ratio")
+    assert told.exit_code == 2
+    assert "--keep-motor" in told.stderr
+
+
+def test_checks_are_called_by_words() -> None:
+    told = run("size", TWO_CARTS).stdout
+    for words in ("run-up time", "root mean square torque", "peak torque", "starting torque, worst angle"):
+        assert words in told

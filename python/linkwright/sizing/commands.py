@@ -61,6 +61,9 @@ Catalogue = Annotated[
         help="Choose from the motors of a CSV file, induction, DC or servo, in place of the catalogue.",
     ),
 ]
+KeepMotor = Annotated[
+    bool, Option("--keep-motor", help="Keep the motor of the file and size the flywheel alone.")
+]
 MinimumCost = Annotated[
     bool,
     Option("--minimum-cost", help="Choose motor, gear ratio and flywheel together for the minimum cost."),
@@ -106,6 +109,9 @@ OutFile = Annotated[Path | None, out_option("Write the machine with motor and fl
 # Places from which derivatives lead to the minimum cost.
 _STARTS = 3
 
+# Options that say how a motor is chosen.
+_OF_A_MOTOR = ("reserve", "by", "free_ratio", "together", "inertia", "catalogue")
+
 # Rows of the table beyond the motor that is chosen; larger ones are larger still.
 _BEYOND = 2
 
@@ -121,6 +127,7 @@ def size(
     together: Together = False,
     inertia: Inertia = None,
     catalogue: Catalogue = None,
+    keep_motor: KeepMotor = False,
     minimum_cost: MinimumCost = False,
     per_kilowatt: PerKilowatt = None,
     per_kilogram: PerKilogram = None,
@@ -155,6 +162,11 @@ def size(
         from linkwright.studies.commands.optimise import hand_over_optimum
 
         hand_over_optimum(plan, {"method": "gradient", "starts": _STARTS}, json=json, out=out, force=force)
+        return
+    if keep_motor:
+        belong_to("a choice of motor, without --keep-motor", *_OF_A_MOTOR)
+        alone = choose_flywheel(machine, unevenness)
+        hand_over(_answer_of_flywheel(alone), json=json, out=out, force=force)
         return
     motor = choose_motor(
         machine,
@@ -212,7 +224,7 @@ def _study(
         return None if given is None else option_value(f"--{name.replace('_', '-')}", given, kind)
 
     if asked := _asked(limits, prices is not None):
-        names = ("reserve", "by", "free_ratio", "together", "inertia", "catalogue")
+        names = (*_OF_A_MOTOR, "keep_motor")
         belong_to(f"a choice of motor and flywheel, without {asked[0]}", *names)
         if prices is None:
             belong_to("a flywheel", "unevenness")
@@ -317,6 +329,38 @@ def _answer(machine: Machine, motor: MotorChoice, flywheel: FlywheelChoice | Non
     )
 
 
+def _answer_of_flywheel(flywheel: FlywheelChoice) -> Answer:
+    """The flywheel for the motor of the file."""
+    from linkwright.machine.write import dumps
+
+    machine = flywheel.machine
+    return Answer(
+        machine=machine.name,
+        units=machine.units,
+        results=lambda _: {"flywheel": flywheel.to_dict()},
+        warnings=flywheel.warnings,
+        head=lambda: "\n".join(_flywheel_words(flywheel)),
+        tables=partial(_table_of_flywheel, flywheel),
+        machine_file=partial(dumps, machine),
+    )
+
+
+def _table_of_flywheel(flywheel: FlywheelChoice) -> list[Table]:
+    """The flywheel, and the machine with it and without."""
+    from linkwright.kernel.page.table import Table, rows_of
+
+    names = (
+        "inertia",
+        "inertia_estimate",
+        "excess_work",
+        "unevenness",
+        "unevenness_without",
+        "run_up_time",
+        "run_up_time_without",
+    )
+    return [Table("flywheel", "Flywheel", ("quantity", "", "value", ""), rows_of(flywheel, *names))]
+
+
 def _lead(name: str, motor: MotorChoice, flywheel: FlywheelChoice | None) -> str:
     """What is needed and what was chosen."""
     from linkwright.kernel.page.numbers import quantity
@@ -372,8 +416,8 @@ def _checks(name: str, title: str, checks: Sequence[Check]) -> Table:
         (
             check.title,
             "",
-            measured(check.value, check.unit, digits=4),
-            measured(check.limit, check.unit, digits=4, before="≤ " if check.at_most else "≥ "),
+            measured(check.value, check.unit, abs(check.limit or 0.0), digits=4),
+            measured(check.limit, check.unit, abs(check.value or 0.0), 4, "≤ " if check.at_most else "≥ "),
             words[check.passed],
             check.note,
         )

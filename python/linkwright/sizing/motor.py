@@ -230,8 +230,11 @@ def choose_motor(
     )
     required = required_power(machine)
     if not required.power > 0:
+        from linkwright.kernel.page.numbers import quantity
+
         raise InputError(
-            f"the mean load is {required.torque_load_mean:.4g} N m: there is no motor to size for it"
+            f"the mean load at the crank is {quantity(required.torque_load_mean, 'N m', 4)}: there is no "
+            "motor to size for it; --keep-motor sizes the flywheel alone"
         )
     types = motors() if catalogue is None else tuple(catalogue)
     if not types:

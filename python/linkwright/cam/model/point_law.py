@@ -135,6 +135,11 @@ class FormulaLaw(Law):
         if text is None:
             expected = "a formula of the swing" if swing else "a formula of the lift"
             raise LawError(Problem("swing" if swing else "lift", "nothing", expected))
+        key, rise = "swing" if swing else "lift", self.own_lift(angle, swing=swing) or 0.0
+        if abs(rise - task.lift) > _SAME * max(abs(rise), abs(task.lift)):
+            found, expected = f"a formula that changes by {rise:.6g}", f"a change by {task.lift:.6g}"
+            remedy = f"the section has a {key} of its own: leave it out"
+            raise LawError(Problem(key, found, expected, remedy))
         own = osculating(lambda z: self._taylor(text, z, angle), text)
         for word, order, z, wanted in (
             ("velocity", 1, 0.0, task.velocity_start),
@@ -146,7 +151,7 @@ class FormulaLaw(Law):
                     f"a formula that {'ends' if z else 'begins'} with a {word} of {has:.6g} in its section"
                 )
                 expected = f"a {word} of {wanted:.6g} at its {'end' if z else 'start'}, as its neighbour has"
-                raise LawError(Problem("swing" if swing else "lift", found, expected))
+                raise LawError(Problem(key, found, expected))
         return own
 
 

@@ -42,8 +42,12 @@ class Mobility:
 
     def __str__(self) -> str:
         """One line in words."""
-        count = f"{self.links} moving links, {self.lower} pins and guides"
-        count += f", {self.higher} slots, teeth or couplings" if self.higher else ""
+        counted = (
+            (self.links, "moving link", "moving links"),
+            (self.lower, "pin or guide", "pins and guides"),
+            (self.higher, "slot, tooth contact or coupling", "slots, teeth or couplings"),
+        )
+        count = ", ".join(f"{n} {one if n == 1 else many}" for n, one, many in counted if n)
         formula = f"W = 3·{self.links} − 2·{self.lower}" + (f" − {self.higher}" if self.higher else "")
         text = f"{count}: {formula} = {self.freedom}".replace("-", "−")
         if self.redundant:
