@@ -7,8 +7,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import pytest
+from click.testing import CliRunner
 
 import linkwright as lw
+from linkwright.app.application import application
 from linkwright.app.commands.report import _content
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.figure.for_reader import _said
@@ -53,6 +55,8 @@ class Watched(Language):
         ("−1.41·10⁻⁸ kg m²", "−1,41·10⁻⁸ кг·м²"),
         ("75.522°", "75,522°"),
         ("0.5 rad/s per N m", "0,5 рад/с на Н·м"),
+        ("−0.0041 per rad/s", "−0,0041 на рад/с"),
+        ("Steady motion, cycle of 2 revolutions", "Усталений рух, цикл із 2 обертів"),
         ("mean load torque", "середній момент опору"),
         ("velocity v [m/s]", "швидкість v [м/с]"),
         ("pin, A1 on cart1.rod", "шарнір, A1 на cart1.rod"),
@@ -160,3 +164,40 @@ def test_only_names_of_the_file_stay() -> None:
     assert "limit" not in heads
     rows = [row for part in told.parts for table in part.tables for row in table.rows]
     assert any(row[0] == "coupling" for row in rows)
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "size roller_two_carts",
+        "size roller_two_carts --keep-motor",
+        "motors",
+        "check roller_two_carts",
+        "cam laws",
+        "motion press_motion --zero top",
+        "motion press_motion --at 30deg",
+        "forces press_with_flywheel --at 40deg",
+        "run four_stroke_speed",
+        "torsion damper v8_diesel --on front --ring-inertia 0.12 --mode 2",
+        "torsion drill_pipe",
+    ],
+)
+def test_reports_of_commands_have_no_english(words: str, tmp_path: Path) -> None:
+    """Texts of the product; names, keys, types of motors and sources stay as they are."""
+    page = tmp_path / "page.html"
+    command = ["report", "--lang", "uk", "--to", str(page), *words.split()]
+    done = CliRunner().invoke(application(), command)
+    assert done.exit_code == 0, done.output
+    text = re.sub(r"<(script|style|code|pre|math)\b.*?</\1>", "", page.read_text("utf-8"), flags=re.DOTALL)
+    text = re.sub(r'<[^>]*class="(where|data|lead)[^>]*>.*?</', "<", text, flags=re.DOTALL)
+    said = [one.strip() for one in re.findall(r">([^<]+)<", text)]
+    left = [one for one in said if ENGLISH_WORDS.search(one) and not _is_kept(one)]
+    assert left == []
+
+
+def _is_kept(text: str) -> bool:
+    """Whether a text is a name of a file, a source, or a key of the machine file in words."""
+    names = ("installation", "flywheel", "generator", "engine", "brake", "press", "pipe", "pole", "4-pole")
+    sources = ("paper", "Стаття", "Theory", "Wittrick", "Den Hartog", "(1) without", "Джерело")
+    keys = ("constant torque", "force angle", "damping torsional", "speed start", "turns max")
+    return any(one in text for one in (*names, *sources)) or text in keys

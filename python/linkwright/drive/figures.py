@@ -343,8 +343,8 @@ def _steady(study: DriveStudy) -> Iterator[CaptionedFigure]:
     low, high = quantity(steady.speed_min, "rad/s"), quantity(steady.speed_max, "rad/s")
     over = _cycle_words(steady)
     caption = (
-        f"The crank speed varies from {low} to {high}, δ = {number(steady.unevenness)}; {over} takes "
-        f"{quantity(steady.period, 's')}."
+        f"The crank speed varies from {low} to {high}, δ = {number(steady.unevenness)}; {over} "
+        f"{'takes' if steady.turns == 1 else 'take'} {quantity(steady.period, 's')}."
     )
     yield CaptionedFigure("speed", f"Speed and acceleration over {over}", caption, speed_figure(steady))
     caption = (

@@ -109,7 +109,8 @@ class Language:
         """A unit: parts of it with powers, between strokes and spaces."""
         names = sorted(map(re.escape, self.units.keys() - {"per"}), key=len, reverse=True)
         part = rf"(?:{'|'.join(names)})[²³⁴]?"
-        return re.compile(rf"(?:1/)?{part}(?:[ /·]{part})*(?: per {part}(?:[ /·]{part})*)?(?![\w²³⁴/])")
+        whole = rf"{part}(?:[ /·]{part})*"
+        return re.compile(rf"(?:(?:1/)?{whole}(?: per {whole})?|per {whole})(?![\w²³⁴/])")
 
     @cached_property
     def _number(self) -> re.Pattern[str]:
