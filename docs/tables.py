@@ -215,7 +215,7 @@ def _list(default: tuple[Any, ...]) -> str:
 
 def _kind(field: FieldInfo) -> str:
     """The meaning of the key ``kind``, which has no description of its own."""
-    return "Says which kind this is." if get_args(field.annotation) else ""
+    return "Selects this kind." if get_args(field.annotation) else ""
 
 
 if __name__ == "__main__":

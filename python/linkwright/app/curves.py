@@ -78,12 +78,16 @@ class Curve:
 
 def coordinate_words(name: str) -> str:
     """A coordinate and its derivative: ``"ram.place.velocity"`` is ``"ram, velocity"``."""
-    whole, _, last = name.rpartition(".")
-    if whole and last in _RATES:
-        link = whole.removesuffix(".angle")
-        return f"{whole.removesuffix('.place')}, {last}" if link == whole else f"{link}, angular {last}"
-    if whole and last in _COORDINATES:
-        return f"{whole}, {_COORDINATES[last]}"
+    coordinate, _, last = name.rpartition(".")
+    if coordinate and last in _RATES:
+        link = coordinate.removesuffix(".angle")
+        return (
+            f"{coordinate.removesuffix('.place')}, {last}"
+            if link == coordinate
+            else f"{link}, angular {last}"
+        )
+    if coordinate and last in _COORDINATES:
+        return f"{coordinate}, {_COORDINATES[last]}"
     return name
 
 

@@ -216,7 +216,7 @@ def best(
 ) -> None:
     """The best angle, length and speed of the knife for a field of roots, within [topper.limits].
 
-    What is found is looked at over other roots, and more finely. Exit code 1 if no knife keeps the limits.
+    The result is verified with other roots and finer steps. Exit code 1 if no knife keeps the limits.
     """
     from linkwright.kernel.command.console import bar
     from linkwright.machine.read import read

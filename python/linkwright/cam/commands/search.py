@@ -74,8 +74,8 @@ def search(
 ) -> None:
     """Find the smallest cams within their limits.
 
-    Each is looked at at the same angles; those that are shown are looked at exactly, and keep their limits at
-    all angles. Exit code 1 if none does.
+    All cams are compared at the same angles; those shown are analysed exactly and keep their limits at all
+    angles. Exit code 1 if none does.
     """
     from linkwright.cam.profile.profile import the_cam
     from linkwright.cam.search import search_cams

@@ -104,8 +104,8 @@ class MotionSection(Description):
     )
     law: AnyLaw | None = Field(
         None,
-        description="How it moves: the name of a law, or a table. Default: and with a lift, "
-        "the polynomial 3-4-5.",
+        description="Motion law: its name, or a table. Default: the polynomial 3-4-5 for a section "
+        "with a lift.",
     )
     velocity_start: LiftVelocity | None = Field(
         None, description="Lift per cam angle at the start. Default: that of the neighbour, or rest."

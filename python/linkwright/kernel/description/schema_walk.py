@@ -80,7 +80,9 @@ def words_of(annotation: Any) -> str:
             return "a list of tables"
         entry = mark_of(inner)
         if entry is not None:
-            return f"a list of {len(get_args(lists[0]))} {entry.kind.noun}s"
+            entries = get_args(lists[0])
+            count = "" if entries[-1] is Ellipsis else f"{len(entries)} "
+            return f"a list of {count}{entry.kind.noun}s"
         return "a list of whole numbers" if _bare(inner) is int else "a list of two names"
     if bool in bare:
         return "true or false"

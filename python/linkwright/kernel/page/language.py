@@ -109,8 +109,8 @@ class Language:
         """A unit: parts of it with powers, between strokes and spaces."""
         names = sorted(map(re.escape, self.units.keys() - {"per"}), key=len, reverse=True)
         part = rf"(?:{'|'.join(names)})[²³⁴]?"
-        whole = rf"{part}(?:[ /·]{part})*"
-        return re.compile(rf"(?:(?:1/)?{whole}(?: per {whole})?|per {whole})(?![\w²³⁴/])")
+        parts = rf"{part}(?:[ /·]{part})*"
+        return re.compile(rf"(?:(?:1/)?{parts}(?: per {parts})?|per {parts})(?![\w²³⁴/])")
 
     @cached_property
     def _number(self) -> re.Pattern[str]:

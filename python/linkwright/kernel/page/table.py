@@ -133,9 +133,7 @@ def columns_csv(columns: Mapping[str, Floats]) -> str:
 
 
 def _known(columns: Mapping[str, Floats]) -> dict[str, Floats]:
-    """Columns in which what is rounding beside the largest of its unit is zero; a plain number stands beside
-    those of its own column alone.
-    """
+    """Zero for what is rounding beside the largest of its unit, or without a unit of its own column."""
     import numpy as np
 
     unit_of = {name: unit if (unit := name.rpartition("[")[2]) != "-]" else name for name in columns}

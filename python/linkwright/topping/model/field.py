@@ -91,7 +91,7 @@ class MeasuredField(RootField):
         'head with units: "root_diameter [mm], cut_height [mm], offset [mm]".',
     )
     phases: Annotated[Whole, Field(ge=4, le=100_000)] = Field(
-        64, description="Phases of the knife in which each root is looked at, evenly over one revolution."
+        64, description="Phases of the knife for which each root is evaluated, evenly over one revolution."
     )
     root_diameter: Lengths = Field((), description="Diameter D of each root.")
     cut_height: Lengths = Field(

@@ -110,8 +110,8 @@ class ConstantKnife(KnifeMotion, CheckedDescription):
     kind: Literal["constant"] = Field(description="Constant speed.")
     stroke: PositiveLength | None = Field(
         None,
-        description="Distance between the ends. Default: the knife does not turn back over a head: the "
-        "worse of the two directions is looked at.",
+        description="Distance between the ends. Default: the knife does not turn back over a head, and "
+        "the worse of the two directions counts.",
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:

@@ -10,7 +10,7 @@ propeller, in kN m with D in m and n in revolutions per second, is
 
 and above that diameter with :math:`1.9\,H_\mathrm{ice}^{1.1} D^{1.9}` in place of :math:`D^3`.
 
-The numbers of the rules are from memory, not compared with a print; all of them can be given instead.
+The numbers of the rules have not been compared with a printed edition; all of them can be given instead.
 
 References
 ----------

@@ -68,7 +68,11 @@ class StressedSection(NamedTuple):
 class ShaftLimit(CheckedDescription):
     """The permitted stress of the shaft."""
 
-    kind: Kind = Field("given", description="Where the permitted vibratory stress comes from.")
+    kind: Kind = Field(
+        "given",
+        description="Source of the permitted vibratory stress: given, by the maker or by another rule (DNV, "
+        "LR, ABS); IACS UR M68; Korean Register.",
+    )
     diameter: PositiveLength | None = Field(
         None, description="Outside, where the stress counts. Default: that of the weakest section."
     )

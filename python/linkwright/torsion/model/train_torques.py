@@ -175,7 +175,7 @@ class TrainEngine(Description):
     phase: Angle = Field(
         0.0,
         description="Angle by which its crank leads that of [train.engine], seen at its own speed. Clutched "
-        "engines have any: look for the worst.",
+        "engines may have any phase: find the worst.",
     )
     factors: dict[str, Annotated[float, not_negative(RATIO)]] = Field(
         default_factory=dict,
