@@ -78,7 +78,7 @@ def test_rigid_train_is_another_answer(measured: str) -> None:
     [
         (["--on", "fly"], 'found "fly"'),
         (["--on", "flywheel", "--noise", "2 m"], "--noise"),
-        (["--on", "flywheel", "--noise", "0 rad/s"], "expected more than 0"),
+        (["--on", "flywheel", "--noise", "0 rad/s"], "greater than 0"),
         (["--on", "flywheel", "--level", "2"], "--level: found 2"),
         (["--on", "flywheel", "--zero", "9"], "1 to 8"),
         (["--on", "flywheel", "--set", "train.engine.strokes=2"], "firing_order"),

@@ -79,6 +79,43 @@ def test_nonsense_is_refused(name: str, words: str, option: click.Option, ask: A
                 assert option.opts[0].strip("-") in told or value in done.stderr, done.stderr
 
 
+# Numbers of which a negative one has a meaning: an angle, a place, a speed or an acceleration the other way
+# about, a formula.
+SIGNED = {"--at", "--from-angle", "--from-speed", "--speed", "--acceleration", "--planes", "--law"}
+UNITS = ("", "m", "deg", "rpm", "s", "kW", "kg*m^2", "Pa")
+
+
+@pytest.mark.parametrize(
+    ("name", "words", "option"),
+    OPTIONS,
+    ids=[f"{name} {words[:30]} {o.opts[0]}" for name, words, o in OPTIONS],
+)
+def test_sizes_below_zero_are_refused(name: str, words: str, option: click.Option, ask: Ask) -> None:
+    if option.opts[0] in SIGNED:
+        return
+    for unit in UNITS:
+        done = ask(name, f"{words} {option.opts[0]}=-1{unit}")
+        assert done.exit_code == 2, f"{option.opts[0]} -1 {unit}: {done.output[:200]}"
+
+
+@pytest.mark.parametrize(
+    ("words", "expected"),
+    [
+        ("cam search {roller_cam} --vary base_radius=0.3:0.4:3 --curvature-radius -1m", "greater than 0"),
+        ("cam search {roller_cam} --vary base_radius=0.3:0.4:3 --pressure-angle -1deg", "between 0 and 90"),
+        ("cam {roller_cam} --step -1deg", "greater than 0"),
+        ("cam {roller_cam} --step 0deg", "greater than 0"),
+        ("motors --power-min -1kW", "of 0 or more"),
+    ],
+)
+def test_the_bound_of_a_quantity_is_said(words: str, expected: str, ask: Ask) -> None:
+    name = max((name for name in CASES if words.startswith(f"{name} ")), key=len)
+    done = ask(name, words.removeprefix(name))
+    assert done.exit_code == 2
+    assert done.stderr.startswith(f"{words.split()[-2]}: found {words.split()[-1]}, expected ")
+    assert expected in done.stderr
+
+
 # Options that a command does not look at, beside those that make it so.
 UNUSED = (
     ("run {roller_two_carts}", "--step 3deg"),

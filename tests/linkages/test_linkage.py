@@ -442,8 +442,9 @@ def test_to_dict_and_curves() -> None:
     assert entries["grashof_sum_others"] == pytest.approx(0.65)
     assert {"swing", "time_ratio", "transmission_angle_min", "transmission_angle_max"} <= entries.keys()
     assert set(found.curves()) == {"crank_angle", "R.transmission_angle", "R.rocker.velocity_ratio"}
-    with pytest.raises(KeyError):
+    with pytest.raises(InputError, match=r"^name: found 'Q', expected an element, a link or a slide"):
         found.element("Q")
+    assert found.unit_of("R.nothing") == ""
 
 
 def test_zeros_of_hard_functions() -> None:

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import dataclasses
+import inspect
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from functools import cache
 from typing import Any
 
 import pytest
-from tests.public.test_misuse import WRONG
+from tests.public.test_misuse import WRONG, right_calls
 
 import linkwright as lw
 from linkwright.kernel.errors import InputError, LinkwrightError
+from linkwright.kernel.result import PlainRecord
 
 LAW = lw.read("machines/roller_cam.toml").mechanism.cams["cart"].motion.lift
 CART = lw.read("machines/roller_one_cart.toml")
@@ -44,6 +48,79 @@ def test_misuse(name: str) -> None:
                 continue
             except Exception as error:
                 raise AssertionError(f"{name}({word}): {type(error).__name__}: {error}") from error
+
+
+@cache
+def results() -> dict[type, Any]:
+    """One object of each class that public functions give, and of those that users make."""
+    found: dict[type, Any] = {}
+    for name, (function, call) in right_calls().items():
+        if name not in ("read", "loads", "get", "replace"):
+            _keep(function(**call), found)
+    beam = lw.read("machines/roller_two_carts.toml")
+    for made in (lw.linkage(beam), lw.study(CART), lw.gradient(CART, ["steady_state.unevenness"])):
+        _keep(made, found)
+    _keep(lw.topper_field(lw.read("examples/topper_field/machine.toml")), found)
+    _keep(lw.pumping_units(), found)
+    return found
+
+
+def _keep(value: Any, found: dict[type, Any]) -> None:
+    """Keep an object, and those that it consists of, by their classes."""
+    if isinstance(value, dict | list | tuple):
+        for part in value.values() if isinstance(value, dict) else value:
+            _keep(part, found)
+    elif dataclasses.is_dataclass(value) and type(value) not in found:
+        found[type(value)] = value
+        for field in dataclasses.fields(value):
+            _keep(getattr(value, field.name), found)
+
+
+def methods() -> Iterator[tuple[Any, str]]:
+    """Objects with each of their public methods that takes something."""
+    for kind, each in results().items():
+        # Results, and the small classes that users make.
+        if issubclass(kind, PlainRecord) or kind.__name__ in dir(lw):
+            for name, method in inspect.getmembers(kind, inspect.isfunction):
+                # What `to_dict` takes is a truth, as any object is.
+                is_asked = not name.startswith("_") and name != "to_dict"
+                if is_asked and len(inspect.signature(method).parameters) > 1:
+                    yield each, name
+
+
+def test_methods_of_all_results() -> None:
+    """Whatever they are given, for one argument or for all, they answer or refuse it as an error of ours."""
+    count = 0
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        for each, name in methods():
+            every = list(inspect.signature(getattr(type(each), name)).parameters.values())[1:]
+            parameters = [p for p in every if p.kind is not p.VAR_POSITIONAL]
+            for chosen in parameters:
+                needed = {p.name for p in parameters if p.default is p.empty}
+                for word, value in WRONG.items():
+                    count += 1
+                    given = dict.fromkeys({*needed, chosen.name}, value)
+                    try:
+                        getattr(each, name)(**given)
+                    except LinkwrightError:
+                        continue
+                    except Exception as error:
+                        place = f"{type(each).__name__}.{name}({chosen.name}={word})"
+                        raise AssertionError(f"{place}: {type(error).__name__}: {error}") from error
+    assert count > 1500
+
+
+def test_methods_name_what_they_do_not_know() -> None:
+    cams = lw.search_cams(lw.read("machines/roller_cam.toml"), entries={"base_radius": [0.3, 0.4]})
+    with pytest.raises(InputError, match="keeps: found 3 truths for 2 cams"):
+        cams.smallest([True, True, False])
+    with pytest.raises(InputError, match="count: found -1"):
+        cams.smallest([True, True], -1)
+    with pytest.raises(InputError, match=r"^course: found 3, expected a cam's course"):
+        lw.StemGuide(0.1, 0.05).held(3, 3)
+    with pytest.raises(InputError, match=r"^share: found 2, expected a share"):
+        results()[next(kind for kind in results() if kind.__name__ == "TopperField")].length_at(2)
 
 
 def test_counterweights_beyond_all_masses_are_refused() -> None:

@@ -42,7 +42,7 @@ def _law() -> MotionLaw:
     return found
 
 
-def _calls() -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
+def right_calls() -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
     """A right call of each function, by its name."""
     cart, cam, engine = (_machine(name) for name in ("roller_one_cart", "roller_cam", "v8_diesel"))
     topper, rotator = _machine("topper"), _machine("rod_rotator_continuous")
@@ -206,7 +206,7 @@ WRONG: dict[str, Any] = {
 
 
 def _cases() -> Iterator[tuple[str, str]]:
-    for name, (function, call) in _calls().items():
+    for name, (function, call) in right_calls().items():
         checked = checks_of(inspect.unwrap(function))
         for argument in call:
             if argument in checked or argument in ("entries", "over", "law", "out"):
@@ -214,7 +214,7 @@ def _cases() -> Iterator[tuple[str, str]]:
 
 
 def _misused(name: str, argument: str, value: Any) -> None:
-    function, call = _calls()[name]
+    function, call = right_calls()[name]
     given = call[argument]
     if isinstance(given, dict):
         value = {next(iter(given)): value}
@@ -287,9 +287,9 @@ def test_what_is_written_and_where_is_named(value: Any, tmp_path: Path) -> None:
             function(right, value)
 
 
-@pytest.mark.parametrize("name", sorted(_calls()))
+@pytest.mark.parametrize("name", sorted(right_calls()))
 def test_results_stay_as_they_are_and_can_be_pickled(name: str) -> None:
-    function, call = _calls()[name]
+    function, call = right_calls()[name]
     if name == "loads":
         call = {**call, "text": lw_dumps(_machine("roller_one_cart"))}
     result = function(**call)

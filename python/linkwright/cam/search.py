@@ -75,6 +75,7 @@ class Cams(Result):
     ]
     is_sound: Annotated[Bools, About("Whether it is neither undercut nor locked.", "(n,)")]
 
+    @public
     def keeps(self, pressure_angle: float, curvature_radius: float = 0.0) -> Bools:
         """Which cams are sound and keep limits.
 
@@ -85,11 +86,14 @@ class Cams(Result):
         keeps: Bools = self.is_sound & steep & (self.curvature_radius_min >= curvature_radius)
         return keeps
 
+    @public
     def smallest(self, keeps: Bools, count: int = 1) -> Indices:
         """The cams of minimum base radius among some, then of minimum pressure angle.
 
         ``keeps`` (n,): which may be chosen.
         """
+        if keeps.shape != self.is_sound.shape:
+            raise ShapeError(f"keeps: found {len(keeps)} truths for {len(self.is_sound)} cams")
         numbers = np.flatnonzero(keeps)
         base = self.entries.get("base_radius", np.zeros(len(keeps)))
         order = np.lexsort((self.pressure_angle_max[numbers], base[numbers]))

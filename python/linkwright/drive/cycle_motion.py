@@ -100,6 +100,7 @@ class CycleMotion(Motion):
                 curves[f"{name}.acceleration"] = np.hypot(*path.acceleration.T)
         return curves
 
+    @public
     def unit_of(self, name: str) -> str:
         """SI unit of an attribute or a column by its name."""
         of, _, last = name.rpartition(".")

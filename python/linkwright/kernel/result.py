@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from linkwright.kernel.public import public
 from linkwright.kernel.quantities import Label, attributes_section, declared
 
 if TYPE_CHECKING:
@@ -210,6 +211,7 @@ class Result(Record):
         """Curves of the result's parts, named with their unit such as ``A_x [N]``; none for most."""
         return {}
 
+    @public
     def unit_of(self, name: str) -> str:
         """SI unit of an attribute or a curve by its name; empty if it has none."""
         _, mark = declared(type(self)).get(name, (None, None))

@@ -12,6 +12,7 @@ from linkwright.drive.steady_state import SteadyState, steady_state
 from linkwright.drive.transient import Transient
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import AssemblyError, InputError, ShapeError
+from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import Label
 from linkwright.kernel.result import Record
@@ -32,12 +33,16 @@ class Motion(Record):
         Floats, Label("time", "t", "s", "The crank angle itself where the machine stands at every angle.")
     ]
 
-    def mean(self, values: Floats) -> float:
+    @public
+    def mean(self, values: ArrayLike) -> float:
         """Mean of values (n,) over the time, or the angle of a machine at rest; without NaN.
 
         Where the crank turns one way, dt = dφ/ω: even angles then integrate a smooth revolution to rounding,
         which uneven times do not.
         """
+        values = np.asarray(values)
+        if values.shape != self.time.shape:
+            raise ShapeError(f"values: found an array of shape {values.shape}, expected {self.time.shape}")
         known = np.isfinite(values)
         if known.sum() < 2 or self.time[known][-1] == self.time[known][0]:
             return float(np.mean(values[known])) if known.any() else float("nan")

@@ -23,7 +23,10 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
+from linkwright.kernel.description.base import suggestion
+from linkwright.kernel.errors import InputError
 from linkwright.kernel.public import public
+from linkwright.kernel.public.arguments import shown
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record, Result
 from linkwright.linkages.closure import Closure, closure_error, closure_of, limiter_at
@@ -198,12 +201,15 @@ class Linkage(Result):
         tuple[DeadPoint, ...], About("Limits, change points and reversals, by crank angle.")
     ]
 
+    @public
     def element(self, name: str) -> ElementMotion:
-        """The first entry of an element, or of the link or slide with this name; else a `KeyError`."""
+        """The first entry of an element, or of the link or slide with this name; else an `InputError`."""
         for element in self.elements:
             if name in (element.element, element.output):
                 return element
-        raise KeyError(name)
+        known = [word for element in self.elements for word in (element.element, element.output)]
+        hint = suggestion(name, known) or "look at those of .elements"
+        raise InputError(f"name: found {shown(name)}, expected an element, a link or a slide; {hint}")
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Whether the crank turns fully, period, elements by name and dead points, ready for JSON. Returns:
@@ -231,10 +237,11 @@ class Linkage(Result):
             curves[f"{name}.stroke_ratio" if name in slides else f"{name}.velocity_ratio"] = curve
         return curves
 
+    @public
     def unit_of(self, name: str) -> str:
         """SI unit of an attribute or a curve by its name."""
         of, _, last = name.rpartition(".")
-        return _UNITS[last] if of else super().unit_of(name)
+        return _UNITS.get(last, "") if of else super().unit_of(name)
 
 
 # Units of the curves of elements and outputs, by the last word of their name.

@@ -72,12 +72,13 @@ class Motion(Result):
             curves |= _columns(f"{name}.place", path, ...)
         return curves
 
+    @public
     def unit_of(self, name: str) -> str:
         """SI unit of an attribute or a column by its name."""
         of, _, last = name.rpartition(".")
         if not of:
             return super().unit_of(name)
-        return self.unit_of(of) + _PER_TIME[last] if last in _PER_TIME else _COORDINATES[last]
+        return self.unit_of(of) + _PER_TIME[last] if last in _PER_TIME else _COORDINATES.get(last, "")
 
 
 # Units of the columns of parts by the last word of their name; what a rate adds to that of its coordinate.

@@ -57,11 +57,16 @@ class Gradient(Result):
             elasticities = self.derivatives * self.at / self.values[:, None]
         return np.where(np.isfinite(elasticities), elasticities, np.nan)
 
+    @public
     def of(self, response: str) -> dict[str, float]:
         """Derivatives of one response by address [SI]; NaN where there is none."""
+        if response not in self.responses:
+            hint = suggestion(response, self.responses) or "look at those of .responses"
+            raise InputError(f"response: found {cut(response)}, which was not derived; {hint}")
         row = self.derivatives[self.responses.index(response)]
         return dict(zip(self.variables, row.tolist(), strict=True))
 
+    @public
     def only(self, responses: Sequence[str]) -> Gradient:
         """Those of some responses, as far as they are here."""
         rows = [self.responses.index(name) for name in responses if name in self.responses]

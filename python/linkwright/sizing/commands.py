@@ -501,9 +501,9 @@ def _chosen(poles: int | None, power_min: str, series: str) -> list[CatalogueMot
     from linkwright.drive.model.catalogue import motors
     from linkwright.kernel.description.base import suggestion
     from linkwright.kernel.errors import InputError
-    from linkwright.kernel.units import POWER
+    from linkwright.kernel.units import POWER, not_negative
 
-    power, known = option_value("--power-min", power_min, POWER), motors()
+    power, known = option_value("--power-min", power_min, not_negative(POWER)), motors()
     names = list(dict.fromkeys(motor.series for motor in known))
     if series and series not in names:
         raise InputError(f'--series: there is no series "{series}": {suggestion(series, names)}')

@@ -25,6 +25,7 @@ from typing import Annotated, Any
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
+from linkwright.kernel.errors import InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
@@ -137,8 +138,11 @@ class TopperField(Result):
         tuple[float, ...], About("Maximum length for each of them [m]: end of its interval.")
     ]
 
+    @public
     def length_at(self, share: float) -> float:
         """Minimum length that cuts through a share, from 0 to 1, of the heads [m]."""
+        if not 0 <= share <= 1:
+            raise InputError(f"share: found {share:g}, expected a share of the heads from 0 to 1")
         place = int(np.ceil(share * self.n_roots - 1e-9)) - 1
         return float(np.sort(self.length_needed)[max(place, 0)])
 

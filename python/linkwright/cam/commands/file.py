@@ -84,7 +84,7 @@ def _options(tolerance: str, step: str, by: str, form: str, formats: str) -> dic
     """What the drawings shall be; what makes no sense is reported before anything is computed."""
     from linkwright.cam.manufacture.fit import FORMS
     from linkwright.cam.manufacture.write import ALL_FORMATS
-    from linkwright.kernel.units import ANGLE, LENGTH
+    from linkwright.kernel.units import ANGLE, LENGTH, positive
 
     wanted = tuple(ending.strip() for ending in formats.split(",") if ending.strip())
     for option, values, known in (
@@ -94,10 +94,13 @@ def _options(tolerance: str, step: str, by: str, form: str, formats: str) -> dic
     ):
         if unknown := [value for value in values if value not in known]:
             raise InputError(f'{option}: found "{unknown[0]}", expected {", ".join(known)}')
-    lengths = {"tolerance": option_value("--tolerance", tolerance, LENGTH)}
-    if lengths["tolerance"] <= 0:
-        raise InputError(f'--tolerance: found "{tolerance}", expected more than 0, such as "1 um"')
-    return {**lengths, "step": option_value("--step", step, ANGLE), "by": by, "form": form, "formats": wanted}
+    return {
+        "tolerance": option_value("--tolerance", tolerance, positive(LENGTH)),
+        "step": option_value("--step", step, positive(ANGLE)),
+        "by": by,
+        "form": form,
+        "formats": wanted,
+    }
 
 
 def _studied(file: Path, sets: list[str], *, allow_outside: bool) -> Study:

@@ -77,9 +77,10 @@ def search(
     All cams are compared at the same angles; those shown are analysed exactly and keep their limits at all
     angles. Exit code 1 if none does.
     """
+    from linkwright.cam.model.cam import Cam
     from linkwright.cam.profile.profile import the_cam
     from linkwright.cam.search import search_cams
-    from linkwright.kernel.units import ANGLE, LENGTH
+    from linkwright.kernel.description.schema_walk import quantity_of
     from linkwright.machine.read import read
 
     require_within(SHOWN, count, "--count", "show fewer")
@@ -87,9 +88,9 @@ def search(
     name, chosen = the_cam(machine, cam)
     steep, tight = chosen.limit, chosen.curvature_limit or 0.0
     if pressure_angle is not None:
-        steep = option_value("--pressure-angle", pressure_angle, ANGLE)
+        steep = option_value("--pressure-angle", pressure_angle, quantity_of(Cam, "pressure_angle_limit"))
     if curvature_radius is not None:
-        tight = option_value("--curvature-radius", curvature_radius, LENGTH)
+        tight = option_value("--curvature-radius", curvature_radius, quantity_of(Cam, "curvature_limit"))
     columns = _columns(vary or [])
     cams = search_cams(machine, name, entries=columns, laws=law or [])
     keeps = cams.keeps(steep, tight)

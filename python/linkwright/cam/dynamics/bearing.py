@@ -34,7 +34,7 @@ from numpy.typing import ArrayLike
 from linkwright.cam.dynamics.follower_load import CamCourse, alike
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import FindingError
-from linkwright.kernel.public import public_type
+from linkwright.kernel.public import public, public_type
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.units import LENGTH, RATIO, not_negative, positive
 
@@ -102,6 +102,7 @@ class StemGuide:
             diameter=(self.diameter, not_negative(LENGTH)),
         )
 
+    @public
     def held(self, course: CamCourse, push: Push) -> BearingReaction:
         """Reactions and friction at each angle of a course, (n,), for a normal force of one.
 
@@ -149,6 +150,7 @@ class ArmPivot:
             radius=(self.radius, not_negative(LENGTH)),
         )
 
+    @public
     def held(self, course: CamCourse, push: Push) -> BearingReaction:
         """Reaction and friction at each angle of a course, (n,), for a normal force of one."""
         force = np.full_like(course.cam_angle, np.hypot(1.0, push.friction))
@@ -161,6 +163,7 @@ class ArmPivot:
 class NoFriction:
     """A bearing of a translating follower that takes whatever comes across the way, without friction."""
 
+    @public
     def held(self, course: CamCourse, push: Push) -> BearingReaction:
         """Nothing is lost; the whole reaction counts as that of the near end, for each angle."""
         none = np.zeros_like(course.cam_angle)

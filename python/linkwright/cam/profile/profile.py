@@ -260,6 +260,7 @@ class CamProfile(Result):
                     entries[f"{over_time}_{end}"] = _in_time(value, order, self.speed)
         return entries
 
+    @public
     def unit_of(self, name: str) -> str:
         """SI unit of an attribute: a lift has metres, that of an oscillating follower radians."""
         return unit_in(super().unit_of(name), self.cam)

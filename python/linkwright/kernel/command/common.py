@@ -30,7 +30,7 @@ from linkwright.kernel.command.parameter import Argument, Option
 from linkwright.kernel.errors import FindingError, InputError, LinkwrightError, UnitError, cut, printable
 
 if TYPE_CHECKING:
-    from linkwright.kernel.units import Kind
+    from linkwright.kernel.units import Kind, Quantity
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -148,13 +148,16 @@ def named_entries(option: str, text: str, example: str) -> tuple[str, list[str]]
     return name.strip(), [entry.strip() for entry in entries.split(";") if entry.strip()]
 
 
-def option_value(option: str, text: str, kind: Kind) -> float:
+def option_value(option: str, text: str, of: Kind | Quantity) -> float:
     """The value of an option that is a quantity; a bare number is SI, where it can mean but one unit.
 
-    Raises `InputError`, which names the option, for anything else, and for an angle, a speed or a power
-    without its unit.
+    Raises `InputError`, which names the option, for anything else, for what is beyond the bound of a mark,
+    and for an angle, a speed or a power without its unit.
     """
-    from linkwright.kernel.units import ANGLE, POWER, SPEED, parse
+    from linkwright.kernel.units import ANGLE, POWER, SPEED, Quantity, parse
+
+    mark = of if isinstance(of, Quantity) else Quantity(of)
+    kind = mark.kind
 
     # On a command line people mean degrees as often as radians; zero is the same in both.
     choices = {
@@ -174,13 +177,18 @@ def option_value(option: str, text: str, kind: Kind) -> float:
             f"{before}{one} or {before}{other}"
         )
     try:
-        return parse(float(text) if _is_number(text) else text, kind)
+        value = parse(float(text) if _is_number(text) else text, kind)
     except UnitError as error:
         problem = error.problem
         # The file takes a bare number there, the command line does not.
         expected = problem.expected.partition(" or a number in ")[0] if units else problem.expected
         remedy = f"; {cut(problem.remedy)}" if problem.remedy else ""
         raise InputError(f"{option}: found {cut(problem.found)}, expected {expected}{remedy}") from None
+    if not mark.holds(value):
+        hint = mark.remedy(value) or f'such as "{kind.example}"'
+        expected = f"{kind.word}{mark.bound.words.rstrip(',')}; {hint}"
+        raise InputError(f"{option}: found {cut(text)}, expected {expected}")
+    return value
 
 
 def _is_number(text: str) -> bool:

@@ -36,6 +36,13 @@ def mark_of(annotation: Any) -> Mark | None:
     return next((mark for mark in marks if isinstance(mark, Mark)), None)
 
 
+def quantity_of(model: type[BaseModel], field: str) -> Quantity:
+    """The quantity that a field of a model declares, for whoever asks for it elsewhere, as a command does."""
+    mark = mark_of(annotation_at(model, (field,)))
+    assert isinstance(mark, Quantity)
+    return mark
+
+
 def model_of(annotation: Any, data: object = None) -> type[BaseModel] | None:
     """The model of a table; of several, the one whose ``kind`` the table has."""
     models = _tables(annotation)

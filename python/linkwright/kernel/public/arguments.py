@@ -52,6 +52,7 @@ class Range(NamedTuple):
 RANGES: dict[str, Range] = {
     "n": Range(1, 10_000_000),
     "fine": Range(1, 1_000_000),
+    "count": Range(1, 10_000_000),
     "per_turn": Range(16, 1_000_000),
     "order": Range(0, 100_000),
     # What every generator of random numbers takes.
@@ -283,6 +284,14 @@ def _truth(name: str, value: Any) -> bool:
     return bool(value)
 
 
+def _truths(name: str, value: Any) -> Any:
+    """A list of truths, (n,)."""
+    truths = _several(name, value, "a list of truths")
+    if not truths or not all(isinstance(truth, bool | np.bool_) for truth in truths):
+        raise _wrong(name, value, "a list of truths")
+    return np.array(truths)
+
+
 def _text(name: str, value: Any) -> str:
     if not isinstance(value, str):
         raise _wrong(name, value, "a text")
@@ -363,6 +372,7 @@ _KINDS = {
     "Drawing": "a drawing, such as cam_drawings() gives",
     "CamProfile": "a cam profile, such as cam_profile() gives",
     "CamCourse": "a cam's course, such as cam_course() gives",
+    "Push": "a push, such as pushes() gives",
     "FollowerLoad": "a FollowerLoad",
     "OneMass": "a OneMass",
     "Material": "a Material",
@@ -419,6 +429,7 @@ _CHECKS: dict[str, Check] = {
     "int": integer,
     "float": number,
     "bool": _truth,
+    "Bools": _truths,
     "str": _text,
 }
 

@@ -11,6 +11,7 @@ from typing import Any
 
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError, MachineError, Problem
+from linkwright.kernel.public import public
 from linkwright.kernel.units import show
 from linkwright.pumping.model.unit import INCH, POUND_FORCE, PumpingUnit, Rating, rating_of
 
@@ -48,6 +49,7 @@ class CatalogueUnit:
         assert rating is not None, "a designation of the catalogue"
         return rating
 
+    @public
     def unit(self, hole: int = 1) -> PumpingUnit:
         """The unit, of conventional geometry, with its crank pin in a hole, 1 the outermost; else an
         `InputError`.

@@ -57,15 +57,13 @@ def diagnose(
 ) -> None:
     """Which cylinder of an engine is weak, from the speed of a disc over the crank angle."""
     from linkwright.kernel.files.points import read_columns
-    from linkwright.kernel.units import ANGLE, SPEED
+    from linkwright.kernel.units import ANGLE, SPEED, positive
     from linkwright.machine.read import read
     from linkwright.torsion.diagnosis.record_diagnosis import record_diagnosis
 
     if not 0 < level < 1:
         raise InputError(f"--level: found {level:g}, expected a probability between 0 and 1")
-    deviation = None if noise is None else option_value("--noise", noise, SPEED)
-    if deviation is not None and deviation <= 0:
-        raise InputError(f"--noise: found {deviation:g} rad/s, expected more than 0")
+    deviation = None if noise is None else option_value("--noise", noise, positive(SPEED))
     machine = read(file, set or [], allow_outside=allow_outside)
     columns = read_columns(measured, {"angle": ANGLE, "speed": SPEED})
     diagnosis = record_diagnosis(
