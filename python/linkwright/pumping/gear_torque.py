@@ -130,16 +130,28 @@ class StrokeLoad:
 
     def rod(self, effect: float = 0.0) -> Floats:
         """Torque by the polished rod, less the effect of a cylinder."""
-        assert self.unit.load is not None
         resisting = self.factor * (self.load - self.unit.structural_unbalance - effect)
+        return resisting * self._passed(resisting)
+
+    def _passed(self, resisting: Floats) -> Floats:
+        """What becomes of a torque on its way through the structure."""
+        assert self.unit.load is not None
         efficiency = self.unit.load.efficiency
-        return resisting * np.where(resisting > 0, 1 / efficiency, efficiency)
+        passed: Floats = np.where(resisting > 0, 1 / efficiency, efficiency)
+        return passed
 
     def net(self, size: float) -> Floats:
         """Net torque with a counterbalance of some size: a moment, or the effect of a cylinder."""
         if self.unit.geometry == "air_balanced":
             return self.rod(size)
         return self.rod() - size * self.moment
+
+    def net_slope(self, size: float) -> Floats:
+        """Derivative of the net torque by the size of the counterbalance."""
+        if self.unit.geometry != "air_balanced":
+            return -self.moment
+        resisting = self.factor * (self.load - self.unit.structural_unbalance - size)
+        return -self.factor * self._passed(resisting)
 
 
 def gear_torque(
@@ -200,10 +212,10 @@ class Strokes:
             stroke = stroke_load(self.unit, self.load, self.motion(at), at)
             return np.stack([stroke.net(size), stroke.load, stroke.load * stroke.factor])
 
-        up, down = self._spans()
+        up, down = self.spans()
         return turn_curve(of, up, "torque of the gearbox"), turn_curve(of, down, "torque of the gearbox")
 
-    def _spans(self) -> tuple[Floats, Floats]:
+    def spans(self) -> tuple[Floats, Floats]:
         """Crank angles of each stroke from end to end, with the corners of a table over the angle between."""
         bottom = self.ends[0]
         top = bottom + (self.ends[1] - bottom) % (2 * np.pi)

@@ -15,11 +15,11 @@ import numpy as np
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.tangent import Tangent
-from linkwright.kernel.numerics.tangent_array import TangentArray, lifted, numbers, primal
+from linkwright.kernel.numerics.tangent_array import TangentArray, lifted
 from linkwright.linkages.kinematics import rows_along
 from linkwright.machine.machine import Machine
 from linkwright.machine.tangents import Derivatives, directions, followed
-from linkwright.pumping.gear_torque import StrokeLoad, Strokes, stroke_load
+from linkwright.pumping.gear_gradient import gear_scalars, without_derivatives
 from linkwright.pumping.model.unit import BEAM_LINK, PumpingUnit
 from linkwright.pumping.unit import PolishedRod, PumpingUnitMotion, end_angles, pumping_unit, turn_extreme
 
@@ -46,87 +46,10 @@ def pumping_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
         return Tangent(value, np.array([d.get(v, 0.0) for v in listed]))
 
     tangents = {name: tangent(float(getattr(result, name)), x) for name, x in scalars.items()}
-    gear, ties = _gear(rod, _along(rod, unit, program.values[:, at]), result)
+    gear, ties = gear_scalars(rod, _along(rod, unit, program.values[:, at]), result)
     tangents |= {f"gear.{name}": tangent(float(getattr(result.gear, name)), x) for name, x in gear.items()}
-    missing = dict.fromkeys(_INTEGRALS, "it is an integral over the revolution") if gear else {}
+    missing = {f"gear.{name}": why for name, why in without_derivatives(result.gear).items()}
     return Derivatives(listed, tangents | _at_speed(result, tangents, listed), ties, missing, refused)
-
-
-# Numbers of the gearbox that are not followed.
-_INTEGRALS = (
-    *("gear.torque_net_mean", "gear.torque_net_rms", "gear.cyclic_load_factor", "gear.work"),
-    *("gear.gear_load", "gear.torque_rated", "gear.load_rated"),
-)
-
-# A place this near to a corner of the table of the load, as a share of the stroke, is on it.
-_ON_CORNER = 1e-6
-
-
-def _gear(rod: PolishedRod, along: Any, result: PumpingUnitMotion) -> tuple[dict[str, Any], dict[str, str]]:
-    """Peaks of torque and load of the gearbox and its counterbalance; ties by name of the response."""
-    load, gear = rod.unit.load, result.gear
-    if load is None or gear is None:
-        return {}, {}
-    is_air = rod.unit.geometry == "air_balanced"
-    name = "counterbalance_effect" if is_air else "counterbalance"
-    size = float(getattr(gear, name))
-    up, down = Strokes(rod.unit, load, rod.motion, (rod.bottom, rod.top)).curves(size)
-    places = {
-        "torque_net_up": up.extreme(+1)[1],
-        "torque_net_down": down.extreme(+1)[1],
-        "torque_net_min": min(up.extreme(-1), down.extreme(-1))[1],
-        "load_max": max(up.extreme(+1, 1), down.extreme(+1, 1))[1],
-    }
-    at = {name: _at_place(rod, along, angle) for name, angle in places.items()}
-    given = getattr(along.unit.load, name)
-    is_sought = given is None or isinstance(given, str)
-    balanced = _balanced(at, size) if is_sought else given
-    scalars = {name: stroke.net(balanced)[0] for name, stroke in at.items() if name != "load_max"}
-    scalars |= {"load_max": at["load_max"].load[0], name: balanced}
-    still = "a peak is reached at an end of the stroke, where the table of the load has a corner"
-    return scalars, {
-        f"gear.{name}": still for name, number in scalars.items() if np.isnan(lifted(number, 1).d).any()
-    }
-
-
-def _at_place(rod: PolishedRod, along: Any, angle: float) -> StrokeLoad:
-    """Load and torques at a crank angle, with derivatives; at a corner of the table along with it."""
-    place, load = np.array([angle % (2 * np.pi)]), along.unit.load
-    motion = along.motion(place)
-    corner = _corner(rod, float(place[0]))
-    if corner is None:
-        return stroke_load(along.unit, load, motion, place)
-    travel, factor, bend = motion
-    position = travel / along.unit.stroke
-    rate = factor.value / rod.stroke
-    # The rod is at the same position at another angle; at an end of the stroke it comes there at none.
-    is_end = bool(np.abs(rate[0]) < _ON_CORNER)
-    moved = TangentArray(place, np.full_like(position.d, np.nan) if is_end else -position.d / rate[:, None])
-    heights = load.up if rate[0] > 0 else load.down
-    force: Any = lifted(numbers((heights[corner],)), position.d.shape[-1])
-    factor = factor + bend.value * (moved - place)
-    moment: Any = np.sin(moved + load.phase)
-    return StrokeLoad(along.unit, force, factor, moment)
-
-
-def _balanced(at: dict[str, StrokeLoad], size: float) -> Any:
-    """The counterbalance that keeps both peaks equal, on which each torque depends in proportion."""
-    up, down = at["torque_net_up"], at["torque_net_down"]
-    excess = up.net(size)[0] - down.net(size)[0]
-    step = abs(size) or 1.0
-    more = up.net(size + step)[0] - down.net(size + step)[0]
-    slope = (float(primal(more)) - float(primal(excess))) / step
-    return TangentArray(np.float64(size), -np.asarray(excess.d) / slope)
-
-
-def _corner(rod: PolishedRod, angle: float) -> int | None:
-    """The corner of the table over the position that a crank angle is on; angles of a table do not move."""
-    load = rod.unit.load
-    if load is None or load.position is None:
-        return None
-    position = float(rod.motion(np.array([angle]))[0][0]) / rod.stroke
-    apart = np.abs(np.array(load.position) - position)
-    return int(apart.argmin()) if apart.min() < _ON_CORNER else None
 
 
 def _ends_known(machine: Machine) -> PumpingUnit:

@@ -1,0 +1,192 @@
+r"""Derivatives of the torque of the gearbox of a pumping unit: peaks, means, work and counterbalance.
+
+An extreme has the derivative of the curve at its angle, at a corner of the table of the load along with it.
+Torque and load times torque factor are continuous over the revolution, so that an integral has that of what
+is integrated,
+
+.. math:: \frac{\mathrm d}{\mathrm dp}\int T\,\mathrm d\theta
+    = \int \frac{\partial T}{\partial p}\,\mathrm d\theta,
+
+between the angles at which the load has a corner or the gears change flanks. The counterbalance of equal
+peaks moves so that both stay equal.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from linkwright.kernel.arrays import Floats
+from linkwright.kernel.numerics.tangent_array import TangentArray, lifted, numbers, primal
+from linkwright.kernel.numerics.turn_fit import turn_curve
+from linkwright.kernel.numerics.zeros import zeros
+from linkwright.pumping.gear_torque import GearTorque, StrokeLoad, Strokes, stroke_load
+from linkwright.pumping.unit import PolishedRod, PumpingUnitMotion
+
+# A place this near to a corner of the table of the load, as a share of the stroke or in radians, is on it.
+_ON_CORNER = 1e-6
+
+
+# A place this near to a corner of the table of the load, as a share of the stroke or in radians, is on it.
+_ON_CORNER = 1e-6
+
+# Longest piece of a revolution for Gauss's rule [rad], and its nodes: torque factors are smooth functions of
+# the angle, and over 15° rounding is left of them.
+_PIECE, _NODES = np.pi / 12, 12
+
+
+def gear_scalars(
+    rod: PolishedRod, along: Any, result: PumpingUnitMotion
+) -> tuple[dict[str, Any], dict[str, str]]:
+    """Scalars of the gearbox with their derivatives; ties by name of the response."""
+    load, gear = rod.unit.load, result.gear
+    if load is None or gear is None:
+        return {}, {}
+    is_air = rod.unit.geometry == "air_balanced"
+    name = "counterbalance_effect" if is_air else "counterbalance"
+    size = float(getattr(gear, name))
+    strokes = Strokes(rod.unit, load, rod.motion, (rod.bottom, rod.top))
+    up, down = strokes.curves(size)
+    places = {
+        "torque_net_up": up.extreme(+1)[1],
+        "torque_net_down": down.extreme(+1)[1],
+        "torque_net_min": min(up.extreme(-1), down.extreme(-1))[1],
+        "load_max": max(up.extreme(+1, 1), down.extreme(+1, 1))[1],
+    }
+    at = {name: _at_place(rod, along, angle) for name, angle in places.items()}
+    given = getattr(along.unit.load, name)
+    is_sought = given is None or isinstance(given, str)
+    balanced = _balanced(at, size) if is_sought else given
+    scalars = {name: stroke.net(balanced)[0] for name, stroke in at.items() if name != "load_max"}
+    scalars |= {"load_max": at["load_max"].load[0], name: balanced}
+    scalars |= _means(along, _kinks(rod, strokes, size if is_air else 0.0), balanced)
+    scalars |= _shares(scalars, gear)
+    still = "a peak is reached at an end of the stroke, where the table of the load has a corner"
+    return scalars, {
+        f"gear.{name}": still for name, number in scalars.items() if np.isnan(lifted(number, 1).d).any()
+    }
+
+
+def _at_place(rod: PolishedRod, along: Any, angle: float) -> StrokeLoad:
+    """Load and torques at a crank angle, with derivatives; at a corner of the table along with it."""
+    place, load = np.array([angle % (2 * np.pi)]), along.unit.load
+    motion = along.motion(place)
+    corner = _corner(rod, float(place[0]))
+    if corner is None:
+        return stroke_load(along.unit, load, motion, place)
+    travel, factor, bend = motion
+    if load.angle is not None:
+        heights, late = load.force, _one(load.angle[corner], travel) - place
+    else:
+        heights = load.up if factor.value[0] > 0 else load.down
+        late = _come_later(along.unit, load.position[corner], travel, factor)
+    moved: Any = place + TangentArray(np.zeros(1), late.d)
+    force, factor = _one(heights[corner], travel), factor + bend.value * (moved - place)
+    return StrokeLoad(along.unit, force, factor, np.sin(moved + load.phase))
+
+
+def _one(number: Any, like: Any) -> Any:
+    """A number as an array with derivatives."""
+    return lifted(numbers((number,)), like.d.shape[-1])
+
+
+def _come_later(unit: Any, corner: Any, travel: Any, factor: Any) -> Any:
+    """How the crank angle of a corner of the table moves; at an end of the stroke the rod comes to none."""
+    rate = factor.value / primal(unit.stroke)
+    away = _one(corner, travel) - travel / unit.stroke
+    is_end = bool(np.abs(rate[0]) < _ON_CORNER)
+    return TangentArray(away.value, np.full_like(away.d, np.nan) if is_end else away.d / rate[:, None])
+
+
+def _balanced(at: dict[str, StrokeLoad], size: float) -> Any:
+    """The counterbalance that keeps both peaks equal: it moves by what they differ over their slopes."""
+    up, down = at["torque_net_up"], at["torque_net_down"]
+    excess: Any = up.net(size)[0] - down.net(size)[0]
+    slope = float(primal(up.net_slope(size)[0] - down.net_slope(size)[0]))
+    return TangentArray(np.float64(size), -excess.d / slope)
+
+
+def _shares(scalars: dict[str, Any], gear: GearTorque) -> dict[str, Any]:
+    """What is made of peaks and means."""
+    shares = {}
+    if gear.cyclic_load_factor is not None:
+        shares["cyclic_load_factor"] = scalars["torque_net_rms"] / scalars["torque_net_mean"]
+    if gear.torque_rated is not None:
+        peak: Any = np.maximum(scalars["torque_net_up"], scalars["torque_net_down"])
+        shares["gear_load"] = peak / gear.torque_rated
+    return shares
+
+
+def _means(along: Any, kinks: Floats, balanced: Any) -> dict[str, Any]:
+    """Mean and root mean square of the torque and work of the rod, by Gauss's rule between kinks."""
+    parts = np.ceil(np.diff(kinks) / _PIECE).astype(int)
+    ends = [np.linspace(*span, n + 1)[:-1] for span, n in zip(pairwise(kinks), parts, strict=True)]
+    pieces = np.append(np.concatenate(ends), kinks[-1])
+    x, w = np.polynomial.legendre.leggauss(_NODES)
+    half = 0.5 * np.diff(pieces)
+    angles = (pieces[:-1, None] + np.multiply.outer(half, x + 1)).ravel() % (2 * np.pi)
+    weights = np.multiply.outer(half, w).ravel() / (2 * np.pi)
+    stroke = stroke_load(along.unit, along.unit.load, along.motion(angles), angles)
+    net: Any = stroke.net(balanced)
+    return {
+        "torque_net_mean": (net * weights).sum(),
+        "torque_net_rms": np.sqrt((net * net * weights).sum()),
+        "work": (stroke.load * stroke.factor * weights).sum() * (2 * np.pi),
+    }
+
+
+def _kinks(rod: PolishedRod, strokes: Strokes, effect: float) -> Floats:
+    """Crank angles of one revolution between which the torque is smooth, with both of its ends."""
+    kinks = []
+    for span in strokes.spans():
+        kinks += [span, _corner_angles(rod, span[0], span[-1]), _flank_changes(strokes, span, effect)]
+    return np.array(sorted(set(np.concatenate(kinks).tolist())))
+
+
+def _corner_angles(rod: PolishedRod, start: float, end: float) -> Floats:
+    """Crank angles of a stroke at which the rod comes to corners of the table of the load."""
+    load = rod.unit.load
+    assert load is not None
+    places = np.array([place for place in load.position or () if 0.0 < place < 1.0])
+
+    def beyond(angles: Floats) -> Floats:
+        return np.asarray(rod.motion(angles % (2 * np.pi))[0] / rod.stroke - places)
+
+    return zeros(beyond, np.full(len(places), start), np.full(len(places), end))[0]
+
+
+def _flank_changes(strokes: Strokes, span: Floats, effect: float) -> Floats:
+    """Crank angles of a stroke at which the load comes to what balances it, and the gears change flanks."""
+    balance = strokes.unit.structural_unbalance + effect
+
+    def excess(angles: Floats) -> Floats:
+        at = angles % (2 * np.pi)
+        return (stroke_load(strokes.unit, strokes.load, strokes.motion(at), at).load - balance)[None]
+
+    return turn_curve(excess, span, "load of the polished rod").crossings()
+
+
+def without_derivatives(gear: GearTorque | None) -> dict[str, str]:
+    """Numbers of the gearbox that no entry moves, with the reason."""
+    if gear is None:
+        return {}
+    without = dict.fromkeys(("torque_rated", "load_rated"), "it is a number of the designation")
+    if gear.cyclic_load_factor is None:
+        without["cyclic_load_factor"] = "the mean torque is not positive"
+    if gear.torque_rated is None:
+        without["gear_load"] = "no designation gives the rating"
+    return without
+
+
+def _corner(rod: PolishedRod, angle: float) -> int | None:
+    """The corner of the table of the load that a crank angle is on."""
+    load = rod.unit.load
+    assert load is not None
+    if load.position is not None:
+        position = float(rod.motion(np.array([angle]))[0][0]) / rod.stroke
+        apart = np.abs(np.array(load.position) - position)
+    else:
+        apart = np.abs((np.array(load.angle) - angle + np.pi) % (2 * np.pi) - np.pi)
+    return int(apart.argmin()) if apart.min() < _ON_CORNER else None
