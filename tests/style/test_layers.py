@@ -121,6 +121,7 @@ EDGES = {
     ("sensitivity", "kinetostatics"),
     ("sensitivity", "turning"),
     ("sensitivity", "pumping"),
+    ("sensitivity", "topping"),
     ("sensitivity", "cam"),
     ("sensitivity", "cam.dynamics"),
     ("sensitivity", "cam.profile"),

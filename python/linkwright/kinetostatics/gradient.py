@@ -114,6 +114,25 @@ def drive_forces_along(
     return program, drives, lost, Kinks(machine, program, solution)
 
 
+def drive_torque_along(
+    machine: Machine, variables: Sequence[str], angles: Floats
+) -> tuple[Directions, Any, Kinks]:
+    """Driving torque at crank angles at the design speed, (n,), with its derivatives by some entries.
+
+    Beside them the entries that have some, and the kinks of the machine.
+    """
+    program = _directions(machine, variables)
+    assert machine.drive is not None
+    motion = forces(machine, speed=machine.drive.speed, angles=angles, contributions=False).motion
+    n, drive = len(program.variables), seeded(machine, program.variables).drive
+    assert drive is not None
+    given: Any = drive.speed
+    speed: Any = lifted(given * lifted(np.ones(len(angles)), n), n)
+    still: Any = lifted(motion.acceleration, n)
+    along = replace(motion, speed=speed, acceleration=still, time=motion.crank_angle / speed)
+    return program, _forces_along(machine, motion, along, program).torque_drive, Kinks(machine, program, None)
+
+
 def _directions(machine: Machine, variables: Sequence[str]) -> Directions:
     """Directions of the program's numbers by entries that the description can be followed by, too."""
     program = directions(machine, variables)

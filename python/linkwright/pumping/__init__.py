@@ -4,6 +4,7 @@
 | --- | --- |
 | `cautions` | What the user of a pumping unit or of a rotator should know although it runs |
 | `figures` | Figures of pumping units and rod rotators |
+| `gear_gradient` | Derivatives of peaks, means and work of the gearbox, and of its counterbalance |
 | `gear_torque` | Torque of the gearbox of a pumping unit: polished-rod load and counterbalance |
 | `gradient` | Derivatives of stroke and torque factors by the dimensions of the unit |
 | `lever` | Link and lever of a rotator as functions of the crank angle, and what the lever gives the worm |

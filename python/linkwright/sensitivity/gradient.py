@@ -113,7 +113,7 @@ def gradient(
         Such as ``"steady_state.unevenness"``, ``"free_vibration.natural_frequencies.1"`` or, of all modes,
         ``"free_vibration.natural_frequencies"``; an analysis stands for its usual ones. Without them every
         scalar of the steady motion, or where nothing gives a speed the natural frequencies of the train, or
-        the scalars of the turning-moment diagram.
+        the scalars of the turning-moment diagram, of the topper, of the pumping unit or of the cams.
         ``"forces"`` stands for the largest driving torque, shaking force and reactions.
     variables : sequence of str, optional
         Addresses, such as ``"mechanism.cranks.A2.phase"``; without them every number of the machine.

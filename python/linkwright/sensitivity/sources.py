@@ -10,6 +10,7 @@
 | ``forced_vibration.shaft_torque_max.SHAFT`` | there too |
 | ``turning_moment.…`` | integrals of the torques' derivatives (`linkwright.turning.gradient`) |
 | ``pumping_unit.…`` | the transfer functions of the beam (`linkwright.pumping.gradient`) |
+| ``topper.…`` | closed forms, and conditions of the worst head (`linkwright.topping.gradient`) |
 | ``cam.CAM.…`` | the law and the contact in tangents (`linkwright.cam.gradient`) |
 | ``cam_force.CAM.…`` | the same, and Hertz' formula (`linkwright.cam.dynamics.gradient`) |
 | ``forces.…``, ``forces.reaction_max.PAIR`` | the equilibrium (`linkwright.kinetostatics.gradient`) |
@@ -59,9 +60,13 @@ def usual_analysis(machine: Machine) -> str:
         return "steady_state"
     if machine.train is not None or (machine.drive is not None and machine.drive.twists):
         return "free_vibration"
-    if machine.turning_moment is not None:
-        return "turning_moment"
-    return "steady_state"
+    own = {
+        "turning_moment": machine.turning_moment,
+        "topper": machine.topper,
+        "pumping_unit": machine.pumping_unit,
+        "cam": machine.mechanism.cams or None,
+    }
+    return next((name for name, part in own.items() if part is not None), "steady_state")
 
 
 def source(machine: Machine, analysis: str, variables: Sequence[str]) -> Source:
@@ -231,6 +236,14 @@ def _pumping(machine: Machine, variables: Sequence[str]) -> Source:
     return _of_scalars("pumping_unit", PumpingUnitMotion, derived, words, units)
 
 
+def _topper(machine: Machine, variables: Sequence[str]) -> Source:
+    """Lengths, shares left, speeds and torques of the knife of a topper."""
+    from linkwright.topping.gradient import topper_tangents
+    from linkwright.topping.topper import TopperStudy
+
+    return _of_scalars("topper", TopperStudy, topper_tangents(machine, variables))
+
+
 def _joined(variables: tuple[str, ...], parts: Sequence[Source], refused: Mapping[str, str]) -> Source:
     """Several results of one kind."""
 
@@ -278,6 +291,7 @@ SOURCES: dict[str, Callable[[Machine, Sequence[str]], Source]] = {
     "forces": _forces,
     "turning_moment": _turning,
     "pumping_unit": _pumping,
+    "topper": _topper,
     "cam_force": _cam_forces,
 }
 

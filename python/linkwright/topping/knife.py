@@ -19,6 +19,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -294,6 +295,8 @@ class KnifeDrive:
         Extremes and mean of the driving torque at the crank [N m].
     power_mean : float
         Mean power at the crank [W].
+    torque_max_angle, torque_min_angle : float
+        Crank angles of the extremes [rad].
     """
 
     mass: float
@@ -302,6 +305,21 @@ class KnifeDrive:
     torque_min: float
     torque_mean: float
     power_mean: float
+    torque_max_angle: float
+    torque_min_angle: float
+
+
+# Crank angles over whose torques the mean is taken.
+DRIVE_ANGLES: Floats = np.linspace(0.0, _TURN, _DRIVE_ANGLES, endpoint=False)
+
+
+def carried(machine: Machine) -> Any:
+    """Mass of the bodies on the knife of a machine [kg]."""
+    assert machine.topper is not None
+    motion = machine.topper.motion
+    assert isinstance(motion, MemberKnife)
+    on_knife = [body for name, body in machine.bodies.items() if (body.on or name) == motion.of]
+    return sum((body.mass for body in on_knife if body.mass is not None), start=0.0)
 
 
 def knife_drive(machine: Machine, knife: Knife) -> KnifeDrive | None:
@@ -313,26 +331,40 @@ def knife_drive(machine: Machine, knife: Knife) -> KnifeDrive | None:
     drive = machine.drive
     if not isinstance(motion, MemberKnife) or drive is None or drive.speed is None or not machine.bodies:
         return None
-    mass = sum(body.mass or 0.0 for name, body in machine.bodies.items() if (body.on or name) == motion.of)
+    mass = carried(machine)
     acting = forces(machine, speed=drive.speed, n=_DRIVE_ANGLES)
     # The revolution's end is its start.
     mean = float(np.mean(acting.torque_drive[:-1]))
+    highest, lowest = (
+        _highest(machine, drive.speed, acting.crank_angle, acting.torque_drive, sign) for sign in (1.0, -1.0)
+    )
     return KnifeDrive(
         mass=float(mass),
         inertia_force_max=float(mass * knife.acceleration_max),
-        torque_max=_highest(machine, drive.speed, acting.crank_angle, acting.torque_drive, 1.0),
-        torque_min=-_highest(machine, drive.speed, acting.crank_angle, acting.torque_drive, -1.0),
+        torque_max=highest[0],
+        torque_min=-lowest[0],
         torque_mean=mean,
         power_mean=mean * drive.speed,
+        torque_max_angle=highest[1],
+        torque_min_angle=lowest[1],
     )
 
 
-def _highest(machine: Machine, speed: float, angle: Floats, torque: Floats, sign: float) -> float:
-    """The maximum torque, times a sign: looked at more closely about the highest so far."""
+def _highest(
+    machine: Machine, speed: float, angle: Floats, torque: Floats, sign: float
+) -> tuple[float, float]:
+    """The maximum torque, times a sign, and its angle: looked at more closely about the highest so far."""
     step = 2 * np.pi / _DRIVE_ANGLES
     for _ in range(_LOOKS):
         at = int(np.nanargmax(sign * torque))
         angle = np.linspace(angle[at] - step, angle[at] + step, _CLOSE + 1)
         torque = forces(machine, speed=speed, angles=angle).torque_drive
         step = 2 * step / _CLOSE
-    return float(np.nanmax(sign * torque))
+    at = int(np.nanargmax(sign * torque))
+    place = float(angle[at])
+    if 0 < at < _CLOSE:
+        # The top of the parabola through the three highest.
+        a, b, c = torque[at - 1 : at + 2]
+        bend = a - 2 * b + c
+        place += 0.5 * (a - c) / bend * (angle[1] - angle[0]) if bend else 0.0
+    return float(sign * torque[at]), place

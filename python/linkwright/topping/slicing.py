@@ -18,14 +18,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
+from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.kernel.arrays import Floats
+from linkwright.kernel.numerics.tangent import primal, total
 from linkwright.topping.edge import Edge
 
-# Phases over which means are taken, and times of a pass and places of the edge at which its use is counted.
-_PHASES, _TIMES, _PLACES = 2048, 400, 201
+# Times of a pass and places of the edge at which its use is counted.
+_TIMES, _PLACES = 400, 201
 
 # Phases and offsets of heads over which the use of the edge is averaged; without a stroke, offsets alone.
 _HEADS, _OFFSETS, _OFFSETS_ALONE = 72, 6, 240
@@ -54,12 +58,30 @@ def slicing(edges: Sequence[Edge]) -> Slicing:
     """Extremes and mean of draw-cut ratio and cutting speed of an edge, half of the time each way."""
     slow, fast = zip(*(_speeds(edge) for edge in edges), strict=True)
     least, greatest = zip(*(_ratios(edge) for edge in edges), strict=True)
-    phases = np.asarray((np.arange(_PHASES) + 0.5) * (2 * np.pi / _PHASES), dtype=np.float64)
-    ways = [np.abs(edge.velocity(0.0, phases)).mean(axis=1) for edge in edges]
-    along, normal = np.sum(ways, axis=0)
+    along, normal = (sum(mean_sizes(edge)[k] for edge in edges) for k in (0, 1))
     # An edge that moves along itself has no speed normal to it.
     mean = np.inf if any(edge.stands for edge in edges) else float(along / normal)
     return Slicing(min(least), mean, max(greatest), min(slow), max(fast))
+
+
+def mean_sizes(edge: Edge) -> tuple[float, float]:
+    """Mean size of the speed along the edge and of that normal to it, over the time [m/s]."""
+    knife, v, sin, cos = edge.knife, edge.forward_speed, np.sin(edge.angle), np.cos(edge.angle)
+    along = mean_size(knife.law, v * sin + knife.drift * cos, knife.rate * cos)
+    return float(along), float(mean_size(knife.law, v * cos - knife.drift * sin, -knife.rate * sin))
+
+
+def mean_size(law: MotionLaw, level: Any, slope: Any) -> Any:
+    """Mean of |level + slope y′| over the law y, between the zeros of what is in the bars."""
+    fixed = law.primal
+    speeds = fixed.derivative().scaled(float(primal(slope)), float(primal(level)))
+    cuts = sorted({*fixed.breaks, *speeds.zeros()})
+    parts = []
+    for low, high in pairwise(cuts):
+        middle = float(speeds.at(0.5 * (low + high)))
+        rise = law.value(high, 0, "before") - law.value(low)
+        parts.append((level * (high - low) + slope * rise) * float(np.sign(middle)))
+    return total(parts) / fixed.length
 
 
 def slicing_over_phase(edge: Edge, phases: Floats) -> tuple[Floats, Floats]:

@@ -96,7 +96,7 @@ def _best(edge: Edge, phases: Floats, offsets: Floats, measure: Measure, same: f
 
 
 # Phases of the curves, and offsets at which the worst is looked for.
-_CURVE_PHASES, _CURVE_OFFSETS = 180, 9
+_CURVE_PHASES, CURVE_OFFSETS = 180, 9
 
 # Phases and offsets of the mean, amid even steps so that all count alike: it is good to three digits, of an
 # edge that retreats to two.
@@ -162,7 +162,7 @@ def _left(described: Topper, edges: list[Edge], d: float) -> dict[str, Any]:
 def _by_phase(described: Topper, edges: list[Edge], d: float) -> dict[str, Any]:
     """What each phase needs and leaves at its worst offset, the best phase, and the mean of what is left."""
     phases = np.linspace(0.0, 2 * np.pi, _CURVE_PHASES + 1)
-    n_offsets = _CURVE_OFFSETS // SPARING + 1 if any(edge.retreats for edge in edges) else _CURVE_OFFSETS
+    n_offsets = CURVE_OFFSETS // SPARING + 1 if any(edge.retreats for edge in edges) else CURVE_OFFSETS
     offsets = np.linspace(-described.offset, described.offset, n_offsets if described.offset else 1)
     phi, delta = np.meshgrid(phases, offsets, indexing="ij")
     length = described.edge_length
@@ -182,15 +182,22 @@ def _by_phase(described: Topper, edges: list[Edge], d: float) -> dict[str, Any]:
 
 
 def _mean_left(described: Topper, edges: list[Edge], d: float) -> float:
-    """Mean share that is left, over offsets, over directions, and over phases if none is given."""
+    """Mean share that is left."""
+    shares, phases = mean_heads(described, edges)
+    delta, length = shares * described.offset, described.edge_length
+    left = [coverage(edge, d, delta, phases, length=length).uncut for edge in edges]
+    return float(np.mean(left) / (0.25 * np.pi * d**2))
+
+
+def mean_heads(described: Topper, edges: Sequence[Edge]) -> tuple[Floats, Floats]:
+    """Heads that a mean is over, (n,) each: shares of the largest offset; phases, if none is given [rad]."""
     offset, phase = described.offset, described.motion.phase
     sparing = SPARING if any(edge.retreats for edge in edges) else 1
-    offsets = offset * _amid(_MEAN_OFFSETS // sparing) if offset else np.zeros(1)
+    shares = _amid(_MEAN_OFFSETS // sparing) if offset else np.zeros(1)
     moves = phase is None and any(edge.knife.rate for edge in edges)
     phases = np.pi * (1 + _amid(_MEAN_PHASES // sparing)) if moves else np.array([phase or 0.0])
-    phi, delta = (values.ravel() for values in np.meshgrid(phases, offsets))
-    left = [coverage(edge, d, delta, phi, length=described.edge_length).uncut for edge in edges]
-    return float(np.mean(left) / (0.25 * np.pi * d**2))
+    phi, share = (values.ravel() for values in np.meshgrid(phases, shares))
+    return share, phi
 
 
 def _amid(n: int) -> Floats:

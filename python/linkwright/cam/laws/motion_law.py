@@ -188,7 +188,7 @@ class MotionLaw:
 
     def shifted(self, by: float) -> MotionLaw:
         """A periodic law over its whole stretch, starting ``by`` later and going on at its start."""
-        by = by % self.length
+        by = np.remainder(by, self.length)
         cut = self.end - by
         if not self.start < cut < self.end:
             return self

@@ -1,0 +1,103 @@
+r"""A knife of a topper whose law and speeds carry derivatives by entries of the machine.
+
+The stroke of a sine or of a constant speed scales its law. A member of a mechanism has harmonics, and so have
+the derivatives of its place by the entries of the mechanism; its middle moves as both of its ends do. A
+follower has the law of its cam.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from linkwright.cam.laws.motion_law import Harmonic, MotionLaw, Piece
+from linkwright.kernel.numerics.tangent import Tangent, primal
+from linkwright.linkages.kinematics import rows_along
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import compile_machine
+from linkwright.machine.tangents import columns, directions
+from linkwright.topping.knife import Knife
+from linkwright.topping.model.topper import ConstantKnife, HarmonicKnife, MemberKnife
+
+_TURN = 2 * np.pi
+
+# Crank angles at which derivatives of a member are sampled, as `topping.knife` samples its place.
+_ANGLES = 1440
+
+
+@dataclass(frozen=True)
+class KnifeAlong:
+    """A knife with derivatives: its law, phase per time and drift, which are numbers with or without some."""
+
+    law: MotionLaw
+    rate: Any  # [rad/s]
+    drift: Any  # [m/s]
+
+
+def refused_of_law(machine: Machine, names: Sequence[str], knife: Knife) -> dict[str, str]:
+    """Entries by which the law of a knife has no derivatives, with the reason."""
+    motion = machine.topper.motion if machine.topper else None
+    own = [name for name in names if name.startswith("mechanism.")]
+    refused: dict[str, str] = {}
+    if not isinstance(motion, MemberKnife):
+        return refused
+    if motion.of in machine.mechanism.cams:
+        columns(machine, own, lambda along: [along.mechanism.cams[motion.of].lift.value(1.0)], refused)
+    elif knife.harmonics is None:
+        joints = "the motion of the knife is given in pieces, whose joints are not followed"
+        refused = dict.fromkeys(own, joints)
+    return refused
+
+
+def knife_along(machine: Machine, along: Machine, names: Sequence[str], knife: Knife) -> KnifeAlong:
+    """A knife of a machine with derivatives; `along`: the machine with tangents by some entries."""
+    topper = along.topper
+    assert topper is not None
+    motion = topper.motion
+    if isinstance(motion, MemberKnife):
+        assert along.drive is not None
+        return KnifeAlong(_member_law(machine, along, names, knife, motion.of), along.drive.speed, 0.0)
+    if not isinstance(motion, ConstantKnife | HarmonicKnife) or motion.stroke is None or not knife.stroke:
+        # One that does not turn back, or stands in the middle of its stroke.
+        way = np.sign(knife.drift)
+        return KnifeAlong(knife.law, 0.0, way * topper.knife_speed if way else 0.0)
+    law = knife.law.scaled(motion.stroke / knife.stroke)
+    mean: Any = topper.knife_speed
+    return KnifeAlong(law, mean * (np.pi / motion.stroke), 0.0)
+
+
+def _member_law(
+    machine: Machine, along: Machine, names: Sequence[str], knife: Knife, member: str
+) -> MotionLaw:
+    """The law of a member from the middle of its stroke."""
+    if member in machine.mechanism.cams:
+        cam = along.mechanism.cams[member]
+        law = _centred(cam.lift.shifted(primal(cam.phase)))
+        late = cam.phase - primal(cam.phase)
+        return MotionLaw(tuple(x + late for x in law.breaks), law.pieces)
+    if knife.harmonics is None:
+        return knife.law
+    program = directions(machine, names)
+    angles = np.linspace(0.0, _TURN, _ANGLES, endpoint=False)
+    rows = rows_along(compile_machine(machine), angles, [("slides", member)], program.values)[0]
+    at = [names.index(name) for name in program.variables]
+    d = np.zeros((_ANGLES, len(names)))
+    d[:, at] = rows
+    spectrum = np.fft.rfft(d, axis=0) / _ANGLES
+    spectrum[1:] *= 2.0
+    pairs = np.stack([spectrum.real, -spectrum.imag], axis=1)[: len(knife.harmonics)]
+    number: Any = Tangent
+    waves = [
+        Harmonic(_TURN * k, number(a, pairs[k, 0]), number(b, pairs[k, 1]))
+        for k, (a, b) in enumerate(knife.harmonics.tolist())
+    ]
+    return _centred(MotionLaw((0.0, _TURN), (Piece((waves[0].cosine,), tuple(waves[1:])),)))
+
+
+def _centred(law: MotionLaw) -> MotionLaw:
+    """A law counted from the middle of its stroke."""
+    least, greatest = law.extremes()
+    return law.scaled(1.0, -0.5 * (least.value + greatest.value))
