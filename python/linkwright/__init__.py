@@ -11,12 +11,32 @@ Public names are loaded when they are first used, so that importing the package 
 
 from __future__ import annotations
 
+# What `signal` is made of, in the interpreter itself; `signal` imports enumerations and collections first.
+import _signal  # type: ignore[import-not-found]
+import os
+import sys
 from importlib import import_module
 
-# As in `typing`, whose import takes longer than all else before the command line listens to interrupts.
+# As in `typing`, whose import takes longer than all else here.
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Any
+    from types import FrameType
+    from typing import Any, NoReturn
+
+
+def end_on_the_spot(number: int, frame: FrameType | None) -> NoReturn:
+    """End the command line with what a shell reports for a program that was interrupted."""
+    os._exit(130)
+
+
+# An interrupt while the command line starts would end in a traceback through our files. A program that
+# imports the package keeps its own ways.
+_program = sys.argv[0].replace("\\", "/").split("/")[-1] if sys.argv else ""
+_is_ours = _program in {"linkwright", "linkwright.exe"} or (
+    _program == "-m" and "linkwright" in sys.orig_argv
+)
+if _is_ours and _signal.getsignal(_signal.SIGINT) is _signal.default_int_handler:
+    _signal.signal(_signal.SIGINT, end_on_the_spot)
 
 __version__ = "0.1.0"
 

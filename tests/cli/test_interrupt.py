@@ -87,6 +87,46 @@ def test_little_is_imported_before_it_listens() -> None:
     assert not large & set(told.stdout.split())
 
 
+# Prints how many lines of our files run before interrupts end the program on the spot.
+LINES = """
+import _signal, runpy, sys
+count = 0
+def trace(frame, event, argument):
+    global count
+    if "linkwright" not in frame.f_code.co_filename:
+        return trace if event == "call" else None
+    if _signal.getsignal(_signal.SIGINT) is not _signal.default_int_handler:
+        sys.settrace(None)
+        print(count)
+        sys.exit()
+    count += event == "line"
+    return trace
+_signal.signal(_signal.SIGINT, _signal.default_int_handler)
+sys.settrace(trace)
+"""
+
+
+@pytest.mark.parametrize(
+    ("start", "name"),
+    [("runpy.run_module('linkwright', alter_sys=True)", "-m"), ("import linkwright.app", "bin/linkwright")],
+)
+def test_no_file_of_ours_is_told_of_an_early_interrupt(start: str, name: str) -> None:
+    """From the first lines of the package on, before it imports its own modules; 296 lines were too many."""
+    code = f"{LINES}sys.argv, sys.orig_argv = [{name!r}], ['python', '-m', 'linkwright']\n{start}"
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
+    assert int(done.stdout) < 20
+
+
+@pytest.mark.parametrize("name", ["study.py", "linkwright_study.py", "-m", ""])
+def test_programs_that_import_the_package_keep_their_interrupts(name: str) -> None:
+    code = (
+        f"import signal, sys; sys.argv, sys.orig_argv = [{name!r}], ['python', '-m', 'study']; "
+        "signal.signal(signal.SIGINT, signal.default_int_handler); import linkwright; "
+        "assert signal.getsignal(signal.SIGINT) is signal.default_int_handler"
+    )
+    subprocess.run([sys.executable, "-c", code], cwd=ROOT, check=True)
+
+
 # A grid that takes minutes.
 GRID = """
 machine = "roller_one_cart"

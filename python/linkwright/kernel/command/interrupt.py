@@ -12,6 +12,8 @@ import _signal as signal  # type: ignore[import-not-found]
 import os
 import sys
 
+from linkwright import end_on_the_spot
+
 # As in `typing`. Whoever interrupts a start before this file is run gets Python's own traceback, so nothing
 # large is imported until then.
 TYPE_CHECKING = False
@@ -32,9 +34,9 @@ class Interrupts:
 
     def __enter__(self) -> Interrupts:
         """Begin to listen, before anything is imported."""
-        self.heard = signal.getsignal(signal.SIGINT) is signal.default_int_handler
+        self.heard = signal.getsignal(signal.SIGINT) in (signal.default_int_handler, end_on_the_spot)
         if self.heard:
-            signal.signal(signal.SIGINT, _end)
+            signal.signal(signal.SIGINT, end_on_the_spot)
         return self
 
     def raise_from_now_on(self) -> None:
@@ -48,7 +50,7 @@ class Interrupts:
     ) -> None:
         """End the program if it was interrupted, whatever error came of that."""
         if self.heard:
-            signal.signal(signal.SIGINT, _end)
+            signal.signal(signal.SIGINT, end_on_the_spot)
         is_done = isinstance(error, SystemExit) and not error.code
         if self.came and error is not None and not is_done:
             # Not by an exception: where the interrupt came inside an `exec`, as in many imports, Python would
@@ -59,10 +61,6 @@ class Interrupts:
     def _raise(self, number: int, frame: FrameType | None) -> NoReturn:
         self.came = True
         raise KeyboardInterrupt
-
-
-def _end(number: int, frame: FrameType | None) -> NoReturn:
-    os._exit(EXIT_CODE)
 
 
 def _end_or_tell(unraisable: UnraisableHookArgs) -> None:
