@@ -253,3 +253,12 @@ def test_areas_that_balance_leave_nothing() -> None:
 def test_areas_that_do_not_balance_are_told_with_their_limit() -> None:
     with pytest.raises(FindingError, match=r"2142 J, 1\.2 % of the sum"):
         lw.turning_moment(areas_of([-30, 410, -280, 320, -330, 250, -360, 280, -230]))
+
+
+def test_angles_that_fall_are_named_as_they_are_written() -> None:
+    """A text of several angles has one unit for all: the message has it too, not radians."""
+    load = {"kind": "table", "angle": "0, 200, 140 deg", "torque": "60, 4000, 60 N m"}
+    with pytest.raises(MachineError, match="140 deg"):
+        lw.Machine.model_validate(
+            {"format": 1, "name": "press", "turning_moment": {"speed": 12.0, "unevenness": 0.1, "load": load}}
+        )

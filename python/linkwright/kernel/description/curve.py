@@ -37,7 +37,8 @@ def not_rising(
     mark = mark_of(annotation_at(type(owner), (name,)))
     least = f"{before:.6g}" if mark is None else worded(before, mark.kind)
     by = f" by {apart:g} or more" if here > before else ""
-    return fault(name, place, found=here, expected=f"more than {least}, the value before it{by}")
+    found = here if mark is None else worded(here, mark.kind)
+    return fault(name, place, found=found, expected=f"more than {least}, the value before it{by}")
 
 
 def unread_file(found: str) -> InitErrorDetails:
