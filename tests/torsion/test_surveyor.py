@@ -7,6 +7,7 @@ import pytest
 
 import linkwright as lw
 from linkwright.kernel.errors import InputError, MachineFileError
+from linkwright.torsion.figures.stars import star_figure
 from linkwright.torsion.limits.overlay import overlay
 from linkwright.torsion.limits.survey import survey
 from linkwright.torsion.tables.limits import measured_words
@@ -141,3 +142,19 @@ def test_what_is_not_computed(tmp_path: Path, text: str, message: str) -> None:
     curves = lw.read_measured(measured(tmp_path, text))
     with pytest.raises(InputError, match=message):
         lw.torsion_study(lw.loads(GEARED), measured=curves)
+
+
+def test_words_of_a_star_stand_at_the_tips_of_their_vectors() -> None:
+    """Of vectors of any length, not on a circle about all of them."""
+    machine = lw.replace(lw.read("v8_diesel"), {"train.run.points": 12, "train.run.orders_max": 8.0})
+    checked = 0
+    for star in lw.torsion_study(machine).stars:
+        longest = float(np.abs(star.vectors).max())
+        written = {
+            text.get_text(): complex(*text.get_position()) for text in star_figure([star]).axes[0].texts
+        }
+        for name, vector in zip(star.discs, star.vectors.tolist(), strict=True):
+            if (place := written.get(name.removeprefix("throw_"))) and 0.5 < abs(vector) / longest < 0.9:
+                assert abs(place - vector) < 0.3 * longest
+                checked += 1
+    assert checked

@@ -22,8 +22,9 @@ _COLUMNS, _ROW = 4, 2.3
 # Angle within which vectors share one word [rad], and share of the longest below which one has none.
 _TOGETHER, _SHORT = 0.25, 0.03
 
-# Places of the words, as a share of the longest vector.
-_RIM = 1.25
+# Words stand beyond the tip of their vector, and outside the middle, where vectors meet: shares of the
+# longest one.
+_BEYOND, _MIDDLE = 0.22, 0.5
 
 
 @styled
@@ -55,7 +56,7 @@ def _star(axes: Axes, star: PhaseVectors) -> None:
         _arrow(axes, vector, BLUE, 1.0)
     _arrow(axes, complex(star.vectors.sum()) * longest / star.largest_sum, RED, 2.0)
     for words, vector in _named(star, longest):
-        place = _RIM * longest * vector / abs(vector)
+        place = (max(abs(vector), _MIDDLE * longest) + _BEYOND * longest) * vector / abs(vector)
         axes.text(place.real, place.imag, words, fontsize=6.5, ha="center", va="center", color=INK)
     rpm = star.speed * 30 / math.pi
     title = f"mode {star.mode}, order {star.order:.4g}\n{rpm:.0f} rpm, sum {star.vector_sum:.3g}"
