@@ -26,7 +26,7 @@ from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record
-from linkwright.kernel.units import LENGTH, MASS, RATIO, SPEED, not_negative, positive
+from linkwright.kernel.units import LENGTH, MASS, RATIO, SHARE, SPEED, Quantity, not_negative, positive
 from linkwright.kinetostatics.couple import couple_of
 from linkwright.kinetostatics.forces import forces
 from linkwright.kinetostatics.model.body import Body
@@ -263,7 +263,8 @@ def partial_balance(
     slider : str
         A slider that is driven by the pin of a crank.
     share : float
-        Of the reciprocating mass: 0 balances what turns alone, 1 all, which moves the force across the guide.
+        Of the reciprocating mass: from 0, which balances what turns alone, to 1, all, which moves the force
+        across the guide.
     speed : float, optional
         As for `balance`.
     radius : float, optional
@@ -289,7 +290,7 @@ def partial_balance(
     ----------
     .. [1] Norton, Design of Machinery, chapter 13 (equivalent masses, balancing the engine).
     """
-    in_range(share=(share, not_negative(RATIO)))
+    in_range(share=(share, Quantity(RATIO, SHARE)))
     require_turning(speed)
     part = machine.linkage.sliders.get(slider)
     if part is None or part.crank not in machine.linkage.cranks:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
-from math import degrees, pi
+from math import degrees, isfinite, pi
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -211,12 +211,15 @@ def _zero_data(zero: Zero) -> dict[str, Any]:
 
 def _turn(machine: Machine, speed: CrankSpeed, zero: Zero, steps: int, *, json: bool, csv: bool) -> str:
     """A revolution at a constant speed."""
-    from linkwright.kernel.units import SPEED
+    from linkwright.kernel.units import TIME
     from linkwright.linkages.law import constant_speed
 
-    if speed.value < SPEED.least:
-        expected = f"a speed above zero for a revolution, {SPEED.least:g} rad/s or more"
-        raise InputError(f"--speed: found {speed.value:g} rad/s, expected {expected}")
+    if speed.value * TIME.most < 2 * pi:
+        least = 2 * pi / TIME.most
+        expected = (
+            f"a speed above zero for a revolution of at most {TIME.most:g} s, {least:.3g} rad/s or more"
+        )
+        raise InputError(f"{speed.source}: found {speed.value:g} rad/s, expected {expected}")
     times = (0.0, 2 * pi / speed.value)
     results = {"crank_speed": speed.value, "speed_source": speed.source} | _zero_data(zero)
     head = f"one revolution of the crank{_from(zero)} in {times[1]:.6g} s, {speed}"
@@ -226,14 +229,20 @@ def _turn(machine: Machine, speed: CrankSpeed, zero: Zero, steps: int, *, json: 
 
 def _under_law(machine: Machine, law: str, duration: str, steps: int, *, json: bool, csv: bool) -> str:
     """The motion under a law of the crank."""
+    import numpy as np
+
     from linkwright.kernel.page.angle_zero import Zero
-    from linkwright.kernel.units import TIME
+    from linkwright.kernel.units import ANGLE, TIME
 
     driver, start, end = _law(law), 0.0, option_value("--duration", duration, TIME)
     if hasattr(driver, "times"):
         start, end = driver.times[[0, -1]]
     if not end > start:
         raise InputError(f"--duration: found {end:g} s, expected more than {start:g} s")
+    angle = float(abs(driver.at(np.array([end]))[0, 0]))
+    if not hasattr(driver, "times") and isfinite(angle) and angle > ANGLE.most:
+        expected = f"a duration in which the law turns the crank by at most {ANGLE.most:g} rad"
+        raise InputError(f"--duration: found {end:g} s and {angle:.4g} rad, expected {expected}")
     head = f"crank angle [rad] by {law}, from {start:g} s to {end:g} s"
     return _followed(machine, driver, (start, end), steps, head, {"law": law}, Zero(), json=json, csv=csv)
 

@@ -63,6 +63,7 @@ class Bound:
 ANY = Bound("", {}, lambda value: True)
 POSITIVE = Bound(" greater than 0,", {"exclusiveMinimum": 0}, lambda value: value > 0)
 NOT_NEGATIVE = Bound(" of 0 or more,", {"minimum": 0}, lambda value: value >= 0)
+SHARE = Bound(" from 0 to 1,", {"minimum": 0, "maximum": 1}, lambda value: 0 <= value <= 1)
 FRACTION = Bound(" above 0 and up to 1,", {"exclusiveMinimum": 0, "maximum": 1}, lambda value: 0 < value <= 1)
 INSIDE_ONE = Bound(
     " between 0 and 1,", {"exclusiveMinimum": 0, "exclusiveMaximum": 1}, lambda value: 0 < value < 1
