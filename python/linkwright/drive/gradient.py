@@ -57,6 +57,9 @@ _APART = 1e-3
 # Extremes that are this near, as a share of the curve's range, tie: their heights are not known better.
 _TIE = 1e-7
 
+# Share of a speed to both sides at which the motor's torque is read for its slope.
+_ASIDE = 1e-6
+
 # A torque that is this near to the one at an extreme speed is the torque there.
 _SAME = 1e-9
 
@@ -89,7 +92,7 @@ def steady_tangents(machine: Machine, along: Directions) -> SteadyTangents:
         name: Tangent(getattr(state, name), getattr(gradient, name) / turns) for name, turns in times.items()
     }
     ratio = Tangent(compiled.gear_factors[0], values[compiled.gear_slots[0]])
-    tangents |= _of_motor(compiled, state, gradient.curves, ratio)
+    tangents |= _of_motor(compiled, state, tangents, gradient.curves, ratio)
     ties = _ties(compiled, state, solution)
     return SteadyTangents(replace(state, **tangents), ties, along.lost(gradient.lost))
 
@@ -130,17 +133,27 @@ def _telling_directions(
 
 
 def _of_motor(
-    compiled: CompiledMachine, state: SteadyState, curves: SteadyCurves, ratio: Tangent
+    compiled: CompiledMachine,
+    state: SteadyState,
+    known: dict[str, Tangent],
+    curves: SteadyCurves,
+    ratio: Tangent,
 ) -> dict[str, Tangent]:
     """Extremes of the motor's torque and power, as far as they lie at an extreme speed."""
-    # `curves`: derivatives at both, (2, directions). One that lies between, at the breakdown or pull-up
-    # speed, is left out.
+    # `curves`: derivatives at both, (2, directions), at angles that are off the peaks by so little that the
+    # torque there differs by its slope alone. One that lies between, at the breakdown or pull-up speed, is left
+    # out.
     speeds = np.array([state.speed_min, state.speed_max])
-    torques = compiled.motor_torques(speeds).motor
+    torques, below, above = (
+        compiled.motor_torques(speeds * by).motor for by in (1.0, 1 - _ASIDE, 1 + _ASIDE)
+    )
+    slopes = (above - below) / (2 * _ASIDE * speeds)
     tangents: dict[str, Tangent] = {}
     for at in range(2):
-        torque = Tangent(torques[at], curves.torque_motor[at])
-        power = torque * Tangent(speeds[at], curves.speed[at]) * ratio
+        speed = known[("speed_min", "speed_max")[at]]
+        off = speed.d - curves.speed[at]
+        torque = Tangent(torques[at], curves.torque_motor[at] + slopes[at] * off)
+        power = torque * speed * ratio
         for name, value in (
             ("torque_motor_min", torque),
             ("torque_motor_max", torque),

@@ -24,6 +24,10 @@ pub(super) const ROUNDING: f64 = 2e-15;
 /// against what makes it: at constant speed there is none, and rounding is all that there is.
 pub(super) const EVEN: f64 = 1e-4;
 
+/// Accelerations count at least against this share of what the drive alone would give: where a machine creeps, drive and
+/// loads balance to so many digits that rounding of the speed leaves no more of their difference.
+const BALANCED: f64 = 1e-6;
+
 /// What is wrong with a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Excess {
@@ -69,7 +73,7 @@ impl<R: Real> Turn<R> {
     /// Measures the error of a solved revolution of one machine.
     #[inline(always)]
     pub fn check(&self, machine: &Machine<'_, R>, accuracy: f64, m: &mut Motion<R>) -> Check {
-        let limits = Limits { accuracy, epsilon: self.acceleration_scale() };
+        let limits = Limits { accuracy, epsilon: self.acceleration_scale(machine) };
         let (mut differences, mut integrals) = (Vec::new(), Vec::new());
         for (k, step) in self.steps.iter().enumerate() {
             let whole = machine.integrals(step, self.geometry_of(machine, k));
@@ -132,15 +136,18 @@ impl<R: Real> Turn<R> {
 
     /// Peak acceleration of the stages, or what counts in its place.
     #[inline(always)]
-    pub(super) fn acceleration_scale(&self) -> f64 {
-        let (mut epsilon, mut u) = (R::splat(0.0), R::splat(0.0));
+    pub(super) fn acceleration_scale(&self, machine: &Machine<'_, R>) -> f64 {
+        let (mut epsilon, mut u, mut driven) = (R::splat(0.0), R::splat(0.0), R::splat(0.0));
         for step in &self.steps {
-            for i in 0..S {
+            for (i, row) in step.rows.iter().enumerate() {
+                let omega = (step.X[i] * 2.0).sqrt();
+                let torque = machine.plan.drive.torque(&machine.plan.tables, machine.q, omega);
+                driven = driven.max((torque * row.inverse).abs());
                 epsilon = epsilon.max(step.K[i].abs());
                 u = u.max(step.X[i]);
             }
         }
-        epsilon.max_lane().max(2.0 * EVEN * u.max_lane())
+        epsilon.max_lane().max(2.0 * EVEN * u.max_lane()).max(BALANCED * driven.max_lane())
     }
 
     /// A step against its two halves, and so for its parts from the start on.

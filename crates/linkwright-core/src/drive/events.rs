@@ -343,9 +343,13 @@ impl Events<'_, f64> {
 
     /// ε on both sides of the ends of steps at kinks, where the motion passes these, with the number of the step before: under
     /// a steep drive what is left of the way there changes it much more than u.
-    pub fn sides(&self, mesh: &Mesh, pieces: &[Piece], m: &mut Motion<f64>) -> Vec<(usize, [f64; 2])> {
-        let passages = self.passages(mesh, pieces, m);
-        let of_passage = |(k, passage): (usize, Passage<f64>)| {
+    pub fn sides(
+        &self,
+        passages: &[(usize, Passage<f64>)],
+        pieces: &[Piece],
+        m: &mut Motion<f64>,
+    ) -> Vec<(usize, [f64; 2])> {
+        let of_passage = |&(k, ref passage): &(usize, Passage<f64>)| {
             let [before, behind] = [&pieces[k], &pieces[(k + 1) % pieces.len()]];
             let late = passage.late();
             let is_near = late.abs() < NEARLY * before.h.min(behind.h);
@@ -354,7 +358,7 @@ impl Events<'_, f64> {
             let ends = [(before, before.phi + before.h), (behind, behind.phi)];
             (k, ends.map(|(piece, phi)| self.on_branch_of(piece, phi + late, u, m)))
         };
-        passages.into_iter().map(of_passage).collect()
+        passages.iter().map(of_passage).collect()
     }
 
     /// Kinks that the motion may pass, by number: those of the drive near its speeds, and all of laws.

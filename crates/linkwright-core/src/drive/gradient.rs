@@ -47,8 +47,12 @@ const NOTHING: f64 = 1e-13;
 /// jump: the two are read from one solution, to its rounding.
 const SIDES: f64 = 1e-7;
 
-/// Share of a step to both sides of a peak of the acceleration at which it is read for its slope and bend.
-const ASIDE: f64 = 1e-3;
+/// Share of a step beside a peak at which the acceleration is read for slope and bend: by its fourth power differences err,
+/// and by rounding over it.
+const ASIDE: f64 = 4e-3;
+
+/// Share of that within which a peak at the end of a step is a corner.
+const AT_CORNER: f64 = 1e-3;
 
 /// An angle this near to the end of a step \[rad\] is that end.
 const AT_END: f64 = 1e-12;
@@ -296,11 +300,8 @@ impl<'a, R: Real> DualRevolution<'a, R> {
             [extremes.speed_min, extremes.speed_max, extremes.acceleration_min, extremes.acceleration_max];
         let mut found = [Dual::splat(0.0); 4];
         for (k, extreme) in places.iter().enumerate() {
-            found[k] = if k < 2 {
-                self.state(extreme.phi, m).1.omega
-            } else {
-                self.peak_of_acceleration(extreme, m)
-            };
+            found[k] =
+                if k < 2 { self.peak_of_speed(extreme, m) } else { self.peak_of_acceleration(extreme, m) };
         }
         let totals = self.turn.totals(&self.machine);
         [
@@ -318,31 +319,58 @@ impl<'a, R: Real> DualRevolution<'a, R> {
         ]
     }
 
-    /// An extreme of the acceleration. Its derivative is that at the place of the peak, from which the angle where it was
-    /// read is off by some millionths of a step: −ε′/ε″.
+    /// An extreme of the speed. Its derivative is that at the place of the peak, where the acceleration is zero; the angle
+    /// where it was read is off by millionths of a step, over which the derivative may change much where inertia does.
+    #[inline(always)]
+    fn peak_of_speed(&self, extreme: &Extreme<f64>, m: &mut Motion<Dual<R>>) -> Dual<R> {
+        let phi = extreme.phi;
+        let [low, high] = self.step_around(phi);
+        let there = self.state(phi, m).1;
+        // A corner is where it is.
+        if (phi - low).min(high - phi) < AT_END {
+            return there.omega;
+        }
+        let aside = ASIDE * (0.5 * (high + low) - phi).signum() * (high - low);
+        let beside = self.state(phi + aside, m).1.epsilon.value;
+        let off = there.epsilon.value * aside / (beside - there.epsilon.value);
+        let off = off.abs().select_lt(R::splat(aside.abs()), off, R::splat(0.0));
+        Dual { d: there.omega.d - off * there.epsilon.d / there.omega.value, ..there.omega }
+    }
+
+    /// An extreme of the acceleration, or what its corner is. Its derivative is that at the place of the peak too, to which
+    /// slope and bend of the curve lead: −ε′/ε″.
     #[inline(always)]
     fn peak_of_acceleration(&self, extreme: &Extreme<f64>, m: &mut Motion<Dual<R>>) -> Dual<R> {
         let phi = extreme.phi;
-        let epsilon = |phi: f64, m: &mut Motion<Dual<R>>| self.state(phi, m).1.epsilon;
-        let there = epsilon(phi, m);
-        let ends = |k: usize| self.edges[k].value.max_lane();
-        let k = self.marks.partition_point(|mark| mark.phi < phi - AT_END).max(1) - 1;
-        let aside = ASIDE * (ends(k + 1) - ends(k));
-        for edge in [k, k + 1] {
-            let off = (phi - ends(edge)).abs();
-            if off < 2.0 * aside {
-                // A corner is where it is, and moves with the end of the step that stands for it.
-                let is_corner = off < 1e-3 * aside;
-                return if is_corner { self.corner(edge, extreme.value, m) } else { there };
-            }
+        let [low, high] = self.step_around(phi);
+        let aside = ASIDE * (high - low);
+        if (phi - low).min(high - phi) < AT_CORNER * aside {
+            let k = self.steps_before(phi);
+            return self.corner(if phi - low < high - phi { k } else { k + 1 }, extreme.value, m);
         }
-        let [left, right] = [phi - aside, phi + aside].map(|phi| epsilon(phi, m));
-        let slope = (right - left) * (0.5 / aside);
-        let bend = (right.value - there.value * 2.0 + left.value) * aside.powi(-2);
-        let off = slope.value / bend;
+        // Within the step, beyond whose ends the curve may bend.
+        let middle = phi.clamp(low + 2.0 * aside, high - 2.0 * aside);
+        let at = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|k: f64| self.state(k.mul_add(aside, middle), m).1.epsilon);
+        let slope = ((at[3] - at[1]) * 8.0 - (at[4] - at[0])) * (1.0 / (12.0 * aside));
+        let bend = ((at[3] + at[1]) * 16.0 - (at[4] + at[0]) - at[2] * 30.0) * (1.0 / (12.0 * aside * aside));
+        let off = -slope.value / bend.value;
         // Where the acceleration is constant there is no peak.
-        let off = off.abs().select_lt(R::splat(aside), off, R::splat(0.0));
-        Dual { value: there.value, d: there.d - off * slope.d }
+        let off = off.abs().select_lt(R::splat(4.0 * aside), off, R::splat(phi - middle));
+        let off = Dual { value: off, d: R::splat(0.0) };
+        at[2] + off * (slope + off * bend * 0.5)
+    }
+
+    /// Number of the steps before the one that a crank angle lies in, and the ends of that.
+    #[inline(always)]
+    fn steps_before(&self, phi: f64) -> usize {
+        self.marks.partition_point(|mark| mark.phi < phi - AT_END).max(1) - 1
+    }
+
+    /// See [`Self::steps_before`].
+    #[inline(always)]
+    fn step_around(&self, phi: f64) -> [f64; 2] {
+        let k = self.steps_before(phi);
+        [k, k + 1].map(|edge| self.edges[edge].value.max_lane())
     }
 
     /// The acceleration at an end of a step, along its move. Where it jumps there, on the side that has the value.
@@ -365,8 +393,7 @@ impl<'a, R: Real> DualRevolution<'a, R> {
     /// Time and state at a crank angle, or at the end of a step that lies there, which may move.
     #[inline(always)]
     fn state(&self, phi: f64, m: &mut Motion<Dual<R>>) -> (Dual<R>, State<Dual<R>>) {
-        let last = self.turn.steps.len() - 1;
-        let k = self.marks.partition_point(|mark| mark.phi < phi - AT_END).clamp(1, last + 1) - 1;
+        let k = self.steps_before(phi);
         let step = &self.turn.steps[k];
         let ends_here = (self.edges[k + 1].value - phi).abs().max_lane() < AT_END;
         let to = if ends_here { self.edges[k + 1] } else { Dual::splat(phi) };

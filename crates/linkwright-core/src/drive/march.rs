@@ -27,9 +27,11 @@ const TAIL: f64 = 1e-5;
 /// Longest step: a 24th of the revolution.
 const LONGEST: usize = 24;
 
-/// A step shorter than this \[rad\], or a u below this share of that at the working speed, is rest.
+/// A step shorter than this \[rad\], or a u below this share of that at the working speed, is rest where the torques at
+/// standstill do not drive the machine on. Where they do it creeps, and is followed down to the second share.
 const REST_STEP: f64 = 1e-9;
 const REST: f64 = 1e-10;
+const CREEP: f64 = 1e-24;
 
 /// Most steps of a revolution.
 const STEPS_MAX: usize = 20_000;
@@ -84,7 +86,7 @@ const AGAIN: f64 = 1e-9;
 /// First step that leaves a jump, as a share of the longest.
 const FIRST_OFF: f64 = 0.02;
 
-/// Halvings of a step to the angle at which a motion leaves a jump.
+/// Halvings of a step to the angle at which a motion leaves a jump, and of a range to the u at which it creeps.
 const LEAVING: usize = 40;
 
 /// The next start lies above this share of u, so that the gain is seen in all its turns.
@@ -180,7 +182,9 @@ pub enum MotionChoice {
 struct March<'a> {
     machine: &'a Machine<'a, f64>,
     breaks: &'a [f64],
+    /// u below which a machine may be at rest, and that to which one that creeps is followed.
     rest: f64,
+    least: f64,
     m: Motion<f64>,
     /// Those of laws are ends of steps.
     events: Events<'a, f64>,
@@ -210,6 +214,7 @@ pub fn repeating(
         machine,
         breaks,
         rest: REST * working,
+        least: CREEP * working,
         m,
         events: Events::new(*machine),
         turns: 0,
@@ -465,6 +470,7 @@ impl March<'_> {
         let mut next_break = 1;
         let mut phi = 0.0;
         let mut side: Option<Side> = None;
+        let mut put_at = f64::NAN;
         while next_break < self.breaks.len() {
             poll();
             self.steps += 1;
@@ -539,12 +545,51 @@ impl March<'_> {
                 (h, side) = (step * factor.min(0.5), on);
             }
             let is_stuck = !is_good && h < REST_STEP.min(1e-3 * left);
-            if is_stuck || turn.end <= self.rest {
+            if is_stuck
+                && put_at != phi
+                && let Some(u) = self.creep_below(phi, turn.end)
+            {
+                // Whatever falls to it within no angle goes on from it.
+                (turn.end, turn.growth, put_at) = (u, 0.0, phi);
+                (h, side) = (FIRST_OFF * longest, None);
+            } else if is_stuck || (turn.end <= self.rest && !self.is_driven_on(phi, turn.end)) {
                 let omega = (2.0 * start).sqrt();
                 return Err(NoMotion::Rests { omega, phi });
             }
         }
         Ok(turn)
+    }
+
+    /// Whether the torques at standstill drive a slow machine on.
+    fn is_driven_on(&mut self, phi: f64, u: f64) -> bool {
+        u > self.least && self.acceleration(phi, self.least) > 0.0
+    }
+
+    /// The highest u below a given one to which a machine falls that creeps: the torques balance there, and drive on what is
+    /// slower.
+    fn creep_below(&mut self, phi: f64, u: f64) -> Option<f64> {
+        let (mut fast, mut slow) = (u, 0.5 * u);
+        while self.acceleration(phi, slow) <= 0.0 {
+            (fast, slow) = (slow, 0.5 * slow);
+            if slow < self.least {
+                return None;
+            }
+        }
+        if fast == u && self.acceleration(phi, u) > 0.0 {
+            return None;
+        }
+        for _ in 0..LEAVING {
+            let middle = 0.5 * (slow + fast);
+            *if self.acceleration(phi, middle) > 0.0 { &mut slow } else { &mut fast } = middle;
+        }
+        Some(slow)
+    }
+
+    /// ε at a crank angle.
+    fn acceleration(&mut self, phi: f64, u: f64) -> f64 {
+        let mut geometry = Vec::new();
+        let row = self.machine.row(phi, &mut self.m, &mut geometry);
+        self.machine.acceleration(&row, &geometry, u).value
     }
 
     /// Takes a motion that is held on a jump along it, at most by `most`, to where one side lets it go: how far, and which side.

@@ -367,15 +367,16 @@ impl Job for Search<'_> {
                 }
                 let growths = turn.growths();
                 let mut multiplier: f64 = growths.iter().product();
-                for (k, passage) in events.passages(&mesh, &pieces, &mut plain_motion) {
+                let passages = events.passages(&mesh, &pieces, &mut plain_motion);
+                for (k, passage) in &passages {
                     // What the step has counted for so far, on the side that rounding chose.
-                    let side = events.growth_on_side(&pieces[k], &mut plain_motion) / growths[k];
+                    let side = events.growth_on_side(&pieces[*k], &mut plain_motion) / growths[*k];
                     multiplier *= passage.factor() * side;
                 }
                 if multiplier.is_nan() || (multiplier >= 1.0 && !self.any) {
                     return Err(Failure { reached, ..Failure::new(Status::NoSteadyMotion) });
                 }
-                let (accuracy, scale) = (self.accuracy.max(reached), turn.acceleration_scale());
+                let (accuracy, scale) = (self.accuracy.max(reached), turn.acceleration_scale(&machine));
                 // A jump that holds the motion so near to the end of its rise that nobody sees it does not count.
                 if may_jump
                     && let Some([phi, omega]) = events.held_inside(&pieces, accuracy, &mut plain_motion)
@@ -388,7 +389,7 @@ impl Job for Search<'_> {
                 let (between, off) = turn.between(&machine, accuracy, scale, &mut m).unzip();
                 let mut starts = turn.starts(&machine, &mut m);
                 if may_jump {
-                    turn.take_sides(&events.sides(&mesh, &pieces, &mut plain_motion), &mut starts);
+                    turn.take_sides(&events.sides(&passages, &pieces, &mut plain_motion), &mut starts);
                 }
                 return Ok(Steady {
                     marks: turn.marks(),
