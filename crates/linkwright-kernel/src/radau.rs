@@ -143,25 +143,6 @@ pub fn slope_and_bend<R: Real>(a: &[R; N], at: R) -> (R, R) {
     (slope, bend)
 }
 
-/// Weights that give the coefficient of P₄(2c − 1) in the polynomial through stage values.
-const TAIL: [f64; S] = [
-    0.163_062_986_129_748_5,
-    -0.502_362_706_349_682_7,
-    0.767_861_888_747_402_2,
-    -0.788_562_168_527_468,
-    0.36,
-];
-
-/// What the polynomial through the stage values has of degree 4: how coarse the step is.
-#[inline(always)]
-pub fn tail<R: Real>(values: &[R; S]) -> R {
-    let mut sum = R::splat(0.0);
-    for j in 0..S {
-        sum = values[j].mul_add(R::splat(TAIL[j]), sum);
-    }
-    sum.abs()
-}
-
 /// One Newton step for the stages of `x′ = f`, with the start of the step still free.
 ///
 /// With f and its slope D at the present stage values X, the corrections of the stages are `p + u·δ` for a
@@ -289,15 +270,5 @@ mod tests {
         let (slope, _) = slope_and_bend(&a, 0.5);
         let exact = 6.5 * (1.3 * 0.5_f64 + 0.2).powi(4) - 1.0;
         assert!((slope - exact).abs() < 1e-12, "{slope} for {exact}");
-    }
-
-    #[test]
-    fn tail_is_what_has_degree_four() {
-        let values = C.map(|c| 3.0 - c + 2.0 * c.powi(3));
-        assert!(tail(&values) < 1e-12, "a cubic has none");
-        // P₄(2c − 1) = 70 c⁴ − …
-        let values = C.map(|c| 70.0 * c.powi(4) - c);
-        // The last stage lies 1e-13 aside, where P₄ rises by 20 a step.
-        assert!((tail(&values) - 1.0).abs() < 1e-10, "leading coefficient");
     }
 }

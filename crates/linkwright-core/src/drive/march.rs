@@ -17,12 +17,13 @@ use crate::drive::cycle::{Machine, Step, divide};
 use crate::drive::events::{Event, Events, Pull, Side};
 use crate::drive::mesh::{Crossing, Piece};
 use crate::kernel::call::poll;
-use crate::kernel::radau::{B, C, S, tail};
+use crate::kernel::radau::{B, C, N, S};
 use crate::linkage::motion::Motion;
 
-/// What the polynomial of a step may have of the highest degree, as a share of u: with order 9, errors are
-/// about the square of that.
-const TAIL: f64 = 1e-5;
+/// What the polynomial of a step may have of the highest degree, as a share of u: with order 9, errors are about the square of
+/// its 14th part, by which its acceleration departs from one of a degree less. It is taken from u: where drive and loads
+/// balance, rounding leaves few digits of the acceleration.
+const TAIL: f64 = 1.4e-4;
 
 /// Longest step: a 24th of the revolution.
 const LONGEST: usize = 24;
@@ -512,7 +513,7 @@ impl March<'_> {
                 return Err(NoMotion::DoesNotClose { phi });
             }
             let least = found.X.iter().copied().fold(turn.end, f64::min);
-            let coarse = tail(&found.K) * step / (TAIL * least);
+            let coarse = found.quintic()[N - 1].abs() / (TAIL * least);
             // A NaN is not good either.
             let is_good = coarse <= 1.0 && least > 0.0 && found.growth > 0.0;
             // The highest degree falls with the fourth power of the length, what it adds to u with the fifth.
