@@ -431,8 +431,8 @@ impl Path {
             let values = std::array::from_fn(|i| looks[i][nth]);
             let ends = [values[0], values[N - 1]];
             for share in turns_near_zero(&values).into_iter().filter(|_| ends[0] * ends[1] > 0.0) {
-                let there = attempt.to(share * whole).y;
-                let at = t + share * whole;
+                // A step that ends beyond a jump would see it, and be driven back before it counts as beyond.
+                let (at, there) = (t + share * whole, state(y, pieces, share * whole));
                 let beyond = attempt.at_law_kinks(at, &there)[nth];
                 let faster = attempt.at_law_kinks(at, &[there[0], there[1] * (1.0 + self.accuracy)])[nth];
                 if beyond * ends[0] < 0.0 && beyond.abs() > (faster - beyond).abs() {
