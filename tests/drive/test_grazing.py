@@ -106,6 +106,16 @@ def test_a_motion_in_time_meets_a_jump_that_it_touches(by: float, jump: float, s
     assert 0.5 * motion.speed[-1] ** 2 == pytest.approx(expected, rel=1e-6)
 
 
+@pytest.mark.parametrize("second", [0, 4])
+@pytest.mark.parametrize("jump", [20.0, 0.2])
+@pytest.mark.parametrize("by", [1e-4, 1e-6, 1e-7, 3e-8])
+def test_a_motion_in_time_is_held_by_a_jump_that_it_touches(by: float, jump: float, second: int) -> None:
+    """However little the motion without the jump goes beyond it, as long as that is more than it may err."""
+    machine, without = grazing(by, jump, second), lw.steady_state(grazing(0.0, 0.0, second))
+    with pytest.raises(SteadyStateError, match="slides along a jump: the formula of L"):
+        lw.transient(machine, speed=without.speed[0], duration=10.0, turns=1.0, accuracy=1e-9)
+
+
 # What the acceleration of a steep drive behind a jump is made of: a motor of one straight line.
 STALL, TOP, JUMP = 3e7, 36.0, -5e2
 

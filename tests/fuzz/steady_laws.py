@@ -23,6 +23,10 @@ _X, _W = np.polynomial.legendre.leggauss(6)
 # Accelerations count at least against this share of ω²: of a drive that idles rounding is all that there is.
 _EVEN = 1e-4
 
+# The same against this share of what the drive alone would give, as the product says: where a machine creeps,
+# drive and loads balance to nearly all digits of them.
+_BALANCED = 1e-6
+
 # Rounding of a sum of torques that nearly cancel.
 _ROUNDING = 1e-13
 
@@ -78,7 +82,8 @@ def _curves(steady: SteadyState) -> list[Floats]:
 def _peak(steady: SteadyState) -> float:
     """What accelerations count against."""
     peak = max(abs(steady.acceleration_min), abs(steady.acceleration_max))
-    return max(peak, _EVEN * steady.speed_max**2)
+    driven = float(np.abs(steady.torque_drive / steady.inertia_reduced).max())
+    return max(peak, _EVEN * steady.speed_max**2, _BALANCED * driven)
 
 
 def _energy(machine: Machine, steady: SteadyState) -> float:

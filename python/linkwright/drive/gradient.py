@@ -141,8 +141,8 @@ def _of_motor(
 ) -> dict[str, Tangent]:
     """Extremes of the motor's torque and power, as far as they lie at an extreme speed."""
     # `curves`: derivatives at both, (2, directions), at angles that are off the peaks by so little that the
-    # torque there differs by its slope alone. One that lies between, at the breakdown or pull-up speed, is left
-    # out.
+    # torque there differs by its slope alone. One that lies between, at the breakdown or pull-up speed, is
+    # left out.
     speeds = np.array([state.speed_min, state.speed_max])
     torques, below, above = (
         compiled.motor_torques(speeds * by).motor for by in (1.0, 1 - _ASIDE, 1 + _ASIDE)
