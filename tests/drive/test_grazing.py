@@ -110,15 +110,16 @@ def test_a_motion_in_time_meets_a_jump_that_it_touches(by: float, jump: float, s
 @pytest.mark.parametrize("jump", [20.0, 0.2])
 @pytest.mark.parametrize("by", [1e-4, 1e-6, 1e-7, 3e-8])
 def test_a_motion_in_time_does_not_pass_a_jump_that_holds_it(by: float, jump: float, second: int) -> None:
-    """It is told, or stays on the jump to the accuracy asked for, however little it would go beyond."""
+    """It is refused, or stays on the jump to the accuracy asked for, however little it would go beyond."""
     machine, without = grazing(by, jump, second), lw.steady_state(grazing(0.0, 0.0, second))
     level = float(machine.loads["L"].text.split("omega > ")[1].split(",")[0])
     try:
         motion = lw.transient(machine, speed=without.speed[0], duration=10.0, turns=1.0, accuracy=1e-9)
     except SteadyStateError as error:
-        assert "slides along a jump: the formula of L" in str(error)
+        if "slides along a jump: the formula of L" not in str(error):
+            raise
         return
-    # Only the smaller jump is passed by and by, in steps that are as short as the accuracy asks.
+    # Only the smaller jump may be followed, in steps that are as short as the accuracy asks.
     assert jump < 1
     between = (motion.time[:-1, None] + np.diff(motion.time)[:, None] * np.linspace(0.0, 1.0, 32)).ravel()
     assert motion.at(between)[1].max() < level * (1 + 2e-9)
