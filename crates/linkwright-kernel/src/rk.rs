@@ -126,17 +126,25 @@ pub struct Stages<Y> {
     stage: Y,
     sums: [Y; 3],
     polynomial: [Y; 7],
+    /// Over how many numbers of the state the error is averaged.
+    count: usize,
 }
 
 impl<Y: State> Stages<Y> {
     /// Room for states like this one.
     pub fn new(like: &Y) -> Self {
+        Self::of(like, like.as_ref().len())
+    }
+
+    /// Room for states like this one, of whose numbers so many are no zeros that fill registers.
+    pub fn of(like: &Y, count: usize) -> Self {
         let room = || like.clone();
         Stages {
             k: std::array::from_fn(|_| room()),
             stage: room(),
             sums: std::array::from_fn(|_| room()),
             polynomial: std::array::from_fn(|_| room()),
+            count,
         }
     }
 
@@ -174,21 +182,20 @@ impl<Y: State> Stages<Y> {
             f(t + C[i] * h, &self.stage, &mut self.k[i]);
         }
         for (sum, weights) in self.sums.iter_mut().zip([&B, &E3, &E5]) {
-            sum.as_mut().fill(0.0);
-            add(sum.as_mut(), 1.0, weights, &self.k);
+            start_with(Start::Zero, sum.as_mut(), 1.0, weights, &self.k);
         }
         let [rise, third, fifth] = self.sums.each_ref().map(AsRef::as_ref);
         let (y, end) = (y.as_ref(), end.as_mut());
         let (mut e3, mut e5) = (0.0, 0.0);
         for n in 0..y.len() {
             end[n] = y[n] + h * rise[n];
-            let size = scale(n, y[n].abs().max(end[n].abs()));
-            e3 += (third[n] / size).powi(2);
-            e5 += (fifth[n] / size).powi(2);
+            let weight = 1.0 / scale(n, y[n].abs().max(end[n].abs()));
+            e3 += (third[n] * weight).powi(2);
+            e5 += (fifth[n] * weight).powi(2);
         }
         let blend = e5 + 0.01 * e3;
         // An error that is no number stays none.
-        if blend == 0.0 { 0.0 } else { h.abs() * e5 / (blend * y.len() as f64).sqrt() }
+        if blend == 0.0 { 0.0 } else { h.abs() * e5 / (blend * self.count as f64).sqrt() }
     }
 
     /// Makes the polynomial of a step that was tried from `(t, y)` and led to `end`.
@@ -205,8 +212,7 @@ impl<Y: State> Stages<Y> {
             self.polynomial[2].as_mut()[n] = 2.0 * rise - h * (k0[n] + k1[n]);
         }
         for (row, weights) in self.polynomial[3..].iter_mut().zip(&D) {
-            row.as_mut().fill(0.0);
-            add(row.as_mut(), h, weights, &self.k);
+            start_with(Start::Zero, row.as_mut(), h, weights, &self.k);
         }
     }
 
@@ -215,10 +221,10 @@ impl<Y: State> Stages<Y> {
         y + rise(&self.polynomial(n), share)
     }
 
-    /// All numbers of the state, which start from `y`, at a share of the step, after [`Stages::fill`].
-    pub fn components(&self, share: f64, y: &[f64], to: &mut [f64]) {
+    /// Numbers of the state from one on, which start from `y`, at a share of the step, after [`Stages::fill`].
+    pub fn components(&self, share: f64, first: usize, y: &[f64], to: &mut [f64]) {
         in_single_lanes(DenseOutput {
-            rows: self.polynomial.each_ref().map(AsRef::as_ref),
+            rows: self.polynomial.each_ref().map(|row| &row.as_ref()[first..]),
             share,
             y,
             to,
@@ -305,8 +311,9 @@ pub fn worse(a: f64, b: f64) -> f64 {
 }
 
 /// An error over its tolerance, which is no smaller than what rounding of a polynomial leaves of a number of a size.
-pub fn over(error: f64, tolerance: f64, size: f64) -> f64 {
-    error.abs() / tolerance.max(ROUNDING * size)
+#[inline(always)]
+pub fn over<R: Real>(error: R, tolerance: R, size: R) -> R {
+    error.abs() / tolerance.max(size * ROUNDING)
 }
 
 /// Weights of the derivatives over a step: the first and those of [`Stages::try_step`]'s stages in order.
@@ -315,8 +322,34 @@ pub const WEIGHTS: [f64; S] = B;
 /// Adds h Σ w k, in the order of the stages.
 #[inline(always)]
 pub fn add<Y: AsRef<[f64]>>(to: &mut [f64], h: f64, weights: &[f64], k: &[Y]) {
+    start_with(Start::There, to, h, weights, k);
+}
+
+/// Writes a state and h Σ w k, in the order of the stages.
+#[inline(always)]
+fn sum<Y: AsRef<[f64]>>(to: &mut [f64], from: &[f64], h: f64, weights: &[f64], k: &[Y]) {
+    start_with(Start::From(from), to, h, weights, k);
+}
+
+/// What a sum begins with.
+#[derive(Clone, Copy)]
+enum Start<'a> {
+    Zero,
+    /// What is there already.
+    There,
+    From(&'a [f64]),
+}
+
+/// Writes a sum that begins with something.
+#[inline(always)]
+fn start_with<Y: AsRef<[f64]>>(start: Start<'_>, to: &mut [f64], h: f64, weights: &[f64], k: &[Y]) {
     if to.len() >= LONG {
-        return in_single_lanes(Sum { to, from: None, h, weights, k });
+        return in_single_lanes(Sum { to, start, h, weights, k });
+    }
+    match start {
+        Start::Zero => to.fill(0.0),
+        Start::There => (),
+        Start::From(from) => to.copy_from_slice(from),
     }
     for (&weight, k) in weights.iter().zip(k) {
         if weight != 0.0 {
@@ -328,23 +361,13 @@ pub fn add<Y: AsRef<[f64]>>(to: &mut [f64], h: f64, weights: &[f64], k: &[Y]) {
     }
 }
 
-/// Writes a state and h Σ w k, in the order of the stages.
-#[inline(always)]
-fn sum<Y: AsRef<[f64]>>(to: &mut [f64], from: &[f64], h: f64, weights: &[f64], k: &[Y]) {
-    if to.len() >= LONG {
-        return in_single_lanes(Sum { to, from: Some(from), h, weights, k });
-    }
-    to.copy_from_slice(from);
-    add(to, h, weights, k);
-}
-
 /// Numbers of a state from which on lanes pay.
 const LONG: usize = 8;
 
-/// [`add`] and [`sum`] in lanes, each a number of the state; to what is there already without a state.
+/// [`add`] and [`sum`] in lanes, each a number of the state.
 struct Sum<'a, Y> {
     to: &'a mut [f64],
-    from: Option<&'a [f64]>,
+    start: Start<'a>,
     h: f64,
     weights: &'a [f64],
     k: &'a [Y],
@@ -357,9 +380,13 @@ impl<Y: AsRef<[f64]>> Job for Sum<'_, Y> {
     fn run<R: Real>(mut self) {
         let (n, mut first) = (self.to.len(), 0);
         // Sums beside each other do not wait for one another.
-        while first + 3 * R::LANES <= n {
-            self.block::<R, 3>(first);
-            first += 3 * R::LANES;
+        while first + 4 * R::LANES <= n {
+            self.block::<R, 4>(first);
+            first += 4 * R::LANES;
+        }
+        while first + 2 * R::LANES <= n {
+            self.block::<R, 2>(first);
+            first += 2 * R::LANES;
         }
         while first + R::LANES <= n {
             self.block::<R, 1>(first);
@@ -375,20 +402,21 @@ impl<Y: AsRef<[f64]>> Sum<'_, Y> {
     /// Some bundles of neighbours, the first of which has a place in the state.
     #[inline(always)]
     fn block<R: Real, const N: usize>(&mut self, first: usize) {
-        let Sum { to, from, h, weights, k } = self;
+        let Sum { to, start, h, weights, k } = self;
         let to = &mut to[first..][..N * R::LANES];
         let mut sums: [R; N] = [R::splat(0.0); N];
         for (i, sum) in sums.iter_mut().enumerate() {
-            *sum = R::load(match from {
-                Some(from) => &from[first + i * R::LANES..],
-                None => &to[i * R::LANES..],
-            });
+            *sum = match start {
+                Start::Zero => R::splat(0.0),
+                Start::There => R::load(&to[i * R::LANES..]),
+                Start::From(from) => R::load(&from[first + i * R::LANES..]),
+            };
         }
         for (&weight, k) in weights.iter().zip(*k) {
             if weight != 0.0 {
-                let (weight, k) = (*h * weight, &k.as_ref()[first..][..N * R::LANES]);
+                let (weight, k) = (R::splat(*h * weight), &k.as_ref()[first..][..N * R::LANES]);
                 for (i, sum) in sums.iter_mut().enumerate() {
-                    *sum = *sum + R::load(&k[i * R::LANES..]) * weight;
+                    *sum = weight.mul_add(R::load(&k[i * R::LANES..]), *sum);
                 }
             }
         }

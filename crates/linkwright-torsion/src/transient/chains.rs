@@ -1,106 +1,96 @@
-//! Links that follow each other along a chain of masses, side by side in lanes: most of a train.
+//! Links from masses to their neighbours in the list, side by side in lanes: most of a train.
 
 use super::system::{Link, System};
 use linkwright_kernel::real::Real;
 
-/// Links from which on a chain pays.
-const LEAST: usize = 4;
-
-/// Links of a system: those of chains, and all others.
+/// Links of a system: those between neighbours, and all others.
 #[derive(Clone, Debug)]
 pub struct Links {
-    pub chains: Vec<Chain>,
+    pub chain: Chain,
     /// Places of the others in the list of links.
     pub others: Vec<usize>,
 }
 
-/// Links without curves; each joins a mass and the next.
+/// Links without curves, at most one from each mass to the next, of the last mass to the ground. A list has a place for the link
+/// behind each mass, and one before the first; numbers are zero where there is no link.
 #[derive(Clone, Debug)]
 pub struct Chain {
-    /// Place of the first link in the list of links, and its first mass.
-    link: usize,
-    mass: usize,
     ratio: Vec<f64>,
     stiffness: Vec<f64>,
     damping: Vec<f64>,
+    /// Mass before each link, with its place in the list of links.
+    places: Vec<(usize, usize)>,
 }
 
-/// Angles and speeds for twists, sums of torques on masses and ground, and losses of links.
-#[derive(Debug)]
-pub struct TwistSums<'a> {
-    pub angle: &'a [f64],
-    pub speed: &'a [f64],
-    pub net: &'a mut [f64],
-    pub losses: &'a mut [f64],
+/// Torques of the links at some masses.
+#[derive(Clone, Copy, Debug)]
+pub struct Twists<R> {
+    /// Torque on the masses.
+    pub torque: R,
+    /// Loss in the links behind them.
+    pub loss: R,
 }
 
 impl Links {
-    /// Of a system.
-    pub fn of(system: &System) -> Self {
-        let mut found = Links { chains: Vec::new(), others: Vec::new() };
-        let mut first = 0;
-        while first < system.links.len() {
-            let rest = &system.links[first..];
-            let length = 1 + rest.windows(2).take_while(|pair| follows(&pair[0], &pair[1])).count();
-            if length >= LEAST && starts(&rest[0]) {
-                found.chains.push(Chain::of(first, &rest[..length]));
-            } else {
-                found.others.extend(first..first + length);
-            }
-            first += length;
-        }
+    /// Of a system, with places for at least as many masses as it has.
+    pub fn of(system: &System, places: usize) -> Self {
+        let mut chain = Chain::without_links(places);
+        let others = system.links.iter().enumerate().filter(|&(place, link)| !chain.takes(place, link));
+        let others = others.map(|(place, _)| place).collect();
+        Links { chain, others }
+    }
+
+    /// Loss in each link, from those behind masses and those of the other links.
+    pub fn losses(&self, behind: &[f64], others: &[f64]) -> Vec<f64> {
+        let mut found = vec![0.0; self.chain.places.len() + self.others.len()];
+        self.chain.places.iter().for_each(|&(mass, place)| found[place] = behind[mass]);
+        self.others.iter().zip(others).for_each(|(&place, &loss)| found[place] = loss);
         found
     }
 }
 
-/// Whether a chain may begin with a link.
-fn starts(link: &Link) -> bool {
-    link.curve.is_none() && link.ends[1] == link.ends[0] + 1
-}
-
-/// Whether a link goes on where another ends.
-fn follows(link: &Link, next: &Link) -> bool {
-    starts(link) && starts(next) && next.ends[0] == link.ends[1]
-}
-
 impl Chain {
-    fn of(first: usize, links: &[Link]) -> Self {
-        let list = |f: fn(&Link) -> f64| links.iter().map(f).collect();
-        Chain {
-            link: first,
-            mass: links[0].ends[0],
-            ratio: list(|link| link.ratio),
-            stiffness: list(|link| link.stiffness),
-            damping: list(|link| link.damping),
-        }
+    fn without_links(places: usize) -> Self {
+        let none = vec![0.0; places + 1];
+        Chain { ratio: none.clone(), stiffness: none.clone(), damping: none, places: Vec::new() }
     }
 
-    /// Adds their torques to the sums, and tells what they lose.
-    #[inline(always)]
-    pub fn twist<R: Real>(&self, to: &mut TwistSums<'_>) {
-        let (mut at, n) = (0, self.ratio.len());
-        while at + R::LANES <= n {
-            self.twist_some::<R>(at, to);
-            at += R::LANES;
+    /// Takes a link if it joins neighbours that no other one joins.
+    fn takes(&mut self, place: usize, link: &Link) -> bool {
+        let [mass, next] = link.ends;
+        let takes = link.curve.is_none() && next == mass + 1 && self.ratio[next] == 0.0;
+        if takes {
+            (self.ratio[next], self.stiffness[next], self.damping[next]) =
+                (link.ratio, link.stiffness, link.damping);
+            self.places.push((mass, place));
         }
-        while at < n {
-            self.twist_some::<f64>(at, to);
-            at += 1;
-        }
+        takes
     }
 
-    /// As many of them as there are lanes.
+    /// Mass before each link, with its place in the list of links.
+    pub fn links(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        self.places.iter().copied()
+    }
+
+    /// Torques at some masses, the first of which has a place, from lists of angles and speeds that begin with a number before
+    /// the first mass and end with the ground.
     #[inline(always)]
-    fn twist_some<R: Real>(&self, at: usize, to: &mut TwistSums<'_>) {
-        let mass = self.mass + at;
-        let beside = |list: &[f64]| R::load(&list[mass..]) - R::load(&list[mass + 1..]);
-        let [ratio, stiffness, damping] =
-            [&self.ratio, &self.stiffness, &self.damping].map(|list| R::load(&list[at..]));
-        let (twist, rate) = (ratio * beside(to.angle), ratio * beside(to.speed));
-        let loss = damping * rate;
-        let torque = ratio * (stiffness * twist + loss);
-        (loss * rate).store(&mut to.losses[self.link + at..]);
-        (R::load(&to.net[mass..]) - torque).store(&mut to.net[mass..]);
-        (R::load(&to.net[mass + 1..]) + torque).store(&mut to.net[mass + 1..]);
+    pub fn twists<R: Real>(&self, at: usize, angle: &[f64], speed: &[f64]) -> Twists<R> {
+        let before = [R::load(&angle[at..]), R::load(&speed[at..])];
+        let here = [R::load(&angle[at + 1..]), R::load(&speed[at + 1..])];
+        let behind = [R::load(&angle[at + 2..]), R::load(&speed[at + 2..])];
+        let (pulled, _) = self.torque(at, before, here);
+        let (pulls, loss) = self.torque(at + 1, here, behind);
+        Twists { torque: pulled - pulls, loss }
+    }
+
+    /// Torques and losses of some links, from angles and speeds of the masses before and behind.
+    #[inline(always)]
+    fn torque<R: Real>(&self, at: usize, a: [R; 2], b: [R; 2]) -> (R, R) {
+        let (ratio, stiffness) = (R::load(&self.ratio[at..]), R::load(&self.stiffness[at..]));
+        let damping = R::load(&self.damping[at..]);
+        let (twist, rate) = (ratio * (a[0] - b[0]), ratio * (a[1] - b[1]));
+        let friction = damping * rate;
+        (ratio * stiffness.mul_add(twist, friction), friction * rate)
     }
 }

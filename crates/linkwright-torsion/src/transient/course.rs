@@ -131,7 +131,7 @@ struct Follower<'a, S> {
 
 impl<'a, S: Stepper> Follower<'a, S> {
     fn new(
-        mut rates: Rates<'a>,
+        rates: Rates<'a>,
         state: Vec<f64>,
         request: &'a Request<'a>,
         method: Method,
@@ -158,7 +158,7 @@ impl<'a, S: Stepper> Follower<'a, S> {
             _ => (request.accuracy, fastest),
         };
         let scale = Scale::new([accuracy, request.accuracy], &rates, followed);
-        let mut scale = if method == Method::Implicit { scale } else { scale.following() };
+        let mut scale = if method == Method::Implicit { scale } else { scale.following(&rates) };
         scale.widen(rates.system, &state);
         Follower {
             request,
@@ -195,6 +195,7 @@ impl<'a, S: Stepper> Follower<'a, S> {
         let [kinetic, potential] = self.rates.energies(&self.state);
         self.course.energies[2..].copy_from_slice(&[kinetic, potential]);
         self.course.extremes = self.extremes.rows;
+        self.course.work = self.rates.in_order(&self.course.work);
         self.course.rejected = self.stepper.rejected();
         self.course.evaluations = self.rates.evaluations;
         self.course

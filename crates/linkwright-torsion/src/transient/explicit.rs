@@ -11,9 +11,14 @@ pub const STABLE_PHASE: f64 = 5.9;
 /// Error between the ends of a step, over what it may be, below which it does not limit the next: that may be twice as long.
 pub const SAYS_NOTHING: f64 = 1.0 / 512.0;
 
-/// Explicit steps with their stages.
+/// Explicit steps with their stages. Their states have places for whole registers.
 #[derive(Clone, Debug)]
 pub struct Explicit {
+    /// How many masses, and places for them.
+    masses: usize,
+    places: usize,
+    from: Vec<f64>,
+    to: Vec<f64>,
     stages: Stages<Vec<f64>>,
     /// Powers at each stage.
     powers: Vec<Vec<f64>>,
@@ -25,19 +30,30 @@ pub struct Explicit {
 impl Explicit {
     /// For a system.
     pub fn new(rates: &Rates<'_>) -> Self {
+        let (room, masses) = (rates.room(), rates.system.len());
         Explicit {
-            stages: Stages::new(&vec![0.0; 2 * rates.system.len()]),
+            masses,
+            places: room.len() / 2,
+            stages: Stages::of(&room, 2 * masses),
+            from: room.clone(),
+            to: room,
             powers: vec![rates.powers.clone(); WEIGHTS.len()],
             end_powers: rates.powers.clone(),
             h: 0.0,
             rejected: 0,
         }
     }
+
+    /// Place of a number of the state.
+    fn place(&self, i: usize) -> usize {
+        if i < self.masses { i } else { self.places + i - self.masses }
+    }
 }
 
 impl Stepper for Explicit {
     fn begin(&mut self, rates: &mut Rates<'_>, t: f64, state: &[f64], first: f64) {
-        rates.derivative(t, state, self.stages.start());
+        rates.copy(state, &mut self.from);
+        rates.derivative_in_place(t, &self.from, self.stages.start());
         self.powers[0].copy_from_slice(&rates.powers);
         self.h = first;
     }
@@ -45,11 +61,12 @@ impl Stepper for Explicit {
     fn step(
         &mut self,
         rates: &mut Rates<'_>,
-        at: (f64, &Vec<f64>),
+        (t, state): (f64, &Vec<f64>),
         longest: f64,
         scale: &Scale,
         end: &mut Vec<f64>,
     ) -> Option<f64> {
+        rates.copy(state, &mut self.from);
         let size = |i: usize, size: f64| scale.of(i, size);
         let mut growth_max = f64::INFINITY;
         // Forty reductions by a tenth to nine tenths reach any length that still changes t.
@@ -58,16 +75,17 @@ impl Stepper for Explicit {
             let mut stage = 0;
             let powers = &mut self.powers;
             let mut f = |t: f64, y: &Vec<f64>, to: &mut Vec<f64>| {
-                rates.derivative(t, y, to);
+                rates.derivative_in_place(t, y, to);
                 stage += 1;
                 // All of them are written anew each time.
                 swap(&mut powers[stage], &mut rates.powers);
             };
-            let error = self.stages.try_step(&mut f, at, h, &size, end);
+            let error = self.stages.try_step(&mut f, (t, &self.from), h, &size, &mut self.to);
             if error <= 1.0 {
                 let grown = h * next_factor(error).min(growth_max);
                 // A step cut short by an event says nothing about the length that the next may have.
                 self.h = if h < self.h { grown.max(self.h) } else { grown };
+                rates.copy(&self.to, end);
                 return Some(h);
             }
             self.h = h * next_factor(error).min(0.9);
@@ -77,21 +95,21 @@ impl Stepper for Explicit {
         None
     }
 
-    fn accept(&mut self, rates: &mut Rates<'_>, t_end: f64, end: &[f64]) {
-        rates.derivative(t_end, end, self.stages.end());
+    fn accept(&mut self, rates: &mut Rates<'_>, t_end: f64, _: &[f64]) {
+        rates.derivative_in_place(t_end, &self.to, self.stages.end());
         swap(&mut self.end_powers, &mut rates.powers);
     }
 
     fn fill(
         &mut self,
         rates: &mut Rates<'_>,
-        at: (f64, &Vec<f64>),
+        (t, _): (f64, &Vec<f64>),
         h: f64,
         scale: &Scale,
-        end: &[f64],
+        _: &[f64],
     ) -> f64 {
-        let system = rates.system;
-        let mut f = |t: f64, y: &Vec<f64>, to: &mut Vec<f64>| rates.derivative(t, y, to);
+        let (system, at, end) = (rates.system, (t, &self.from), &self.to);
+        let mut f = |t: f64, y: &Vec<f64>, to: &mut Vec<f64>| rates.derivative_in_place(t, y, to);
         self.stages.fill(&mut f, at, h, end);
         let error =
             self.stages.error_between(&mut f, at, h, &|y, error| scale.worst(system, error, [y, end]));
@@ -108,15 +126,17 @@ impl Stepper for Explicit {
     }
 
     fn component(&self, share: f64, state: &[f64], i: usize) -> f64 {
-        self.stages.component(share, state[i], i)
+        self.stages.component(share, state[i], self.place(i))
     }
 
     fn components(&self, share: f64, state: &[f64], to: &mut [f64]) {
-        self.stages.components(share, state, to);
+        let ((from, to), n) = ((state.split_at(self.masses), to.split_at_mut(self.masses)), self.places);
+        self.stages.components(share, 0, from.0, to.0);
+        self.stages.components(share, n, from.1, to.1);
     }
 
     fn slope(&self, share: f64, h: f64, i: usize) -> f64 {
-        self.stages.slope(share, i) / h
+        self.stages.slope(share, self.place(i)) / h
     }
 
     fn work(&mut self, _: &mut Rates<'_>, _: (f64, &Vec<f64>), h: f64, to: &mut [f64]) {

@@ -80,6 +80,8 @@ pub struct Implicit {
     last: Option<f64>,
     stage: Vec<f64>,
     sides: [Vec<f64>; 3],
+    /// An error and the states at both ends, with places for whole registers.
+    measured: [Vec<f64>; 3],
     room: [Vec<Complex>; 2],
     h: f64,
     /// Length and error of the step before, for the next length.
@@ -116,6 +118,7 @@ impl Implicit {
             last: None,
             stage: list(),
             sides: three(),
+            measured: std::array::from_fn(|_| rates.room()),
             room: [vec![Complex::default(); n], vec![Complex::default(); n]],
             h: 0.0,
             before: None,
@@ -357,7 +360,11 @@ impl Stepper for Implicit {
         end: &[f64],
     ) -> f64 {
         // The first sides still hold the estimate.
-        let worst = POLYNOMIAL_ERROR * scale.worst(rates.system, &self.sides[0], [state, end]);
+        for (list, to) in [&self.sides[0][..], state, end].into_iter().zip(&mut self.measured) {
+            rates.copy(list, to);
+        }
+        let [error, from, to] = &self.measured;
+        let worst = POLYNOMIAL_ERROR * scale.worst(rates.system, error, [from, to]);
         if worst > SAYS_NOTHING {
             self.h = self.h.min(h * shortened(worst));
         }

@@ -5,6 +5,8 @@
 //! | [`periodic`], [`curve`] | functions of an angle; curves through points |
 //! | [`torque`] | torques from outside over speed, angle and time |
 //! | [`system`] | masses, links and torques as they cross the border |
+//! | [`bank`] | functions of the angles of many masses, in lanes |
+//! | [`between`] | errors between the ends of a step |
 //! | [`chains`] | links that follow each other, in lanes |
 //! | [`rates`] | the equations of motion |
 //! | [`stepper`] | what a method of integration can do |
@@ -15,6 +17,8 @@
 //! | [`extremes`] | Maximum and minimum torques and speeds, with their times |
 //! | [`course`] | the motion from event to event, sampled |
 
+pub mod bank;
+pub mod between;
 pub mod chains;
 pub mod course;
 pub mod curve;

@@ -4,13 +4,17 @@
 //! The slope that [`Periodic::value_and_slope`] gives is that of the very polynomial whose value it gives, so that the work of
 //! ½ J′ ω² is what the kinetic energy ½ J ω² gains.
 
+/// Powers 0 to 5 of the share of a piece.
+pub type Powers = [f64; 6];
+
 /// Quintics between even knots over a period.
 #[derive(Clone, Debug)]
 pub struct Periodic {
-    /// Powers 0 to 5 of the share of the interval.
-    pieces: Vec<[f64; 6]>,
-    inverse_period: f64,
-    /// Intervals per angle \[1/rad\].
+    pieces: Vec<Powers>,
+    /// How many there are, and one over it.
+    count: f64,
+    inverse_count: f64,
+    /// Pieces per angle \[1/rad\].
     density: f64,
 }
 
@@ -25,7 +29,8 @@ impl Periodic {
         let knot = |i: usize| [value[i % n], d1[i % n] * h, d2[i % n] * (h * h)];
         sound.then(|| Periodic {
             pieces: (0..n).map(|i| quintic(knot(i), knot(i + 1))).collect(),
-            inverse_period: 1.0 / period,
+            count: n as f64,
+            inverse_count: 1.0 / n as f64,
             density: n as f64 / period,
         })
     }
@@ -36,15 +41,30 @@ impl Periodic {
         self.pieces.iter().map(of).sum::<f64>() / self.pieces.len() as f64
     }
 
+    /// Pieces per angle \[1/rad\].
+    pub fn density(&self) -> f64 {
+        self.density
+    }
+
+    /// Its pieces over a period.
+    pub fn pieces(&self) -> &[Powers] {
+        &self.pieces
+    }
+
+    /// Powers of a piece, counted on over all periods.
+    #[inline(always)]
+    fn powers(&self, piece: f64) -> &Powers {
+        // From the middle of the piece, so that rounding leads to no other period.
+        let before = ((piece + 0.5) * self.inverse_count).floor() * self.count;
+        &self.pieces[in_low_bits(piece - before + IN_LOW_BITS).min(self.pieces.len() - 1)]
+    }
+
     /// The piece at an angle, and the share of it there.
     #[inline(always)]
-    fn piece(&self, angle: f64) -> (&[f64; 6], f64) {
-        let turns = angle * self.inverse_period;
-        let place = (turns - turns.floor()) * self.pieces.len() as f64;
-        // Just below a whole revolution rounding may lead to the knot after the last.
-        let (whole, last) = (place.floor(), self.pieces.len() - 1);
-        let whole = if whole < last as f64 { whole } else { last as f64 };
-        (&self.pieces[index(whole).min(last)], place - whole)
+    fn piece(&self, angle: f64) -> (&Powers, f64) {
+        let along = angle * self.density;
+        let whole = along.floor();
+        (self.powers(whole), along - whole)
     }
 
     /// Value and slope at an angle.
@@ -67,12 +87,14 @@ impl Periodic {
     }
 }
 
-/// A whole number from 0 to 2³² as an index: in the low bits of a sum with 2⁵², which takes a third of the instructions of
-/// a conversion that minds what does not fit.
+/// Added to a whole number from 0 to 2³², it leaves that in the low bits, which takes a third of the instructions of a conversion
+/// that minds what does not fit.
+pub const IN_LOW_BITS: f64 = 4_503_599_627_370_496.0;
+
+/// What stands there.
 #[inline(always)]
-fn index(whole: f64) -> usize {
-    const IN_LOW_BITS: f64 = 4_503_599_627_370_496.0;
-    (whole + IN_LOW_BITS).to_bits() as u32 as usize
+pub fn in_low_bits(sum: f64) -> usize {
+    sum.to_bits() as u32 as usize
 }
 
 /// Powers of the quintic with value, slope and bend at 0 and at 1.

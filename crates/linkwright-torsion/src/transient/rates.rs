@@ -10,33 +10,18 @@
 //! its digits however far the train has turned; likewise for the speeds. A train that is held has nothing to turn far, and
 //! its state holds the angles themselves.
 //!
+//! Masses stand side by side in lanes. Lists have places for whole registers; behind the last mass they hold such as nothing moves,
+//! whose inertia has no bound.
+//!
 //! Source: the equation is Lagrange's for T = ½ J(θ) θ̇²; e.g. Eksergian, *Dynamical analysis of machines*,
 //! J. Franklin Inst. 209 (1930).
 
-use super::chains::{Links, TwistSums};
+use super::bank::{Bank, OfAngle, WIDEST};
+use super::chains::{Links, Twists};
 use super::system::{Link, Rotor, System};
-use super::torque::{Pull, Stretch};
+use super::torque::{Law, Pull, Shape, Stretch, Torque};
 use linkwright_kernel::lanes::{Job, in_single_lanes};
 use linkwright_kernel::real::Real;
-
-/// Calls a method for masses side by side, with the place of the first; the last bundle may overlap the one before, so that
-/// none is left over. Fewer masses than lanes come one by one.
-macro_rules! side_by_side {
-    ($R:ident, $n:expr, $this:ident.$method:ident($($argument:expr),*)) => {
-        if $n < $R::LANES {
-            for at in 0..$n {
-                $this.$method::<f64>(at $(, $argument)*);
-            }
-        } else {
-            let mut at = 0;
-            while at + $R::LANES < $n {
-                $this.$method::<$R>(at $(, $argument)*);
-                at += $R::LANES;
-            }
-            $this.$method::<$R>($n - $R::LANES $(, $argument)*);
-        }
-    };
-}
 
 /// A system at one instant, with room for what the equations need.
 #[derive(Clone, Debug)]
@@ -46,23 +31,36 @@ pub struct Rates<'a> {
     links: Links,
     /// Whether angles of the state are counted from that of the first mass.
     relative: bool,
+    /// Zero for the mass from which the others are counted and behind the last, else one.
+    beside: Vec<f64>,
     theta: Vec<f64>,
     pub omega: Vec<f64>,
-    /// Angles and speeds for twists, and those of the ground.
+    /// Angles and speeds for twists: a place before the first mass, the masses, the ground.
     aside: Vec<f64>,
     aside_speed: Vec<f64>,
     /// Shares of the masses in the inertia of the whole.
     shares: Vec<f64>,
+    /// What the masses have of inertia and damping anyway.
+    constant: Vec<f64>,
+    damping: Vec<f64>,
+    swing_damping: Vec<f64>,
     inertia: Vec<f64>,
     /// Whether anything damps swings.
     damps_swings: bool,
     /// J′ of each mass.
     bends: Vec<f64>,
+    /// Inertias and torques that are functions of the angle alone; places of all other torques in their list.
+    inertias: Vec<Bank>,
+    shapes: Vec<Bank>,
+    alone: Vec<usize>,
     pub acceleration: Vec<f64>,
-    /// Sum of torques on each mass and on the ground.
-    net: Vec<f64>,
-    /// Power of each torque, then loss in each link, then loss at each mass \[W\].
+    /// Torques from outside and of links that are no chain, on each mass and on the ground.
+    outer: Vec<f64>,
+    /// Losses at masses and in the links behind them, powers of each bank of torques, powers of other torques, losses in other
+    /// links \[W\]: [`Rates::in_order`].
     pub powers: Vec<f64>,
+    /// A state and its derivative, with places for whole registers.
+    room: [Vec<f64>; 2],
     /// How often the equations were evaluated.
     pub evaluations: usize,
 }
@@ -70,25 +68,64 @@ pub struct Rates<'a> {
 impl<'a> Rates<'a> {
     /// For a system.
     pub fn new(system: &'a System) -> Self {
-        let n = system.len();
+        let (n, relative) = (system.len(), system.is_free());
+        let places = n.next_multiple_of(WIDEST);
+        let links = Links::of(system, places);
+        let filled = |list: &[f64], rest: f64| {
+            let mut filled = vec![rest; places];
+            filled[..n].copy_from_slice(list);
+            filled
+        };
+        let mut beside = filled(&vec![1.0; n], 0.0);
+        if relative {
+            beside[0] = 0.0;
+        }
+        let (banked, alone): (Vec<usize>, Vec<usize>) =
+            (0..system.torques.len()).partition(|&k| system.torques[k].of_angle().is_some());
+        let torques = banked.into_iter().filter_map(|k| Some((k, system.torques[k].of_angle()?)));
+        let shapes = Bank::several(torques, places, &system.tables);
+        let rotors = system.rotors.iter().map(Rotor::of_angle).enumerate();
+        let none = vec![0.0; places];
         Rates {
             system,
             stretch: Stretch::default(),
-            links: Links::of(system),
-            relative: system.is_free(),
-            theta: vec![0.0; n],
-            omega: vec![0.0; n],
-            aside: vec![0.0; n + 1],
-            aside_speed: vec![0.0; n + 1],
+            relative,
+            beside,
+            theta: none.clone(),
+            omega: none.clone(),
+            aside: vec![0.0; places + 2],
+            aside_speed: vec![0.0; places + 2],
             shares: system.shares(),
-            inertia: system.inertia.clone(),
+            constant: filled(&system.inertia, f64::INFINITY),
+            damping: filled(&system.damping, 0.0),
+            swing_damping: filled(&system.swing_damping, 0.0),
+            inertia: filled(&system.inertia, f64::INFINITY),
             damps_swings: system.swing_damping.iter().any(|&d| d != 0.0),
-            bends: vec![0.0; n],
-            acceleration: vec![0.0; n],
-            net: vec![0.0; n + 1],
-            powers: vec![0.0; system.torques.len() + system.links.len() + n],
+            bends: none.clone(),
+            inertias: Bank::several(rotors, places, &system.tables),
+            acceleration: none.clone(),
+            outer: vec![0.0; places + 1],
+            powers: vec![0.0; places * (2 + shapes.len()) + alone.len() + links.others.len()],
+            shapes,
+            alone,
+            links,
+            room: [vec![0.0; 2 * places], vec![0.0; 2 * places]],
             evaluations: 0,
         }
+    }
+
+    /// A state with places for whole registers, as [`Rates::derivative_in_place`] takes it: zeros.
+    pub fn room(&self) -> Vec<f64> {
+        vec![0.0; 2 * self.theta.len()]
+    }
+
+    /// Copies the first numbers of both halves, angles and speeds, of a state into another.
+    pub fn copy(&self, from: &[f64], to: &mut [f64]) {
+        let halves = to.len() / 2;
+        let (angles, speeds) = to.split_at_mut(halves);
+        let n = self.system.len();
+        angles[..n].copy_from_slice(&from[..n]);
+        speeds[..n].copy_from_slice(&from[from.len() / 2..][..n]);
     }
 
     /// Inertia of a mass at the instant last evaluated, without bound for the ground \[kg m²\].
@@ -135,6 +172,15 @@ impl<'a> Rates<'a> {
 
     /// The derivative of a state.
     pub fn derivative(&mut self, t: f64, state: &[f64], to: &mut [f64]) {
+        let [mut from, mut into] = std::mem::take(&mut self.room);
+        self.copy(state, &mut from);
+        self.derivative_in_place(t, &from, &mut into);
+        self.copy(&into, to);
+        self.room = [from, into];
+    }
+
+    /// The derivative of a state that has places for whole registers.
+    pub fn derivative_in_place(&mut self, t: f64, state: &[f64], to: &mut [f64]) {
         in_single_lanes(Derivative { rates: self, t, state, to });
     }
 
@@ -142,133 +188,136 @@ impl<'a> Rates<'a> {
     #[inline(always)]
     fn derive<R: Real>(&mut self, t: f64, state: &[f64], to: &mut [f64]) {
         self.evaluations += 1;
-        self.place::<R>(state);
-        self.turn();
-        self.push::<R>(t);
-        self.twist::<R>();
-        let n = self.system.len();
-        side_by_side!(R, n, self.accelerate());
-        let (angles, speeds) = to.split_at_mut(n);
-        let lead = if self.relative { self.acceleration[0] } else { 0.0 };
-        side_by_side!(R, n, self.tell(&state[n..], lead, [&mut *angles, &mut *speeds]));
-        speeds[0] = self.acceleration[0];
-    }
-
-    /// Accelerations of some masses.
-    #[inline(always)]
-    fn accelerate<R: Real>(&mut self, at: usize) {
-        let omega = R::load(&self.omega[at..]);
-        let gyration = R::load(&self.bends[at..]) * 0.5 * omega * omega;
-        let found = (R::load(&self.net[at..]) - gyration) / R::load(&self.inertia[at..]);
-        found.store(&mut self.acceleration[at..]);
-    }
-
-    /// Rates of some angles and speeds, less that of the first mass.
-    #[inline(always)]
-    fn tell<R: Real>(&self, at: usize, speeds: &[f64], lead: f64, to: [&mut [f64]; 2]) {
-        R::load(&speeds[at..]).store(&mut to[0][at..]);
-        (R::load(&self.acceleration[at..]) - R::splat(lead)).store(&mut to[1][at..]);
-    }
-
-    /// Angles and speeds of the masses.
-    #[inline(always)]
-    fn place<R: Real>(&mut self, state: &[f64]) {
-        let n = self.system.len();
-        let (angles, speeds) = state.split_at(n);
+        let places = self.theta.len();
+        let (state, to) = (&state[..2 * places], &mut to[..2 * places]);
+        let (angles, speeds) = state.split_at(places);
         let lead = if self.relative { [angles[0], speeds[0]] } else { [0.0; 2] };
-        side_by_side!(R, n, self.place_some([angles, speeds], lead));
-        if self.relative {
-            (self.aside[0], self.aside_speed[0]) = (0.0, 0.0);
-            [self.theta[0], self.omega[0]] = lead;
+        for at in (0..places).step_by(R::LANES) {
+            self.place::<R>(at, [angles, speeds], lead);
+        }
+        self.push(t);
+        self.twist();
+        let whole = self.whole_speed();
+        for at in (0..places).step_by(R::LANES) {
+            self.accelerate::<R>(at, whole);
+        }
+        let lead = if self.relative { self.acceleration[0] } else { 0.0 };
+        let (angle_rates, speed_rates) = to.split_at_mut(places);
+        for at in (0..places).step_by(R::LANES) {
+            R::load(&speeds[at..]).store(&mut angle_rates[at..]);
+            let lead = R::load(&self.beside[at..]) * lead;
+            (R::load(&self.acceleration[at..]) - lead).store(&mut speed_rates[at..]);
         }
     }
 
-    /// Those of some masses.
+    /// Accelerations of some masses, with the speed of the train as a whole.
     #[inline(always)]
-    fn place_some<R: Real>(&mut self, at: usize, [angles, speeds]: [&[f64]; 2], lead: [f64; 2]) {
-        let (angle, speed) = (R::load(&angles[at..]), R::load(&speeds[at..]));
-        angle.store(&mut self.aside[at..]);
-        speed.store(&mut self.aside_speed[at..]);
+    fn accelerate<R: Real>(&mut self, at: usize, whole: f64) {
+        let places = self.theta.len();
+        let (theta, omega) = (R::load(&self.theta[at..]), R::load(&self.omega[at..]));
+        let (mut inertia, mut bend) = (R::load(&self.constant[at..]), R::splat(0.0));
+        for bank in &self.inertias {
+            if let Some([value, slope]) = bank.at(at, theta) {
+                (inertia, bend) = (inertia + value, bend + slope);
+            }
+        }
+        inertia.store(&mut self.inertia[at..]);
+        bend.store(&mut self.bends[at..]);
+        let (drags, powers) = self.powers.split_at_mut(places);
+        let (losses, powers) = powers.split_at_mut(places);
+        let mut shaped = R::splat(0.0);
+        for (bank, powers) in self.shapes.iter().zip(powers.chunks_exact_mut(places)) {
+            if let Some([torque, _]) = bank.at(at, theta) {
+                (torque * omega).store(&mut powers[at..]);
+                shaped = shaped + torque;
+            }
+        }
+        let Twists { torque, loss } = self.links.chain.twists::<R>(at, &self.aside, &self.aside_speed);
+        let swing =
+            (R::load(&self.aside_speed[at + 1..]) - R::splat(whole)) * R::load(&self.swing_damping[at..]);
+        let drag = R::load(&self.damping[at..]) * omega + swing;
+        let gyration = bend * 0.5 * omega * omega;
+        let net = ((torque - drag) + R::load(&self.outer[at..])) + (shaped - gyration);
+        (net / inertia).store(&mut self.acceleration[at..]);
+        (drag * omega).store(&mut drags[at..]);
+        loss.store(&mut losses[at..]);
+    }
+
+    /// Angles and speeds of some masses.
+    #[inline(always)]
+    fn place<R: Real>(&mut self, at: usize, [angles, speeds]: [&[f64]; 2], lead: [f64; 2]) {
+        let beside = R::load(&self.beside[at..]);
+        let (angle, speed) = (R::load(&angles[at..]) * beside, R::load(&speeds[at..]) * beside);
+        angle.store(&mut self.aside[at + 1..]);
+        speed.store(&mut self.aside_speed[at + 1..]);
         (angle + lead[0]).store(&mut self.theta[at..]);
         (speed + lead[1]).store(&mut self.omega[at..]);
+        R::splat(0.0).store(&mut self.outer[at..]);
     }
 
-    /// Inertias at these angles; what does not change stands there already.
-    #[inline(always)]
-    fn turn(&mut self) {
-        for Rotor { mass, .. } in &self.system.rotors {
-            (self.inertia[*mass], self.bends[*mass]) = (self.system.inertia[*mass], 0.0);
+    /// Speed of the train as a whole beside its first mass; zero where nothing asks for it.
+    fn whole_speed(&self) -> f64 {
+        if !self.damps_swings {
+            return 0.0;
         }
-        for rotor in &self.system.rotors {
-            let i = rotor.mass;
-            let n = rotor.ratio;
-            let [value, d1] =
-                self.system.tables[rotor.table].value_and_slope(n * self.theta[i] + rotor.phase);
-            let square = n * n;
-            self.inertia[i] += square * value;
-            self.bends[i] += square * n * d1;
-        }
+        self.shares.iter().zip(&self.aside_speed[1..]).map(|(share, w)| share * w).sum()
     }
 
-    /// Torques from outside and damping against the ground.
+    /// Torques from outside that are more than functions of the angle.
     #[inline(always)]
-    fn push<R: Real>(&mut self, t: f64) {
-        let (system, n) = (self.system, self.system.len());
-        let whole = if self.damps_swings {
-            self.shares.iter().zip(&self.aside_speed).map(|(share, w)| share * w).sum()
-        } else {
-            0.0
-        };
-        side_by_side!(R, n, self.drag(whole));
+    fn push(&mut self, t: f64) {
+        let system = self.system;
         let about = (&system.tables[..], &system.curves[..], &self.stretch);
-        for (torque, power) in system.torques.iter().zip(&mut self.powers) {
+        let powers = &mut self.powers[self.theta.len() * (2 + self.shapes.len())..];
+        for (&place, power) in self.alone.iter().zip(powers) {
+            let torque = &system.torques[place];
             let i = torque.mass;
             let pull = torque.at(about, (t, self.theta[i], self.omega[i]));
-            self.net[i] += pull.torque;
+            self.outer[i] += pull.torque;
             *power = pull.torque * self.omega[i];
         }
     }
 
-    /// Damping of some masses, with the speed of the train as a whole.
+    /// Torques of the links that are no chain.
     #[inline(always)]
-    fn drag<R: Real>(&mut self, at: usize, whole: f64) {
+    fn twist(&mut self) {
         let system = self.system;
-        let omega = R::load(&self.omega[at..]);
-        let swing =
-            (R::load(&self.aside_speed[at..]) - R::splat(whole)) * R::load(&system.swing_damping[at..]);
-        let drag = R::load(&system.damping[at..]) * omega + swing;
-        (-drag).store(&mut self.net[at..]);
-        (drag * omega).store(&mut self.powers[system.torques.len() + system.links.len() + at..]);
-    }
-
-    /// Torques of the links.
-    #[inline(always)]
-    fn twist<R: Real>(&mut self) {
-        let (system, n) = (self.system, self.system.len());
-        // The ground is the mass beyond the last.
-        let (angle, speed, net) = (&self.aside[..=n], &self.aside_speed[..=n], &mut self.net[..=n]);
-        let mut to = TwistSums { angle, speed, net, losses: &mut self.powers[system.torques.len()..] };
-        for chain in &self.links.chains {
-            chain.twist::<R>(&mut to);
-        }
-        for &place in &self.links.others {
+        let losses = &mut self.powers[self.theta.len() * (2 + self.shapes.len()) + self.alone.len()..];
+        for (&place, loss) in self.links.others.iter().zip(losses) {
             let link = &system.links[place];
             let [a, b] = link.ends;
-            let rate = link.ratio * (speed[a] - speed[b]);
-            let twist = link.ratio * (angle[a] - angle[b]);
+            let rate = link.ratio * (self.aside_speed[a + 1] - self.aside_speed[b + 1]);
+            let twist = link.ratio * (self.aside[a + 1] - self.aside[b + 1]);
             let elastic = link.elastic(system, twist).0;
             let torque = link.ratio * (elastic + link.damping * rate);
-            to.losses[place] = link.damping * rate * rate;
-            to.net[a] -= torque;
-            to.net[b] += torque;
+            *loss = link.damping * rate * rate;
+            self.outer[a] -= torque;
+            self.outer[b] += torque;
         }
+    }
+
+    /// Powers, or their works: of each torque, then in each link, then at each mass.
+    pub fn in_order(&self, powers: &[f64]) -> Vec<f64> {
+        let (n, places) = (self.system.len(), self.theta.len());
+        let (drags, powers) = powers.split_at(places);
+        let (behind, powers) = powers.split_at(places);
+        let (banks, powers) = powers.split_at(places * self.shapes.len());
+        let (alone, others) = powers.split_at(self.alone.len());
+        let mut torques = vec![0.0; self.system.torques.len()];
+        self.alone.iter().zip(alone).for_each(|(&place, &power)| torques[place] = power);
+        for (bank, powers) in self.shapes.iter().zip(banks.chunks_exact(places)) {
+            for (place, &power) in bank.places.iter().zip(powers) {
+                place.iter().for_each(|&place| torques[place] = power);
+            }
+        }
+        [torques, self.links.losses(behind, others), drags[..n].to_vec()].concat()
     }
 
     /// Torque in a link at its own speed, and how fast it changes, at the instant last evaluated.
     pub fn link_torque(&self, link: &Link) -> (f64, f64) {
         let [a, b] = link.ends;
-        let rate = link.ratio * (self.aside_speed[a] - self.aside_speed[b]);
-        let twist = link.ratio * (self.aside[a] - self.aside[b]);
+        let rate = link.ratio * (self.aside_speed[a + 1] - self.aside_speed[b + 1]);
+        let twist = link.ratio * (self.aside[a + 1] - self.aside[b + 1]);
         let at = |i: usize| self.acceleration.get(i).copied().unwrap_or(0.0);
         let bend = link.ratio * (at(a) - at(b));
         let (elastic, slope) = link.elastic(self.system, twist);
@@ -284,14 +333,20 @@ impl<'a> Rates<'a> {
     }
 
     /// Kinetic and potential energy of a state \[J\].
-    pub fn energies(&mut self, state: &[f64]) -> [f64; 2] {
-        self.place::<f64>(state);
-        self.turn();
-        let kinetic: f64 = self.inertia.iter().zip(&self.omega).map(|(j, w)| 0.5 * j * w * w).sum();
+    pub fn energies(&self, state: &[f64]) -> [f64; 2] {
         let system = self.system;
+        let mut masses = state.to_vec();
+        self.to_absolute(&mut masses);
+        let (theta, omega) = masses.split_at(system.len());
+        let turning: f64 = system.inertia.iter().zip(omega).map(|(j, w)| j * w * w).sum();
+        let rotor = |rotor: &Rotor| {
+            let part = rotor.ratio * omega[rotor.mass];
+            let angle = rotor.ratio * theta[rotor.mass] + rotor.phase;
+            system.tables[rotor.table].value_and_slope(angle)[0] * part * part
+        };
+        let kinetic = 0.5 * (turning + system.rotors.iter().map(rotor).sum::<f64>());
         let stored = |link: &Link| {
-            let [a, b] = link.ends;
-            let twist = link.ratio * (self.aside[a] - self.aside[b]);
+            let twist = link.twist(system.len(), self.relative, |i| state[i]);
             let curved = link.curve.map_or(0.0, |curve| system.curves[curve].integral(twist));
             0.5 * link.stiffness * twist * twist + curved
         };
@@ -309,7 +364,7 @@ impl<'a> Rates<'a> {
     ) {
         let state = self.state(angle, speed);
         self.derivative(t, &state, &mut state.clone());
-        inertia.copy_from_slice(&self.inertia);
+        inertia.copy_from_slice(&self.inertia[..inertia.len()]);
         for ((net, a), j) in net.iter_mut().zip(&self.acceleration).zip(&self.inertia) {
             *net = a * j;
         }
@@ -381,7 +436,7 @@ impl<'a> Rates<'a> {
         for link in &system.links {
             let [a, b] = link.ends;
             let square = link.ratio * link.ratio;
-            let slope = link.elastic(system, link.ratio * (self.aside[a] - self.aside[b])).1;
+            let slope = link.elastic(system, link.ratio * (self.aside[a + 1] - self.aside[b + 1])).1;
             couple(by_angle, n, [a, b], square * slope);
             couple(by_speed, n, [a, b], square * link.damping);
         }
@@ -420,6 +475,29 @@ fn couple(matrix: &mut [f64], n: usize, [a, b]: [usize; 2], stiffness: f64) {
                 matrix[i * n + j] += stiffness;
             }
         }
+    }
+}
+
+impl Rotor {
+    /// As a function of the angle of its mass.
+    fn of_angle(&self) -> OfAngle {
+        let Rotor { mass, ratio, phase, table } = *self;
+        OfAngle { mass, table, scale: ratio * ratio, pitch: ratio, phase }
+    }
+}
+
+impl Torque {
+    /// As a function of the angle of its mass, unless speed or time have a say.
+    fn of_angle(&self) -> Option<OfAngle> {
+        let Shape { table, pitch, phase } = self.shape?;
+        let is_constant = matches!(self.law, Law::Constant) && self.weight.is_none();
+        is_constant.then_some(OfAngle {
+            mass: self.mass,
+            table,
+            scale: self.scale * self.ratio,
+            pitch,
+            phase,
+        })
     }
 }
 

@@ -1,8 +1,8 @@
 //! What a method of integration can do, and how exact it has to be.
 
+use super::between::{Between, Tolerances};
 use super::rates::Rates;
 use super::system::{Link, System};
-use linkwright_kernel::rk::{over, worse};
 
 /// Steps through a motion. In order for each step: [`Stepper::step`], [`Stepper::accept`], [`Stepper::fill`], and then
 /// [`Stepper::component`], [`Stepper::slope`], [`Stepper::work`], [`Stepper::advance`]. Where the polynomial errs too much,
@@ -78,13 +78,16 @@ pub fn torque_counted(size: f64, greatest: f64) -> f64 {
 }
 
 /// How large an error of each number of the state may be.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Scale {
+    twists: Between,
     /// Relative accuracy of a step as its method estimates it.
     pub accuracy: f64,
     /// Relative accuracy between the ends of a step.
     between: f64,
     n: usize,
+    /// Place of the first speed in a state whose errors are measured.
+    speeds: usize,
     relative: bool,
     speed_floor: f64,
     /// Whether steps follow the swings of every shaft, so that its twist has to tell its torque.
@@ -101,9 +104,11 @@ impl Scale {
     pub fn new([accuracy, between]: [f64; 2], rates: &Rates<'_>, omega: f64) -> Self {
         let (n, relative) = (rates.system.len(), rates.is_relative());
         Scale {
+            twists: Between::new(rates.system),
             accuracy,
             between,
             n,
+            speeds: n,
             relative,
             speed_floor: TWIST_FLOOR * omega.max(SLOWEST),
             follows: false,
@@ -114,9 +119,10 @@ impl Scale {
         }
     }
 
-    /// The same for steps that follow the swings of every shaft, however stiff.
-    pub fn following(self) -> Self {
-        Scale { follows: true, ..self }
+    /// The same for explicit steps, which follow the swings of every shaft, however stiff; their states have places for whole
+    /// registers.
+    pub fn following(self, rates: &Rates<'_>) -> Self {
+        Scale { follows: true, speeds: rates.room().len() / 2, ..self }
     }
 
     /// Error that one number of the state, of a size, may have.
@@ -125,36 +131,24 @@ impl Scale {
         self.accuracy * self.counted(index, size)
     }
 
-    /// Largest error between the ends of a step over what it may be, of the numbers of the state and of the twist of each link,
-    /// which may be small beside the angles; their sizes are the larger of two states.
-    pub fn worst(&self, system: &System, error: &[f64], [from, to]: [&[f64]; 2]) -> f64 {
-        let mut most = 0.0;
-        for (i, ((error, from), to)) in error.iter().zip(from).zip(to).enumerate() {
-            let size = from.abs().max(to.abs());
-            most = worse(most, over(*error, self.between * self.counted(i, size), size));
-        }
-        let farthest = to[..self.n].iter().skip(1).fold(0.0, |most: f64, x| most.max(x.abs()));
-        for link in &system.links {
-            let twist = |list: &[f64]| link.twist(self.n, self.relative, |i| list[i]);
-            let size = twist(from).abs().max(twist(to).abs());
-            let tolerance = self.between * size.max(self.twist_floor(link));
-            most = worse(most, over(twist(error), tolerance, size.max(link.ratio * farthest)));
-        }
-        most
-    }
-
-    /// Twist of a link below which the accuracy is no longer relative to it.
-    fn twist_floor(&self, link: &Link) -> f64 {
-        let by_angle = (SMALL * self.twist).max(TWIST_FLOOR);
-        let by_torque = torque_counted(0.0, self.torque) / link.stiffness;
-        if self.follows { by_angle.min(by_torque) } else { by_angle }
+    /// Largest error between the ends of a step over what it may be, of the numbers of the state and of the twist of each link:
+    /// [`Between::worst`].
+    pub fn worst(&self, system: &System, error: &[f64], states: [&[f64]; 2]) -> f64 {
+        let may = Tolerances {
+            accuracy: self.between,
+            angle: (SMALL * self.twist).max(TWIST_FLOOR),
+            speed: (SMALL * self.aside).max(self.speed_floor),
+            lead_speed: (SMALL * self.speed).max(self.speed_floor),
+            torque: if self.follows { torque_counted(0.0, self.torque) } else { f64::INFINITY },
+        };
+        self.twists.worst(system, &may, error, states)
     }
 
     /// Size to which the accuracy of one number is relative.
     #[inline(always)]
     fn counted(&self, index: usize, size: f64) -> f64 {
-        let leads = self.relative && (index == 0 || index == self.n);
-        match (leads, index < self.n) {
+        let leads = self.relative && (index == 0 || index == self.speeds);
+        match (leads, index < self.speeds) {
             (true, true) => 1.0,
             (false, true) => size.max(SMALL * self.twist).max(TWIST_FLOOR),
             (true, false) => size.max(SMALL * self.speed).max(self.speed_floor),

@@ -145,6 +145,7 @@ impl Torque {
 }
 
 /// |u|ᵖ and its slope; below zero p is held near rest.
+#[inline(always)]
 fn even(omega: f64, inverse_speed: f64, exponent: f64) -> (f64, f64) {
     let u = omega * inverse_speed;
     if exponent < 0.0 {
@@ -156,6 +157,7 @@ fn even(omega: f64, inverse_speed: f64, exponent: f64) -> (f64, f64) {
 }
 
 /// u|u|ᵖ⁻¹ and its slope; below one p goes through zero near rest.
+#[inline(always)]
 fn odd(omega: f64, inverse_speed: f64, exponent: f64) -> (f64, f64) {
     let u = omega * inverse_speed;
     if exponent >= 1.0 {
