@@ -141,3 +141,75 @@ fn nearest<R: Real>(x: R) -> R {
     const ROUND: f64 = 6_755_399_441_055_744.0;
     (x + ROUND) - ROUND
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use linkwright_kernel::lanes::{Job, in_single_lanes};
+    use std::f64::consts::TAU;
+
+    struct At<'a>(&'a Bank, &'a [f64]);
+    impl Job for At<'_> {
+        type Output = [Vec<f64>; 2];
+        #[inline(always)]
+        fn run<R: Real>(self) -> Self::Output {
+            let mut found = [vec![0.0; self.1.len()], vec![0.0; self.1.len()]];
+            for at in (0..self.1.len()).step_by(R::LANES) {
+                if let Some([value, slope]) = self.0.at(at, R::load(&self.1[at..])) {
+                    value.store(&mut found[0][at..]);
+                    slope.store(&mut found[1][at..]);
+                }
+            }
+            found
+        }
+    }
+
+    /// A wave of a period through even knots.
+    fn wave(period: f64, knots: usize) -> Periodic {
+        let list = |f: fn(f64) -> f64, size: f64| -> Vec<f64> {
+            (0..knots).map(|i| size * f(TAU * i as f64 / knots as f64)).collect()
+        };
+        let omega = TAU / period;
+        let [value, slope] = [list(f64::sin, 1.0), list(f64::cos, omega)];
+        Periodic::new(period, &value, &slope, &list(|x| -x.sin(), omega * omega)).expect("even knots")
+    }
+
+    /// Tables of several periods and numbers of knots, on masses of two registers, two of them on one mass: values and slopes are
+    /// those of the tables, many revolutions on as well, and nothing where there is no function.
+    #[test]
+    fn look_ups_in_lanes_are_those_of_the_tables() {
+        let tables = [wave(TAU, 512), wave(2.0 * TAU, 37)];
+        let function = |mass, table, pitch, phase| OfAngle { mass, table, scale: 3.0, pitch, phase };
+        let functions = [
+            function(1, 0, 1.0, 0.3),
+            function(9, 1, -2.5, 0.0),
+            function(2, 1, 1.0, -7.0),
+            function(1, 1, 0.5, 1.0),
+        ];
+        let banks = Bank::several(functions.into_iter().enumerate(), 16, &tables);
+        assert_eq!(banks.len(), 2, "two functions of one mass");
+        let mut found = 0;
+        for turn in [0.0, 0.01, -3.0, 1234.5] {
+            let theta: Vec<f64> = (0..16).map(|i| turn + 0.37 * f64::from(i)).collect();
+            for bank in &banks {
+                let [values, slopes] = in_single_lanes(At(bank, &theta));
+                for (mass, place) in bank.places.iter().enumerate() {
+                    let Some(place) = *place else {
+                        assert_eq!([values[mass], slopes[mass]], [0.0; 2], "no function");
+                        continue;
+                    };
+                    let OfAngle { table, scale, pitch, phase, .. } = functions[place];
+                    let [value, slope] = tables[table].value_and_slope(pitch * theta[mass] + phase);
+                    // Rounding of a place of some hundred thousand pieces, times the slope of a piece.
+                    assert!((values[mass] - scale * value).abs() < 1e-11, "value of {place} at {turn}");
+                    assert!(
+                        (slopes[mass] - scale * pitch * slope).abs() < 1e-11,
+                        "slope of {place} at {turn}"
+                    );
+                    found += 1;
+                }
+            }
+        }
+        assert_eq!(found, 16, "four functions at four angles");
+    }
+}

@@ -148,3 +148,53 @@ impl Lanes<'_> {
         near * R::load(&list[at..]) - far * R::load(&list[at + 1..])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::transient::system::Link;
+
+    /// A free chain of ten masses, the last joined to the fifth as well: an error of one number, or of one twist that is small beside
+    /// the angles, is what it is over what it may be, wherever it stands; one that is no number is not lost.
+    #[test]
+    fn each_error_counts() {
+        let n = 10;
+        let link =
+            |a: usize, b: usize| Link { ends: [a, b], ratio: 1.0, stiffness: 1e3, damping: 0.0, curve: None };
+        let system = System {
+            inertia: vec![1.0; n],
+            damping: vec![0.0; n],
+            swing_damping: vec![0.0; n],
+            links: (0..n - 1).map(|i| link(i, i + 1)).chain([link(4, 9)]).collect(),
+            rotors: Vec::new(),
+            torques: Vec::new(),
+            tables: Vec::new(),
+            curves: Vec::new(),
+        };
+        let between = Between::new(&system);
+        let (places, may) = (
+            between.places,
+            Tolerances { accuracy: 1e-6, angle: 1e-3, speed: 2.0, lead_speed: 5.0, torque: f64::INFINITY },
+        );
+        let mut state = vec![0.0; 2 * places];
+        for i in 1..n {
+            (state[i], state[places + i]) = (0.5, 3.0);
+        }
+        (state[0], state[places]) = (700.0, 100.0);
+        let worst = |at: usize, size: f64| {
+            let mut error = vec![0.0; 2 * places];
+            error[at] = size;
+            between.worst(&system, &may, &error, [&state, &state])
+        };
+        let near =
+            |found: f64, wanted: f64| assert!((found / wanted - 1.0).abs() < 1e-12, "{found} for {wanted}");
+        near(worst(0, 1e-6), 1.0);
+        near(worst(places, 1e-4), 1.0);
+        for i in 1..n {
+            near(worst(places + i, 3e-6), 1.0);
+            // Twists between the masses are none, so that their floor counts: a thousandth.
+            near(worst(i, 1e-9), 1.0);
+            assert!(worst(i, f64::NAN).is_nan() && worst(places + i, f64::NAN).is_nan(), "mass {i}");
+        }
+    }
+}
