@@ -1,7 +1,7 @@
 """Reports in another language than English: texts by a catalogue, numbers and units as it writes them.
 
 A catalogue, ``texts_CODE.toml``, has an English text and its translation a line. In a text, ``#`` stands for
-a number with its unit and ``{}`` for names; in the translation they come in the same order, or as ``#2``,
+a number with its unit, or a list of them, and ``{}`` for names; in the translation they come in the same order, or as ``#2``,
 ``{1}`` where the order is another one. A text of several sentences is translated sentence by sentence. What
 has no translation stays as it is: names of a machine file, symbols, sources.
 """
@@ -67,14 +67,20 @@ class Language:
             return None
         if body[-1:] in _STOPS and (known := self._known(body[:-1])) is not None:
             return known + body[-1]
-        numbers = self._number.findall(body)
-        key = self._number.sub("#", body)
+        alone = self._with(self._number, body)
+        # A list of numbers stands where a text has one.
+        return self._with(self._listed, body) if alone is None and self._listed.search(body) else alone
+
+    def _with(self, number: re.Pattern[str], body: str) -> str | None:
+        """The translation of a text whose numbers are found by an expression; None if there is none."""
+        numbers = number.findall(body)
+        key = number.sub("#", body)
         pattern: str | None = self.texts.get(body) or self.texts.get(key)
         if pattern is not None:
-            return _filled(pattern, [*map(self.number, numbers)], [])
+            return _filled(pattern, [*map(self.numbers, numbers)], [])
         if not _WORD.search(key):
             # Numbers and signs alone.
-            return _filled(key, [*map(self.number, numbers)], [])
+            return _filled(key, [*map(self.numbers, numbers)], [])
         return self._named(key, numbers)
 
     def template(self, text: str) -> str:
@@ -92,7 +98,7 @@ class Language:
                 for place, number in zip(places, numbers, strict=True):
                     held[next((n for n, (a, b) in enumerate(spans) if a <= place < b), -1)].append(number)
                 names = [self(_filled(key[a:b], own, [])) for (a, b), own in zip(spans, held, strict=False)]
-                return _filled(pattern, [*map(self.number, held[-1])], names)
+                return _filled(pattern, [*map(self.numbers, held[-1])], names)
         return None
 
     @cached_property
@@ -115,6 +121,15 @@ class Language:
     @cached_property
     def _number(self) -> re.Pattern[str]:
         return re.compile(rf"{_DIGITS}(?: ?°| ?%| {self._unit.pattern})?")
+
+    @cached_property
+    def _listed(self) -> re.Pattern[str]:
+        """A number, or several with commas between them."""
+        return re.compile(rf"{self._number.pattern}(?:, {self._number.pattern})*")
+
+    def numbers(self, text: str) -> str:
+        """A number with its unit, or a list of them."""
+        return ", ".join(map(self.number, text.split(", ")))
 
     def number(self, text: str) -> str:
         """A number with its unit."""
