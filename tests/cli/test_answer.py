@@ -260,23 +260,34 @@ def has_json(command: Any) -> bool:
 
 
 @pytest.fixture(scope="module")
-def ask(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str, str], Result]:
-    """Asks a command with words in which files are named in braces."""
+def known(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+    """Files by the names that the words have in braces."""
     folder = tmp_path_factory.mktemp("asked")
     for name, text in TEXTS.items():
         (folder / name).write_text(text, encoding="utf-8")
     # Two revolutions, in which eight cylinders fire at one strength.
     rows = [f"{n}, {1500 * (1 + 0.01 * np.cos(n * np.pi / 90)):.6f}" for n in range(721)]
     (folder / "even.csv").write_text("\n".join(["angle [deg], speed [rpm]", *rows]) + "\n")
-    known = FILES | {path.name: str(path) for path in folder.iterdir()}
-    known |= {name: str(folder / name) for name in ("rows", "rows_of_none", "swept", "unswept")}
+    files = FILES | {path.name: str(path) for path in folder.iterdir()}
+    files |= {name: str(folder / name) for name in ("rows", "rows_of_none", "swept", "unswept")}
     study = lw.read_study(folder / "phases.toml")
     lw.sweep(study, folder / "swept")
     begun(study, folder / "unswept")
+    return files
+
+
+def call(command: str, words: str, known: dict[str, str]) -> list[str]:
+    """A command with its words, its files by their paths."""
+    filled = (known.get(word[1:-1], word) if word[0] == "{" else word for word in words.split())
+    return [*command.split(), *filled]
+
+
+@pytest.fixture(scope="module")
+def ask(known: dict[str, str]) -> Callable[[str, str], Result]:
+    """Asks a command with words in which files are named in braces."""
 
     def asked(command: str, words: str) -> Result:
-        filled = [known.get(word[1:-1], word) if word[0] == "{" else word for word in words.split()]
-        return CliRunner().invoke(application(), [*command.split(), *filled, "--json"])
+        return CliRunner().invoke(application(), [*call(command, words, known), "--json"])
 
     return asked
 

@@ -1,9 +1,9 @@
 """Reports in another language than English: texts by a catalogue, numbers and units as it writes them.
 
 A catalogue, ``texts_CODE.toml``, has an English text and its translation a line. In a text, ``#`` stands for
-a number with its unit, or a list of them, and ``{}`` for names; in the translation they come in the same order, or as ``#2``,
-``{1}`` where the order is another one. A text of several sentences is translated sentence by sentence. What
-has no translation stays as it is: names of a machine file, symbols, sources.
+a number with its unit, or a list of them, and ``{}`` for names; in the translation they come in the same
+order, or as ``#2``, ``{1}`` where the order is another one. A text of several sentences is translated sentence
+by sentence. What has no translation stays as it is: names of a machine file, symbols, sources.
 """
 
 from __future__ import annotations
@@ -93,6 +93,10 @@ class Language:
         places = [place for place, letter in enumerate(key) if letter == "#"]
         for form, pattern in self._forms:
             if match := form.fullmatch(key):
+                parts = key.split(", ")
+                if len(parts) > 1 and all(map(form.fullmatch, parts)):
+                    # A list, whose first part would take the others for a name.
+                    return ", ".join(map(self, _filled(key, numbers, []).split(", ")))
                 spans = [match.span(n + 1) for n in range(form.groups)]
                 held: list[list[str]] = [[] for _ in (*spans, "the text")]
                 for place, number in zip(places, numbers, strict=True):
