@@ -2,8 +2,8 @@
 
 A catalogue, ``texts_CODE.toml``, has an English text and its translation a line. In a text, ``#`` stands for
 a number with its unit, or a list of them, and ``{}`` for names; in the translation they come in the same
-order, or as ``#2``, ``{1}`` where the order is another one. A text of several sentences is translated sentence
-by sentence. What has no translation stays as it is: names of a machine file, symbols, sources.
+order, or as ``#2``, ``{1}`` where the order is another one. A text of several sentences is translated
+sentence by sentence. What has no translation stays as it is: names of a machine file, symbols, sources.
 """
 
 from __future__ import annotations
