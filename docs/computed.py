@@ -1,4 +1,4 @@
-"""Pages that are computed while the documentation is built, a hook of MkDocs: gallery, papers, notebooks.
+"""Pages that are computed while the documentation is built, hooks of MkDocs: gallery, papers, notebooks.
 
 Each example has a page with its question, its picture, script, machine file and numbers with their sources;
 each paper the page that ``linkwright papers`` writes; each notebook is executed. Nothing of it is stored:
@@ -15,12 +15,17 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from mkdocs.config.defaults import MkDocsConfig
+from mkdocs.exceptions import PluginError
 from mkdocs.structure.files import File, Files
 
 import linkwright as lw
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 NOTEBOOKS = Path(__file__).with_name("notebooks")
+
+# What a browser loads by itself, from elsewhere.
+_ELSEWHERE = r"[^>]* (?:src|href)=\"(https?:[^\"]+)"
+_LOADED = re.compile(rf"<(?:script|img|iframe|link(?![^>]* rel=\"canonical)){_ELSEWHERE}")
 
 _ROW = re.compile(r"^\| \[(\w+)\]\(\1/run\.py\) \| (.*?) \| (.*?) \|$", re.MULTILINE)
 
@@ -38,6 +43,13 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
     for place, content in (*gallery(), *papers(), *notebooks()):
         files.append(File.generated(config, place, content=content))
     return files
+
+
+def on_post_page(output: str, **_: Any) -> str:
+    """The page as it is; an error if it needs more than the folder that it is in."""
+    if match := _LOADED.search(output):
+        raise PluginError(f"the page loads {match[1]}; pages are read without a network")
+    return output
 
 
 def examples() -> list[Example]:
