@@ -12,7 +12,7 @@ export const ARGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-fi
 // Milliseconds for what a user waits for, on a machine that does other things too; and for a file of tests as a whole,
 // so that all of them end, whatever hangs.
 export const PATIENCE = Number(process.env.PATIENCE ?? 90_000);
-const WHOLE = 600_000;
+const WHOLE = 1400_000;
 
 /** What is open: closed at the end of the tests, and however else the process ends. @type {Set<() => unknown>} */
 const open = new Set();
