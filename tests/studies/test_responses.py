@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 
 import linkwright as lw
-from linkwright.kernel.errors import MachineFileError
+from linkwright.app.application import application
+from linkwright.kernel.errors import MachineError, MachineFileError
 from linkwright.studies.responses import ANALYSES, analysis
 
 DRIVE = ("roller_one_cart", "mechanism.cranks.A1.radius")
@@ -111,3 +114,51 @@ def test_what_a_batch_gives_is_computed_for_all_rows_at_once(quantity: str) -> N
     }
     plan = lw.new_study(lw.read(machines / "roller_two_carts.toml"), tables)
     assert all(asked.is_batch for asked in plan.asked)
+
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+STUDIES = sorted(path for path in EXAMPLES.glob("*/*.toml") if "[variables." in path.read_text("utf-8"))
+
+
+@pytest.mark.parametrize("path", STUDIES, ids=lambda path: f"{path.parent.name}/{path.stem}")
+def test_shipped_studies_are_computed_at_once(path: Path) -> None:
+    """As far as the core gives what they ask for; a batch that is refused is said."""
+    plan = lw.read_study(path)
+    if plan.asked and all(asked.is_batch for asked in plan.asked):
+        rows = lw.evaluate(plan, plan.values(np.array([[0.3] * len(plan.axes), [0.6] * len(plan.axes)])))
+        assert rows.one_by_one == ""
+
+
+def test_rows_that_are_computed_one_by_one_say_so(tmp_path: Path) -> None:
+    """A motor that is rated beyond its synchronous speed is none, and the core is given no such batch."""
+    machine = lw.read(DRIVE[0])
+    rated = lw.get(machine, "drive.motor.speed_rated")
+    tables = {
+        "variables": {"rated": {"address": "drive.motor.speed_rated", "values": [rated, 3 * rated]}},
+        "responses": {"delta": "steady_state.unevenness"},
+    }
+    plan = lw.new_study(machine, tables)
+    assert lw.evaluate(plan, {"rated": np.array([rated])}).one_by_one == ""
+    rows = lw.evaluate(plan, {"rated": np.array([rated, 3 * rated])})
+    assert rows.status.tolist() == [0, 2]
+    assert "drive.motor.speed_rated" in rows.one_by_one
+    assert lw.sweep(plan, tmp_path / "rows").one_by_one == {rows.one_by_one: 2}
+    done = CliRunner().invoke(application(), ["sweep", "show", str(tmp_path / "rows"), "--json"])
+    assert any("row by row" in warning for warning in json.loads(done.stdout)["warnings"])
+
+
+def test_a_derived_entry_out_of_range_is_refused_as_in_a_machine(tmp_path: Path) -> None:
+    """A rod of 8e149 m is no length, and its row alone has no answer; all others are computed at once."""
+    text = study(tmp_path, *DRIVE, '"steady_state.unevenness"').read_text("utf-8")
+    derived = (
+        '[derived.rod]\nformula = "exp(1720*(entry - 0.2)) * 0.8"\naddress = "mechanism.sliders.cart1.rod"\n'
+    )
+    path = tmp_path / "derived.toml"
+    path.write_text(text.replace("[responses]", f"{derived}[responses]"), "utf-8")
+    rows = lw.evaluate(lw.read_study(path), {"entry": np.array([0.2, 0.4, 0.2001])})
+    assert rows.columns["rod"][1] > 1e149
+    assert rows.status.tolist() == [0, 2, 0]
+    assert rows.why(1).startswith("mechanism.sliders.cart1.rod: expected a length greater than 0")
+    assert rows.one_by_one == ""
+    with pytest.raises(MachineError, match="at most 1e\\+06 m"):
+        lw.replace(lw.read(DRIVE[0]), {"mechanism.sliders.cart1.rod": np.array([0.8, 8e149])})

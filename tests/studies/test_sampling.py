@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from itertools import product
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+import linkwright as lw
+from linkwright.kernel.errors import InputError
 from linkwright.studies import sampling
 
 N, D, SEED = 257, 3, 11
@@ -54,3 +58,22 @@ def test_a_grid_is_the_product_of_its_levels() -> None:
     wanted = np.array(list(product(*levels)))
     np.testing.assert_array_equal(sampling.grid(levels, 0, 6), wanted)
     np.testing.assert_array_equal(sampling.grid(levels, 2, 5), wanted[2:5])
+
+
+WRONG_CALLS = {
+    "shares: found None": lambda plan, machine: plan.values(None),
+    "shares: found an array of shape \\(2, 3\\)": lambda plan, machine: plan.values(np.zeros((2, 3))),
+    "shares: found nan": lambda plan, machine: plan.values([[np.nan, 0.5]]),
+    "shares: found 0.5 to 2": lambda plan, machine: plan.values([[2.0, 0.5]]),
+    "rows 0 to 1000000000": lambda plan, machine: plan.rows(0, 10**9),
+    "stop: found 1.5": lambda plan, machine: plan.shares(0, 1.5),
+    "entries: found None": lambda plan, machine: machine.with_entries(None),
+    "entries: found 'driv'": lambda plan, machine: machine.with_entries({"driv": 1}),
+}
+
+
+@pytest.mark.parametrize("message", WRONG_CALLS)
+def test_wrong_arguments_are_refused_by_name(message: str, study_file: Callable[..., Path]) -> None:
+    plan = lw.read_study(study_file())
+    with pytest.raises(InputError, match=message):
+        WRONG_CALLS[message](plan, plan.machine)

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from pydantic import TypeAdapter, ValidationError
 
+from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.description.base import Description, suggestion
 from linkwright.kernel.description.place import field_names, join, keys, look, split
 from linkwright.kernel.description.problems import problems
@@ -205,16 +206,36 @@ def _numbers_of(address: str, value: Any, kind: Kind) -> Any:
     is_single = isinstance(value, Number) or (isinstance(value, np.ndarray) and value.ndim == 0)
     try:
         if not is_single:
-            return array(address, value, finite=False)
-        real = number(address, value)
+            many = array(address, value, finite=False)
+            real = float(np.abs(many[~np.isnan(many)]).max(initial=0.0))
+        else:
+            real = number(address, value)
     except InputError:
         expected = f"{kind.word} as a finite number in SI, or an array of numbers"
         raise MachineError([Problem(address, shown(value), expected)]) from None
     if abs(real) > kind.most:
         expected = f"{kind.word} of at most {kind.most:g} {kind.unit}".rstrip()
         raise MachineError([Problem(address, f"{real:g}", expected)])
+    if not is_single:
+        return many
     # A whole number stays one.
     return value if isinstance(value, int) else real
+
+
+def outside(machine: Machine, address: str, values: Floats) -> tuple[Bools, str]:
+    """Which numbers an entry cannot have by itself, (n,), and what it can have.
+
+    What an entry can have is a range: where both ends of the numbers are in it, all are.
+    """
+    mark = mark_of(annotation_at(Machine, known_place(machine, address), machine))
+    if not isinstance(mark, Quantity) or not len(values):
+        return np.zeros(len(values), dtype=bool), ""
+    if mark.holds(float(values.min())) and mark.holds(float(values.max())):
+        return np.zeros(len(values), dtype=bool), ""
+    listed, place = np.unique(values, return_inverse=True)
+    holds = np.array([mark.holds(value) for value in listed.tolist()])
+    wrong = float(listed[~holds][0])
+    return ~holds[place], ", ".join(filter(None, [mark.expected, mark.remedy(wrong)]))
 
 
 class _Leaf:

@@ -23,7 +23,7 @@ from linkwright.kernel.numerics.formula_value import value
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import rows as rows_of_numbers
 from linkwright.linkages.kinematics import motions
-from linkwright.machine.address import get, replace
+from linkwright.machine.address import get, outside, replace
 from linkwright.machine.machine import Machine
 from linkwright.machine.overrides import Override, apply
 from linkwright.studies.plan import Formula, StudyPlan
@@ -50,12 +50,15 @@ class Rows:
         Place of its sentence in ``reasons``; 0 where solved.
     reasons : list of str
         Sentences; the first is empty.
+    one_by_one : str
+        Why rows were computed one by one that are computed at once as a rule; empty if none was.
     """
 
     columns: dict[str, Floats]
     status: NDArray[np.uint8]
     reason: Integers
     reasons: list[str]
+    one_by_one: str = ""
 
     def __len__(self) -> int:
         return len(self.status)
@@ -114,6 +117,7 @@ def evaluate(plan: StudyPlan, variables: Mapping[str, Floats]) -> Rows:
     for asked in plan.asked:
         columns[asked.name] = np.full(n, np.nan)
     entries = _entries(plan, columns)
+    _refuse_impossible(plan.machine, entries, rows)
     for machine, members in _machines(plan, rows):
         _solve(plan, machine, entries, rows, members)
     _require_finite(rows, plan)
@@ -147,6 +151,14 @@ def _entries(plan: StudyPlan, columns: Mapping[str, Floats]) -> dict[str, Floats
     numbers = [(axis.name, axis.addresses) for axis in plan.axes if axis.is_number]
     numbers += [(entry.name, entry.addresses) for entry in plan.derived]
     return {place: columns[name] for name, addresses in numbers for place in addresses}
+
+
+def _refuse_impossible(machine: Machine, entries: Mapping[str, Floats], rows: Rows) -> None:
+    """Let rows fail whose entries are out of range, as a single machine refuses them."""
+    for address, column in entries.items():
+        wrong, expected = outside(machine, address, column)
+        if wrong.any():
+            rows.fail(wrong, IMPOSSIBLE, f"{address}: expected {expected}")
 
 
 def _machines(plan: StudyPlan, rows: Rows) -> Any:
@@ -201,11 +213,12 @@ def _solve(
         if wanted:
             try:
                 solve(machine, own, wanted, rows, members)
-            except (InputError, FindingError):
-                # A batch is refused as a whole where one row has a wrong number, or where the machine of the
-                # study, which leads it, does not move. Alone, each row that cannot be computed says why, and
-                # what was refused for no row of them is refused by all.
+            except (InputError, FindingError) as error:
+                # A batch is refused as a whole where entries of one row do not go together, or where the
+                # machine of the study, which leads it, does not move. Alone, each row that cannot be computed
+                # says why, and what was refused for no row of them is refused by all.
                 single += wanted
+                rows.one_by_one = _sentence(error)
     if single:
         _one_by_one(machine, own, single, rows, members)
 

@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 # Under which the description of a study stands in the metadata of a file.
 KEY = b"linkwright"
 
+# Under which it stands why rows of a file were computed one by one.
+ONE_BY_ONE = b"linkwright_one_by_one"
+
 
 def require_pyarrow() -> None:
     """Refuse to begin what ends in a Parquet file, by an `InputError`, without pyarrow."""
@@ -49,7 +52,8 @@ def encoded(rows: Rows, start: int, units: Mapping[str, str], about: bytes) -> b
         pa.field(name, column.type, metadata={"unit": units[name]} if units.get(name) else None)
         for name, column in columns.items()
     ]
-    table = pa.Table.from_arrays(list(columns.values()), schema=pa.schema(fields, metadata={KEY: about}))
+    metadata = {KEY: about} | ({ONE_BY_ONE: rows.one_by_one.encode()} if rows.one_by_one else {})
+    table = pa.Table.from_arrays(list(columns.values()), schema=pa.schema(fields, metadata=metadata))
     out = pa.BufferOutputStream()
     # Numbers of a sweep differ in all digits: neither dictionaries nor compression make them smaller.
     pq.write_table(table, out, compression="none", use_dictionary=["reason"], write_statistics=True)
@@ -69,6 +73,13 @@ def is_whole(path: Path, n_rows: int, about: bytes) -> bool:
             return file.metadata.num_rows == n_rows and metadata.get(KEY) == about
     except (pa.ArrowException, OSError):
         return False
+
+
+def one_by_one(path: Path) -> str:
+    """Why rows of a file were computed one by one; empty if they were not."""
+    import pyarrow.parquet as pq
+
+    return str((pq.read_schema(path).metadata or {}).get(ONE_BY_ONE, b"").decode())
 
 
 def columns_of(path: Path, names: Sequence[str] | None = None) -> dict[str, Any]:

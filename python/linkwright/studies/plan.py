@@ -11,8 +11,17 @@ import numpy as np
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.description.formula import NUMBERS, FormulaError, Node, names, parse
-from linkwright.kernel.errors import MachineError, Problem, UnitError, require_within, show
+from linkwright.kernel.errors import (
+    InputError,
+    MachineError,
+    Problem,
+    ShapeError,
+    UnitError,
+    require_within,
+    show,
+)
 from linkwright.kernel.limits import LATIN_ROWS, LEVELS, SWEEP_ROWS
+from linkwright.kernel.public.arguments import array, integer
 from linkwright.kernel.units import KINDS, Kind, parse_any
 from linkwright.kernel.units import parse as parse_quantity
 from linkwright.machine.address import get, known_place
@@ -100,7 +109,11 @@ class StudyPlan:
         return (*(axis.name for axis in self.axes), *(entry.name for entry in self.derived), *self.responses)
 
     def shares(self, start: int, stop: int) -> Floats:
-        """Rows of the sweep as shares between 0 and 1, (stop - start, variables)."""
+        """Rows of the sweep as shares between 0 and 1, (stop - start, variables).
+
+        Raises InputError: there are no such rows.
+        """
+        start, stop = self._span(start, stop)
         n, seed = len(self.axes), self.sweep.seed
         match self.sweep.method:
             case "grid":
@@ -112,15 +125,35 @@ class StudyPlan:
         return sampling.random(n, seed, start, stop)
 
     def rows(self, start: int, stop: int) -> dict[str, Floats]:
-        """Values of the variables in some rows of the sweep, (stop - start,) each, in SI."""
+        """Values of the variables in some rows of the sweep, (stop - start,) each, in SI.
+
+        Raises InputError: there are no such rows.
+        """
+        start, stop = self._span(start, stop)
         if self.listed is not None:
             return {axis.name: self.listed[start:stop, i] for i, axis in enumerate(self.axes)}
         return self.values(self.shares(start, stop))
 
     def values(self, shares: Floats) -> dict[str, Floats]:
-        """Values of the variables at shares, shape (n, variables) → (n,) each, in SI."""
+        """Values of the variables at shares, shape (n, variables) → (n,) each, in SI.
+
+        Raises InputError: no such array, or shares outside 0 to 1.
+        """
+        shares = array("shares", shares)
+        if shares.ndim != 2 or shares.shape[1] != len(self.axes):
+            expected = f"(n, {len(self.axes)}), a share of each variable"
+            raise ShapeError(f"shares: found an array of shape {shares.shape}, expected {expected}")
+        if shares.size and not (shares.min() >= 0 and shares.max() <= 1):
+            raise InputError(f"shares: found {shares.min():g} to {shares.max():g}, expected 0 to 1")
         columns = enumerate(self.axes)
         return {axis.name: np.ascontiguousarray(axis.values(shares[:, i])) for i, axis in columns}
+
+    def _span(self, start: int, stop: int) -> tuple[int, int]:
+        """First row and the one after the last, of those that the sweep has."""
+        start, stop = integer("start", start), integer("stop", stop)
+        if not 0 <= start <= stop <= self.n_rows:
+            raise InputError(f"rows {start} to {stop}: expected numbers from 0 to {self.n_rows}, in order")
+        return start, stop
 
 
 def plan(machine: Machine, study: StudyFile, listed: Floats | None = None) -> StudyPlan:

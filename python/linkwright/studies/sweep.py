@@ -9,7 +9,7 @@ import os
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from time import monotonic
 from typing import Annotated, Any
@@ -22,7 +22,7 @@ from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.studies.engine import SOLVED, evaluate, numbers
 from linkwright.studies.folder import SweepFolder, new_folder
-from linkwright.studies.parquet import columns_of
+from linkwright.studies.parquet import columns_of, one_by_one
 from linkwright.studies.plan import StudyPlan
 
 
@@ -40,6 +40,10 @@ class Sweep(Result):
         About("Response → its minimum and maximum [SI], and the rows that have them."),
     ]
     repaired: Annotated[tuple[str, ...], About("Truncated files that were computed again.")] = ()
+    one_by_one: Annotated[
+        dict[str, int],
+        About("Why rows were computed one by one that are computed at once as a rule → rows of such files."),
+    ] = field(default_factory=dict)
 
     @property
     def is_complete(self) -> bool:
@@ -48,7 +52,8 @@ class Sweep(Result):
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Counts, reasons and extremes by name, ready for JSON; no `curves`: rows are in the folder."""
-        return {**super().to_dict(), "reasons": self.reasons, "extremes": self.extremes}
+        tables = {"reasons": self.reasons, "extremes": self.extremes, "one_by_one": self.one_by_one}
+        return {**super().to_dict(), **tables}
 
 
 @public
@@ -189,13 +194,15 @@ def _compute_beside(
 def summary(folder: SweepFolder, responses: Iterable[str], repaired: tuple[str, ...] = ()) -> Sweep:
     """What is in a folder: counts, reasons, extremes."""
     names = list(responses)
-    n_done, reasons = 0, Counter[str]()
+    n_done, reasons, alone = 0, Counter[str](), Counter[str]()
     lows: dict[str, tuple[float, int]] = {}
     highs: dict[str, tuple[float, int]] = {}
     for path in folder.parts():
         columns = columns_of(path, ["row", *names, "status", "reason"])
         solved = columns["status"] == SOLVED
         n_done += len(solved)
+        if why := one_by_one(path):
+            alone[why] += len(solved)
         reasons.update(columns["reason"][~solved])
         if solved.any():
             for name in names:
@@ -217,4 +224,5 @@ def summary(folder: SweepFolder, responses: Iterable[str], repaired: tuple[str, 
         reasons=dict(reasons.most_common()),
         extremes=extremes,
         repaired=repaired,
+        one_by_one=dict(alone.most_common()),
     )

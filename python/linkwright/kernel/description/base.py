@@ -6,7 +6,9 @@ from typing import Annotated, Any, ClassVar, Self
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, ValidationError, model_validator
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
+from linkwright.kernel.errors import InputError
 from linkwright.kernel.limits import NAME, TITLE
+from linkwright.kernel.public.arguments import shown
 from linkwright.kernel.public.immutable import held
 from linkwright.kernel.units import show
 
@@ -26,7 +28,15 @@ class Description(BaseModel):
         machines.
 
         A description that completes its own entries completes them anew.
+
+        Raises InputError: there is no such entry.
         """
+        if not isinstance(entries, Mapping):
+            raise InputError(f"entries: found {shown(entries)}, expected a table of name → value")
+        known = type(self).model_fields
+        if strange := [name for name in entries if name not in known]:
+            remedy = suggestion(str(strange[0]), known) or f"one of {', '.join(known)}"
+            raise InputError(f"entries: found {shown(strange[0])}, expected an entry of the part; {remedy}")
         return self.model_copy(update={name: held(value) for name, value in entries.items()})
 
     def model_post_init(self, context: Any, /) -> None:

@@ -231,9 +231,7 @@ def link_body(body: Body, length: Any) -> tuple[Any, Any, Any, Any]:
     if body.mass_per_length is not None:
         mass = body.mass_per_length * length
     along = 0.5 * length if body.along is None else body.along
-    # Rows of a batch may be beyond all numbers: they have no answer, which their status tells.
-    with np.errstate(over="ignore"):
-        inertia = mass * length**2 / 12 if body.inertia is None else body.inertia
+    inertia = mass * length**2 / 12 if body.inertia is None else body.inertia
     return along, body.across, mass, inertia
 
 

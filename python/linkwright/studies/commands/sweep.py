@@ -120,6 +120,10 @@ def _answer(machine: Machine, swept: Sweep, units: dict[str, str]) -> Answer:
     solved = swept.n_done - swept.n_failed
     missing = swept.n_rows - swept.n_done
     warnings = [f"{name} was truncated and is computed again." for name in swept.repaired]
+    warnings += [
+        f"{n} rows are in files that were computed row by row and not at once, which takes longer: {why}"
+        for why, n in swept.one_by_one.items()
+    ]
     if missing:
         warnings.append(f"{missing} rows of {swept.n_rows} are not computed yet.")
     return Answer(
