@@ -15,6 +15,8 @@ import linkwright as lw
 from linkwright.app.application import application
 from linkwright.app.curves import chosen, curves_figure
 from linkwright.app.study import study
+from linkwright.kernel.command.console import _head
+from linkwright.kernel.page.table import Table
 
 PRESS = Path(__file__).parents[2] / "examples" / "press_with_flywheel" / "machine.toml"
 
@@ -146,3 +148,8 @@ def test_the_report_of_a_plot_speaks_ukrainian(tmp_path: Path) -> None:
     text = page.read_text(encoding="utf-8")
     for english in ("Extremes", "Values", "crank angle", "Crank angles", ", velocity", "curve<"):
         assert english not in re.sub(r"<(script|style).*?</\1>|<code.*?</code>", "", text, flags=re.DOTALL)
+
+
+def test_the_name_of_a_part_stays_in_one_line_of_a_head() -> None:
+    table = Table("harmonics", "Harmonics", ("order", "", "starboard_throw_1", "excess after it"), [])
+    assert [_head(table, n) for n in (2, 3)] == ["starboard_throw_1", "excess after\nit"]

@@ -76,6 +76,37 @@ def test_commands_work_as_printed(page: Path, tmp_path: Path, monkeypatch: pytes
         assert code == wrong, f"{line}\n{output}"
 
 
+def outputs(page: Path) -> list[tuple[str, list[str]]]:
+    """Commands of a page and the lines printed below each; without those of a record that the reader has."""
+    found = []
+    for kind, text in _FENCED.findall(page.read_text(encoding="utf-8")):
+        first, *below = text.splitlines()
+        lines = [_spaced(line) for line in below if _spaced(line).strip("… ")]
+        if kind == "text" and first.startswith("$ linkwright ") and lines and ".csv" not in first:
+            found.append((first.removeprefix("$ "), lines))
+    return found
+
+
+def _spaced(line: str) -> str:
+    """A line without what sets its columns."""
+    return " ".join(line.replace("─", " ").split())
+
+
+@pytest.mark.parametrize("page", [page for page in PAGES if outputs(page)], ids=lambda page: page.stem)
+def test_output_is_as_printed(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    # Wide enough for no cell to be broken.
+    monkeypatch.setattr("linkwright.kernel.command.console._WIDTH", 130)
+    blocks = _FENCED.findall(page.read_text(encoding="utf-8"))
+    for line, printed in outputs(page):
+        if "train.toml" in line:
+            train = next(text for kind, text in blocks if kind == "toml" and "[train.gears]" in text)
+            (tmp_path / "train.toml").write_text(train, encoding="utf-8")
+        _, output = code_and_output(shlex.split(line)[1:])
+        told = {_spaced(one) for one in output.splitlines()}
+        assert [one for one in printed if one not in told] == [], line
+
+
 @pytest.mark.parametrize("words", ["-h", "--version", "--show-completion bash", "new engine", "papers 1 -h"])
 def test_what_every_user_tries(words: str) -> None:
     code, output = code_and_output(words.split())

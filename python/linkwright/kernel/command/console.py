@@ -138,7 +138,7 @@ def _drawn(table: Table) -> RenderableType:
     rows = table.rows[: _most(table)]
     # A column without any entry takes no room, such as that of symbols where nothing has one.
     kept = [n for n, head in enumerate(table.heads) if n == 0 or head or any(row[n] for row in rows)]
-    heads = [fill(table.heads[n], _HEAD).partition("\n")[0] for n in kept]
+    heads = [_head(table, n).partition("\n")[0] for n in kept]
     wide = [
         max(len(x) for x in (head, *(row[n] for row in rows))) for n, head in zip(kept, heads, strict=True)
     ]
@@ -152,10 +152,15 @@ def _drawn(table: Table) -> RenderableType:
         collapse_padding=sum(wide) + 3 * (len(kept) - 1) > console().width,
     )
     for n in kept:
-        drawn.add_column(fill(table.heads[n], _HEAD) if n > 1 else table.heads[n], **_manner(table, n))
+        drawn.add_column(_head(table, n) if n > 1 else table.heads[n], **_manner(table, n))
     for row in rows:
         drawn.add_row(*(row[n] for n in kept))
     return drawn
+
+
+def _head(table: Table, n: int) -> str:
+    """Head of a column in short lines; a name of a part stays in one."""
+    return fill(table.heads[n], _HEAD, break_long_words=False)
 
 
 def _manner(table: Table, n: int) -> dict[str, Any]:
