@@ -107,7 +107,7 @@ def together(scene: Scene, sources: Iterable[AppliedLoad]) -> AppliedLoad:
     """The sum of several loads."""
     applied = AppliedLoad(Wrenches(scene), scene.zeros(scene.n))
     for source in sources:
-        applied.wrenches.values += source.wrenches.values
+        applied.wrenches.add(source.wrenches)
         applied.resisting += source.resisting
     return applied
 

@@ -40,7 +40,7 @@ class Push:
         """This one where a force (n,) is positive, another elsewhere."""
         own = force >= 0
         for mine, its in ((self.normal, other.normal), (self.along, other.along)):
-            mine.values = np.where(own[:, None, None], mine.values, its.values)
+            mine.taken_over(its, own)
         self.slip = np.where(own, self.slip, other.slip)
         return self
 

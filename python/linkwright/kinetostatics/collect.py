@@ -100,12 +100,12 @@ class Collector:
 
     def _passed(self, model: PairModel, span: slice, x: Floats, member: str) -> Floats:
         """What a pair does to a member for values (…, n, unknowns): force and moment, (…, n, 3)."""
-        i = self.scene.index[member]
         passed: Floats = np.zeros((*x.shape[:-1], 3))
         for j, unknown in enumerate(model.unknowns):
-            passed = passed + x[..., span.start + j, None] * unknown.values[:, i]
+            if member in unknown.on:
+                passed = passed + x[..., span.start + j, None] * unknown.on[member]
         if model.is_nonlinear and model.extra is not None:
-            passed = passed + self._dry(span, x)[..., None] * model.extra.values[:, i]
+            passed = passed + self._dry(span, x)[..., None] * model.extra.on_member(member)
         return passed
 
     def _viscous(self, model: PairModel) -> Floats:
@@ -138,8 +138,7 @@ class Collector:
         for name, load in self.scene.machine.loads.items():
             pair = self.scene.structure.pairs.get(f"{getattr(load, 'on', None)}.guide")
             if pair is not None and pair.guide is not None:
-                values = self.sources[f"loads.{name}"].wrenches.values
-                force = values[:, self.scene.index[pair.second], :2]
+                force = self.sources[f"loads.{name}"].wrenches.on_member(pair.second)[:, :2]
                 forces[name] = (force * self.scene.direction(pair.guide)).sum(axis=-1)
         return forces
 
@@ -150,18 +149,19 @@ class Collector:
             source, on = self.sources[f"loads.{name}"], getattr(load, "on", None)
             if on is None and isinstance(load, TorqueAngle | TorqueSpeed):
                 torques[name] = -source.resisting
-            elif on in self.scene.index and not primal(source.wrenches.values)[..., :2].any():
-                torques[name] = source.wrenches.values[:, self.scene.index[on], 2]
+            elif on in self.scene.index and not _pushes(source):
+                torques[name] = source.wrenches.on_member(on)[:, 2]
         return torques
 
     def _contributions(self) -> dict[str, Contribution]:
         """The share of each source."""
         x = np.moveaxis(self.solution.x, -1, 0).copy()
         torque = np.stack([source.resisting for source in self.columns.values()])
-        frame = np.stack([source.wrenches.values[:, -1] for source in self.columns.values()])
+        frame = np.stack([source.wrenches.on_member(FRAME) for source in self.columns.values()])
         reactions = {}
         for model, span in zip(self.models, self.spans, strict=True):
-            frame = frame + self._passed(model, span, x, FRAME)
+            if model.acts_on(FRAME):
+                frame = frame + self._passed(model, span, x, FRAME)
             if model.kind in _DRIVES:
                 # The work of the drive on this member in a radian of the crank.
                 torque = torque + x[..., span.start] * self.works[model.name]
@@ -235,6 +235,11 @@ class Collector:
                     "groove keeps it on the cam."
                 )
         return left
+
+
+def _pushes(source: AppliedLoad) -> bool:
+    """Whether a load has forces, not couples alone."""
+    return any(primal(wrench)[:, :2].any() for wrench in source.wrenches.on.values())
 
 
 def _where(solution: Solution, phi: Floats) -> list[str]:

@@ -20,6 +20,8 @@ from linkwright.kernel.errors import FindingError
 from linkwright.kernel.limits import FORCES, grouped
 from linkwright.kinetostatics.pairs import PairModel
 from linkwright.kinetostatics.places import Scene
+from linkwright.kinetostatics.wrench import Wrenches
+from linkwright.linkages.model.structure import FRAME
 
 # Relative change of the forces at which the iteration over friction ends.
 _SETTLED = 1e-11
@@ -72,22 +74,27 @@ class Equilibrium:
         self.column_scale = np.where(moments, scene.size, 1.0)
         _require_room(len(loads), len(self.rows), len(moments))
         self.base = self._matrix(
-            [unknown.values for model in models for unknown in model.unknowns], row_scale
+            scene, [unknown for model in models for unknown in model.unknowns], row_scale
         )
         self.extras = [
             None
             if model.extra is None or not model.is_nonlinear
-            else self._matrix([model.extra.values], row_scale)
+            else self._matrix(scene, [model.extra], row_scale)
             for model in models
         ]
         self.b = loads.reshape(len(loads), -1, loads.shape[-1])[:, self.rows] * row_scale[:, None]
 
-    def _matrix(self, columns: list[Floats], row_scale: Floats) -> Floats:
+    def _matrix(self, scene: Scene, columns: list[Wrenches], row_scale: Floats) -> Floats:
         """Wrenches as columns, (n, equations, columns)."""
-        matrix: Floats = np.stack(
-            [column.reshape(len(column), -1)[:, self.rows] for column in columns], axis=-1
-        )
-        return matrix * row_scale[:, None]
+        matrix = scene.zeros(scene.n, len(self.rows), len(columns))
+        for j, column in enumerate(columns):
+            for member, wrench in column.on.items():
+                if member != FRAME:
+                    # The equations of a member follow each other: two forces, and a moment if it turns.
+                    first, last = self.rows.searchsorted(3 * scene.index[member] + np.array([0, 3]))
+                    matrix[:, first:last, j] = wrench[:, : last - first]
+        scaled: Floats = matrix * row_scale[:, None]
+        return scaled
 
     def solve(self) -> Solution:
         """Solve at all angles."""

@@ -154,6 +154,6 @@ def _sources(scene: Scene, models: list[PairModel]) -> dict[str, AppliedLoad]:
         slow = Wrenches(scene)
         for model in models:
             if model.extra is not None:
-                slow.values += model.viscous[:, None, None] * model.extra.values
+                slow.add(model.extra, model.viscous)
         sources["friction"] = AppliedLoad(slow, np.zeros(scene.n))
     return sources | {f"loads.{name}": applied(scene, load) for name, load in scene.machine.loads.items()}

@@ -84,6 +84,11 @@ class PairModel:
             slopes[0] = drag * np.sign(x[:, 0])
         return np.stack(slopes, axis=1)
 
+    def acts_on(self, member: str) -> bool:
+        """Whether a force or friction of the pair may act on a member."""
+        extra = [] if self.extra is None else [self.extra]
+        return any(member in wrenches.on for wrenches in (*self.unknowns, *extra))
+
     @property
     def is_nonlinear(self) -> bool:
         """Whether the extra force depends on the unknowns."""

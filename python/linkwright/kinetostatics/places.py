@@ -102,12 +102,21 @@ class Scene:
 
 def unit(angle: Floats) -> Floats:
     """Unit vectors (n, 2) at angles (n,)."""
-    return np.stack((np.cos(angle), np.sin(angle)), axis=-1)
+    return _vectors(np.cos(angle), np.sin(angle))
 
 
 def left(vector: Floats) -> Floats:
     """Vectors (…, 2) turned by 90° counter-clockwise."""
-    return np.stack((-vector[..., 1], vector[..., 0]), axis=-1)
+    return _vectors(-vector[..., 1], vector[..., 0])
+
+
+def _vectors(x: Floats, y: Floats) -> Floats:
+    """Vectors (…, 2) of their components, which may carry derivatives."""
+    if type(x) is not np.ndarray:
+        return np.stack((x, y), axis=-1)
+    vectors = np.empty((*x.shape, 2))
+    vectors[..., 0], vectors[..., 1] = x, y
+    return vectors
 
 
 def cross(a: Floats, b: Floats) -> Floats:

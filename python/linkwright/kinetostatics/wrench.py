@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from linkwright.kernel.arrays import Floats
+from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kinetostatics.places import Scene, cross, left, unit
 from linkwright.linkages.model.element import Guide
 from linkwright.linkages.model.structure import FRAME, Pair
@@ -20,7 +20,7 @@ from linkwright.machine.program.loads import link_body
 
 
 class Wrenches:
-    """A force and a moment on each member and, last, on the frame.
+    """A force and a moment on each member that anything acts on, the frame among them.
 
     Parameters
     ----------
@@ -29,25 +29,55 @@ class Wrenches:
 
     Attributes
     ----------
-    values : ndarray, shape (n, members + 1, 3)
-        Force along x and y [N] and moment about the member's reference point [N m]; of the frame about the
-        origin.
+    on : dict of str to ndarray, shape (n, 3)
+        By member: force along x and y [N] and moment about the member's reference point [N m]; of the frame
+        about the origin.
     """
 
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
-        self.values = scene.zeros(scene.n, len(scene.index), 3)
+        self.on: dict[str, Floats] = {}
+
+    def _to(self, member: str) -> Floats:
+        """What is summed on a member."""
+        if member not in self.on:
+            self.on[member] = self.scene.zeros(self.scene.n, 3)
+        return self.on[member]
+
+    def on_member(self, member: str) -> Floats:
+        """Force and moment on one member, (n, 3)."""
+        return self.on[member] if member in self.on else self.scene.zeros(self.scene.n, 3)
+
+    @property
+    def values(self) -> Floats:
+        """Forces and moments on all members and, last, on the frame, (n, members + 1, 3)."""
+        values = self.scene.zeros(self.scene.n, len(self.scene.index), 3)
+        for member, wrench in self.on.items():
+            values[:, self.scene.index[member]] += wrench
+        return values
+
+    def add(self, other: Wrenches, factor: Floats | None = None) -> Wrenches:
+        """Add others, times factors (n,)."""
+        for member, wrench in other.on.items():
+            more = wrench if factor is None else factor[:, None] * wrench
+            self.on[member] = self.on_member(member) + more
+        return self
+
+    def taken_over(self, other: Wrenches, own: Bools) -> None:
+        """Keep these where they are one's own, (n,), and take others elsewhere."""
+        for member in {**self.on, **other.on}:
+            self.on[member] = np.where(own[:, None], self.on_member(member), other.on_member(member))
 
     def force(self, member: str, force: Floats, place: Floats) -> Wrenches:
         """Add a force (n, 2) at a place (n, 2)."""
-        to = self.values[:, self.scene.index[member]]
+        to = self._to(member)
         to[:, :2] += force
         to[:, 2] += cross(place - self.scene.reference(member), force)
         return self
 
     def couple(self, member: str, moment: Floats) -> Wrenches:
         """Add a moment (n,)."""
-        self.values[:, self.scene.index[member], 2] += moment
+        self._to(member)[:, 2] += moment
         return self
 
     def between(self, first: str, second: str, force: Floats, place: Floats) -> Wrenches:
@@ -63,7 +93,7 @@ class Wrenches:
         assert pair.guide is not None
         place = self.scene.point(pair.point)
         self.force(pair.second, force, place).couple(pair.second, moment)
-        through = self.scene.structure.guide_point(pair.guide, self.scene.mechanism)
+        through = self.scene.structure.guide_point(pair.guide)
         foot = self.scene.point(through)
         self.force(_holds_guide(pair.guide, through, self.scene), -force, foot)
         turner = turns_guide(pair.guide, self.scene)
@@ -80,14 +110,11 @@ class Wrenches:
         """Add a force (n, 2) on what carries a point."""
         return self.force(self.scene.carrier(point), force, self.scene.point(point))
 
-    def on_member(self, member: str) -> Floats:
-        """Force and moment on one member, (n, 3)."""
-        wrench: Floats = self.values[:, self.scene.index[member]]
-        return wrench
-
     def power(self) -> Floats:
         """Σ F·p′ + M ψ′ over the members, (n,) [N m]; times the speed it is power."""
-        total: Floats = np.einsum("nmc,nmc->n", self.values, self.scene.rates)
+        total = self.scene.zeros(self.scene.n)
+        for member, wrench in self.on.items():
+            total = total + np.einsum("nc,nc->n", wrench, self.scene.rates[:, self.scene.index[member]])
         return total
 
 

@@ -108,6 +108,16 @@ class LinkageSweep:
                 self.position[k] = np.unwrap(self.position[k])
         self.d1 = slopes[len(self.dyads) : len(self.dyads) + len(self.outputs)]
         self._zeros = self._locate(slopes)
+        # All extremes and ends are looked at once for all outputs.
+        changes = [dyad.change_points for dyad in self.dyads]
+        spots = [*self._zeros, *changes, cycle.ends, cycle.angles[[0, -1]]]
+        self._spots = np.array(sorted(set(np.concatenate(spots).tolist())))
+        self._there = self._at(self._spots)
+
+    def _seen(self, angles: Floats) -> tuple[Floats, Floats, Floats]:
+        """The same as `_at` at some of the spots."""
+        k = self._spots.searchsorted(angles)
+        return self._there[0][:, k], self._there[1][:, k], self._there[2][:, k]
 
     def _at(self, angles: Floats) -> tuple[Floats, Floats, Floats]:
         """μ, positions, and what changes sign at extremes: dμ/dφ, then d1, then d2 of the outputs."""
@@ -165,7 +175,7 @@ class LinkageSweep:
 
     def _positions(self, k: int, at: Floats) -> Floats:
         """Positions of an output at angles; of a link on the revolution that the sweep has there."""
-        values = self._at(at)[1][k]
+        values = self._seen(at)[1][k]
         if self.outputs[k].kind == "swing":
             near = np.interp(at, self.cycle.angles, self.position[k])
             values = near + (values - near + np.pi) % (2 * np.pi) - np.pi
@@ -178,7 +188,7 @@ class LinkageSweep:
             return None, None
         at = self._zeros[len(self.dyads) + len(self.outputs) + k]
         at = np.concatenate([at, self.cycle.angles[[0, -1]]])
-        values = self._at(at)[2][len(self.dyads) + k]
+        values = self._seen(at)[2][len(self.dyads) + k]
         return float(values.min()), float(values.max())
 
     def _is_whole(self) -> bool:
@@ -192,7 +202,7 @@ class LinkageSweep:
         at = np.concatenate(
             [self._zeros[k], self.dyads[k].change_points, self.cycle.ends, self.cycle.angles[:1]]
         )
-        values = self._at(at)[0][k]
+        values = self._seen(at)[0][k]
         low, high = int(np.nanargmin(values)), int(np.nanargmax(values))
         angles = self.cycle.named(at[low]), self.cycle.named(at[high])
         return float(values[low]), float(values[high]), *angles

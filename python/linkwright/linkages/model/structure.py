@@ -117,6 +117,8 @@ class Structure:
         Name of each point → member that carries it.
     redundant : tuple of str
         Redundant bars.
+    origin : str
+        Name of the origin; empty where an element bears its name.
     """
 
     members: dict[str, Member]
@@ -124,12 +126,13 @@ class Structure:
     drives: tuple[Drive, ...]
     carriers: dict[str, str]
     redundant: tuple[str, ...]
+    origin: str
 
-    def guide_point(self, guide: Guide, mechanism: Mechanism) -> str:
+    def guide_point(self, guide: Guide) -> str:
         """The point that a guide passes through, or is offset from."""
         if guide.through is not None:
             return guide.through
-        return origin(mechanism) if guide.on is None else self.members[guide.on].point
+        return self.origin if guide.on is None else self.members[guide.on].point
 
 
 def structure(mechanism: Mechanism) -> Structure:
@@ -172,7 +175,8 @@ class _Builder:
         self._bars()
         redundant = tuple(name for name, bar in self.mechanism.bars.items() if bar.redundant)
         pairs = {pair.name: pair for pair in (*self._named_pins(), *self.others)}
-        return Structure(self.members, pairs, tuple(self.drives), self.carriers, redundant)
+        drives = tuple(self.drives)
+        return Structure(self.members, pairs, drives, self.carriers, redundant, origin(self.mechanism))
 
     def _carried(self) -> Iterator[tuple[str, str]]:
         """Each point with the member that carries it."""
