@@ -318,3 +318,70 @@ def test_khurmi_torque_over_three_revolutions() -> None:
     )
     assert found.power_mean * 26.2 / found.speed_mean == pytest.approx(49125, rel=1e-9)
     assert found.unevenness == pytest.approx(0.071, abs=0.001)
+
+
+def test_khurmi_three_crank_engine() -> None:
+    """5000 + 1500 sin 3θ N m, 1000 kg m², 300 rpm: 157.1 kW, 0.1 % and, against 5000 + 600 sin θ, 1656.5 N m
+    and 0.168 % are printed (from memory).
+    """
+    common: dict[str, object] = {
+        "speed": "300 rpm",
+        "inertia": 1000.0,
+        "driver": {"kind": "formula", "torque": "5000 + 1500*sin(3*phi)"},
+    }
+    steady = diagram(**common)
+    assert steady.power_mean == pytest.approx(157.1e3, abs=50)
+    assert steady.energy_fluctuation == pytest.approx(1000, rel=1e-12)
+    assert steady.unevenness == pytest.approx(0.001, abs=5e-5)
+    resisted = diagram(**common, load={"kind": "formula", "torque": "5000 + 600*sin(phi)"})
+    assert resisted.energy_fluctuation == pytest.approx(1656.5, abs=0.2)
+    assert resisted.unevenness == pytest.approx(0.00168, abs=5e-6)
+
+
+def test_khurmi_double_acting_steam_engine() -> None:
+    """Triangles of 2000 and 1500 N m at 80° of each stroke, 100 rpm, 1.75 m, ± 0.75 %: 875 N m are printed.
+
+    Of each triangle the part above the mean is a similar one.
+    """
+    found = diagram(
+        speed="100 rpm",
+        unevenness="1.5 %",
+        radius_of_gyration="1.75 m",
+        driver={
+            "kind": "table",
+            "angle": "0, 80, 180, 260, 360 deg",
+            "torque": "0, 2000, 0, 1500, 0 N m",
+        },
+    )
+    assert found.torque_mean == pytest.approx(875, rel=1e-12)
+    excess = 0.5 * math.pi * 2000 * (1125 / 2000) ** 2
+    assert found.energy_fluctuation == pytest.approx(excess, rel=1e-12)
+    assert found.energy_coefficient == pytest.approx(excess / (1750 * math.pi), rel=1e-12)
+    assert found.flywheel_mass == pytest.approx(excess / (1.75**2 * (100 * RPM) ** 2 * 0.015), rel=1e-12)
+
+
+def test_khurmi_riveting_machine() -> None:
+    """3 kW, 10 kJ in one second each, 150 kg at 0.6 m, 300 rpm before: 257.6 rpm after, 18 rivets a minute
+    are printed (from memory).
+    """
+    before, inertia = 300 * RPM, 150 * 0.6**2
+    after = math.sqrt(before**2 - 2 * 7000 / inertia)
+    speed = 0.5 * (before + after)
+    cycle = 10 / 3
+    found = diagram(
+        speed=speed,
+        cycle=cycle * speed,
+        inertia=inertia,
+        load={
+            "kind": "table",
+            "between": "steps",
+            "angle": [0.0, speed],
+            "torque": [10000 / speed, 0.0],
+        },
+    )
+    assert found.power_mean == pytest.approx(3000, rel=1e-12)
+    assert 60 / cycle == pytest.approx(18)
+    assert found.energy_fluctuation == pytest.approx(7000, rel=1e-12)
+    assert found.speed_max == pytest.approx(before, rel=1e-12)
+    assert found.speed_min is not None
+    assert found.speed_min / RPM == pytest.approx(257.6, abs=0.05)
