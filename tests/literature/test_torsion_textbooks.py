@@ -79,7 +79,8 @@ def test_drill_pipe_of_thomson() -> None:
         {"bit": collars},
         {
             "pipe": f'between = ["ground", "bit"]\ndensity = {density}\nshear_modulus = {modulus}\n'
-            f"sections = [{{ length = {5000 * foot}, diameter = {4.5 * inch}, inner_diameter = {3.83 * inch} }}]"
+            f"sections = [{{ length = {5000 * foot}, "
+            f"diameter = {4.5 * inch}, inner_diameter = {3.83 * inch} }}]"
         },
         3,
     )
