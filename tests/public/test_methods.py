@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import inspect
+import math
 import warnings
 from collections.abc import Callable, Iterator
 from functools import cache
@@ -15,6 +16,7 @@ from tests.public.test_misuse import WRONG, right_calls
 import linkwright as lw
 from linkwright.kernel.errors import InputError, LinkwrightError
 from linkwright.kernel.result import PlainRecord
+from linkwright.torsion.diagnosis.record_diagnosis import RecordDiagnosis, record_diagnosis
 
 LAW = lw.read("machines/roller_cam.toml").mechanism.cams["cart"].motion.lift
 CART = lw.read("machines/roller_one_cart.toml")
@@ -62,6 +64,11 @@ def results() -> dict[type, Any]:
         _keep(made, found)
     _keep(lw.topper_field(lw.read("examples/topper_field/machine.toml")), found)
     _keep(lw.pumping_units(), found)
+    engine = lw.read("machines/v8_diesel.toml")
+    angle = [math.radians(5 * k) for k in range(144)]
+    speed = [150 + 2 * math.cos(4 * x) for x in angle]
+    _keep(record_diagnosis(engine, "flywheel", angle, speed), found)
+    _keep(lw.free_vibration(engine), found)
     return found
 
 
@@ -80,7 +87,7 @@ def methods() -> Iterator[tuple[Any, str]]:
     """Objects with each of their public methods that takes something."""
     for kind, each in results().items():
         # Results, and the small classes that users make.
-        if issubclass(kind, PlainRecord) or kind.__name__ in dir(lw):
+        if issubclass(kind, PlainRecord | RecordDiagnosis) or kind.__name__ in dir(lw):
             for name, method in inspect.getmembers(kind, inspect.isfunction):
                 # What `to_dict` takes is a truth, as any object is.
                 is_asked = not name.startswith("_") and name != "to_dict"
@@ -123,6 +130,6 @@ def test_methods_name_what_they_do_not_know() -> None:
         results()[next(kind for kind in results() if kind.__name__ == "TopperField")].length_at(2)
 
 
-def test_counterweights_beyond_all_masses_are_refused() -> None:
-    with pytest.raises(InputError, match=r"^mass of the counterweight on A1: found "):
+def test_shares_beyond_all_masses_are_refused() -> None:
+    with pytest.raises(InputError, match=r"^share: found 1e\+09, expected a ratio from 0 to 1"):
         lw.partial_balance(CART, "cart1", share=1e9, speed=1.0)

@@ -39,6 +39,7 @@ from linkwright.kernel.arrays import Bools, Complexes, Floats, Indices
 from linkwright.kernel.errors import InputError, ShapeError
 from linkwright.kernel.numerics.confidence import coverage_factor
 from linkwright.kernel.numerics.least_squares import Fit, least_squares
+from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.torsion.diagnosis.engine_speed import cylinder_response
@@ -148,6 +149,7 @@ class Diagnosis(Result):
         ),
     ] = None
 
+    @public
     def half_width(self, level: float = 0.95) -> Floats:
         """Half width of the interval about each factor.
 
@@ -162,6 +164,7 @@ class Diagnosis(Result):
         """
         return self.coverage(level) * self.deviation
 
+    @public
     def coverage(self, level: float) -> float:
         """Half width of an interval over the standard deviation.
 
@@ -170,8 +173,12 @@ class Diagnosis(Result):
         level : float
             Probability that it holds the truth.
         """
+        return self._coverage(level)
+
+    def _coverage(self, level: float) -> float:
         return coverage_factor(level, None if self.is_noise_known else self.freedom)
 
+    @public
     def weak(self, level: float = 0.95) -> tuple[str, ...]:
         """Cylinders that fire less than a healthy one, the weakest first.
 
@@ -189,6 +196,7 @@ class Diagnosis(Result):
         """
         return self._below(self.factor - 1, self.deviation, level)
 
+    @public
     def late(self, level: float = 0.95) -> tuple[str, ...]:
         """Cylinders that fire late, the latest first; none where the measurement says nothing of it.
 
@@ -206,6 +214,7 @@ class Diagnosis(Result):
             return ()
         return self._below(-self.delay, self.delay_deviation, level)
 
+    @public
     def early(self, level: float = 0.95) -> tuple[str, ...]:
         """Cylinders that fire early, the earliest first; none where the measurement says nothing of it.
 
@@ -223,6 +232,7 @@ class Diagnosis(Result):
             return ()
         return self._below(self.delay, self.delay_deviation, level)
 
+    @public
     def leaking(self, level: float = 0.95) -> tuple[str, ...]:
         """Cylinders that compress less than a tight one, the worst first; none where nothing is said of it.
 
@@ -244,7 +254,7 @@ class Diagnosis(Result):
         """Cylinders whose intervals lie below 0, at a level for all intervals together."""
         intervals = len(self.cylinders) * (1 if self.delay is None else 3)
         single = 1 - (1 - level) / intervals
-        below = value + self.coverage(single) * deviation < 0
+        below = value + self._coverage(single) * deviation < 0
         return tuple(self.cylinders[n] for n in np.argsort(value) if below[n])
 
     @property

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError
+from linkwright.kernel.public import public
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.train import refer
 from linkwright.torsion.diagnosis.diagnosis import Diagnosis
@@ -53,6 +54,7 @@ class RecordDiagnosis:
         inside = (self.found.factor + half >= _LEAST) & (self.found.factor - half <= _GREATEST)
         return bool(inside.all())
 
+    @public
     def weak(self, level: float = 0.95) -> tuple[str, ...]:
         """Cylinders that fire less than a healthy one; none where the factors are not plausible.
 
@@ -68,6 +70,7 @@ class RecordDiagnosis:
         """
         return self.found.weak(level) if self.is_plausible else ()
 
+    @public
     def late(self, level: float = 0.95) -> tuple[str, ...]:
         """Cylinders that fire late; none where the factors are not plausible.
 
@@ -83,6 +86,7 @@ class RecordDiagnosis:
         """
         return self.found.late(level) if self.is_plausible else ()
 
+    @public
     def early(self, level: float = 0.95) -> tuple[str, ...]:
         """Cylinders that fire early; none where the factors are not plausible.
 
@@ -98,6 +102,7 @@ class RecordDiagnosis:
         """
         return self.found.early(level) if self.is_plausible else ()
 
+    @public
     def leaking(self, level: float = 0.95) -> tuple[str, ...]:
         """Cylinders that compress less than a tight one; none where the factors are not plausible.
 
