@@ -229,13 +229,8 @@ def _settled(
 ) -> tuple[float, float] | None:
     """Turns and time at which the motion last enters the band about steady motion; None if never."""
     limit = machine.run_up.settled * steady.speed_mean_time
-
-    def excess(time: Floats, of: SteadyState, grid: Floats) -> Floats:
-        angle, speed = motion.at(time)
-        return np.abs(speed - _steady_speed(of, grid, angle)) - limit
-
-    looks = _looks(motion)
-    outside = np.flatnonzero(excess(looks, steady, steady.crank_angle) > 0)
+    looks, angle, speed = _looks(motion)
+    outside = np.flatnonzero(np.abs(speed - _steady_speed(steady, steady.crank_angle, angle)) > limit)
     if not len(outside):
         return 0.0, 0.0
     if outside[-1] == len(looks) - 1:
@@ -245,9 +240,14 @@ def _settled(
     # A little beyond both ends, which rounding may leave.
     grid = first + (last - first) * np.linspace(-0.1, 1.1, _NEAR)
     near = steady_state(machine, angles=grid % (2 * np.pi * steady.turns), accuracy=accuracy)
-    settled = np.maximum(*zeros(lambda time: excess(time, near, grid), low, high))
-    angle = motion.at(settled)[0][0]
-    return float(angle - motion.crank_angle[0]) / (2 * np.pi), float(settled[0])
+
+    def excess(time: Floats) -> Floats:
+        angle, speed = motion.at(time)
+        return np.abs(speed - _steady_speed(near, grid, angle)) - limit
+
+    settled = np.maximum(*zeros(excess, low, high))
+    turned = motion.at(settled)[0][0] - motion.crank_angle[0]
+    return float(turned) / (2 * np.pi), float(settled[0])
 
 
 def peak_until(motion: Transient, until: float) -> tuple[float, float]:
@@ -265,10 +265,15 @@ def peak_until(motion: Transient, until: float) -> tuple[float, float]:
     return peak, float(begin + share * (end - begin))
 
 
-def _looks(motion: Transient) -> Floats:
-    """Eight looks a step of the solver, which itself takes some twenty a revolution."""
-    even = np.linspace(motion.time[:-1], motion.time[1:], 8, endpoint=False, axis=-1)
-    return np.append(even, motion.time[-1])
+def _looks(motion: Transient) -> tuple[Floats, Floats, Floats]:
+    """Times, angles and speeds at eight looks a step of the solver, which takes some twenty a revolution."""
+    z = np.arange(8) / 8
+    time = motion.time[:-1, None] + np.diff(motion.time)[:, None] * z
+    changes = motion.between.at_shares(z)
+    angle, speed = motion.crank_angle[:-1, None] + changes[:, 0], motion.speed[:-1, None] + changes[:, 1]
+    ends = (motion.time, time), (motion.crank_angle, angle), (motion.speed, speed)
+    times, angles, speeds = (np.append(even, whole[-1]) for whole, even in ends)
+    return times, angles, speeds
 
 
 # Turns after which a run-down is given up: nothing brakes.

@@ -70,6 +70,15 @@ class StepPolynomials:
             rises *= left if i % 2 else z
         return rises
 
+    def at_shares(self, z: Floats) -> Floats:
+        """The same changes at shares (m,) of every step, (steps, 2, m)."""
+        basis, product = np.empty((self.factors.shape[-1], len(z))), np.ones(len(z))
+        for i in range(len(basis)):
+            product = product * (1 - z if i % 2 else z)
+            basis[i] = product
+        changes: Floats = self.factors @ basis
+        return changes
+
     def coefficients(self, which: int) -> Floats:
         """The same polynomials by powers z⁰, whose coefficient is 0, to z⁷, (steps, 8) [rad or rad/s].
 
