@@ -239,13 +239,6 @@ def test_samples_that_go_back_are_refused() -> None:
         lw.MeasuredRecord("time", np.array([0.0, 1.0, 0.5]), {"speed": np.ones(3)})
 
 
-if __name__ == "__main__":
-    held, intervals = repeats(1000)
-    print(
-        f"{held} of {intervals} intervals hold the truth: {100 * held / intervals:.2f} %, expected 94 to 96 %"
-    )
-
-
 def test_a_sample_with_a_slipped_exponent_is_no_warning(tmp_path: Path) -> None:
     """The method of least squares comes where a number changes nothing; the fit ends as any other does."""
     example = Path(__file__).parents[2] / "examples" / "fit_from_run_down"
@@ -272,3 +265,10 @@ def test_a_sample_with_a_slipped_exponent_is_no_warning(tmp_path: Path) -> None:
     done = CliRunner().invoke(application(), ["fit", str(tmp_path / "study.toml")])
     assert done.exception is None or isinstance(done.exception, SystemExit)
     assert done.exit_code in (0, 1)
+
+
+if __name__ == "__main__":
+    held, intervals = repeats(1000)
+    print(
+        f"{held} of {intervals} intervals hold the truth: {100 * held / intervals:.2f} %, expected 94 to 96 %"
+    )

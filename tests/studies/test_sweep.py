@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -171,15 +172,21 @@ def test_killed_at_any_moment(study_file: Files, tmp_path: Path) -> None:
     """kill -9, then again: complete, no row twice, the same bytes as uninterrupted."""
     study = study_file(("steps = 5", "steps = 120"), ("chunk = 4", "chunk = 3"))
     lw.sweep(lw.read_study(study), tmp_path / "whole")
-    chance = np.random.default_rng(5)
-    for _ in range(KILLS):
+    chance, interrupted = np.random.default_rng(5), 0
+    while interrupted < KILLS:
         process = run(study, tmp_path / "rows")
         # Begun, and then for as long as a few files take.
-        while not list((tmp_path / "rows").glob("part-*")) and process.poll() is None:
+        begun = len(list((tmp_path / "rows").glob("part-*")))
+        while len(list((tmp_path / "rows").glob("part-*"))) <= begun and process.poll() is None:
             time.sleep(0.002)
-        time.sleep(chance.uniform(0, 0.2))
+        time.sleep(chance.uniform(0, 0.02))
         process.send_signal(signal.SIGKILL)
         process.communicate()
+        interrupted += process.returncode == -signal.SIGKILL
+        if process.returncode == 0:
+            # Complete before the signal came: the next ones interrupt a new folder.
+            assert contents(tmp_path / "rows") == contents(tmp_path / "whole")
+            shutil.rmtree(tmp_path / "rows")
     assert lw.sweep(lw.read_study(study), tmp_path / "rows").is_complete
     assert contents(tmp_path / "rows") == contents(tmp_path / "whole")
     assert list(pd.read_parquet(tmp_path / "rows")["row"]) == list(range(360))

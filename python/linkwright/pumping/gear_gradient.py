@@ -1,8 +1,8 @@
 r"""Derivatives of the torque of the gearbox of a pumping unit: peaks, means, work and counterbalance.
 
-An extreme has the derivative of the curve at its angle, at a corner of the table of the load along with it.
-Torque and load times torque factor are continuous over the revolution, so that an integral has that of what
-is integrated,
+An extreme has the derivative of the curve at its angle, at an end of the stroke and at a corner of the table
+of the load along with it. Torque and load times torque factor are continuous over the revolution, so that an
+integral has that of what is integrated,
 
 .. math:: \frac{\mathrm d}{\mathrm dp}\int T\,\mathrm d\theta
     = \int \frac{\partial T}{\partial p}\,\mathrm d\theta,
@@ -23,11 +23,7 @@ from linkwright.kernel.numerics.tangent_array import TangentArray, lifted, numbe
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.numerics.zeros import zeros
 from linkwright.pumping.gear_torque import GearTorque, StrokeLoad, Strokes, stroke_load
-from linkwright.pumping.unit import PolishedRod, PumpingUnitMotion
-
-# A place this near to a corner of the table of the load, as a share of the stroke or in radians, is on it.
-_ON_CORNER = 1e-6
-
+from linkwright.pumping.unit import PolishedRod, PumpingUnitMotion, end_angles
 
 # A place this near to a corner of the table of the load, as a share of the stroke or in radians, is on it.
 _ON_CORNER = 1e-6
@@ -49,13 +45,17 @@ def gear_scalars(
     size = float(getattr(gear, name))
     strokes = Strokes(rod.unit, load, rod.motion, (rod.bottom, rod.top))
     up, down = strokes.curves(size)
+    lowest = min((up.extreme(-1), up), (down.extreme(-1), down), key=lambda pair: pair[0])
+    heaviest = max((up.extreme(+1, 1), up), (down.extreme(+1, 1), down), key=lambda pair: pair[0])
     places = {
-        "torque_net_up": up.extreme(+1)[1],
-        "torque_net_down": down.extreme(+1)[1],
-        "torque_net_min": min(up.extreme(-1), down.extreme(-1))[1],
-        "load_max": max(up.extreme(+1, 1), down.extreme(+1, 1))[1],
+        "torque_net_up": (up.extreme(+1), up),
+        "torque_net_down": (down.extreme(+1), down),
+        "torque_net_min": lowest,
+        "load_max": heaviest,
     }
-    at = {name: _at_place(rod, along, angle) for name, angle in places.items()}
+    at = {
+        name: _at_place(rod, along, where[1], rising=curve is up) for name, (where, curve) in places.items()
+    }
     given = getattr(along.unit.load, name)
     is_sought = given is None or isinstance(given, str)
     balanced = _balanced(at, size) if is_sought else given
@@ -63,41 +63,40 @@ def gear_scalars(
     scalars |= {"load_max": at["load_max"].load[0], name: balanced}
     scalars |= _means(along, _kinks(rod, strokes, size if is_air else 0.0), balanced)
     scalars |= _shares(scalars, gear)
-    still = "a peak is reached at an end of the stroke, where the table of the load has a corner"
+    still = "a peak is reached at an end of the stroke, where the table of the load has a corner that moves"
     return scalars, {
         f"gear.{name}": still for name, number in scalars.items() if np.isnan(lifted(number, 1).d).any()
     }
 
 
-def _at_place(rod: PolishedRod, along: Any, angle: float) -> StrokeLoad:
-    """Load and torques at a crank angle, with derivatives; at a corner of the table along with it."""
+def _at_place(rod: PolishedRod, along: Any, angle: float, *, rising: bool) -> StrokeLoad:
+    """Load and torques at a crank angle of a stroke, with derivatives; at its ends and corners with these."""
     place, load = np.array([angle % (2 * np.pi)]), along.unit.load
     motion = along.motion(place)
-    corner = _corner(rod, float(place[0]))
-    if corner is None:
-        return stroke_load(along.unit, load, motion, place)
     travel, factor, bend = motion
-    if load.angle is not None:
-        heights, late = load.force, _one(load.angle[corner], travel) - place
+    end, corner = _end(rod, angle), _corner(rod, float(place[0]))
+    heights = load.force if load.angle is not None else load.up if rising else load.down
+    if end is not None:
+        late = _one(end_angles(along.unit)[end], travel) - place
+        moved: Any = place + TangentArray(np.zeros(1), late.d)
+        force = _one(heights[-end], travel)
+        if load.angle is not None:
+            force = np.interp(moved, numbers(load.angle), numbers(heights), period=2 * np.pi)
+    elif corner is not None:
+        knots = load.position if load.angle is None else load.angle
+        late = _one(knots[corner], travel) - place
+        if load.angle is None:
+            away = _one(knots[corner], travel) - travel / along.unit.stroke
+            late = away / (factor.value / rod.stroke)
+        moved, force = place + TangentArray(np.zeros(1), late.d), _one(heights[corner], travel)
     else:
-        heights = load.up if factor.value[0] > 0 else load.down
-        late = _come_later(along.unit, load.position[corner], travel, factor)
-    moved: Any = place + TangentArray(np.zeros(1), late.d)
-    force, factor = _one(heights[corner], travel), factor + bend.value * (moved - place)
-    return StrokeLoad(along.unit, force, factor, np.sin(moved + load.phase))
+        return stroke_load(along.unit, load, motion, place)
+    return StrokeLoad(along.unit, force, factor + bend.value * (moved - place), np.sin(moved + load.phase))
 
 
 def _one(number: Any, like: Any) -> Any:
     """A number as an array with derivatives."""
     return lifted(numbers((number,)), like.d.shape[-1])
-
-
-def _come_later(unit: Any, corner: Any, travel: Any, factor: Any) -> Any:
-    """How the crank angle of a corner of the table moves; at an end of the stroke the rod comes to none."""
-    rate = factor.value / primal(unit.stroke)
-    away = _one(corner, travel) - travel / unit.stroke
-    is_end = bool(np.abs(rate[0]) < _ON_CORNER)
-    return TangentArray(away.value, np.full_like(away.d, np.nan) if is_end else away.d / rate[:, None])
 
 
 def _balanced(at: dict[str, StrokeLoad], size: float) -> Any:
@@ -178,6 +177,12 @@ def without_derivatives(gear: GearTorque | None) -> dict[str, str]:
     if gear.torque_rated is None:
         without["gear_load"] = "no designation gives the rating"
     return without
+
+
+def _end(rod: PolishedRod, angle: float) -> int | None:
+    """The end of the stroke that a crank angle is on: 0 the bottom, 1 the top."""
+    apart = np.abs((np.array([rod.bottom, rod.top]) - angle + np.pi) % (2 * np.pi) - np.pi)
+    return int(apart.argmin()) if apart.min() < _ON_CORNER else None
 
 
 def _corner(rod: PolishedRod, angle: float) -> int | None:
