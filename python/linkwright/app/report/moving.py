@@ -7,7 +7,7 @@ from io import BytesIO, StringIO
 from itertools import chain
 from pathlib import Path
 from subprocess import PIPE, Popen
-from tempfile import TemporaryDirectory
+from tempfile import TemporaryDirectory, TemporaryFile
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -65,7 +65,7 @@ def _encode(encoder: str, frames: Iterator[Bytes], place: Path) -> None:
     taken = ("-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}", "-r", str(_RATE), "-i", "-")
     made = ("-an", "-c:v", "libx264", "-pix_fmt", "yuv420p", "-v", "error", str(place))
     words = (encoder, *taken, *made)
-    with place.with_suffix(".log").open("w+", encoding="utf-8") as log:
+    with TemporaryFile("w+", encoding="utf-8") as log:
         # Ctrl-C is for this process alone, which ends the encoder in the midst of a picture.
         with Popen(words, stdin=PIPE, stderr=log, start_new_session=True, bufsize=0) as process:
             try:
