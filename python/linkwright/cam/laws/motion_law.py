@@ -19,7 +19,7 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.numerics.tangent import Tangent, total
 from linkwright.kernel.numerics.tangent_array import lifted, primal, variables_of
-from linkwright.kernel.public.arguments import array, integer, shown
+from linkwright.kernel.public.arguments import array, integer, number, shown
 
 __all__ = ["Extreme", "Harmonic", "MotionLaw", "Piece", "combined", "joined"]
 
@@ -27,6 +27,9 @@ Side = Literal["after", "before"]
 
 # Share of the whole domain below which two breaks are one.
 _SAME = 1e-12
+
+# Share of the domain by which a place may be beyond its ends by rounding.
+_ROUNDING = 1e-9
 
 # Beyond this angle, or time, the powers of a polynomial leave the range of numbers.
 _FAR = 1e9
@@ -60,6 +63,11 @@ def _places(x: Any) -> Floats:
     if farthest > _FAR:
         raise InputError(f"x: found {farthest:.6g} in size, expected {_FAR:g} at most")
     return places
+
+
+def _real(name: str, value: Any) -> Any:
+    """A finite number, or one with derivatives; an `InputError` that names it for anything else."""
+    return value if isinstance(value, Tangent) else number(name, value)
 
 
 @dataclass(frozen=True)
@@ -158,7 +166,7 @@ class MotionLaw:
 
     def integral(self, start: float = 0.0) -> MotionLaw:
         """The law whose derivative this is, continuous, beginning with the value `start`."""
-        pieces: list[Piece] = []
+        start, pieces = _real("start", start), list[Piece]()
         for _, length, piece in self._stretches():
             pieces.append(piece.integral(length, start))
             start = pieces[-1].value(1.0)
@@ -168,10 +176,14 @@ class MotionLaw:
 
     def scaled(self, factor: float, shift: float = 0.0) -> MotionLaw:
         """Factor times the law, plus a constant."""
+        factor, shift = _real("factor", factor), _real("shift", shift)
         return MotionLaw(self.breaks, tuple(piece.scaled(factor, shift) for piece in self.pieces))
 
     def placed(self, start: float, length: float) -> MotionLaw:
         """The same course over another stretch: values stay, derivatives change."""
+        start, length = _real("start", start), _real("length", length)
+        if not length > 0:
+            raise InputError(f"length: found {length:g}, expected more than 0")
         scale = length / self.length
         inner = tuple(start + (x - self.start) * scale for x in self.breaks[1:-1])
         return MotionLaw((start, *inner, start + length), self.pieces)
@@ -184,11 +196,19 @@ class MotionLaw:
 
     def stretch(self, low: float, high: float) -> MotionLaw:
         """The part between two places inside the law."""
+        low, high = _real("low", low), _real("high", high)
+        slack = _ROUNDING * self.length
+        if not self.start - slack <= low < high <= self.end + slack:
+            found, own = (
+                f"{primal(low):g} to {primal(high):g}",
+                f"{primal(self.start):g} to {primal(self.end):g}",
+            )
+            raise InputError(f"low, high: found {found}, expected a part of {own}")
         return self._cut([low, *(x for x in self.breaks if low < x < high), high])
 
     def shifted(self, by: float) -> MotionLaw:
         """A periodic law over its whole stretch, starting ``by`` later and going on at its start."""
-        by = np.remainder(by, self.length)
+        by = np.remainder(_real("by", by), self.length)
         cut = self.end - by
         if not self.start < cut < self.end:
             return self
