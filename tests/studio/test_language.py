@@ -41,6 +41,26 @@ def test_controls_are_translated(path: Path) -> None:
     assert not {text: words for text, words in said.items() if english(words)}
 
 
+# What has a name in the rules, and formulas and laws that are named after their authors.
+NAMED = re.compile(
+    r"PC\d|IA super|iacs m68|kr crankshaft|mark ii|carter|ker wilson|woschni|wiebe|zimanenko|.{1,2}"
+)
+
+
+def labels(group: dict[str, Any]) -> Iterator[str]:
+    """Keys and choices of the controls of a file; a table without a description is named by its author."""
+    for entry in (*group["entries"], *group.get("missing", ())):
+        yield from (entry["key"], *(entry.get("choices") or ()))
+    for inner in group["groups"]:
+        yield from (*([inner["key"]] if inner["about"] else []), *labels(inner))
+
+
+@pytest.mark.parametrize("path", MACHINES, ids=lambda path: path.parent.name + "." + path.stem)
+def test_keys_and_choices_of_controls_are_translated(path: Path) -> None:
+    words = {label.replace("_", " ") for label in labels(controls(tomllib.loads(path.read_text())))}
+    assert not {word for word in words - page_texts("uk")["texts"].keys() if not NAMED.fullmatch(word)}
+
+
 def test_what_is_quoted_stays_as_files_have_it() -> None:
     text = 'an angle greater than 0, such as "30 deg" or a number in radians'
     assert in_words(text, "uk", "expected") == 'кут, більше 0, наприклад "30 deg", або число в радіанах'
