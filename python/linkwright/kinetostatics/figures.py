@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.figure.style import (
     DRIVE,
     LINES,
@@ -35,6 +36,8 @@ if TYPE_CHECKING:
 
 # Reactions drawn: the largest.
 _MOST = 4
+# Circles of a polar diagram, whose numbers do not overlap; and the angle [°] about them that is looked at.
+_CIRCLES, _BESIDE = 4, 14
 
 
 @styled
@@ -79,17 +82,29 @@ def _vectors(axes: Axes, forces: Forces, force: np.ndarray, colour: str, label: 
     axes.set_ylabel("$F_y$ [N]", **MATH)
 
 
+def _free(angle: Floats, sizes: Sequence[Floats]) -> float:
+    """Middle between two spokes [°] where the largest curve is smallest: the scale stands there."""
+    largest = np.max(sizes, axis=0)
+    middles = np.arange(22.5, 360, 45)
+    near = (np.cos(angle - np.radians(middle)) > np.cos(np.radians(_BESIDE)) for middle in middles)
+    return float(min(zip(middles, near, strict=True), key=lambda at: largest[at[1]].max(initial=0.0))[0])
+
+
 @styled
 def polar_figure(forces: Forces) -> Figure:
     """Draw the size of the largest reactions over the crank angle as a polar diagram."""
     from matplotlib.figure import Figure
+    from matplotlib.ticker import MaxNLocator
 
     figure = Figure(figsize=(4.6, 4.6), layout="constrained")
     axes = figure.add_subplot(projection="polar")
-    for name, colour in zip(_largest(forces), LINES, strict=False):
+    names = _largest(forces)
+    for name, colour in zip(names, LINES, strict=False):
         axes.plot(forces.crank_angle, forces.pairs[name].size, color=colour, label=named(name))
     axes.set_xlabel("crank angle φ [°]")
     axes.set_ylabel("magnitude of the reaction [N]", labelpad=28)
+    axes.yaxis.set_major_locator(MaxNLocator(_CIRCLES))
+    axes.set_rlabel_position(_free(forces.crank_angle, [forces.pairs[name].size for name in names]))
     axes.legend(loc="lower left", bbox_to_anchor=(-0.15, 1.07), ncols=2)
     return figure
 

@@ -19,7 +19,7 @@ class Formula(NamedTuple):
 
     words: str
     text: str
-    source: str
+    origin: str
 
 
 def mathml(text: str) -> str:
@@ -134,7 +134,7 @@ DYNAMISM = Formula("Dynamic factor", "H = frac(∣ε∣_max|ω_mean^2)", "paper 
 COEFFICIENT = Formula("Combined non-uniformity index", "k_p = δ^2 + H", "paper 1 (15)")
 MEANS = Formula(
     "Mean speed, of the extremes or over time",
-    "ω_mean = frac(ω_max + ω_min|2) or ω_mean = frac(2 π|T)",
+    "ω_mean = frac(ω_max + ω_min|2) , ω_mean = frac(2 π|T)",
     "paper 1 takes the first",
 )
 LIMIT = Formula(

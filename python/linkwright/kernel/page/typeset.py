@@ -165,7 +165,7 @@ def _place(captioned: CaptionedFigure) -> str:
 
 def _formulas(formulas: Sequence[Formula]) -> str:
     cells = ", ".join(
-        f"[{_text(formula.words)}], [$ {typst(formula.text)} $], note[{_text(formula.source)}]"
+        f"[{_text(formula.words)}], [$ {typst(formula.text)} $], note[{_text(formula.origin)}]"
         for formula in formulas
     )
     return f"#grid(columns: (1.2fr, 2fr, 1fr), gutter: 8pt, align: horizon, {cells})"
