@@ -109,8 +109,8 @@ class LinkageSweep:
         self.d1 = slopes[len(self.dyads) : len(self.dyads) + len(self.outputs)]
         self._zeros = self._locate(slopes)
         # All extremes and ends are looked at once for all outputs.
-        changes = [dyad.change_points for dyad in self.dyads]
-        spots = [*self._zeros, *changes, cycle.ends, cycle.angles[[0, -1]]]
+        changes = [np.array(dyad.change_points) for dyad in self.dyads]
+        spots: list[Floats] = [*self._zeros, *changes, cycle.ends, cycle.angles[[0, -1]]]
         self._spots = np.array(sorted(set(np.concatenate(spots).tolist())))
         self._there = self._at(self._spots)
 
