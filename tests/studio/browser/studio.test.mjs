@@ -390,21 +390,6 @@ test("what was not saved is there after a crash, and a saved file opens again", 
   assert.equal(readFileSync(`${folder}/carts.toml`, "utf8"), text);
 });
 
-test("every machine of the gallery opens", async () => {
-  await page.getByRole("button", { name: "Machines" }).click();
-  await page.locator(".card").nth(40).waitFor({ state: "attached" });
-  const listed = await page.evaluate(() => globalThis.studio.state.listed.value);
-  await page.keyboard.press("Escape");
-  assert.ok(listed.length > 50);
-  for (const { place, name } of listed) {
-    await page.evaluate(([where, which]) => globalThis.studio.open(where, which), [place, name]);
-    await known();
-    const problems = await page.evaluate(() => globalThis.studio.state.problems.value);
-    assert.deepEqual(problems, [], `${place}/${name}`);
-    assert.equal(await page.evaluate(() => globalThis.studio.state.message.value), "", `${place}/${name}`);
-  }
-});
-
 test("a train twists in its modes, and a knife goes over the heads", async () => {
   const picture = () => page.evaluate(() => document.querySelector(".stage canvas").toDataURL());
   await page.evaluate(() => globalThis.studio.open("library", "v8_diesel"));
