@@ -73,7 +73,7 @@ def _wrong(machine: lw.Machine, every: int) -> tuple[int, list[str]]:
     d = np.array([derived.tangents[name].d for name in names])
     exact = d * np.array([float(lw.get(machine, name)) for name in derived.variables])
     scales = np.abs(exact).max(axis=1) + [abs(derived.tangents[name].value) for name in names]
-    # A least torque of zero, at an end of the stroke, is rounding beside the largest.
+    # A minimum torque of zero, at an end of the stroke, is rounding beside the maximum.
     torques = np.array(["gear.torque_net" in name for name in names])
     scales[torques] += max(abs(derived.tangents[name].value) for name in names if "gear.torque_net" in name)
     wrong, compared = [], 0

@@ -36,7 +36,6 @@ SILENT = {
     ): "a text that is no quantity is a problem of the file, which stands beside it",
     ("studio/views.py", "thumbnail"): "a machine that cannot be drawn has no picture; opening it says why",
     ("sizing/flywheel.py", "_unevenness"): "no steady motion is an answer there: δ counts as infinite",
-    ("studies/engine.py", "_solve"): "rows that a batch cannot hold are solved one by one, and say why",
     ("studies/sweep.py", "_try"): "what a machine cannot do as it is, its variants may, and each row says so",
     (
         "studies/slopes.py",
