@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -97,7 +97,8 @@ def polar_figure(forces: Forces) -> Figure:
     from matplotlib.ticker import MaxNLocator
 
     figure = Figure(figsize=(4.6, 4.6), layout="constrained")
-    axes = figure.add_subplot(projection="polar")
+    # The types know of no polar axes.
+    axes: Any = figure.add_subplot(projection="polar")
     names = _largest(forces)
     for name, colour in zip(names, LINES, strict=False):
         axes.plot(forces.crank_angle, forces.pairs[name].size, color=colour, label=named(name))

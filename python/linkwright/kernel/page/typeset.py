@@ -168,7 +168,8 @@ def _formulas(formulas: Sequence[Formula]) -> str:
         f"[{_text(formula.words)}], [$ {typst(formula.text)} $], note[{_text(formula.origin)}]"
         for formula in formulas
     )
-    return f"#grid(columns: (1.2fr, 2fr, 1fr), gutter: 8pt, align: horizon, {cells})"
+    # A column as wide as its widest formula: none runs into the words beside it.
+    return f"#grid(columns: (1.2fr, auto, 1fr), gutter: 8pt, align: horizon, {cells})"
 
 
 def _groups(content: Content) -> Iterator[str]:
