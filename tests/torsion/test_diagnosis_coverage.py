@@ -146,8 +146,11 @@ def test_healthy_cylinders_are_not_accused() -> None:
     for (defect, found), names in zip(every, named, strict=True):
         if defect not in ("healthy", "hardly leaking"):
             assert "3" in names
-        assert ("3" in found.early()) == (defect == "early")
-        assert ("3" in found.late()) == (defect in ("late", "very late"))
+        assert defect != "early" or "3" in found.early()
+        assert defect not in ("late", "very late") or "3" in found.late()
+    # Nor is the sick one called late or early where it is not, but by chance.
+    in_time = [f for defect, f in every if defect not in ("early", "late", "very late")]
+    assert np.mean(["3" in (*f.late(), *f.early()) for f in in_time]) <= 0.05
 
 
 def test_few_orders_take_all_cylinders_as_tight() -> None:
