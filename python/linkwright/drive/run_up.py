@@ -272,7 +272,7 @@ def _looks(motion: Transient) -> tuple[Floats, Floats, Floats]:
     changes = motion.between.at_shares(z)
     angle, speed = motion.crank_angle[:-1, None] + changes[:, 0], motion.speed[:-1, None] + changes[:, 1]
     ends = (motion.time, time), (motion.crank_angle, angle), (motion.speed, speed)
-    times, angles, speeds = (np.append(even, whole[-1]) for whole, even in ends)
+    times, angles, speeds = (np.append(even, curve[-1]) for curve, even in ends)
     return times, angles, speeds
 
 
