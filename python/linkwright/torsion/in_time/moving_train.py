@@ -83,7 +83,7 @@ def moving_train(train: Train, manoeuvre: TrainTransient, ice: IceStarts | None 
         own,
         swing_damping=[disc.damping for disc in expanded.discs.values()],
         shaft_damping=damping,
-        curves=[_coupling_curve(train, name) for name in referred.shafts],
+        curves=[_curve(train, name) for name in referred.shafts],
         inertias=inertias,
         torques=[
             *_engines(train, manoeuvre, referred),
@@ -159,10 +159,17 @@ def _loss_frequencies(referred: ReferredTrain, mode: int | None) -> tuple[Floats
     return omega[chosen], "of each the lowest mode that twists it much"
 
 
-def _coupling_curve(train: Train, name: str) -> Curve | None:
-    """Torque over twist of a coupling that has a curve."""
-    coupling = train.couplings.get(name)
-    return None if coupling is None or coupling.twist is None else odd(*coupling.curve())
+def _curve(train: Train, name: str) -> Curve | None:
+    """Torque over twist of a coupling that has a curve, or of an elastic mesh with backlash."""
+    coupling, gear = train.couplings.get(name), train.gears.get(name)
+    if coupling is not None and coupling.twist is not None:
+        return odd(*coupling.curve())
+    if gear is not None and gear.backlash:
+        # Half of the backlash on either side: between its flanks a tooth carries nothing.
+        half = gear.backlash / 2
+        k = np.array([gear.stiffness, 0.0])
+        return Curve(np.array([-half, half]), np.zeros(2), before=k, after=k[::-1])
+    return None
 
 
 def _engines(train: Train, manoeuvre: TrainTransient, referred: ReferredTrain) -> list[TrainTorque]:

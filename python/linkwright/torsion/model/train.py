@@ -32,7 +32,17 @@ from pydantic_core import InitErrorDetails
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import CheckedDescription, Description, Name, Whole, fault
 from linkwright.kernel.numerics.tangent import total
-from linkwright.kernel.units import COUNT, INERTIA, RATIO, Bound, Quantity, QuantityList, positive
+from linkwright.kernel.units import (
+    ANGLE,
+    COUNT,
+    INERTIA,
+    RATIO,
+    Bound,
+    Quantity,
+    QuantityList,
+    not_negative,
+    positive,
+)
 from linkwright.linkages.model.element import PositiveNumber
 from linkwright.torsion.model.coupling import Coupling, Damper
 from linkwright.torsion.model.engine.engine import ReciprocatingEngine
@@ -256,6 +266,11 @@ class TrainGear(CheckedDescription):
         0.0, description="Of an elastic mesh, as torque at the first disc per its speed."
     )
     loss_factor: LossFactor = Field(0.0, description="Hysteresis of an elastic mesh.")
+    backlash: Annotated[float, not_negative(ANGLE)] = Field(
+        0.0,
+        description="Of the teeth of an elastic mesh, from flank to flank, as angle of the first disc; for "
+        "motion in time.",
+    )
     torque_permitted: PositiveTorque | None = Field(
         None, description="Maximum torque at the first disc, in steady running and in manoeuvres."
     )
@@ -268,6 +283,10 @@ class TrainGear(CheckedDescription):
             if self.stiffness is None and getattr(self, name):
                 remedy = "give the stiffness of the mesh, or the damping to its discs"
                 yield fault(name, found=getattr(self, name), expected="none with a rigid mesh", remedy=remedy)
+        if self.backlash and (self.stiffness is None or "belt" in self.kind):
+            remedy = "give the stiffness of the mesh" if "belt" not in self.kind else "leave it out"
+            expected = "none with a belt" if "belt" in self.kind else "none with a rigid mesh"
+            yield fault("backlash", found=self.backlash, expected=expected, remedy=remedy)
 
     @property
     def speed_ratio(self) -> float:
