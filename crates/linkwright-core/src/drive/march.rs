@@ -183,9 +183,9 @@ pub enum MotionChoice {
 struct March<'a> {
     machine: &'a Machine<'a, f64>,
     breaks: &'a [f64],
-    /// u below which a machine may be at rest, and that to which one that creeps is followed.
+    /// u below which a machine may be at rest, and that to which one that creeps is followed, if it is at all.
     rest: f64,
-    least: f64,
+    least: Option<f64>,
     m: Motion<f64>,
     /// Those of laws are ends of steps.
     events: Events<'a, f64>,
@@ -199,7 +199,8 @@ struct March<'a> {
 }
 
 /// Motions that repeat, to about seven digits, from the fastest down; at least one. `hints` are u at φ = 0 between which
-/// some may lie, however near to each other.
+/// some may lie, however near to each other. `creeps`: whether a machine that is driven on at standstill is followed however
+/// slow it is; beside a motion at a working speed it counts as at rest, since nothing so slow is reported.
 ///
 /// # Errors
 /// [`NoMotion`] says why there is none.
@@ -208,6 +209,7 @@ pub fn repeating(
     breaks: &[f64],
     which: MotionChoice,
     hints: &[f64],
+    creeps: bool,
 ) -> Result<Vec<PeriodicMotion>, NoMotion> {
     let m = Motion::new(&machine.plan.mechanism, machine.q);
     let working = 0.5 * machine.q[machine.plan.drive.speed_start].powi(2);
@@ -215,7 +217,7 @@ pub fn repeating(
         machine,
         breaks,
         rest: REST * working,
-        least: CREEP * working,
+        least: creeps.then_some(CREEP * working),
         m,
         events: Events::new(*machine),
         turns: 0,
@@ -563,16 +565,17 @@ impl March<'_> {
 
     /// Whether the torques at standstill drive a slow machine on.
     fn is_driven_on(&mut self, phi: f64, u: f64) -> bool {
-        u > self.least && self.acceleration(phi, self.least) > 0.0
+        self.least.is_some_and(|least| u > least && self.acceleration(phi, least) > 0.0)
     }
 
     /// The highest u below a given one to which a machine falls that creeps: the torques balance there, and drive on what is
     /// slower.
     fn creep_below(&mut self, phi: f64, u: f64) -> Option<f64> {
+        let least = self.least?;
         let (mut fast, mut slow) = (u, 0.5 * u);
         while self.acceleration(phi, slow) <= 0.0 {
             (fast, slow) = (slow, 0.5 * slow);
-            if slow < self.least {
+            if slow < least {
                 return None;
             }
         }

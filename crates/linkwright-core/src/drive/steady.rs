@@ -185,7 +185,7 @@ fn fastest_and(which: MotionChoice, plan: &Plan, q: &[f64], accuracy: f64) -> Re
         }
     }
     let hints = stable.as_ref().map_or(&[][..], |found| &found.hints);
-    match (repeating(&machine, &breaks, which, hints), stable) {
+    match (repeating(&machine, &breaks, which, hints, stable.is_none()), stable) {
         (Ok(motions), stable) => fastest_of(&search, &motions, stable),
         (Err(reason @ NoMotion::Neutral { .. }), _) => Err(reason.into()),
         (Err(_), Some(found)) => Ok(found),
