@@ -349,4 +349,15 @@ test("on the screen of a phone nothing is wider than it", async () => {
   await page.setViewportSize({ width: 1440, height: 900 });
 });
 
+test("before the first answer the page says of nothing that it is wrong", async () => {
+  const tab = await context.newPage();
+  await tab.routeWebSocket(/./, () => {});
+  await tab.goto(page.url());
+  await tab.locator(".panels").waitFor();
+  const words = await tab.locator("body").innerText();
+  assert.match(words, /Opening …/);
+  assert.doesNotMatch(words, /no TOML|No curves/);
+  await tab.close();
+});
+
 test("there was no error on the console, and no request to elsewhere", () => assert.deepEqual(faults, []));

@@ -203,7 +203,7 @@ const LAST = new Set(["format", "name", "description", "source"]);
 
 export function Controls() {
   const whole = state.controls.value;
-  if (!whole) return html`<p class="nothing">The text of the file is no TOML; mend it under File.</p>`;
+  if (!whole) return state.problems.value.length ? html`<p class="nothing">The text of the file is no TOML; mend it under File.</p>` : null;
   const draggable = new Set(state.draggable.value.split("\n"));
   const [heads, others] = [whole.entries.filter(({ key }) => LAST.has(key)), whole.entries.filter(({ key }) => !LAST.has(key))];
   const rank = ["mechanism", "drive", "bodies", "loads"];
