@@ -18,7 +18,7 @@ function Chip({ chip }) {
 }
 
 export function Chips() {
-  const runs = Object.values(state.lanes.value).includes("running");
+  const runs = state.runs.value;
   return html`
     <div class="chips" aria-label="Analyses">
       ${state.chips.value.map((chip) => html`<${Chip} key=${chip.name} chip=${chip} />`)}

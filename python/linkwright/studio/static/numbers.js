@@ -66,5 +66,5 @@ export function Numbers() {
       <div key=${name} class="scrolled" tabindex="0" role="region" aria-label=${title}><table><caption>${title}</caption>
         <thead><tr>${heads.map((head) => html`<th scope="col" translate="no">${head}</th>`)}</tr></thead>
         <tbody>${rows.map((row) => html`<tr>${row.map((cell) => html`<td translate="no">${cell}</td>`)}</tr>`)}</tbody></table></div>`)}
-    ${groups.length || tables.length ? null : html`<p class="nothing">No such quantity among the results.</p>`}`;
+    ${groups.length || tables.length ? null : html`<p class="nothing">${state.runs.value ? "Being computed …" : "No such quantity among the results."}</p>`}`;
 }

@@ -88,7 +88,7 @@ export function Plots() {
       <label class="watch">Curves of a point <${Choice} value=${state.watched.value} options=${[["", "none"], ...ofNames(points)]} choose=${(/** @type {string} */ name) => (state.watched.value = name)} /></label>` : null}
     <div class="panels">
       ${shown.map(({ plot, of }) => html`<${Panel} key=${plot.key} plot=${plot} of=${of} />`)}
-      ${shown.length ? null : html`<p class="nothing">${Object.values(state.lanes.value).includes("running") ? "Being computed …" : !state.controls.value && !state.problems.value.length ? "Opening …" : state.figures.value.length ? "No curves to read; Numbers and Diagrams have the results." : "No curves. The chips below the drawing say what stands in the way."}</p>`}
+      ${shown.length ? null : html`<p class="nothing">${state.runs.value ? "Being computed …" : !state.controls.value && !state.problems.value.length ? "Opening …" : state.figures.value.length ? "No curves to read; Numbers and Diagrams have the results." : "No curves. The chips below the drawing say what stands in the way."}</p>`}
     </div>
     ${others.length ? html`
       <details class="others"><summary>${others.length} more plots</summary>
@@ -98,7 +98,7 @@ export function Plots() {
 
 export function Diagrams() {
   return html`<div class="diagrams">${state.figures.value.map((each) => html`<${Diagram} key=${each.name} figure=${each} />`)}
-    ${state.figures.value.length ? null : html`<p class="nothing">${Object.values(state.lanes.value).includes("running") ? "Being computed …" : "No diagrams of this machine."}</p>`}</div>`;
+    ${state.figures.value.length ? null : html`<p class="nothing">${state.runs.value ? "Being computed …" : "No diagrams of this machine."}</p>`}</div>`;
 }
 
 /** One diagram over the page. */

@@ -64,6 +64,7 @@ export const building = signal(false);
 export const answers = signal({});
 /** State of each lane: "ready", "running", "stopped". @type {Signal<Record<string, string>>} */
 export const lanes = signal({});
+export const runs = computed(() => Object.values(lanes.value).includes("running"));
 const inOrder = computed(() => ["fast", "study", "torsion"].map((lane) => answers.value[lane]).filter(Boolean));
 export const results = computed(() => inOrder.value.flatMap((each) => each.results));
 /** Numbers of all results, each with the key of its result and its own. */
