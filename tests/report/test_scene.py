@@ -136,6 +136,21 @@ def test_a_motion_of_several_turns_is_drawn_to_its_end() -> None:
         assert np.abs(line[:, -1] - line[:, 0]).max() < 1e-5 * size(found)
 
 
+def test_the_horsehead_of_a_pumping_unit_stays_in_the_picture() -> None:
+    """Both ends of its arc, at every instant."""
+    text = (GALLERY[0].parents[1] / "pumping_unit_torque/machine.toml").read_text(encoding="utf-8")
+    found = drawn(text)
+    left, bottom, right, top = found["box"]
+    (head,) = (part for part in found["parts"] if part["kind"] == "arc")
+    for end in head["span"]:
+        angle = np.array(found["headings"][head["link"]]) + end
+        tip = points(found)[head["at"]] + head["radius"] * np.stack([np.cos(angle), np.sin(angle)])
+        # Positions are rounded to 1e-5 of the size.
+        room = 2e-5 * size(found)
+        assert (tip >= np.array([[left], [bottom]]) - room).all()
+        assert (tip <= np.array([[right], [top]]) + room).all()
+
+
 def test_pitch_circles_touch() -> None:
     found = drawn((GALLERY[0].parents[1] / "gears_and_guides/machine.toml").read_text(encoding="utf-8"))
     radii = {part["name"]: part["radius"] for part in found["parts"] if part["kind"] == "gear"}

@@ -54,6 +54,10 @@ def parts(machine: Machine, motion: Kinematics) -> Iterator[Scene]:
         yield {"kind": "point", "name": name, "slides": name in named, "series": series[name]}
 
 
+# How far an arc goes on beyond where its cable leaves it [rad].
+_BEYOND = 0.1
+
+
 def arc_end(cable: str) -> str:
     """Name of the point where a cable leaves its arc."""
     return f"{cable}, end of the arc"
@@ -196,7 +200,7 @@ def _cables(mechanism: Mechanism, motion: Kinematics, series: dict[str, int]) ->
             "at": links[cable.link].start,
             "link": cable.link,
             "radius": float(cable.radius),
-            "span": [low, high],
+            "span": [low - _BEYOND, high + _BEYOND],
             "series": series[name],
         }
         yield _line(name, "cable", series[name], arc_end(name), name)

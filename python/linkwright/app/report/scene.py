@@ -161,7 +161,7 @@ def _points(machine: Machine, motion: Kinematics) -> dict[str, Floats]:
 
 
 def _box(machine: Machine, drawn: dict[str, Floats], listed: list[Scene], motion: Kinematics) -> list[float]:
-    """Minimum x, minimum y, maximum x, maximum y of all points, pitch circles, levers and cams."""
+    """Minimum x, minimum y, maximum x, maximum y of all points, pitch circles, arcs, levers and cams."""
     every = list(drawn.values())
     for part in listed:
         if part["kind"] == "gear":
@@ -172,6 +172,12 @@ def _box(machine: Machine, drawn: dict[str, Floats], listed: list[Scene], motion
             )
             along = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
             every += [drawn[part["at"]] + end * along for end in part["bar"]]
+        if part["kind"] == "arc":
+            for beside in np.linspace(*part["span"], 9):
+                angle = motion.links[part["link"]].angle + beside
+                every.append(
+                    drawn[part["at"]] + part["radius"] * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+                )
         if part["kind"] in ("roller", "face") and part["rod"] and not part["link"]:
             cos, sin = np.cos(part["angle"]), np.sin(part["angle"])
             every.append(drawn[part["at"]] + np.array([[cos, -sin], [sin, cos]]) @ part["rod"])

@@ -196,7 +196,7 @@ class _Painter:
 
     def _arc(self, part: Scene) -> None:
         low, high = part["span"]
-        angles = np.linspace(low - 0.1, high + 0.1, 40)
+        angles = np.linspace(low, high, 40)
         shape = part["radius"] * np.stack([np.cos(angles), np.sin(angles)], axis=1)
         # The arc is part of its link.
         self.area(self.carried(part, [[0, 0], *shape]), _colour(part), _colour(part), 1.0, 0.18)

@@ -201,7 +201,7 @@ export const MOVING = {
     const [low, high] = part.span;
     carried(view, part, (ctx) => {
       ctx.beginPath();
-      const arc = () => ctx.arc(0, 0, part.radius * view.frame.scale, -(low - 0.1), -(high + 0.1), true);
+      const arc = () => ctx.arc(0, 0, part.radius * view.frame.scale, -low, -high, true);
       arc();
       stroke(ctx, colour(view, part), 6);
       // It is part of its link.

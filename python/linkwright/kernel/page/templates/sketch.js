@@ -151,7 +151,7 @@
     arc(part) {
       const r = part.radius * scale, [low, high] = part.span;
       const end = (a) => `${(r * Math.cos(a)).toFixed(2)} ${(-r * Math.sin(a)).toFixed(2)}`;
-      const d = `M${end(low - 0.1)}A${r} ${r} 0 ${high - low + 0.2 > Math.PI ? 1 : 0} 0 ${end(high + 0.1)}`;
+      const d = `M${end(low)}A${r} ${r} 0 ${high - low > Math.PI ? 1 : 0} 0 ${end(high)}`;
       const curve = add("path", "link", { d, stroke: colour(part), fill: "none", "stroke-width": 6 });
       title(curve, part.name);
       // The arc is part of its link.
