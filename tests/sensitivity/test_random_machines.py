@@ -13,7 +13,8 @@ from random_parts import random_train
 from sizes import cases
 
 import linkwright as lw
-from linkwright.kernel.errors import LinkwrightError
+from linkwright.kernel.errors import InputError, LinkwrightError
+from linkwright.kinetostatics.result import Forces
 
 # Share of an entry by which it is varied: rounding over it, and h⁶ of what is left by extrapolation.
 _STEP = 1e-4
@@ -26,6 +27,10 @@ _TOLERANCE = 1e-7
 
 # The same of drives that pass jumps: what leaps at an extreme is known to the accuracy of its angle.
 _BEHIND_JUMPS = 1e-6
+
+# Forces follow the acceleration: under steep motors its rounding is some 1e-11 of its peak, over a step of
+# 1e-4.
+_OF_FORCES = 1e-6
 
 # Works are left out: of springs and weights they are zero but for rounding.
 _NUMBERS = ("speed_mean_time", "period", "speed_max", "torque_motor_rms", "unevenness")
@@ -61,6 +66,29 @@ def _measures(machine: lw.Machine) -> list[float]:
 def _drive(random: Generator) -> tuple[lw.Machine, list[str], Measure]:
     machine = lw.Machine.model_validate(random_drive(random))
     return machine, [f"steady_state.{name}" for name in _NUMBERS], _measures
+
+
+def _forces(random: Generator) -> tuple[lw.Machine, list[str], Measure]:
+    """Largest forces of a drive in steady motion, at the angles that `forces` looks at."""
+    machine = lw.Machine.model_validate(random_drive(random))
+
+    def largest(machine: lw.Machine) -> Forces:
+        return lw.forces(machine, lw.steady_state(machine, accuracy=1e-13), contributions=False)
+
+    joints = largest(machine).reaction_max
+    if max(joints.values()) < 1e-6:
+        raise InputError(f"without load and weight, forces are {_STANDS_ON_A_KINK}")
+    # What is rounding beside the largest has no derivative.
+    pairs = [pair for pair, force in joints.items() if force > 1e-9 * max(joints.values())]
+    names = ["torque_drive_max", "shaking_force_max"]
+
+    def measure(machine: lw.Machine) -> list[float]:
+        found = largest(machine)
+        reactions = found.reaction_max
+        return [getattr(found, name) for name in names] + [reactions[pair] for pair in pairs]
+
+    responses = [f"forces.{name}" for name in names] + [f"forces.reaction_max.{pair}" for pair in pairs]
+    return machine, responses, measure
 
 
 def _jumping_drive(random: Generator) -> lw.Machine:
@@ -121,14 +149,15 @@ def check(
     return compared, wrong
 
 
-@pytest.mark.parametrize("kind", [_drive, _train])
-def test_derivatives_are_those_of_the_analysis(kind) -> None:
+@pytest.mark.parametrize(("kind", "few", "many"), [(_drive, 12, 1000), (_train, 12, 1000), (_forces, 4, 300)])
+def test_derivatives_are_those_of_the_analysis(kind, few: int, many: int) -> None:
     compared, refused = 0, Counter[str]()
-    for case in range(cases(12, 1000)):
+    for case in range(cases(few, many)):
         try:
             machine, names, measure = kind(np.random.default_rng([3, case]))
             measure(machine)
-            one, wrong = check(machine, names, measure, cases(5, 1))
+            tolerance = _OF_FORCES if kind is _forces else _TOLERANCE
+            one, wrong = check(machine, names, measure, cases(5, 1), tolerance)
         except LinkwrightError as error:
             refused[_reason(error)] += 1
             continue
@@ -136,7 +165,7 @@ def test_derivatives_are_those_of_the_analysis(kind) -> None:
         compared += one
     assert compared > 50
     # One in 25 of these drives has no load: of more, derivatives must not be refused.
-    assert refused[_STANDS_ON_A_KINK] <= max(1, cases(12, 1000) // 10), refused
+    assert refused[_STANDS_ON_A_KINK] <= max(1, cases(few, many) // 10), refused
 
 
 # What jumps leave of derivatives that are zero, or found by moving ends of steps in turn, which took turns.
