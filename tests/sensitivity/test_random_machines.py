@@ -28,9 +28,9 @@ _TOLERANCE = 1e-7
 # The same of drives that pass jumps: what leaps at an extreme is known to the accuracy of its angle.
 _BEHIND_JUMPS = 1e-6
 
-# Forces follow the acceleration: under steep motors its rounding is some 1e-11 of its peak, over a step of
-# 1e-4.
-_OF_FORCES = 1e-6
+# Forces follow the acceleration, of which steep motors leave few digits: over steps that shrink, rounding
+# grows and truncation falls, while a wrong derivative is off by about as much over each.
+_ALIKE = 3.0
 
 # Works are left out: of springs and weights they are zero but for rounding.
 _NUMBERS = ("speed_mean_time", "period", "speed_max", "torque_motor_rms", "unevenness")
@@ -47,6 +47,7 @@ _REFUSALS = (
     "the motion slides along a jump",
     "steady motion was not found to a relative accuracy",
     _STANDS_ON_A_KINK,
+    "it is zero but for rounding",
 )
 
 
@@ -71,6 +72,9 @@ def _drive(random: Generator) -> tuple[lw.Machine, list[str], Measure]:
 def _forces(random: Generator) -> tuple[lw.Machine, list[str], Measure]:
     """Largest forces of a drive in steady motion, at the angles that `forces` looks at."""
     machine = lw.Machine.model_validate(random_drive(random))
+    if lw.get(machine, "drive.gearbox.efficiency") == 1.0:
+        # Losses begin there: by an efficiency of 1 there is a derivative on one side only.
+        machine = lw.replace(machine, {"drive.gearbox.efficiency": 0.97})
 
     def largest(machine: lw.Machine) -> Forces:
         return lw.forces(machine, lw.steady_state(machine, accuracy=1e-13), contributions=False)
@@ -120,9 +124,14 @@ def difference(machine: lw.Machine, address: str, measure: Measure, step: float)
 
 
 def check(
-    machine: lw.Machine, names: list[str], measure: Measure, every: int, tolerance: float = _TOLERANCE
+    machine: lw.Machine,
+    names: list[str],
+    measure: Measure,
+    every: int,
+    tolerance: float = _TOLERANCE,
+    alike: float = np.inf,
 ) -> tuple[int, list[str]]:
-    """How many derivatives were compared, and which are wrong."""
+    """How many derivatives were compared, and which are wrong: by errors within a factor `alike`."""
     found = lw.gradient(machine, names)
     exact = found.derivatives * found.at
     # What is zero throughout, as the torque of a motor without load, has a difference of zero.
@@ -142,6 +151,7 @@ def check(
             continue
         # Where a step is too coarse, the finer one comes nearer by far more than a wrong one would.
         off = free & (errors.min(axis=0) > tolerance) & (errors[-1] > 1e-2 * errors[0])
+        off &= errors.max(axis=0) < alike * errors.min(axis=0)
         wrong += [
             f"{found.responses[k]} by {found.variables[at]}: {errors[:, k]}" for k in np.flatnonzero(off)
         ]
@@ -156,8 +166,8 @@ def test_derivatives_are_those_of_the_analysis(kind, few: int, many: int) -> Non
         try:
             machine, names, measure = kind(np.random.default_rng([3, case]))
             measure(machine)
-            tolerance = _OF_FORCES if kind is _forces else _TOLERANCE
-            one, wrong = check(machine, names, measure, cases(5, 1), tolerance)
+            alike = _ALIKE if kind is _forces else np.inf
+            one, wrong = check(machine, names, measure, cases(5, 1), alike=alike)
         except LinkwrightError as error:
             refused[_reason(error)] += 1
             continue
