@@ -116,7 +116,7 @@ def test_an_impossible_cam_is_told_and_not_drawn(groove: str, tmp_path: Path) ->
         (["--by", "time"], '--by: found "time", expected cam, polar'),
         (["--formats", "dxf,dwg"], '--formats: found "dwg", expected dxf, csv, svg, step'),
         (["--tolerance", "1 s"], "--tolerance: found"),
-        (["--out", "OUT", "--tolerance", "0 mm"], "expected more than 0"),
+        (["--out", "OUT", "--tolerance", "0 mm"], "expected a length greater than 0"),
         (["--out", "OUT", "--step", "0.7 deg"], "step of 0.7°: expected a whole number"),
     ],
 )

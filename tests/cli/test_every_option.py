@@ -12,9 +12,9 @@ from collections.abc import Callable
 import click
 import pytest
 from click.testing import Result
-from tests.cli.test_answer import CASES, ask, commands
+from tests.cli.test_answer import CASES, ask, commands, known
 
-__all__ = ["ask"]
+__all__ = ["ask", "known"]
 
 # No number of a machine, and no name in one.
 NONSENSE = ("nan", "inf", "-1e308", "1e308", "[/x]")

@@ -63,9 +63,7 @@ COMMANDS = {
     "motors": Place("List the motors of the catalogue.", "sizing.commands:motors"),
     "papers": Place("Recompute a published paper and compare.", "app.commands.papers:papers", False),
     "report": Place("Write the results of a command as HTML or PDF.", "app.commands.report:report", False),
-    "new": Place(
-        "Write a machine file, a study or a task of synthesis to start from.", "app.commands.new:new", False
-    ),
+    "new": Place("Write a machine file, a study or a task to start from.", "app.commands.new:new", False),
     "schema": Place("Print the JSON Schema of machine files.", "app.commands.schema:schema", False),
     "glossary": Place(
         "Define the terms of tables, messages and reports.", "app.commands.glossary:glossary", False

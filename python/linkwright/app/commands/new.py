@@ -33,7 +33,7 @@ def new(
     force: Force = False,
     list: List = False,
 ) -> None:
-    """Write a machine file, a study or a task of synthesis to start from.
+    """Write a machine file, a study or a task to start from.
 
     It goes to standard output, or to --out.
     """
