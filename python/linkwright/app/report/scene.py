@@ -173,7 +173,8 @@ def _box(machine: Machine, drawn: dict[str, Floats], listed: list[Scene], motion
             along = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
             every += [drawn[part["at"]] + end * along for end in part["bar"]]
         if part["kind"] == "arc":
-            for beside in np.linspace(*part["span"], 9):
+            low, high = part["span"]
+            for beside in np.linspace(low, high, 9):
                 angle = motion.links[part["link"]].angle + beside
                 every.append(
                     drawn[part["at"]] + part["radius"] * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
