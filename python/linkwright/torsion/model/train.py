@@ -283,10 +283,11 @@ class TrainGear(CheckedDescription):
             if self.stiffness is None and getattr(self, name):
                 remedy = "give the stiffness of the mesh, or the damping to its discs"
                 yield fault(name, found=getattr(self, name), expected="none with a rigid mesh", remedy=remedy)
-        if self.backlash and (self.stiffness is None or "belt" in self.kind):
-            remedy = "give the stiffness of the mesh" if "belt" not in self.kind else "leave it out"
-            expected = "none with a belt" if "belt" in self.kind else "none with a rigid mesh"
-            yield fault("backlash", found=self.backlash, expected=expected, remedy=remedy)
+        if self.backlash and "belt" in self.kind:
+            yield fault("backlash", found=self.backlash, expected="none with a belt", remedy="leave it out")
+        elif self.backlash and self.stiffness is None:
+            remedy = "give the stiffness of the mesh"
+            yield fault("backlash", found=self.backlash, expected="none with a rigid mesh", remedy=remedy)
 
     @property
     def speed_ratio(self) -> float:
