@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from sizes import cases
@@ -143,6 +145,27 @@ def test_a_peak_on_a_kink_has_no_derivative_by_what_moves_it() -> None:
     assert "mechanism.cranks.A1.phase" not in told
     assert np.isfinite(list(told.values())).all()
     assert np.isfinite(told["mechanism.cranks.A1.radius"])
+
+
+def test_losses_that_begin_at_an_efficiency_of_one_have_a_derivative() -> None:
+    """The torque of the motor changes sign: derivatives by the efficiency leap there, where no kink is.
+
+    Against differences of fifth order to one side, as losses begin at 1; without an end of a step at the
+    leap, forces are off by up to 4e-5.
+    """
+    text = Path("machines/roller_one_cart.toml").read_text(encoding="utf-8")
+    text = text.replace("efficiency = 0.9", "efficiency = 1.0").replace('reverse = "same"', "")
+    machine, address, h = lw.loads(text), "drive.gearbox.efficiency", 1e-4
+    state = lw.steady_state(machine)
+    assert state.torque_motor_min < 0.0 < state.torque_motor_max
+    found = lw.gradient(machine, ["forces"], [address])
+    peaks = [_peaks(lw.replace(machine, {address: 1.0 - k * h}))[0] for k in range(6)]
+    weights = (137 / 60, -5.0, 5.0, -10 / 3, 5 / 4, -1 / 5)
+    for row, response in enumerate(found.responses):
+        name = response.partition(".")[2]
+        difference = sum(w * peak[name] for w, peak in zip(weights, peaks, strict=True)) / h
+        size = abs(difference) + abs(found.values[row])
+        assert abs(found.derivatives[row, 0] - difference) <= 1e-8 * size, response
 
 
 def test_forces_of_nothing_have_no_derivative() -> None:

@@ -126,7 +126,7 @@ def test_shipped_studies_are_computed_at_once(path: Path) -> None:
     plan = lw.read_study(path)
     if plan.asked and all(asked.is_batch for asked in plan.asked):
         rows = lw.evaluate(plan, plan.values(np.array([[0.3] * len(plan.axes), [0.6] * len(plan.axes)])))
-        assert rows.one_by_one == ""
+        assert not rows.one_by_one
 
 
 def test_rows_that_are_computed_one_by_one_say_so(tmp_path: Path) -> None:
@@ -138,13 +138,71 @@ def test_rows_that_are_computed_one_by_one_say_so(tmp_path: Path) -> None:
         "responses": {"delta": "steady_state.unevenness"},
     }
     plan = lw.new_study(machine, tables)
-    assert lw.evaluate(plan, {"rated": np.array([rated])}).one_by_one == ""
+    assert not lw.evaluate(plan, {"rated": np.array([rated])}).one_by_one
     rows = lw.evaluate(plan, {"rated": np.array([rated, 3 * rated])})
     assert rows.status.tolist() == [0, 2]
-    assert "drive.motor.speed_rated" in rows.one_by_one
-    assert lw.sweep(plan, tmp_path / "rows").one_by_one == {rows.one_by_one: 2}
-    done = CliRunner().invoke(application(), ["sweep", "show", str(tmp_path / "rows"), "--json"])
-    assert any("row by row" in warning for warning in json.loads(done.stdout)["warnings"])
+    ((why, count),) = rows.one_by_one.items()
+    assert "drive.motor.speed_rated" in why
+    assert count == 2
+    assert lw.sweep(plan, tmp_path / "rows").one_by_one == {why: 2}
+    assert "2 rows were computed one by one" in _warnings("sweep", "show", str(tmp_path / "rows"))
+
+
+def _warnings(*arguments: str) -> str:
+    done = CliRunner().invoke(application(), [*arguments, "--json"])
+    return "\n".join(json.loads(done.stdout)["warnings"])
+
+
+_DRIVE_FILE = Path(__file__).parents[2] / "machines" / "roller_one_cart.toml"
+
+_SCATTERS = """
+[study.variables.rated]
+address = "drive.motor.speed_rated"
+tolerance = "± 5 rad/s"
+cost = 1
+[study.responses]
+delta = "steady_state.unevenness"
+[study.constraints.delta]
+max = 0.5
+"""
+
+_VARIES = """
+[study.variables.rated]
+address = "drive.motor.speed_rated"
+range = ["95 rad/s", "110 rad/s"]
+[study.responses]
+delta = "steady_state.unevenness"
+period = "steady_state.period"
+[study.goals]
+delta = "minimise"
+"""
+
+
+@pytest.mark.parametrize(
+    ("study", "command"),
+    [
+        (_SCATTERS, ("tolerance", "--rows", "100")),
+        (_SCATTERS, ("tolerance", "--rows", "100", "--allocate", "0.5")),
+        (_VARIES, ("optimise", "--evaluations", "20")),
+        (_VARIES + 'period = "minimise"\n', ("optimise", "--evaluations", "20", "--points", "3")),
+    ],
+)
+def test_every_study_says_what_is_computed_one_by_one(
+    study: str, command: tuple[str, ...], tmp_path: Path
+) -> None:
+    """A rated speed beyond the synchronous one in a population refuses its batch."""
+    path = tmp_path / "machine.toml"
+    path.write_text(_DRIVE_FILE.read_text("utf-8") + study, "utf-8")
+    assert "rows were computed one by one" in _warnings(command[0], str(path), *command[1:])
+
+
+def test_a_search_that_goes_on_knows_what_was_computed_one_by_one(tmp_path: Path) -> None:
+    path = tmp_path / "machine.toml"
+    path.write_text(_DRIVE_FILE.read_text("utf-8") + _VARIES, "utf-8")
+    plan, log = lw.read_study(path), tmp_path / "search.log"
+    first, second = (lw.optimise(plan, 20, log=log).one_by_one for _ in range(2))
+    assert first == second
+    assert sum(first.values()) >= 20
 
 
 def test_a_derived_entry_out_of_range_is_refused_as_in_a_machine(tmp_path: Path) -> None:
@@ -159,6 +217,6 @@ def test_a_derived_entry_out_of_range_is_refused_as_in_a_machine(tmp_path: Path)
     assert rows.columns["rod"][1] > 1e149
     assert rows.status.tolist() == [0, 2, 0]
     assert rows.why(1).startswith("mechanism.sliders.cart1.rod: expected a length greater than 0")
-    assert rows.one_by_one == ""
+    assert not rows.one_by_one
     with pytest.raises(MachineError, match="at most 1e\\+06 m"):
         lw.replace(lw.read(DRIVE[0]), {"mechanism.sliders.cart1.rod": np.array([0.8, 8e149])})

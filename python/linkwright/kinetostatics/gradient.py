@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from linkwright.drive.gradient import solved_along
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.steady_state import solved_state
 from linkwright.kernel.arrays import Bools, Floats
@@ -60,7 +61,7 @@ def force_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     Raises what `forces` raises.
     """
     program = _directions(machine, variables)
-    state, solution = _steady(machine)
+    state, solution = _steady(machine, program)
     result = forces(machine, state, contributions=False)
     curves = _curves(result)
     largest = max(float(np.nanmax(np.abs(curve))) for curve in curves.values())
@@ -103,7 +104,7 @@ def drive_forces_along(
     Beside the entries that have some: entries by which the motion is lost, and the kinks of the machine.
     """
     program = _directions(machine, variables)
-    solution = _steady(machine)[1]
+    solution = _steady(machine, program)[1]
     if solution is None:
         motion = forces(machine, angles=angles, contributions=False).motion
     else:
@@ -145,10 +146,14 @@ def _directions(machine: Machine, variables: Sequence[str]) -> Directions:
 _MOTION = ("crank_angle", "speed", "acceleration", "time")
 
 
-def _steady(machine: Machine) -> tuple[Any, Any]:
-    """The steady motion and its solution; None where the speed is given."""
+def _steady(machine: Machine, program: Directions) -> tuple[Any, Any]:
+    """The steady motion, and a solution that has derivatives; None where the speed is given."""
     motor = None if machine.drive is None else machine.drive.motor
-    return (None, None) if motor is None else solved_state(machine, _ACCURACY, _N)
+    if motor is None:
+        return None, None
+    if isinstance(motor, ConstantSpeedMotor):
+        return solved_state(machine, _ACCURACY, _N)
+    return solved_along(machine, program, _ACCURACY, _N)[:2]
 
 
 def _curves(result: Forces) -> dict[str, Any]:

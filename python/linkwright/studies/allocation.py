@@ -20,7 +20,8 @@ References
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from collections import Counter
+from dataclasses import dataclass, field, replace
 from typing import Annotated, Any
 
 import numpy as np
@@ -33,7 +34,7 @@ from linkwright.kernel.result import Result
 from linkwright.machine.address import get
 from linkwright.studies import sampling
 from linkwright.studies.axes import Axis
-from linkwright.studies.engine import evaluate
+from linkwright.studies.engine import OneByOne, evaluate
 from linkwright.studies.local import limits
 from linkwright.studies.plan import StudyPlan
 from linkwright.studies.slopes import slopes
@@ -68,10 +69,12 @@ class Allocation(Result):
     share_before: Annotated[float, Label("yield of the tolerances of the study", "", "")]
     active: Annotated[tuple[str, ...], About("Limits that hold the tolerances down.")]
     n_rows: Annotated[int, Label("machines drawn for each yield", "", "")]
+    one_by_one: OneByOne = field(default_factory=dict)
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Numbers and tables by name, ready for JSON; `curves` is without effect."""
-        return {**super().to_dict(), "tolerances": dict(self.tolerances), "factors": dict(self.factors)}
+        names = ("tolerances", "factors", "one_by_one")
+        return {**super().to_dict(), **{name: dict(getattr(self, name)) for name in names}}
 
 
 @public
@@ -120,10 +123,13 @@ def allocate(
         raise InputError(f"wanted {wanted:.15g}: expected {expected}{remedy}")
     problem = _Problem(plan, power)
     shares = sampling.random(len(plan.axes), seed, 0, rows)
+    alone = Counter[str]()
 
     def yield_at(factors: Floats) -> dict[str, Any]:
         wider = replace(plan, axes=tuple(map(_widened, plan.axes, factors)))
-        return yield_of(plan, evaluate(plan, wider.values(shares)), 0.95)
+        drawn = evaluate(plan, wider.values(shares))
+        alone.update(drawn.one_by_one)
+        return yield_of(plan, drawn, 0.95)
 
     low, high = _FEWEST, _MOST
     tightest = problem.factors(high)
@@ -151,6 +157,7 @@ def allocate(
         share_before=before["share_within"],
         active=problem.active(factors, high),
         n_rows=rows,
+        one_by_one=dict(alone.most_common()),
     )
 
 

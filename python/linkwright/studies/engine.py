@@ -9,8 +9,8 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, field
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +22,7 @@ from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.numerics.formula_value import value
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import rows as rows_of_numbers
+from linkwright.kernel.quantities import About
 from linkwright.linkages.kinematics import motions
 from linkwright.machine.address import get, outside, replace
 from linkwright.machine.machine import Machine
@@ -31,6 +32,12 @@ from linkwright.studies.responses import ENTRY, MOTION, SAMPLES, StudyResponse, 
 
 # Status of a row.
 SOLVED, FAILED, IMPOSSIBLE = 0, 1, 2
+
+# What a result says of rows that took longer than they do as a rule.
+OneByOne = Annotated[
+    dict[str, int],
+    About("Why rows were computed one by one that are computed at once as a rule → how many."),
+]
 
 # What a row without a finite number says.
 _NO_NUMBER = "{} is no finite number"
@@ -50,15 +57,15 @@ class Rows:
         Place of its sentence in ``reasons``; 0 where solved.
     reasons : list of str
         Sentences; the first is empty.
-    one_by_one : str
-        Why rows were computed one by one that are computed at once as a rule; empty if none was.
+    one_by_one : Counter of str
+        Why rows were computed one by one that are computed at once as a rule → how many.
     """
 
     columns: dict[str, Floats]
     status: NDArray[np.uint8]
     reason: Integers
     reasons: list[str]
-    one_by_one: str = ""
+    one_by_one: Counter[str] = field(default_factory=Counter)
 
     def __len__(self) -> int:
         return len(self.status)
@@ -218,7 +225,7 @@ def _solve(
                 # machine of the study, which leads it, does not move. Alone, each row that cannot be computed
                 # says why, and what was refused for no row of them is refused by all.
                 single += wanted
-                rows.one_by_one = _sentence(error)
+                rows.one_by_one[_sentence(error)] += len(members)
     if single:
         _one_by_one(machine, own, single, rows, members)
 

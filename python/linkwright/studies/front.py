@@ -13,8 +13,9 @@ References
 from __future__ import annotations
 
 import os
+from collections import Counter
 from contextlib import closing
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -24,6 +25,7 @@ from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
+from linkwright.studies.engine import OneByOne
 from linkwright.studies.optimise import Method, Optimum, check, searched
 from linkwright.studies.plan import StudyPlan
 from linkwright.studies.search_log import SearchLog
@@ -42,6 +44,7 @@ class Front(Result):
     ]
     failed: Annotated[dict[str, str], About("Limits of the second goal that no machine was found for → why.")]
     n_evaluations: Annotated[int, Label("machines that were computed", "", "")]
+    one_by_one: OneByOne = field(default_factory=dict)
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Numbers by name, each machine as that of `optimise`, ready for JSON; `curves` is without effect."""
@@ -51,6 +54,7 @@ class Front(Result):
             "goals": list(self.goals),
             "machines": machines,
             "failed": dict(self.failed),
+            "one_by_one": dict(self.one_by_one),
         }
 
 
@@ -123,6 +127,7 @@ def front(
         _best(optimums, (first, second), signs),
         failed,
         sum(optimum.n_evaluations for optimum in optimums),
+        dict(sum((Counter(optimum.one_by_one) for optimum in optimums), start=Counter[str]()).most_common()),
     )
 
 

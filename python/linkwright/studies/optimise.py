@@ -20,7 +20,7 @@ import os
 from collections import Counter
 from collections.abc import Callable, Mapping
 from contextlib import closing
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import product
 from pathlib import Path
 from typing import Annotated, Any, Literal, get_args
@@ -35,7 +35,7 @@ from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.studies import sampling
 from linkwright.studies.axes import Axis
-from linkwright.studies.engine import SOLVED, Rows, evaluate, sound_variant, variant
+from linkwright.studies.engine import SOLVED, OneByOne, Rows, evaluate, sound_variant, variant
 from linkwright.studies.local import Descent, Price, prices
 from linkwright.studies.plan import StudyPlan
 from linkwright.studies.search_log import SearchLog
@@ -79,10 +79,11 @@ class Optimum(Result):
     n_evaluations: Annotated[int, Label("machines that were computed", "", "")]
     n_failed: Annotated[int, Label("machines without a result", "", "")]
     reasons: Annotated[dict[str, int], About("Why machines had no answer → how many.")]
+    one_by_one: OneByOne = field(default_factory=dict)
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Numbers and tables by name, ready for JSON; `curves` is without effect."""
-        names = ("variables", "responses", "multipliers", "reasons")
+        names = ("variables", "responses", "multipliers", "reasons", "one_by_one")
         return {**super().to_dict(), **{name: dict(getattr(self, name)) for name in names}}
 
 
@@ -202,6 +203,7 @@ class _Search:
         self.tried: list[dict[str, Any]] = []
         self.count = self.failed = 0
         self.reasons: Counter[str] = Counter()
+        self.alone: Counter[str] = Counter()
 
     def run(
         self, fixed: Mapping[str, float], evaluations: int, seed: int, method: Method, starts: int
@@ -271,6 +273,7 @@ class _Search:
         rows = self.log.evaluate(self.plan, self.plan.values(points))
         self.count += len(rows)
         self.reasons.update(rows.failures())
+        self.alone.update(rows.one_by_one)
         keys = [self._key(rows, i) for i in range(len(rows))]
         at = min(range(len(keys)), key=keys.__getitem__)
         if self.best is None or keys[at] < self.best[0]:
@@ -316,6 +319,7 @@ class _Search:
             n_evaluations=self.count,
             n_failed=sum(self.reasons.values()),
             reasons=dict(self.reasons),
+            one_by_one=dict(self.alone.most_common()),
         )
 
     def _prices(self) -> list[Price]:

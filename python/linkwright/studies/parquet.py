@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -19,7 +21,7 @@ if TYPE_CHECKING:
 # Under which the description of a study stands in the metadata of a file.
 KEY = b"linkwright"
 
-# Under which it stands why rows of a file were computed one by one.
+# Under which it stands why rows of a file were computed one by one, and how many.
 ONE_BY_ONE = b"linkwright_one_by_one"
 
 
@@ -52,7 +54,7 @@ def encoded(rows: Rows, start: int, units: Mapping[str, str], about: bytes) -> b
         pa.field(name, column.type, metadata={"unit": units[name]} if units.get(name) else None)
         for name, column in columns.items()
     ]
-    metadata = {KEY: about} | ({ONE_BY_ONE: rows.one_by_one.encode()} if rows.one_by_one else {})
+    metadata = {KEY: about} | ({ONE_BY_ONE: json.dumps(rows.one_by_one).encode()} if rows.one_by_one else {})
     table = pa.Table.from_arrays(list(columns.values()), schema=pa.schema(fields, metadata=metadata))
     out = pa.BufferOutputStream()
     # Numbers of a sweep differ in all digits: neither dictionaries nor compression make them smaller.
@@ -75,11 +77,11 @@ def is_whole(path: Path, n_rows: int, about: bytes) -> bool:
         return False
 
 
-def one_by_one(path: Path) -> str:
-    """Why rows of a file were computed one by one; empty if they were not."""
+def one_by_one(path: Path) -> Counter[str]:
+    """Why rows of a file were computed one by one → how many."""
     import pyarrow.parquet as pq
 
-    return str((pq.read_schema(path).metadata or {}).get(ONE_BY_ONE, b"").decode())
+    return Counter(json.loads((pq.read_schema(path).metadata or {}).get(ONE_BY_ONE, b"{}")))
 
 
 def columns_of(path: Path, names: Sequence[str] | None = None) -> dict[str, Any]:

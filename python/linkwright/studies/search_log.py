@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import json
 import os
+from collections import Counter
 from collections.abc import Callable, Mapping
 from hashlib import sha256
 from pathlib import Path
@@ -75,12 +76,12 @@ class SearchLog:
             rows = evaluate(plan, values)
             columns = {name: column.tolist() for name, column in rows.columns.items()}
             rest = {"status": rows.status.tolist(), "reason": rows.reason.tolist(), "reasons": rows.reasons}
-            return {"columns": columns, **rest}
+            return {"columns": columns, **rest, "one_by_one": rows.one_by_one}
 
         line = self._line(self._digest(plan, "rows", asked), computed)
         columns = {name: np.array(column, dtype=float) for name, column in line["columns"].items()}
         status, reason = np.array(line["status"], np.uint8), np.array(line["reason"], np.int32)
-        return Rows(columns, status, reason, list(line["reasons"]))
+        return Rows(columns, status, reason, list(line["reasons"]), Counter(line.get("one_by_one", {})))
 
     def slopes(self, plan: StudyPlan, at: Floats, steps: Floats) -> Slopes:
         """Responses with derivatives, as `slopes.slopes`."""

@@ -20,7 +20,7 @@ from linkwright.kernel.errors import FindingError, InputError, InternalError
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-from linkwright.studies.engine import SOLVED, evaluate, numbers
+from linkwright.studies.engine import SOLVED, OneByOne, evaluate, numbers
 from linkwright.studies.folder import SweepFolder, new_folder
 from linkwright.studies.parquet import columns_of, one_by_one
 from linkwright.studies.plan import StudyPlan
@@ -40,10 +40,7 @@ class Sweep(Result):
         About("Response → its minimum and maximum [SI], and the rows that have them."),
     ]
     repaired: Annotated[tuple[str, ...], About("Truncated files that were computed again.")] = ()
-    one_by_one: Annotated[
-        dict[str, int],
-        About("Why rows were computed one by one that are computed at once as a rule → rows of such files."),
-    ] = field(default_factory=dict)
+    one_by_one: OneByOne = field(default_factory=dict)
 
     @property
     def is_complete(self) -> bool:
@@ -201,8 +198,7 @@ def summary(folder: SweepFolder, responses: Iterable[str], repaired: tuple[str, 
         columns = columns_of(path, ["row", *names, "status", "reason"])
         solved = columns["status"] == SOLVED
         n_done += len(solved)
-        if why := one_by_one(path):
-            alone[why] += len(solved)
+        alone.update(one_by_one(path))
         reasons.update(columns["reason"][~solved])
         if solved.any():
             for name in names:

@@ -21,7 +21,8 @@ References
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections import Counter
+from dataclasses import dataclass, field
 from typing import Annotated, Any
 
 import numpy as np
@@ -33,7 +34,7 @@ from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.studies import sampling
 from linkwright.studies.axes import Axis
-from linkwright.studies.engine import SOLVED, Rows, evaluate
+from linkwright.studies.engine import SOLVED, OneByOne, Rows, evaluate
 from linkwright.studies.plan import StudyPlan
 from linkwright.studies.slopes import slopes
 
@@ -83,10 +84,11 @@ class Tolerance(Result):
     share_low: Annotated[float | None, Label("lower end of the yield", "", "", "Of its interval.")]
     share_high: Annotated[float | None, Label("upper end of the yield", "", "", "Of its interval.")]
     level: Annotated[float, Label("probability that the interval holds the truth", "", "")]
+    one_by_one: OneByOne = field(default_factory=dict)
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Numbers and tables by name, ready for JSON; `curves` is without effect."""
-        names = ("responses", "contributions", "slopes", "indices", "ties")
+        names = ("responses", "contributions", "slopes", "indices", "ties", "one_by_one")
         return {**super().to_dict(), **{name: getattr(self, name) for name in names}}
 
 
@@ -137,7 +139,7 @@ def tolerance(
     )
     drawn = evaluate(plan, plan.values(sampling.random(len(plan.axes), seed, 0, rows)))
     deviations = np.array([spread[1] for spread in spreads])
-    sobol, n_dropped = _indices(plan, seed, indices) if indices else ({}, 0)
+    sobol, n_dropped, alone = _indices(plan, seed, indices) if indices else ({}, 0, Counter[str]())
     names = [axis.name for axis in plan.axes]
     solved = drawn.status == SOLVED
     if solved.sum() < 2:
@@ -162,6 +164,7 @@ def tolerance(
         n_dropped=n_dropped,
         **yield_of(plan, drawn, level),
         level=level,
+        one_by_one=dict((drawn.one_by_one + alone).most_common()),
     )
 
 
@@ -236,8 +239,10 @@ def yield_of(plan: StudyPlan, drawn: Rows, level: float) -> dict[str, float | No
     }
 
 
-def _indices(plan: StudyPlan, seed: int, n: int) -> tuple[dict[str, dict[str, tuple[float, float]]], int]:
-    """First and total Sobol indices, and how many blocks were dropped."""
+def _indices(
+    plan: StudyPlan, seed: int, n: int
+) -> tuple[dict[str, dict[str, tuple[float, float]]], int, Counter[str]]:
+    """First and total Sobol indices, how many blocks were dropped, and why rows were computed one by one."""
     d = len(plan.axes)
     both = sampling.random(2 * d, seed + 1, 0, n)
     a, b = both[:, :d], both[:, d:]
@@ -259,4 +264,4 @@ def _indices(plan: StudyPlan, seed: int, n: int) -> tuple[dict[str, dict[str, tu
         indices[name] = {
             axis.name: (float(s), float(t)) for axis, s, t in zip(plan.axes, first, total, strict=True)
         }
-    return indices, int((~kept).sum())
+    return indices, int((~kept).sum()), rows.one_by_one

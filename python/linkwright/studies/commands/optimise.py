@@ -10,7 +10,7 @@ from linkwright.kernel.command.common import Json, Outside, Sets, belong_to
 from linkwright.kernel.command.out import Force, Out
 from linkwright.kernel.command.parameter import Option
 from linkwright.kernel.errors import FindingError
-from linkwright.studies.commands.sweep import StudyArgument
+from linkwright.studies.commands.sweep import StudyArgument, one_by_one_warnings
 
 if TYPE_CHECKING:
     from linkwright.studies.optimise import Optimum
@@ -93,6 +93,7 @@ def hand_over_optimum(
         machine=plan.machine.name,
         units=plan.machine.units,
         results=lambda _: {"optimum": optimum.to_dict()},
+        warnings=one_by_one_warnings(optimum.one_by_one),
         head=lambda: _head(plan.machine.name, optimum),
         tables=lambda: optimum_tables(optimum, plan.units),
         machine_file=lambda: dumps(optimum.machine),
@@ -125,7 +126,10 @@ def _hand_over_front(
         machine=plan.machine.name,
         units=plan.machine.units,
         results=lambda _: {"front": best.to_dict()},
-        warnings=[f"no machine has {limit}: {reason}" for limit, reason in best.failed.items()],
+        warnings=[
+            *(f"no machine has {limit}: {reason}" for limit, reason in best.failed.items()),
+            *one_by_one_warnings(best.one_by_one),
+        ],
         head=lambda: f"{plan.machine.name}\n{best.n_evaluations} machines computed",
         tables=lambda: front_tables(best, plan.units),
         machine_file=lambda: dumps(middle.machine),

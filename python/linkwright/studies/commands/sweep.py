@@ -101,6 +101,14 @@ def show(folder: Folder, out: Drawn = None, force: Force = False, json: Json = F
     hand_over(drawn, json=json, folder=into)
 
 
+def one_by_one_warnings(one_by_one: dict[str, int]) -> list[str]:
+    """That rows took longer than they do as a rule, with the most frequent reason."""
+    # Reasons name the numbers that do not go together: each batch of a search has its own.
+    why = max(one_by_one, key=one_by_one.__getitem__, default="")
+    n = sum(one_by_one.values())
+    return [f"{n} rows were computed one by one and not at once, which takes longer: {why}"] if n else []
+
+
 def _share(text: str) -> tuple[int, int] | None:
     """Numbers of files out of ``A:B``."""
     from linkwright.kernel.errors import InputError
@@ -120,10 +128,7 @@ def _answer(machine: Machine, swept: Sweep, units: dict[str, str]) -> Answer:
     solved = swept.n_done - swept.n_failed
     missing = swept.n_rows - swept.n_done
     warnings = [f"{name} was truncated and is computed again." for name in swept.repaired]
-    warnings += [
-        f"{n} rows are in files that were computed row by row and not at once, which takes longer: {why}"
-        for why, n in swept.one_by_one.items()
-    ]
+    warnings += one_by_one_warnings(swept.one_by_one)
     if missing:
         warnings.append(f"{missing} rows of {swept.n_rows} are not computed yet.")
     return Answer(

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import Json, Outside, Sets, belong_to
 from linkwright.kernel.command.parameter import Option
-from linkwright.studies.commands.sweep import StudyArgument
+from linkwright.studies.commands.sweep import StudyArgument, one_by_one_warnings
 
 if TYPE_CHECKING:
     from linkwright.studies.allocation import Allocation
@@ -70,6 +70,7 @@ def tolerance(
         warnings=[
             *([failed] if scatter.n_failed else []),
             *(f"{name} has a derivative on either side only: {why}" for name, why in scatter.ties.items()),
+            *one_by_one_warnings(scatter.one_by_one),
         ],
         head=lambda: _head(plan, scatter),
         tables=lambda: tolerance_tables(scatter, plan.units),
@@ -100,6 +101,7 @@ def _hand_over_allocation(
         machine=plan.machine.name,
         units=plan.machine.units,
         results=lambda _: {"allocation": allocation.to_dict()},
+        warnings=one_by_one_warnings(allocation.one_by_one),
         head=lambda: head,
         tables=lambda: allocation_tables(allocation, plan.units),
     )
