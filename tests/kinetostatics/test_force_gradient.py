@@ -168,6 +168,39 @@ def test_losses_that_begin_at_an_efficiency_of_one_have_a_derivative() -> None:
         assert abs(found.derivatives[row, 0] - difference) <= 1e-8 * size, response
 
 
+_IDLE = """
+format = 1
+name = "idle"
+[drive.motor]
+kind = "induction"
+speed_synchronous = 4.126
+speed_rated = 4.003
+torque_rated = 32.6
+torque_breakdown = 107.6
+[drive.gearbox]
+ratio = 3
+efficiency = 0.7
+[mechanism]
+cranks.A.radius = 0.3
+[bodies]
+A = { mass = 0.2, inertia = 0.005 }
+"""
+
+
+def test_a_machine_without_load_has_no_driving_torque() -> None:
+    """Its motor runs at the synchronous speed: what rounding of the speed leaves of the torque is nothing."""
+    machine = lw.loads(_IDLE)
+    found = lw.gradient(machine, ["forces"])
+    assert "forces.shaking_force_max" in found.responses
+    assert "forces.torque_drive_max" not in found.responses
+    with pytest.raises(FindingError, match="zero but for rounding"):
+        lw.gradient(machine, ["forces.torque_drive_max"])
+    # Of any load that can be told from rounding there is one.
+    loaded = lw.loads(_IDLE + '[loads]\nrub = { kind = "formula", on = "A", torque = "-1e-6" }')
+    of = lw.gradient(loaded, ["forces.torque_drive_max"], ["drive.gearbox.ratio"])
+    assert of.values == pytest.approx([1e-6], rel=1e-6)
+
+
 def test_forces_of_nothing_have_no_derivative() -> None:
     machine = lw.read("examples/press_motion/machine.toml")
     with pytest.raises(FindingError, match="zero but for rounding"):

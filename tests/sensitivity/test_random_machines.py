@@ -13,7 +13,7 @@ from random_parts import random_train
 from sizes import cases
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError, LinkwrightError
+from linkwright.kernel.errors import LinkwrightError
 from linkwright.kinetostatics.result import Forces
 
 # Share of an entry by which it is varied: rounding over it, and h⁶ of what is left by extrapolation.
@@ -76,19 +76,15 @@ def _forces(random: Generator) -> tuple[lw.Machine, list[str], Measure]:
     def largest(machine: lw.Machine) -> Forces:
         return lw.forces(machine, lw.steady_state(machine, accuracy=1e-13), contributions=False)
 
-    joints = largest(machine).reaction_max
-    if max(joints.values()) < 1e-6:
-        raise InputError(f"without load and weight, forces are {_STANDS_ON_A_KINK}")
-    # What is rounding beside the largest has no derivative.
-    pairs = [pair for pair, force in joints.items() if force > 1e-9 * max(joints.values())]
-    names = ["torque_drive_max", "shaking_force_max"]
+    # What is zero but for rounding is left out.
+    responses = list(lw.gradient(machine, ["forces"], ["drive.gearbox.ratio"]).responses)
 
     def measure(machine: lw.Machine) -> list[float]:
         found = largest(machine)
-        reactions = found.reaction_max
-        return [getattr(found, name) for name in names] + [reactions[pair] for pair in pairs]
+        known = {"torque_drive_max": found.torque_drive_max, "shaking_force_max": found.shaking_force_max}
+        known |= {f"reaction_max.{pair}": force for pair, force in found.reaction_max.items()}
+        return [known[response.partition(".")[2]] for response in responses]
 
-    responses = [f"forces.{name}" for name in names] + [f"forces.reaction_max.{pair}" for pair in pairs]
     return machine, responses, measure
 
 

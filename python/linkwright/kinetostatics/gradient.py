@@ -45,8 +45,11 @@ _ACCURACY, _N = 1e-9, 360
 # Extremes this near, as a share of the curve's range, tie: the steady motion is not known better.
 _TIE = 1e-7
 
-# A peak below this share of the largest force is rounding.
+# A peak below this share of what forces and torques are made of is rounding.
 _NOTHING = 1e-12
+
+# Share of a speed to both sides at which the motor's torque is read for its slope.
+_ASIDE = 1e-6
 
 # A kink that moves by less than this [rad] for its entry doubled stays where it is.
 _ROUNDING = 1e-12
@@ -64,11 +67,11 @@ def force_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     state, solution = _steady(machine, program)
     result = forces(machine, state, contributions=False)
     curves = _curves(result)
-    largest = max(float(np.nanmax(np.abs(curve))) for curve in curves.values())
+    nothing = _rounding(machine, result)
     missing = {
         name: "it is zero but for rounding"
         for name, curve in curves.items()
-        if np.nanmax(np.abs(curve)) <= _NOTHING * largest
+        if np.nanmax(np.abs(curve)) <= nothing["torque" if name.startswith("torque") else "force"]
     }
     places = {name: int(np.nanargmax(np.abs(curve))) for name, curve in curves.items() if name not in missing}
     if not places:
@@ -164,6 +167,30 @@ def _curves(result: Forces) -> dict[str, Any]:
         "shaking_force_max": np.hypot(force[:, 0], force[:, 1]),
     }
     return curves | {f"reaction_max.{name}": pair.size for name, pair in result.pairs.items()}
+
+
+def _rounding(machine: Machine, result: Forces) -> dict[str, float]:
+    """Torque [N m] and force [N] that are rounding in a motion of a machine."""
+    # They follow the acceleration, which is what the torque of the motor and that of the loads leave: the
+    # torque is known to rounding of the speed times its slope, however small it is.
+    size = Scene(machine, result.motion).size
+    force = max(
+        float(np.nanmax(np.abs(curve))) for name, curve in _curves(result).items() if "torque" not in name
+    )
+    torque = max(force * size, float(np.nanmax(np.abs(result.torque_drive))), _motor_change(machine, result))
+    return {"torque": _NOTHING * torque, "force": _NOTHING * torque / size}
+
+
+def _motor_change(machine: Machine, result: Forces) -> float:
+    """By how much the motor's torque at the crank would change for a speed doubled, by its slope [N m]."""
+    motor = None if machine.drive is None else machine.drive.motor
+    if motor is None or isinstance(motor, ConstantSpeedMotor):
+        return 0.0
+    speeds = np.array([np.nanmin(result.speed), np.nanmax(result.speed)])
+    above, below = (
+        compile_machine(machine).motor_torques(speeds * (1 + by)).crank for by in (_ASIDE, -_ASIDE)
+    )
+    return float(np.abs(above - below).max()) / (2 * _ASIDE)
 
 
 def _beside_kinks(
