@@ -10,13 +10,11 @@ A mass J on a spring K, :math:`\omega_n^2 = K/J`, carries a ring :math:`\mu J`, 
 and whatever the damping is, all curves go through the same points where those with none and with infinite
 damping meet. The best that damping can do is to make the curve level there:
 
-=============  ==================  =================================================  =====================
-ring held by   tuning              damping                                            largest magnification
-=============  ==================  =================================================  =====================
-fluid          0                   :math:`\zeta^2 = 1/(2(1 + \mu)(2 + \mu))`          :math:`1 + 2/\mu`
-spring, fluid  :math:`1/(1+\mu)`   :math:`\zeta^2 = 3\mu/(8(1 + \mu)^3)`              :math:`\sqrt{1 + 2/\mu}`
-rubber         :math:`1/(1+\mu)`   :math:`\eta^2 = \mu(3 + 2\mu)/(2 + \mu)`           :math:`\sqrt{1 + 2/\mu}`
-=============  ==================  =================================================  =====================
+| ring held by | tuning | damping | largest magnification |
+| --- | --- | --- | --- |
+| fluid | 0 | :math:`\zeta^2 = 1/(2(1 + \mu)(2 + \mu))` | :math:`1 + 2/\mu` |
+| spring, fluid | :math:`1/(1 + \mu)` | :math:`\zeta^2 = 3\mu/(8(1 + \mu)^3)` | :math:`\sqrt{1 + 2/\mu}` |
+| rubber | :math:`1/(1 + \mu)` | :math:`\eta^2 = \mu(3 + 2\mu)/(2 + \mu)` | :math:`\sqrt{1 + 2/\mu}` |
 
 The first is exact. With a spring, the curve cannot be level at both points at once, and the squares of the
 two dampings that make it so are averaged, as Brock did; the largest value lies a little above the points, by

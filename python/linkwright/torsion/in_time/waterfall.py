@@ -5,8 +5,8 @@ A motion that speeds up is no periodic one, but over a few revolutions it nearly
 slides over it, and in each the signal x is taken over the angle φ of the disc, not over time, so that orders
 stay where they are while the speed changes,
 
-.. math:: A_\nu = \frac{2}{\int w\,d\varphi} \left|\int w(\varphi)\,\bigl(x - \bar
-x\bigr)\,e^{-i\nu\varphi}\,d\varphi\right|
+.. math:: A_\nu = \frac{2}{\int w\,d\varphi} \left|\int w(\varphi)\,\bigl(x - \bar x\bigr)\,
+    e^{-i\nu\varphi}\,d\varphi\right|
 
 with Hann's window w. It tells apart orders that differ by 2/N; a line between two orders is not an amplitude.
 
