@@ -1154,7 +1154,7 @@ class MotionInTime:
     """Motion in time at the ends of the steps [s, rad, rad/s, rad/s²].
 
     How it ended by name, torques of drive and load there [N m], evaluations; of each step the factors of
-    angle and speed, (steps, 7) each (`Stages::component` in `kernel/rk.rs`), and whether it is by the
+    angle and speed, (steps, 2, 7) (`Stages::component` in `kernel/rk.rs`), and whether it is by the
     implicit method (steps,).
     """
 
@@ -1163,8 +1163,7 @@ class MotionInTime:
     crank_angle: Final[_Floats]
     speed: Final[_Floats]
     acceleration: Final[_Floats]
-    angle_factors: Final[_Floats]
-    speed_factors: Final[_Floats]
+    factors: Final[_Floats]
     implicit: Final[NDArray[np.bool_]]
     torque_drive_end: Final[float]
     torque_load_end: Final[float]
@@ -1260,6 +1259,18 @@ class ThirdDerivatives:
     links: Final[_Floats]
     slides: Final[_Floats]
 
+def solve_systems(matrix: _Floats, right: _Floats) -> None:
+    """Solve systems of equations A x = b of one shape, in place.
+
+    Parameters
+    ----------
+    matrix : ndarray, shape (columns, equations, n)
+        A of each system, column by column.
+    right : ndarray, shape (sides, equations, n)
+        Right sides b of each system, which x replaces: infinite or NaN where A is singular, NaN where a
+        number of the system is not finite.
+    """
+
 def third(
     plan: Plan,
     q: _Floats,
@@ -1335,6 +1346,11 @@ class MotionVariations:
     crank_angle: Final[NDArray[np.float64]]
     speed: Final[NDArray[np.float64]]
     acceleration: Final[_Floats]
+
+def motion_at(
+    time: _Floats, angle: _Floats, speed: _Floats, factors: _Floats, at: _Floats
+) -> tuple[_Floats, _Floats]:
+    """Angles and speeds of a `MotionInTime` at instants within it [rad, rad/s]."""
 
 def transient_along(
     plan: Plan,

@@ -10,6 +10,7 @@
 //! | [`formula`], [`formula_words`] | what a user writes as text, as a program; its words |
 //! | [`gauss`], [`radau`], [`rk`] | quadrature of order 8; collocation of order 9; Runge–Kutta of order 8 |
 //! | [`matrix`] | dense systems of equations, real or complex |
+//! | [`systems`] | many systems of one shape side by side |
 //! | [`series`] | series over a step, and collocation by them |
 //! | [`nested`] | ten nodes of a step, five of them its stages, and one correction of Newton there |
 //! | [`turns`] | where the polynomial of a step turns, past a limit or not |
@@ -38,5 +39,6 @@ pub mod rk;
 pub mod series;
 pub mod slot;
 pub mod status;
+pub mod systems;
 pub mod table;
 pub mod turns;

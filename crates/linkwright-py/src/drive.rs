@@ -5,10 +5,11 @@ use linkwright_core::drive::batch::{self, QUANTITIES, Rows};
 use linkwright_core::drive::gradient::{CURVES, Gradient, NUMBERS};
 use linkwright_core::drive::kinks as core_kinks;
 use linkwright_core::drive::reading::{Curves, ReadCurves};
+use linkwright_core::drive::reduce::{self, Reduction};
 use linkwright_core::drive::steady::{Failure, Steady, steady_with_others};
 use linkwright_core::drive::transient::variation::{SolvedMotion, Variation};
 use linkwright_core::drive::transient::{End, Start, Turning, follow};
-use numpy::{PyArray1, PyArray2, PyArrayDyn, PyArrayMethods, PyReadonlyArray2, PyReadonlyArray3};
+use numpy::{PyArray1, PyArray2, PyArray3, PyArrayDyn, PyArrayMethods, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 
@@ -354,8 +355,7 @@ pub(crate) struct MotionInTime {
     crank_angle: Array,
     speed: Array,
     acceleration: Array,
-    angle_factors: Py<PyArray2<f64>>,
-    speed_factors: Py<PyArray2<f64>>,
+    factors: Py<PyArray3<f64>>,
     implicit: Py<PyArray1<bool>>,
     torque_drive_end: f64,
     torque_load_end: f64,
@@ -393,24 +393,43 @@ pub(crate) fn transient(
     let start = Start { phi, omega, turning, duration, turns, accuracy };
     let path = guarded(py, "motion in time", || follow(&plan.0, q, &start))?;
     let steps = path.between.len();
-    let factors = |which: usize| -> PyResult<_> {
-        let rows = path.between.iter().flat_map(|step| step[which]).collect();
-        Ok(column(py, rows).reshape([steps, 7])?.unbind())
-    };
-    let (angle_factors, speed_factors) = (factors(0)?, factors(1)?);
+    let factors = path.between.into_iter().flatten().flatten().collect();
+    let factors = column(py, factors).reshape([steps, 2, 7])?.unbind();
     Ok(MotionInTime {
         end: name_of(path.end),
         time: kept(py, path.t),
         crank_angle: kept(py, path.phi),
         speed: kept(py, path.omega),
         acceleration: kept(py, path.epsilon),
-        angle_factors,
-        speed_factors,
+        factors,
         implicit: PyArray1::from_vec(py, path.implicit).unbind(),
         torque_drive_end: path.drive_torque,
         torque_load_end: path.load_torque,
         evaluations: path.evaluations,
     })
+}
+
+/// Angles and speeds of a motion in time at some instants within it.
+#[pyfunction]
+pub(crate) fn motion_at<'py>(
+    py: Python<'py>,
+    time: Floats<'_>,
+    angle: Floats<'_>,
+    speed: Floats<'_>,
+    factors: PyReadonlyArray3<'_, f64>,
+    at: Floats<'_>,
+) -> PyResult<(Curve<'py>, Curve<'py>)> {
+    let (t, phi, omega) = (time.as_slice()?, angle.as_slice()?, speed.as_slice()?);
+    let steps = t.len().saturating_sub(1);
+    if steps == 0 || [phi.len(), omega.len()] != [t.len(); 2] || factors.as_array().shape() != [steps, 2, 7] {
+        let text = format!("factors of shape {:?} for {} times", factors.as_array().shape(), t.len());
+        return Err(PyIndexError::new_err(text));
+    }
+    let (between, at) = (factors.as_slice()?, at.as_slice()?);
+    let analysis = "motion in time";
+    require_room(analysis, [at.len(), 2])?;
+    let [angle, speed] = guarded(py, analysis, || SolvedMotion { t, phi, omega, between }.read(at))?;
+    Ok((column(py, angle), column(py, speed)))
 }
 
 /// Derivatives of a motion in time at some instants along directions of the parameters.
@@ -474,12 +493,16 @@ pub(crate) fn reductions(
 ) -> PyResult<Reductions> {
     let (q, phi) = (plan.parameters(&q)?, phi.as_slice()?);
     let (analysis, n) = ("reduction to the crank", phi.len());
-    require_room(analysis, [5, n])?;
-    let mut rows = vec![0.0; 5 * n];
-    guarded(py, analysis, || batch::reductions(&plan.0, q, phi, &mut rows))?;
-    let [inertia, inertia_slope, load, dry, viscous] =
-        std::array::from_fn(|k| PyArray1::from_slice(py, &rows[k * n..(k + 1) * n]).unbind());
-    Ok(Reductions { inertia, inertia_slope, load, dry, viscous })
+    require_room(analysis, [10, n])?;
+    let found = guarded(py, analysis, || reduce::reductions(&plan.0, q, phi, 1.0))?;
+    let column = |of: fn(&Reduction<f64>) -> f64| kept(py, found.iter().map(of).collect());
+    Ok(Reductions {
+        inertia: column(|r| r.J),
+        inertia_slope: column(|r| r.J_d1),
+        load: column(|r| r.load),
+        dry: column(|r| r.dry),
+        viscous: column(|r| r.viscous),
+    })
 }
 
 #[pyfunction]

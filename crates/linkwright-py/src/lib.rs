@@ -7,6 +7,7 @@ mod arrays;
 mod builder;
 mod cam;
 mod drive;
+mod equations;
 mod errors;
 mod guard;
 mod linkage;
@@ -59,9 +60,11 @@ mod _core {
     #[pymodule_export]
     use super::drive::{
         MotionInTime, MotionVariations, MotorTorques, NoSteadyMotion, OtherMotion, Reductions, SteadyCurves,
-        SteadyGradient, SteadyMotion, SteadyRows, SteadySolution, kinks, kinks_along, law_torques,
+        SteadyGradient, SteadyMotion, SteadyRows, SteadySolution, kinks, kinks_along, law_torques, motion_at,
         motor_torques, reductions, steady_rows, steady_state, transient, transient_along,
     };
+    #[pymodule_export]
+    use super::equations::solve_systems;
     #[pymodule_export]
     use super::linkage::{
         Channel, GroupPath, InLine, ThirdDerivatives, follow_group, gaps, in_line, motions, motions_along,

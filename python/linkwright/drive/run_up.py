@@ -12,7 +12,7 @@ from typing import Annotated, Any
 import numpy as np
 
 from linkwright.drive.motion_events import largest
-from linkwright.drive.steady_state import SteadyState, steady_state
+from linkwright.drive.steady_state import SteadyState, steady_curves, steady_state
 from linkwright.drive.transient import End, MethodPart, Transient, transient
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError, StartError, SteadyStateError
@@ -21,6 +21,7 @@ from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
+from linkwright.machine.program.core import SteadyCurves
 
 # Relative accuracy of a step.
 _ACCURACY = 1e-9
@@ -191,7 +192,7 @@ def _too_slow(motion: Transient, steady: SteadyState, band: float) -> str:
                 f"{other.speed_min:.4g} to {other.speed_max:.4g} rad/s; choose a motor with more torque at "
                 "low speed, or start at a higher run_up.speed_start"
             )
-    off = abs(motion.speed[-1] / _steady_speed(steady, steady.crank_angle, motion.crank_angle[-1:])[0] - 1)
+    off = abs(motion.speed[-1] / _steady_speed(steady, motion.crank_angle[-1:])[0] - 1)
     return (
         f"has not settled after {motion.turns:.0f} revolutions ({motion.time[-1]:.1f} s): its speed still "
         f"differs from it by {100 * off:.2g} %, more than {100 * band:.2g} %; raise run_up.turns_max"
@@ -207,10 +208,15 @@ def _is_dense(steady: SteadyState) -> bool:
     return bool((steps > 0).all() and (steps <= _SPACING).all())
 
 
-def _steady_speed(steady: SteadyState, grid: Floats, angle: Floats) -> Floats:
+def _steady_speed(steady: SteadyState, angle: Floats) -> Floats:
+    """Speed of steady motion at crank angles."""
+    return _speed_between(steady, steady.crank_angle, 2 * np.pi * steady.turns, angle)
+
+
+def _speed_between(steady: SteadyState | SteadyCurves, grid: Floats, cycle: float, angle: Floats) -> Floats:
     """Speed at crank angles, by the cubic through speeds and slopes over a grid that begins anywhere."""
     omega = steady.speed
-    phi = (angle - grid[0]) % (2 * np.pi * steady.turns) + grid[0]
+    phi = (angle - grid[0]) % cycle + grid[0]
     k = grid[1:-1].searchsorted(phi, side="right")
     h = grid[k + 1] - grid[k]
     z = (phi - grid[k]) / h
@@ -230,7 +236,7 @@ def _settled(
     """Turns and time at which the motion last enters the band about steady motion; None if never."""
     limit = machine.run_up.settled * steady.speed_mean_time
     looks, angle, speed = _looks(motion)
-    outside = np.flatnonzero(np.abs(speed - _steady_speed(steady, steady.crank_angle, angle)) > limit)
+    outside = np.flatnonzero(np.abs(speed - _steady_speed(steady, angle)) > limit)
     if not len(outside):
         return 0.0, 0.0
     if outside[-1] == len(looks) - 1:
@@ -239,11 +245,12 @@ def _settled(
     first, last = motion.at(np.append(low, high))[0]
     # A little beyond both ends, which rounding may leave.
     grid = first + (last - first) * np.linspace(-0.1, 1.1, _NEAR)
-    near = steady_state(machine, angles=grid % (2 * np.pi * steady.turns), accuracy=accuracy)
+    cycle = 2 * np.pi * steady.turns
+    near = steady_curves(machine, accuracy, grid % cycle)
 
     def excess(time: Floats) -> Floats:
         angle, speed = motion.at(time)
-        return np.abs(speed - _steady_speed(near, grid, angle)) - limit
+        return np.abs(speed - _speed_between(near, grid, cycle, angle)) - limit
 
     settled = np.maximum(*zeros(excess, low, high))
     turned = motion.at(settled)[0][0] - motion.crank_angle[0]

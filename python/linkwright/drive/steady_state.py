@@ -28,7 +28,7 @@ from linkwright.kernel.result import Result
 from linkwright.linkages.closure import over_whole_cycle, require_full_turn, turn_angles
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
-from linkwright.machine.program.core import NoSteadyMotion, Status, SteadyMotion, SteadySolution
+from linkwright.machine.program.core import NoSteadyMotion, Status, SteadyCurves, SteadyMotion, SteadySolution
 
 # Speeds of a revolution at which the motor's torque is looked at for its extremes, and how often between the
 # neighbours of the best: an interval is a 32nd of that before.
@@ -288,7 +288,17 @@ def solved_state(
     motion = compiled.steady(phi, accuracy)
     if isinstance(motion, NoSteadyMotion):
         raise _failure(motion, machine, compiled, accuracy)
+    compiled.kept["steady motion"] = accuracy, motion.solution
     return _from_core(machine, motion, phi, compiled), motion.solution
+
+
+def steady_curves(machine: Machine, accuracy: float, angles: Floats) -> SteadyState | SteadyCurves:
+    """Curves of steady motion at crank angles, from the last solution if that is as accurate."""
+    kept = over_whole_cycle(compile_machine(machine)).kept.get("steady motion")
+    if kept is not None and kept[0] <= accuracy:
+        solution: SteadySolution = kept[1]
+        return solution.curves(angles)
+    return solved_state(machine, accuracy, angles)[0]
 
 
 def _motor_extremes(

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 from linkwright.drive.model.motor import ConstantSpeedMotor, ConstantTorqueMotor
 from linkwright.drive.reduction import NO_INERTIA
 from linkwright.drive.sound_loads import require_half_turns, require_sound_loads, sliding
-from linkwright.kernel.arrays import Bools, Floats, Indices
+from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.errors import ConvergenceError, InputError, SteadyStateError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import array, number
@@ -26,6 +26,7 @@ from linkwright.kernel.units import ANGLE, COUNT, SPEED, TIME, Quantity, positiv
 from linkwright.linkages.closure import require_full_turn
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
+from linkwright.machine.program.core import motion_at
 
 
 class End(IntEnum):
@@ -58,20 +59,11 @@ class StepPolynomials:
 
     factors: Floats  # (steps, 2, 7): of the angle [rad] and the speed [rad/s] in each step
 
-    def rises(self, z: Floats, step: Indices) -> Floats:
-        """Change of angle and speed since the start of steps, (2, m), at shares z of the steps, 0 to 1.
+    def at_shares(self, z: Floats) -> Floats:
+        """Change of angle and speed since the start of every step at shares z of it, 0 to 1, (steps, 2, m).
 
         z (f₀ + (1 − z)(f₁ + z (f₂ + (1 − z)(f₃ + …)))).
         """
-        factors = np.ascontiguousarray(self.factors[step].T)
-        left, rises = 1 - z, np.zeros((2, len(z)))
-        for i in reversed(range(len(factors))):
-            rises += factors[i]
-            rises *= left if i % 2 else z
-        return rises
-
-    def at_shares(self, z: Floats) -> Floats:
-        """The same changes at shares (m,) of every step, (steps, 2, m)."""
         basis, product = np.empty((self.factors.shape[-1], len(z))), np.ones(len(z))
         for i in range(len(basis)):
             product = product * (1 - z if i % 2 else z)
@@ -194,10 +186,7 @@ class Transient(Result):
         t = self._within(array("time", time))
         if len(self.time) == 1:
             return np.full_like(t, self.crank_angle[0]), np.full_like(t, self.speed[0])
-        k = self.time[1:-1].searchsorted(t.ravel(), side="right")
-        begin = self.time[k]
-        rises = self.between.rises((t.ravel() - begin) / (self.time[k + 1] - begin), k)
-        angle, speed = self.crank_angle[k] + rises[0], self.speed[k] + rises[1]
+        angle, speed = motion_at(self.time, self.crank_angle, self.speed, self.between.factors, t.ravel())
         return angle.reshape(t.shape), speed.reshape(t.shape)
 
     def slope(self, time: float) -> float:
@@ -317,7 +306,7 @@ def transient(
         torque_drive_end=motion.torque_drive_end,
         torque_load_end=motion.torque_load_end,
         evaluations=motion.evaluations,
-        between=StepPolynomials(np.stack((motion.angle_factors, motion.speed_factors), axis=1)),
+        between=StepPolynomials(motion.factors),
         implicit=motion.implicit,
     )
 

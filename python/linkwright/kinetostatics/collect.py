@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from functools import reduce
+from collections.abc import Sequence
+from functools import partial, reduce
 from itertools import pairwise
 from operator import add
 
@@ -11,6 +12,7 @@ import numpy as np
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import FindingError
 from linkwright.kernel.numerics.tangent_array import primal
+from linkwright.kernel.public.immutable import LazyTable
 from linkwright.kinetostatics.applied import AppliedLoad, together
 from linkwright.kinetostatics.equilibrium import Solution
 from linkwright.kinetostatics.model.loads.table import TorqueAngle, TorqueSpeed
@@ -69,13 +71,12 @@ class Collector:
 
     def forces(self) -> Forces:
         """Everything, by name."""
-        shares = self._contributions()
         total = self.solution.x.sum(axis=-1)
         spans = list(zip(self.models, self.spans, strict=True))
         pairs = {m.name: self._pair(m, span, total) for m, span in spans if m.kind not in _DRIVES}
         drives = {m.name: total[:, span.start] for m, span in spans if m.kind in _DRIVES}
         motion = self.scene.motion
-        torque = reduce(add, [share.torque_drive for share in shares.values()])
+        torque, frame = self._borne(list(self.columns.values()), total)
         return Forces(
             crank_angle=motion.crank_angle,
             time=motion.time,
@@ -83,11 +84,11 @@ class Collector:
             acceleration=motion.acceleration,
             torque_drive=torque,
             **self._powers(torque, total),
-            shaking_moment=reduce(add, [share.shaking_moment for share in shares.values()]),
-            shaking_force=reduce(add, [share.shaking_force for share in shares.values()]),
+            shaking_moment=frame[:, 2],
+            shaking_force=frame[:, :2],
             pairs=pairs,
             drives=drives,
-            contributions=shares,
+            contributions=LazyTable({name: partial(self._share, k) for k, name in enumerate(self.columns)}),
             motion=motion,
             load_forces=self._load_forces(),
             load_torques=self._load_torques(),
@@ -99,13 +100,13 @@ class Collector:
         )
 
     def _passed(self, model: PairModel, span: slice, x: Floats, member: str) -> Floats:
-        """What a pair does to a member for values (…, n, unknowns): force and moment, (…, n, 3)."""
-        passed: Floats = np.zeros((*x.shape[:-1], 3))
+        """What a pair does to a member for values (n, unknowns): force and moment, (n, 3)."""
+        passed: Floats = np.zeros((self.scene.n, 3))
         for j, unknown in enumerate(model.unknowns):
             if member in unknown.on:
-                passed = passed + x[..., span.start + j, None] * unknown.on[member]
+                passed = passed + x[:, span.start + j, None] * unknown.on[member]
         if model.is_nonlinear and model.extra is not None:
-            passed = passed + self._dry(span, x)[..., None] * model.extra.on_member(member)
+            passed = passed + self._dry(span, x)[:, None] * model.extra.on_member(member)
         return passed
 
     def _viscous(self, model: PairModel) -> Floats:
@@ -117,7 +118,7 @@ class Collector:
 
     def _dry(self, span: slice, x: Floats) -> Floats:
         """Extra force of a pair that goes with its unknowns."""
-        dry: Floats = (self.solution.slopes[:, span] * x[..., span]).sum(axis=-1)
+        dry: Floats = (self.solution.slopes[:, span] * x[:, span]).sum(axis=-1)
         return dry
 
     def _pair(self, model: PairModel, span: slice, total: Floats) -> PairForce:
@@ -153,33 +154,30 @@ class Collector:
                 torques[name] = source.wrenches.on_member(on)[:, 2]
         return torques
 
-    def _contributions(self) -> dict[str, Contribution]:
-        """The share of each source."""
-        x = np.moveaxis(self.solution.x, -1, 0).copy()
-        torque = np.stack([source.resisting for source in self.columns.values()])
-        frame = np.stack([source.wrenches.on_member(FRAME) for source in self.columns.values()])
-        reactions = {}
+    def _borne(self, sources: Sequence[AppliedLoad], x: Floats) -> tuple[Floats, Floats]:
+        """Driving torque and what acts on the frame, (n,) and (n, 3). `x`: values (n, unknowns)."""
+        torque = reduce(add, [source.resisting for source in sources])
+        frame = reduce(add, [source.wrenches.on_member(FRAME) for source in sources])
         for model, span in zip(self.models, self.spans, strict=True):
             if model.acts_on(FRAME):
                 frame = frame + self._passed(model, span, x, FRAME)
             if model.kind in _DRIVES:
                 # The work of the drive on this member in a radian of the crank.
-                torque = torque + x[..., span.start] * self.works[model.name]
+                torque = torque + x[:, span.start] * self.works[model.name]
                 if model.push is not None:
                     torque = torque + self._dry(span, x) * model.push.lever
-                continue
-            at = reactions[model.name] = self._passed(model, span, x, model.second)
-            if "friction" in self.columns:
-                at[list(self.columns).index("friction")] += self._viscous(model)
-        return {
-            name: Contribution(
-                {pair: at[k, :, :2] for pair, at in reactions.items()},
-                torque[k],
-                frame[k, :, :2],
-                frame[k, :, 2],
-            )
-            for k, name in enumerate(self.columns)
-        }
+        return torque, frame
+
+    def _share(self, k: int) -> Contribution:
+        """The share of a source."""
+        (name, source), x = list(self.columns.items())[k], self.solution.x[:, :, k]
+        torque, frame = self._borne([source], x)
+        reactions = {}
+        for model, span in zip(self.models, self.spans, strict=True):
+            if model.kind not in _DRIVES:
+                at = self._passed(model, span, x, model.second)
+                reactions[model.name] = (at + self._viscous(model) if name == "friction" else at)[:, :2]
+        return Contribution(reactions, torque, frame[:, :2], frame[:, 2])
 
     def _powers(self, torque: Floats, total: Floats) -> dict[str, Floats]:
         """Power of drive, loads and friction, and change of kinetic energy."""

@@ -22,6 +22,7 @@ from linkwright.kinetostatics.pairs import PairModel
 from linkwright.kinetostatics.places import Scene
 from linkwright.kinetostatics.wrench import Wrenches
 from linkwright.linkages.model.structure import FRAME
+from linkwright.machine.program.core import solve_systems
 
 # Relative change of the forces at which the iteration over friction ends.
 _SETTLED = 1e-11
@@ -85,16 +86,19 @@ class Equilibrium:
         self.b = loads.reshape(len(loads), -1, loads.shape[-1])[:, self.rows] * row_scale[:, None]
 
     def _matrix(self, scene: Scene, columns: list[Wrenches], row_scale: Floats) -> Floats:
-        """Wrenches as columns, (n, equations, columns)."""
-        matrix = scene.zeros(scene.n, len(self.rows), len(columns))
+        """Wrenches as columns, (n, equations, columns); in memory all angles follow each other."""
+        # The equations of a member follow each other: two forces, and a moment if it turns.
+        members = {name: 3 * i for name, i in scene.index.items() if name != FRAME}
+        starts = self.rows.searchsorted([[at, at + 3] for at in members.values()]).tolist()
+        spans = dict(zip(members, starts, strict=True))
+        matrix = scene.zeros(len(columns), len(self.rows), scene.n)
         for j, column in enumerate(columns):
             for member, wrench in column.on.items():
                 if member != FRAME:
-                    # The equations of a member follow each other: two forces, and a moment if it turns.
-                    first, last = self.rows.searchsorted(3 * scene.index[member] + np.array([0, 3]))
-                    matrix[:, first:last, j] = wrench[:, : last - first]
-        scaled: Floats = matrix * row_scale[:, None]
-        return scaled
+                    first, last = spans[member]
+                    matrix[j, first:last] = wrench[:, : last - first].T
+        matrix *= row_scale[:, None]
+        return matrix.T
 
     def solve(self) -> Solution:
         """Solve at all angles."""
@@ -157,7 +161,7 @@ class Equilibrium:
 
     def _linear(self, slopes: Floats, b: Floats, where: Bools) -> tuple[Floats, Bools]:
         """x of A x = −b at some angles, (n, unknowns, sources), and where it is unbounded."""
-        A = self.base.copy()
+        A = self.base.copy(order="K")
         for k, span in enumerate(self.spans):
             extra = self.extras[k]
             if extra is not None:
@@ -166,14 +170,17 @@ class Equilibrium:
         is_everywhere = bool(where.all())
         if not is_everywhere:
             A, b = A[where], b[where]
-        right = np.empty((len(A), A.shape[1], b.shape[-1] + _PROBES))
-        np.negative(b, out=right[..., :-_PROBES])
+        sides = b.shape[-1]
+        right = np.empty((sides + _PROBES, A.shape[1], len(A)))
+        np.negative(b.T, out=right[:sides])
         # Numbers without any pattern that a mechanism could have: squares of whole numbers, in radians.
-        right[..., -_PROBES:] = np.cos(np.arange(1.0, A.shape[1] * _PROBES + 1) ** 2).reshape(-1, _PROBES)
-        solution, singular = _solved(A, right)
-        growth = np.abs(solution[..., -_PROBES:]).max(axis=(1, 2))
-        singular |= ~(growth < _UNBOUNDED)
-        scaled = solution[..., :-_PROBES] * self.column_scale[:, None]
+        probes = np.cos(np.arange(1.0, A.shape[1] * _PROBES + 1) ** 2).reshape(-1, _PROBES)
+        right[sides:] = probes.T[..., None]
+        solve_systems(np.ascontiguousarray(A.T), right)
+        # Where the mechanism has no motion there are no forces either.
+        singular = ~(np.abs(right[sides:]).max(axis=(0, 1)) < _UNBOUNDED)
+        right[..., singular] = 0.0
+        scaled = (right[:sides] * self.column_scale[:, None]).T
         if is_everywhere:
             return scaled, singular
         x = np.zeros((len(where), A.shape[1], b.shape[-1]))
@@ -200,21 +207,3 @@ def _rows(scene: Scene) -> tuple[Indices, Floats]:
             rows.append(3 * i + component)
             scale.append(1.0 if component < 2 else 1.0 / scene.size)
     return np.array(rows), np.array(scale)
-
-
-def _solved(A: Floats, b: Floats) -> tuple[Floats, Bools]:
-    """Solution of each system; zero and a mark where a matrix is singular."""
-    # Where the mechanism has no motion there are no forces either.
-    known = np.isfinite(A).all(axis=(1, 2)) & np.isfinite(b).all(axis=(1, 2))
-    unknown: Bools = np.logical_not(known)
-    if unknown.any():
-        A = np.where(unknown[:, None, None], np.eye(A.shape[1]), A)
-        b = np.where(unknown[:, None, None], 0.0, b)
-    singular = unknown
-    try:
-        return np.asarray(np.linalg.solve(A, b), dtype=np.float64), singular
-    except np.linalg.LinAlgError:
-        singular = unknown | np.asarray(~(np.linalg.cond(A) < _UNBOUNDED))
-        A = np.where(singular[:, None, None], np.eye(A.shape[1]), A)
-        solution = np.linalg.solve(A, np.where(singular[:, None, None], 0.0, b))
-        return np.asarray(solution, dtype=np.float64), singular

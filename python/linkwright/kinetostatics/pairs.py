@@ -138,11 +138,7 @@ def _moving(scene: Scene, rate: Floats, size: float) -> tuple[Floats, Floats]:
 
 def _pin(scene: Scene, pair: Pair, friction: Friction) -> PairModel:
     place = scene.point(pair.point)
-    unknowns = []
-    for axis in (0, 1):
-        force = np.zeros((scene.n, 2))
-        force[:, axis] = 1.0
-        unknowns.append(Wrenches(scene).between(pair.first, pair.second, force, place))
+    unknowns = [Wrenches(scene).unit_between(pair.first, pair.second, axis, place) for axis in (0, 1)]
     if not friction.acts:
         return _without_friction(scene, pair.name, "pin", pair.second, *unknowns)
     one = np.ones(scene.n)

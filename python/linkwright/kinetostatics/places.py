@@ -11,7 +11,7 @@ from linkwright.kernel.errors import InputError
 from linkwright.kinetostatics.motion import Motion
 from linkwright.linkages.kinematics import kinematics
 from linkwright.linkages.model.element import Guide
-from linkwright.linkages.model.structure import FRAME, structure
+from linkwright.linkages.model.structure import FRAME, Structure, structure
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 
@@ -34,12 +34,16 @@ class Scene:
     """
 
     def __init__(self, machine: Machine, motion: Motion) -> None:
+        compiled = compile_machine(machine)
         # Refuses entries that are arrays over many machines.
-        _ = compile_machine(machine).one
+        _ = compiled.one
         self.machine = machine
         self.mechanism = machine.linkage
         self.motion = motion
-        self.structure = structure(self.mechanism)
+        known: Structure | None = compiled.kept.get("structure")
+        if known is None:
+            known = compiled.kept["structure"] = structure(self.mechanism)
+        self.structure = known
         if not self.structure.members:
             raise InputError("mechanism: found nothing that moves, expected a crank or a linear driver")
         self.links = self.mechanism.links()

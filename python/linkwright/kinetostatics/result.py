@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Annotated, Any
 
@@ -102,7 +103,7 @@ class Forces(Result):
         dict[str, Floats],
         About("Torque on each crank [N m], force on each linear driver along its guide [N]."),
     ]
-    contributions: Annotated[dict[str, Contribution], About(_CONTRIBUTIONS)]
+    contributions: Annotated[Mapping[str, Contribution], About(_CONTRIBUTIONS)]
     motion: Annotated[Motion, About("As it was given.")]
     load_forces: Annotated[
         dict[str, Floats], About("Force of each load on a slide, along its guide [N]; forward is positive.")

@@ -84,6 +84,14 @@ class Wrenches:
         """Add a force on the second member, and the opposite one on the first."""
         return self.force(second, force, place).force(first, -force, place)
 
+    def unit_between(self, first: str, second: str, axis: int, place: Floats) -> Wrenches:
+        """Add 1 N along x or y, axis 0 or 1, on the second member, and the opposite one on the first."""
+        for member, size in ((second, 1.0), (first, -1.0)):
+            to, arm = self._to(member), place - self.scene.reference(member)
+            to[:, axis] += size
+            to[:, 2] += arm[:, 0] * size if axis == 1 else arm[:, 1] * -size
+        return self
+
     def on_guide(self, pair: Pair, force: Floats, moment: Floats) -> Wrenches:
         """Add force and moment on the second member of a guide; the guide's body takes the opposite ones.
 

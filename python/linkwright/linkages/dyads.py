@@ -93,28 +93,38 @@ def transmission_channels(compiled: CompiledMachine, dyad: Dyad) -> list[Channel
     return []
 
 
-def transmission(compiled: CompiledMachine, dyad: Dyad, values: Sequence[Rows]) -> tuple[Floats, Floats]:
-    """Transmission angle, and a smooth function with the sign changes of its derivative, up to the sign.
+def transmission(compiled: CompiledMachine, dyad: Dyad, values: Sequence[Rows]) -> Floats:
+    """Transmission angle from 0 to π, (n,) [rad]. `values`: motion of `transmission_channels`."""
+    if isinstance(dyad.element, Element.SlottedLever):
+        (slot,), offset = values, compiled.parameters[dyad.element.offset]
+        assert isinstance(slot, SlideRows)
+        swing: Floats = np.arctan2(np.abs(slot.position), offset)
+        return swing
+    (e, _), (f, _) = _directions(compiled, dyad, values)
+    cross, dot = e[0] * f[1] - e[1] * f[0], e[0] * f[0] + e[1] * f[1]
+    between: Floats = np.arctan2(np.abs(cross), dot)
+    return between
 
-    `values`: motion of `transmission_channels`. Returns: mu: (n,) 0 to π
-    [rad]; slope: (n,) or (1,) ±dμ/dφ, for a dyad RPR ±ds/dφ of its slot; NaN at a limit of crank rotation.
+
+def transmission_slope(compiled: CompiledMachine, dyad: Dyad, values: Sequence[Rows]) -> Floats:
+    """A smooth function with the sign changes of the derivative of the transmission angle, up to the sign.
+
+    ±dμ/dφ, for a dyad RPR ±ds/dφ of its slot, (n,) or (1,); NaN at a limit of crank rotation.
     """
     if isinstance(dyad.element, Element.SlottedLever):
         (slot,), offset = values, compiled.parameters[dyad.element.offset]
         assert isinstance(slot, SlideRows)
-        return np.arctan2(np.abs(slot.position), offset), slot.d1 * float(offset != 0)
-    links = [link for link in values if isinstance(link, LinkRows)]
-    (e, e1), (f, f1) = _directions(compiled, dyad, links)
-    cross, dot = e[0] * f[1] - e[1] * f[0], e[0] * f[0] + e[1] * f[1]
+        return slot.d1 * float(offset != 0)
+    (_, e1), (_, f1) = _directions(compiled, dyad, values)
     # At a limit of crank rotation both rates are infinite, and their difference is no number.
     with np.errstate(invalid="ignore"):
-        slope = f1 - e1
-    return np.arctan2(np.abs(cross), dot), slope
+        return f1 - e1
 
 
-def _directions(compiled: CompiledMachine, dyad: Dyad, links: list[LinkRows]) -> list[tuple[Floats, Floats]]:
+def _directions(compiled: CompiledMachine, dyad: Dyad, values: Sequence[Rows]) -> list[tuple[Floats, Floats]]:
     """The two directions between which μ lies, with the rates of their angles."""
     q = compiled.parameters
+    links = [link for link in values if isinstance(link, LinkRows)]
     match dyad.element:
         case Element.SliderRod(cos=cos, sin=sin):
             return [(links[0].direction, links[0].d1), (np.array([[-q[sin]], [q[cos]]]), np.zeros(1))]

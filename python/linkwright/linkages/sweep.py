@@ -16,11 +16,12 @@ from linkwright.linkages.dyads import (
     dyads_of,
     transmission,
     transmission_channels,
+    transmission_slope,
 )
 from linkwright.linkages.model.mechanism import Mechanism
 from linkwright.machine.program.compiled import CompiledMachine
 from linkwright.machine.program.core import Channel, Element
-from linkwright.machine.program.motion import LinkRows, PointRows
+from linkwright.machine.program.motion import LinkRows, PointRows, Rows
 
 # Intervals of a revolution between which at most one extreme of a kind is expected: a degree.
 _INTERVALS = 360
@@ -120,22 +121,34 @@ class LinkageSweep:
         return self._there[0][:, k], self._there[1][:, k], self._there[2][:, k]
 
     def _at(self, angles: Floats) -> tuple[Floats, Floats, Floats]:
-        """μ, positions, and what changes sign at extremes: dμ/dφ, then d1, then d2 of the outputs."""
+        """μ, positions, and what changes sign at extremes, as `_slopes`."""
         values = self.compiled.motion(self._channels, angles)
-        pairs = [
-            transmission(self.compiled, dyad, values[self._ends[k] : self._ends[k + 1]])
-            for k, dyad in enumerate(self.dyads)
-        ]
-        rest = values[self._ends[-1] :]
-        n, dyads, outputs = len(angles), len(pairs), len(rest)
-        mu, place, slopes = np.empty((dyads, n)), np.empty((outputs, n)), np.empty((dyads + 2 * outputs, n))
-        for k, (angle, slope) in enumerate(pairs):
-            mu[k], slopes[k] = angle, slope
-        for k, rows in enumerate(rest):
+        mu, place = np.empty((len(self.dyads), len(angles))), np.empty((len(self.outputs), len(angles)))
+        for k, (dyad, part) in enumerate(self._by_dyad(values)):
+            mu[k] = transmission(self.compiled, dyad, part)
+        for k, rows in enumerate(values[self._ends[-1] :]):
             assert not isinstance(rows, PointRows)
             place[k] = np.arctan2(*rows.direction[::-1]) if isinstance(rows, LinkRows) else rows.position
+        return mu, place, self._slopes_of(values, len(angles))
+
+    def _slopes(self, angles: Floats) -> Floats:
+        """What changes sign at extremes: dμ/dφ, then d1, then d2 of the outputs, (…, n)."""
+        return self._slopes_of(self.compiled.motion(self._channels, angles), len(angles))
+
+    def _slopes_of(self, values: list[Rows], n: int) -> Floats:
+        dyads, outputs = len(self.dyads), len(self.outputs)
+        slopes = np.empty((dyads + 2 * outputs, n))
+        for k, (dyad, part) in enumerate(self._by_dyad(values)):
+            slopes[k] = transmission_slope(self.compiled, dyad, part)
+        for k, rows in enumerate(values[self._ends[-1] :]):
+            assert not isinstance(rows, PointRows)
             slopes[dyads + k], slopes[dyads + outputs + k] = rows.d1, rows.d2
-        return mu, place, slopes
+        return slopes
+
+    def _by_dyad(self, values: list[Rows]) -> Iterator[tuple[Dyad, list[Rows]]]:
+        """The dyads with the motion of their channels."""
+        for k, dyad in enumerate(self.dyads):
+            yield dyad, values[self._ends[k] : self._ends[k + 1]]
 
     def _locate(self, slopes: Floats) -> list[Floats]:
         """Angles of the zeros of each slope."""
@@ -147,7 +160,7 @@ class LinkageSweep:
         if not len(row):
             return [np.empty(0) for _ in slopes]
         angles, every = self.cycle.angles, np.arange(len(row))
-        near, _ = zeros(lambda x: self._at(x)[2][row, every], angles[column], angles[column + 1])
+        near, _ = zeros(lambda x: self._slopes(x)[row, every], angles[column], angles[column + 1])
         return [near[row == k] for k in range(len(slopes))]
 
     # -- what was found ----------------------------------------------------------------------------------

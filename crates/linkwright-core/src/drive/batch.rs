@@ -130,19 +130,6 @@ pub fn rows_in_line(plan: &Plan, rows: &Rows<'_>, element: usize) -> Vec<(usize,
     in_threads(|crew| (0..rows.n).into_par_iter().flat_map_iter(|row| crew.task(|| of_row(row))).collect())
 }
 
-/// J, J′, load, dry and viscous torque coefficients at each angle, turning forward. `out` is (5, angles).
-pub fn reductions(plan: &Plan, q: &[f64], phi: &[f64], out: &mut [f64]) {
-    let mut m = Motion::new(&plan.mechanism, q);
-    let n = phi.len();
-    for (i, &phi_i) in phi.iter().enumerate() {
-        poll();
-        let r = plan.reduce::<f64, 2>(q, Angle::new(phi_i), 1.0, &mut m);
-        for (k, value) in [r.J, r.J_d1, r.load, r.dry, r.viscous].into_iter().enumerate() {
-            out[k * n + i] = value;
-        }
-    }
-}
-
 /// Torque of all laws at each angle and each of some speeds. `out` is (speeds, angles).
 pub fn law_torques(plan: &Plan, q: &[f64], phi: &[f64], omega: &[f64], out: &mut [f64]) {
     let mut m = Motion::new(&plan.mechanism, q);

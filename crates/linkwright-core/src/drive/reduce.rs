@@ -10,6 +10,8 @@
 
 use crate::drive::loads::{Body, Load};
 use crate::drive::structure::Plan;
+use crate::kernel::call::poll;
+use crate::kernel::lanes::{Job, in_lanes};
 use crate::kernel::plane::{Angle, Place, Vec2};
 use crate::kernel::real::Real;
 use crate::linkage::motion::{Motion, on_link, stretch};
@@ -29,6 +31,53 @@ pub struct Reduction<R> {
     pub dry: R,
     /// Viscous coefficient \[N m s/rad\].
     pub viscous: R,
+}
+
+/// The machine reduced to its crank at each of some angles; `sense` is the direction of rotation.
+pub fn reductions(plan: &Plan, q: &[f64], angles: &[f64], sense: f64) -> Vec<Reduction<f64>> {
+    in_lanes(ReductionJob { plan, q, angles, sense })
+}
+
+struct ReductionJob<'a> {
+    plan: &'a Plan,
+    q: &'a [f64],
+    angles: &'a [f64],
+    sense: f64,
+}
+
+impl Job for ReductionJob<'_> {
+    type Output = Vec<Reduction<f64>>;
+
+    #[inline(always)]
+    fn run<R: Real>(self) -> Self::Output {
+        let ReductionJob { plan, q, angles, sense } = self;
+        let q: Vec<R> = q.iter().map(|&x| R::splat(x)).collect();
+        let mut m = Motion::new(&plan.mechanism, &q);
+        let (mut lanes, mut numbers) = (vec![0.0; R::LANES], vec![0.0; 5 * R::LANES]);
+        let mut found = Vec::with_capacity(angles.len());
+        for angles in angles.chunks(R::LANES) {
+            poll();
+            lanes.fill(angles[0]);
+            lanes[..angles.len()].copy_from_slice(angles);
+            let r = R::out_of_line(
+                #[inline(always)]
+                || plan.reduce::<R, 2>(&q, Angle::new(R::load(&lanes)), sense, &mut m),
+            );
+            let columns = numbers.chunks_exact_mut(R::LANES);
+            for (number, to) in [r.J, r.J_d1, r.load, r.dry, r.viscous].into_iter().zip(columns) {
+                number.store(to);
+            }
+            let of = |number: usize, lane: usize| numbers[number * R::LANES + lane];
+            found.extend((0..angles.len()).map(|lane| Reduction {
+                J: of(0, lane),
+                J_d1: of(1, lane),
+                load: of(2, lane),
+                dry: of(3, lane),
+                viscous: of(4, lane),
+            }));
+        }
+        found
+    }
 }
 
 impl Plan {

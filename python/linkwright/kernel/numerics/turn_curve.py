@@ -135,7 +135,7 @@ class TurnCurve:
     def _candidates(self, sign: int, k: int) -> tuple[Floats, Floats]:
         """Values times the sign, and angles, that may be the maximum: ends of pieces and zeros of slopes."""
         series = sign * self.series[:, k]
-        low, high = chebyshev.chebval(-1.0, series.T), series.sum(axis=1)
+        low, high = series @ _alternating(series.shape[1]), series.sum(axis=1)
         values, angles = [low, high], [self.ends[:-1], self.ends[1:]]
         looks, rise = _looks(series.shape[1])
         samples = series @ looks
@@ -148,7 +148,7 @@ class TurnCurve:
             if bound[p] < best - _SAME * self.peak[k]:
                 break
             x = _flat_points(series[p])
-            values.append(chebyshev.chebval(x, series[p]))
+            values.append(series[p] @ _waves(x, series.shape[1]))
             angles.append(middle[p] + half[p] * x)
             best = max(best, values[-1].max(initial=best))
         return np.concatenate(values), np.concatenate(angles)
@@ -175,16 +175,49 @@ def _looks(count: int) -> tuple[Floats, float]:
 
 def _flat_points(series: Floats) -> Floats:
     """Where the derivative of a series is zero, within its piece."""
-    return _zeros(np.asarray(chebyshev.chebder(series)))
+    return _zeros(series @ _slopes(len(series)))
 
 
 def _zeros(series: Floats) -> Floats:
-    """Where a series is zero, within its piece."""
-    scale = np.abs(series).max(initial=0.0)
-    if scale == 0.0:
-        return np.empty(0)
+    """Where a series is zero, within its piece: eigenvalues of its colleague matrix."""
     # Leading coefficients of rounding would put zeros anywhere.
-    roots = chebyshev.chebroots(chebyshev.chebtrim(series, 1e-15 * scale))
+    degree = int(np.flatnonzero(np.abs(series) > 1e-15 * np.abs(series).max(initial=0.0))[-1:].sum())
+    if degree == 0:
+        return np.empty(0)
+    if degree == 1:
+        roots = np.array([-series[0] / series[1]])
+    else:
+        matrix, scale = _colleague(degree)
+        matrix = matrix.copy()
+        matrix[:, 0] -= series[degree - 1 :: -1] / series[degree] * scale
+        roots = np.linalg.eigvals(matrix)
     # A double zero splits into a complex pair by the root of rounding.
     real = roots.real[np.abs(roots.imag) < 1e-6]
     return np.asarray(real[np.abs(real) <= 1.0])
+
+
+@cache
+def _alternating(count: int) -> Floats:
+    """T_n(−1) = (−1)ⁿ."""
+    return np.where(np.arange(count) % 2 == 0, 1.0, -1.0)
+
+
+@cache
+def _slopes(count: int) -> Floats:
+    """Coefficients → those of the derivative, (N, N − 1)."""
+    return np.ascontiguousarray(chebyshev.chebder(np.eye(count)).T)
+
+
+@cache
+def _colleague(degree: int) -> tuple[Floats, Floats]:
+    """Colleague matrix of T_n alone, and by what the other coefficients over the leading one count in it."""
+    # Turned over, as `chebroots` has it: so its eigenvalues err less.
+    matrix = chebyshev.chebcompanion(np.append(np.zeros(degree), 1.0))[::-1, ::-1]
+    scale = np.full(degree, 0.5)
+    scale[-1] = np.sqrt(0.5)
+    return np.ascontiguousarray(matrix), scale
+
+
+def _waves(x: Floats, count: int) -> Floats:
+    """T_n(x) = cos(n arccos x) at places within the piece, (N, places)."""
+    return np.asarray(np.cos(np.multiply.outer(np.arange(count), np.arccos(x))))

@@ -6,7 +6,7 @@ from linkwright import _core
 from linkwright.kernel.errors import CoreError
 
 # As `FORMAT` in `crates/linkwright-core/src/plan/mod.rs`: the two change together.
-FORMAT = 23
+FORMAT = 24
 
 
 def check_format(core: object) -> None:
@@ -40,3 +40,7 @@ SteadyMotion = _core.SteadyMotion
 SteadySolution = _core.SteadySolution
 SteadyCurves = _core.SteadyCurves
 NoSteadyMotion = _core.NoSteadyMotion
+motion_at = _core.motion_at
+
+# Systems of equations of one shape.
+solve_systems = _core.solve_systems

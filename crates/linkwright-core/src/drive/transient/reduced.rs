@@ -6,11 +6,8 @@
 //! viscous coefficient. Samples between the zeros tell whether they are as exact as the motion asks; a piece that is not is
 //! halved, and where that does not help the mechanism is placed as ever.
 
+use crate::drive::reduce::reductions;
 use crate::drive::structure::Plan;
-use crate::kernel::lanes::{Job, in_lanes};
-use crate::kernel::plane::Angle;
-use crate::kernel::real::Real;
-use crate::linkage::motion::Motion;
 use std::f64::consts::TAU;
 
 /// Zeros of Chebyshev's polynomial, and coefficients of a polynomial through values there.
@@ -198,7 +195,11 @@ impl ReducedCurves {
                 (0.5 * (self.edges[k] + self.edges[k + 1]), 0.5 * (self.edges[k + 1] - self.edges[k]));
             angles.extend(ZEROS.iter().chain(&WATCHED).map(|share| middle + share * half));
         }
-        let samples = in_lanes(Samples { plan, q, sense: self.sense, angles: &angles });
+        let sense = self.sense;
+        let samples: Vec<Reduced> = reductions(plan, q, &angles, sense)
+            .into_iter()
+            .map(|r| [r.J, r.J_d1, r.load * sense + r.dry, r.viscous])
+            .collect();
         let mut split = Vec::new();
         for (&k, samples) in some.iter().zip(samples.chunks_exact(SAMPLES)) {
             self.pieces[k] = match polynomials(samples, self.tolerance) {
@@ -261,40 +262,4 @@ fn polynomials(samples: &[Reduced], tolerance: f64) -> Option<[Reduced; N]> {
         }
     }
     Some(coefficients)
-}
-
-/// The machine itself at some angles.
-struct Samples<'a> {
-    plan: &'a Plan,
-    q: &'a [f64],
-    sense: f64,
-    angles: &'a [f64],
-}
-
-impl Job for Samples<'_> {
-    type Output = Vec<Reduced>;
-
-    #[inline(always)]
-    fn run<R: Real>(self) -> Vec<Reduced> {
-        let Samples { plan, q, sense, angles } = self;
-        let q: Vec<R> = q.iter().map(|&x| R::splat(x)).collect();
-        let mut m = Motion::new(&plan.mechanism, &q);
-        let mut lanes = vec![0.0; R::LANES];
-        let mut samples = vec![[0.0; 4]; angles.len()];
-        for (angles, samples) in angles.chunks(R::LANES).zip(samples.chunks_mut(R::LANES)) {
-            lanes.fill(angles[0]);
-            lanes[..angles.len()].copy_from_slice(angles);
-            let r = R::out_of_line(
-                #[inline(always)]
-                || plan.reduce::<R, 2>(&q, Angle::new(R::load(&lanes)), sense, &mut m),
-            );
-            for (i, number) in [r.J, r.J_d1, r.load * sense + r.dry, r.viscous].into_iter().enumerate() {
-                number.store(&mut lanes);
-                for (sample, &lane) in samples.iter_mut().zip(&lanes) {
-                    sample[i] = lane;
-                }
-            }
-        }
-        samples
-    }
 }

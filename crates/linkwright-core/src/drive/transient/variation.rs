@@ -58,6 +58,26 @@ pub struct SolvedMotion<'a> {
     pub between: &'a [f64],
 }
 
+impl SolvedMotion<'_> {
+    /// Angle and speed at a share of a step.
+    fn state(&self, k: usize, share: f64) -> Y {
+        let [angle, speed] = [0, 1].map(|which| rise(&self.between[14 * k + 7 * which..][..7], share));
+        [self.phi[k] + angle, self.omega[k] + speed]
+    }
+
+    /// Angles and speeds at instants of the motion; at the end of a step by the step behind it.
+    pub fn read(&self, at: &[f64]) -> [Vec<f64>; 2] {
+        let mut found = [0, 1].map(|_| Vec::with_capacity(at.len()));
+        let inner = &self.t[1..self.t.len() - 1];
+        for &t in at {
+            let k = inner.partition_point(|&time| time <= t);
+            let state = self.state(k, (t - self.t[k]) / (self.t[k + 1] - self.t[k]));
+            found.iter_mut().zip(state).for_each(|(list, x)| list.push(x));
+        }
+        found
+    }
+}
+
 /// What to differentiate.
 pub struct Variation<'a> {
     /// Along what.
@@ -318,18 +338,11 @@ struct Along<'a, R> {
 }
 
 impl<R: Real> Along<'_, R> {
-    /// Angle and speed at a share of a step.
-    fn state(&self, k: usize, share: f64) -> Y {
-        let of = self.motion;
-        let [angle, speed] = [0, 1].map(|which| rise(&of.between[14 * k + 7 * which..][..7], share));
-        [of.phi[k] + angle, of.omega[k] + speed]
-    }
-
     /// Angle and speed at an instant of the motion.
     fn state_at(&self, t: f64) -> Y {
         let times = self.motion.t;
         let k = times.partition_point(|&time| time < t).clamp(1, times.len() - 1) - 1;
-        self.state(k, ((t - times[k]) / (times[k + 1] - times[k])).clamp(0.0, 1.0))
+        self.motion.state(k, ((t - times[k]) / (times[k + 1] - times[k])).clamp(0.0, 1.0))
     }
 
     /// Time by which the sides of an instant of a step are apart from it.
@@ -352,7 +365,7 @@ impl<R: Real> Along<'_, R> {
         }
         let h = (to - from) * (self.motion.t[k + 1] - self.motion.t[k]);
         let inside = C.map(|c| c.min(1.0 - INSIDE));
-        let mut rates = inside.map(|c| self.rates.acceleration(self.state(k, from + (to - from) * c)));
+        let mut rates = inside.map(|c| self.rates.acceleration(self.motion.state(k, from + (to - from) * c)));
         let n = self.rates.of.n;
         let slope = slopes_at_end();
         for way in 0..n + 2 {
@@ -445,7 +458,7 @@ impl<R: Real> Along<'_, R> {
     }
 
     fn law_at(&mut self, law: SpeedKink, k: usize, share: f64) -> f64 {
-        let y = self.state(k, share);
+        let y = self.motion.state(k, share);
         self.plain.law(law, y)
     }
 }
