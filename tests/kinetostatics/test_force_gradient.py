@@ -195,7 +195,7 @@ def test_a_machine_without_load_has_no_driving_torque() -> None:
     assert "forces.torque_drive_max" not in found.responses
     with pytest.raises(FindingError, match="zero but for rounding"):
         lw.gradient(machine, ["forces.torque_drive_max"])
-    # Of any load that can be told from rounding there is one.
+    # A load above rounding has one.
     loaded = lw.loads(_IDLE + '[loads]\nrub = { kind = "formula", on = "A", torque = "-1e-6" }')
     of = lw.gradient(loaded, ["forces.torque_drive_max"], ["drive.gearbox.ratio"])
     assert of.values == pytest.approx([1e-6], rel=1e-6)

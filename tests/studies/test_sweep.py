@@ -14,8 +14,10 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
+from click.testing import CliRunner
 
 import linkwright as lw
+from linkwright.app.application import application
 from linkwright.kernel.errors import InputError
 from linkwright.studies.engine import numbers, sound_variant
 from linkwright.studies.figures import StudyRows, figures
@@ -124,6 +126,8 @@ def test_a_file_that_is_cut_off_is_computed_anew(study_file: Files, tmp_path: Pa
     wanted = contents(tmp_path / "rows")
     part = tmp_path / "rows" / "part-000002.parquet"
     part.write_bytes(part.read_bytes()[:-100])
+    told = CliRunner().invoke(application(), ["sweep", "show", str(tmp_path / "rows")])
+    assert "part-000002.parquet is truncated" in told.stdout
     found = lw.sweep(plan, tmp_path / "rows")
     assert found.repaired == ("part-000002.parquet",)
     assert contents(tmp_path / "rows") == wanted

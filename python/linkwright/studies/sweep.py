@@ -40,6 +40,7 @@ class Sweep(Result):
         About("Response → its minimum and maximum [SI], and the rows that have them."),
     ]
     repaired: Annotated[tuple[str, ...], About("Truncated files that were computed again.")] = ()
+    truncated: Annotated[tuple[str, ...], About("Truncated files, whose rows are not computed yet.")] = ()
     one_by_one: OneByOne = field(default_factory=dict)
 
     @property
@@ -191,10 +192,14 @@ def _compute_beside(
 def summary(folder: SweepFolder, responses: Iterable[str], repaired: tuple[str, ...] = ()) -> Sweep:
     """What is in a folder: counts, reasons, extremes."""
     names = list(responses)
-    n_done, reasons, alone = 0, Counter[str](), Counter[str]()
+    n_done, reasons, alone, truncated = 0, Counter[str](), Counter[str](), []
     lows: dict[str, tuple[float, int]] = {}
     highs: dict[str, tuple[float, int]] = {}
-    for path in folder.parts():
+    for number in range(folder.n_parts):
+        path = folder.part(number)
+        if not folder.is_done(number):
+            truncated += [path.name] if path.exists() else []
+            continue
         columns = columns_of(path, ["row", *names, "status", "reason"])
         solved = columns["status"] == SOLVED
         n_done += len(solved)
@@ -220,5 +225,6 @@ def summary(folder: SweepFolder, responses: Iterable[str], repaired: tuple[str, 
         reasons=dict(reasons.most_common()),
         extremes=extremes,
         repaired=repaired,
+        truncated=tuple(truncated),
         one_by_one=dict(alone.most_common()),
     )

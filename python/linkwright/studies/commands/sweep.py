@@ -129,6 +129,7 @@ def _answer(machine: Machine, swept: Sweep, units: dict[str, str]) -> Answer:
     missing = swept.n_rows - swept.n_done
     warnings = [f"{name} was truncated and is computed again." for name in swept.repaired]
     warnings += one_by_one_warnings(swept.one_by_one)
+    warnings += [f"{name} is truncated; the same sweep computes it again." for name in swept.truncated]
     if missing:
         warnings.append(f"{missing} rows of {swept.n_rows} are not computed yet.")
     return Answer(
