@@ -30,8 +30,8 @@ def zeros(function: Function, low: Floats, high: Floats) -> tuple[Floats, Floats
     Returns where the function is nearest to zero, and the other end of what is left of the bracket; the sign
     differs between them, and they are a few units of rounding apart.
 
-    .. [1] A new hybrid quadratic/bisection algorithm for finding the zero of a nonlinear function without
-       using derivatives, Advances in Engineering Software 28 (1997) 145–149.
+    .. [1] Chandrupatla, A new hybrid quadratic/bisection algorithm for finding the zero of a nonlinear
+       function without using derivatives, Advances in Engineering Software 28 (1997) 145–149.
     """
     a, b = np.array(high, dtype=float), np.array(low, dtype=float)
     fa, fb = function(a), function(b)
