@@ -1,0 +1,242 @@
+"""Derivatives of random machines of all kinds along random directions over all their entries at once.
+
+One difference along a direction tells a wrong derivative by any entry, at the price of one: so thousands of
+machines can be looked at. The files beside this one vary the entries one by one.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+import test_gradient_in_time as in_time
+import test_random_cams as cams
+import test_random_machines as drives
+import test_random_pumping_units as units
+import test_random_toppers as toppers
+from numpy.random import Generator
+from random_parts import random_train
+from sizes import cases
+
+import linkwright as lw
+from linkwright.kernel.arrays import Floats
+from linkwright.kernel.errors import FindingError, LinkwrightError
+from linkwright.machine.address import is_given
+
+# Shares of entries over which they are varied: where a step goes over a tie of two extremes, shorter ones
+# come nearer; where rounding counts, longer ones.
+_STEPS = (1e-4, 2e-5, 4e-6)
+
+# What differences are good for, as a share of the largest derivative of a response, or of the response.
+_TOLERANCE = 1e-7
+
+# A wrong derivative is off by about as much over each step.
+_ALIKE = 3.0
+
+# Directions over all entries of a machine.
+_DIRECTIONS = 2
+
+# Entry → by how much it goes.
+Way = dict[str, float]
+
+
+@dataclass(frozen=True)
+class Case:
+    """A machine, what of its results is compared, and how these are computed anew."""
+
+    machine: lw.Machine
+    analyses: list[str]
+    measure: Callable[[lw.Machine, list[str]], Floats]
+    ways: Callable[[lw.Machine, tuple[str, ...]], Iterator[Way]]
+    tolerance: Callable[[str], float] = lambda name: _TOLERANCE
+
+
+def _alone(machine: lw.Machine, names: tuple[str, ...]) -> Iterator[Way]:
+    """Each entry by itself."""
+    for name in names:
+        # Sections of a cam have to close.
+        if ".sections." not in name and (value := lw.get(machine, name)):
+            yield {name: abs(value)}
+
+
+def _as_listed(measure: drives.Measure, listed: list[str]) -> Callable[[lw.Machine, list[str]], Floats]:
+    """Some of the numbers that a measure gives."""
+
+    def some(machine: lw.Machine, names: list[str]) -> Floats:
+        known = dict(zip(listed, measure(machine), strict=True))
+        return np.array([known[name] for name in names])
+
+    return some
+
+
+def _steady(random: Generator) -> Case:
+    machine, names, measure = drives._drive(random)
+    return Case(machine, names, _as_listed(measure, names), _alone)
+
+
+def _jumping(random: Generator) -> Case:
+    machine = drives._jumping_drive(random)
+    names = [f"steady_state.{name}" for name in drives._NUMBERS]
+    measure = _as_listed(drives._measures, names)
+    return Case(machine, names, measure, _alone, lambda name: drives._BEHIND_JUMPS)
+
+
+def _forces(random: Generator) -> Case:
+    machine, names, measure = drives._forces(random)
+    return Case(machine, names, _as_listed(measure, names), _alone)
+
+
+def _running(kind: str) -> Callable[[Generator], Case]:
+    def case(random: Generator) -> Case:
+        names, measure = in_time.KINDS[kind]
+        return Case(in_time._drive(random), names, _as_listed(measure, names), _alone)
+
+    return case
+
+
+def _train(random: Generator) -> Case:
+    machine, names, measure = drives._train(random)
+    return Case(machine, names, _as_listed(measure, names), _alone)
+
+
+def _excited(random: Generator) -> Case:
+    """Torques of shafts at the speeds at which they are largest."""
+    train = {"format": 1, "name": "train", "train": random_train(random)}
+    machine = lw.Machine.model_validate(train)
+    response = lw.forced_vibration(machine)
+
+    def measure(machine: lw.Machine, names: list[str]) -> Floats:
+        parts = [name.split(".")[1:] for name in names]
+        places = [(kind, response.shafts.index(shaft)) for kind, shaft in parts]
+        peaks = [int(getattr(response, kind)[shaft].argmax()) for kind, shaft in places]
+        speeds, nth = np.unique(response.speeds[peaks], return_inverse=True)
+        at = lw.forced_vibration(machine, speeds)
+        return np.array([getattr(at, kind)[shaft, n] for (kind, shaft), n in zip(places, nth, strict=True)])
+
+    return Case(machine, ["forced_vibration"], measure, _alone)
+
+
+def _cam(random: Generator) -> Case:
+    machine = cams._machine(random)
+    if faults := lw.cam_faults(lw.cam_profile(machine, "c")):
+        raise FindingError(str(faults[0]))
+
+    def measure(machine: lw.Machine, names: list[str]) -> Floats:
+        return cams._numbers(machine, [name.rpartition(".")[2] for name in names])
+
+    return Case(machine, ["cam"], measure, cams._ways)
+
+
+def _unit(random: Generator) -> Case:
+    machine = units._machine(random, str(random.choice(list(units._BASES))))
+
+    def measure(machine: lw.Machine, names: list[str]) -> Floats:
+        return units._numbers(machine, names)
+
+    return Case(machine, ["pumping_unit"], measure, _alone)
+
+
+def _topper(random: Generator) -> Case:
+    kind = str(random.choice(["harmonic", "constant", "one_way", "slider", "cam"]))
+
+    def measure(machine: lw.Machine, names: list[str]) -> Floats:
+        study = lw.topper(machine)
+        return np.array([float(getattr(study, name.partition(".")[2])) for name in names])
+
+    def tolerance(name: str) -> float:
+        return toppers._tolerance(name.partition(".")[2])
+
+    return Case(toppers._machine(random, kind), ["topper"], measure, _alone, tolerance)
+
+
+# As often as they are quick; `make test` looks at the first of them.
+_QUICK = (_steady, _train, _cam, _forces, _excited, _unit, _topper)
+KINDS = (
+    *_QUICK,
+    *(_steady, _train, _cam, _forces, _jumping, _running("up"), _running("down"), _steady, _train, _cam),
+    *(_steady, _jumping, _topper),
+)
+
+
+def _directions(machine: lw.Machine, ways: list[Way], random: Generator) -> Iterator[Way]:
+    """Random ways over all entries together; one of those that others follow from is varied alone."""
+    together = [way for way in ways if all(is_given(machine, name) for name in way)]
+    following = [way for way in ways if way not in together]
+    for _ in range(_DIRECTIONS if together else 0):
+        direction: Way = Counter()
+        for way in together:
+            share = random.uniform(0.3, 1.0) * random.choice([-1, 1])
+            direction.update({name: share * size for name, size in way.items()})
+        yield direction
+    if following:
+        yield following[random.integers(len(following))]
+
+
+def _difference(machine: lw.Machine, direction: Way, measure: drives.Measure, step: float) -> Floats:
+    """Central differences over h, 2h and 4h, extrapolated to sixth order."""
+    here = {name: lw.get(machine, name) for name in direction}
+    near = {
+        n: np.array(measure(lw.replace(machine, {k: here[k] + n * step * x for k, x in direction.items()})))
+        for n in (-4, -2, -1, 1, 2, 4)
+    }
+    once, twice, four = ((near[n] - near[-n]) / (2 * n * step) for n in (1, 2, 4))
+    found: Floats = (64 * once - 20 * twice + four) / 45
+    return found
+
+
+def _errors(
+    case: Case, names: list[str], exact: Floats, direction: Way, scales: Floats, tolerances: Floats
+) -> Floats:
+    """Over each step as far as they are needed, (steps, responses)."""
+    errors: list[Floats] = []
+    for step in _STEPS:
+        difference = _difference(case.machine, direction, lambda x: case.measure(x, names), step)
+        errors.append(np.abs(exact - difference) / scales)
+        if (np.min(errors, axis=0) <= tolerances).all():
+            break
+    return np.array(errors)
+
+
+def compared(case: Case, random: Generator) -> tuple[int, list[str]]:
+    """How many derivatives were compared, and which are wrong."""
+    found = lw.gradient(case.machine, case.analyses)
+    rows = [row for row, name in enumerate(found.responses) if name not in found.ties]
+    names, d = [found.responses[row] for row in rows], found.derivatives[rows]
+    ways = list(case.ways(case.machine, found.variables))
+    used = [found.variables.index(name) for name in {name for way in ways for name in way}]
+    sizes = np.abs(d[:, used] * found.at[used]).max(axis=1, initial=0.0)
+    scales = np.maximum(sizes, np.abs(found.values[rows])) + 1e-300
+    # Rounding of a net torque of zero is that of the largest.
+    net = np.array(["torque_net" in name for name in names], dtype=bool)
+    scales[net] = scales[net].max(initial=0.0)
+    tolerances = np.array([case.tolerance(name) for name in names])
+    count, wrong = 0, []
+    for direction in _directions(case.machine, ways, random):
+        exact = sum(d[:, found.variables.index(name)] * x for name, x in direction.items())
+        try:
+            errors = _errors(case, names, exact, direction, scales, tolerances)
+        except (LinkwrightError, TypeError):
+            # Beside it the machine cannot do it, or the law of the cam is another one.
+            continue
+        least = errors.min(axis=0)
+        off = ~(least <= tolerances) & (errors[-1] > 1e-2 * errors[0]) & (errors.max(axis=0) < _ALIKE * least)
+        wrong += [f"{names[row]} along {direction}: {errors[:, row]}" for row in np.flatnonzero(off)]
+        count += len(names)
+    return count, wrong
+
+
+def test_derivatives_are_those_of_the_analyses() -> None:
+    counts = Counter[str]()
+    for number in range(cases(len(_QUICK), 10_000)):
+        random, kind = np.random.default_rng([41, number]), KINDS[number % len(KINDS)]
+        try:
+            count, wrong = compared(kind(random), random)
+        except LinkwrightError:
+            # It does not close, nothing drives it, all of it is rounding.
+            continue
+        assert not wrong, (number, kind.__name__, wrong)
+        counts[kind.__name__] += count
+    assert sum(counts.values()) > 50
+    assert len(counts) >= len(_QUICK) - 2, counts
