@@ -32,6 +32,9 @@ const link = connect({
   },
 });
 
+/** No problems, which are the same at every change: nothing is drawn anew. @type {Problem[]} */
+const SOUND = [];
+
 /** @type {Record<string, (body: any) => void>} */
 const HEAR = {
   machine(body) {
@@ -39,7 +42,7 @@ const HEAR = {
     state.reason.value = body.reason ?? "";
     state.limit.value = body.limit ?? null;
     if (body.words) state.message.value = body.words;
-    state.problems.value = body.problems ?? [];
+    state.problems.value = body.problems ?? SOUND;
     if (body.text !== undefined) {
       state.text.value = body.text;
       remember(body.text);

@@ -1,11 +1,12 @@
 // The plots of all results, the diagrams of the slow ones, and the data behind each.
 import { html } from "./html.js";
-import { useMemo, useState } from "./vendor/hooks.mjs";
+import { useMemo, useRef, useState } from "./vendor/hooks.mjs";
 import { Chart, rows, short } from "./chart.js";
 import { Choice, ofNames } from "./choice.js";
 import { csv, download, png, svg } from "./exported.js";
 import { Icon } from "./icons.js";
 import { Hodograph } from "./hodograph.js";
+import { catalogue } from "./language.js";
 import { hodographs, pointPlots } from "./points.js";
 import * as state from "./state.js";
 import { colours } from "./theme.js";
@@ -43,19 +44,21 @@ function Data({ plot }) {
     </div>`;
 }
 
-/** @param {{ plot: Plot, of: string }} props */
-function Panel({ plot, of }) {
+/** @param {{ plot: Plot }} props */
+function Panel({ plot }) {
   const [data, setData] = useState(false);
   const { unit } = shownUnit(plot.unit, state.units.value);
-  const name = `${state.machine.value} ${plot.title}`;
+  const now = useRef(plot);
+  now.current = plot;
+  const file = (/** @type {string} */ kind) => `${state.machine.value} ${now.current.title}.${kind}`;
   const asPng = async () => {
     const canvas = document.querySelector(`[data-plot="${CSS.escape(plot.key)}"] canvas`);
-    if (canvas instanceof HTMLCanvasElement) download(await png(canvas, `${titled(plot.title)} [${unit || "–"}]`, colours()), `${name}.png`);
+    if (canvas instanceof HTMLCanvasElement) download(await png(canvas, `${titled(plot.title)} [${unit || "–"}]`, colours()), file("png"));
   };
-  const asSvg = () => download(new Blob([svg(sheet(plot, true), ["#0072b2", "#d55e00", "#009e73", "#a8478a", "#b97f00", "#56b4e9"])], { type: "image/svg+xml" }), `${name}.svg`);
-  const asCsv = () => download(new Blob([csv(sheet(plot))], { type: "text/csv" }), `${name}.csv`);
-  return html`
-    <section class="panel" aria-label=${plot.title}>
+  const asSvg = () => download(new Blob([svg(sheet(now.current, true), ["#0072b2", "#d55e00", "#009e73", "#a8478a", "#b97f00", "#56b4e9"])], { type: "image/svg+xml" }), file("svg"));
+  const asCsv = () => download(new Blob([csv(sheet(now.current))], { type: "text/csv" }), file("csv"));
+  // The head has words alone, which other numbers leave as they are.
+  const head = useMemo(() => html`
       <header>
         <h3>${titled(plot.title)} <small>${unit}</small></h3>
         <span class="legend">${plot.curves.length > 1 && !plot.isHodograph ? plot.curves.map(({ symbol, word, own }, n) => html`<span key=${n} title=${word} translate=${own ? "no" : undefined}><i class="key c${n % 6}"></i>${short(symbol, word)}</span>`) : null}</span>
@@ -66,7 +69,9 @@ function Panel({ plot, of }) {
           <button class="quiet" onClick=${asSvg} title="Download SVG">SVG</button>
           <button class="quiet" aria-label="Hide the plot of ${plot.title}" title="Hide" onClick=${() => (state.hidden.value = { ...state.hidden.value, [plot.key]: true })}><${Icon} name="close" /></button>
         </span>
-      </header>
+      </header>`, [catalogue.value, data, unit, plot.title, plot.curves.map(({ symbol, word }) => symbol + word).join()]);
+  return html`
+    <section class="panel" aria-label=${plot.title}>${head}
       <${plot.isHodograph ? Hodograph : Chart} plot=${plot} />
       ${data ? html`<${Data} plot=${plot} />` : null}
     </section>`;
@@ -87,7 +92,7 @@ export function Plots() {
     ${points.length ? html`
       <label class="watch">Curves of a point <${Choice} value=${state.watched.value} options=${[["", "none"], ...ofNames(points)]} choose=${(/** @type {string} */ name) => (state.watched.value = name)} /></label>` : null}
     <div class="panels">
-      ${shown.map(({ plot, of }) => html`<${Panel} key=${plot.key} plot=${plot} of=${of} />`)}
+      ${shown.map(({ plot }) => html`<${Panel} key=${plot.key} plot=${plot} />`)}
       ${shown.length ? null : html`<p class="nothing">${state.runs.value ? "Being computed …" : !state.controls.value && !state.problems.value.length ? "Opening …" : state.figures.value.length ? "No curves to read; Numbers and Diagrams have the results." : "No curves. The chips below the drawing say what stands in the way."}</p>`}
     </div>
     ${others.length ? html`

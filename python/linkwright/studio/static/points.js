@@ -24,7 +24,7 @@ export function pointPlots() {
     title: `${word} of ${name}`,
     unit,
     x,
-    curves: /** @type {const} */ ([0, 1]).map((which) => ({ name: `${name}.${word}.${which}`, word: `${word} of ${name} along ${"xy"[which]}`, symbol: `${head}${"xy"[which]}`, unit, values: column(pairs, which) })),
+    curves: /** @type {const} */ ([0, 1]).map((which) => ({ name: `${name}.${word}.${which}`, word: `${word} of ${name} along ${"xy"[which]}`, symbol: `${head}${"xy"[which]}`, unit, get values() { return column(pairs, which); } })),
   }));
 }
 
@@ -41,7 +41,7 @@ export function hodographs() {
     unit,
     x,
     isHodograph: true,
-    curves: /** @type {const} */ ([0, 1]).map((which) => ({ name: "xy"[which], word: `${word}, ${"xy"[which]}`, symbol: `${symbol}_${"xy"[which]}`, unit, values: column(pairs, which) })),
+    curves: /** @type {const} */ ([0, 1]).map((which) => ({ name: "xy"[which], word: `${word}, ${"xy"[which]}`, symbol: `${symbol}_${"xy"[which]}`, unit, get values() { return column(pairs, which); } })),
   });
   const ofPoint = name in scene.velocities ? [of("velocity", `velocity of ${name}`, "v", "m/s", scene.velocities[name]), of("acceleration", `acceleration of ${name}`, "a", "m/s²", scene.accelerations[name])] : [];
   const ofJoints = scene.forces.map((each) => of(`${each.point === name ? "picked" : "joint"}.${each.name}`, `force in ${each.name}`, "F", "N", each.force));
