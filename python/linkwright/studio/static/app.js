@@ -31,7 +31,7 @@ function Tabs({ name, tabs }) {
   };
   return html`
     <div class="tabs" role="tablist" aria-label=${name} onKeyDown=${key}>
-      ${tabs.map(([word], n) => html`<button key=${word} role="tab" id="${name}-${n}" aria-selected=${n === at ? "true" : "false"} aria-controls="${name}-panel" tabindex=${n === at ? 0 : -1} onClick=${() => setAt(n)}>${word}</button>`)}
+      ${tabs.map(([word], n) => html`<button key=${word} role="tab" id="${name}-${n}" aria-selected=${n === at} aria-controls="${name}-panel" tabindex=${n === at ? 0 : -1} onClick=${() => setAt(n)}>${word}</button>`)}
     </div>
     <div class="tab-panel" role="tabpanel" id="${name}-panel" aria-labelledby="${name}-${at}" tabindex="0"><${Inside} /></div>`;
 }

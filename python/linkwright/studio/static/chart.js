@@ -45,12 +45,10 @@ const copies = (plot) => state.pins.value.filter(({ plots }) => plots[plot.key])
 /** @param {string} symbol @param {string} word */
 export const short = (symbol, word) => symbol.replace(/_(.*)/, " $1") || word;
 
-/** A place of the abscissa as an instant of the drawing; null where that is no angle and no time of it. @param {Plot} plot @param {number} value in SI */
+/** The instant of the drawing at a place of the abscissa; null where that is no angle of it. @param {Plot} plot @param {number} value in SI */
 function instantOf(plot, value) {
   const scene = state.scene.value;
-  if (!scene) return null;
-  if (plot.x.name === "crank_angle") return between(scene.times, placeOf(scene.angles, value));
-  return null;
+  return scene && plot.x.name === "crank_angle" ? between(scene.times, placeOf(scene.angles, value)) : null;
 }
 
 /** @param {Plot} plot @returns {number | null} place of the instant on the abscissa, in SI */
@@ -113,8 +111,7 @@ export function Chart({ plot }) {
     const scrub = () => {
       const { left } = made.cursor;
       if (made.select.width > 0 || left < 0) return;
-      const { factor } = shownUnit(now.current.x.unit, state.units.value);
-      const instant = instantOf(now.current, made.posToVal(left, "x") * factor);
+      const instant = instantOf(now.current, made.posToVal(left, "x") * shownUnit(now.current.x.unit, state.units.value).factor);
       if (instant === null) return;
       state.playing.value = false;
       state.time.value = instant;

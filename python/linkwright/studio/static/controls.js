@@ -137,7 +137,7 @@ function Row({ entry, draggable }) {
   return html`
     <div class="row ${isPulled ? "pulled" : ""} ${entry.holds === "text" && String(entry.written).length > LONG ? "long" : ""}">
       <label for="at ${address}" title=${about}>${key.replaceAll("_", " ")}</label>
-      <span class="signs">${entry.holds === "quantity" ? html`<${Slope} entry=${entry} />` : null}${draggable.has(address) ? html`<button class="lock" aria-pressed=${locked ? "true" : "false"} aria-label="Lock ${key} of ${address.split(".").at(-2)}" title=${locked ? "Locked: joints that are dragged leave it as it is" : "Follows joints that are dragged; lock it"}
+      <span class="signs">${entry.holds === "quantity" ? html`<${Slope} entry=${entry} />` : null}${draggable.has(address) ? html`<button class="lock" aria-pressed=${locked} aria-label="Lock ${key} of ${address.split(".").at(-2)}" title=${locked ? "Locked: joints that are dragged leave it as it is" : "Follows joints that are dragged; lock it"}
         onClick=${() => (state.locks.value = { ...state.locks.value, [address]: !locked })}><${Icon} name=${locked ? "locked" : "open"} /></button>` : null}</span>
       ${entry.holds === "quantity" ? html`<${Quantity} entry=${entry} />` : html`<div class="field"><${Other} entry=${entry} /></div>`}
       <${Problems} address=${address} />
@@ -161,7 +161,7 @@ function More({ group }) {
   if (!plain.length) return null;
   return html`
     <div class="more">
-      <button class="quiet" aria-expanded=${open ? "true" : "false"} onClick=${() => setOpen(!open)}>${open ? "Fewer entries" : `Add an entry (${plain.length})`}</button>
+      <button class="quiet" aria-expanded=${open} onClick=${() => setOpen(!open)}>${open ? "Fewer entries" : `Add an entry (${plain.length})`}</button>
       ${open ? plain.map((each) => html`
         <button class="add" key=${each.key} title=${each.about} onClick=${() => settle({ [each.address]: first(each) })}>
           <b>${each.key.replaceAll("_", " ")}</b> ${each.about} <i>${each.usual === null || each.usual === "" ? "" : `Now ${each.usual} ${each.unit ?? ""}.`}</i>

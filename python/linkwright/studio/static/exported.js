@@ -6,7 +6,7 @@ import { number } from "./units.js";
 export function download(blob, name) {
   const link = document.createElement("a");
   link.href = URL.createObjectURL(blob);
-  link.download = name.replace(/[^\w.-]+/g, "_");
+  link.download = name.replace(/[^\p{L}\p{N}_.-]+/gu, "_");
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }

@@ -46,7 +46,7 @@ export function Heat({ values, x, y, words }) {
       <span></span><div class="of-x"><small>${left}</small><small>${x.word}</small><small>${right}</small></div>
       <span></span><div class="of-x scale"><small>${number(low / scale.factor, 4)}</small><i></i><small>${number(high / scale.factor, 4)} ${scale.unit}</small></div>
     </div>
-    <button class="quiet" aria-pressed=${data ? "true" : "false"} onClick=${() => setData(!data)}>Data</button>
+    <button class="quiet" aria-pressed=${data} onClick=${() => setData(!data)}>Data</button>
     ${data ? html`<div class="data-table" tabindex="0" role="region" aria-label="Data of the map"><table><thead><tr><th></th>${Array.from(x.values, (value) => html`<th scope="col">${number(value / axes[0].factor, 4)}</th>`)}</tr></thead>
       <tbody>${Array.from(y.values, (value, row) => html`<tr><th scope="row">${number(value / axes[1].factor, 4)}</th>${Array.from(x.values, (_, column) => html`<td>${number(values[row * x.values.length + column] / scale.factor, 4)}</td>`)}</tr>`)}</tbody></table></div>` : null}`;
 }

@@ -1,4 +1,4 @@
-// The plots of all results, the diagrams of the slow ones, and the data behind each.
+// The plots of all results, diagrams of the slow ones, the data behind each.
 import { html } from "./html.js";
 import { useMemo, useRef, useState } from "./vendor/hooks.mjs";
 import { Chart, rows, short } from "./chart.js";
@@ -63,10 +63,8 @@ function Panel({ plot }) {
         <h3>${titled(plot.title)} <small>${unit}</small></h3>
         <span class="legend">${plot.curves.length > 1 && !plot.isHodograph ? plot.curves.map(({ symbol, word, own }, n) => html`<span key=${n} title=${word} translate=${own ? "no" : undefined}><i class="key c${n % 6}"></i>${short(symbol, word)}</span>`) : null}</span>
         <span class="tools">
-          <button class="quiet" aria-pressed=${data ? "true" : "false"} onClick=${() => setData(!data)} title="The numbers as a table">Data</button>
-          <button class="quiet" onClick=${asCsv} title="Download CSV">CSV</button>
-          <button class="quiet" onClick=${asPng} title="Download PNG">PNG</button>
-          <button class="quiet" onClick=${asSvg} title="Download SVG">SVG</button>
+          <button class="quiet" aria-pressed=${data} onClick=${() => setData(!data)} title="The numbers as a table">Data</button>
+          ${[["CSV", asCsv], ["PNG", asPng], ["SVG", asSvg]].map(([kind, make]) => html`<button key=${kind} class="quiet" onClick=${make} title="Download ${kind}">${kind}</button>`)}
           <button class="quiet" aria-label="Hide the plot of ${plot.title}" title="Hide" onClick=${() => (state.hidden.value = { ...state.hidden.value, [plot.key]: true })}><${Icon} name="close" /></button>
         </span>
       </header>`, [catalogue.value, data, unit, plot.title, plot.curves.map(({ symbol, word }) => symbol + word).join()]);
@@ -77,11 +75,8 @@ function Panel({ plot }) {
     </section>`;
 }
 
-/** @param {string} key */
-const isAside = (key) => ASIDE.some((each) => each.test(key));
-
 /** @param {Plot} plot */
-const isHidden = ({ key }) => state.hidden.value[key] ?? isAside(key);
+const isHidden = ({ key }) => state.hidden.value[key] ?? ASIDE.some((each) => each.test(key));
 
 export function Plots() {
   const all = [...pointPlots().map((plot) => ({ plot, of: "points" })), ...state.results.value.flatMap(({ name, plots }) => plots.map((plot) => ({ plot, of: name }))), ...hodographs().map((plot) => ({ plot, of: "hodograph" }))];
@@ -124,10 +119,7 @@ function Diagram({ figure }) {
     </figure>`;
 }
 
-/**
- * A drawing of the server as an element: styles of its attributes are set one by one, since the page allows none in its text; those of the whole are in the page's.
- * @param {string} text
- */
+/** A drawing of the server as an element: the page allows no styles in its text, so they are set one by one. @param {string} text */
 function parsed(text) {
   const root = new DOMParser().parseFromString(text.replace(/<style.*?<\/style>/gs, "").replace(/ style="/g, ' data-style="'), "image/svg+xml").documentElement;
   const drawn = document.importNode(root, true);

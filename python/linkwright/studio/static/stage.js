@@ -42,7 +42,7 @@ export function Stage() {
       <div class="handles">
         ${state.layers.value.handles ? points.map((point) => html`
           <button key=${point} class="handle" data-point=${point} title="${point}: drag, or press Enter and click a place, or use the arrow keys"
-            aria-label="Joint ${point}" aria-pressed=${state.picked.value === point ? "true" : "false"}></button>`) : null}
+            aria-label="Joint ${point}" aria-pressed=${state.picked.value === point}></button>`) : null}
       </div>
       ${state.reason.value ? html`<p class="reason" role="status">${state.reason.value}</p>` : null}
       ${state.isDrawn.value ? null : html`<p class="nothing">${state.problems.value.length ? "The file has problems; they stand beside their entries." : state.machine.value ? (isEmpty() ? "The machine is empty. Open Add an element, on the left, and begin with a crank." : "Nothing of this machine moves as a linkage; its answers are in the plots.") : "Opening …"}</p>`}

@@ -76,6 +76,6 @@ export function Picture() {
   const at = names.includes(state.seen.value) ? state.seen.value : names[0];
   const view = views.find(({ kind }) => kind === at);
   return html`
-    ${names.length > 1 ? html`<div class="sets views" role="group" aria-label="Picture">${names.map((name) => html`<button key=${name} aria-pressed=${name === at ? "true" : "false"} onClick=${() => (state.seen.value = name)}>${WORDS[name]}</button>`)}</div>` : null}
+    ${names.length > 1 ? html`<div class="sets views" role="group" aria-label="Picture">${names.map((name) => html`<button key=${name} aria-pressed=${name === at} onClick=${() => (state.seen.value = name)}>${WORDS[name]}</button>`)}</div>` : null}
     ${view?.kind === "train" ? html`<${TrainView} view=${view} />` : view?.kind === "topper" ? html`<${KnifeView} view=${view} />` : html`<${Stage} /><${Playbar} />`}`;
 }
