@@ -164,7 +164,9 @@ class Forces(Result):
         for name, pair in self.pairs.items():
             columns |= {f"{name}_{axis} [N]": pair.force[:, k] for k, axis in enumerate("xy")}
             columns[f"{name}_moment [N m]"] = pair.moment
-        columns |= {f"{name}_drive [N m or N]": values for name, values in self.drives.items()}
+        for name, values in self.drives.items():
+            # What has a guide is pushed along it, what has none is turned.
+            columns[f"{name}_drive [{'N' if f'{name}.guide' in self.pairs else 'N m'}]"] = values
         columns |= {f"loads.{name} [N]": values for name, values in self.load_forces.items()}
         return columns | {f"loads.{name} [N m]": values for name, values in self.load_torques.items()}
 

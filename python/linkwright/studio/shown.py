@@ -133,6 +133,9 @@ def _of_parts(name: str, result: Result, declared: list[DeclaredQuantity]) -> It
         rows = np.asarray(getattr(result, quantity.name, None)) if parts and x is not None else None
         if x is None or rows is None or rows.shape != (len(parts), len(x)) or len(x) < _LINE:
             continue
+        if not np.isfinite(rows.astype(float)).any():
+            # Nothing of it was asked for, such as stresses over limits that no file gives.
+            continue
         yield {
             "key": f"{name}.{quantity.name}",
             "title": quantity.word,
@@ -179,12 +182,11 @@ def _of_columns(name: str, result: Result) -> Iterator[dict[str, Any]]:
     for head, values in columns.items():
         match = _COLUMN.fullmatch(head)
         if match and values.shape == x.shape:
-            part = match[1].rpartition("_")[0] or match[1]
-            groups.setdefault((part, match[2]), []).append((match[1], values))
-    for (part, unit), drawn in groups.items():
+            groups.setdefault((_title(name, match[1], match[2]), match[2]), []).append((match[1], values))
+    for (title, unit), drawn in groups.items():
         yield {
             "key": f"{name}.{drawn[0][0]}",
-            "title": part.replace("_", " "),
+            "title": title,
             "unit": unit,
             "x": {**_words(first), "values": x},
             "curves": [
@@ -192,3 +194,19 @@ def _of_columns(name: str, result: Result) -> Iterator[dict[str, Any]]:
                 for head, y in drawn
             ],
         }
+
+
+# What forces are called, by the end of a column's name.
+_FORCES = {"x": "force in {}", "y": "force in {}", "moment": "moment in {}"}
+
+
+def _title(name: str, column: str, unit: str) -> str:
+    """Title of the plot that a column of a result's parts stands in."""
+    part, _, last = column.rpartition("_")
+    if column.startswith("loads."):
+        return f"load {column.removeprefix('loads.')}"
+    words = (part or column).replace("_", " ")
+    if name != "forces" or part.startswith("shaking_"):
+        return words
+    drive = "driving force of {}" if unit == "N" else "driving torque of {}"
+    return _FORCES.get(last, drive if last == "drive" else "{}").format(words)

@@ -75,10 +75,7 @@ const HEAR = {
   },
 };
 
-/**
- * Another length is another motion over time: the drawing stays at its crank angle.
- * @param {Scene | null} before @param {Scene | null} after
- */
+/** Another length is another motion over time: the drawing stays at its crank angle. @param {Scene | null} before @param {Scene | null} after */
 function atTheSameAngle(before, after) {
   if (!before || !after) return;
   const angle = between(before.angles, placeOf(before.times, state.time.value));
@@ -254,9 +251,7 @@ export async function open(place, name) {
   start(body, body.text, body.text);
 }
 
-/**
- * @param {{ place: string, name: string }} of @param {string} text @param {string} saved
- */
+/** @param {{ place: string, name: string }} of @param {string} text @param {string} saved */
 export function start({ place, name }, text, saved) {
   batch(() => {
     state.place.value = { place, name };

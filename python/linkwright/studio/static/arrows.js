@@ -1,4 +1,5 @@
 // Velocities, accelerations and forces as arrows at their points; the longest of each kind is a fixed part of the drawing.
+import { fit, toMachine } from "./frame.js";
 import { fill, line, stroke } from "./ink.js";
 import { at } from "./painter.js";
 import { pairAt } from "./timeline.js";
@@ -6,29 +7,28 @@ import { pairAt } from "./timeline.js";
 /** Longest arrow over the shorter side of the drawing's box on the screen. */
 const LONGEST = 0.35;
 
-/** Largest size of each kind of arrow in a scene. @type {WeakMap<object, number>} */
-const sizes = new WeakMap();
+/** Metres of an arrow for one unit of each kind in a scene, and the canvas they are for. @type {WeakMap<object, [string, number]>} */
+const known = new WeakMap();
 
-/** @param {Float64Array[]} arrays */
-function largest(arrays) {
-  let most = 0;
-  for (const values of arrays) {
-    for (let n = 0; n < values.length; n += 2) most = Math.max(most, values[n] ** 2 + values[n + 1] ** 2);
+/** Places with their vectors → metres of an arrow for one unit: all end on the canvas that the drawing fits. @param {View} view @param {Float64Array[][]} arrows */
+function lengths({ ctx: { canvas }, scene: { box } }, arrows) {
+  const [width, height] = [canvas.width, canvas.height].map((size) => size / (devicePixelRatio || 1));
+  const home = fit(box, width, height);
+  const [[left, top], [right, bottom]] = [toMachine(home, 4, 4), toMachine(home, width - 4, height - 4)];
+  let [most, room] = [0, Infinity];
+  for (const [places, vectors] of arrows) {
+    for (let n = 0; n < vectors.length; n += 2) {
+      const [x, y, u, v] = [places[n], places[n + 1], vectors[n], vectors[n + 1]];
+      most = Math.max(most, Math.hypot(u, v));
+      if (u) room = Math.min(room, ((u > 0 ? right : left) - x) / u);
+      if (v) room = Math.min(room, ((v > 0 ? top : bottom) - y) / v);
+    }
   }
-  return Math.sqrt(most);
+  const span = LONGEST * Math.min(Math.max(box[2] - box[0], 1e-9), 2 * Math.max(box[3] - box[1], 1e-9));
+  return most > 0 ? Math.max(Math.min(span / most, room), 0) : 0;
 }
 
-/** @param {object} key @param {() => Float64Array[]} arrays */
-function sizeOf(key, arrays) {
-  let size = sizes.get(key);
-  if (size === undefined) sizes.set(key, (size = largest(arrays())));
-  return size;
-}
-
-/**
- * @param {View} view @param {[number, number]} from @param {number} dx @param {number} dy on the screen
- * @param {string} colour
- */
+/** @param {View} view @param {[number, number]} from @param {number} dx @param {number} dy on the screen @param {string} colour */
 function arrow({ ctx }, from, dx, dy, colour) {
   const length = Math.hypot(dx, dy);
   if (length < 2) return;
@@ -44,24 +44,19 @@ function arrow({ ctx }, from, dx, dy, colour) {
 
 /** @param {View} view @param {Record<string, boolean>} layers */
 export function paintArrows(view, layers) {
-  const { scene, frame, k, series } = view;
-  const span = LONGEST * frame.scale * Math.min(Math.max(scene.box[2] - scene.box[0], 1e-9), 2 * Math.max(scene.box[3] - scene.box[1], 1e-9));
-  const kinds = /** @type {[string, Record<string, Float64Array>, string][]} */ ([
-    ["velocities", scene.velocities, series[2]],
-    ["accelerations", scene.accelerations, series[4]],
-  ]);
-  for (const [layer, rates, colour] of kinds) {
-    if (!layers[layer]) continue;
-    const size = sizeOf(rates, () => Object.values(rates));
-    for (const [name, values] of Object.entries(rates)) {
-      const [x, y] = pairAt(values, k);
-      if (size > 0) arrow(view, at(view, name), (span * x) / size, (-span * y) / size, colour);
+  const { scene, frame, k, series, ctx: { canvas } } = view;
+  for (const [layer, arrows, colour] of /** @type {[string, [string, Float64Array][], string][]} */ ([
+    ["velocities", Object.entries(scene.velocities), series[2]],
+    ["accelerations", Object.entries(scene.accelerations), series[4]],
+    ["forces", scene.forces.map(({ point, force }) => [point, force]), series[1]],
+  ])) {
+    if (!layers[layer] || !arrows.length) continue;
+    const [key, on] = [arrows[0][1], `${canvas.width} ${canvas.height}`];
+    if (known.get(key)?.[0] !== on) known.set(key, [on, lengths(view, arrows.map(([name, vectors]) => [scene.points[name], vectors]))]);
+    const size = frame.scale * (known.get(key)?.[1] ?? 0);
+    for (const [name, vectors] of arrows) {
+      const [x, y] = pairAt(vectors, k);
+      arrow(view, at(view, name), size * x, -size * y, colour);
     }
-  }
-  if (!layers.forces || !scene.forces.length) return;
-  const size = sizeOf(scene.forces, () => scene.forces.map(({ force }) => force));
-  for (const { point, force } of scene.forces) {
-    const [x, y] = pairAt(force, k);
-    if (size > 0) arrow(view, at(view, point), (span * x) / size, (-span * y) / size, series[1]);
   }
 }

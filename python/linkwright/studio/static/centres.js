@@ -47,7 +47,7 @@ export function paintCentres(view) {
     stroke(ctx, ink.soft, 0.8);
     circle(ctx, ...spot, 4.5);
     fill(ctx, colour);
-    ctx.font = "12px system-ui, 'Segoe UI', 'Noto Sans', 'DejaVu Sans', sans-serif";
+    ctx.font = "12px system-ui, sans-serif";
     ctx.fillText(`C ${name}`, spot[0] + 8, spot[1] - 6);
   });
 }

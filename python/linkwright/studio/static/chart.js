@@ -8,7 +8,6 @@ import { between, placeOf } from "./timeline.js";
 import { number, shownUnit } from "./units.js";
 
 const HEIGHT = 190;
-/** @type {any} */
 const uPlot = /** @type {any} */ (globalThis).uPlot;
 
 /** Rows of a plot in the user's units: abscissa, then curves. @param {Plot} plot @returns {Float64Array[]} */
@@ -76,7 +75,7 @@ function options(plot, width) {
     ],
     series: [
       {},
-      ...plot.curves.map((_, n) => ({ stroke: ink.series[n % ink.series.length], width: 1.8, spanGaps: false })),
+      ...plot.curves.map((_, n) => ({ stroke: ink.series[n % ink.series.length], width: 1.8, spanGaps: false, pxAlign: 0, dash: n < 6 ? [] : [9, 3] })),
       ...Array.from({ length: copies(plot) }, () => plot.curves.map((_, n) => ({ stroke: ink.series[n % ink.series.length], width: 1.1, dash: [5, 4], points: { show: false } }))).flat(),
     ],
   };
@@ -120,6 +119,7 @@ export function Chart({ plot }) {
     const watch = new IntersectionObserver(([entry]) => {
       seen.current.is = entry.isIntersecting;
       refresh();
+      follow();
     });
     watch.observe(element);
     const observer = new ResizeObserver(() => made.setSize({ width: Math.max(element.clientWidth, 160), height: HEIGHT }));

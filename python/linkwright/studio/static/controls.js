@@ -88,12 +88,15 @@ function Quantity({ entry }) {
       </div>` : null}`;
 }
 
+/** Which way an arrow key goes; 0 of another key. @param {{ key: string }} event */
+export const wayOf = ({ key }) => /** @type {Record<string, number>} */ ({ ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 })[key] ?? 0;
+
 /**
  * Arrow keys of a slider move it by a hundredth of its range, with Shift by a tenth.
  * @param {any} event @param {number} low @param {number} high @param {string} address @param {number} si
  */
 function arrow(event, low, high, address, si) {
-  const way = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 }[/** @type {string} */ (event.key)];
+  const way = wayOf(event);
   if (!way) return;
   event.preventDefault();
   const value = Math.min(Math.max(si + (way * (high - low)) / (event.shiftKey ? 10 : 100), low), high);
@@ -105,7 +108,7 @@ function Other({ entry }) {
   const { address, holds, written, choices = [], key } = entry;
   const id = `at ${address}`;
   if (holds === "choice") {
-    return html`<${Choice} id=${id} aria-label=${key} value=${written} options=${choices.map((each) => [each, each.replaceAll("_", " ")])} choose=${(/** @type {string} */ value) => settle({ [address]: value })} />`;
+    return html`<${Choice} id=${id} aria-label=${key} value=${written} options=${choices.map((each) => [each, each.replaceAll("_", " ")])} choose=${(value) => settle({ [address]: value })} />`;
   }
   if (holds === "switch") {
     return html`<input id=${id} type="checkbox" aria-label=${key} checked=${written} onChange=${({ target }) => settle({ [address]: target.checked })} />`;
@@ -135,7 +138,7 @@ function Row({ entry, draggable }) {
   const locked = useComputed(() => state.locks.value[address] ?? false).value;
   const isPulled = useComputed(() => address in state.live.value).value;
   return html`
-    <div class="row ${isPulled ? "pulled" : ""} ${entry.holds === "text" && String(entry.written).length > LONG ? "long" : ""}">
+    <div class="row ${isPulled ? "pulled" : ""} ${/text|choice/.test(entry.holds) && String(entry.written).length > LONG ? "long" : ""}">
       <label for="at ${address}" title=${about}>${key.replaceAll("_", " ")}</label>
       <span class="signs">${entry.holds === "quantity" ? html`<${Slope} entry=${entry} />` : null}${draggable.has(address) ? html`<button class="lock" aria-pressed=${locked} aria-label="Lock ${key} of ${address.split(".").at(-2)}" title=${locked ? "Locked: joints that are dragged leave it as it is" : "Follows joints that are dragged; lock it"}
         onClick=${() => (state.locks.value = { ...state.locks.value, [address]: !locked })}><${Icon} name=${locked ? "locked" : "open"} /></button>` : null}</span>

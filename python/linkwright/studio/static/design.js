@@ -4,7 +4,7 @@ import { useState } from "./vendor/hooks.mjs";
 import { letBack, pin, seek, settle, stopSearch, to, unpin } from "./actions.js";
 import { Chart } from "./chart.js";
 import { Choice, ofNames } from "./choice.js";
-import { endsOf, follows } from "./controls.js";
+import { endsOf, follows, wayOf } from "./controls.js";
 import { Heat } from "./heat.js";
 import { Sign } from "./numbers.js";
 import { effect, entryAt, named, ranked } from "./slopes.js";
@@ -28,7 +28,7 @@ function Goal() {
   const now = found.find(({ name }) => `steady_state.${name}` === state.goal.value);
   return html`
     <${Section} title="Pull a result">
-      <label class="line"><span>Result</span> <${Choice} id="goal" value=${state.goal.value} choose=${(/** @type {string} */ key) => (state.goal.value = key)}
+      <label class="line"><span>Result</span> <${Choice} id="goal" value=${state.goal.value} choose=${(key) => (state.goal.value = key)}
         options=${[["", "none"], ...found.map(({ name, word, symbol }) => [`steady_state.${name}`, [word, symbol && `, ${symbol.replace("_", " ")}`]])]} /></label>
       ${found.length ? null : html`<p class="about">A result can be pulled once there is a steady motion.</p>`}
       ${now ? html`<${Pull} now=${now} />` : null}
@@ -64,7 +64,7 @@ function Pull({ now }) {
         to(Number(target.value), free, false);
       }}
       onKeyDown=${(event) => {
-        const way = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 }[/** @type {string} */ (event.key)];
+        const way = wayOf(event);
         if (event.key === "Escape") {
           done();
           letBack();
@@ -103,7 +103,7 @@ function PointGoal() {
   if (!points.length) return null;
   return html`
     <${Section} title="Pull a point of a curve">
-      <label class="line"><span>Point</span> <${Choice} id="pulled" value=${state.pulled.value} options=${[["", "none"], ...ofNames(points)]} choose=${(/** @type {string} */ name) => {
+      <label class="line"><span>Point</span> <${Choice} id="pulled" value=${state.pulled.value} options=${[["", "none"], ...ofNames(points)]} choose=${(name) => {
         state.pulled.value = name;
         state.trails.value = [...new Set([...state.trails.value, name])].filter(Boolean);
       }} /></label>
@@ -163,7 +163,7 @@ function Search() {
       <div class="line"><span>What</span> <${Choice} aria-label="What is done" value=${kind} choose=${setKind} options=${[["sweep", "Sweep entries"], ["optimise", "Search for the best"]]} /></div>
       <label class="line"><span>Result</span> <${Choice} id="asked" value=${asked} choose=${setAsked} options=${all.map(({ key, word }) => [key, word])} /></label>
       ${kind === "sweep" ? [0, 1].map((n) => html`
-        <label class="line" key=${n}><span>${n ? "and over" : "over"}</span> <${Choice} id="over-${n}" value=${picked[n]} choose=${(/** @type {string} */ address) => setPicked(picked.map((each, k) => (k === n ? address : each)))}
+        <label class="line" key=${n}><span>${n ? "and over" : "over"}</span> <${Choice} id="over-${n}" value=${picked[n]} choose=${(address) => setPicked(picked.map((each, k) => (k === n ? address : each)))}
           options=${[["", n ? "nothing more" : "choose an entry"], ...numbers.map(({ address }) => [address, named(address)])]} /></label>`) : html`
         <div class="line"><span>Goal</span> <${Choice} aria-label="Direction" value=${direction} choose=${setDirection} options=${[["minimise", "Minimum"], ["maximise", "Maximum"]]} /></div>
         <p class="about">${free.length ? `${free.length === 1 ? "The entry" : "The entries"} ${free.map(named).join(", ")} may vary.` : "Choose under Pull a result which entries may vary."}</p>`}

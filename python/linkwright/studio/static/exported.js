@@ -32,10 +32,7 @@ export function ticks(low, high, most = 6) {
   return Array.from({ length: count }, (_, n) => (first + n) * step);
 }
 
-/**
- * A plot as an SVG of its own, with axes, curves and a legend.
- * @param {Sheet} sheet @param {string[]} colours
- */
+/** A plot as an SVG of its own, with axes, curves and a legend. @param {Sheet} sheet @param {string[]} colours */
 export function svg({ title, heads, rows, isToScale = false }, colours) {
   const [width, height, left, top, right, bottom] = [720, 420, 80, 46, 20, 54];
   const [xs, ...ys] = rows;

@@ -44,7 +44,7 @@ export function Files() {
   const buttons = (/** @type {[string, string][]} */ kinds, /** @type {boolean} */ on = true) => html`<p class="sets">${kinds.map(([kind, word]) => html`<button key=${kind} class="main" data-make=${kind} disabled=${!on || running !== ""} onClick=${() => run(kind)}>${word}</button>`)}</p>`;
   return html`
     <h3>Report</h3>
-    ${lanes.length > 1 ? html`<label class="line">Of <${Choice} value=${of} choose=${(/** @type {string} */ one) => set({ of: one })} options=${[["study", "the whole machine"], ["torsion", "its torsional vibration"]]} /></label>` : null}
+    ${lanes.length > 1 ? html`<label class="line">Of <${Choice} value=${of} choose=${(one) => set({ of: one })} options=${[["study", "the whole machine"], ["torsion", "its torsional vibration"]]} /></label>` : null}
     <fieldset class="layers"><legend class="hidden">Sections</legend>${SECTIONS.map(([key, word]) => html`<label key=${key}><input type="checkbox" checked=${chosen.sections.includes(key)} onChange=${({ target }) => set({ sections: SECTIONS.map(([each]) => each).filter((each) => (each === key ? target.checked : chosen.sections.includes(each))) })} />${word}</label>`)}</fieldset>
     <label class="line">Company file for the letterhead <input value=${chosen.company} placeholder="company.toml" onChange=${({ target }) => set({ company: target.value.trim() })} /></label>
     <label class="check line"><input type="checkbox" checked=${chosen.units} onChange=${({ target }) => set({ units: target.checked })} />In the units of this page, not those of the file</label>

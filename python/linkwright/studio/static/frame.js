@@ -20,19 +20,12 @@ export const toScreen = (frame, x, y) => [frame.x + frame.scale * x, frame.y - f
 /** @param {Frame} frame @param {number} x @param {number} y @returns {[number, number]} */
 export const toMachine = (frame, x, y) => [(x - frame.x) / frame.scale, (frame.y - y) / frame.scale];
 
-/**
- * Nearer or farther about a place on the screen.
- * @param {Frame} frame @param {number} factor @param {number} x @param {number} y
- * @returns {Frame}
- */
+/** Nearer or farther about a place on the screen. @param {Frame} frame @param {number} factor @param {number} x @param {number} y @returns {Frame} */
 export function zoomed(frame, factor, x, y) {
   return { scale: frame.scale * factor, x: x - factor * (x - frame.x), y: y - factor * (y - frame.y) };
 }
 
-/**
- * Length of a scale bar: the largest of 1, 2, 5 · 10ⁿ that is at most so many pixels long [m].
- * @param {Frame} frame @param {number} [most]
- */
+/** Length of a scale bar: the largest of 1, 2, 5 · 10ⁿ that is at most so many pixels long [m]. @param {Frame} frame @param {number} [most] */
 export function barLength(frame, most = 120) {
   const raw = most / frame.scale;
   const power = 10 ** Math.floor(Math.log10(raw));

@@ -13,6 +13,9 @@ export function saveNow() {
   else state.dialog.value = "save";
 }
 
+/** @param {string} dialog */
+const opens = (dialog) => () => (state.dialog.value = dialog);
+
 export function Header() {
   const past = state.past.value.of;
   const { place, name } = state.place.value;
@@ -24,16 +27,16 @@ export function Header() {
       <div class="title"><h1 translate="no">${state.machine.value || "Linkwright studio"}</h1>
         <small>${name ? html`<span translate="no">${name}</span>` : "unnamed"}${place && place !== "folder" ? html`<span>${`, from the ${place}`}</span>` : null}${state.unsaved.value ? html` <span class="unsaved" title="There are changes that are not saved">● unsaved</span>` : null}</small></div>
       <nav aria-label="File">
-        <button onClick=${() => (state.dialog.value = "gallery")}>Machines</button>
+        <button onClick=${opens("gallery")}>Machines</button>
         <button onClick=${saveNow} title="Save (Ctrl+S)">Save</button>
-        <button onClick=${() => (state.dialog.value = "save")}>Save as</button>
-        <button onClick=${() => (state.dialog.value = "files")} title="Report, motion, drawing">Export</button>
+        <button onClick=${opens("save")}>Save as</button>
+        <button onClick=${opens("files")} title="Report, motion, drawing">Export</button>
         <span class="gap"></span>
         <button class="icon" disabled=${!past.canUndo} onClick=${undo} aria-label="Undo" title="Undo (Ctrl+Z)"><${Icon} name="undo" /></button>
         <button class="icon" disabled=${!past.canRedo} onClick=${redo} aria-label="Redo" title="Redo (Ctrl+Shift+Z)"><${Icon} name="redo" /></button>
         <span class="gap"></span>
-        <button onClick=${() => (state.dialog.value = "units")}>Units</button>
-        <button onClick=${() => (state.dialog.value = "elsewhere")} title="Command line, Python, link">Copy</button>
+        <button onClick=${opens("units")}>Units</button>
+        <button onClick=${opens("elsewhere")} title="Command line, Python, link">Copy</button>
         <select class="quiet" aria-label="Language" translate="no" value=${state.language.value} onChange=${({ target }) => (state.language.value = target.value)}>
           ${Object.entries(LANGUAGES).map(([code, word]) => html`<option key=${code} value=${code} lang=${code} translate="no" selected=${code === state.language.value}>${word}</option>`)}</select>
         <button class="icon" onClick=${() => (state.look.value = next)} aria-label="Look: ${about}" title=${about}><${Icon} name=${mark} /></button>

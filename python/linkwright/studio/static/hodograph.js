@@ -28,7 +28,8 @@ export function Hodograph({ plot }) {
   now.current = plot;
   useEffect(() => {
     const canvas = /** @type {HTMLCanvasElement} */ (holder.current);
-    let [seen, zoom, at, from] = /** @type {[boolean, number[] | null, number[] | null, number[] | null]} */ ([true, null, null, null]);
+    let seen = true;
+    let [zoom, at, from] = /** @type {(number[] | null)[]} */ ([null, null, null]);
     let frame = { scale: 1, x: 0, y: 0 };
     /** The sample that is nearest to the pointer. @param {Float64Array[]} own */
     const nearest = ([, xs, ys]) => {
@@ -139,11 +140,8 @@ export function Hodograph({ plot }) {
       }
       draw();
     };
-    const heard = /** @type {[string, any][]} */ ([
-      ["pointermove", over], ["pointerdown", (/** @type {PointerEvent} */ event) => ((from = [event.offsetX, event.offsetY]), canvas.setPointerCapture(event.pointerId))],
-      ["pointerup", up], ["pointerleave", () => ((at = null), draw())], ["dblclick", () => ((zoom = null), draw())],
-    ]);
-    for (const [name, listen] of heard) canvas.addEventListener(name, listen);
+    const down = (/** @type {PointerEvent} */ event) => ((from = [event.offsetX, event.offsetY]), canvas.setPointerCapture(event.pointerId));
+    Object.assign(canvas, { onpointermove: over, onpointerdown: down, onpointerup: up, onpointerleave: () => ((at = null), draw()), ondblclick: () => ((zoom = null), draw()) });
     const watch = new IntersectionObserver(([entry]) => ((seen = entry.isIntersecting), draw()));
     watch.observe(canvas);
     const observer = new ResizeObserver(draw);

@@ -1,6 +1,7 @@
 // The knife of a topper over the heads of a row, from above: the swept area grows, what is left uncut stays.
 import { blank, pen } from "./frame.js";
 import { circle, fill, line, stroke } from "./ink.js";
+import { between } from "./timeline.js";
 
 const TURN = 2 * Math.PI;
 
@@ -12,18 +13,13 @@ const EACH_STROKE = 160;
 /** Place of the middle of the edge across the row at a time [m]. @param {Knife} view @param {number} t */
 export function across({ law, phase, rate, drift }, t) {
   const turned = (((phase + rate * t) % TURN) + TURN) % TURN;
-  const k = (turned / TURN) * (law.length - 1);
-  const n = Math.min(Math.floor(k), law.length - 2);
-  return law[n] + (k - n) * (law[n + 1] - law[n]) + drift * t;
+  return between(law, (turned / TURN) * (law.length - 1)) + drift * t;
 }
 
 /** What was swept so far, in its colour, and the part of it over the heads. @type {WeakMap<Knife, { key: string, done: number, layers: HTMLCanvasElement[] }>} */
 const swept = new WeakMap();
 
-/**
- * Draws the knife at a time [s], heads from behind to the front.
- * @param {Paper} paper @param {Knife} view @param {number} t @param {boolean} [names]
- */
+/** Draws the knife at a time [s], heads from behind to the front. @param {Paper} paper @param {Knife} view @param {number} t @param {boolean} [names] */
 export function paintKnife(paper, view, t, names = true) {
   const { ctx, width, height, ink, series } = paper;
   const [x0, y0, x1, y1] = view.box;

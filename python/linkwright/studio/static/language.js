@@ -24,10 +24,7 @@ const OWN = 3;
 const formsOf = ({ texts }) => Object.entries(texts).filter(([text]) => text.includes("{}") && text.replace(/[^a-z]/gi, "").length >= OWN).sort(([a], [b]) => b.length - a.length)
   .map(([text, words]) => [new RegExp(`^${escaped(text).replaceAll("\\{\\}", "(.+?)")}$`, "s"), words]);
 
-/**
- * A text in the language of the page; the text itself where it has no translation. Blanks at its ends stay.
- * @param {string} text
- */
+/** A text in the language of the page; the text itself where it has no translation. Blanks at its ends stay. @param {string} text */
 export function said(text) {
   const of = catalogue.value;
   if (of.code === "en" || !/[A-Za-z]{2}/.test(text)) return text;
@@ -40,10 +37,7 @@ export function said(text) {
   return words;
 }
 
-/**
- * A text with something put in where it has `{}`, in the language of the page.
- * @param {string} text @param {string[]} parts
- */
+/** A text with something put in where it has `{}`, in the language of the page. @param {string} text @param {string[]} parts */
 export const saidOf = (text, ...parts) => put(catalogue.value.texts[text] ?? text, parts);
 
 /** @param {string} words @param {string[]} parts */

@@ -36,7 +36,7 @@ export function Head() {
   const found = HEAD.flatMap((name) => known.get(name) ?? []);
   const fill = [...known.entries()].flatMap(([name, each]) => (found.includes(each) || NO_RESULT.test(name) ? [] : [each]));
   const train = state.views.value.find(({ kind }) => kind === "train");
-  const modes = Array.from(train && !state.isDrawn.value ? train.frequencies.subarray(0, MODES_MOST) : [], (/** @type {number} */ f, n) => ({ name: `mode_${n + 1}`, word: `natural frequency, mode ${n + 1}`, symbol: "f", unit: "Hz", value: f, of: "", key: "" }));
+  const modes = Array.from(train && !state.isDrawn.value && !state.headline.value.length ? train.frequencies.subarray(0, MODES_MOST) : [], (/** @type {number} */ f, n) => ({ name: `mode_${n + 1}`, word: `natural frequency, mode ${n + 1}`, symbol: "f", unit: "Hz", value: f, of: "", key: "" }));
   const shown = [...modes, ...found, ...fill].slice(0, found.length >= 3 ? Math.min(found.length, HEAD_MOST) : HEAD_MOST);
   const lead = state.headline.value;
   if (!shown.length && !lead.length) return null;

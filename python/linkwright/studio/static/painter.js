@@ -21,10 +21,7 @@ function turned(view, link, angle = 0) {
 /** @param {View} view @param {Part} part */
 const colour = (view, part) => view.series[(part.series ?? 0) % view.series.length];
 
-/**
- * Draws about the origin of a part, turned with its link.
- * @param {View} view @param {Part} part @param {(ctx: Ctx) => void} draw
- */
+/** Draws about the origin of a part, turned with its link. @param {View} view @param {Part} part @param {(ctx: Ctx) => void} draw */
 function carried(view, part, draw) {
   const { ctx } = view;
   const [x, y] = at(view, part.at);
@@ -47,7 +44,7 @@ function hatch({ ctx, ink }, length) {
 
 /** @param {View} view @param {string} text @param {number} x @param {number} y */
 function word({ ctx, ink }, text, x, y) {
-  ctx.font = "12.5px system-ui, 'Segoe UI', 'Noto Sans', 'DejaVu Sans', sans-serif";
+  ctx.font = "12.5px system-ui, sans-serif";
   ctx.lineWidth = 4;
   ctx.strokeStyle = ink.panel;
   ctx.strokeText(text, x, y);

@@ -61,7 +61,7 @@ function Panel({ plot }) {
   const head = useMemo(() => html`
       <header>
         <h3>${titled(plot.title)} <small>${unit}</small></h3>
-        <span class="legend">${plot.curves.length > 1 && !plot.isHodograph ? plot.curves.map(({ symbol, word, own }, n) => html`<span key=${n} title=${word} translate=${own ? "no" : undefined}><i class="key c${n % 6}"></i>${short(symbol, word)}</span>`) : null}</span>
+        <span class="legend">${plot.curves.length > 1 && !plot.isHodograph ? plot.curves.map(({ symbol, word, own }, n) => html`<span key=${n} title=${word} translate=${own ? "no" : undefined}><i class="key c${n % 6} ${n < 6 ? "" : "again"}"></i>${short(symbol, word)}</span>`) : null}</span>
         <span class="tools">
           <button class="quiet" aria-pressed=${data} onClick=${() => setData(!data)} title="The numbers as a table">Data</button>
           ${[["CSV", asCsv], ["PNG", asPng], ["SVG", asSvg]].map(([kind, make]) => html`<button key=${kind} class="quiet" onClick=${make} title="Download ${kind}">${kind}</button>`)}
@@ -85,7 +85,7 @@ export function Plots() {
   const others = all.filter(({ plot }) => isHidden(plot));
   return html`
     ${points.length ? html`
-      <label class="watch">Curves of a point <${Choice} value=${state.watched.value} options=${[["", "none"], ...ofNames(points)]} choose=${(/** @type {string} */ name) => (state.watched.value = name)} /></label>` : null}
+      <label class="watch">Curves of a point <${Choice} value=${state.watched.value} options=${[["", "none"], ...ofNames(points)]} choose=${(name) => (state.watched.value = name)} /></label>` : null}
     <div class="panels">
       ${shown.map(({ plot }) => html`<${Panel} key=${plot.key} plot=${plot} />`)}
       ${shown.length ? null : html`<p class="nothing">${state.runs.value ? "Being computed …" : !state.controls.value && !state.problems.value.length ? "Opening …" : state.figures.value.length ? "No curves to read; Numbers and Diagrams have the results." : "No curves. The chips below the drawing say what stands in the way."}</p>`}

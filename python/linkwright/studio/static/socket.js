@@ -1,9 +1,7 @@
 // The socket: one request to compute is on its way at a time. Of held ones that wait, the newest alone is sent; what was let go is kept.
 import { pack, unpack } from "./wire.js";
 
-/**
- * @param {{ answer: (number: number, body: any) => void, state: (connected: boolean) => void }} hear
- */
+/** @param {{ answer: (number: number, body: any) => void, state: (connected: boolean) => void }} hear */
 export function connect(hear) {
   let number = 0;
   /** @type {WebSocket} */

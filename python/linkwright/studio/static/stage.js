@@ -74,7 +74,7 @@ function run(holder, canvas) {
   observer.observe(holder);
 
   const forget = effect(() => {
-    for (const each of [state.scene, state.layers, state.time, shownLook, state.picked, state.units, state.trails]) void each.value;
+    for (const each of [state.scene, state.layers, shownLook, state.picked, state.units, state.trails]) void each.value;
     if (state.scene.value && !gesture) {
       // A drawing stays where it is while a length is pulled; another machine is fitted anew.
       const name = `${state.machine.value} ${Object.keys(state.scene.value.points).length}`;
@@ -87,6 +87,12 @@ function run(holder, canvas) {
     dirty = true;
   });
 
+  // An instant moves nothing that stands.
+  const rest = effect(() => {
+    void state.time.value;
+    dirty = true;
+  });
+
   function draw() {
     const scene = state.scene.value;
     blank(canvas, width, height);
@@ -95,7 +101,7 @@ function run(holder, canvas) {
     const k = placeOf(scene.times, state.time.value);
     const view = { ctx, scene, frame, k, ink, series: ink.series, light: state.picked.value };
     if (stillFor !== scene) {
-      paintStill({ ...view, ctx: blank(still, width, height), scene: { ...scene, parts: [...(state.layers.value.paths ? scene.parts : scene.parts.filter(({ kind }) => kind !== "trace")), ...trails(scene)] } });
+      paintStill({ ...view, ctx: blank(still, width, height), scene: { ...scene, parts: [...scene.parts.filter(({ kind }) => state.layers.value.paths || kind !== "trace"), ...trails(scene)] } });
       stillFor = scene;
     }
     ctx.drawImage(still, 0, 0, width, height);
@@ -110,10 +116,8 @@ function run(holder, canvas) {
     place(scene, k);
     const { unit, factor } = shownUnit("rad/s", state.units.value);
     const words = document.getElementById("instant");
-    if (words) {
-      const degrees = (between(scene.angles, k) * 180) / Math.PI;
-      words.textContent = `φ ${decimal(degrees.toFixed(1).replace("-", "−")).padStart(6, "\u2007")}°  ${scene.true_speed ? `ω ${number(between(scene.speeds, k) / factor, 4)} ${unit}` : ""}`;
-    }
+    const degrees = (between(scene.angles, k) * 180) / Math.PI;
+    if (words) words.textContent = `φ ${decimal(degrees.toFixed(1).replace("-", "−")).padStart(6, "\u2007")}°  ${scene.true_speed ? `ω ${number(between(scene.speeds, k) / factor, 4)} ${unit}` : ""}`;
   }
 
   /** Paths that the user asked for. @param {Scene} scene @returns {any[]} */
@@ -358,6 +362,7 @@ function run(holder, canvas) {
     cancelAnimationFrame(handle);
     observer.disconnect();
     forget();
+    rest();
     for (const [name, listen] of heard) holder.removeEventListener(name, listen);
   };
 }

@@ -60,7 +60,7 @@ export const pulled = signal("");
 export const building = signal(false);
 
 // -- answers, those of each lane apart, so that one does not wait for another
-/** @type {Signal<Record<string, { results: Shown[], findings: string[], warnings: string[], figures: Figure[], views?: any[], tables?: Table[], headline?: string[][] }>>} */
+/** @type {Signal<Record<string, Answers>>} */
 export const answers = signal({});
 /** State of each lane: "ready", "running", "stopped". @type {Signal<Record<string, string>>} */
 export const lanes = signal({});

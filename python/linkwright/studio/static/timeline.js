@@ -1,9 +1,6 @@
 // Time of the drawing: where in the tables of a scene an instant lies, and how the instant goes on.
 
-/**
- * Place in a growing table, which may lie between two entries.
- * @param {ArrayLike<number>} times @param {number} time
- */
+/** Place in a growing table, which may lie between two entries. @param {ArrayLike<number>} times @param {number} time */
 export function placeOf(times, time) {
   let low = 0;
   let high = times.length - 1;
@@ -22,11 +19,7 @@ export function between(values, k) {
   return values[n] + (k - n) * (values[n + 1] - values[n]);
 }
 
-/**
- * A point of an array of pairs.
- * @param {ArrayLike<number>} pairs @param {number} k
- * @returns {[number, number]}
- */
+/** A point of an array of pairs. @param {ArrayLike<number>} pairs @param {number} k @returns {[number, number]} */
 export function pairAt(pairs, k) {
   const n = Math.min(Math.floor(k), pairs.length / 2 - 2);
   const z = k - n;
@@ -34,10 +27,7 @@ export function pairAt(pairs, k) {
   return [x + z * (X - x), y + z * (Y - y)];
 }
 
-/**
- * Seconds on the page for one period at playback speed 1: the machine's own time where one can watch that.
- * @param {number} period
- */
+/** Seconds on the page for one period at playback speed 1: the machine's own time where one can watch that. @param {number} period */
 export const watchable = (period) => Math.min(Math.max(period, 2), 8);
 
 /**

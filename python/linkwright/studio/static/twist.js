@@ -12,7 +12,7 @@ const LINES = 8;
 /** Slope of names that would meet their neighbours, room beside the train [px], letters of names. */
 const LEAN = 0.55;
 const MARGIN = 26;
-const LETTERS = "12px system-ui, 'Segoe UI', 'Noto Sans', 'DejaVu Sans', sans-serif";
+const LETTERS = "12px system-ui, sans-serif";
 
 /** Amplitude of an end in the mode that is shown; 0 of the ground. @param {Sight} sight @param {number | null} disc */
 const amplitude = ({ view, mode }, disc) => (disc === null ? 0 : view.shapes[mode * view.discs.length + disc]);

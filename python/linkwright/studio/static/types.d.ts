@@ -19,6 +19,8 @@ type Plot = { key: string, title: string, unit: string, x: Curve, curves: Curve[
 type Shown = { name: string, scalars: (Words & { value: number })[], plots: Plot[] };
 type Table = { name: string, title: string, heads: string[], rows: string[][] };
 type Figure = { name: string, title: string, caption: string, svg: string };
+/** What one lane has found. */
+type Answers = { results: Shown[], findings: string[], warnings: string[], figures: Figure[], views?: any[], tables?: Table[], headline?: string[][] };
 type Chip = { name: string, word: string, lane: string, obstacle?: string, mend?: string, entries?: Record<string, any> };
 
 type Entry = { address: string, key: string, about: string, written: any, holds: string, unit?: string, bounds?: Record<string, number>,

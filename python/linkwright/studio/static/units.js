@@ -32,17 +32,10 @@ export const listed = (choice) => Object.entries(UNITS).map(([si, { sets }]) => 
 /** @param {number} set @returns {Record<string, string>} */
 export const chosen = (set) => Object.fromEntries(Object.entries(UNITS).map(([si, { sets }]) => [si, sets[set]]));
 
-/**
- * The unit as results print it: files write `kg m^2`.
- * @param {string} unit
- */
+/** The unit as results print it: files write `kg m^2`. @param {string} unit */
 export const printed = (unit) => unit.replace(/\^(-?\d)/g, (_, power) => raised(power.replace("-", "⁻")));
 
-/**
- * Unit that is shown for an SI unit, and its factor.
- * @param {string} si @param {Record<string, string>} choice
- * @returns {{ unit: string, factor: number }}
- */
+/** Unit that is shown for an SI unit, and its factor. @param {string} si @param {Record<string, string>} choice @returns {{ unit: string, factor: number }} */
 export function shownUnit(si, choice) {
   const known = printed(si);
   const unit = choice[known];

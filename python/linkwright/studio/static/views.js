@@ -31,7 +31,7 @@ function TrainView({ view }) {
     }} /></div>
     <div class="playbar" role="group" aria-label="Motion">
       <${Play} />
-      <label class="mode">Mode <${Choice} id="mode" value=${mode} choose=${(/** @type {string} */ n) => setMode(Number(n))} options=${Array.from(view.frequencies, (f, n) => [n, `${n + 1}: ${number(f, 5)} ${shownUnit("Hz", state.units.value).unit}`])} /></label>
+      <label class="mode">Mode <${Choice} id="mode" value=${mode} choose=${(n) => setMode(Number(n))} options=${Array.from(view.frequencies, (f, n) => [n, `${n + 1}: ${number(f, 5)} ${shownUnit("Hz", state.units.value).unit}`])} /></label>
       <span class="about words">Angles are drawn many times larger than they are. Red dots: nodes, at rest.</span>
       <${Speed} />
     </div>`;

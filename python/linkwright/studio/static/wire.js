@@ -13,11 +13,7 @@ export function pack(number, body) {
   return bytes.buffer;
 }
 
-/**
- * Arrays are views of the message: nothing is copied.
- * @param {ArrayBuffer} message
- * @returns {{ number: number, body: any }}
- */
+/** Arrays are views of the message: nothing is copied. @param {ArrayBuffer} message @returns {{ number: number, body: any }} */
 export function unpack(message) {
   const head = new DataView(message);
   const length = head.getUint32(4, true);
