@@ -78,6 +78,8 @@ def _vectors(axes: Axes, forces: Forces, force: np.ndarray, colour: str, label: 
     axes.plot(force[start, 0], force[start, 1], "o", color=colour, markersize=4)
     axes.plot(0, 0, "+", color=SOFT, markersize=8)
     axes.set_aspect("equal", adjustable="datalim")
+    # Numbers of forces are long: more of them run into one another.
+    axes.locator_params(axis="x", nbins=4)
     axes.set_xlabel("$F_x$ [N]", **MATH)
     axes.set_ylabel("$F_y$ [N]", **MATH)
 

@@ -261,7 +261,7 @@ def _nodes(nodes: Sequence[Node]) -> str:
 
 def _node(node: Node) -> str:
     """Where a node is: a disc, or a shaft and the share of its twist."""
-    return node.at if node.share == 0 else f"{node.at} {node.share:.3f}"
+    return node.at if node.share == 0 else f"{node.at} {100 * node.share:.0f} %"
 
 
 def _energy(free: FreeVibration, k: int) -> str:
@@ -295,14 +295,14 @@ def holzer_tables(table: HolzerTable) -> Iterator[Table]:
     """Holzer's table: discs, then shafts."""
     columns = (table.inertia, table.inertia_squared, table.amplitude, table.torque)
     rows: list[Row] = [
-        (name, "", *(_signed(f"{column[n]:.6g}") for column in columns)) for n, name in enumerate(table.discs)
+        (name, "", *(number(column[n], 6) for column in columns)) for n, name in enumerate(table.discs)
     ]
-    rows.append(("residual at " + table.end, "", "", "", "", _signed(f"{table.residual_torque:.6g}")))
+    rows.append(("residual at " + table.end, "", "", "", "", number(table.residual_torque, 6)))
     heads: Row = ("disc", "", "J [kg m²]", "J ω² [N m/rad]", "amplitude θ", "J ω² θ [N m]")
     yield Table("holzer_discs", f"Holzer's table at {quantity(table.frequency, 'Hz', 6)}", heads, rows)
     of_shafts = (table.stiffness, table.twist, table.shaft_torque)
     rows = [
-        (name, "", *(_signed(f"{column[n]:.6g}") for column in of_shafts))
+        (name, "", *(number(column[n], 6) for column in of_shafts))
         for n, name in enumerate(table.shafts)
     ]
     yield Table(
