@@ -74,6 +74,9 @@ def in_words(body: Any, code: str, key: str = "") -> Any:
     if code == "en":
         return body
     if isinstance(body, Mapping):
+        if body.get("own"):
+            # Names are the user's own, also those that are words of ours.
+            return body
         return {name: in_words(value, code, name) for name, value in body.items()}
     if isinstance(body, list | tuple):
         return [in_words(value, code, key) for value in body]

@@ -86,14 +86,19 @@ def _words(quantity: DeclaredQuantity) -> dict[str, str]:
     return {"name": quantity.name, "word": quantity.word, "symbol": quantity.symbol, "unit": quantity.unit}
 
 
+# What goes to infinity where others of its unit do not stands alone.
+_ALONE = ("curvature_radius",)
+
+
 def _plots(name: str, result: Result, declared: list[DeclaredQuantity]) -> Iterator[dict[str, Any]]:
     """Curves over one abscissa in one unit share a plot."""
     known = {quantity.name: quantity for quantity in declared if quantity.kind == "curve"}
-    groups: dict[tuple[str, str], list[DeclaredQuantity]] = {}
+    groups: dict[tuple[str, str, str], list[DeclaredQuantity]] = {}
     for quantity in known.values():
         if quantity.over in known:
-            groups.setdefault((quantity.over, quantity.unit), []).append(quantity)
-    for (over, unit), curves in groups.items():
+            alone = quantity.name if quantity.name in _ALONE else ""
+            groups.setdefault((quantity.over, quantity.unit, alone), []).append(quantity)
+    for (over, unit, _), curves in groups.items():
         x = _list_of(result, over)
         listed = [(curve, _list_of(result, curve.name)) for curve in curves]
         drawn = [
@@ -147,6 +152,7 @@ def _of_parts(name: str, result: Result, declared: list[DeclaredQuantity]) -> It
                     "name": part,
                     "word": part.replace("_", " "),
                     "symbol": "",
+                    "own": True,
                     "values": row,
                 }
                 for part, row in zip(parts, rows.astype(float), strict=True)
@@ -190,7 +196,8 @@ def _of_columns(name: str, result: Result) -> Iterator[dict[str, Any]]:
             "unit": unit,
             "x": {**_words(first), "values": x},
             "curves": [
-                {"name": head, "word": head.replace("_", " "), "symbol": "", "unit": unit, "values": y}
+                {"name": head, "word": head.replace("_", " "), "symbol": "", "own": True}
+                | {"unit": unit, "values": y}
                 for head, y in drawn
             ],
         }

@@ -80,4 +80,4 @@ export const Remove = ({ address, word }) => html`<button class="quiet remove" a
 }}>remove</button>`;
 
 /** Whether a group is an element that can be taken out. @param {string} address */
-export const isElement = (address) => /^(mechanism\.[a-z_]+|bodies|loads|train\.[a-z]+)\.("[^"]*"|[^.]+)$/.test(address);
+export const isElement = (address) => /^(mechanism\.[a-z_]+|bodies|loads|train\.[a-z]+s)\.("[^"]*"|[^.]+)$/.test(address);

@@ -11,8 +11,8 @@ import { effect, entryAt } from "./slopes.js";
 import * as state from "./state.js";
 import { number, read, shownUnit, typed } from "./units.js";
 
-/** Letters of a text that stands on a line of its own. */
-const LONG = 16;
+/** Whether an entry stands on a line of its own. @param {Entry} entry */
+const isLong = ({ holds, written }) => (holds === "text" ? String(written).length > 16 : holds === "choice" && said(written.replaceAll("_", " ")).length > 13);
 
 /** Largest share of a value that a slider reaches beyond it. */
 const REACH = 2;
@@ -138,7 +138,7 @@ function Row({ entry, draggable }) {
   const locked = useComputed(() => state.locks.value[address] ?? false).value;
   const isPulled = useComputed(() => address in state.live.value).value;
   return html`
-    <div class="row ${isPulled ? "pulled" : ""} ${/text|choice/.test(entry.holds) && String(entry.written).length > LONG ? "long" : ""}">
+    <div class="row ${isPulled ? "pulled" : ""} ${isLong(entry) ? "long" : ""}">
       <label for="at ${address}" title=${about}>${key.replaceAll("_", " ")}</label>
       <span class="signs">${entry.holds === "quantity" ? html`<${Slope} entry=${entry} />` : null}${draggable.has(address) ? html`<button class="lock" aria-pressed=${locked} aria-label="Lock ${key} of ${address.split(".").at(-2)}" title=${locked ? "Locked: joints that are dragged leave it as it is" : "Follows joints that are dragged; lock it"}
         onClick=${() => (state.locks.value = { ...state.locks.value, [address]: !locked })}><${Icon} name=${locked ? "locked" : "open"} /></button>` : null}</span>

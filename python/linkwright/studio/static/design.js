@@ -28,7 +28,7 @@ function Goal() {
   const now = found.find(({ name }) => `steady_state.${name}` === state.goal.value);
   return html`
     <${Section} title="Pull a result">
-      <label class="line"><span>Result</span> <${Choice} id="goal" value=${state.goal.value} choose=${(key) => (state.goal.value = key)}
+      <label class="line"><span>Result</span> <${Choice} id="goal" value=${now ? state.goal.value : ""} choose=${(key) => (state.goal.value = key)}
         options=${[["", "none"], ...found.map(({ name, word, symbol }) => [`steady_state.${name}`, [word, symbol && `, ${symbol.replace("_", " ")}`]])]} /></label>
       ${found.length ? null : html`<p class="about">A result can be pulled once there is a steady motion.</p>`}
       ${now ? html`<${Pull} now=${now} />` : null}

@@ -32,13 +32,13 @@ const titled = (name) => {
 };
 
 export function Head() {
+  const lead = state.headline.value;
   const known = new Map(state.scalars.value.map((each) => [each.key, each]));
   const found = HEAD.flatMap((name) => known.get(name) ?? []);
   const fill = [...known.entries()].flatMap(([name, each]) => (found.includes(each) || NO_RESULT.test(name) ? [] : [each]));
   const train = state.views.value.find(({ kind }) => kind === "train");
-  const modes = Array.from(train && !state.isDrawn.value && !state.headline.value.length ? train.frequencies.subarray(0, MODES_MOST) : [], (/** @type {number} */ f, n) => ({ name: `mode_${n + 1}`, word: `natural frequency, mode ${n + 1}`, symbol: "f", unit: "Hz", value: f, of: "", key: "" }));
+  const modes = Array.from(train && !state.isDrawn.value && !lead.length ? train.frequencies.subarray(0, MODES_MOST) : [], (/** @type {number} */ f, n) => ({ name: `mode_${n + 1}`, word: `natural frequency, mode ${n + 1}`, symbol: "f", unit: "Hz", value: f, of: "", key: "" }));
   const shown = [...modes, ...found, ...fill].slice(0, found.length >= 3 ? Math.min(found.length, HEAD_MOST) : HEAD_MOST);
-  const lead = state.headline.value;
   if (!shown.length && !lead.length) return null;
   return html`<dl class="head" aria-label="Main results">${lead.map(([word, value, unit]) => html`<div key=${word}><dt>${word}</dt><dd><b>${value}</b> <small translate="no">${unit}</small></dd></div>`)}${shown.map((each) => {
     const { unit, factor } = shownUnit(each.unit, state.units.value);

@@ -16,8 +16,7 @@ import { number, shownUnit } from "./units.js";
 const ROWS_MOST = 181;
 
 /** Plots that say the same as another, or nothing that one looks for first. */
-const ASIDE = [/^hodograph\.joint/, /^forces\.(time|speed|acceleration|power_residual|crank_angle)$/, /\.time$/, /^forces\.shaking_force_/, /_moment$/, /^run_(up|down)\.(crank_angle)$/, /^motion\./, /^reduction\./, /^steady_state\.power/, /^forces\.power/,
-  /^forced\.(mean_torques|torque_|.*_heat|power|unevenness_|shaft_torque_max)/, /^stress\.(mean|greatest|continuous|transient)/];
+const ASIDE = /^hodograph\.joint|^forces\.(time|speed|acceleration|power_residual|crank_angle)$|\.time$|^forces\.shaking_force_|_moment$|^run_(up|down)\.crank_angle$|^(motion|reduction)\.|^(steady_state|forces)\.power|^forced\.(mean_torques|torque_|.*_heat|power|unevenness_|shaft_torque_max)|^stress\.(mean|greatest|continuous|transient)/;
 
 const titled = (/** @type {string} */ words) => words[0].toUpperCase() + words.slice(1);
 
@@ -76,7 +75,7 @@ function Panel({ plot }) {
 }
 
 /** @param {Plot} plot */
-const isHidden = ({ key }) => state.hidden.value[key] ?? ASIDE.some((each) => each.test(key));
+const isHidden = ({ key }) => state.hidden.value[key] ?? ASIDE.test(key);
 
 export function Plots() {
   const all = [...pointPlots().map((plot) => ({ plot, of: "points" })), ...state.results.value.flatMap(({ name, plots }) => plots.map((plot) => ({ plot, of: name }))), ...hodographs().map((plot) => ({ plot, of: "hodograph" }))];

@@ -1,5 +1,6 @@
 // Curves of a point that is picked: the arrays of the drawing as plots, place, velocity and acceleration over the crank angle; hodographs of
 // these and of forces.
+import { saidOf } from "./language.js";
 import * as state from "./state.js";
 
 /** @param {Float64Array} pairs @param {0 | 1} which */
@@ -21,7 +22,7 @@ export function pointPlots() {
   ]);
   return kinds.map(([word, head, unit, pairs]) => ({
     key: `points.${word}`,
-    title: `${word} of ${name}`,
+    title: saidOf(`${word} of {}`, name),
     unit,
     x,
     curves: /** @type {const} */ ([0, 1]).map((which) => ({ name: `${name}.${word}.${which}`, word: `${word} of ${name} along ${"xy"[which]}`, symbol: `${head}${"xy"[which]}`, unit, get values() { return column(pairs, which); } })),
@@ -37,16 +38,16 @@ export function hodographs() {
   /** @param {string} key @param {string} word @param {string} symbol @param {string} unit @param {Float64Array} pairs @returns {Plot} */
   const of = (key, word, symbol, unit, pairs) => ({
     key: `hodograph.${key}`,
-    title: `hodograph, ${word}`,
+    title: saidOf("hodograph, {}", word),
     unit,
     x,
     isHodograph: true,
     curves: /** @type {const} */ ([0, 1]).map((which) => ({ name: "xy"[which], word: `${word}, ${"xy"[which]}`, symbol: `${symbol}_${"xy"[which]}`, unit, get values() { return column(pairs, which); } })),
   });
-  const ofPoint = name in scene.velocities ? [of("velocity", `velocity of ${name}`, "v", "m/s", scene.velocities[name]), of("acceleration", `acceleration of ${name}`, "a", "m/s²", scene.accelerations[name])] : [];
-  const ofJoints = scene.forces.map((each) => of(`${each.point === name ? "picked" : "joint"}.${each.name}`, `force in ${each.name}`, "F", "N", each.force));
+  const ofPoint = name in scene.velocities ? [of("velocity", saidOf("velocity of {}", name), "v", "m/s", scene.velocities[name]), of("acceleration", saidOf("acceleration of {}", name), "a", "m/s²", scene.accelerations[name])] : [];
+  const ofJoints = scene.forces.map((each) => of(`${each.point === name ? "picked" : "joint"}.${each.name}`, saidOf("force in {}", each.name), "F", "N", each.force));
   const shaking = state.results.value.flatMap(({ plots }) => plots).find(({ key }) => key === "forces.shaking_force_x");
   const [along, across] = shaking?.curves ?? [];
-  const ofFrame = shaking && across ? [{ ...of("shaking_force", "shaking force", "F_g", "N", new Float64Array(0)), x: shaking.x, curves: [along, across] }] : [];
+  const ofFrame = shaking && across ? [{ ...of("shaking_force", saidOf("shaking force"), "F_g", "N", new Float64Array(0)), x: shaking.x, curves: [along, across] }] : [];
   return [...ofPoint, ...ofFrame, ...ofJoints];
 }

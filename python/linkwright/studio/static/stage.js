@@ -56,7 +56,7 @@ function run(holder, canvas) {
   let frame = { scale: 1, x: 0, y: 0 };
   // Known from when it changed: asking for it while the page is written anew would lay the page out twice.
   let [width, height] = [holder.clientWidth, holder.clientHeight];
-  let own = /** @type {string} */ ("");
+  let own = "";
   let way = 1;
   let before = 0;
   let dirty = true;
@@ -353,16 +353,11 @@ function run(holder, canvas) {
     own = "";
     state.layers.value = { ...state.layers.value };
   }
-  const heard = /** @type {[string, any, any?][]} */ ([
-    ["pointerdown", down], ["pointermove", over], ["pointerup", up], ["pointercancel", cancelled],
-    ["keydown", key], ["keyup", keyUp], ["wheel", wheel, { passive: false }], ["dblclick", refit],
-  ]);
-  for (const [name, listen, options] of heard) holder.addEventListener(name, listen, options);
+  Object.assign(holder, { onpointerdown: down, onpointermove: over, onpointerup: up, onpointercancel: cancelled, onkeydown: key, onkeyup: keyUp, onwheel: wheel, ondblclick: refit });
   return () => {
     cancelAnimationFrame(handle);
     observer.disconnect();
     forget();
     rest();
-    for (const [name, listen] of heard) holder.removeEventListener(name, listen);
   };
 }
