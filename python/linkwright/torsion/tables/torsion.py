@@ -302,8 +302,7 @@ def holzer_tables(table: HolzerTable) -> Iterator[Table]:
     yield Table("holzer_discs", f"Holzer's table at {quantity(table.frequency, 'Hz', 6)}", heads, rows)
     of_shafts = (table.stiffness, table.twist, table.shaft_torque)
     rows = [
-        (name, "", *(number(column[n], 6) for column in of_shafts))
-        for n, name in enumerate(table.shafts)
+        (name, "", *(number(column[n], 6) for column in of_shafts)) for n, name in enumerate(table.shafts)
     ]
     yield Table(
         "holzer_shafts", "Holzer's table: shafts", ("shaft", "", "k [N m/rad]", "twist", "torque [N m]"), rows
