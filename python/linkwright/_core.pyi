@@ -1035,7 +1035,8 @@ class SteadyMotion:
 
     Curves at the crank angles asked for: time [s], speed [rad/s], acceleration [rad/s²], torques [N m],
     inertia [kg m²]. Of the revolution: extremes [rad/s, rad/s²] and their crank angles [rad], period [s],
-    work [J], mean and root mean square of the motor's torque [N m]; the accuracy reached, and what it took.
+    work [J], mean, root mean square and extremes of the motor's torque [N m], its maximum power [W]; the
+    accuracy reached, and what it took.
     """
 
     time: Final[_Floats]
@@ -1060,6 +1061,9 @@ class SteadyMotion:
     energy_load: Final[float]
     torque_motor_mean: Final[float]
     torque_motor_rms: Final[float]
+    torque_motor_min: Final[float]
+    torque_motor_max: Final[float]
+    power_motor_max: Final[float]
     accuracy: Final[float]
     sweeps: Final[int]
     steps: Final[int]

@@ -61,6 +61,9 @@ pub(crate) struct SteadyMotion {
     energy_load: f64,
     torque_motor_mean: f64,
     torque_motor_rms: f64,
+    torque_motor_min: f64,
+    torque_motor_max: f64,
+    power_motor_max: f64,
     accuracy: f64,
     sweeps: u32,
     steps: usize,
@@ -71,6 +74,8 @@ pub(crate) struct SteadyMotion {
 impl SteadyMotion {
     fn of(py: Python<'_>, plan: Py<Plan>, q: &[f64], found: Steady, curves: Curves) -> PyResult<Self> {
         let (extremes, totals) = (&found.extremes, &found.totals);
+        let [slowest, fastest] = [extremes.speed_min.value, extremes.speed_max.value];
+        let motor = plan.get().0.motor_extremes(q, slowest, fastest);
         let other = |each: &linkwright_core::drive::steady::OtherMotion| OtherMotion {
             speed_min: each.speed_min,
             speed_max: each.speed_max,
@@ -100,6 +105,9 @@ impl SteadyMotion {
             energy_load: totals.load_work,
             torque_motor_mean: totals.torque_mean,
             torque_motor_rms: totals.torque_rms,
+            torque_motor_min: motor.torque_min,
+            torque_motor_max: motor.torque_max,
+            power_motor_max: motor.power_max,
             accuracy: found.reached,
             sweeps: found.sweeps,
             steps: found.marks.len(),

@@ -8,9 +8,7 @@ core says how (`linkwright-core`, module `drive::cycle`).
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
@@ -29,14 +27,6 @@ from linkwright.linkages.closure import over_whole_cycle, require_full_turn, tur
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import NoSteadyMotion, Status, SteadyCurves, SteadyMotion, SteadySolution
-
-# Speeds of a revolution at which the motor's torque is looked at for its extremes, and how often between the
-# neighbours of the best: an interval is a 32nd of that before.
-_SPEEDS_IN_TURN, _ZOOMS = 65, 7
-
-# Share of an interval beside its ends: what rises from both has its maximum between them. One that is nearer
-# to an end is met there to the square of this.
-_BESIDE = 1e-6
 
 # Speeds at which it is looked whether the drive can balance the mean load at all.
 _SPEEDS = 400
@@ -289,7 +279,7 @@ def solved_state(
     if isinstance(motion, NoSteadyMotion):
         raise _failure(motion, machine, compiled, accuracy)
     compiled.kept["steady motion"] = accuracy, motion.solution
-    return _from_core(machine, motion, phi, compiled), motion.solution
+    return _from_core(motion, phi, compiled), motion.solution
 
 
 def steady_curves(machine: Machine, accuracy: float, angles: Floats) -> SteadyState | SteadyCurves:
@@ -301,71 +291,8 @@ def steady_curves(machine: Machine, accuracy: float, angles: Floats) -> SteadySt
     return solved_state(machine, accuracy, angles)[0]
 
 
-def _motor_extremes(
-    machine: Machine, compiled: CompiledMachine, low: float, high: float
-) -> tuple[float, float, float]:
-    """Minimum and maximum torque and maximum power of the motor for speeds of the crank between two."""
-    # In one revolution the speed takes every value between its extremes, and the torque depends on the speed
-    # alone.
-    assert machine.drive is not None
-    assert machine.drive.motor is not None
-    ratio = compiled.gear_factors[0]
-    marks = [low, *sorted(mark / ratio for mark in machine.drive.motor.speed_marks), high]
-    ends = [mark for mark in marks if low <= mark <= high]
-
-    def torque(omega: Floats) -> Floats:
-        return compiled.motor_torques(omega).motor
-
-    def downwards(omega: Floats) -> Floats:
-        return -torque(omega)
-
-    def power(omega: Floats) -> Floats:
-        return torque(omega) * omega * ratio
-
-    speeds = [x for a, b in pairwise(ends) for x in _ends_and_beside(a, b)]
-    torques = torque(np.array(speeds)).tolist()
-    down = _highest(downwards, speeds, [-value for value in torques])
-    up = _highest(torque, speeds, torques)
-    most = _highest(
-        power, speeds, [value * speed * ratio for value, speed in zip(torques, speeds, strict=True)]
-    )
-    return -down, up, most
-
-
-def _ends_and_beside(low: float, high: float) -> tuple[float, float, float, float]:
-    """Both ends of an interval, and places beside them."""
-    near = (high - low) * _BESIDE
-    return low, low + near, high - near, high
-
-
-def _highest(of: Callable[[Floats], Floats], x: list[float], y: list[float]) -> float:
-    """Maximum of a function that has one at most on each of some intervals."""
-    # `x` and `y` hold places and values of each interval: at its start, beside it, beside its end, at its
-    # end.
-    best = max(y)
-    for k in range(0, len(x), 4):
-        if y[k + 1] > y[k] and y[k + 2] > y[k + 3]:
-            best = max(best, _peak(of, x[k], x[k + 3]))
-    return best
-
-
-def _peak(of: Callable[[Floats], Floats], low: float, high: float) -> float:
-    """Maximum of a function that has one between two ends."""
-    # The best sample of the interval, and again between its neighbours, 1e-9 of it in the end: a smooth peak
-    # is met to the square of that.
-    best = -np.inf
-    for _ in range(_ZOOMS):
-        x = np.linspace(low, high, _SPEEDS_IN_TURN)
-        y = of(x)
-        top = int(y.argmax())
-        best = max(best, float(y[top]))
-        low, high = x[max(top - 1, 0)], x[min(top + 1, _SPEEDS_IN_TURN - 1)]
-    return best
-
-
-def _from_core(machine: Machine, motion: SteadyMotion, phi: Floats, compiled: CompiledMachine) -> SteadyState:
-    """What the core found, with the extremes of the motor and its power."""
-    weakest, strongest, most = _motor_extremes(machine, compiled, motion.speed_min, motion.speed_max)
+def _from_core(motion: SteadyMotion, phi: Floats, compiled: CompiledMachine) -> SteadyState:
+    """What the core found, with the power of the motor."""
     ratio = compiled.gear_factors[0]
     others = [(other.speed_min, other.speed_max, other.period, other.multiplier) for other in motion.others]
     return SteadyState(
@@ -393,9 +320,9 @@ def _from_core(machine: Machine, motion: SteadyMotion, phi: Floats, compiled: Co
         energy_load=motion.energy_load / compiled.turns,
         torque_motor_mean=motion.torque_motor_mean,
         torque_motor_rms=motion.torque_motor_rms,
-        torque_motor_min=weakest,
-        torque_motor_max=strongest,
-        power_motor_max=most,
+        torque_motor_min=motion.torque_motor_min,
+        torque_motor_max=motion.torque_motor_max,
+        power_motor_max=motion.power_motor_max,
         accuracy=motion.accuracy,
         sweeps=motion.sweeps,
         steps=motion.steps,

@@ -5,6 +5,9 @@
 
 use crate::kernel::real::Real;
 
+/// Lanes of the widest bundle.
+const LANES_MAX: usize = 16;
+
 /// What the lanes hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Layout {
@@ -38,7 +41,12 @@ impl Layout {
     pub fn total<R: Real>(self, sum: R) -> R {
         match self {
             Layout::Machines => sum,
-            Layout::Steps => R::splat(unbundle(&[sum]).iter().sum()),
+            Layout::Steps => {
+                // Asked for at every level of energy: not by way of a list.
+                let mut lanes = [0.0; LANES_MAX];
+                sum.store(&mut lanes);
+                R::splat(lanes[..R::LANES].iter().sum())
+            }
         }
     }
 

@@ -4,6 +4,7 @@
 //! | --- | --- |
 //! | [`loads`] | bodies and loads: what hangs on points, links and slides |
 //! | [`motor`] | motor, gearbox: torque on the crank over speed |
+//! | [`motor_extremes`] | extremes of its torque and power over the speeds of a revolution |
 //! | [`structure`] | what a machine consists of |
 //! | [`reduce`] | J_red(φ) and M_red(φ) of bodies and loads |
 //! | [`force_elements`] | loads of the reduction in a loop of their own: springs by a curve, gas springs, dampers, … |
@@ -50,6 +51,7 @@ pub mod measures;
 pub mod mesh;
 pub mod motions;
 pub mod motor;
+pub mod motor_extremes;
 mod nested;
 pub mod reading;
 pub mod reduce;

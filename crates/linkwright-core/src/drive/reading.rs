@@ -77,11 +77,10 @@ impl<R: Real> Machine<'_, R> {
     fn state_of(&self, phi: R, u: R, m: &mut Motion<R>) -> State<R> {
         let mut geometry = Vec::new();
         let row = self.row(phi, m, &mut geometry);
-        let epsilon = self.acceleration(&row, &geometry, u).value;
         let [motor_torque, drive_torque, load_torque] = self.torques_at(&row, &geometry, u);
         State {
             omega: (u * 2.0).sqrt(),
-            epsilon,
+            epsilon: (drive_torque - load_torque) * row.inverse - row.drift * u,
             motor_torque,
             drive_torque,
             load_torque,
@@ -101,6 +100,18 @@ pub struct Curves {
     pub load_torque: Vec<f64>,
     pub J: Vec<f64>,
 }
+
+impl Curves {
+    /// With room for so many angles.
+    fn with_room(n: usize) -> Self {
+        let [time, omega, epsilon, motor_torque, drive_torque, load_torque, J] =
+            [const { Vec::new() }; 7].map(|_: Vec<f64>| Vec::with_capacity(n));
+        Curves { time, omega, epsilon, motor_torque, drive_torque, load_torque, J }
+    }
+}
+
+/// Numbers that an angle is read from: the angle, its share of the step and the time at the start of that, and two series.
+const NUMBERS: usize = 3 + 2 * TERMS;
 
 /// Reads the solution at many angles, as many at once as there are lanes.
 pub struct ReadCurves<'a> {
@@ -124,19 +135,21 @@ impl Job for ReadCurves<'_> {
         let q: Vec<R> = self.q.iter().map(|&x| R::splat(x)).collect();
         let machine = Machine::new(self.plan, &q).keeping_branch(self.plan.may_jump());
         let mut m = Motion::new(&self.plan.mechanism, &q);
-        let mut curves = Curves::default();
+        let mut curves = Curves::with_room(self.phi.len());
         let mut lanes = vec![0.0; R::LANES];
+        let mut numbers = vec![0.0; NUMBERS * R::LANES];
+        let mut places = Vec::with_capacity(R::LANES);
         let mut k = 0;
         for phis in self.phi.chunks(R::LANES) {
             poll();
-            let mut places = Vec::with_capacity(R::LANES);
+            places.clear();
             for lane in 0..R::LANES {
                 let phi = phis[lane.min(phis.len() - 1)];
                 k = self.mark_before(phi, k);
                 places.push((k, phi));
             }
             let (time, state) = match self.between {
-                Some(series) => self.on_series(series, &machine, &places, &mut m),
+                Some(series) => self.on_series(series, &machine, &places, &mut numbers, &mut m),
                 None => self.by_steps(&machine, &places, &mut m),
             };
             let row = [
@@ -171,9 +184,9 @@ impl ReadCurves<'_> {
         series: &[Between<f64>],
         machine: &Machine<'_, R>,
         places: &[(usize, f64)],
+        numbers: &mut [f64],
         m: &mut Motion<R>,
     ) -> (R, State<R>) {
-        let mut numbers = vec![0.0; (3 + 2 * TERMS) * R::LANES];
         for (lane, &(k, phi)) in places.iter().enumerate() {
             let (mark, series) = (&self.marks[k], &series[k]);
             numbers[lane] = phi;

@@ -81,11 +81,6 @@ class Motor(Description):
         raise_faults(type(self).__name__, self._faults())
         return self
 
-    @property
-    def speed_marks(self) -> tuple[float, ...]:
-        """Speeds of the shaft between which the torque is smooth and turns at most once [rad/s]."""
-        return ()
-
     def with_entries(self, entries: Mapping[str, Any]) -> Self:
         """Copy with some entries exchanged, unchecked; what follows from them is computed anew."""
         copy = super().with_entries(entries)
@@ -185,11 +180,6 @@ class InductionMotor(Motor):
     resistance_ratio: Annotated[float, not_negative(RATIO)] = Field(
         0.0, description="Stator over referred rotor resistance; 0 is Kloss's simplified formula."
     )
-
-    @property
-    def speed_marks(self) -> tuple[float, ...]:
-        """Those of pull-up and breakdown [rad/s]."""
-        return tuple(mark for mark in (self.speed_pull_up, self.speed_breakdown) if mark is not None)
 
     @property
     def breakdown_is_minimum(self) -> bool:
@@ -345,11 +335,6 @@ class DcMotor(Motor):
         description="Maximum torque, by the limit of the current, driving or braking. Default: no limit.",
     )
 
-    @property
-    def speed_marks(self) -> tuple[float, ...]:
-        """The speeds at which the limit of the torque begins [rad/s]."""
-        return () if self.torque_max is None else tuple(speed for speed, _ in self.limited())
-
     def limited(self) -> tuple[tuple[float, float], ...]:
         """Ends of the straight part of a characteristic with a limit: speeds [rad/s] and torques [N m].
 
@@ -393,11 +378,6 @@ class TableMotor(Motor):
     kind: Literal["table"]
     speed: Speeds = Field(description="Speeds of the motor shaft, increasing.")
     torque: Torques = Field(description="Torque at each speed.")
-
-    @property
-    def speed_marks(self) -> tuple[float, ...]:
-        """The speeds given [rad/s]."""
-        return tuple(self.speed)
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         yield from super()._faults()
