@@ -30,6 +30,9 @@ CITED = r"(\[\d+\])_(?!\w)"
 SOURCE = re.compile(r"^( *)\.\. \[(\d+)\] ", re.MULTILINE)
 # Before code in backticks, and before what is fenced.
 ROLE_PRIORITY, DIRECTIVE_PRIORITY = 195, 26
+# Dots above a letter: as accents many fonts have them in the letter, three of them beside it.
+DOTTED = re.compile(r'<mover accent="true">(<mi>[^<]*</mi>)<mo>([˙¨⃛])</mo>')
+DOTS = {"˙": ".", "¨": "‥", "⃛": "…"}
 # Below links, whose addresses have underscores; above emphasis, which begins with them, too.
 PRIORITY = 65
 
@@ -56,7 +59,8 @@ def mathml(latex: str, display: str = "block") -> str:
     """A formula as MathML; LaTeX that is not understood is an error with its place."""
     # The sign of a derivative is raised already; as an exponent it would be too small to count.
     primes = re.sub("'+", lambda marks: rf"\text{{{'′″‴'[len(marks[0]) - 1]}}}", latex)
-    return LatexToMathML(fancy_error=False).convert_with_local_state(primes, displaystyle=display == "block")
+    found = LatexToMathML(fancy_error=False).convert_with_local_state(primes, displaystyle=display == "block")
+    return DOTTED.sub(lambda match: f"<mover>{match[1]}<mo>{DOTS[match[2]]}</mo>", found)
 
 
 class Sentences(Extension):
