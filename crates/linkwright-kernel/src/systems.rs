@@ -80,7 +80,7 @@ impl<R: Real> Block<R> {
                     Some(side) => &right[(side * self.equations + i) * n..],
                 };
                 let x = load_part::<R>(&systems[at..n]);
-                none = none + (x - x);
+                none = none + x * 0.0;
                 *to = x;
             }
         }

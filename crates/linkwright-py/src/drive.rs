@@ -224,7 +224,7 @@ pub(crate) struct NoSteadyMotion {
 /// Either of them.
 #[derive(IntoPyObject)]
 pub(crate) enum SteadyOutcome {
-    Motion(SteadyMotion),
+    Motion(Py<SteadyMotion>),
     None(NoSteadyMotion),
 }
 
@@ -249,7 +249,8 @@ pub(crate) fn steady_state(
     })?;
     Ok(match solved {
         Ok((found, curves)) => {
-            SteadyOutcome::Motion(SteadyMotion::of(py, known.clone_ref(py), q, found, curves)?)
+            let motion = SteadyMotion::of(py, known.clone_ref(py), q, found, curves)?;
+            SteadyOutcome::Motion(Py::new(py, motion)?)
         }
         Err(Failure { status, phi, omega, slowest, reached }) => SteadyOutcome::None(NoSteadyMotion {
             status: status.into(),

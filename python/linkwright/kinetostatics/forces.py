@@ -83,7 +83,7 @@ def forces(
     pressure_angle : float
         Of all teeth [rad].
     contributions : bool
-        Whether the share of each load is wanted too; forces alone take half the time.
+        Whether the share of each load is wanted too; it is worked out when it is looked at.
 
     Returns
     -------
