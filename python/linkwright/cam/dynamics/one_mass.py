@@ -38,7 +38,7 @@ class OneMass:
     damping_ratio : float
         ζ of the damper in the train, c = 2ζΩm [–].
     damping_ratio_frame : float
-        ζ_f of the damper to the frame, c_f = 2ζ_fΩm [–].
+        ζ_f of the damper to the frame, c_f = 2ζ_f Ω m [–].
     spring_rate : float
         k_r of the closing spring [N/m].
     preload : float
