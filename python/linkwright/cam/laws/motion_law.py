@@ -238,6 +238,18 @@ class MotionLaw:
 
     def zeros(self, order: int = 0) -> list[float]:
         """Where a derivative is zero inside the pieces, increasing; a piece that is zero has none."""
+        # They are asked for again and again: the extremes of a law, its speeds, where it turns.
+        known = self.primal._zeros
+        if order not in known:
+            known[order] = tuple(self._find_zeros(order))
+        return list(known[order])
+
+    @cached_property
+    def _zeros(self) -> dict[int, tuple[float, ...]]:
+        """Order of a derivative → its zeros, as far as they were asked for."""
+        return {}
+
+    def _find_zeros(self, order: int) -> list[float]:
         law = self.primal.derivative(order)
         scale = max((float(np.abs(p.at(np.linspace(0, 1, 9))).max()) for p in law.pieces), default=0.0)
         places: list[float] = []
