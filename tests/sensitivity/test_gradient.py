@@ -264,6 +264,34 @@ def test_jumps_one_after_another_under_a_stiff_drive():
         )
 
 
+def test_a_motor_without_load_has_no_torque() -> None:
+    """Where its torque goes through zero it is 3e-17 of that at rest, which is rounding of the speed."""
+    machine = lw.loads("""
+    format = 1
+    name = "idle"
+    [drive.motor]
+    kind = "table"
+    speed = [0.0, 10.551615498139943, 21.103230996279887, 31.654846494419825]
+    torque = [0.18390883707811134, 0.22988604634763918, 0.09195441853905567, -0.18390883707811134]
+    [drive.gearbox]
+    ratio = 1
+    efficiency = 0.9
+    [mechanism.cranks.A]
+    radius = 0.2
+    [bodies.A]
+    mass = 0.2
+    """)
+    assert 0.0 < lw.steady_state(machine).torque_motor_rms < 1e-15
+    found = lw.gradient(machine)
+    assert "steady_state.speed_max" in found.responses
+    torques = [
+        name for name in found.responses if "torque" in name or "power" in name or "load_factor" in name
+    ]
+    assert not torques
+    with pytest.raises(FindingError, match="zero but for rounding"):
+        lw.gradient(machine, ["steady_state.torque_motor_rms"])
+
+
 def test_an_analysis_without_any_derivative_is_said() -> None:
     """A press without masses or loads: every force is zero."""
     with pytest.raises(FindingError, match=r"^forces: nothing has a derivative: forces\.torque_drive_max: "):

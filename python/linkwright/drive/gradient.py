@@ -60,6 +60,9 @@ _TIE = 1e-7
 # Share of a speed to both sides at which the motor's torque is read for its slope.
 _ASIDE = 1e-6
 
+# Share of the torque by which a motor would change for a speed doubled, or of a speed, that is rounding.
+_ROUNDING = 1e-14
+
 # A torque that is this near to the one at an extreme speed is the torque there.
 _SAME = 1e-9
 
@@ -69,12 +72,14 @@ class SteadyTangents:
     """Steady motion with derivatives.
 
     `state` has tangents for scalars; `ties` has what has a derivative on either side only, with its reason;
-    `lost` has entries by which the move of a kink was not found, each with the crank angle of the kink [rad].
+    `lost` has entries by which the move of a kink was not found, each with the crank angle of the kink [rad];
+    `rounding` is what may be left of scalars that are zero.
     """
 
     state: SteadyState
     ties: dict[str, str]
     lost: dict[str, float]
+    rounding: dict[str, float]
 
 
 def steady_tangents(machine: Machine, along: Directions) -> SteadyTangents:
@@ -94,7 +99,8 @@ def steady_tangents(machine: Machine, along: Directions) -> SteadyTangents:
     ratio = Tangent(compiled.gear_factors[0], values[compiled.gear_slots[0]])
     tangents |= _of_motor(compiled, state, tangents, gradient.curves, ratio)
     ties = _ties(compiled, state, solution)
-    return SteadyTangents(replace(state, **tangents), ties, along.lost(gradient.lost))
+    lost, rounding = along.lost(gradient.lost), _rounding(compiled, state)
+    return SteadyTangents(replace(state, **tangents), ties, lost, rounding)
 
 
 def solved_along(
@@ -147,10 +153,7 @@ def _of_motor(
     # torque there differs by its slope alone. One that lies between, at the breakdown or pull-up speed, is
     # left out.
     speeds = np.array([state.speed_min, state.speed_max])
-    torques, below, above = (
-        compiled.motor_torques(speeds * by).motor for by in (1.0, 1 - _ASIDE, 1 + _ASIDE)
-    )
-    slopes = (above - below) / (2 * _ASIDE * speeds)
+    torques, slopes = compiled.motor_torques(speeds).motor, _slopes(compiled, speeds)
     tangents: dict[str, Tangent] = {}
     for at in range(2):
         speed = known[("speed_min", "speed_max")[at]]
@@ -166,6 +169,31 @@ def _of_motor(
             if abs(value.value - extreme) <= _SAME * max(abs(extreme), float(np.ptp(state.torque_motor))):
                 tangents[name] = value
     return tangents
+
+
+def _slopes(compiled: CompiledMachine, speeds: Floats) -> Floats:
+    """Derivatives of the motor's torque by the crank speed at crank speeds [N m s/rad]."""
+    below, above = (compiled.motor_torques(speeds * by).motor for by in (1 - _ASIDE, 1 + _ASIDE))
+    slopes: Floats = (above - below) / (2 * _ASIDE * speeds)
+    return slopes
+
+
+def _rounding(compiled: CompiledMachine, state: SteadyState) -> dict[str, float]:
+    """Scalar → what rounding of the speed may leave of it where it is zero, as without load."""
+    ratio, speeds = compiled.gear_factors[0], np.array([state.speed_min, state.speed_max])
+    change = float(np.abs(_slopes(compiled, speeds) * speeds).max())
+    torque = _ROUNDING * max(change, state.torque_motor_rms)
+    acceleration = torque * ratio / float(state.inertia_reduced.min())
+    dynamism = acceleration / state.speed_mean_time**2
+    return {
+        **dict.fromkeys((f"torque_motor_{of}" for of in ("mean", "rms", "min", "max")), torque),
+        **dict.fromkeys(("power_motor_mean", "power_motor_max"), torque * ratio * state.speed_max),
+        **dict.fromkeys(("energy_motor", "energy_drive"), torque * ratio * 2 * np.pi),
+        **dict.fromkeys(("acceleration_min", "acceleration_max"), acceleration),
+        **dict.fromkeys(("dynamism", "dynamism_time"), dynamism),
+        **dict.fromkeys(("motion_coefficient", "motion_coefficient_time"), dynamism),
+        **dict.fromkeys(("unevenness", "unevenness_time"), _ROUNDING),
+    }
 
 
 def _ties(compiled: CompiledMachine, state: SteadyState, solution: SteadySolution) -> dict[str, str]:

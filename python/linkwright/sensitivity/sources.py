@@ -81,6 +81,8 @@ def _steady(machine: Machine, variables: Sequence[str]) -> Source:
     listed = [name for name, (_, mark) in declared(SteadyState).items() if isinstance(mark, Label)]
     values = {name: getattr(steady.state, name) for name in listed}
     tangents = {name: value for name, value in values.items() if isinstance(value, Tangent)}
+    nothing = _nothing(tangents, steady.rounding)
+    tangents = {name: value for name, value in tangents.items() if name not in nothing}
     marks = {name: shown(SteadyState, name) for name in tangents}
     return Source(
         program.variables,
@@ -90,8 +92,23 @@ def _steady(machine: Machine, variables: Sequence[str]) -> Source:
         {f"steady_state.{name}": reason for name in tangents if (reason := _tie(name, steady.ties))},
         program.refused,
         [f"steady_state.{name}" for name in tangents],
-        lost=steady.lost,
+        {f"steady_state.{name}": "it is zero but for rounding" for name in nothing},
+        steady.lost,
     )
+
+
+# Ratio → what it is a ratio of.
+_RATIOS = {"cyclic_load_factor": "torque_motor_mean", "efficiency": "energy_motor"}
+
+
+def _nothing(tangents: Mapping[str, Tangent], rounding: Mapping[str, float]) -> set[str]:
+    """Scalars that are zero but for rounding, and ratios of them; one that nothing moves stays zero."""
+    nothing = {
+        name
+        for name, least in rounding.items()
+        if name in tangents and abs(tangents[name].value) <= least and tangents[name].d.any()
+    }
+    return nothing | {ratio for ratio, of in _RATIOS.items() if of in nothing and ratio in tangents}
 
 
 def _run_up(machine: Machine, variables: Sequence[str]) -> Source:
