@@ -42,6 +42,20 @@ def test_dxf_has_the_joints_where_the_motion_has_them(tmp_path: Path) -> None:
         assert tuple(np.round(1e3 * point.position[0], 9)) in found
 
 
+def test_dxf_has_the_horsehead_and_the_faces_of_followers(tmp_path: Path) -> None:
+    place = tmp_path / "pose.dxf"
+    unit = "examples/pumping_unit_torque/machine.toml"
+    assert called(unit, "--out", str(place)).exit_code == 0
+    (arc,) = ezdxf.readfile(place).modelspace().query("ARC")  # type: ignore[attr-defined]
+    # The horsehead is an arc about the saddle with the length A of the beam as its radius, 72 in.
+    assert arc.dxf.radius == pytest.approx(72 * 25.4)
+    assert called("examples/cam_constant_breadth/machine.toml", "--out", str(place), "--force").exit_code == 0
+    lines = ezdxf.readfile(place).modelspace().query('LINE[layer=="LINKS"]')  # type: ignore[attr-defined]
+    # Two flat faces, upright and 0.1 m apart.
+    upright = sorted(line.dxf.start.x for line in lines if abs(line.dxf.start.x - line.dxf.end.x) < 1e-9)
+    assert upright[-1] - upright[0] == pytest.approx(100)
+
+
 def test_gif_lasts_as_long_as_asked_and_moves() -> None:
     scene = moving_scene(lw.read(CARTS), None)
     assert scene is not None

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from html import escape
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import linkwright as lw
 from linkwright.kernel.errors import InputError
+
+CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"
 
 
 def test_a_result_shows_its_numbers_with_words_and_units() -> None:
@@ -57,6 +60,66 @@ def test_curves_are_plotted_an_axis_for_each_unit() -> None:
     assert x[-1] == pytest.approx(360)
     assert axes[-1].get_xlabel() == "crank angle [°]"
     assert steady.plot().axes
+
+
+def test_a_machine_is_drawn_and_its_curves_by_name() -> None:
+    machine = lw.read("roller_two_carts")
+    (drawn,) = machine.plot().axes
+    # Two cranks, two rods: each a line of its link's width from joint to joint.
+    assert {text.get_text() for text in drawn.texts} == {"O", "cart1", "cart2"}
+    curves = machine.plot("cart1.velocity", "steady_state.speed").axes
+    assert [axis.get_ylabel() for axis in curves] == ["velocity [m/s]", "speed [rad/s]"]
+    study = lw.study(machine)
+    assert study.steady_state is not None
+    (along,) = study.plot("steady_state.speed", over="time").axes
+    assert np.array_equal(along.lines[0].get_xdata(), study.steady_state.time)
+    with pytest.raises(InputError, match='found no curve "sped"'):
+        machine.plot("sped")
+
+
+def test_machines_without_a_linkage_are_told_by_a_figure() -> None:
+    assert lw.read("topper").plot().axes
+    train = lw.read("v8_diesel")
+    assert {"flywheel", "damper"} <= {text.get_text() for text in train.plot().axes[0].texts}
+    study = lw.torsion_study(train)
+    assert study.plot("mode_shapes").axes[-1].get_xlabel() == "disc"
+    with pytest.raises(InputError, match="expected one of scheme, mode_shapes"):
+        study.plot("modes")
+
+
+def test_many_machines_are_drawn_over_what_varies() -> None:
+    machine = lw.read("roller_two_carts")
+    phases = np.radians([100.0, 80.0, 90.0])
+    many = lw.steady_states(machine, {"mechanism.cranks.A2.phase": phases})
+    above, below = many.plot("unevenness", "speed_max").axes
+    assert below.get_xlabel() == "mechanism.cranks.A2.phase [SI]"
+    assert np.array_equal(above.lines[0].get_xdata(), np.sort(phases))
+    assert np.array_equal(above.lines[0].get_ydata(), many.unevenness[[1, 2, 0]])
+    with pytest.raises(InputError, match="no quantity 'sped'"):
+        many.plot("sped")
+
+
+def test_a_sweep_is_drawn_as_the_command_line_draws_it(tmp_path: Path) -> None:
+    written = tmp_path / "study.toml"
+    written.write_text(f"""machine = "{CARTS}"
+
+[variables.phase]
+address = "mechanism.cranks.A2.phase"
+range = ["80 deg", "100 deg"]
+steps = 3
+
+[responses]
+delta = "steady_state.unevenness"
+H = "steady_state.dynamism"
+""")
+    swept = lw.sweep(lw.read_study(written), tmp_path / "rows")
+    curves = swept.plot().axes
+    assert len(curves) == 2
+    (curve,) = swept.plot("H").axes
+    assert curve.lines[0].get_xdata() == pytest.approx([80, 90, 100])
+    assert np.array_equal(curve.lines[0].get_ydata(), curves[1].lines[0].get_ydata())
+    with pytest.raises(InputError, match="found no response 'sped'"):
+        swept.plot("sped")
 
 
 def test_a_notebook_shows_a_figure_without_more_ado() -> None:

@@ -2,6 +2,7 @@
 
 import re
 import struct
+from base64 import b64decode
 
 import numpy as np
 import pytest
@@ -21,6 +22,13 @@ def test_traits_hold_the_scene_of_the_studio() -> None:
     assert angles[-1] == pytest.approx(2 * np.pi)
     assert (drawing.angle, drawing.playing, drawing.layers, drawing.height) == (0.0, False, ["forces"], 300)
     assert {"scene", "angle", "playing", "layers", "height"} <= set(drawing.keys)
+
+
+def test_where_nothing_moves_it_is_a_picture() -> None:
+    drawing = lw.widget(lw.read("roller_two_carts"))
+    shown, _ = drawing._repr_mimebundle_()
+    assert "application/vnd.jupyter.widget-view+json" in shown
+    assert b64decode(shown["image/png"]).startswith(b"\x89PNG")
 
 
 def test_another_machine_is_another_scene() -> None:

@@ -153,13 +153,21 @@ CORE = ("machine.program", "cam.core", "torsion.core", "topping.core")
 
 @cache
 def imports(path: Path, root: Path = ROOT) -> tuple[tuple[str, ...], ...]:
-    """Dotted names below linkwright that a file imports, also inside its functions."""
+    """Dotted names below linkwright that a file imports, also inside its functions; not in its ``plot``.
+
+    What a notebook asks of a machine or a result is drawn above it, when it is asked for.
+    """
     return tuple(_imports(path, root))
 
 
 def _imports(path: Path, root: Path) -> Iterator[tuple[str, ...]]:
     package = path.relative_to(root).parent.parts
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    plots = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef) and node.name == "plot"]
+    drawn = {id(node) for plot in plots if path.parts[-2] != "commands" for node in ast.walk(plot)}
+    for node in ast.walk(tree):
+        if id(node) in drawn:
+            continue
         if isinstance(node, ast.Import):
             for each in node.names:
                 parts = tuple(each.name.split("."))

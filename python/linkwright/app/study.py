@@ -37,6 +37,8 @@ from linkwright.machine.machine import Machine
 from linkwright.machine.program.drive_line import drive_inertia
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from linkwright.cam.dynamics.follower_vibration import FollowerVibration
     from linkwright.cam.dynamics.loaded import LoadedCam
     from linkwright.cam.profile.least_sizes import LeastSizes
@@ -137,6 +139,30 @@ class Study(DriveStudy):
             for name, vibration in self.cam_vibrations
         }
         return {**cams, **{name: result for name, result in results.items() if result is not None}}
+
+    def plot(self, *names: str, over: str | None = None) -> Figure:
+        """Curves by name as a figure, an axis for each unit; the first figure of the report without names.
+
+        Parameters
+        ----------
+        *names : str
+            Curves as `linkwright plot` lists them, such as ``"ram.velocity"``.
+        over : str, optional
+            What they run over, such as ``"time"``; the crank angle without it.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            A notebook shows it; ``figure.savefig(path)`` writes it.
+
+        Raises
+        ------
+        InputError
+            There is no such curve, or nothing to draw.
+        """
+        from linkwright.app.plotted import study_figure
+
+        return study_figure(self, names, over)
 
     def _repr_html_(self) -> str:
         """Failed checks, warnings and all results, as a notebook shows them."""

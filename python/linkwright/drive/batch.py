@@ -26,6 +26,7 @@ from linkwright.machine.program.core import SENTENCES, Status
 
 if TYPE_CHECKING:
     import pandas as pd
+    from matplotlib.figure import Figure
 
 # Numbers of a steady motion that the core gives, and of which it gives the derivatives.
 COLUMNS = (
@@ -75,6 +76,28 @@ class SteadyStates(Record, evenness.Evenness[Floats]):
     def speed_mean_time(self) -> Annotated[Floats, Label("mean speed over time", "ω_m", "rad/s")]:
         """Angle of a cycle over its duration."""
         return 2 * np.pi * self.turns / self.period
+
+    def plot(self, *names: str) -> Figure:
+        """Quantities of the machines over the entry that varies, an axis for each.
+
+        Parameters
+        ----------
+        *names : str
+            Attributes, such as ``"speed_max"``; the coefficient of speed fluctuation without any.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            A notebook shows it; ``figure.savefig(path)`` writes it.
+
+        Raises
+        ------
+        InputError
+            There is no such quantity.
+        """
+        from linkwright.kernel.figure.plotted import batch_plotted
+
+        return batch_plotted(self, names or ("unevenness",))
 
     def _repr_html_(self) -> str:
         """The range of each quantity, as a notebook shows it."""

@@ -19,6 +19,8 @@ from linkwright.linkages.model.mechanism import Mechanism
 from linkwright.machine.whole_mechanism import merged, topology_of, with_followers
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from linkwright.kernel.description.shown_units import ShownUnits
     from linkwright.linkages.model.drawing import DrawingPoints
     from linkwright.pumping.model.rod_rotator import RodRotator
@@ -99,6 +101,32 @@ class Machine(WholeDescription):
         """The whole mechanism: elements of the file, and those that cams and a pumping unit expand into."""
         own = with_followers(self.mechanism)
         return own if self.pumping_unit is None else merged(own, self.pumping_unit, self.rod_rotator)
+
+    def plot(self, *names: str, over: str | None = None) -> "Figure":
+        """Curves by name as a figure, an axis for each unit.
+
+        Without names the drawing of the machine, or what tells most of one without a linkage.
+
+        Parameters
+        ----------
+        *names : str
+            Curves as `linkwright plot` lists them, such as ``"ram.velocity"``.
+        over : str, optional
+            What they run over, such as ``"time"``; the crank angle without it.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            A notebook shows it; ``figure.savefig(path)`` writes it.
+
+        Raises
+        ------
+        InputError
+            There is no such curve, or nothing to draw.
+        """
+        from linkwright.app.plotted import machine_figure
+
+        return machine_figure(self, names, over)
 
     def _repr_html_(self) -> str:
         """The parts with their entries, as a notebook shows them."""

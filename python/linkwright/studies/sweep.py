@@ -12,7 +12,7 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, field
 from pathlib import Path
 from time import monotonic
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 
@@ -24,6 +24,9 @@ from linkwright.studies.engine import SOLVED, OneByOne, evaluate, numbers
 from linkwright.studies.folder import SweepFolder, new_folder
 from linkwright.studies.parquet import columns_of, one_by_one
 from linkwright.studies.plan import StudyPlan
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 @dataclass(frozen=True)
@@ -47,6 +50,28 @@ class Sweep(Result):
     def is_complete(self) -> bool:
         """Whether all rows are there."""
         return self.n_done == self.n_rows
+
+    def plot(self, *names: str) -> Figure:
+        """A response over what varies, as `linkwright sweep show` draws it: curve, map, or an overview.
+
+        Parameters
+        ----------
+        *names : str
+            The response, such as ``"unevenness"``; the first of the study, or all in one, without it.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            A notebook shows it; ``figure.savefig(path)`` writes it.
+
+        Raises
+        ------
+        InputError
+            There is no such response.
+        """
+        from linkwright.app.plotted import sweep_figure
+
+        return sweep_figure(self, names)
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Counts, reasons and extremes by name, ready for JSON; no `curves`: rows are in the folder."""

@@ -196,7 +196,12 @@ def _of_columns(name: str, result: Result) -> Iterator[dict[str, Any]]:
             "unit": unit,
             "x": {**_words(first), "values": x},
             "curves": [
-                {"name": head, "word": head.replace("_", " "), "symbol": "", "own": True}
+                {
+                    "name": head,
+                    "word": head.replace("_", " "),
+                    "symbol": "",
+                    "own": not head.startswith("shaking_"),
+                }
                 | {"unit": unit, "values": y}
                 for head, y in drawn
             ],

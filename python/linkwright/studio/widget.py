@@ -7,6 +7,7 @@ stands above, and each name stands for one thing.
 from __future__ import annotations
 
 import re
+from base64 import b64encode
 from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
@@ -115,6 +116,11 @@ def _widget_class() -> Any:
             self._machine = machine
             super().__init__(scene=_scene(machine), **traits)
 
+        def _repr_mimebundle_(self, **wanted: Any) -> tuple[dict[str, Any], dict[str, Any]]:
+            """The widget, and its pose as a picture for pages that nothing moves on."""
+            shown, about = super()._repr_mimebundle_(**wanted)
+            return {**shown, "image/png": _still(self._machine)}, about
+
         @property
         def machine(self) -> Machine:
             """The machine that is drawn."""
@@ -135,6 +141,13 @@ def _scene(machine: Machine) -> bytes:
         reasons = "; ".join(answers.findings) or "nothing of it moves as a linkage"
         raise FindingError(f"{machine.name}: no drawing: {reasons}")
     return packed(0, answers.scene)
+
+
+def _still(machine: Machine) -> str:
+    """A pose as PNG in letters."""
+    from linkwright.app.curves import bytes_of
+
+    return b64encode(bytes_of(machine.plot(), ".png")).decode()
 
 
 @cache

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -38,6 +38,9 @@ from linkwright.torsion.response.forced import ForcedVibration, responded
 from linkwright.torsion.response.mesh_torque import MeshTorque, meshed
 from linkwright.torsion.response.stress import ShaftStress, shaft_stress
 from linkwright.torsion.response.unevenness_along import UnevennessAlong, unevenness_along
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 # Share by which loads may be off what the engine gives without a word.
 _FITS = 0.1
@@ -153,6 +156,28 @@ class TorsionStudy(PlainRecord):
     def warnings(self) -> list[str]:
         """What the numbers leave out, in sentences."""
         return list(_warnings(self))
+
+    def plot(self, name: str = "scheme") -> Figure:
+        """A figure of the report: ``"scheme"``, ``"mode_shapes"``, and others that the study has.
+
+        Parameters
+        ----------
+        name : str
+            Of the figure.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            A notebook shows it; ``figure.savefig(path)`` writes it.
+
+        Raises
+        ------
+        InputError
+            There is no such figure; the message lists all.
+        """
+        from linkwright.app.plotted import torsion_figure
+
+        return torsion_figure(self, name)
 
     def _repr_html_(self) -> str:
         """Exceeded limits, warnings and all results, as a notebook shows them."""

@@ -188,7 +188,30 @@ class _Drawing:
         for outline in part["outlines"]:
             self._line(self.pose.carried(part, outline), "CAMS", close=True)
 
+    def _arc(self, part: Scene) -> None:
+        """The arc that a cable runs off, and what holds its ends."""
+        low, high = part["span"]
+        ends = [[part["radius"] * np.cos(angle), part["radius"] * np.sin(angle)] for angle in (low, high)]
+        centre, start, end = _MM * self.pose.carried(part, [[0, 0], *ends])
+        first, last = (float(np.degrees(np.arctan2(*(tip - centre)[::-1]))) for tip in (start, end))
+        layer = {"layer": "LINKS"}
+        self.space.add_arc(centre.tolist(), _MM * part["radius"], first, last, dxfattribs=layer)
+        for tip in (start, end):
+            self.space.add_line(centre.tolist(), tip.tolist(), dxfattribs=layer)
+
+    def _face(self, part: Scene) -> None:
+        self._rod(part)
+        along = np.array([np.cos(part["along"]), np.sin(part["along"])])
+        ends = [np.asarray(part["place"]) + end * along for end in part["ends"]]
+        self._line(self.pose.carried(part, ends), "LINKS")
+
+    def _rod(self, part: Scene) -> None:
+        """What holds a roller or a face."""
+        if part["rod"]:
+            self._line(self.pose.carried(part, [part["place"], part["rod"]]), "LINKS")
+
     def _roller(self, part: Scene) -> None:
+        self._rod(part)
         centre = (_MM * self.pose.carried(part, [part["place"]])[0]).tolist()
         self.space.add_circle(centre, _MM * part["radius"], dxfattribs={"layer": "JOINTS"})
 

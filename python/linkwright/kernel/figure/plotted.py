@@ -9,7 +9,7 @@ import numpy as np
 
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError
-from linkwright.kernel.figure.style import LINES, legend_above, panels, styled
+from linkwright.kernel.figure.style import LINES, legend_above, named, panels, styled
 from linkwright.kernel.quantities import DeclaredQuantity, quantities_of
 
 if TYPE_CHECKING:
@@ -68,4 +68,27 @@ def _figure(result: Any, over: DeclaredQuantity, chosen: list[DeclaredQuantity])
         if len(curves) > 1:
             legend_above(axis)
     axes[-1].set_xlabel(f"{over.word} [{unit}]" if unit else over.word)
+    return figure
+
+
+@styled
+def batch_plotted(batch: Any, names: tuple[str, ...]) -> Figure:
+    """Draw quantities of many machines over the entry that varies, over their numbers if several do.
+
+    Raises `InputError` if the machines have no such quantity.
+    """
+    known = {quantity.name: quantity for quantity in quantities_of(type(batch)) if quantity.symbol}
+    for name in names:
+        if name not in known:
+            raise InputError(f"no quantity {name!r} of these machines: {suggestion(name, known)}")
+    varied = {address: values for address, values in batch.entries.items() if np.ptp(values) > 0}
+    label, x = next(iter(varied.items())) if len(varied) == 1 else ("machine", np.arange(len(batch.status)))
+    order = np.argsort(x, kind="stable")
+    figure, axes = panels(len(names), height=_HEIGHT * len(names) + 0.5)
+    for axis, name, colour in zip(axes, names, LINES * len(names), strict=False):
+        axis.plot(x[order], np.asarray(getattr(batch, name))[order], color=colour)
+        words, unit = fill(known[name].word, _LETTERS), known[name].unit
+        axis.set_ylabel(f"{words}\n[{unit}]" if unit else words)
+    # The address says which entry; machines of a batch have it in SI.
+    axes[-1].set_xlabel(label if label == "machine" else f"{named(label)} [SI]")
     return figure

@@ -1,5 +1,4 @@
-// Elements to build a machine from: a crank, a rod with a slider, a rocker, a point of a link, a body, a load. Each begins with sizes of the
-// drawing and with names that are there, and is then dragged or typed to what it should be.
+// Elements to build a machine from, with sizes of the drawing and names that are there.
 import { html } from "./html.js";
 import { useState } from "./vendor/hooks.mjs";
 import { merge, settle } from "./actions.js";

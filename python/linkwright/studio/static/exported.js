@@ -1,5 +1,5 @@
 // Plots as files: CSV, PNG, SVG.
-import { pen } from "./frame.js";
+import { blank } from "./frame.js";
 import { number } from "./units.js";
 
 /** @param {Blob} blob @param {string} name */
@@ -34,7 +34,7 @@ export function ticks(low, high, most = 6) {
 
 /** A plot as an SVG of its own, with axes, curves and a legend. @param {Sheet} sheet @param {string[]} colours */
 export function svg({ title, heads, rows, isToScale = false }, colours) {
-  const [width, height, left, top, right, bottom] = [720, 420, 80, 46, 20, 54];
+  const [width, height, left, top, right, bottom] = [720, 420, 80, 46 + 16 * Math.floor((heads.length - 2) / 4), 20, 54];
   const [xs, ...ys] = rows;
   const all = ys.flatMap((row) => Array.from(row).filter(Number.isFinite));
   let [x0, x1] = [Math.min(...Array.from(xs)), Math.max(...Array.from(xs))];
@@ -62,23 +62,27 @@ export function svg({ title, heads, rows, isToScale = false }, colours) {
     }).join("");
     return `<path d="${path}" fill="none" stroke="${colours[n % colours.length]}" stroke-width="2"/>`;
   });
-  const legend = heads.slice(1).map((head, n) => `<text x="${left + n * 160}" y="${top - 10}" fill="${colours[n % colours.length]}">${escaped(head)}</text>`);
+  const legend = heads.slice(1).map((head, n) => `<text x="${left + (n % 4) * 160}" y="${36 + 16 * Math.floor(n / 4)}" fill="${colours[n % colours.length]}">${escaped(head)}</text>`);
   const words = `<text x="${left}" y="20" font-size="15" font-weight="600">${escaped(title)}</text><text x="${(left + width - right) / 2}" y="${height - 12}" text-anchor="middle">${escaped(heads[0])}</text>`;
   return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${height}" font-family="system-ui, sans-serif" font-size="12" fill="#1d2329"><rect width="${width}" height="${height}" fill="#fff"/>${grid.join("")}${curves.join("")}${words}${legend.join("")}</svg>`;
 }
 
-/** The canvas of a plot on its paper. @param {HTMLCanvasElement} canvas @param {string} title @param {{ paper: string, ink: string }} colours @returns {Promise<Blob>} */
-export function png(canvas, title, { paper, ink }) {
+/** The canvas of a plot on its paper. @param {HTMLCanvasElement} canvas @param {string} title @param {string[]} names @param {Record<string, any>} colours @returns {Promise<Blob>} */
+export function png(canvas, title, names, { paper, ink, series }) {
   const ratio = devicePixelRatio || 1;
+  const [wide, top] = [canvas.width / ratio, 28 + 16 * Math.ceil(names.length / 4)];
   const whole = document.createElement("canvas");
-  whole.width = canvas.width;
-  whole.height = canvas.height + 28 * ratio;
-  const ctx = pen(whole);
+  const ctx = blank(whole, wide, canvas.height / ratio + top);
   ctx.fillStyle = paper;
-  ctx.fillRect(0, 0, whole.width, whole.height);
+  ctx.fillRect(0, 0, wide, whole.height);
   ctx.fillStyle = ink;
-  ctx.font = `600 ${14 * ratio}px system-ui, sans-serif`;
-  ctx.fillText(title, 10 * ratio, 20 * ratio);
-  ctx.drawImage(canvas, 0, 28 * ratio);
+  ctx.font = "600 14px system-ui, sans-serif";
+  ctx.fillText(title, 10, 20, wide - 20);
+  ctx.font = "12px system-ui, sans-serif";
+  names.forEach((name, n) => {
+    ctx.fillStyle = series[n % 6];
+    ctx.fillText(name, 10 + ((n % 4) * wide) / 4, 40 + 16 * Math.floor(n / 4), wide / 4 - 12);
+  });
+  ctx.drawImage(canvas, 0, top, wide, canvas.height / ratio);
   return new Promise((resolve) => whole.toBlob((blob) => resolve(/** @type {Blob} */ (blob))));
 }

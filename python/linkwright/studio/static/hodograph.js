@@ -1,5 +1,4 @@
-// A vector over the revolution, its components as coordinates to one scale: the arrow is that of the instant. Drag a part to see it larger,
-// double-click for the whole, click to move the machine there.
+// A vector over the revolution to one scale, with its arrow at the instant: drag a part to enlarge it, double-click for all, click to move the machine there.
 import { html } from "./html.js";
 import { useEffect, useRef } from "./vendor/hooks.mjs";
 import { rows, short } from "./chart.js";
@@ -15,7 +14,7 @@ import { number, shownUnit } from "./units.js";
 const HEIGHT = 260;
 
 /** Room for the numbers of the axes. */
-const [LEFT, BELOW] = [52, 34];
+const [LEFT, BELOW] = [58, 34];
 
 /** Ends of a component and the origin. @param {Float64Array} values */
 const ends = (values) => [Math.min(0, ...values.filter(Number.isFinite)), Math.max(0, ...values.filter(Number.isFinite))];

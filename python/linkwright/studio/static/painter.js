@@ -1,5 +1,4 @@
-// Draws the parts of a scene on a canvas at an instant, from behind to the front. Positions come with the scene: nothing is computed here
-// but where they lie on the screen.
+// Draws the parts of a scene at an instant, from behind to the front; nothing is computed here but where they lie on the screen.
 import { toScreen } from "./frame.js";
 import { circle, fill, line, stroke } from "./ink.js";
 import { between, pairAt } from "./timeline.js";

@@ -52,7 +52,7 @@ function Panel({ plot }) {
   const file = (/** @type {string} */ kind) => `${state.machine.value} ${now.current.title}.${kind}`;
   const asPng = async () => {
     const canvas = document.querySelector(`[data-plot="${CSS.escape(plot.key)}"] canvas`);
-    if (canvas instanceof HTMLCanvasElement) download(await png(canvas, `${titled(plot.title)} [${unit || "–"}]`, colours()), file("png"));
+    if (canvas instanceof HTMLCanvasElement) download(await png(canvas, `${titled(plot.title)} [${unit || "–"}]`, plot.isHodograph ? [] : plot.curves.map(({ symbol, word }) => short(symbol, word)), colours()), file("png"));
   };
   const asSvg = () => download(new Blob([svg(sheet(now.current, true), ["#0072b2", "#d55e00", "#009e73", "#a8478a", "#b97f00", "#56b4e9"])], { type: "image/svg+xml" }), file("svg"));
   const asCsv = () => download(new Blob([csv(sheet(now.current))], { type: "text/csv" }), file("csv"));

@@ -1,5 +1,4 @@
-// Curves of a point that is picked: the arrays of the drawing as plots, place, velocity and acceleration over the crank angle; hodographs of
-// these and of forces.
+// Curves of the point that is picked, and hodographs of it and of forces, from the arrays of the drawing.
 import { saidOf } from "./language.js";
 import * as state from "./state.js";
 

@@ -1,0 +1,68 @@
+"""What `plot` of machines, studies and sweeps draws, in a notebook or for a file."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from linkwright.app.curves import chosen, curves_figure
+from linkwright.app.report.figures import figures
+from linkwright.app.report.scene import moving_scene
+from linkwright.app.report.sketch import sketch_figure
+from linkwright.app.study import Study, study
+from linkwright.kernel.errors import InputError
+from linkwright.machine.machine import Machine
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from linkwright.studies.sweep import Sweep
+    from linkwright.torsion.study import TorsionStudy
+
+
+def machine_figure(machine: Machine, names: tuple[str, ...], over: str | None) -> Figure:
+    """Curves of a machine by name; without names its drawing, or the scheme of its train."""
+    if names:
+        return study_figure(study(machine), names, over)
+    if machine.is_train_alone:
+        from linkwright.torsion.figures.scheme import scheme_figure
+        from linkwright.torsion.modes.scheme import scheme
+
+        return scheme_figure(scheme(machine))
+    scene = moving_scene(machine, None) if machine.has_crank else None
+    # What no crank moves, such as a knife that moves by a law, is told by its study.
+    return study_figure(study(machine), (), None) if scene is None else sketch_figure(scene)
+
+
+def study_figure(results: Study, names: tuple[str, ...], over: str | None) -> Figure:
+    """Curves of a study by name; without names the first figure of its report."""
+    if names:
+        return curves_figure(chosen(results, names, over))
+    first = next(figures(results), None)
+    if first is None:
+        raise InputError(f"{results.machine.name}: its study has no figures")
+    return first.figure
+
+
+def torsion_figure(results: TorsionStudy, name: str) -> Figure:
+    """A figure of the report of a train by its name."""
+    from linkwright.torsion.figures.captions import torsion_figures
+
+    known = {drawn.name: drawn for drawn in torsion_figures(results)}
+    if name not in known:
+        raise InputError(f"found no figure {name!r} of this train, expected one of {', '.join(known)}")
+    return known[name].figure
+
+
+def sweep_figure(swept: Sweep, names: tuple[str, ...]) -> Figure:
+    """A response of a sweep over what varies, as `linkwright sweep show` draws it."""
+    from linkwright.studies.commands.sweep import shown_of
+    from linkwright.studies.figures import figures as drawn
+    from linkwright.studies.folder import opened
+
+    rows = shown_of(opened(Path(swept.path)))
+    for name in names:
+        if name not in rows.responses:
+            raise InputError(f"found no response {name!r}, expected one of {', '.join(rows.responses)}")
+    return next(iter(drawn(replace(rows, responses=names or rows.responses)).values()))
