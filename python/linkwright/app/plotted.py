@@ -31,7 +31,7 @@ def machine_figure(machine: Machine, names: tuple[str, ...], over: str | None) -
 
         return scheme_figure(scheme(machine))
     scene = moving_scene(machine, None) if machine.has_crank else None
-    # What no crank moves, such as a knife that moves by a law, is told by its study.
+    # A topper or a diagram of torques has no linkage: the first figure of its study tells most of it.
     return study_figure(study(machine), (), None) if scene is None else sketch_figure(scene)
 
 

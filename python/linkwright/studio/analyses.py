@@ -58,6 +58,9 @@ _ELASTIC = {"drive.crankshaft": {"sections": [{"length": "1 m", "diameter": "80 
 # torque over the root mean square that is needed.
 _NO_LOAD, _LIMIT = 1.1, 2.5
 
+# Torque below which a machine without masses needs none: rounding of its motion [N m].
+_NO_TORQUE = 1e-9
+
 
 @dataclass(frozen=True)
 class Obstacle:
@@ -141,7 +144,7 @@ def _dc_motor(machine: Machine) -> dict[str, Any] | None:
         needed = steady_state(machine, n=_INTERVALS).torque_motor_rms
     except LinkwrightError:
         return None
-    torque = needed or 1.0
+    torque = needed if needed > _NO_TORQUE else 1.0
     stall = torque / (1 - 1 / _NO_LOAD)
     return {
         "drive.motor": {

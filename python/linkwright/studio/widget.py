@@ -118,7 +118,7 @@ def _widget_class() -> Any:
 
         def _repr_mimebundle_(self, **wanted: Any) -> tuple[dict[str, Any], dict[str, Any]]:
             """The widget, and its pose as a picture for pages that nothing moves on."""
-            shown, about = super()._repr_mimebundle_(**wanted)
+            shown, about = super()._repr_mimebundle_(**wanted) or ({}, {})
             return {**shown, "image/png": _still(self._machine)}, about
 
         @property

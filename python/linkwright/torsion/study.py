@@ -157,6 +157,7 @@ class TorsionStudy(PlainRecord):
         """What the numbers leave out, in sentences."""
         return list(_warnings(self))
 
+    @public
     def plot(self, name: str = "scheme") -> Figure:
         """A figure of the report: ``"scheme"``, ``"mode_shapes"``, and others that the study has.
 

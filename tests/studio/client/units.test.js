@@ -24,6 +24,8 @@ test("a typed number is in the unit that is shown, a text keeps its own", () => 
   assert.equal(typed(" 8.5 in ", 1e-3), "8.5 in");
   assert.equal(typed("", 1), null);
   assert.equal(typed("lots", 1), "lots");
+  // What no number of a machine can be is said as it was typed.
+  for (const text of ["1e999", "1,5", "1.2.3"]) assert.equal(typed(text, 1), text);
   for (const text of ["1.5e7", "1.5E+7", "1.5·10⁷", "1.5·10^7", "1.5 × 10^7", "1.5*10^7"]) assert.equal(typed(text, 2), 3e7, text);
   assert.equal(typed("1.5·10⁻⁷ Pa", 1), "1.5e-7 Pa");
   assert.equal(read("−2·10⁻³"), -0.002);

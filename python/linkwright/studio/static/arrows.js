@@ -1,4 +1,4 @@
-// Velocities, accelerations and forces as arrows at their points; the longest of each kind is a fixed part of the drawing.
+// Velocities, accelerations and forces as arrows at their points.
 import { fit, toMachine } from "./frame.js";
 import { fill, line, stroke } from "./ink.js";
 import { at } from "./painter.js";

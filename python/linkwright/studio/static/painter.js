@@ -83,7 +83,7 @@ export const STILL = {
     ctx.translate(x, y + 22);
     hatch(view, 38);
     ctx.restore();
-    word(view, part.name, x + 17, y + 20);
+    word(view, part.name, x - 4, y + 45);
   },
   trace(view, part) {
     const { ctx, frame, ink, scene } = view;

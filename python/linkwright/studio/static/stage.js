@@ -87,7 +87,6 @@ function run(holder, canvas) {
     dirty = true;
   });
 
-  // An instant moves nothing that stands.
   const rest = effect(() => {
     void state.time.value;
     dirty = true;

@@ -69,7 +69,7 @@ export function written(value, digits = 5) {
   return String(Number(value.toPrecision(digits)));
 }
 
-const WRITTEN = /^([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*(.*)$/i;
+const WRITTEN = /^([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*([^\d.,].*|)$/i;
 
 /** What was typed, or shown before, as files have it: 1.5·10⁻⁷, 1.5*10^-7 and 1,5e−7 are 1.5e-7. @param {string} text */
 const plain = (text) => point(text.trim().replaceAll("−", "-")).replace(/ ?[·×*] ?10(?:\^(-?\d+)|(⁻?[⁰¹²³⁴⁵⁶⁷⁸⁹]+))/, (_, power, high) => `e${power ?? high.replace("⁻", "-").replace(/[^-]/g, (/** @type {string} */ digit) => RAISED.indexOf(digit))}`);
@@ -85,5 +85,6 @@ export const read = (text) => Number(plain(text));
 export function typed(text, factor) {
   const match = WRITTEN.exec(plain(text));
   if (!match) return text.trim() || null;
-  return match[2] ? `${match[1]} ${match[2]}` : Number(match[1]) * factor;
+  const value = Number(match[1]) * factor;
+  return match[2] ? `${match[1]} ${match[2]}` : Number.isFinite(value) ? value : text;
 }
