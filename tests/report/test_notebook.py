@@ -20,6 +20,7 @@ def test_a_result_shows_its_numbers_with_words_and_units() -> None:
     assert "coefficient of speed fluctuation" in shown
     assert f'<td style="text-align:left">{steady.speed_max:.5g}</td>' in shown
     assert "rad/s²" in shown
+    assert ">ω<sub>max</sub></td>" in shown
 
 
 def test_a_machine_and_its_study_are_shown_and_names_are_letters() -> None:

@@ -90,7 +90,7 @@ def environment() -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters["index"] = _with_index
+    environment.filters["index"] = with_index
     environment.filters["mathml"] = lambda text: _as_markup(mathml(text))
     environment.filters["embedded"] = _embedded
     environment.filters["logo"] = _logo
@@ -100,7 +100,7 @@ def environment() -> Environment:
     return environment
 
 
-def _with_index(text: str) -> Markup:
+def with_index(text: str) -> Markup:
     """A text in which the index of each symbol is lowered."""
     from markupsafe import Markup, escape
 

@@ -7,7 +7,9 @@ from html import escape
 from typing import Any
 
 import numpy as np
+from markupsafe import Markup
 
+from linkwright.kernel.page.html import with_index
 from linkwright.kernel.page.numbers import parted
 from linkwright.kernel.page.out_units import with_units_of
 from linkwright.kernel.quantities import quantities_of
@@ -18,7 +20,7 @@ def table_html(title: str, rows: Iterable[Sequence[str]]) -> str:
     """A small table as HTML, the first cell of each row its head; nothing in a cell is taken for HTML."""
     lines = [
         f'<tr><th scope="row" style="text-align:left">{escape(head)}</th>'
-        + "".join(f'<td style="text-align:left">{escape(cell)}</td>' for cell in cells)
+        + "".join(f'<td style="text-align:left">{_shown(cell)}</td>' for cell in cells)
         + "</tr>"
         for head, *cells in rows
     ]
@@ -26,15 +28,22 @@ def table_html(title: str, rows: Iterable[Sequence[str]]) -> str:
     return f"<table>{caption}<tbody>{''.join(lines)}</tbody></table>"
 
 
+def _shown(cell: str) -> str:
+    """The text of a cell as HTML; a symbol whose index is lowered is HTML already."""
+    return cell if isinstance(cell, Markup) else escape(cell)
+
+
 def result_html(result: Any, title: str = "") -> str:
     """The scalars of a result as HTML, and which curves it has; its class is the title without another."""
     owner: type = type(result)
     declared = list(quantities_of(owner))
-    rows = []
+    rows: list[tuple[str, ...]] = []
     for quantity in declared:
         value = getattr(result, quantity.name, None) if quantity.kind == "scalar" else None
         if is_number(value):
-            rows.append((quantity.word, quantity.symbol, *parted(value, result.unit_of(quantity.name))))
+            rows.append(
+                (quantity.word, with_index(quantity.symbol), *parted(value, result.unit_of(quantity.name)))
+            )
     drawn = result.curves()
     curves = [
         quantity.name
@@ -63,6 +72,6 @@ def batch_html(batch: Any) -> str:
         known = values[np.isfinite(values)] if isinstance(values, np.ndarray) else np.array(())
         if quantity.symbol and known.size:
             (low, unit), (high, _) = (parted(float(end), quantity.unit) for end in (known.min(), known.max()))
-            rows.append((quantity.word, quantity.symbol, f"{low} … {high}", unit))
+            rows.append((quantity.word, with_index(quantity.symbol), f"{low} … {high}", unit))
     count = f"{np.count_nonzero(batch.status == 0)} of {len(batch.status)} machines solved"
     return table_html(f"{type(batch).__name__}: {count}", rows)
