@@ -96,6 +96,16 @@ def test_run_up_settles_into_steady_motion(two_carts: lw.Machine) -> None:
     assert result.turns == pytest.approx(angle[0] / (2 * np.pi))
 
 
+def test_settling_is_judged_alike_from_a_solution_that_is_known(two_carts: lw.Machine) -> None:
+    """A steady motion found before to a higher accuracy serves; one of a lower accuracy does not."""
+    alone, known = lw.run_up(two_carts), lw.steady_state(two_carts)
+    # What is solved anew is the same to rounding.
+    for accuracy, off in ((1e-12, 1e-9), (1e-2, 1e-13)):
+        lw.steady_state(two_carts, accuracy=accuracy)
+        again = lw.run_up(two_carts, steady=known)
+        assert (again.time, again.turns) == pytest.approx((alone.time, alone.turns), rel=off)
+
+
 def test_too_weak_a_start_names_angle_and_torques(two_carts: lw.Machine) -> None:
     weak = lw.replace(two_carts, {"drive.motor.torque_start": 39.8})
     with pytest.raises(

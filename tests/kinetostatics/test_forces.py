@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 from typing import Any
 
 import numpy as np
@@ -188,6 +189,16 @@ def test_contributions_add_up(found: tuple[lw.Machine, Forces]) -> None:
     np.testing.assert_allclose(
         total, result.torque_drive, rtol=0, atol=1e-12 * size(result.torque_drive) + 1e-12
     )
+
+
+def test_shares_of_loads_are_parts_of_the_result() -> None:
+    machine = lw.read("press_with_flywheel")
+    result = forces(machine, speed=5.0)
+    assert list(result.contributions) == ["inertia", *(f"loads.{name}" for name in machine.loads)]
+    copy = pickle.loads(pickle.dumps(result))
+    assert copy == result
+    with pytest.raises(ValueError, match="read-only"):
+        result.contributions["inertia"].torque_drive[0] = 0.0
 
 
 def test_mobility_is_one_less_one_for_each_redundant_bar(found: tuple[lw.Machine, Forces]) -> None:

@@ -164,3 +164,27 @@ def test_tables_of_forced_vibration_have_their_axes() -> None:
     for wrong in ({"torques": np.ones((orders, speeds, discs), complex)}, {"loss": table.T.copy()}):
         with pytest.raises(ValueError, match="a place for every disc and speed"):
             solve(**wrong)
+
+
+def test_systems_of_equations_are_solved_side_by_side() -> None:
+    """Against LAPACK one by one; one without a solution leaves the others as they are."""
+    rng = np.random.default_rng(3)
+    matrix, right = rng.normal(size=(6, 6, 21)), rng.normal(size=(2, 6, 21))
+    # Pivots are needed: the diagonal is zero in every second system.
+    matrix[np.arange(6), np.arange(6), ::2] = 0.0
+    matrix[:, 4, 5] = 0.0
+    found = right.copy()
+    _core.solve_systems(matrix, found)
+    for k in range(21):
+        if k == 5:
+            assert not np.isfinite(found[..., k]).all()
+        else:
+            exact = np.linalg.solve(matrix[..., k].T, right[..., k].T).T
+            # Rounding times a condition of some hundreds.
+            np.testing.assert_allclose(found[..., k], exact, rtol=0, atol=1e-12 * np.abs(exact).max())
+
+
+@pytest.mark.parametrize("shape", [(2, 5, 21), (2, 6, 20)])
+def test_right_sides_of_another_shape_are_refused(shape: tuple[int, int, int]) -> None:
+    with pytest.raises(IndexError, match="6 by 6 by 21 numbers"):
+        _core.solve_systems(np.ones((6, 6, 21)), np.ones(shape))
