@@ -1,11 +1,14 @@
 """Derivatives of steady motion against extrapolated differences of the same analysis, and laws they obey."""
 
+import json
 from pathlib import Path
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 
 import linkwright as lw
+from linkwright.app.application import application
 from linkwright.kernel.errors import FindingError, InputError, LinkwrightError
 from linkwright.machine.program.compiled import Translation
 from linkwright.machine.tangents import directions
@@ -288,8 +291,20 @@ def test_a_motor_without_load_has_no_torque() -> None:
         name for name in found.responses if "torque" in name or "power" in name or "load_factor" in name
     ]
     assert not torques
+    assert found.missing["steady_state.torque_motor_rms"] == "it is zero but for rounding"
+    assert found.missing["steady_state.power_motor_mean"] == "it is zero but for rounding"
     with pytest.raises(FindingError, match="zero but for rounding"):
         lw.gradient(machine, ["steady_state.torque_motor_rms"])
+
+
+def test_what_an_analysis_has_without_a_derivative_is_told() -> None:
+    """The largest torque of this motor is that at breakdown, between its extreme speeds."""
+    done = CliRunner().invoke(application(), ["sensitivity", "roller_one_cart", "--json"])
+    answer = json.loads(done.stdout)
+    name = "steady_state.torque_motor_max"
+    assert "breakdown" in answer["results"]["missing"][name]
+    assert any(text.startswith(f"{name} has no derivative: ") for text in answer["warnings"])
+    assert name not in answer["results"]["sensitivity"]
 
 
 def test_an_analysis_without_any_derivative_is_said() -> None:

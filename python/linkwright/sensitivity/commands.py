@@ -68,8 +68,11 @@ def sensitivity(
             units=machine.units,
             results=lambda curves: derivatives.to_dict(),
             warnings=[
-                f"{name} has a derivative on either side only, or none: {why}"
-                for name, why in derivatives.ties.items()
+                *(
+                    f"{name} has a derivative on either side only, or none: {why}"
+                    for name, why in derivatives.ties.items()
+                ),
+                *(f"{name} has no derivative: {why}" for name, why in derivatives.missing.items()),
             ],
             tables=lambda: list(gradient_tables(shown)),
             figures=partial(_figures, shown),

@@ -10,7 +10,7 @@ they are found. What has no derivative is refused by name, with the reason.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from numbers import Number
 from typing import Annotated, Any
 
@@ -49,6 +49,10 @@ class Gradient(Result):
         ),
     ]
     refused: Annotated[dict[str, str], About("Entries that have no derivative, each with the reason.")]
+    missing: Annotated[
+        dict[str, str],
+        About("Responses of the analyses asked for that have no derivative, each with the reason."),
+    ] = field(default_factory=dict)
 
     @property
     def elasticities(self) -> Annotated[Floats, About("Share of change of response over that of variable.")]:
@@ -97,7 +101,8 @@ class Gradient(Result):
         }
         values = dict(zip(self.responses, self.values.tolist(), strict=True))
         at = dict(zip(self.variables, self.at.tolist(), strict=True))
-        return tables | {"values": values, "at": at, "ties": self.ties, "refused": self.refused}
+        reasons = {"ties": self.ties, "refused": self.refused, "missing": self.missing}
+        return tables | {"values": values, "at": at} | reasons
 
 
 @public
@@ -172,6 +177,12 @@ def gradient(
         derivatives=np.stack([_row(source, name, known) for source, name in asked_of]),
         ties={name: source.ties[name] for source, name in asked_of if name in source.ties},
         refused=refused,
+        missing={
+            name: why
+            for analysis in asked
+            if analysis in SOURCES
+            for name, why in sources[analysis].missing.items()
+        },
     )
 
 

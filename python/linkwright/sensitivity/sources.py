@@ -82,6 +82,8 @@ def _steady(machine: Machine, variables: Sequence[str]) -> Source:
     values = {name: getattr(steady.state, name) for name in listed}
     tangents = {name: value for name, value in values.items() if isinstance(value, Tangent)}
     nothing = _nothing(tangents, steady.rounding)
+    missing = dict.fromkeys(nothing, "it is zero but for rounding")
+    missing |= {name: _BETWEEN for name in _OF_MOTOR if name not in tangents}
     tangents = {name: value for name, value in tangents.items() if name not in nothing}
     marks = {name: shown(SteadyState, name) for name in tangents}
     return Source(
@@ -92,10 +94,14 @@ def _steady(machine: Machine, variables: Sequence[str]) -> Source:
         {f"steady_state.{name}": reason for name in tangents if (reason := _tie(name, steady.ties))},
         program.refused,
         [f"steady_state.{name}" for name in tangents],
-        {f"steady_state.{name}": "it is zero but for rounding" for name in nothing},
+        {f"steady_state.{name}": why for name, why in missing.items()},
         steady.lost,
     )
 
+
+# Extremes of the motor, and why one has no derivative.
+_OF_MOTOR = ("torque_motor_min", "torque_motor_max", "power_motor_max")
+_BETWEEN = "it is reached at a speed between the extremes, such as the breakdown speed"
 
 # Ratio → what it is a ratio of.
 _RATIOS = {"cyclic_load_factor": "torque_motor_mean", "efficiency": "energy_motor"}
