@@ -110,7 +110,11 @@ on = "crank"
   await page.locator("#over-0").selectOption("drive.flywheel.inertia");
   await page.locator("#seek").click();
   await page.waitForFunction(() => globalThis.studio.state.search.value?.rows && globalThis.studio.state.search.value.done === globalThis.studio.state.search.value.rows);
-  await page.locator("#found").scrollIntoViewIfNeeded();
+  await page.locator("#found").evaluate((found) => {
+    let pane = found;
+    while (pane.scrollHeight <= pane.clientHeight) pane = pane.parentElement;
+    pane.scrollTop = pane.scrollHeight;
+  });
   await picture("tutorial_swept");
 
   await page.getByRole("button", { name: "Export" }).click();

@@ -244,7 +244,7 @@ test("plots have their data and their files", async () => {
 
 test("the report and the pose are files", async () => {
   await page.getByRole("button", { name: "Export" }).click();
-  for (const label of ["Formulas", "Data of the machine", "Assumptions"]) await page.getByLabel(label).uncheck();
+  for (const label of ["Formulas", "Machine data", "Assumptions"]) await page.getByLabel(label).uncheck();
   for (const [kind, head] of [["dxf", "  0\nSECTION"], ["pdf", "%PDF"]]) {
     const [file] = await Promise.all([page.waitForEvent("download"), page.locator(`[data-make="${kind}"]`).click()]);
     assert.ok(file.suggestedFilename().endsWith(`.${kind}`));

@@ -9,7 +9,7 @@ import { between, placeOf } from "./timeline.js";
 import { listed, read } from "./units.js";
 
 const SECTIONS = /** @type {[string, string][]} */ ([
-  ["summary", "Summary"], ["sketch", "Drawing"], ["results", "Results"], ["formulas", "Formulas"], ["data", "Data of the machine"], ["assumptions", "Assumptions"], ["repeat", "How to repeat it"],
+  ["summary", "Summary"], ["sketch", "Drawing"], ["results", "Results"], ["formulas", "Formulas"], ["data", "Machine data"], ["assumptions", "Assumptions"], ["repeat", "Reproduction"],
 ]);
 
 /** Choices stay while the page is open. */
