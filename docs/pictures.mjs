@@ -129,6 +129,13 @@ on = "crank"
   await blank(880, 800);
   await page.goto(`file://${folder}/two_carts/report.html`);
   await page.addStyleTag({ content: "main { padding: 12px; } main > :not(.sketch, #figure-speed), h1, h2, header, footer, nav, figcaption { display: none !important; }" });
+  // Without the empty space above and below.
+  await page.locator(".sketch svg").evaluate((svg) => {
+    const [left, , width] = svg.getAttribute("viewBox").split(" ").map(Number);
+    const { y, height } = svg.getBBox();
+    svg.setAttribute("viewBox", `${left} ${y - height / 10} ${width} ${1.2 * height}`);
+    svg.style.height = "auto";
+  });
   await page.locator("#angle").fill(String(37 / 360));
   await page.locator("#angle").blur();
   await page.locator("main").screenshot({ path: `${ROOT}docs/images/two_carts.png` });
