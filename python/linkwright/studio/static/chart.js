@@ -1,4 +1,4 @@
-// One plot: curves over one abscissa in the user's units, the machine's instant as a line, one cursor in all plots of that abscissa.
+// One plot: curves over one abscissa in the user's units, the instant as a line, one cursor in all of that abscissa.
 import { html } from "./html.js";
 import { useEffect, useLayoutEffect, useRef } from "./vendor/hooks.mjs";
 import { followers } from "./stage.js";

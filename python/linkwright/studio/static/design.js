@@ -53,6 +53,7 @@ function Pull({ now }) {
         onChange=${({ target }) => {
           const value = read(target.value);
           if (Number.isFinite(value)) to(value * factor, free, false);
+          else target.value = number(now.value / factor, 6);
         }} /> <small>${unit}</small></div>
     <input type="range" id="pull" step="any" min=${low} max=${high} value=${now.value} aria-label="Pull the result" aria-valuetext="${number(now.value / factor, 4)} ${unit}"
       onInput=${({ target }) => {

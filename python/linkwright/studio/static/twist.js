@@ -1,4 +1,4 @@
-// A shaft train from the side that twists in one of its modes: discs seen a little from the right, lines on the shafts that show their twist.
+// A shaft train from the side that twists in one of its modes; lines on the shafts show their twist.
 
 import { circle, fill, line, stroke } from "./ink.js";
 
@@ -9,8 +9,9 @@ const PEAK = 0.8;
 const FACE = 0.3;
 const LINES = 8;
 
-/** Slope of names that would meet their neighbours, room beside the train [px], letters of names. */
+/** Slope of names that would meet their neighbours, half height of the largest disc, room beside the train [px], letters of names. */
 const LEAN = 0.55;
+const HIGH = 0.36;
 const MARGIN = 26;
 const LETTERS = "12px system-ui, sans-serif";
 
@@ -127,7 +128,7 @@ function wheel(sight, disc, n) {
   ctx.fillStyle = ink.ink;
   const words = disc.name.replaceAll("_", " ");
   ctx.save();
-  ctx.translate(x, y + half + 15);
+  ctx.translate(x, y + (sight.leans ? HIGH * unit : half) + 15);
   if (sight.leans) ctx.rotate(LEAN);
   ctx.textAlign = sight.leans ? "left" : "center";
   ctx.fillText(words, 0, 0);

@@ -1,4 +1,4 @@
-// The picture above the results: the mechanism, the train in one of its modes, or the knife of a topper; a tab each where there are several.
+// The picture: the mechanism, the train in one of its modes, or the knife of a topper; a tab each where there are several.
 import { Choice } from "./choice.js";
 import { html } from "./html.js";
 import { useRef, useState } from "./vendor/hooks.mjs";

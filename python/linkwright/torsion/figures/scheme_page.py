@@ -130,14 +130,45 @@ class Page:
         return max(self.width / _PAGE[0], -self.levels()[-1][2] / _PAGE[1])
 
     def levels(self) -> list[tuple[float, float, float]]:
-        """Height of the shafts of each row, of its upper and of its lower end."""
+        """Height of the shafts of each row, of its upper end, and of its lower end or that of the picture."""
         rows = [row for _, row in self.places.discs.values()] + [span.row for span in self.places.spans]
-        heights, y = [], 0.0
+        heights: list[tuple[float, float, float]] = []
         for row in range(1 + max(rows)):
             above, below = self._above(row), self._below(row)
-            heights.append((y - above, y, y - above - below))
-            y -= above + below
+            y = min([-above, *(heights[other][0] - self._apart(other, row) for other in range(row))])
+            heights.append((y, y + above, min([y - below, *(each[2] for each in heights)])))
         return heights
+
+    def _apart(self, upper: int, lower: int) -> float:
+        """Distance of the shafts of two rows; words that are written upwards meet in a column alone."""
+        if not self.turned or any(self.row_of(bridge) == lower for bridge in self.places.bridges):
+            return self._below(upper) + self._above(lower)
+        meeting = (
+            down + up
+            for start, stop, down in self._reaches(upper, -1)
+            for begin, end, up in self._reaches(lower, 1)
+            if start < end and begin < stop
+        )
+        return max(meeting, default=0.0) + 4 * GAP
+
+    def _reaches(self, row: int, side: int) -> list[tuple[float, float, float]]:
+        """From where to where each part of a row reaches how far above (+1) or below (−1) its shafts."""
+        reaches = []
+        for name, (x, at) in self.places.discs.items():
+            if at == row:
+                lines = self.discs[name].above if side > 0 else self.discs[name].below
+                reaches.append((x - LINE, x + 2 * LINE, HIGH + 2 * GAP + wide(", ".join(lines))))
+        for span in self.places.spans:
+            if span.row == row:
+                middle = 0.5 * (span.start + span.stop)
+                down = wide(in_a_row(self.parts[span.part.name])) if side < 0 else 0.0
+                reaches.append((span.start, span.stop, 2 * GAP))
+                reaches.append((middle - LINE, middle + LINE, 2 * GAP + down))
+        for riser in self.places.risers:
+            if riser.to_row == row and riser.side == side:
+                whole = self._above(row) if side > 0 else self._below(row)
+                reaches.append((riser.x - LINE, riser.x + 2 * LINE, whole))
+        return reaches
 
     def bridge_height(self, bridge: Bridge) -> float:
         """Of a bridge above the shafts of its row."""
