@@ -78,6 +78,21 @@ def test_tabs_do_not_disturb_each_other(served: Served, tab: Tab) -> None:
     other.socket.close()
 
 
+def test_a_file_that_changed_elsewhere_is_not_written_over(tab: Tab, folder: Path) -> None:
+    text = CARTS.read_text()
+    assert tab.ask(ask="save", name="shared.toml", text=text)["of"] == "saved"
+    assert tab.ask(ask="save", name="shared.toml", text=text + "# a\n", replace=text)["of"] == "saved"
+    (folder / "shared.toml").write_text(text + "# by another program\n")
+    refused = tab.ask(ask="save", name="shared.toml", text=text + "# b\n", replace=text + "# a\n")
+    assert refused["of"] == "refused"
+    assert "was changed elsewhere" in refused["words"]
+    assert (folder / "shared.toml").read_text().endswith("# by another program\n")
+    # By all means, and where the file is gone.
+    assert tab.ask(ask="save", name="shared.toml", text=text, replace=True)["of"] == "saved"
+    (folder / "shared.toml").unlink()
+    assert tab.ask(ask="save", name="shared.toml", text=text, replace=text)["of"] == "saved"
+
+
 def test_files_are_saved_and_opened_again(tab: Tab, folder: Path) -> None:
     text = template("four-bar") + "# mine\n"
     assert tab.ask(ask="save", name="new.toml", text=text)["of"] == "saved"

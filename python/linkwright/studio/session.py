@@ -362,10 +362,22 @@ class Session:
         if ask == "thumbnail":
             return {"of": "thumbnail", **thumbnail(self.folder, place, name)}
         if ask == "save":
-            self.folder.write(name, str(body.get("text", "")), replace=bool(body.get("replace")))
+            self.folder.write(name, str(body.get("text", "")), replace=self._replaces(name, body))
             self.place, self.name = "folder", name
             return {"of": "saved", "name": name}
         return {"of": "refused", "words": f"{ask!r}: no such request"}
+
+    def _replaces(self, name: str, body: Body) -> bool:
+        """Whether a file is replaced: by all means, or as long as it has the text that the page knows."""
+        known = body.get("replace", False)
+        if not isinstance(known, str):
+            return bool(known)
+        if self.folder.inside(name).exists() and opened(self.folder, "folder", name) != known:
+            raise InputError(
+                f"{name} was changed elsewhere since it was opened here; open it again, or write over it "
+                "with Save as and Replace"
+            )
+        return True
 
 
 def _limits(free: Mapping[str, Any]) -> dict[str, tuple[float, float]]:

@@ -277,7 +277,7 @@ export function start({ place, name }, text, saved) {
   compute({ text });
 }
 
-/** @param {string} name @param {boolean} replace */
+/** @param {string} name @param {boolean | string} replace or the text that it replaces */
 export async function save(name, replace) {
   state.typed.flush();
   const text = state.text.value;

@@ -9,7 +9,7 @@ const LOOKS = /** @type {Record<string, [string, string]>} */ ({ "": ["system", 
 
 export function saveNow() {
   const { place, name } = state.place.value;
-  if (place === "folder" && name) save(name, true);
+  if (place === "folder" && name) save(name, state.saved.value);
   else state.dialog.value = "save";
 }
 

@@ -22,10 +22,10 @@ const NUDGE = 0.005;
 /** Pixels within which a joint is dropped on another. */
 const ONTO = 12;
 
-/** Things that are drawn anew at every instant, such as the cursors of the plots. @type {Set<(time: number) => void>} */
+/** What is drawn anew at every instant. @type {Set<(time: number) => void>} */
 export const followers = new Set();
 
-/** Frames of the last seconds, for the tests. */
+/** For the tests. */
 export const frames = { count: 0 };
 
 /** Whether nothing was built yet. */
