@@ -91,6 +91,7 @@ def test_a_file_that_changed_elsewhere_is_not_written_over(tab: Tab, folder: Pat
     assert tab.ask(ask="save", name="shared.toml", text=text, replace=True)["of"] == "saved"
     (folder / "shared.toml").unlink()
     assert tab.ask(ask="save", name="shared.toml", text=text, replace=text)["of"] == "saved"
+    (folder / "shared.toml").unlink()
 
 
 def test_files_are_saved_and_opened_again(tab: Tab, folder: Path) -> None:

@@ -53,11 +53,12 @@ function Elsewhere() {
     whole().then((letters) => setLink(`#state=${letters}`));
   }, [state.text.value]);
   const file = place === "folder" || place === "library" ? name : "machine.toml";
+  const isTrain = !("study" in state.lanes.value);
   const first = place === "template" || state.unsaved.value ? "Save the file first: these lines read it.\n" : "";
   return html`
     ${first ? html`<p class="about">${first}</p>` : null}
-    <${Copy} label="Command line" words=${`linkwright run ${file} --out out`} />
-    <${Copy} label="Python" words=${`import linkwright as lw\n\nmachine = lw.read("${file}")\nstudy = lw.study(machine)\nlw.write_report(study, "report.html")`} />
+    <${Copy} label="Command line" words=${`linkwright ${isTrain ? "torsion" : "run"} ${file} --out out`} />
+    <${Copy} label="Python" words=${`import linkwright as lw\n\nmachine = lw.read("${file}")\n${isTrain ? 'study = lw.torsion_study(machine)\nstudy.plot("mode_shapes").savefig("modes.png")' : 'study = lw.study(machine)\nlw.write_report(study, "report.html")'}`} />
     <${Copy} label="This state, to be put behind the address of any studio" words=${link} />`;
 }
 

@@ -1,4 +1,4 @@
-// Files of the machine: its report as a page or PDF, its motion as GIF or MP4, the pose at this crank angle as DXF, SVG or PNG.
+// Files of the machine: report, motion, pose.
 import { Choice } from "./choice.js";
 import { html } from "./html.js";
 import { useState } from "./vendor/hooks.mjs";

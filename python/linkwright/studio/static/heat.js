@@ -1,4 +1,4 @@
-// A result over two entries as a map of colours with its scale, and its numbers for those who do not see colours.
+// A result over two entries as a map of colours, with its numbers.
 import { html } from "./html.js";
 import { useLayoutEffect, useRef, useState } from "./vendor/hooks.mjs";
 import { pen } from "./frame.js";

@@ -1,4 +1,4 @@
-// The socket: one request to compute is on its way at a time. Of held ones that wait, the newest alone is sent; what was let go is kept.
+// The socket: one request to compute at a time; of held ones that wait, the newest alone is sent.
 import { pack, unpack } from "./wire.js";
 
 /** @param {{ answer: (number: number, body: any) => void, state: (connected: boolean) => void }} hear */

@@ -136,7 +136,7 @@ class Page:
         for row in range(1 + max(rows)):
             above, below = self._above(row), self._below(row)
             y = min([-above, *(heights[other][0] - self._apart(other, row) for other in range(row))])
-            heights.append((y, y + above, min([y - below, *(each[2] for each in heights)])))
+            heights.append((y, y + above, min([y - below, *(bottom for _, _, bottom in heights)])))
         return heights
 
     def _apart(self, upper: int, lower: int) -> float:
@@ -166,8 +166,8 @@ class Page:
                 reaches.append((middle - LINE, middle + LINE, 2 * GAP + down))
         for riser in self.places.risers:
             if riser.to_row == row and riser.side == side:
-                whole = self._above(row) if side > 0 else self._below(row)
-                reaches.append((riser.x - LINE, riser.x + 2 * LINE, whole))
+                height = self._above(row) if side > 0 else self._below(row)
+                reaches.append((riser.x - LINE, riser.x + 2 * LINE, height))
         return reaches
 
     def bridge_height(self, bridge: Bridge) -> float:
