@@ -183,7 +183,7 @@ def _rounding(compiled: CompiledMachine, state: SteadyState) -> dict[str, float]
     ratio, speeds = compiled.gear_factors[0], np.array([state.speed_min, state.speed_max])
     change = float(np.abs(_slopes(compiled, speeds) * speeds).max())
     torque = _ROUNDING * max(change, state.torque_motor_rms)
-    acceleration = torque * ratio / float(state.inertia_reduced.min())
+    acceleration = torque * ratio / float(state.inertia_reduced.mean())
     dynamism = acceleration / state.speed_mean_time**2
     return {
         **dict.fromkeys((f"torque_motor_{of}" for of in ("mean", "rms", "min", "max")), torque),
