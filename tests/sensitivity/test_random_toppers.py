@@ -9,8 +9,14 @@ import pytest
 from sizes import cases
 
 import linkwright as lw
+from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.kernel.errors import FindingError, LinkwrightError
+from linkwright.kernel.numerics.tangent import Tangent
+from linkwright.machine.address import exchanged
 from linkwright.sensitivity.sources import source
+from linkwright.topping.edge import edges_of, require_topper
+from linkwright.topping.knife import Knife
+from linkwright.topping.knife_along import knife_along, refused_of_law
 
 # Share of an entry by which it is varied: areas are good to 1e-12 of a head.
 _STEP = 1e-4
@@ -156,6 +162,47 @@ def test_what_has_no_derivative_says_why() -> None:
     assert "runs backwards at times" in missing["topper.length_exact"]
     still = lw.replace(machine, {"topper.knife_speed": 0.0})
     assert source(still, "topper", ["topper.knife_speed"]).missing["topper.time_across"] == "it is inf"
+
+
+_SLIDER = ("mechanism.cranks.crank.radius", "mechanism.sliders.knife.rod", "mechanism.sliders.knife.offset")
+
+
+def _knife_numbers(law: MotionLaw) -> list[Any]:
+    """Ends of the stroke, extremes of speed and acceleration, places."""
+    extremes = [extreme.value for order in (0, 1, 2) for extreme in law.extremes(order)]
+    return extremes + [law.value(angle, 0, "after") for angle in (0.3, 2.9)]
+
+
+def test_a_knife_in_pieces_follows_its_mechanism() -> None:
+    """A cam beside a slider makes its motion one in pieces; entries that move their ends are refused."""
+    described: dict[str, Any] = {"format": 1, "name": "Topper", "drive": {"speed": 22.0}}
+    described["mechanism"] = {
+        "cranks": {"crank": {"radius": 0.03}},
+        "sliders": {"knife": {"crank": "crank", "rod": 0.16, "offset": 0.01}},
+        "cams": {"beside": _CAM},
+    }
+    described["topper"] = _topper(np.random.default_rng(5), "slider")
+    machine = lw.Machine.model_validate(described)
+
+    def knife(machine: lw.Machine) -> Knife:
+        return edges_of(machine, require_topper(machine))[0].knife
+
+    refused = refused_of_law(machine, [*_SLIDER, "mechanism.cams.beside.phase"], knife(machine))
+    assert list(refused) == ["mechanism.cams.beside.phase"]
+    units = zip(_SLIDER, np.eye(len(_SLIDER)), strict=True)
+    along = exchanged(machine, {name: Tangent(lw.get(machine, name), unit) for name, unit in units})
+    numbers = _knife_numbers(knife_along(machine, along, _SLIDER, knife(machine)).law)
+    for nth, address in enumerate(_SLIDER):
+        size = lw.get(machine, address)
+        h = 1e-3 * size
+        near = {
+            n: np.array(_knife_numbers(knife(lw.replace(machine, {address: size + n * h})).law))
+            for n in (-4, -2, -1, 1, 2, 4)
+        }
+        once, twice, four = ((near[n] - near[-n]) / (2 * n * h) for n in (1, 2, 4))
+        exact = np.array([number.d[nth] for number in numbers])
+        error = np.abs((64 * once - 20 * twice + four) / 45 - exact) * size
+        assert (error <= _TOLERANCE * np.abs([number.value for number in numbers])).all(), address
 
 
 def test_an_edge_across_the_row_leans_to_either_side() -> None:

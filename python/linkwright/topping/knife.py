@@ -35,8 +35,6 @@ from linkwright.machine.program.compiled import compile_machine
 from linkwright.topping.core import KnifeWay
 from linkwright.topping.model.topper import ConstantKnife, MemberKnife, Topper
 
-Ends = tuple[float, float, float]
-
 _TURN = 2 * np.pi
 
 # Crank angles at which the motion of a smooth member is sampled, and polynomials that stand for any other.
@@ -226,9 +224,13 @@ def _centred(law: MotionLaw, corners: tuple[float, ...], rate: float) -> Knife:
 
 def _joints(machine: Machine) -> tuple[float, ...]:
     """Crank angles at which sections of cams meet, increasing from 0 to 2π."""
+    return tuple(sorted({float(np.mod(joint, _TURN)) for joint in joints(machine)}))
+
+
+def joints(machine: Machine) -> list[Any]:
+    """Crank angles at which sections of cams meet, with derivatives where the machine has some [rad]."""
     cams = machine.mechanism.cams.values()
-    joints = {float(np.mod(at + cam.phase, _TURN)) for cam in cams for at in cam.lift.breaks[:-1]}
-    return tuple(sorted(joints))
+    return [at + cam.phase for cam in cams for at in cam.lift.breaks[:-1]]
 
 
 def _harmonics(samples: Floats) -> Floats | None:
@@ -249,20 +251,31 @@ def _in_pieces(
     knots: Floats = np.unique(np.concatenate([np.linspace(0.0, _TURN, _KNOTS + 1), corners]))
     knots = knots[np.concatenate([[True], np.diff(knots) > 2 * _BESIDE])]
     knots[-1] = _TURN
-    # Where the motion has a corner, each piece has the derivatives of its own side.
-    starts, ends = motion(np.asarray(knots[:-1] + _BESIDE)), motion(np.asarray(knots[1:] - _BESIDE))
-    place = motion(np.asarray(knots[:-1]))[0]
-    value = np.append(place, place[0])
+    places = at_knots(knots)
+    starts, ends, place = motion(places[0]), motion(places[1]), motion(places[2])[0]
     leaps = [np.abs(starts[k] - np.roll(ends[k], 1)) > _JUMP * np.abs(starts[k]).max() for k in (1, 2)]
     corners = tuple(sorted({*corners, *knots[:-1][leaps[0] | leaps[1]].tolist()}))
+    behind, before = ([values.tolist() for values in side] for side in (starts, ends))
+    return through(knots, behind, before, place.tolist()), corners
+
+
+def at_knots(knots: Floats) -> tuple[Floats, Floats, Floats]:
+    """Angles right behind the start of each piece and right before its end, and its start [rad]."""
+    # Where the motion has a corner, each piece has the derivatives of its own side.
+    return np.asarray(knots[:-1] + _BESIDE), np.asarray(knots[1:] - _BESIDE), np.asarray(knots[:-1])
+
+
+def through(knots: Floats, starts: Any, ends: Any, place: Any) -> MotionLaw:
+    """Polynomials through places at their starts, with the derivatives of `starts` and `ends`."""
+    value = [*place, place[0]]
     pieces = [
         _quintic(high - low, (value[i], starts[1][i], starts[2][i]), (value[i + 1], ends[1][i], ends[2][i]))
-        for i, (low, high) in enumerate(pairwise(knots))
+        for i, (low, high) in enumerate(pairwise(knots.tolist()))
     ]
-    return MotionLaw(tuple(knots.tolist()), tuple(pieces)), corners
+    return MotionLaw(tuple(knots.tolist()), tuple(pieces))
 
 
-def _quintic(length: float, start: Ends, end: Ends) -> Piece:
+def _quintic(length: float, start: Any, end: Any) -> Piece:
     """The polynomial of degree 5 over u from 0 to 1 with value and two derivatives at both ends."""
     s, v, a = start[0], start[1] * length, start[2] * length**2
     # What a polynomial of degree 2 from the start leaves at the end.
@@ -274,7 +287,7 @@ def _quintic(length: float, start: Ends, end: Ends) -> Piece:
         -15 * rise + 7 * slope - bend,
         6 * rise - 3 * slope + 0.5 * bend,
     )
-    return Piece(tuple(float(c) for c in (s, v, 0.5 * a, *cubic)))
+    return Piece((s, v, 0.5 * a, *cubic))
 
 
 # Crank angles of the revolution; then so often so many about an extreme, which leaves 1e-12 of it.

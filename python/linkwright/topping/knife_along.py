@@ -14,12 +14,13 @@ from typing import Any
 import numpy as np
 
 from linkwright.cam.laws.motion_law import Harmonic, MotionLaw, Piece
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.tangent import Tangent, primal
-from linkwright.linkages.kinematics import rows_along
+from linkwright.linkages.kinematics import kinematics_of, rows_along
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 from linkwright.machine.tangents import columns, directions
-from linkwright.topping.knife import Knife
+from linkwright.topping.knife import Knife, at_knots, joints, through
 from linkwright.topping.model.topper import ConstantKnife, HarmonicKnife, MemberKnife
 
 _TURN = 2 * np.pi
@@ -47,8 +48,12 @@ def refused_of_law(machine: Machine, names: Sequence[str], knife: Knife) -> dict
     if motion.of in machine.mechanism.cams:
         columns(machine, own, lambda along: [along.mechanism.cams[motion.of].lift.value(1.0)], refused)
     elif knife.harmonics is None:
-        joints = "the motion of the knife is given in pieces, whose joints are not followed"
-        refused = dict.fromkeys(own, joints)
+        corners = {float(np.mod(joint, _TURN)) for joint in joints(machine)}
+        by_entry = columns(machine, own, joints, refused)
+        # Corners that are no joints of cams are where the mechanism has them: any entry may move those.
+        is_known = corners.issuperset(knife.corners)
+        moving = [name for name, column in by_entry.items() if column.any() or not is_known]
+        refused |= dict.fromkeys(moving, "it moves the joints of a motion that is given in pieces")
     return refused
 
 
@@ -78,14 +83,24 @@ def _member_law(
         law = _centred(cam.lift.shifted(primal(cam.phase)))
         late = cam.phase - primal(cam.phase)
         return MotionLaw(tuple(x + late for x in law.breaks), law.pieces)
-    if knife.harmonics is None:
-        return knife.law
-    program = directions(machine, names)
-    angles = np.linspace(0.0, _TURN, _ANGLES, endpoint=False)
-    rows = rows_along(compile_machine(machine), angles, [("slides", member)], program.values)[0]
+    compiled, program = compile_machine(machine), directions(machine, names)
     at = [names.index(name) for name in program.variables]
-    d = np.zeros((_ANGLES, len(names)))
-    d[:, at] = rows
+
+    def slopes(angles: Floats) -> Floats:
+        """Derivatives of place, speed and acceleration over the crank angle, (3, angles, entries)."""
+        d = np.zeros((3, len(angles), len(names)))
+        d[:, :, at] = rows_along(compiled, angles, [("slides", member)], program.values)
+        return d
+
+    if knife.harmonics is None:
+        knots = np.array(knife.law.breaks)
+        parts = []
+        for angles in at_knots(knots):
+            slide = kinematics_of(compiled, angles, [("slides", member)]).slides[member]
+            rows = zip((slide.position, slide.d1, slide.d2), slopes(angles), strict=True)
+            parts.append([list(map(Tangent, values.tolist(), d)) for values, d in rows])
+        return _centred(through(knots, parts[0], parts[1], parts[2][0]))
+    d = slopes(np.linspace(0.0, _TURN, _ANGLES, endpoint=False))[0]
     spectrum = np.fft.rfft(d, axis=0) / _ANGLES
     spectrum[1:] *= 2.0
     pairs = np.stack([spectrum.real, -spectrum.imag], axis=1)[: len(knife.harmonics)]
