@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import time
 from pathlib import Path
 
@@ -103,6 +104,20 @@ def test_files_are_saved_and_opened_again(tab: Tab, folder: Path) -> None:
     listed = tab.ask(ask="gallery")["machines"]
     assert {"place": "library", "name": "roller_two_carts", "title": lw.read(CARTS).name} in listed
     assert [each["name"] for each in listed if each["place"] == "folder"] == ["bar.toml", "new.toml"]
+
+
+def test_names_of_machines_stay_in_every_language(tab: Tab) -> None:
+    english = tab.ask(ask="gallery")["machines"]
+    tab.send(ask="language", code="uk")
+    listed = tab.ask(ask="gallery")["machines"]
+    tab.send(ask="language", code="en")
+    assert [each for each in listed if each["place"] != "template"] == [
+        each for each in english if each["place"] != "template"
+    ]
+    # What a template is, is a text of ours.
+    assert not [
+        each for each in listed if each["place"] == "template" and re.search("[A-Za-z]{3}", each["title"])
+    ]
 
 
 def test_changes_keep_comments_order_and_units() -> None:

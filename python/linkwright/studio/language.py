@@ -77,10 +77,24 @@ def in_words(body: Any, code: str, key: str = "") -> Any:
         if body.get("own"):
             # Names are the user's own, also those that are words of ours.
             return body
-        return {name: in_words(value, code, name) for name, value in body.items()}
+        return {
+            name: _titled(value, code)
+            if name == "machines" and isinstance(value, list)
+            else in_words(value, code, name)
+            for name, value in body.items()
+        }
     if isinstance(body, list | tuple):
         return [in_words(value, code, key) for value in body]
     return _said(body, code) if isinstance(body, str) and key in _TEXTS else body
+
+
+def _titled(machines: list[dict[str, str]], code: str) -> list[dict[str, str]]:
+    """Machines of the gallery: what templates are is said, names of other machines are the user's own."""
+    texts = spoken(code).texts
+    return [
+        {**each, "title": texts.get(each["title"], each["title"])} if each["place"] == "template" else each
+        for each in machines
+    ]
 
 
 @lru_cache(4096)
