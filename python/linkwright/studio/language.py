@@ -92,8 +92,10 @@ def _titled(machines: list[dict[str, str]], code: str) -> list[dict[str, str]]:
     """Machines of the gallery: what templates are is said, names of other machines are the user's own."""
     texts = spoken(code).texts
     return [
-        {**each, "title": texts.get(each["title"], each["title"])} if each["place"] == "template" else each
-        for each in machines
+        {**machine, "title": texts.get(machine["title"], machine["title"])}
+        if machine["place"] == "template"
+        else machine
+        for machine in machines
     ]
 
 
