@@ -11,6 +11,7 @@ import features
 import numpy as np
 import plans
 import random_parts
+import stiff_drives
 import studies
 import texts
 from numpy.random import Generator
@@ -46,6 +47,7 @@ KINDS: dict[str, Kind] = {
     "train": Kind(random_parts.train, 60, 2),
     "cam": Kind(random_parts.cam, 60, 2),
     "drive": Kind(drive_laws.drive, 15, 8),
+    "stiff drive": Kind(stiff_drives.stiff, 2, 2),
     "batch": Kind(drive_laws.batch, 40, 4),
     "study": Kind(studies.study, 12, 6),
     "record": Kind(studies.record, 4, 2),

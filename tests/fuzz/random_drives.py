@@ -22,7 +22,7 @@ def random_drive(random: Generator) -> Table:
     Inertia, load and steepness of the motor vary over some decades each, together over twelve. Of every other
     machine the loads and the motor are of the size that its inertia, its weight or neither calls for.
     """
-    mechanism, carriers, slides = _linkage(random)
+    mechanism, carriers, slides = linkage(random)
     r = mechanism["cranks"]["A"]["radius"]
     ratio = float(random.choice([1.0, 3.0, 9.8, 40.0]))
     size, speed = log_uniform(random, 10.0, 3000.0), log_uniform(random, 5.0, 400.0)
@@ -36,12 +36,12 @@ def random_drive(random: Generator) -> Table:
         "name": "Random machine",
         "drive": _drive(random, ratio, torque, speed),
         "mechanism": mechanism,
-        "bodies": _bodies(random, carriers),
+        "bodies": bodies(random, carriers),
         "loads": _loads(random, slides, r, size),
     }
 
 
-def _linkage(random: Generator) -> tuple[Table, list[str], list[str]]:
+def linkage(random: Generator) -> tuple[Table, list[str], list[str]]:
     """A crank and one to three elements on it; what can carry a mass, and what can be pushed."""
     r = log_uniform(random, 0.03, 0.6)
     points: Table = {}
@@ -93,7 +93,7 @@ def _crank_rocker(random: Generator, r: float) -> tuple[float, float, float]:
             return frame, coupler, rocker
 
 
-def _bodies(random: Generator, carriers: list[str]) -> Table:
+def bodies(random: Generator, carriers: list[str]) -> Table:
     bodies: Table = {
         "A": {
             "mass": log_uniform(random, 0.1, 100.0),
@@ -111,11 +111,11 @@ def _loads(random: Generator, slides: list[str], r: float, size: float) -> Table
     loads: Table = {"gravity": {"kind": "gravity"}} if random.random() < 0.5 else {}
     for k in range(random.integers(0, 4)):
         on = slides[random.integers(len(slides))]
-        loads[f"l{k}"] = _load(random, on, r, size)
+        loads[f"l{k}"] = load(random, on, r, size)
     return loads
 
 
-def _load(random: Generator, on: str, r: float, size: float) -> Table:
+def load(random: Generator, on: str, r: float, size: float) -> Table:
     """One load on a member."""
     kind = str(random.choice(["dry", "viscous", "force", "spring", "formula", "member formula", "fan"]))
     if kind == "dry":
