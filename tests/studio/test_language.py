@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 
+import linkwright as lw
 from linkwright.studio import analyses, worker
 from linkwright.studio.controls import controls
 from linkwright.studio.language import in_words, page_texts, spoken
@@ -123,3 +124,21 @@ def test_slow_analyses_answer_in_the_language_that_was_chosen_last(tab: Tab) -> 
             break
     assert number == last
     assert not [words for words, *_ in answer["headline"] if english(words)]
+
+
+def test_plots_of_forces_say_of_what_and_names_stay() -> None:
+    results = analyses.fast(lw.read("roller_cam"), held=False).results
+    plots = {plot["key"]: plot for result in results for plot in result["plots"]}
+    pushed = plots["forces.cart_drive"]
+    assert (pushed["title"], pushed["unit"]) == ("driving force of cart", "N")
+    assert plots["forces.cart.guide_x"]["title"] == "force in cart.guide"
+    assert plots["forces.loads.rolling"]["title"] == "load rolling"
+    assert plots["forces.shaking_force_x"]["title"] == "shaking force"
+    spoken = in_words({"plots": list(plots.values())}, "uk")["plots"]
+    assert next(plot["title"] for plot in spoken if plot["key"] == "forces.cart_drive") == "рушійна сила cart"
+    # A disc may be called "motor": it stays so in its curves.
+    curve = {"name": "motor", "word": "motor", "own": True}
+    assert in_words(curve, "uk") == curve
+    turned = analyses.fast(lw.read("roller_two_carts"), held=False).results
+    units = {plot["key"]: plot["unit"] for result in turned for plot in result["plots"]}
+    assert units["forces.A1_drive"] == "N m"

@@ -1,5 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { paintArrows } from "../../../python/linkwright/studio/static/arrows.js";
 import { csv, svg, ticks } from "../../../python/linkwright/studio/static/exported.js";
 import { folded, unfolded } from "../../../python/linkwright/studio/static/folded.js";
 import { barLength, fit, toMachine, toScreen, zoomed } from "../../../python/linkwright/studio/static/frame.js";
@@ -103,4 +104,24 @@ test("a train is drawn on paper of any size", () => {
   for (const [width, height] of [[600, 400], [300, 60], [60, 20], [20, 6], [0, 0], [1, 400]]) paintTrain({ ...paper, width, height }, view, 0, 0.5);
   assert.ok(radii.length > 10);
   assert.ok(radii.every((radius) => radius > 0), String(radii));
+});
+
+test("arrows end on the canvas, the longest of each kind is a part of the drawing", () => {
+  globalThis.devicePixelRatio = 1;
+  /** @type {[number, number][]} */
+  const tips = [];
+  const ctx = /** @type {any} */ (new Proxy({ canvas: { width: 600, height: 200 } }, {
+    get: (target, name) => target[name] ?? ((x, y) => name === "lineTo" && tips.push([x, y])),
+    set: () => true,
+  }));
+  // A flat drawing; a point at its upper edge with a velocity upwards, and one that moves along.
+  const box = [0, 0, 2, 0.4];
+  const points = { A: new Float64Array([1, 0.4, 1, 0.4]), B: new Float64Array([1, 0, 1, 0]) };
+  const scene = { box, points, velocities: { A: new Float64Array([0, 3, 0, 3]), B: new Float64Array([1, 0, 1, 0]) }, accelerations: {}, forces: [] };
+  const frame = fit(box, 600, 200);
+  paintArrows(/** @type {any} */ ({ ctx, scene, frame, k: 0, series: [], ink: {} }), { velocities: true });
+  assert.ok(tips.length > 4);
+  assert.ok(tips.every(([x, y]) => x >= 0 && x <= 600 && y >= 0 && y <= 200), String(tips));
+  const highest = Math.min(...tips.map(([, y]) => y));
+  assert.ok(Math.abs(highest - 4) < 1e-9, `${highest}`);
 });
