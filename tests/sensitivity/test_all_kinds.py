@@ -135,7 +135,12 @@ def _unit(random: Generator) -> Case:
     def measure(machine: lw.Machine, names: list[str]) -> Floats:
         return units._numbers(machine, names)
 
-    return Case(machine, ["pumping_unit"], measure, _alone)
+    def ways(machine: lw.Machine, names: tuple[str, ...]) -> Iterator[Way]:
+        # The last position is the end of the stroke, beyond which none may be.
+        ends = [name for name in names if ".position." in name and lw.get(machine, name) == 1.0]
+        return _alone(machine, tuple(name for name in names if name not in ends))
+
+    return Case(machine, ["pumping_unit"], measure, ways)
 
 
 def _topper(random: Generator) -> Case:
