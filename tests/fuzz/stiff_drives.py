@@ -51,6 +51,9 @@ _EVEN, _BALANCED = 1e-4, 1e-6
 # Rounding of a speed, which a steep motor makes torque of.
 _ROUNDING = 4e-15
 
+# Evaluations after which SciPy is taken for giving up: some seconds.
+_EVALUATIONS = 50_000
+
 # Revolutions of a run-up that are compared.
 _TURNS = 1.5
 
@@ -114,6 +117,23 @@ def _set_motor(random: Generator, motor: Table, slope: float, speed: float) -> f
     return slope * slip
 
 
+class GivesUpError(Exception):
+    """SciPy takes too many evaluations."""
+
+
+@dataclass
+class Budget:
+    """Evaluations that are left."""
+
+    left: int = _EVALUATIONS
+
+    def count(self) -> None:
+        """One more evaluation; raises `GivesUpError` where these are too many."""
+        self.left -= 1
+        if self.left < 0:
+            raise GivesUpError
+
+
 @dataclass
 class Reference:
     """One cycle by SciPy: at the ends of its steps crank angle, u = ω²/2, J ε, time; and its integrals."""
@@ -143,7 +163,10 @@ def integrate(
     state = np.array([u, net, 0, 0, 0, 0, 0, 0])
     size = at.inertia.real * u
 
+    evaluations = Budget()
+
     def slope(phi: float, y: Floats) -> list[float]:
+        evaluations.count()
         omega = float(np.sqrt(2 * max(y[0], 1e-300)))
         _, by_angle, by_u, at = machine.net_with_slope(phi, omega)
         J = at.inertia.real
@@ -297,9 +320,12 @@ class Figures:
         self, seed: int, deviations: Callable[[tuple[float, float]], dict[str, float]], allowed: float
     ) -> None:
         """Take how far a drive is off the reference, which is made sharper where that is too much."""
-        rough = fine = deviations(_TOLERANCES[0])
-        if not all(error <= WITHIN for error in rough.values()):
-            fine = deviations(_TOLERANCES[1])
+        try:
+            rough = fine = deviations(_TOLERANCES[0])
+            if not all(error <= WITHIN for error in rough.values()):
+                fine = deviations(_TOLERANCES[1])
+        except GivesUpError:
+            rough = fine = {}
         if not (rough and fine):
             self.unclear.append(f"{seed}: SciPy gave up")
         for name, error in fine.items():
@@ -349,7 +375,10 @@ def _run_up_deviations(
 ) -> dict[str, float]:
     """Angle and speed at the ends of the steps of SciPy in time."""
 
+    evaluations = Budget()
+
     def slope(_t: float, y: Floats) -> list[float]:
+        evaluations.count()
         left, _, at = by_hand.net(float(y[0]), float(y[1]))
         return [y[1], left.real / at.inertia.real]
 
