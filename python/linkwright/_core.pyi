@@ -1014,6 +1014,8 @@ class Status:
     TWO_TURNS: Final[Status]
     SLIDES: Final[Status]
     NEUTRAL: Final[Status]
+    UNDECIDED: Final[Status]
+    NOT_CONVERGED: Final[Status]
 
     def __int__(self) -> int: ...
     @staticmethod
@@ -1037,6 +1039,8 @@ class SteadyMotion:
     inertia [kg m²]. Of the revolution: extremes [rad/s, rad/s²] and their crank angles [rad], period [s],
     work [J], mean, root mean square and extremes of the motor's torque [N m], its maximum power [W]; the
     accuracy reached, and what it took.
+    Speeds at φ = 0 above which the machine runs away, above and below which starts were not followed to an
+    end [rad/s]; NaN where there are none.
     """
 
     time: Final[_Floats]
@@ -1068,6 +1072,9 @@ class SteadyMotion:
     sweeps: Final[int]
     steps: Final[int]
     others: Final[list[OtherMotion]]
+    away_from: Final[float]
+    undecided_above: Final[float]
+    undecided_below: Final[float]
     solution: Final[SteadySolution]
 
 @final
@@ -1100,7 +1107,7 @@ class NoSteadyMotion:
     """Why there is no steady motion; NaN where there is no such number.
 
     Crank angle at which the machine comes to rest or does not close [rad], speed from which it slows down
-    or which it exceeds, or the fastest that repeats of a range [rad/s], the slowest of that range at the same
+    or which it exceeds, or the fastest that repeats [rad/s], the slowest of a range that repeats at the same
     angle φ = 0 [rad/s], accuracy reached.
     """
 
@@ -1135,9 +1142,13 @@ class SteadyGradient:
 
 @final
 class SteadyRows:
-    """Steady motion of n machines: statuses, turns swept, quantities of `SteadyMotion`; (n,) each."""
+    """Steady motion of n machines: statuses, turns swept, quantities of `SteadyMotion`; (n,) each.
+
+    Fast starts: 1 where the machine runs away, 2 where that was not decided, else 0.
+    """
 
     status: Final[NDArray[np.uint8]]
+    fast_starts: Final[NDArray[np.uint8]]
     turns_swept: Final[int]
     speed_min: Final[_Floats]
     speed_max: Final[_Floats]

@@ -7,7 +7,7 @@ import pytest
 from scipy.optimize import brentq
 
 import linkwright as lw
-from linkwright.kernel.errors import ConvergenceError, SteadyStateError
+from linkwright.kernel.errors import SteadyStateError
 
 STALL, NO_LOAD, J = 3.0, 40.0, 0.3  # N m, rad/s, kg m²
 
@@ -25,7 +25,7 @@ torque = "-({{weight}}*cos(phi) + {{drag!r}}*(1 + 0.5*sin(phi))*tanh(omega))"
 
 # Drag at speed, over the drive's torque at rest: the machine creeps at about the inverse of it [rad/s].
 # With the later ones drive and loads balance to all digits of their accelerations.
-DRAGS, THICK = [1e2, 1e4], [1e6, 1e8]
+DRAGS = [1e2, 1e4, 1e6, 1e8, 1e10]
 
 
 def balanced(phi: float, weight: float, drag: float) -> float:
@@ -46,23 +46,16 @@ def test_a_drive_that_creeps_has_a_steady_motion(share: float, weight: float) ->
     machine = lw.loads(FILE.format(weight=weight, drag=drag))
     motion = lw.steady_state(machine, n=24)
     expected = [balanced(phi, weight, drag) for phi in motion.crank_angle]
-    # J ω ω′ is left out above; 1e-9 is promised, where rounding of torques to 1e-16 of them allows it.
+    # J ω ω′ is left out above; 1e-9 is promised. A tanh good to 1e-16 of 1 would leave 1e-16 share.
     left_out = J * max(expected) ** 2 / STALL * 10
-    assert motion.speed == pytest.approx(np.array(expected), rel=max(left_out, 1e-8))
+    assert motion.speed == pytest.approx(np.array(expected), rel=max(left_out, 1e-9))
+    assert motion.accuracy < 1e-7
     assert motion.is_stable
     batch = lw.steady_states(machine, {"drive.motor.torque_stall": np.array([STALL, 2 * STALL])})
     assert batch.speed_max[0] == pytest.approx(motion.speed_max, rel=1e-6)
 
 
-@pytest.mark.parametrize("share", THICK)
-def test_a_drive_that_hardly_creeps_is_not_called_at_rest(share: float) -> None:
-    """That its acceleration is not known to any accuracy worth the name is another answer."""
-    machine = lw.loads(FILE.format(weight=0.0, drag=share * STALL))
-    with pytest.raises(ConvergenceError, match="was reached"):
-        lw.steady_state(machine)
-
-
-@pytest.mark.parametrize("share", DRAGS + THICK)
+@pytest.mark.parametrize("share", DRAGS)
 def test_a_drive_that_creeps_to_a_weight_that_it_cannot_lift_rests(share: float) -> None:
     """Where the drive at rest does not lift the weight, at φ = 0, the machine comes to rest."""
     machine = lw.loads(FILE.format(weight=1.1 * STALL, drag=share * STALL))

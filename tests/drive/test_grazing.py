@@ -46,6 +46,15 @@ def test_a_motion_below_a_jump_does_not_know_of_it(by: float, jump: float, secon
         assert motion.speed == pytest.approx(without.speed, rel=1e-8)
 
 
+@pytest.mark.parametrize("by", [1e-4, 1e-5])
+def test_the_faster_of_two_motions_beside_each_other_is_the_answer(by: float) -> None:
+    """Just above the motion that does not reach the level is one that is carried on."""
+    motion = lw.steady_state(grazing(-by, -2.0, 0))
+    assert motion.speed_max == pytest.approx(20.317, abs=1e-2)
+    (slow,) = motion.others
+    assert slow.speed_max == pytest.approx(19.26, abs=1e-3)
+
+
 @pytest.mark.parametrize("second", [0, 4])
 @pytest.mark.parametrize("jump", [20.0, 0.2])
 @pytest.mark.parametrize("by", BY[2:])
@@ -90,6 +99,35 @@ def test_a_load_that_falls_carries_a_motion_on(by: float, jump: float, second: i
     u = 0.5 * float(motion.speed[0]) ** 2
     assert motion.speed_max > level * (1 + by)
     assert gained(u, level, jump, second) == pytest.approx(0.0, abs=1e-7 * u)
+
+
+@pytest.mark.parametrize("second", [0, 4])
+@pytest.mark.parametrize("jump", [-16.0, -18.0, -25.0])
+@pytest.mark.parametrize("by", [-0.3, -0.1, -1e-2, -1e-4])
+def test_starts_that_run_away_are_told(by: float, jump: float, second: int) -> None:
+    """Beyond the level the load drives more than the motor brakes: by SciPy it gains speed from above."""
+    machine = grazing(by, jump, second)
+    level = float(machine.loads["L"].text.split("omega > ")[1].split(",")[0])
+    motion = lw.steady_state(machine)
+    (limit,) = motion.start_limits
+    assert (limit.outcome, limit.side) == ("runs away", "above")
+    for share, sign in ((1e-4, 1), (-1e-5, -1)):
+        u = 0.5 * (limit.speed * (1 + share)) ** 2
+        assert limit.speed * (1 + share) > motion.speed[0]
+        assert np.sign(gained(u, level, jump, second)) == sign
+    assert motion.to_dict()["start_limits"] == [limit._asdict()]
+    (warning,) = [text for text in lw.study(machine).warnings if "runs away" in text]
+    assert f"above {limit.speed:.4g} rad/s at φ = 0°" in warning
+    rows = lw.steady_states(machine, {"bodies.A.inertia": np.array([J, 1.01 * J])})
+    assert rows.fast_starts.tolist() == [1, 1]
+    assert rows.speed_max[0] == pytest.approx(motion.speed_max, rel=1e-8)
+
+
+@pytest.mark.parametrize("jump", [-10.0, -2.0, 20.0])
+def test_starts_that_settle_need_no_word(jump: float) -> None:
+    assert lw.steady_state(grazing(-0.1, jump, 0)).start_limits == ()
+    rows = lw.steady_states(grazing(-0.1, jump, 0), {"bodies.A.inertia": np.array([J, 1.01 * J])})
+    assert rows.fast_starts.tolist() == [0, 0]
 
 
 @pytest.mark.parametrize("second", [0, 4])

@@ -45,7 +45,9 @@ _STANDS_ON_A_KINK = "as small as rounding"
 _REFUSALS = (
     "no steady motion",
     "the motion slides along a jump",
-    "steady motion was not found to a relative accuracy",
+    "steady motion was found to a relative accuracy",
+    "Newton's method does not converge to it",
+    "whether there is a steady motion was not decided",
     _STANDS_ON_A_KINK,
     "it is zero but for rounding",
 )

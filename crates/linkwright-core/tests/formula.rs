@@ -170,6 +170,23 @@ fn values_are_those_of_the_expression() {
     }
 }
 
+/// A load that saturates with speed balances a drive that creeps: its digits count however small it is.
+#[test]
+fn hyperbolic_tangent_keeps_its_digits_near_zero() {
+    let formula = Formula::new(vec![Op::Variable(Variable::Phi), Op::Tanh]).expect("a sound program");
+    for k in -1200..=200 {
+        for sign in [-1.0, 1.0] {
+            let x = sign * 10.0_f64.powf(f64::from(k) / 100.0);
+            let found: Dual<f64> =
+                formula.value(&Q, &inputs([x, 0.0, 0.0, 0.0].map(|x| Dual { value: x, d: 1.0 })));
+            assert!((found.value / x.tanh() - 1.0).abs() < 2e-15, "{} for {}", found.value, x.tanh());
+            // 1 − tanh² in the form that keeps its digits far out.
+            let slope = x.cosh().powi(-2);
+            assert!((found.d - slope).abs() < 1e-14, "{} for {slope} at {x}", found.d);
+        }
+    }
+}
+
 #[test]
 fn derivatives_are_those_of_differences() {
     let mut compared = 0;

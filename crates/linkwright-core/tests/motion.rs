@@ -3,7 +3,7 @@
 mod common;
 
 use common::{Builder, Random, SampleMachine, mixed, two_carts};
-use linkwright_core::drive::batch::{QUANTITIES, Rows, row_of_steady, steady_rows};
+use linkwright_core::drive::batch::{Outcome, QUANTITIES, Rows, row_of_steady, steady_rows};
 use linkwright_core::drive::cycle::Machine;
 use linkwright_core::drive::loads::Load;
 use linkwright_core::drive::motor::Motor;
@@ -86,7 +86,8 @@ fn rows_start_from_a_rough_motion() {
     let slot = built.q.iter().position(|&q| q == 1000.0).expect("the first cart's mass");
     let values: Vec<f64> = (0..n).map(|i| 950.0 + 1.5 * i as f64).collect();
     let rows = Rows { base: &built.q, slots: &[slot], values: &values, n };
-    let (status, sweeps) = steady_rows(&built.plan, &rows, 1e-9, &mut vec![0.0; n * QUANTITIES]);
+    let Outcome { status, sweeps, .. } =
+        steady_rows(&built.plan, &rows, 1e-9, &mut vec![0.0; n * QUANTITIES]);
     assert!(status.iter().all(|&s| s == Status::Ok), "all solved");
     assert!(sweeps <= 2 * n as u64, "{sweeps} sweeps of {n} rows");
 }
@@ -362,7 +363,7 @@ fn a_light_drive_in_a_batch_is_as_good_as_alone() {
     let inertias: Vec<f64> = (0..20).map(|i| 0.02 * 1.4_f64.powi(i)).collect();
     let rows = Rows { base: &built.q, slots: &[slot], values: &inertias, n: 20 };
     let mut out = vec![0.0; 20 * QUANTITIES];
-    let (status, _) = steady_rows(&built.plan, &rows, 1e-9, &mut out);
+    let status = steady_rows(&built.plan, &rows, 1e-9, &mut out).status;
     for row in 0..20 {
         assert_eq!(status[row], Status::Ok, "row {row}");
         let exact = row_of_steady(&steady(&built.plan, &rows.row(row), 1e-11).expect("steady"));
@@ -419,7 +420,7 @@ fn batch_is_the_single_machine() {
         let values: Vec<f64> = (0..n).map(|i| phase(i).cos()).chain((0..n).map(|i| phase(i).sin())).collect();
         let rows = Rows { base: &built.q, slots: &[cos, sin], values: &values, n };
         let mut out = vec![0.0; n * QUANTITIES];
-        let (status, _) = steady_rows(&built.plan, &rows, 1e-10, &mut out);
+        let status = steady_rows(&built.plan, &rows, 1e-10, &mut out).status;
         assert!(status.iter().all(|&s| s == Status::Ok), "all solved");
         for row in 0..n {
             let exact = row_of_steady(&steady(&built.plan, &rows.row(row), 1e-12).expect("steady"));
@@ -465,7 +466,7 @@ fn neighbours_do_not_change_a_row() {
             order.iter().map(|&i| mass(i)).chain(order.iter().map(|&i| resistance(i))).collect();
         let rows = Rows { base: &built.q, slots: &[slot, force], values: &values, n: order.len() };
         let mut out = vec![0.0; order.len() * QUANTITIES];
-        let (status, _) = steady_rows(&built.plan, &rows, 1e-9, &mut out);
+        let status = steady_rows(&built.plan, &rows, 1e-9, &mut out).status;
         assert!(status.iter().all(|&s| s == Status::Ok), "all solved");
         out
     };

@@ -164,7 +164,7 @@ fn rows_are_the_single_answer_for_any_steepness() {
         let values: Vec<f64> = (0..n).map(|k| built.q[slot] * 1.15_f64.powi(k)).collect();
         let rows = Rows { base: &built.q, slots: &[slot], values: &values, n: n as usize };
         let mut out = vec![0.0; n as usize * QUANTITIES];
-        let (status, _) = steady_rows(&built.plan, &rows, 1e-8, &mut out);
+        let status = steady_rows(&built.plan, &rows, 1e-8, &mut out).status;
         for row in 0..n as usize {
             match steady(&built.plan, &rows.row(row), 1e-10) {
                 Err(failure) => assert_eq!(status[row], failure.status, "machine {i}, row {row}"),

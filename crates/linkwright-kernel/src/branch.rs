@@ -129,6 +129,11 @@ impl<R: Real, N: Lift<R>> Real for OnBranch<N, R> {
     fn ln(self) -> Self {
         OnBranch { value: self.value.ln(), at: self.at.ln() }
     }
+    /// It is written in two pieces, but is one function: there is nothing to choose.
+    #[inline(always)]
+    fn tanh(self) -> Self {
+        OnBranch { value: self.value.tanh(), at: self.at.tanh() }
+    }
     #[inline(always)]
     fn atan(self) -> Self {
         OnBranch { value: self.value.atan(), at: self.at.atan() }

@@ -311,7 +311,7 @@ impl Formula {
                 Op::Exp => a.exp(),
                 Op::Log => a.ln(),
                 Op::Sqrt => root(a),
-                Op::Tanh => tanh(a),
+                Op::Tanh => a.tanh(),
                 Op::Abs => a.abs(),
                 Op::Sign => sign(a),
                 Op::Step => a.select_lt(N::splat(0.0), N::splat(0.0), N::splat(1.0)) + a * 0.0,
@@ -407,14 +407,6 @@ fn pow<N: Real>(x: N, y: N) -> N {
 #[inline(always)]
 fn beside<N: Real>(x: N) -> N {
     root((N::splat(1.0) - x) * (x + 1.0))
-}
-
-/// (1 − e⁻²ˣ)/(1 + e⁻²ˣ), for x of either sign; good to an ulp of 1.
-#[inline(always)]
-fn tanh<N: Real>(x: N) -> N {
-    let e = (x.abs() * -2.0).exp();
-    let size = (N::splat(1.0) - e) / (e + 1.0);
-    x.select_lt(N::splat(0.0), -size, size)
 }
 
 #[inline(always)]

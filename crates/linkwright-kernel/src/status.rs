@@ -18,11 +18,15 @@ pub enum Status {
     Slides = 5,
     /// Drive and loads leave no work at a whole range of speeds: every one of them repeats.
     Neutral = 6,
+    /// Whether a motion repeats was not found out within the revolutions that the search may take.
+    Undecided = 7,
+    /// A motion repeats as far as integration tells, but Newton's method does not hold it.
+    NotConverged = 8,
 }
 
 impl Status {
     /// All of them, by number.
-    pub const ALL: [Status; 7] = [
+    pub const ALL: [Status; 9] = [
         Status::Ok,
         Status::DoesNotClose,
         Status::NoSteadyMotion,
@@ -30,6 +34,8 @@ impl Status {
         Status::TwoTurns,
         Status::Slides,
         Status::Neutral,
+        Status::Undecided,
+        Status::NotConverged,
     ];
 
     /// What it means.
@@ -48,6 +54,10 @@ impl Status {
             Status::Neutral => {
                 "no speed of its own: drive and loads leave no work over a range of speeds, and each of them repeats"
             }
+            Status::Undecided => {
+                "whether there is a steady motion was not decided: the search took too many revolutions"
+            }
+            Status::NotConverged => "a periodic motion exists, but Newton's method does not converge to it",
         }
     }
 }

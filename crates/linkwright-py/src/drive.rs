@@ -1,7 +1,7 @@
 //! The machine reduced to its crank, and its motion: calls and results.
 
 use linkwright_core::drive::along;
-use linkwright_core::drive::batch::{self, QUANTITIES, Rows};
+use linkwright_core::drive::batch::{self, Outcome, QUANTITIES, Rows};
 use linkwright_core::drive::gradient::{CURVES, Gradient, NUMBERS};
 use linkwright_core::drive::kinks as core_kinks;
 use linkwright_core::drive::reading::{Curves, ReadCurves};
@@ -68,6 +68,9 @@ pub(crate) struct SteadyMotion {
     sweeps: u32,
     steps: usize,
     others: Vec<OtherMotion>,
+    away_from: f64,
+    undecided_above: f64,
+    undecided_below: f64,
     solution: Py<SteadySolution>,
 }
 
@@ -112,6 +115,9 @@ impl SteadyMotion {
             sweeps: found.sweeps,
             steps: found.marks.len(),
             others: found.others.iter().map(other).collect(),
+            away_from: found.beyond.away_from,
+            undecided_above: found.beyond.undecided_above,
+            undecided_below: found.beyond.undecided_below,
             solution: Py::new(py, SteadySolution { plan, q: q.to_vec(), steady: found })?,
         })
     }
@@ -284,6 +290,7 @@ pub(crate) struct SteadyGradient {
 #[pyclass(frozen, get_all, module = "linkwright._core")]
 pub(crate) struct SteadyRows {
     status: Py<PyArray1<u8>>,
+    fast_starts: Py<PyArray1<u8>>,
     turns_swept: u64,
     speed_min: Array,
     speed_max: Array,
@@ -314,13 +321,15 @@ pub(crate) fn steady_rows(
     let rows = Rows { base: plan.parameters(&q)?, slots: &slots, values: values.as_slice()?, n };
     let analysis = "steady motion of many machines";
     require_room(analysis, [n, 2 * QUANTITIES])?;
-    let (status, turns_swept, columns) = guarded(py, analysis, || {
+    let (outcome, columns) = guarded(py, analysis, || {
         let mut table = vec![0.0; n * QUANTITIES];
-        let (status, turns) = batch::steady_rows(&plan.0, &rows, accuracy, &mut table);
+        let outcome = batch::steady_rows(&plan.0, &rows, accuracy, &mut table);
         let column = |k: usize| table.iter().skip(k).step_by(QUANTITIES).copied().collect::<Vec<f64>>();
-        (status, turns, std::array::from_fn::<_, QUANTITIES, _>(column))
+        (outcome, std::array::from_fn::<_, QUANTITIES, _>(column))
     })?;
+    let Outcome { status, fast_starts, sweeps: turns_swept } = outcome;
     let status = status.into_iter().map(|status| status as u8).collect();
+    let fast_starts = fast_starts.into_iter().map(|starts| starts as u8).collect();
     // In the order of a row of `drive::batch`.
     let [
         speed_min,
@@ -339,6 +348,7 @@ pub(crate) fn steady_rows(
     ] = columns.map(|list| kept(py, list));
     Ok(SteadyRows {
         status: PyArray1::from_vec(py, status).unbind(),
+        fast_starts: PyArray1::from_vec(py, fast_starts).unbind(),
         turns_swept,
         speed_min,
         speed_max,

@@ -14,6 +14,8 @@ pub(crate) enum Status {
     TwoTurns = CoreStatus::TwoTurns as isize,
     Slides = CoreStatus::Slides as isize,
     Neutral = CoreStatus::Neutral as isize,
+    Undecided = CoreStatus::Undecided as isize,
+    NotConverged = CoreStatus::NotConverged as isize,
 }
 
 impl From<CoreStatus> for Status {
@@ -26,6 +28,8 @@ impl From<CoreStatus> for Status {
             CoreStatus::TwoTurns => Status::TwoTurns,
             CoreStatus::Slides => Status::Slides,
             CoreStatus::Neutral => Status::Neutral,
+            CoreStatus::Undecided => Status::Undecided,
+            CoreStatus::NotConverged => Status::NotConverged,
         }
     }
 }

@@ -47,6 +47,10 @@ COLUMNS = (
 STATUS = SENTENCES
 
 
+_FAST_STARTS = (
+    "0, or 1 where the machine runs away from fast starts and reaches the motion from slower ones, 2 where "
+    "that was not decided; `steady_state` tells the speeds."
+)
 _STATUS_WORDS = "0 where solved; else a key of `linkwright.drive.batch.STATUS`."
 
 
@@ -69,6 +73,7 @@ class SteadyStates(Record, evenness.Evenness[Floats]):
     torque_motor_rms: Annotated[
         Floats, Label("root mean square torque of the motor", "M_rms", "N m", "Over time.")
     ]
+    fast_starts: Annotated[NDArray[np.uint8], About(_FAST_STARTS, "(rows,)")]
     turns_swept: Annotated[int, About("Revolutions that the solver went through in all.")]
     turns: Annotated[int, Label("revolutions of a cycle", "", "")] = 1
 
@@ -111,7 +116,8 @@ class SteadyStates(Record, evenness.Evenness[Floats]):
 
         names = [*COLUMNS, "unevenness", "dynamism", "motion_coefficient"]
         columns = {name: getattr(self, name) for name in names}
-        return pd.DataFrame({**self.entries, **columns, "status": self.status})
+        told = {"status": self.status, "fast_starts": self.fast_starts}
+        return pd.DataFrame({**self.entries, **columns, **told})
 
 
 @public
@@ -178,7 +184,12 @@ def steady_states(
         if name in columns:
             columns[name] = columns[name] / compiled.turns
     return SteadyStates(
-        entries=arrays, status=status, turns_swept=motions.turns_swept, turns=compiled.turns, **columns
+        entries=arrays,
+        status=status,
+        fast_starts=motions.fast_starts,
+        turns_swept=motions.turns_swept,
+        turns=compiled.turns,
+        **columns,
     )
 
 

@@ -166,6 +166,7 @@ def _cycle(steady: SteadyState) -> Iterator[str]:
             "times in each revolution, so the machine does not keep it."
         )
     yield from _others(steady)
+    yield from _start_limits(steady)
     if steady.accuracy > _ACCURATE:
         yield (
             f"The steady motion is known to a relative accuracy of {steady.accuracy:.1e} only: the motor's "
@@ -182,15 +183,16 @@ def _others(steady: SteadyState) -> Iterator[str]:
             f"({other.speed_mean_time:.4g} rad/s on average)"
         )
         faster = other.period < steady.period
+        start = "slower" if faster else "faster"
         if other.multiplier == 1.0:
             yield (
                 f"A motion {range_} is one end of a range of motions that all repeat: within it neither "
-                "drive nor loads depend on the speed; the computed motion follows from a fast start."
+                f"drive nor loads depend on the speed; the computed motion follows from a {start} start."
             )
         elif other.is_stable:
             yield (
                 f"Another steady motion is possible, {range_}: a machine that starts near it stays there; "
-                "the computed one follows from a fast start."
+                f"the computed one follows from a {start} start."
             )
         elif faster:
             yield f"From speeds above an unstable motion {range_} the machine does not settle."
@@ -198,6 +200,22 @@ def _others(steady: SteadyState) -> Iterator[str]:
             yield (
                 f"There is an unstable motion {range_}: from lower speeds the machine does not reach the "
                 "steady motion."
+            )
+
+
+def _start_limits(steady: SteadyState) -> Iterator[str]:
+    """Starts that do not settle, or of which that is not known."""
+    for limit in steady.start_limits:
+        starts = f"speeds {limit.side} {limit.speed:.4g} rad/s at φ = 0°"
+        if limit.outcome == "runs away":
+            yield (
+                f"From {starts} the machine runs away: the drive gives more than the loads take, however "
+                "fast it turns; it reaches the steady motion from slower starts."
+            )
+        else:
+            yield (
+                f"What the machine does from {starts} was not decided: the search for other steady motions "
+                "ended before; follow it in time (linkwright transient)."
             )
 
 

@@ -8,8 +8,9 @@ core says how (`linkwright-core`, module `drive::cycle`).
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -30,6 +31,10 @@ from linkwright.machine.program.core import NoSteadyMotion, Status, SteadyCurves
 
 # Speeds at which it is looked whether the drive can balance the mean load at all.
 _SPEEDS = 400
+
+# Most revolutions and steps of a search for periodic motions, as in the core's `drive::march`.
+_TURNS, _STEPS = 500, 400_000
+_IN_TIME = "follow the machine in time (linkwright transient) to see what it does"
 
 # Share of the work of the motor below which that of the loads is rounding of a sum of ten thousand doubles.
 _ROUNDING = 1e-12
@@ -68,6 +73,25 @@ class OtherMotion(NamedTuple):
         return abs(self.multiplier) < 1
 
 
+class StartLimit(NamedTuple):
+    """Starts of which it is known that they do not settle to the motion, or not known whether they do.
+
+    Attributes
+    ----------
+    outcome : str
+        ``"runs away"``: the machine gains speed from cycle to cycle, at 1500 times the working speed too.
+        ``"undecided"``: the search for other motions ended before these starts were followed.
+    side : str
+        ``"above"`` or ``"below"``: which starts.
+    speed : float
+        Of the crank at φ = 0, where they begin [rad/s].
+    """
+
+    outcome: Literal["runs away", "undecided"]
+    side: Literal["above", "below"]
+    speed: float
+
+
 _MULTIPLIER = (
     "Share of a small disturbance of the speed left after one cycle; the motion is stable if it is "
     "below 1 in magnitude."
@@ -78,6 +102,7 @@ _ACCURACY = (
     "if that is larger). Every step is compared with two half steps."
 )
 _OTHERS = "Other periodic motions of the machine, from the fastest down to a hundredth of the working speed."
+_LIMITS = "Starts from which the machine runs away, or was not followed to an end; empty if there are none."
 
 
 @dataclass(frozen=True)
@@ -140,10 +165,13 @@ class SteadyState(Result, evenness.Evenness[float]):
     turns: Annotated[int, Label("revolutions of a cycle", "", "")] = 1
     method: Annotated[str, About('``"collocation"`` or ``"constant speed"``.')] = "collocation"
     others: Annotated[tuple[OtherMotion, ...], About(_OTHERS)] = ()
+    start_limits: Annotated[tuple[StartLimit, ...], About(_LIMITS)] = ()
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
-        """As `Result.to_dict`, ready for JSON; other motions as tables with names."""
-        return super().to_dict(curves=curves) | {"others": [other._asdict() for other in self.others]}
+        """As `Result.to_dict`, ready for JSON; other motions and limits of starts as tables with names."""
+        others = [other._asdict() for other in self.others]
+        limits = [limit._asdict() for limit in self.start_limits]
+        return super().to_dict(curves=curves) | {"others": others, "start_limits": limits}
 
     @property
     def speed_mean_time(self) -> Annotated[float, Label("mean speed over time", "ω_m", "rad/s")]:
@@ -328,7 +356,17 @@ def _from_core(motion: SteadyMotion, phi: Floats, compiled: CompiledMachine) -> 
         steps=motion.steps,
         turns=compiled.turns,
         others=tuple(OtherMotion(*other, compiled.turns) for other in others),
+        start_limits=tuple(_start_limits(motion)),
     )
+
+
+def _start_limits(motion: SteadyMotion) -> Iterator[StartLimit]:
+    if not np.isnan(motion.away_from):
+        yield StartLimit("runs away", "above", motion.away_from)
+    if not np.isnan(motion.undecided_above):
+        yield StartLimit("undecided", "above", motion.undecided_above)
+    if not np.isnan(motion.undecided_below):
+        yield StartLimit("undecided", "below", motion.undecided_below)
 
 
 def _at_constant_speed(machine: Machine, compiled: CompiledMachine, phi: Floats) -> SteadyState:
@@ -406,10 +444,23 @@ def _failure(
         return sliding(machine, angle, speed)
     if motion.status == Status.NEUTRAL:
         return SteadyStateError(_neutral(compiled, motion.speed_slowest, speed))
-    text = "was not decided within 500 revolutions" if np.isnan(reached) else f"{reached:.1e} was reached"
+    if motion.status == Status.UNDECIDED:
+        return ConvergenceError(
+            f"whether there is a steady motion was not decided: a search takes {_TURNS} revolutions and "
+            f"{_STEPS} steps of integration at most; {_IN_TIME}",
+            method="integration over revolutions",
+            iterations=_TURNS,
+        )
+    if motion.status == Status.NOT_CONVERGED:
+        return ConvergenceError(
+            "a periodic motion exists"
+            + ("" if np.isnan(speed) else f" at {speed:.4g} rad/s at φ = 0°")
+            + f", but Newton's method does not converge to it: its numbers are not known; {_IN_TIME}",
+            method="Newton's method",
+        )
     return ConvergenceError(
-        f"steady motion was not found to a relative accuracy of {accuracy:g} ({text}); reduce the accuracy, "
-        "or check whether the mechanism nearly locks",
+        f"steady motion was found to a relative accuracy of {reached:.1e} only, {accuracy:g} is required; "
+        "reduce the accuracy, or check whether the mechanism nearly locks",
         method="collocation",
         iterations=12288,
     )

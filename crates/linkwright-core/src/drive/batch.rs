@@ -9,7 +9,7 @@ use crate::drive::row_lanes::{PEAKS_PROMISED, Results, RowLanes};
 use crate::drive::row_mesh::RowMesh;
 use crate::drive::rows::row_of;
 pub use crate::drive::rows::{QUANTITIES, Rows};
-use crate::drive::steady::{Steady, steady};
+use crate::drive::steady::{Beyond, Steady, steady};
 use crate::drive::structure::Plan;
 use crate::kernel::call::{in_threads, poll};
 use crate::kernel::lanes::{Job, in_lanes};
@@ -28,28 +28,63 @@ pub fn row_of_steady(s: &Steady) -> [f64; QUANTITIES] {
     row_of(s.multiplier, &s.extremes, &s.totals)
 }
 
-/// Steady motions of all rows: `out` is (rows, `QUANTITIES`). Returns a status for each row and the total
-/// number of turns swept.
-pub fn steady_rows(plan: &Plan, rows: &Rows<'_>, accuracy: f64, out: &mut [f64]) -> (Vec<Status>, u64) {
+/// What becomes of starts faster than the motion of a row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub enum FastStarts {
+    /// They settle to it.
+    Settle = 0,
+    /// From some speed on the machine runs away.
+    RunAway = 1,
+    /// They were not followed to an end.
+    Undecided = 2,
+}
+
+impl From<Beyond> for FastStarts {
+    fn from(beyond: Beyond) -> Self {
+        if !beyond.undecided_above.is_nan() {
+            FastStarts::Undecided
+        } else if beyond.away_from.is_nan() {
+            FastStarts::Settle
+        } else {
+            FastStarts::RunAway
+        }
+    }
+}
+
+/// What came out besides the numbers.
+pub struct Outcome {
+    /// Of each row.
+    pub status: Vec<Status>,
+    /// Of each row that has an answer.
+    pub fast_starts: Vec<FastStarts>,
+    /// Turns swept in all.
+    pub sweeps: u64,
+}
+
+/// Steady motions of all rows: `out` is (rows, `QUANTITIES`).
+pub fn steady_rows(plan: &Plan, rows: &Rows<'_>, accuracy: f64, out: &mut [f64]) -> Outcome {
     // Where a law has its kinks is only known with the motion: such rows are solved one by one.
     let is_for_lanes = !plan.may_jump();
     let mut status = vec![if is_for_lanes { Status::Ok } else { Status::Inaccurate }; rows.n];
+    let mut fast_starts = vec![FastStarts::Settle; rows.n];
     let sweeps: u64 = in_threads(|crew| {
         status
             .par_chunks_mut(CHUNK)
+            .zip(fast_starts.par_chunks_mut(CHUNK))
             .zip(out.par_chunks_mut(CHUNK * QUANTITIES))
             .enumerate()
-            .map(|(chunk, (status, out))| {
+            .map(|(chunk, ((status, fast_starts), out))| {
                 crew.task(|| {
                     let first = chunk * CHUNK;
                     let chunk = Chunk { plan, rows, first, status, out };
                     let swept = if is_for_lanes { in_lanes(chunk) } else { 0 };
-                    swept + retry(plan, rows, first, accuracy, status, out)
+                    swept + retry(plan, rows, accuracy, Results { first, status, out }, fast_starts)
                 })
             })
             .sum()
     });
-    (status, sweeps)
+    Outcome { status, fast_starts, sweeps }
 }
 
 /// A piece of the batch: `out` holds the rows one after the other, `QUANTITIES` numbers each.
@@ -91,17 +126,17 @@ impl Job for Chunk<'_> {
 fn retry(
     plan: &Plan,
     rows: &Rows<'_>,
-    first: usize,
     accuracy: f64,
-    status: &mut [Status],
-    out: &mut [f64],
+    to: Results<'_>,
+    fast_starts: &mut [FastStarts],
 ) -> u64 {
     let mut sweeps = 0;
-    for (i, (status, row)) in status.iter_mut().zip(out.chunks_exact_mut(QUANTITIES)).enumerate() {
+    let numbers = to.out.chunks_exact_mut(QUANTITIES);
+    for (i, (status, row)) in to.status.iter_mut().zip(numbers).enumerate() {
         if *status == Status::Ok {
             continue;
         }
-        let q = rows.row(first + i);
+        let q = rows.row(to.first + i);
         let found = steady(plan, &q, accuracy);
         sweeps += found.as_ref().map_or(0, |found| u64::from(found.sweeps));
         *status = match &found {
@@ -110,7 +145,10 @@ fn retry(
             Err(failure) => failure.status,
         };
         match found {
-            Ok(found) if *status == Status::Ok => row.copy_from_slice(&row_of_steady(&found)),
+            Ok(found) if *status == Status::Ok => {
+                row.copy_from_slice(&row_of_steady(&found));
+                fast_starts[i] = found.beyond.into();
+            }
             _ => row.fill(f64::NAN),
         }
     }

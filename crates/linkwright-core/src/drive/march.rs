@@ -47,9 +47,9 @@ const REPEATS: f64 = 1e-7;
 /// Relative distance from repeating at which a motion still repeats.
 const CLOSES: f64 = 1e-4;
 
-/// Doublings of the speed before a machine counts as running away: from three times the working speed to
-/// 3000 times.
-const DOUBLINGS: usize = 10;
+/// Doublings of the speed from three times the working speed, or from the fastest hint: a machine that gains speed after the last,
+/// at 1500 times, runs away.
+const DOUBLINGS: i32 = 10;
 
 /// Slow motions are looked for down to this share of u at the working speed: a hundredth of the speed.
 const SLOWEST: f64 = 1e-4;
@@ -66,6 +66,9 @@ const CLEAR: f64 = 0.9;
 
 /// Work below this share of its parts is none.
 const NO_WORK: f64 = 1e-8;
+
+/// A gain below this share of u is told by the work.
+const SLIGHT: f64 = 1e-6;
 
 /// Rounding of what carries inertias along, relative.
 const ROUNDING: f64 = 1e-14;
@@ -154,14 +157,25 @@ impl PeriodicMotion {
     }
 }
 
+/// The motions that repeat, and what becomes of starts beyond them.
+#[derive(Clone, Debug)]
+pub struct Repeating {
+    /// From the fastest down.
+    pub motions: Vec<PeriodicMotion>,
+    /// Speed at φ = 0 above which the machine runs away \[rad/s\]; NaN where it does not.
+    pub away_from: f64,
+    /// Speed at φ = 0 below which starts were not followed to an end \[rad/s\]; 0 where all were.
+    pub followed_to: f64,
+}
+
 /// Why no motion repeats.
 #[derive(Clone, Copy, Debug)]
 pub enum NoMotion {
     /// Started with speed `omega` at φ = 0, the machine comes to rest at `phi`, and so does every slower
     /// start; every faster one slows down to it.
     Rests { omega: f64, phi: f64 },
-    /// At speed `omega` the machine still gains speed from turn to turn.
-    RunsAway { omega: f64 },
+    /// At speed `omega` the machine still gains speed from turn to turn, as from all starts faster than `from`.
+    RunsAway { omega: f64, from: f64 },
     /// Drive and loads leave no work over a revolution at any speed of a range: all of them repeat. Speeds at φ = 0; the
     /// fastest may be infinite, the slowest zero.
     Neutral { slowest: f64, fastest: f64 },
@@ -169,6 +183,11 @@ pub enum NoMotion {
     DoesNotClose { phi: f64 },
     /// No answer within the turns allowed.
     Unknown,
+}
+
+/// Whether a motion that is this slow somewhere is rest to a search beside a known motion.
+pub fn counts_as_rest(machine: &Machine<'_, f64>, omega: f64) -> bool {
+    omega * omega <= REST * machine.q[machine.plan.drive.speed_start].powi(2)
 }
 
 /// Which motions are looked for.
@@ -194,13 +213,23 @@ struct March<'a> {
     steps: usize,
     /// Motions that repeat, from the fastest down.
     found: Vec<PeriodicMotion>,
-    /// Starts that are to be looked at.
+    /// Starts that are to be looked at, the fastest of which tells where to begin; others beside a motion that is known.
     hints: &'a [f64],
+    beside: &'a [f64],
+    /// The slowest start from which, as from all faster ones, the machine gains speed without end; NaN where it does not.
+    away: f64,
+    /// The fastest start of all.
+    fastest: f64,
+    /// Changes of sign of the gain that have been closed in on.
+    refined: usize,
+    /// Down to here all starts have been followed.
+    followed: f64,
 }
 
-/// Motions that repeat, to about seven digits, from the fastest down; at least one. `hints` are u at φ = 0 between which
-/// some may lie, however near to each other. `creeps`: whether a machine that is driven on at standstill is followed however
-/// slow it is; beside a motion at a working speed it counts as at rest, since nothing so slow is reported.
+/// Motions that repeat, to about seven digits; at least one. `hints` are u at φ = 0 between which some may lie, however near to
+/// each other. `known` are others on both sides of a motion that is known: beside one at a working speed a slow machine counts as
+/// at rest, since nothing so slow is reported; without one it is followed however slow it is, as long as it is driven on at
+/// standstill.
 ///
 /// # Errors
 /// [`NoMotion`] says why there is none.
@@ -209,25 +238,39 @@ pub fn repeating(
     breaks: &[f64],
     which: MotionChoice,
     hints: &[f64],
-    creeps: bool,
-) -> Result<Vec<PeriodicMotion>, NoMotion> {
+    known: Option<&[f64]>,
+) -> Result<Repeating, NoMotion> {
     let m = Motion::new(&machine.plan.mechanism, machine.q);
     let working = 0.5 * machine.q[machine.plan.drive.speed_start].powi(2);
     let mut march = March {
         machine,
         breaks,
         rest: REST * working,
-        least: creeps.then_some(CREEP * working),
+        least: known.is_none().then_some(CREEP * working),
         m,
         events: Events::new(*machine),
         turns: 0,
         steps: 0,
         found: Vec::new(),
         hints,
+        beside: known.unwrap_or_default(),
+        away: f64::NAN,
+        fastest: f64::NAN,
+        refined: 0,
+        followed: f64::INFINITY,
     };
     match march.walk(working, which) {
         Err(NoMotion::Neutral { slowest, .. }) => march.take_range(slowest),
-        _ if !march.found.is_empty() => Ok(march.found),
+        // What comes to rest has been followed to its end.
+        Ok(()) | Err(NoMotion::Rests { .. }) if !march.found.is_empty() => Ok(march.into_repeating(0.0)),
+        Err(_) if !march.found.is_empty() => {
+            let followed = march.followed;
+            Ok(march.into_repeating(followed))
+        }
+        Ok(()) | Err(NoMotion::Rests { .. }) if !march.away.is_nan() => {
+            let [omega, from] = [march.fastest, march.away].map(|u| (2.0 * u).sqrt());
+            Err(NoMotion::RunsAway { omega, from })
+        }
         Ok(()) => Err(NoMotion::Unknown),
         Err(reason) => Err(reason),
     }
@@ -262,6 +305,12 @@ impl Revolution {
             && work.abs() <= NO_WORK * size + rounding
             && self.crossings.is_empty()
             && self.slides.is_none()
+    }
+
+    /// Whether drive and loads clearly leave work.
+    fn gains_work(&self) -> bool {
+        let Balance { work, size, rounding, .. } = self.balance;
+        work > NO_WORK * size + rounding
     }
 
     /// Where Newton expects a start that repeats.
@@ -301,15 +350,36 @@ impl Revolution {
 }
 
 impl March<'_> {
-    /// Goes down from a start that is too fast, until the machine comes to rest.
+    /// What was found, with u down to which starts were followed.
+    fn into_repeating(self, followed: f64) -> Repeating {
+        let speed = |u: f64| (2.0 * u).sqrt();
+        Repeating { motions: self.found, away_from: speed(self.away), followed_to: speed(followed) }
+    }
+
+    /// Goes down from the fastest start, until the machine comes to rest.
     fn walk(&mut self, working: f64, which: MotionChoice) -> Result<(), NoMotion> {
-        let mut high = self.fast_start(self.hints.iter().copied().fold(9.0 * working, f64::max))?;
+        let fast = self.hints.iter().copied().fold(9.0 * working, f64::max);
+        let mut high = self.fast_start(fast)?;
+        // Among starts that run away, far above all that is known, leaps may be long.
+        let far = if self.away.is_nan() {
+            f64::INFINITY
+        } else {
+            self.beside.iter().fold(fast, |a, &b| a.max(4.0 * b))
+        };
         loop {
-            if which == MotionChoice::Fastest && self.found.iter().any(|motion| motion.slides.is_none()) {
+            self.followed = high.start;
+            // Below starts that run away the fastest motion is one that the machine departs from.
+            let holds = |motion: &PeriodicMotion| {
+                motion.slides.is_none() && (self.away.is_nan() || motion.growth < 1.0)
+            };
+            if which == MotionChoice::Fastest && self.found.iter().any(holds) {
                 return Ok(());
             }
-            let hints = self.hints.iter().copied().filter(|&hint| hint < high.start);
-            let next = hints.fold(high.next_below(), f64::max);
+            // Below starts that slow down the known motion is where the next slower start gains speed.
+            let beside = if self.away.is_nan() { &[][..] } else { self.beside };
+            let hints = self.hints.iter().chain(beside).copied().filter(|&hint| hint < high.start);
+            let below = if high.start > far { (0.25 * high.start).max(far) } else { high.next_below() };
+            let next = hints.fold(below, f64::max);
             if high.gain() >= 0.0 && next < SLOWEST * working {
                 return Ok(());
             }
@@ -321,13 +391,20 @@ impl March<'_> {
         }
     }
 
-    /// A motion fast enough to slow down.
+    /// A motion fast enough to slow down. Where the fastest of all starts still gains speed, that one: the machine runs away.
     fn fast_start(&mut self, mut u: f64) -> Result<Revolution, NoMotion> {
+        self.fastest = u * 4.0_f64.powi(DOUBLINGS - 1);
+        if let Ok(top) = self.revolution(self.fastest)
+            && top.gains_work()
+        {
+            self.away = top.start;
+            return Ok(top);
+        }
         let mut reason = NoMotion::Unknown;
         for _ in 0..DOUBLINGS {
             reason = match self.revolution(u) {
                 Ok(found) if found.gain() < 0.0 => return Ok(found),
-                Ok(_) => NoMotion::RunsAway { omega: (2.0 * u).sqrt() },
+                Ok(_) => NoMotion::Unknown,
                 Err(rests @ NoMotion::Rests { .. }) => rests,
                 Err(other) => return Err(other),
             };
@@ -356,6 +433,7 @@ impl March<'_> {
 
     /// Newton for what repeats between two starts, kept inside the bracket.
     fn refine(&mut self, mut high: Revolution, low: &Revolution) -> Result<(), NoMotion> {
+        self.refined += 1;
         let (mut bottom, mut nearest) = (low.start, low.clone());
         if high.gain().abs() < low.gain().abs() {
             nearest = high.clone();
@@ -368,6 +446,9 @@ impl March<'_> {
             high = self.turning(if is_inside { newton } else { 0.5 * (bottom + top) })?;
             *if (high.gain() < 0.0) == falls { &mut top } else { &mut bottom } = high.start;
             nearest = high;
+        }
+        if self.refined == 1 && !self.away.is_nan() && !falls {
+            self.away = top;
         }
         // Where both sides of a jump drive a motion away, the gain leaps over zero: nothing repeats there. Where motions part
         // fast, none closes as well, but Newton expects one at hand.
@@ -417,7 +498,7 @@ impl March<'_> {
 
     /// Adds the ends of the range of motions around a speed that all repeat; an error where none is faster, but for one that
     /// is its end.
-    fn take_range(mut self, omega: f64) -> Result<Vec<PeriodicMotion>, NoMotion> {
+    fn take_range(mut self, omega: f64) -> Result<Repeating, NoMotion> {
         let (slowest, fastest) = self.range(omega);
         let end = (1.0 + 2.0 * BESIDE) * 0.5 * fastest * fastest;
         self.found.retain(|motion| motion.u() > end);
@@ -428,7 +509,7 @@ impl March<'_> {
             let Revolution { pieces, crossings, slides, .. } = self.turn_from(0.5 * omega * omega)?;
             self.found.push(PeriodicMotion { pieces, crossings, growth: 1.0, slides });
         }
-        Ok(self.found)
+        Ok(self.into_repeating(0.5 * slowest * slowest))
     }
 
     /// The range of speeds around one that all repeat.
@@ -473,7 +554,7 @@ impl March<'_> {
         let mut next_break = 1;
         let mut phi = 0.0;
         let mut side: Option<Side> = None;
-        let mut put_at = f64::NAN;
+        let (mut put_at, mut inverse) = (f64::NAN, f64::NAN);
         while next_break < self.breaks.len() {
             poll();
             self.steps += 1;
@@ -526,6 +607,7 @@ impl March<'_> {
                 }
                 turn.end = found.X[S - 1];
                 turn.growth *= found.growth;
+                inverse = found.rows[S - 1].inverse;
                 turn.balance.add(self.machine, &found);
                 phi += step;
                 h = (step * factor).min(longest);
@@ -559,6 +641,11 @@ impl March<'_> {
                 let omega = (2.0 * start).sqrt();
                 return Err(NoMotion::Rests { omega, phi });
             }
+        }
+        // J is the same at both ends, so u gains work over J: exact where it is small against what inertia carries along.
+        let is_slight = (turn.end / start - 1.0).abs() < SLIGHT && turn.growth > 0.5;
+        if is_slight && turn.crossings.is_empty() && turn.slides.is_none() && put_at.is_nan() {
+            turn.end = turn.balance.work.mul_add(inverse, start);
         }
         Ok(turn)
     }

@@ -16,7 +16,9 @@ use crate::drive::cycle::{Machine, Turn, divide};
 use crate::drive::events::{Events, leap};
 use crate::drive::extremes::{Extreme, Extremes};
 use crate::drive::layout::unbundle;
-use crate::drive::march::{MotionChoice, NoMotion, PeriodicMotion, Sliding, repeating};
+use crate::drive::march::{
+    MotionChoice, NoMotion, PeriodicMotion, Repeating, Sliding, counts_as_rest, repeating,
+};
 use crate::drive::measures::Totals;
 use crate::drive::mesh::{Crossing, Mesh, Piece};
 use crate::drive::reading::Mark;
@@ -72,6 +74,25 @@ pub struct Steady {
     pub hints: Vec<f64>,
     /// Those that there are, from the fastest down.
     pub others: Vec<OtherMotion>,
+    /// Starts of which it is known that they do not settle, or not known whether they do.
+    pub beyond: Beyond,
+}
+
+/// Starts that lie beyond all motions that are known, as speeds at φ = 0 \[rad/s\]; NaN where there are none.
+#[derive(Clone, Copy, Debug)]
+pub struct Beyond {
+    /// From faster ones the machine runs away.
+    pub away_from: f64,
+    /// Faster ones were not followed to an end.
+    pub undecided_above: f64,
+    /// Slower ones were not followed to an end.
+    pub undecided_below: f64,
+}
+
+impl Beyond {
+    /// Everything is known, or was not asked for.
+    const NOTHING: Beyond =
+        Beyond { away_from: f64::NAN, undecided_above: f64::NAN, undecided_below: f64::NAN };
 }
 
 /// Whether other motions may repeat.
@@ -125,18 +146,23 @@ impl From<NoMotion> for Failure {
     fn from(reason: NoMotion) -> Self {
         match reason {
             NoMotion::Rests { omega, phi } => Failure { phi, omega, ..Failure::new(Status::NoSteadyMotion) },
-            NoMotion::RunsAway { omega } => Failure { omega, ..Failure::new(Status::NoSteadyMotion) },
+            NoMotion::RunsAway { omega, .. } => Failure { omega, ..Failure::new(Status::NoSteadyMotion) },
             NoMotion::DoesNotClose { phi } => Failure { phi, ..Failure::new(Status::DoesNotClose) },
             NoMotion::Neutral { slowest, fastest } => {
                 Failure { omega: fastest, slowest, ..Failure::new(Status::Neutral) }
             }
-            NoMotion::Unknown => Failure::new(Status::Inaccurate),
+            NoMotion::Unknown => Failure::new(Status::Undecided),
         }
     }
 }
 
 /// Another motion counts as the same if their u at φ = 0 differ by less than this share.
 const SAME: f64 = 1e-5;
+
+/// Share of u by which starts beside a known motion must gain or lose for the march to tell which; and how far from it they
+/// may start for that.
+const MET: f64 = 1e-6;
+const FAR: f64 = 1e-2;
 
 /// A motion that is held by a jump over no more than this angle \[rad\] may pass below it when it is solved exactly: what is
 /// marched to [`crate::drive::march`]'s seven digits grazes the jump.
@@ -151,8 +177,9 @@ const TOLD: f64 = 1e-7;
 /// Solves for the steady motion with relative accuracy `accuracy`.
 ///
 /// # Errors
-/// [`Status::DoesNotClose`], [`Status::NoSteadyMotion`], or [`Status::Inaccurate`] when the finest mesh
-/// does not suffice.
+/// [`Status::DoesNotClose`], [`Status::NoSteadyMotion`], [`Status::Slides`], [`Status::Neutral`]; [`Status::Undecided`] when
+/// the search has found none in its time, [`Status::NotConverged`] when Newton does not hold what it found, and
+/// [`Status::Inaccurate`] when the finest mesh does not suffice.
 pub fn steady(plan: &Plan, q: &[f64], accuracy: f64) -> Result<Steady, Failure> {
     fastest_and(MotionChoice::Fastest, plan, q, accuracy)
 }
@@ -185,11 +212,44 @@ fn fastest_and(which: MotionChoice, plan: &Plan, q: &[f64], accuracy: f64) -> Re
         }
     }
     let hints = stable.as_ref().map_or(&[][..], |found| &found.hints);
-    match (repeating(&machine, &breaks, which, hints, stable.is_none()), stable) {
-        (Ok(motions), stable) => fastest_of(&search, &motions, stable),
+    let known = stable.as_ref().map(Steady::starts_beside);
+    match (repeating(&machine, &breaks, which, hints, known.as_deref()), stable) {
+        (Ok(found), stable) => {
+            let answer = fastest_of(&search, &found.motions, stable)?;
+            Ok(Steady { beyond: beyond(&found, which), ..answer })
+        }
         (Err(reason @ NoMotion::Neutral { .. }), _) => Err(reason.into()),
-        (Err(_), Some(found)) => Ok(found),
+        (Err(reason), Some(found)) => {
+            let speed = (2.0 * found.marks[0].u).sqrt();
+            let is_creep = counts_as_rest(&machine, found.extremes.speed_min.value);
+            Ok(Steady { beyond: beyond_known(reason, speed, is_creep, which), ..found })
+        }
         (Err(reason), None) => Err(reason.into()),
+    }
+}
+
+/// What a search that found motions leaves to say of starts beyond them.
+fn beyond(found: &Repeating, which: MotionChoice) -> Beyond {
+    // Slower ones count only where all motions are asked for.
+    let is_cut = which == MotionChoice::All && found.followed_to > 0.0;
+    Beyond {
+        away_from: found.away_from,
+        undecided_below: if is_cut { found.followed_to } else { f64::NAN },
+        ..Beyond::NOTHING
+    }
+}
+
+/// What a search that found none leaves to say of starts beyond a motion that is solved already, which has `speed` at φ = 0 and
+/// may creep so slowly that the search takes it for rest.
+fn beyond_known(reason: NoMotion, speed: f64, is_creep: bool, which: MotionChoice) -> Beyond {
+    match reason {
+        NoMotion::Rests { .. } if is_creep => Beyond::NOTHING,
+        NoMotion::RunsAway { from, .. } if is_creep => Beyond { away_from: from, ..Beyond::NOTHING },
+        _ => Beyond {
+            away_from: if let NoMotion::RunsAway { from, .. } = reason { from } else { f64::NAN },
+            undecided_above: speed,
+            undecided_below: if which == MotionChoice::All { speed } else { f64::NAN },
+        },
     }
 }
 
@@ -244,11 +304,20 @@ fn fastest_of(
     match (answer.or(known), failed) {
         (Some(found), _) => Ok(Steady { others, ..found }),
         (None, Some(failure)) if failure.status == Status::Slides => Err(failure),
+        (None, Some(failure)) if failure.status == Status::Inaccurate => Err(failure),
         // There is a motion, but Newton does not hold it.
-        (None, failed) => {
-            let reached = failed.map_or(f64::NAN, |failure| failure.reached);
-            Err(Failure { reached, ..Failure::new(Status::Inaccurate) })
+        (None, _) => {
+            let fastest = motions.iter().map(|motion| (2.0 * motion.u()).sqrt()).reduce(f64::max);
+            Err(Failure { omega: fastest.unwrap_or(f64::NAN), ..Failure::new(Status::NotConverged) })
         }
+    }
+}
+
+impl Steady {
+    /// Starts on both sides of this motion: a jump may drive away what is hardly faster.
+    fn starts_beside(&self) -> Vec<f64> {
+        let off = (MET / (1.0 - self.multiplier)).max(SAME);
+        if off < FAR { [-off, off].map(|off| (1.0 + off) * self.marks[0].u).to_vec() } else { Vec::new() }
     }
 }
 
@@ -410,11 +479,14 @@ impl Job for Search<'_> {
                     },
                     hints: hints.concat(),
                     others: Vec::new(),
+                    beyond: Beyond::NOTHING,
                 });
             };
             (mesh, start, placements) = (next, Some(pieces), 0);
         }
-        Err(Failure { reached, ..Failure::new(Status::Inaccurate) })
+        // Before any error was measured, the angles at which the motion passes jumps did not settle.
+        let status = if reached.is_nan() { Status::NotConverged } else { Status::Inaccurate };
+        Err(Failure { reached, ..Failure::new(status) })
     }
 }
 
