@@ -116,8 +116,8 @@ class SteadyStates(Record, evenness.Evenness[Floats]):
 
         names = [*COLUMNS, "unevenness", "dynamism", "motion_coefficient"]
         columns = {name: getattr(self, name) for name in names}
-        told = {"status": self.status, "fast_starts": self.fast_starts}
-        return pd.DataFrame({**self.entries, **columns, **told})
+        states = {"status": self.status, "fast_starts": self.fast_starts}
+        return pd.DataFrame({**self.entries, **columns, **states})
 
 
 @public

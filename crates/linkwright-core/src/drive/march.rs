@@ -67,7 +67,7 @@ const CLEAR: f64 = 0.9;
 /// Work below this share of its parts is none.
 const NO_WORK: f64 = 1e-8;
 
-/// A gain below this share of u is told by the work.
+/// A gain below this share of u is that of the work over J.
 const SLIGHT: f64 = 1e-6;
 
 /// Rounding of what carries inertias along, relative.

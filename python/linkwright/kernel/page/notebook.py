@@ -74,6 +74,6 @@ def batch_html(batch: Any) -> str:
             (low, unit), (high, _) = (parted(float(end), quantity.unit) for end in (known.min(), known.max()))
             rows.append((quantity.word, with_index(quantity.symbol), f"{low} … {high}", unit))
     count = f"{np.count_nonzero(batch.status == 0)} of {len(batch.status)} machines solved"
-    if told := np.count_nonzero(batch.fast_starts):
-        count += f", {told} of them not reached from all fast starts (fast_starts)"
+    if unsettled := np.count_nonzero(batch.fast_starts):
+        count += f", {unsettled} of them not reached from all fast starts (fast_starts)"
     return table_html(f"{type(batch).__name__}: {count}", rows)
