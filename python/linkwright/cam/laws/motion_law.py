@@ -239,9 +239,9 @@ class MotionLaw:
     def zeros(self, order: int = 0) -> list[float]:
         """Where a derivative is zero inside the pieces, increasing; a piece that is zero has none."""
         # They are asked for again and again: the extremes of a law, its speeds, where it turns.
-        known = self.primal._zeros
+        known, law = self.primal._zeros, self.primal.derivative(order)
         if order not in known:
-            known[order] = tuple(self._find_zeros(order))
+            known[order] = tuple(law._find_zeros())
         return list(known[order])
 
     @cached_property
@@ -249,11 +249,10 @@ class MotionLaw:
         """Order of a derivative → its zeros, as far as they were asked for."""
         return {}
 
-    def _find_zeros(self, order: int) -> list[float]:
-        law = self.primal.derivative(order)
-        scale = max((float(np.abs(p.at(np.linspace(0, 1, 9))).max()) for p in law.pieces), default=0.0)
+    def _find_zeros(self) -> list[float]:
+        scale = max((float(np.abs(p.at(np.linspace(0, 1, 9))).max()) for p in self.pieces), default=0.0)
         places: list[float] = []
-        for low, length, piece in law._stretches():
+        for low, length, piece in self._stretches():
             if not piece.vanishes(scale):
                 degree = max(len(piece.polynomial) - 1, 0)
                 places += [low + length * u for u in zeros(piece.at, degree, piece.waves)]
