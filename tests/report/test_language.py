@@ -16,6 +16,7 @@ from linkwright.kernel.errors import InputError
 from linkwright.kernel.figure.for_reader import _said
 from linkwright.kernel.page.html import html
 from linkwright.kernel.page.language import ENGLISH, Language, in_language, language
+from linkwright.machine.table import machine_parts
 from linkwright.torsion.page import torsion_content
 from linkwright.torsion.study import torsion_study
 
@@ -46,6 +47,17 @@ class Watched(Language):
         if words == text:
             self.left.append(text)
         return words
+
+
+MACHINES = sorted((EXAMPLES.parent / "machines").glob("*.toml")) + sorted(EXAMPLES.glob("*/machine.toml"))
+
+
+@pytest.mark.parametrize("path", MACHINES, ids=lambda path: f"{path.parent.name}-{path.stem}")
+def test_parts_that_the_file_does_not_name_have_a_word(path: Path) -> None:
+    """Names that files give stay as they are; those of fixed tables are words of the language."""
+    parts = machine_parts(lw.read(path))
+    names = {name for part in parts if not part.is_named for name in part.name.split(": ")}
+    assert {name for name in names if name not in UKRAINIAN.texts} == set()
 
 
 @pytest.mark.parametrize(

@@ -188,7 +188,13 @@ def in_language(content: Content, to: Language) -> Content:
     names = {part.name for _, parts in content.groups for part in parts if part.is_named}
     texts = {text: words for text, words in to.texts.items() if text not in names}
     changed: Content = _changed(content, replace(to, texts=texts))
-    return replace(changed, language=to)
+    groups = [(group, [_part(part, to) for part in parts]) for group, parts in changed.groups]
+    return replace(changed, groups=groups, language=to)
+
+
+def _part(part: Any, to: Language) -> Any:
+    """A part of the machine with its name in a language, unless the file gives that name."""
+    return part if part.is_named else part._replace(name=": ".join(map(to, part.name.split(": "))))
 
 
 def _changed(value: Any, to: Language) -> Any:
