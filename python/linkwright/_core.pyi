@@ -12,6 +12,9 @@ from numpy.typing import NDArray
 
 __all__ = [
     "FORMAT",
+    "MESH_STEPS_MAX",
+    "SEARCH_STEPS_MAX",
+    "SEARCH_TURNS_MAX",
     "Bar",
     "BarPoint",
     "Body",
@@ -99,6 +102,11 @@ _Ints = NDArray[np.int32]
 _Complexes = NDArray[np.complex128]
 
 FORMAT: int
+
+# Most revolutions and steps of a search for periodic motions, and most steps of the mesh of one.
+SEARCH_TURNS_MAX: int
+SEARCH_STEPS_MAX: int
+MESH_STEPS_MAX: int
 
 @final
 class Table:

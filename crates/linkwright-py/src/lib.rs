@@ -28,6 +28,12 @@ type Table<'py> = Bound<'py, PyArray2<f64>>;
 mod _core {
     #[pymodule_export]
     const FORMAT: u32 = linkwright_core::plan::FORMAT;
+    #[pymodule_export]
+    const SEARCH_TURNS_MAX: usize = linkwright_core::drive::march::TURNS_MAX;
+    #[pymodule_export]
+    const SEARCH_STEPS_MAX: usize = linkwright_core::drive::march::STEPS_IN_ALL_MAX;
+    #[pymodule_export]
+    const MESH_STEPS_MAX: usize = linkwright_core::drive::steady::STEPS_MAX;
 
     #[pymodule_init]
     #[allow(clippy::unnecessary_wraps)] // pyo3 has it so.

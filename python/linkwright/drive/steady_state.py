@@ -27,13 +27,20 @@ from linkwright.kernel.result import Result
 from linkwright.linkages.closure import over_whole_cycle, require_full_turn, turn_angles
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
-from linkwright.machine.program.core import NoSteadyMotion, Status, SteadyCurves, SteadyMotion, SteadySolution
+from linkwright.machine.program.core import (
+    MESH_STEPS_MAX,
+    SEARCH_STEPS_MAX,
+    SEARCH_TURNS_MAX,
+    NoSteadyMotion,
+    Status,
+    SteadyCurves,
+    SteadyMotion,
+    SteadySolution,
+)
 
 # Speeds at which it is looked whether the drive can balance the mean load at all.
 _SPEEDS = 400
 
-# Most revolutions and steps of a search for periodic motions, as in the core's `drive::march`.
-_TURNS, _STEPS = 500, 400_000
 _IN_TIME = "follow the machine in time (linkwright transient) to see what it does"
 
 # Share of the work of the motor below which that of the loads is rounding of a sum of ten thousand doubles.
@@ -446,10 +453,10 @@ def _failure(
         return SteadyStateError(_neutral(compiled, motion.speed_slowest, speed))
     if motion.status == Status.UNDECIDED:
         return ConvergenceError(
-            f"whether there is a steady motion was not decided: a search takes {_TURNS} revolutions and "
-            f"{_STEPS} steps of integration at most; {_IN_TIME}",
+            "whether there is a steady motion was not decided: a search takes "
+            f"{SEARCH_TURNS_MAX} revolutions and {SEARCH_STEPS_MAX} steps of integration at most; {_IN_TIME}",
             method="integration over revolutions",
-            iterations=_TURNS,
+            iterations=SEARCH_TURNS_MAX,
         )
     if motion.status == Status.NOT_CONVERGED:
         return ConvergenceError(
@@ -462,7 +469,7 @@ def _failure(
         f"steady motion was found to a relative accuracy of {reached:.1e} only, {accuracy:g} is required; "
         "reduce the accuracy, or check whether the mechanism nearly locks",
         method="collocation",
-        iterations=12288,
+        iterations=MESH_STEPS_MAX,
     )
 
 

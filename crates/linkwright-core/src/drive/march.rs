@@ -38,8 +38,8 @@ const CREEP: f64 = 1e-24;
 const STEPS_MAX: usize = 20_000;
 
 /// Turns that may be marched through before the search is given up, and steps in all of them: some seconds.
-const TURNS_MAX: usize = 500;
-const STEPS_IN_ALL_MAX: usize = 400_000;
+pub const TURNS_MAX: usize = 500;
+pub const STEPS_IN_ALL_MAX: usize = 400_000;
 
 /// Relative distance from repeating at which a motion is good enough to start from.
 const REPEATS: f64 = 1e-7;

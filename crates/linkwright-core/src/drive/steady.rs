@@ -33,7 +33,7 @@ use crate::linkage::motion::Motion;
 const FIRST: f64 = 24.0;
 
 /// Most steps of a revolution.
-const STEPS_MAX: usize = 12_288;
+pub const STEPS_MAX: usize = 12_288;
 
 /// Most meshes. Some make steps at least half as long, and steps behind a kink shorter at once; some place a
 /// kink.

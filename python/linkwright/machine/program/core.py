@@ -6,7 +6,7 @@ from linkwright import _core
 from linkwright.kernel.errors import CoreError
 
 # As `FORMAT` in `crates/linkwright-core/src/plan/mod.rs`: the two change together.
-FORMAT = 25
+FORMAT = 26
 
 
 def check_format(core: object) -> None:
@@ -32,6 +32,11 @@ Line = _core.Line
 # Outcomes of machines, and what each number means.
 Status = _core.Status
 SENTENCES: dict[int, str] = dict(_core.Status.sentences())
+
+# Most revolutions and steps of a search for periodic motions, and most steps of the mesh of one.
+SEARCH_TURNS_MAX = _core.SEARCH_TURNS_MAX
+SEARCH_STEPS_MAX = _core.SEARCH_STEPS_MAX
+MESH_STEPS_MAX = _core.MESH_STEPS_MAX
 
 # What of a machine is asked for, and what the core answers.
 Channel = _core.Channel
