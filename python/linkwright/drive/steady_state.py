@@ -318,9 +318,9 @@ def solved_state(
 
 
 def steady_curves(machine: Machine, accuracy: float, angles: Floats) -> SteadyState | SteadyCurves:
-    """Curves of steady motion at crank angles, from the last solution if that is as accurate."""
+    """Curves of steady motion at crank angles, from the last solution if that is one to this accuracy."""
     kept = over_whole_cycle(compile_machine(machine)).kept.get("steady motion")
-    if kept is not None and kept[0] <= accuracy:
+    if kept is not None and kept[0] == accuracy:
         solution: SteadySolution = kept[1]
         return solution.curves(angles)
     return solved_state(machine, accuracy, angles)[0]
