@@ -83,3 +83,12 @@ def test_what_is_wrong_is_told(rows: str, said: str, tmp_path: Path) -> None:
 def test_a_file_elsewhere_is_refused(tmp_path: Path) -> None:
     with pytest.raises(MachineFileError, match="folder of the machine file"):
         read(tmp_path, head=HEAD.replace("motors.csv", "../motors.csv"))
+
+
+def test_a_type_of_the_catalogue_that_would_change_nothing_is_refused() -> None:
+    """All numbers of the motor stand in this file: with another type it would stay the same motor."""
+    with pytest.raises(MachineFileError, match="which replace all its data"):
+        lw.read("roller_two_carts", ["drive.motor.catalogue=4A250M6U3"])
+    other = lw.read("roller_one_cart", ["drive.motor.catalogue=4A250M6U3"])
+    assert other.drive is not None
+    assert other.drive.motor.power_rated == pytest.approx(55e3)  # type: ignore[union-attr]

@@ -52,7 +52,7 @@ def test_what_is_wrong_has_its_line(tmp_path: Path, text: str, line: int, words:
 
 
 def test_no_file(tmp_path: Path) -> None:
-    with pytest.raises(MachineFileError, match=r"nowhere\.csv, no such file"):
+    with pytest.raises(MachineFileError, match=r"nowhere\.csv\n  found:    no such file"):
         read_columns(tmp_path / "nowhere.csv", KINDS)
 
 

@@ -8,8 +8,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 
 import linkwright as lw
+from linkwright.app.application import application
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.studies import search_log
 from linkwright.studies.optimise import Optimum
@@ -54,6 +56,17 @@ def test_a_limit_that_is_active(tmp_path: Path) -> None:
     assert found.responses["y"] <= 0.1
     assert found.responses["far"] == pytest.approx(0.05**2, rel=1e-3)
     assert "y is at its maximum" in found.active[0]
+
+
+def test_a_goal_that_nothing_changes_is_told(tmp_path: Path) -> None:
+    text = TEXT.replace("[goals]\nfar", 'fixed = { entry = "drive.gearbox.ratio" }\n[goals]\nfixed')
+    found = optimum(tmp_path, text, 100)
+    assert found.is_flat
+    told = CliRunner().invoke(
+        application(), ["optimise", str(tmp_path / "study.toml"), "--evaluations", "100"]
+    )
+    assert "fixed is 9.8 for all machines" in " ".join(told.stdout.split())
+    assert not optimum(tmp_path, TEXT, 100).is_flat
 
 
 def test_whole_numbers_and_choices(tmp_path: Path) -> None:

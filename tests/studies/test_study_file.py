@@ -36,6 +36,32 @@ WRONG = {
     "one entry twice": (('"bodies.cart2.mass"]', '"mechanism.cranks.A2.phase"]'), "mass.address", 10),
     "name twice": (("half = ", "phase = "), "derived.phase", 15),
     "goal of nothing": (("[sweep]", '[goals]\nnothing = "minimise"\n[sweep]'), "goals.nothing", 26),
+    "no pair": (('["45 deg", "135 deg"]', '["45 deg", "90 deg", "135 deg"]'), "variables.phase.range", 6),
+    "entry of a table": (
+        (
+            '"mechanism.cranks.A2.phase"\nrange = ["45 deg", "135 deg"]\nsteps = 5',
+            '"bodies.cart1"\nvalues = [{ mass = "1 t" }]',
+        ),
+        "variables.phase.values",
+        6,
+    ),
+    "no such type": (
+        (
+            '"mechanism.cranks.A2.phase"\nrange = ["45 deg", "135 deg"]\nsteps = 5',
+            '"drive.motor"\nvalues = [{ kind = "induction", catalogue = "4A1" }]',
+        ),
+        "variables.phase.values.0",
+        6,
+    ),
+    "a type without effect": (
+        (
+            '"mechanism.cranks.A2.phase"\nrange = ["45 deg", "135 deg"]\nsteps = 5',
+            '"drive.motor.catalogue"\nvalues = ["4A250M6U3"]',
+        ),
+        "variables.phase.values.0",
+        6,
+    ),
+    "no such file of rows": (("chunk = 4", 'method = "list"\nfile = "gone.parquet"'), "sweep.file", 27),
     "unknown key": (("chunk = 4", "chunks = 4"), "sweep.chunks", 26),
 }
 
@@ -51,6 +77,28 @@ def test_a_wrong_study_is_refused(name: str, study_file: Files) -> None:
     assert problem.path.endswith("study.toml")
     assert problem.found
     assert problem.expected
+
+
+def test_a_machine_that_does_not_exist(tmp_path: Path) -> None:
+    (tmp_path / "study.toml").write_text('# A study.\nmachine = "roller_two_cart"\n')
+    with pytest.raises(MachineFileError, match="roller_two_carts") as caught:
+        lw.read_study(tmp_path / "study.toml")
+    assert (caught.value.problems[0].key, caught.value.problems[0].line) == ("machine", 2)
+
+
+def test_a_limit_of_an_unknown_quantity_is_one_problem(study_file: Files) -> None:
+    """Its unit is not known, so that nothing is wrong with the unit of the limit."""
+    changes = (("steady_state.unevenness", "steady_state.speed_least"), ("max = 0.3", 'max = "3 rad/s"'))
+    with pytest.raises(MachineFileError) as caught:
+        lw.read_study(study_file(*changes))
+    assert [problem.key for problem in caught.value.problems] == ["responses.delta.quantity"]
+
+
+def test_rows_that_are_not_there(study_file: Files) -> None:
+    with pytest.raises(MachineFileError) as caught:
+        lw.read_study(study_file(("chunk = 4", 'method = "list"\nfile = "gone.csv"')))
+    assert caught.value.problems[0].key == "sweep.file"
+    assert caught.value.problems[0].found == '"gone.csv", no such file'
 
 
 def test_all_problems_are_told_at_once(study_file: Files) -> None:

@@ -85,14 +85,45 @@ def test_rows_that_fail_keep_their_reason(study_file: Files, tmp_path: Path) -> 
 def test_a_choice_without_numbers(study_file: Files, tmp_path: Path) -> None:
     change = (
         'address = "mechanism.cranks.A2.phase"\nrange = ["45 deg", "135 deg"]\nsteps = 5',
-        'address = "drive.gearbox.reverse"\nvalues = ["same", "inverse"]',
+        'address = "drive.gearbox.reverse"\nvalues = ["same", 1.25]',
     )
     plan = lw.read_study(study_file(change))
     lw.sweep(plan, tmp_path / "rows")
     table = pd.read_parquet(tmp_path / "rows")
     assert len(table) == 6
-    same, inverse = (table["delta"][table["phase"] == place].to_numpy() for place in (0, 1))
-    assert (same != inverse).all()
+    assert (table["status"] == 0).all()
+    same, other = (table["delta"][table["phase"] == place].to_numpy() for place in (0, 1))
+    assert (same != other).all()
+
+
+@pytest.mark.parametrize("place", [-1, 2, 0.5])
+def test_a_place_that_a_list_does_not_have_is_refused(
+    place: float, study_file: Files, tmp_path: Path
+) -> None:
+    """Python would count -1 from the end."""
+    change = (
+        'address = "mechanism.cranks.A2.phase"\nrange = ["45 deg", "135 deg"]\nsteps = 5',
+        'address = "drive.gearbox.reverse"\nvalues = ["same", 1.25]',
+    )
+    plan = lw.read_study(study_file(change))
+    with pytest.raises(InputError, match="a place in its values, 0 to 1"):
+        lw.evaluate(plan, {"phase": np.array([0.0, place]), "mass": np.array([1e3, 1e3])})
+    (tmp_path / "rows.csv").write_text(f"phase, mass\n0, 1000\n{place}, 1000\n")
+    with pytest.raises(InputError, match="column phase, row 1: found"):
+        lw.read_study(study_file(change, ("chunk = 4", 'method = "list"\nfile = "rows.csv"')))
+
+
+def test_a_damaged_file_is_computed_anew(study_file: Files, tmp_path: Path) -> None:
+    """Numbers that a disk has changed, in a file that is as long as before."""
+    plan = lw.read_study(study_file())
+    lw.sweep(plan, tmp_path / "rows")
+    wanted = pd.read_parquet(tmp_path / "rows")
+    part = tmp_path / "rows" / "part-000001.parquet"
+    sound = part.read_bytes()
+    for at in range(4, len(sound), 97):
+        part.write_bytes(sound[:at] + bytes([sound[at] ^ 255]) + sound[at + 1 :])
+        lw.sweep(plan, tmp_path / "rows")
+        pd.testing.assert_frame_equal(pd.read_parquet(tmp_path / "rows"), wanted, check_exact=True)
 
 
 def test_units_and_machine_are_in_the_metadata(study_file: Files, tmp_path: Path) -> None:

@@ -66,7 +66,12 @@ def test_the_mean_of_a_square_is_its_second_order(tmp_path: Path) -> None:
 
 def test_limits_of_a_tolerance(tmp_path: Path) -> None:
     text = TEXT.replace('distribution = { kind = "normal", mean = "0.8 m", deviation = "1 mm" }', "X", 1)
-    for given, low, high in (("± 0.6 mm", 0.7994, 0.8006), ("+0.1 -0.3 mm", 0.7997, 0.8001)):
+    for given, low, high in (
+        ("± 0.6 mm", 0.7994, 0.8006),
+        ("+0.1 -0.3 mm", 0.7997, 0.8001),
+        ("0.8 m ± 0.6 mm", 0.7994, 0.8006),
+        ("800 mm +0.1 −0.3 mm", 0.7997, 0.8001),
+    ):
         axis = plan_of(tmp_path, text.replace("X", f'tolerance = "{given}"')).axes[0]
         assert (axis.low, axis.high) == pytest.approx((low, high), abs=1e-15)
         values = axis.values(np.linspace(0, 1, 1001))
@@ -74,7 +79,7 @@ def test_limits_of_a_tolerance(tmp_path: Path) -> None:
         assert values.min() >= low - 1e-15
         assert values.max() <= high + 1e-15
         assert values.mean() == pytest.approx((low + high) / 2, abs=1e-12)
-    for wrong in ("0.6 mm", "± 0.6 kg", "± 0 mm"):
+    for wrong in ("0.6 mm", "0.7 m ± 0.6 mm", "0.8 kg ± 0.6 mm", "± 0.6 kg", "± 0 mm"):
         with pytest.raises(InputError, match=r"variables\.a\.tolerance"):
             plan_of(tmp_path, text.replace("X", f'tolerance = "{wrong}"'))
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,10 +12,11 @@ import numpy as np
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
-from linkwright.kernel.errors import MachineError, Problem, UnitError, show
-from linkwright.kernel.units import COUNT, LENGTH, Kind, is_number, parse
+from linkwright.kernel.errors import InputError, MachineError, Problem, UnitError, show
+from linkwright.kernel.units import COUNT, LENGTH, NUMBER, Kind, is_number, parse
 from linkwright.machine.address import addresses, get, kind, known_place
 from linkwright.machine.machine import Machine
+from linkwright.machine.overrides import Override, apply
 from linkwright.studies import iso286
 from linkwright.studies.model import Distribution, Variable
 
@@ -22,7 +24,8 @@ from linkwright.studies.model import Distribution, Variable
 # which 0.27 % lie beyond and are sorted out (ISO 22514-2).
 _SPREAD = 6.0
 
-# "± 0.2 mm"; "+0.1 -0.3 mm", in either order.
+# "± 0.2 mm"; "+0.1 -0.3 mm", in either order; before both there may be the size, "0.8 m ± 0.2 mm".
+_SIZED = re.compile(r"\s*([\d.]+(?:[eE][+-]?\d+)?[^±+-]*?)\s*((?:±|\+/-|[+-]\s*[\d.]).*)", re.DOTALL)
 _EVEN = re.compile(r"\s*(?:±|\+/-)\s*([\d.]+(?:[eE][+-]?\d+)?)\s*(.*)", re.DOTALL)
 _UNEVEN = re.compile(r"\s*([+-]\s*[\d.]+)\s+([+-]\s*[\d.]+)\s*(.*)", re.DOTALL)
 
@@ -87,6 +90,17 @@ class Axis:
             values: Floats = np.clip(np.exp(powers), self.low, self.high)
             return values
         return self.low * (1 - shares) + self.high * shares
+
+
+def require_places(axis: Axis, values: Floats, what: str) -> None:
+    """Raise `InputError` for places that a list of what is no number does not have; `what`: for messages."""
+    if axis.is_number:
+        return
+    last = len(axis.choices) - 1
+    wrong = np.flatnonzero((values != np.round(values)) | (values < 0) | (values > last))
+    for row in wrong[:1].tolist():
+        expected = f"a place in its values, 0 to {last}: {', '.join(map(show, axis.choices))}"
+        raise InputError(f"{what}, row {row}: found {values[row]:g}, expected {expected}")
 
 
 def axis(machine: Machine, name: str, variable: Variable) -> Axis:
@@ -155,12 +169,41 @@ def _kind(machine: Machine, name: str, address: str) -> Kind | None:
     return COUNT if is_number(value) else None
 
 
+def variant(machine: Machine, changes: list[tuple[str, Any]]) -> Machine:
+    """The machine with entries exchanged as by ``--set``, and checked as a whole."""
+    tables: dict[str, Any] = machine.model_dump(by_alias=True, exclude_unset=True)
+    tables = _open(tables)
+    for address, entry in changes:
+        apply(tables, Override(address, entry, ""))
+    return Machine.model_validate(tables)
+
+
+def _open(node: Any) -> Any:
+    """Tables and lists that may be written to."""
+    if isinstance(node, Mapping):
+        return {key: _open(entry) for key, entry in node.items()}
+    return [_open(entry) for entry in node] if isinstance(node, list | tuple) else node
+
+
 def _choices(machine: Machine, name: str, variable: Variable, kind: Kind | None) -> tuple[Any, ...]:
     """The values of a list, numbers in SI."""
     given = variable.values or ()
     if kind is None:
+        for nth, value in enumerate(given):
+            _require_possible(machine, name, variable, nth, value)
         return given
     return tuple(_parsed(name, f"values.{i}", value, kind) for i, value in enumerate(given))
+
+
+def _require_possible(machine: Machine, name: str, variable: Variable, nth: int, value: object) -> None:
+    """Refuse what its own entry does not take; what other entries do not go with, is a row that fails."""
+    try:
+        variant(machine, [(address, value) for address in variable.address])
+    except MachineError as error:
+        for problem in error.problems:
+            if any(f"{problem.key}.".startswith(f"{address}.") for address in variable.address):
+                key = f"values.{nth}"
+                raise _problem(name, key, problem.found, problem.expected, problem.remedy) from None
 
 
 def _parsed(name: str, key: str, value: object, kind: Kind) -> float:
@@ -190,6 +233,9 @@ def _toleranced(name: str, value: object, text: str, kind: Kind) -> tuple[float,
     stripped = text.replace("−", "-")
     if code := iso286.CODE.fullmatch(stripped):
         return _coded(name, float(value), text, code, kind)
+    if match := _SIZED.fullmatch(stripped):
+        size, stripped = match.groups()
+        _require_size(name, float(value), text, size, kind)
     if match := _EVEN.fullmatch(stripped):
         parts, unit = [f"-{match[1]}", match[1]], match[2]
     elif match := _UNEVEN.fullmatch(stripped):
@@ -203,6 +249,14 @@ def _toleranced(name: str, value: object, text: str, kind: Kind) -> tuple[float,
     if not low < high:
         raise _problem(name, "tolerance", show(text), "two limits that differ")
     return low, high
+
+
+def _require_size(name: str, value: float, text: str, size: str, kind: Kind) -> None:
+    """Refuse a tolerance of another size than the machine has."""
+    given = _parsed(name, "tolerance", float(size) if NUMBER.fullmatch(size) else size, kind)
+    if abs(given - value) > 1e-9 * abs(value):
+        expected = f"the size that the machine has, {value:.6g} {kind.unit}"
+        raise _problem(name, "tolerance", show(text), expected, "leave the size out")
 
 
 def _coded(name: str, value: float, text: str, code: re.Match[str], kind: Kind) -> tuple[float, float]:

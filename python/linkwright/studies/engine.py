@@ -26,7 +26,7 @@ from linkwright.kernel.quantities import About
 from linkwright.linkages.kinematics import motions
 from linkwright.machine.address import get, outside, replace
 from linkwright.machine.machine import Machine
-from linkwright.machine.overrides import Override, apply
+from linkwright.studies.axes import require_places, variant
 from linkwright.studies.plan import Formula, StudyPlan
 from linkwright.studies.responses import ENTRY, MOTION, SAMPLES, StudyResponse, analysis, entry_number, taken
 
@@ -150,6 +150,8 @@ def _columns(plan: StudyPlan, variables: Mapping[str, Floats]) -> dict[str, Floa
             raise InputError(
                 f"variables[{name}]: found {len(columns[name])} values, others have another number"
             )
+    for axis in plan.axes:
+        require_places(axis, columns[axis.name], f"variables[{axis.name}]")
     return columns
 
 
@@ -188,22 +190,6 @@ def _machines(plan: StudyPlan, rows: Rows) -> Any:
             yield variant(plan.machine, changes), own
         except InputError as error:
             rows.fail(own, IMPOSSIBLE, _sentence(error))
-
-
-def variant(machine: Machine, changes: list[tuple[str, Any]]) -> Machine:
-    """The machine with entries exchanged as by ``--set``, and checked as a whole."""
-    tables: dict[str, Any] = machine.model_dump(by_alias=True, exclude_unset=True)
-    tables = _open(tables)
-    for address, entry in changes:
-        apply(tables, Override(address, entry, ""))
-    return Machine.model_validate(tables)
-
-
-def _open(node: Any) -> Any:
-    """Tables and lists that may be written to."""
-    if isinstance(node, Mapping):
-        return {key: _open(entry) for key, entry in node.items()}
-    return [_open(entry) for entry in node] if isinstance(node, list | tuple) else node
 
 
 def _solve(

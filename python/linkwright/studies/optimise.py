@@ -16,6 +16,7 @@ References
 
 from __future__ import annotations
 
+import math
 import os
 from collections import Counter
 from collections.abc import Callable, Mapping
@@ -34,8 +35,8 @@ from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.studies import sampling
-from linkwright.studies.axes import Axis
-from linkwright.studies.engine import SOLVED, OneByOne, Rows, evaluate, sound_variant, variant
+from linkwright.studies.axes import Axis, variant
+from linkwright.studies.engine import SOLVED, OneByOne, Rows, evaluate, sound_variant
 from linkwright.studies.local import Descent, Price, prices
 from linkwright.studies.plan import StudyPlan
 from linkwright.studies.search_log import SearchLog
@@ -53,6 +54,9 @@ _SIGMA = 0.3
 
 # A limit counts as active where a response is as near to it, relative to its size.
 _ACTIVE = 1e-4
+
+# A goal that differs by less among all machines, relative to its size, does so by rounding.
+_FLAT = 1e-13
 
 
 @dataclass(frozen=True)
@@ -80,6 +84,15 @@ class Optimum(Result):
     n_failed: Annotated[int, Label("machines without a result", "", "")]
     reasons: Annotated[dict[str, int], About("Why machines had no answer → how many.")]
     one_by_one: OneByOne = field(default_factory=dict)
+    goal_range: Annotated[
+        tuple[float, float], About("Minimum and maximum of the goal among machines with an answer [SI].")
+    ] = (math.nan, math.nan)
+
+    @property
+    def is_flat(self) -> bool:
+        """Whether the goal is the same for all machines, so that none is better."""
+        low, high = self.goal_range
+        return self.n_evaluations - self.n_failed > 1 and high - low <= _FLAT * max(abs(low), abs(high))
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Numbers and tables by name, ready for JSON; `curves` is without effect."""
@@ -202,6 +215,7 @@ class _Search:
         self.best: tuple[tuple[int, float], Floats] | None = None
         self.tried: list[dict[str, Any]] = []
         self.count = self.failed = 0
+        self.low, self.high = math.inf, -math.inf
         self.reasons: Counter[str] = Counter()
         self.alone: Counter[str] = Counter()
 
@@ -274,6 +288,8 @@ class _Search:
         self.count += len(rows)
         self.reasons.update(rows.failures())
         self.alone.update(rows.one_by_one)
+        solved = rows.columns[self.goal][rows.status == SOLVED].tolist()
+        self.low, self.high = min([self.low, *solved]), max([self.high, *solved])
         keys = [self._key(rows, i) for i in range(len(rows))]
         at = min(range(len(keys)), key=keys.__getitem__)
         if self.best is None or keys[at] < self.best[0]:
@@ -320,6 +336,7 @@ class _Search:
             n_failed=sum(self.reasons.values()),
             reasons=dict(self.reasons),
             one_by_one=dict(self.alone.most_common()),
+            goal_range=(self.low, self.high),
         )
 
     def _prices(self) -> list[Price]:

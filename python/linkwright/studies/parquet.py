@@ -58,22 +58,33 @@ def encoded(rows: Rows, start: int, units: Mapping[str, str], about: bytes) -> b
     table = pa.Table.from_arrays(list(columns.values()), schema=pa.schema(fields, metadata=metadata))
     out = pa.BufferOutputStream()
     # Numbers of a sweep differ in all digits: neither dictionaries nor compression make them smaller.
-    pq.write_table(table, out, compression="none", use_dictionary=["reason"], write_statistics=True)
+    # Pages have checksums, by which a damaged file is recognised.
+    pq.write_table(
+        table,
+        out,
+        compression="none",
+        use_dictionary=["reason"],
+        write_statistics=True,
+        write_page_checksum=True,
+    )
     return out.getvalue().to_pybytes()  # type: ignore[no-any-return]
 
 
 def is_whole(path: Path, n_rows: int, about: bytes) -> bool:
-    """Whether a file holds a number of rows of a study: not if it is cut off, or another's."""
+    """Whether a file holds a number of rows of a study: not if it is cut off or damaged, or another's."""
     import pyarrow as pa
     import pyarrow.parquet as pq
 
     if not path.is_file():
         return False
     try:
-        with pq.ParquetFile(path) as file:
+        with pq.ParquetFile(path, page_checksum_verification=True) as file:
             metadata = file.schema_arrow.metadata or {}
-            return file.metadata.num_rows == n_rows and metadata.get(KEY) == about
-    except (pa.ArrowException, OSError):
+            if file.metadata.num_rows != n_rows or metadata.get(KEY) != about:
+                return False
+            file.read()
+            return True
+    except (pa.ArrowException, OSError, ValueError):
         return False
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
@@ -27,7 +27,7 @@ from linkwright.kernel.units import parse as parse_quantity
 from linkwright.machine.address import get, known_place
 from linkwright.machine.machine import Machine
 from linkwright.studies import sampling
-from linkwright.studies.axes import Axis, axis
+from linkwright.studies.axes import Axis, axis, require_places
 from linkwright.studies.model import WAYS, StudyFile, Sweep
 from linkwright.studies.responses import StudyResponse, asked
 
@@ -184,12 +184,20 @@ def plan(machine: Machine, study: StudyFile, listed: Floats | None = None) -> St
         made, lambda name, response: _formula(known, f"responses.{name}", name, response.formula or "")
     )
     units = {response.name: response.unit for response in responses}
-    limits = gather(
-        study.constraints.items(), lambda name, constraint: (name, _limits(study, units, name, constraint))
-    )
+    # The unit of a limit is that of its response: where there is none, there is nothing to compare.
+    sound = {response.name for response in responses} | {name for name, _ in made}
+    limited = [
+        (name, limit)
+        for name, limit in study.constraints.items()
+        if name in sound or name not in study.responses
+    ]
+    limits = gather(limited, lambda name, constraint: (name, _limits(study, units, name, constraint)))
     problems += _other_problems(study, listed)
     if problems:
         raise MachineError(problems)
+    if listed is not None:
+        for nth, variable in enumerate(axes):
+            require_places(variable, listed[:, nth], f"{study.sweep.file}: column {variable.name}")
     ready = StudyPlan(machine, study, axes, derived, responses, formulas, dict(limits), listed)
     _check_rows(ready)
     return ready
@@ -236,6 +244,30 @@ def _taken_twice(study: StudyFile) -> Iterable[Problem]:
                     expected = f"an entry that {setters[address]} does not set"
                     yield Problem(f"{table}.{name}.address", show(address), expected)
                 setters[address] = name
+    yield from _within_tables(study, setters)
+
+
+def _within_tables(study: StudyFile, setters: Mapping[str, str]) -> Iterable[Problem]:
+    """Entries of a table among the values of a variable that another variable sets."""
+    for name, variable in study.variables.items():
+        for table in variable.address:
+            below = {
+                place.removeprefix(f"{table}."): place for place in setters if place.startswith(f"{table}.")
+            }
+            for choice in variable.values or ():
+                for place in (place for key, place in below.items() if _holds(choice, key.split("."))):
+                    expected = f"tables without an entry that {setters[place]} sets"
+                    yield Problem(f"variables.{name}.values", show(place), expected)
+                    below = {}
+
+
+def _holds(table: object, keys: Sequence[str]) -> bool:
+    """Whether a table has an entry."""
+    for key in keys:
+        if not isinstance(table, Mapping) or key not in table:
+            return False
+        table = table[key]
+    return True
 
 
 def _check_rows(ready: StudyPlan) -> None:

@@ -12,8 +12,8 @@ import numpy as np
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
-from linkwright.kernel.errors import InputError, MachineError, MachineFileError, Problem
-from linkwright.kernel.files.library import studies
+from linkwright.kernel.errors import InputError, MachineError, MachineFileError, Problem, show
+from linkwright.kernel.files.library import library, studies
 from linkwright.kernel.files.lines import located
 from linkwright.kernel.files.points import read_columns, require_below
 from linkwright.kernel.files.text_file import TextError, text_of
@@ -83,9 +83,9 @@ def read_study(
         # Results are those of the machine and of this study, whatever other study stands in its file.
         machine = described if described.study is None else described.with_entries({"study": None})
         return plan(machine, study, _listed(place, machine, study, allow_outside=allow_outside))
-    except MachineFileError:
-        raise
     except MachineError as error:
+        if any(problem.path for problem in error.problems):  # of the machine file, or of one of rows
+            raise
         raise MachineFileError(located(error.problems, text, str(place), at)) from None
 
 
@@ -155,8 +155,14 @@ def _machine_of(path: Path, study: StudyFile) -> Path:
         remedy = 'machine = "FILE", or a table [study] in the machine file'
         raise MachineError([Problem("machine", "nothing", "the machine file", remedy)])
     beside = path.parent / study.machine
+    if beside.exists():
+        return beside
     # A name alone may be one of the library.
-    return beside if beside.exists() or Path(study.machine).suffix else Path(study.machine)
+    if study.machine not in library():
+        remedy = suggestion(study.machine, library())
+        expected = "a machine file, from the folder of the study, or a machine of the library"
+        raise MachineError([Problem("machine", f"{show(study.machine)}, no such file", expected, remedy)])
+    return Path(study.machine)
 
 
 def _listed(path: Path, machine: Machine, study: StudyFile, *, allow_outside: bool) -> Floats | None:
@@ -165,6 +171,11 @@ def _listed(path: Path, machine: Machine, study: StudyFile, *, allow_outside: bo
         return None
     place = path.parent / study.sweep.file
     require_below(place, path.parent, study.sweep.file, "sweep.file", allow_outside=allow_outside)
+    if not place.exists():
+        found = f"{show(study.sweep.file)}, no such file"
+        raise MachineError(
+            [Problem("sweep.file", found, "a CSV or Parquet file, from the folder of the study")]
+        )
     names = list(study.variables)
     if place.suffix == ".parquet":
         columns = parquet_columns(place, names)
@@ -178,5 +189,5 @@ def _listed(path: Path, machine: Machine, study: StudyFile, *, allow_outside: bo
         raise InputError(f"{place}: found no rows, expected at least one")
     if not np.isfinite(rows).all():
         row = int(np.flatnonzero(~np.isfinite(rows).all(axis=1))[0])
-        raise InputError(f"{place}: row {row}: found a number that is not finite")
+        raise InputError(f"{place}: row {row}: found a number that is not finite, or an empty cell")
     return rows

@@ -150,6 +150,17 @@ def _known_type(type: str) -> str:
     return catalogue.checked_name(type)
 
 
+def _of_catalogue(given: Values) -> Values:
+    """What the type gives, if there is one; no pull-up where the file has a start of its own."""
+    from linkwright.drive.model import catalogue
+
+    if given.get("catalogue") is None:
+        return {}
+    known = catalogue.entries(given["catalogue"])
+    has_start = any(name in given for name in catalogue.START)
+    return {name: value for name, value in known.items() if not (has_start and name in catalogue.START[1:])}
+
+
 CatalogueName = Annotated[str, AfterValidator(_known_type)]
 
 
@@ -202,12 +213,7 @@ class InductionMotor(Motor):
     @classmethod
     def _completed(cls, given: Values) -> Values:
         values = with_rated_point(given)
-        if "catalogue" in given:
-            from linkwright.drive.model import catalogue
-
-            known = catalogue.entries(given["catalogue"])
-            if any(name in given for name in catalogue.START):
-                known = {name: value for name, value in known.items() if name not in catalogue.START[1:]}
+        if known := _of_catalogue(given):
             values = with_rated_point(known | values)
         return with_breakdown_speed(values)
 
@@ -216,9 +222,21 @@ class InductionMotor(Motor):
         if self.file is not None:
             yield unread_file(self.file)
             return
+        yield from self._idle_type()
         missing = list(self._missing())
         yield from missing or self._out_of_order()
         yield from self._start_faults()
+
+    def _idle_type(self) -> Iterator[InitErrorDetails]:
+        """A type of the catalogue beside a whole characteristic, which would change nothing."""
+        given = {name: getattr(self, name) for name in self.model_fields_set}
+        known = _of_catalogue(given)
+        if known and not {*known} - {*with_rated_point(given), "inertia"}:
+            own = ", ".join(name for name in type(self).model_fields if name in given and name in known)
+            expected = f"nothing beside {own}, which replace all its data"
+            yield fault(
+                "catalogue", found=self.catalogue, expected=expected, remedy="remove the one or the others"
+            )
 
     def _missing(self) -> Iterator[InitErrorDetails]:
         """Entries without which there is no characteristic."""

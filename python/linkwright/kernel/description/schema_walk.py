@@ -90,7 +90,11 @@ def words_of(annotation: Any) -> str:
             entries = get_args(lists[0])
             count = "" if entries[-1] is Ellipsis else f"{len(entries)} "
             return f"a list of {count}{entry.kind.noun}s"
-        return "a list of whole numbers" if _bare(inner) is int else "a list of two names"
+        if _bare(inner) is int:
+            return "a list of whole numbers"
+        count = "" if get_args(lists[0])[-1] is Ellipsis else "two "
+        is_names = {_bare(branch) for branch in _branches(inner)} == {str}
+        return f"a list of {count}{'names' if is_names else 'values'}"
     if bool in bare:
         return "true or false"
     if int in bare:

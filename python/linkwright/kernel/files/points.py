@@ -144,8 +144,10 @@ def lines_of(path: Path, key: str) -> list[tuple[int, list[str]]]:
     try:
         text = text_of(path, POINT_BYTES)
     except TextError as error:
-        found, expected = f"{path}, {error.found}", error.expected or "a file of comma-separated values"
-        raise MachineFileError([Problem(key, found, expected, error.remedy)]) from None
+        expected = error.expected or "a file of comma-separated values"
+        # Without an entry that names the file, the file itself is the place.
+        found, place = (f"{path}, {error.found}", "") if key else (error.found, str(path))
+        raise MachineFileError([Problem(key, found, expected, error.remedy, place)]) from None
     lines = StringIO(text, newline="")
     reader = csv.reader("\n" if line.lstrip().startswith("#") else line for line in lines)
     rows: list[tuple[int, list[str]]] = []

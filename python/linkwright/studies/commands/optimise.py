@@ -93,7 +93,7 @@ def hand_over_optimum(
         machine=plan.machine.name,
         units=plan.machine.units,
         results=lambda _: {"optimum": optimum.to_dict()},
-        warnings=one_by_one_warnings(optimum.one_by_one),
+        warnings=[*_flat_warnings(optimum), *one_by_one_warnings(optimum.one_by_one)],
         head=lambda: _head(plan.machine.name, optimum),
         tables=lambda: optimum_tables(optimum, plan.units),
         machine_file=lambda: dumps(optimum.machine),
@@ -127,6 +127,7 @@ def _hand_over_front(
         units=plan.machine.units,
         results=lambda _: {"front": best.to_dict()},
         warnings=[
+            *dict.fromkeys(text for machine in best.machines for text in _flat_warnings(machine)),
             *(f"no machine has {limit}: {reason}" for limit, reason in best.failed.items()),
             *one_by_one_warnings(best.one_by_one),
         ],
@@ -135,6 +136,14 @@ def _hand_over_front(
         machine_file=lambda: dumps(middle.machine),
     )
     hand_over(answer, json=json, out=Path(out) if out else None, force=force)
+
+
+def _flat_warnings(optimum: Optimum) -> list[str]:
+    """That no machine is better than another."""
+    if not optimum.is_flat:
+        return []
+    value = f"{optimum.responses[optimum.goal]:.6g}"
+    return [f"{optimum.goal} is {value} for all machines: the variables do not change it, and none is better"]
 
 
 def _head(name: str, optimum: Optimum) -> str:

@@ -34,7 +34,7 @@ Folder = Annotated[Path, Argument(metavar="DIR", help="The folder of a sweep.")]
 Into = Annotated[Path, out_option("Folder of the results; an incomplete one is resumed.")]
 Drawn = Annotated[Path | None, out_option("Write figures and results.json there.")]
 Chunks = Annotated[
-    str,
+    str | None,
     Option(
         "--chunks", metavar="A:B", help="Compute the files A to B - 1 alone: a share, as one of many jobs."
     ),
@@ -55,7 +55,7 @@ def sweep(
     out: Into,
     set: Sets = None,
     allow_outside: Outside = False,
-    chunks: Chunks = "",
+    chunks: Chunks = None,
     workers: Workers = 1,
     cluster: Cluster = "",
     json: Json = False,
@@ -109,11 +109,11 @@ def one_by_one_warnings(one_by_one: dict[str, int]) -> list[str]:
     return [f"{n} rows were computed one by one and not at once, which takes longer: {why}"] if n else []
 
 
-def _share(text: str) -> tuple[int, int] | None:
+def _share(text: str | None) -> tuple[int, int] | None:
     """Numbers of files out of ``A:B``."""
     from linkwright.kernel.errors import InputError
 
-    if not text:
+    if text is None:
         return None
     first, _, last = text.partition(":")
     if not (first.isdecimal() and last.isdecimal() and len(text) < 20):
@@ -127,9 +127,11 @@ def _answer(machine: Machine, swept: Sweep, units: dict[str, str]) -> Answer:
 
     solved = swept.n_done - swept.n_failed
     missing = swept.n_rows - swept.n_done
-    warnings = [f"{name} was truncated and is computed again." for name in swept.repaired]
+    warnings = [f"{name} was truncated or damaged, and is computed again." for name in swept.repaired]
     warnings += one_by_one_warnings(swept.one_by_one)
-    warnings += [f"{name} is truncated; the same sweep computes it again." for name in swept.truncated]
+    warnings += [
+        f"{name} is truncated or damaged; the same sweep computes it again." for name in swept.truncated
+    ]
     if missing:
         warnings.append(f"{missing} rows of {swept.n_rows} are not computed yet.")
     return Answer(
