@@ -209,6 +209,9 @@ def test_the_command(tmp_path: Path) -> None:
     vary = [word for name in names for word in ("--vary", name)]
     record = ["--record", str(tmp_path / "record.csv"), "--motion", "coast", "--json"]
     words = ["fit", str(tmp_path / "disc.toml"), *vary, *record, "--out", str(tmp_path / "out")]
+    twice = CliRunner().invoke(application(), [*words, "--vary", "loads.dry.torque=1:2"])
+    assert twice.exit_code == 2
+    assert "found loads.dry.torque twice" in twice.output
     result = CliRunner().invoke(application(), words)
     assert result.exit_code == 0, result.output
     told = json.loads(result.stdout)["results"]["fit"]

@@ -58,6 +58,17 @@ def test_a_limit_that_is_active(tmp_path: Path) -> None:
     assert "y is at its maximum" in found.active[0]
 
 
+def test_tables_among_choices_are_shown_as_in_a_file(tmp_path: Path) -> None:
+    text = TEXT.replace('"mechanism.cranks.A1.radius"', '"mechanism.cranks.A1"')
+    text = text.replace('range = ["0.1 m", "0.3 m"]', "values = [{ radius = 0.1 }, { radius = 0.2 }]")
+    (tmp_path / "study.toml").write_text(text.replace("A1.phase", "A2.phase"))
+    told = CliRunner().invoke(
+        application(), ["optimise", str(tmp_path / "study.toml"), "--evaluations", "20"]
+    )
+    assert "radius = 0.1" in told.stdout
+    assert "{" not in told.stdout
+
+
 def test_a_goal_that_nothing_changes_is_told(tmp_path: Path) -> None:
     text = TEXT.replace("[goals]\nfar", 'fixed = { entry = "drive.gearbox.ratio" }\n[goals]\nfixed')
     found = optimum(tmp_path, text, 100)

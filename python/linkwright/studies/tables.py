@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from linkwright.kernel.page.numbers import measured, number
@@ -83,28 +84,25 @@ def optimum_tables(optimum: Optimum, units: dict[str, str]) -> list[Table]:
     """The best machine, and the best of each combination of choices."""
     rows: list[Row] = []
     for name, value in (*optimum.variables.items(), *optimum.responses.items()):
-        is_number = isinstance(value, float)
-        rows.append((name, "", measured(value, units[name]) if is_number else str(value)))
+        rows.append((name, "", _cell(value, units[name])))
     tables = [Table("optimum", f"Best by {optimum.goal}", ("name", "", "value"), rows)]
     if optimum.tried:
         names = [name for name in optimum.tried[0] if name != "refused"]
-
-        def cell(name: str, value: Any) -> str:
-            if value is None or isinstance(value, float):
-                return measured(value, units.get(name, ""))
-            return str(value)
-
-        listed: list[Row] = [
-            (
-                cell(names[0], one[names[0]]),
-                "",
-                *(cell(name, one[name]) for name in names[1:]),
-                one["refused"] or "",
-            )
-            for one in optimum.tried
-        ]
+        listed: list[Row] = []
+        for one in optimum.tried:
+            first, *others = (_cell(one[name], units.get(name, "")) for name in names)
+            listed.append((first, "", *others, one["refused"] or ""))
         tables.append(Table("tried", "Choices", (names[0], "", *names[1:], "nearest"), listed))
     return tables
+
+
+def _cell(value: Any, unit: str) -> str:
+    """A number with its unit, a text, or a table of them as it stands in a machine file."""
+    if value is None or isinstance(value, float):
+        return measured(value, unit)
+    if isinstance(value, Mapping):
+        return ", ".join(f"{key} = {_cell(entry, '')}" for key, entry in value.items())
+    return str(value)
 
 
 def front_tables(front: Front, units: dict[str, str]) -> list[Table]:
@@ -114,10 +112,7 @@ def front_tables(front: Front, units: dict[str, str]) -> list[Table]:
     rows: list[Row] = []
     for nth, machine in enumerate(front.machines, start=1):
         values = {**machine.variables, **machine.responses}
-        shown = [
-            measured(values[name], units[name]) if isinstance(values[name], float) else str(values[name])
-            for name in names
-        ]
+        shown = [_cell(values[name], units[name]) for name in names]
         rows.append((str(nth), "", *shown, "; ".join(machine.active) or "–"))
     return [
         Table("front", "Machines of which none is better in both goals", ("", "", *names, "active"), rows)

@@ -95,9 +95,13 @@ def _plan(
 
     if vary:
         machine = read(file, changes, allow_outside=allow_outside)
-        return new_study(
-            machine, {"variables": dict(map(_variable, vary)), "fit": {"motion": motion or "run_down"}}
-        )
+        variables: dict[str, Any] = {}
+        for text in vary:
+            name, variable = _variable(text)
+            if name in variables:
+                raise InputError(f"--vary: found {variable['address']} twice, expected each entry once")
+            variables[name] = variable
+        return new_study(machine, {"variables": variables, "fit": {"motion": motion or "run_down"}})
     changes = [*changes, f"study.fit.motion={motion}"] if motion else changes
     plan = read_study(file, changes, allow_outside=allow_outside)
     if plan.study.fit is None:
