@@ -10,7 +10,9 @@ from tests.cli.test_answer import CASES, NEVER, call, known
 from tests.report.test_language import UKRAINIAN, Watched
 
 from linkwright.app.commands.report import _content
+from linkwright.drive.batch import FAST_STARTS, STATUS
 from linkwright.kernel.page.language import in_language
+from linkwright.studies.rows import NO_NUMBER, OPEN
 
 __all__ = ["known"]
 
@@ -58,3 +60,9 @@ def test_a_command(name: str, kind: str, known: dict[str, str]) -> None:
     words = getattr(CASES[name], kind)
     if words != NEVER:
         assert not _english(call(name, words, known))
+
+
+@pytest.mark.parametrize("text", [*list(STATUS.values())[1:], *FAST_STARTS.values(), OPEN, NO_NUMBER])
+def test_what_becomes_of_a_row_of_a_study(text: str) -> None:
+    said = UKRAINIAN(f"3 rows: {text}").replace("(linkwright transient)", "")
+    assert not _WORD.findall(_NO_WORDS.sub(" ", said)), said

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright.drive import evenness
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.sound_loads import require_same_turns
+from linkwright.drive.steady_state import START_WORDS, SteadyState
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError, MachineError, Problem, ShapeError
 from linkwright.kernel.public import public
@@ -46,10 +47,22 @@ COLUMNS = (
 # What each status means.
 STATUS = SENTENCES
 
+# What each number of `SteadyStates.fast_starts` means; fast starts settle where it is 0.
+_OUTCOMES = ("runs away", "undecided")
+FAST_STARTS = {
+    number: START_WORDS[outcome].format("fast starts") for number, outcome in enumerate(_OUTCOMES, 1)
+}
+
+
+def fast_starts(steady: SteadyState) -> int:
+    """What becomes of starts faster than a steady motion, as a key of `FAST_STARTS`, or 0."""
+    above = {limit.outcome for limit in steady.start_limits if limit.side == "above"}
+    return max((_OUTCOMES.index(outcome) + 1 for outcome in above), default=0)
+
 
 _FAST_STARTS = (
     "0, or 1 where the machine runs away from fast starts and reaches the motion from slower ones, 2 where "
-    "that was not decided; `steady_state` tells the speeds."
+    "that was not decided, as `linkwright.drive.batch.FAST_STARTS` says; `steady_state` tells the speeds."
 )
 _STATUS_WORDS = "0 where solved; else a key of `linkwright.drive.batch.STATUS`."
 

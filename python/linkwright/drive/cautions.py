@@ -13,7 +13,7 @@ from linkwright.drive.model.catalogue import KNOWN, OVERLOAD, estimated_inertia
 from linkwright.drive.model.drive import Drive
 from linkwright.drive.model.motor import ConstantSpeedMotor, DcMotor, InductionMotor
 from linkwright.drive.reduction import Reduction
-from linkwright.drive.steady_state import SteadyState
+from linkwright.drive.steady_state import START_WORDS, SteadyState
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 from linkwright.machine.program.drive_line import reverse_factor
@@ -206,17 +206,7 @@ def _others(steady: SteadyState) -> Iterator[str]:
 def _start_limits(steady: SteadyState) -> Iterator[str]:
     """Starts that do not settle, or of which that is not known."""
     for limit in steady.start_limits:
-        starts = f"speeds {limit.side} {limit.speed:.4g} rad/s at φ = 0°"
-        if limit.outcome == "runs away":
-            yield (
-                f"From {starts} the machine runs away: the drive gives more than the loads take, however "
-                "fast it turns; it reaches the steady motion from slower starts."
-            )
-        else:
-            yield (
-                f"What the machine does from {starts} was not decided: the search for other steady motions "
-                "ended before; follow it in time (linkwright transient)."
-            )
+        yield START_WORDS[limit.outcome].format(f"speeds {limit.side} {limit.speed:.4g} rad/s at φ = 0°")
 
 
 def _design_speed(drive: Drive, steady: SteadyState) -> Iterator[str]:

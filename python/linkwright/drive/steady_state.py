@@ -99,6 +99,14 @@ class StartLimit(NamedTuple):
     speed: float
 
 
+# What is said of such starts, by their outcome.
+START_WORDS = {
+    "runs away": "From {} the machine runs away: the drive gives more than the loads take, however fast it "
+    "turns; it reaches the steady motion from slower starts.",
+    "undecided": "What the machine does from {} was not decided: the search for other steady motions ended "
+    "before; follow it in time (linkwright transient).",
+}
+
 _MULTIPLIER = (
     "Share of a small disturbance of the speed left after one cycle; the motion is stable if it is "
     "below 1 in magnitude."

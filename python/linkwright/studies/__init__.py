@@ -9,6 +9,7 @@
 | `iso286` | Limit deviations of sizes by classes such as H7 |
 | `sampling` | Rows as shares: grid, Sobol, Latin hypercube, random |
 | `responses` | What is asked: analyses, and one number of each result |
+| `rows` | Rows of a study: numbers, why rows fail, what becomes of fast starts |
 | `engine` | Responses of many machines, in batches or one by one |
 | `parquet` | Rows as Parquet files |
 | `folder` | The folder of a sweep |

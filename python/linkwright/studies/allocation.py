@@ -34,9 +34,10 @@ from linkwright.kernel.result import Result
 from linkwright.machine.address import get
 from linkwright.studies import sampling
 from linkwright.studies.axes import Axis
-from linkwright.studies.engine import OneByOne, evaluate
+from linkwright.studies.engine import evaluate
 from linkwright.studies.local import limits
 from linkwright.studies.plan import StudyPlan
+from linkwright.studies.rows import FastStarts, OneByOne
 from linkwright.studies.slopes import slopes
 from linkwright.studies.tolerance import yield_of
 
@@ -69,11 +70,12 @@ class Allocation(Result):
     share_before: Annotated[float, Label("yield of the tolerances of the study", "", "")]
     active: Annotated[tuple[str, ...], About("Limits that hold the tolerances down.")]
     n_rows: Annotated[int, Label("machines drawn for each yield", "", "")]
+    fast_starts: FastStarts
     one_by_one: OneByOne = field(default_factory=dict)
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Numbers and tables by name, ready for JSON; `curves` is without effect."""
-        names = ("tolerances", "factors", "one_by_one")
+        names = ("tolerances", "factors", "fast_starts", "one_by_one")
         return {**super().to_dict(), **{name: dict(getattr(self, name)) for name in names}}
 
 
@@ -129,7 +131,7 @@ def allocate(
         wider = replace(plan, axes=tuple(map(_widened, plan.axes, factors)))
         drawn = evaluate(plan, wider.values(shares))
         alone.update(drawn.one_by_one)
-        return yield_of(plan, drawn, 0.95)
+        return yield_of(plan, drawn, 0.95) | {"fast_starts": drawn.not_settling()}
 
     low, high = _FEWEST, _MOST
     tightest = problem.factors(high)
@@ -157,6 +159,7 @@ def allocate(
         share_before=before["share_within"],
         active=problem.active(factors, high),
         n_rows=rows,
+        fast_starts=after["fast_starts"],
         one_by_one=dict(alone.most_common()),
     )
 

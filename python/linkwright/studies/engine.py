@@ -1,99 +1,30 @@
 """Responses of many machines: those that the core computes in lanes and threads at once, others one by one.
 
-A row that fails keeps its reason and is NaN: 1 where the machine cannot do it, 2 where there is no such
-machine. Branches and starts of a batch are those of its first machine (`linkwright.drive.batch`): the machine
+Branches and starts of a batch are those of its first machine (`linkwright.drive.batch`): the machine
 of the study stands in front of every batch, so that they are the same however rows are divided.
 """
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
-from typing import Annotated, Any
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from linkwright.drive.batch import STATUS, steady_states
-from linkwright.kernel.arrays import Floats, Indices, Integers
+from linkwright.drive.batch import STATUS, fast_starts, steady_states
+from linkwright.kernel.arrays import Floats, Indices
 from linkwright.kernel.description.formula import NUMBERS
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.numerics.formula_value import value
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import rows as rows_of_numbers
-from linkwright.kernel.quantities import About
 from linkwright.linkages.kinematics import motions
 from linkwright.machine.address import get, outside, replace
 from linkwright.machine.machine import Machine
 from linkwright.studies.axes import require_places, variant
 from linkwright.studies.plan import Formula, StudyPlan
 from linkwright.studies.responses import ENTRY, MOTION, SAMPLES, StudyResponse, analysis, entry_number, taken
-
-# Status of a row.
-SOLVED, FAILED, IMPOSSIBLE = 0, 1, 2
-
-# What a result says of rows that took longer than they do as a rule.
-OneByOne = Annotated[
-    dict[str, int],
-    About("Why rows were computed one by one that are computed at once as a rule → how many."),
-]
-
-# What a row without a finite number says.
-_NO_NUMBER = "{} is no finite number"
-
-
-@dataclass
-class Rows:
-    """Rows of a study; arrays (n,).
-
-    Attributes
-    ----------
-    columns : dict of str to ndarray
-        Variables, derived numbers and responses in SI; responses of a row that fails are NaN.
-    status : ndarray of uint8
-        0 solved, 1 the machine cannot do it, 2 no such machine.
-    reason : ndarray of int32
-        Place of its sentence in ``reasons``; 0 where solved.
-    reasons : list of str
-        Sentences; the first is empty.
-    one_by_one : Counter of str
-        Why rows were computed one by one that are computed at once as a rule → how many.
-    """
-
-    columns: dict[str, Floats]
-    status: NDArray[np.uint8]
-    reason: Integers
-    reasons: list[str]
-    one_by_one: Counter[str] = field(default_factory=Counter)
-
-    def __len__(self) -> int:
-        return len(self.status)
-
-    def fail(self, rows: Any, status: int, text: str) -> None:
-        """Let rows fail that have not failed yet."""
-        which = np.zeros(len(self.status), dtype=bool)
-        which[rows] = True
-        which &= self.status == SOLVED
-        if not which.any():
-            return
-        if text not in self.reasons:
-            self.reasons.append(text)
-        self.status[which] = status
-        self.reason[which] = self.reasons.index(text)
-
-    def why(self, row: int) -> str:
-        """Why a row failed; empty if it did not."""
-        return self.reasons[int(self.reason[row])]
-
-    def failures(self) -> Counter[str]:
-        """How many rows failed for each reason."""
-        return Counter(self.reasons[place] for place in self.reason[self.status != SOLVED])
-
-    def require_solved(self, place: Callable[[int], str]) -> None:
-        """Raise a `FindingError` if a row failed, with the place of the first one in words."""
-        for row in np.flatnonzero(self.status != SOLVED)[:1].tolist():
-            raise FindingError(f"the machine {place(row)} has no answer: {self.why(row)}")
+from linkwright.studies.rows import FAILED, IMPOSSIBLE, NO_NUMBER, OPEN, SOLVED, Rows
 
 
 @public
@@ -119,7 +50,7 @@ def evaluate(plan: StudyPlan, variables: Mapping[str, Floats]) -> Rows:
     """
     columns = _columns(plan, variables)
     n = len(next(iter(columns.values())))
-    rows = Rows(columns, np.zeros(n, np.uint8), np.zeros(n, np.int32), [""])
+    rows = Rows(columns, np.zeros(n, np.uint8), np.zeros(n, np.int32), [""], np.zeros(n, np.uint8))
     _add_formulas(rows, plan.derived, IMPOSSIBLE)
     for asked in plan.asked:
         columns[asked.name] = np.full(n, np.nan)
@@ -132,6 +63,7 @@ def evaluate(plan: StudyPlan, variables: Mapping[str, Floats]) -> Rows:
     failed = rows.status != SOLVED
     for name in plan.responses:
         columns[name][failed] = np.nan
+    rows.fast_starts[failed] = 0
     rows.columns = {name: columns[name] for name in plan.columns}
     return rows
 
@@ -236,6 +168,7 @@ def _steady(
     """Steady motion of all rows at once."""
     states = steady_states(machine, _with_first(machine, entries))
     status = states.status[1:]
+    rows.fast_starts[members] = states.fast_starts[1:]
     for asked in wanted:
         rows.columns[asked.name][members] = getattr(states, asked.quantity)[1:]
     for code in np.unique(status[status != 0]):
@@ -258,7 +191,7 @@ def _motion(
         values = taken(table, asked.extreme) if asked.extreme else table[:, 0]
         rows.columns[asked.name][members] = values
         open_rows = members[~np.isfinite(values)]
-        rows.fail(open_rows, FAILED, "The links do not close at every required crank angle.")
+        rows.fail(open_rows, FAILED, OPEN)
 
 
 def _entry_numbers(
@@ -288,8 +221,11 @@ def _one_by_one(
             continue
         try:
             own = sound_variant(machine, {address: float(c[nth]) for address, c in entries.items()})
-            for asked, number in zip(wanted, numbers(own, wanted), strict=True):
+            results: Results = {}
+            for asked, number in zip(wanted, numbers(own, wanted, results), strict=True):
                 rows.columns[asked.name][row] = number
+            if STEADY in results:
+                rows.fast_starts[row] = fast_starts(results[STEADY])
         except FindingError as error:
             rows.fail(row, FAILED, _sentence(error))
         except InputError as error:
@@ -302,13 +238,18 @@ def sound_variant(machine: Machine, entries: Mapping[str, float]) -> Machine:
     return Machine.model_validate(changed.model_dump(by_alias=True, exclude_unset=True))
 
 
-def numbers(machine: Machine, wanted: list[StudyResponse]) -> list[float]:
-    """Responses of one machine; an analysis is made once for all that share it.
+# Results of analyses by `StudyResponse.key`, and the key of the steady motion.
+Results = dict[tuple[str, tuple[str, ...]], Any]
+STEADY = ("steady_state", ())
+
+
+def numbers(machine: Machine, wanted: list[StudyResponse], results: Results | None = None) -> list[float]:
+    """Responses of one machine; an analysis is made once for all that share it, and kept in `results`.
 
     Raises `FindingError` if the machine cannot do it, `InputError` if an analysis needs what it does not
     have.
     """
-    results: dict[Any, Any] = {}
+    results = {} if results is None else results
     answers = []
     for asked in wanted:
         if asked.analysis == MOTION:
@@ -342,13 +283,13 @@ def _add_formulas(rows: Rows, formulas: tuple[Formula, ...], status: int) -> Non
             values = value(formula.tree, {**NUMBERS, **rows.columns})
         column = np.array(np.broadcast_to(np.asarray(values, dtype=float), (n,)))
         rows.columns[formula.name] = column
-        rows.fail(~np.isfinite(column), status, _NO_NUMBER.format(formula.name))
+        rows.fail(~np.isfinite(column), status, NO_NUMBER.format(formula.name))
 
 
 def _require_finite(rows: Rows, plan: StudyPlan) -> None:
     """Let rows fail whose response is no number: NaN is never an answer."""
     for asked in plan.asked:
-        rows.fail(~np.isfinite(rows.columns[asked.name]), FAILED, _NO_NUMBER.format(asked.name))
+        rows.fail(~np.isfinite(rows.columns[asked.name]), FAILED, NO_NUMBER.format(asked.name))
 
 
 def _sentence(error: Exception) -> str:

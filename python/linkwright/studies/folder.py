@@ -25,10 +25,10 @@ from linkwright.kernel.files.output import unwritable, write_file
 from linkwright.kernel.files.text_file import TextError, require_no_pipe
 from linkwright.machine.read import loads
 from linkwright.machine.write import dumps
-from linkwright.studies.engine import Rows
 from linkwright.studies.model import StudyFile
 from linkwright.studies.parquet import encoded, is_whole, require_pyarrow
 from linkwright.studies.plan import StudyPlan, plan
+from linkwright.studies.rows import Rows
 
 MANIFEST = "_study.json"
 

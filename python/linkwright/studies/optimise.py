@@ -36,9 +36,10 @@ from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.studies import sampling
 from linkwright.studies.axes import Axis, variant
-from linkwright.studies.engine import SOLVED, OneByOne, Rows, evaluate, sound_variant
+from linkwright.studies.engine import evaluate, sound_variant
 from linkwright.studies.local import Descent, Price, prices
 from linkwright.studies.plan import StudyPlan
+from linkwright.studies.rows import SOLVED, OneByOne, Rows
 from linkwright.studies.search_log import SearchLog
 
 Method = Literal["both", "global", "gradient"]
@@ -83,6 +84,9 @@ class Optimum(Result):
     n_evaluations: Annotated[int, Label("machines that were computed", "", "")]
     n_failed: Annotated[int, Label("machines without a result", "", "")]
     reasons: Annotated[dict[str, int], About("Why machines had no answer → how many.")]
+    fast_starts: Annotated[
+        str, About("What becomes of fast starts of the best machine that do not settle; empty if they do.")
+    ]
     one_by_one: OneByOne = field(default_factory=dict)
     goal_range: Annotated[
         tuple[float, float], About("Minimum and maximum of the goal among machines with an answer [SI].")
@@ -335,6 +339,7 @@ class _Search:
             n_evaluations=self.count,
             n_failed=sum(self.reasons.values()),
             reasons=dict(self.reasons),
+            fast_starts=next(iter(rows.not_settling()), ""),
             one_by_one=dict(self.alone.most_common()),
             goal_range=(self.low, self.high),
         )

@@ -13,7 +13,7 @@ import numpy as np
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.files.text_file import TextError, require_no_pipe
-from linkwright.studies.engine import Rows
+from linkwright.studies.rows import Rows
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -49,6 +49,7 @@ def encoded(rows: Rows, start: int, units: Mapping[str, str], about: bytes) -> b
         **{name: pa.array(column) for name, column in rows.columns.items()},
         "status": pa.array(rows.status),
         "reason": pa.DictionaryArray.from_arrays(reasons, pa.array(rows.reasons, pa.string())),
+        "fast_starts": pa.array(rows.fast_starts),
     }
     fields = [
         pa.field(name, column.type, metadata={"unit": units[name]} if units.get(name) else None)
@@ -63,7 +64,7 @@ def encoded(rows: Rows, start: int, units: Mapping[str, str], about: bytes) -> b
         table,
         out,
         compression="none",
-        use_dictionary=["reason"],
+        use_dictionary=["status", "reason", "fast_starts"],
         write_statistics=True,
         write_page_checksum=True,
     )

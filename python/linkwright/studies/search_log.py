@@ -24,8 +24,9 @@ from linkwright.kernel.errors import InputError
 from linkwright.kernel.files.output import unwritable
 from linkwright.machine.machine import Machine
 from linkwright.machine.write import dumps
-from linkwright.studies.engine import Rows, evaluate
+from linkwright.studies.engine import evaluate
 from linkwright.studies.plan import StudyPlan
+from linkwright.studies.rows import Rows
 from linkwright.studies.slopes import Slopes, slopes
 
 
@@ -76,12 +77,15 @@ class SearchLog:
             rows = evaluate(plan, values)
             columns = {name: column.tolist() for name, column in rows.columns.items()}
             rest = {"status": rows.status.tolist(), "reason": rows.reason.tolist(), "reasons": rows.reasons}
-            return {"columns": columns, **rest, "one_by_one": rows.one_by_one}
+            rest |= {"fast_starts": rows.fast_starts.tolist(), "one_by_one": rows.one_by_one}
+            return {"columns": columns, **rest}
 
         line = self._line(self._digest(plan, "rows", asked), computed)
         columns = {name: np.array(column, dtype=float) for name, column in line["columns"].items()}
         status, reason = np.array(line["status"], np.uint8), np.array(line["reason"], np.int32)
-        return Rows(columns, status, reason, list(line["reasons"]), Counter(line.get("one_by_one", {})))
+        fast_starts = np.array(line["fast_starts"], np.uint8)
+        alone = Counter(line["one_by_one"])
+        return Rows(columns, status, reason, list(line["reasons"]), fast_starts, alone)
 
     def slopes(self, plan: StudyPlan, at: Floats, steps: Floats) -> Slopes:
         """Responses with derivatives, as `slopes.slopes`."""

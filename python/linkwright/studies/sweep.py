@@ -20,10 +20,11 @@ from linkwright.kernel.errors import FindingError, InputError, InternalError
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-from linkwright.studies.engine import SOLVED, OneByOne, evaluate, numbers
+from linkwright.studies.engine import evaluate, numbers
 from linkwright.studies.folder import SweepFolder, new_folder
 from linkwright.studies.parquet import columns_of, one_by_one
 from linkwright.studies.plan import StudyPlan
+from linkwright.studies.rows import SOLVED, FastStarts, OneByOne, counted_fast_starts
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -42,6 +43,7 @@ class Sweep(Result):
         dict[str, dict[str, float]],
         About("Response → its minimum and maximum [SI], and the rows that have them."),
     ]
+    fast_starts: FastStarts
     repaired: Annotated[tuple[str, ...], About("Truncated files that were computed again.")] = ()
     truncated: Annotated[tuple[str, ...], About("Truncated files, whose rows are not computed yet.")] = ()
     one_by_one: OneByOne = field(default_factory=dict)
@@ -75,8 +77,8 @@ class Sweep(Result):
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Counts, reasons and extremes by name, ready for JSON; no `curves`: rows are in the folder."""
-        tables = {"reasons": self.reasons, "extremes": self.extremes, "one_by_one": self.one_by_one}
-        return {**super().to_dict(), **tables}
+        names = ("reasons", "extremes", "fast_starts", "one_by_one")
+        return {**super().to_dict(), **{name: getattr(self, name) for name in names}}
 
 
 @public
@@ -218,6 +220,7 @@ def summary(folder: SweepFolder, responses: Iterable[str], repaired: tuple[str, 
     """What is in a folder: counts, reasons, extremes."""
     names = list(responses)
     n_done, reasons, alone, truncated = 0, Counter[str](), Counter[str](), []
+    unsettled = Counter[str]()
     lows: dict[str, tuple[float, int]] = {}
     highs: dict[str, tuple[float, int]] = {}
     for number in range(folder.n_parts):
@@ -225,10 +228,11 @@ def summary(folder: SweepFolder, responses: Iterable[str], repaired: tuple[str, 
         if not folder.is_done(number):
             truncated += [path.name] if path.exists() else []
             continue
-        columns = columns_of(path, ["row", *names, "status", "reason"])
+        columns = columns_of(path, ["row", *names, "status", "reason", "fast_starts"])
         solved = columns["status"] == SOLVED
         n_done += len(solved)
         alone.update(one_by_one(path))
+        unsettled.update(counted_fast_starts(columns["fast_starts"]))
         reasons.update(columns["reason"][~solved])
         if solved.any():
             for name in names:
@@ -249,6 +253,7 @@ def summary(folder: SweepFolder, responses: Iterable[str], repaired: tuple[str, 
         n_failed=sum(reasons.values()),
         reasons=dict(reasons.most_common()),
         extremes=extremes,
+        fast_starts=dict(unsettled),
         repaired=repaired,
         truncated=tuple(truncated),
         one_by_one=dict(alone.most_common()),

@@ -34,8 +34,9 @@ from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.studies import sampling
 from linkwright.studies.axes import Axis
-from linkwright.studies.engine import SOLVED, OneByOne, Rows, evaluate
+from linkwright.studies.engine import evaluate
 from linkwright.studies.plan import StudyPlan
+from linkwright.studies.rows import SOLVED, FastStarts, OneByOne, Rows
 from linkwright.studies.slopes import slopes
 
 # Share of a standard deviation to both sides over which derivatives are taken: large against the accuracy of
@@ -84,11 +85,12 @@ class Tolerance(Result):
     share_low: Annotated[float | None, Label("lower end of the yield", "", "", "Of its interval.")]
     share_high: Annotated[float | None, Label("upper end of the yield", "", "", "Of its interval.")]
     level: Annotated[float, Label("probability that the interval holds the truth", "", "")]
+    fast_starts: FastStarts
     one_by_one: OneByOne = field(default_factory=dict)
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Numbers and tables by name, ready for JSON; `curves` is without effect."""
-        names = ("responses", "contributions", "slopes", "indices", "ties", "one_by_one")
+        names = ("responses", "contributions", "slopes", "indices", "ties", "fast_starts", "one_by_one")
         return {**super().to_dict(), **{name: getattr(self, name) for name in names}}
 
 
@@ -164,6 +166,7 @@ def tolerance(
         n_dropped=n_dropped,
         **yield_of(plan, drawn, level),
         level=level,
+        fast_starts=drawn.not_settling(),
         one_by_one=dict((drawn.one_by_one + alone).most_common()),
     )
 

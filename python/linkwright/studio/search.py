@@ -15,6 +15,7 @@ from linkwright.studies.engine import evaluate
 from linkwright.studies.model import StudyFile
 from linkwright.studies.optimise import optimise
 from linkwright.studies.plan import StudyPlan, plan
+from linkwright.studies.rows import fast_start_warnings
 from linkwright.studio.document import short
 
 Body = dict[str, Any]
@@ -34,8 +35,9 @@ def search(machine: Machine, asked: Body, tell: Tell) -> Body:
     ``low`` and ``high`` [SI]; of a sweep, ``steps`` of each entry; of an optimisation ``direction``,
     ``"minimise"`` or ``"maximise"``, and ``machines``.
 
-    Returns all of it: of a sweep ``axes`` and ``values``, NaN as gaps, with ``reasons`` of rows that fail; of
-    an optimisation ``entries``, address → value, ``value``, and how the search went on.
+    Returns all of it: of a sweep ``axes`` and ``values``, NaN as gaps; of an optimisation ``entries``,
+    address → value, ``value``, and how the search went on; ``warnings`` say which rows fail, or run away from
+    fast starts.
     """
     run = {"sweep": _sweep, "optimise": _optimise}.get(str(asked.get("kind")))
     if run is None:
@@ -64,7 +66,7 @@ def _sweep(machine: Machine, asked: Body, tell: Tell) -> Body:
         raise InputError(f"steps: expected 2 to {most} of each of at most two entries")
     study = _plan(machine, asked)
     values = np.full(study.n_rows, np.nan)
-    reasons: Counter[str] = Counter()
+    reasons, fast_starts = Counter[str](), Counter[str]()
     axes = [
         {"address": entry["address"], "values": np.linspace(entry["low"], entry["high"], int(entry["steps"]))}
         for entry in entries
@@ -72,7 +74,9 @@ def _sweep(machine: Machine, asked: Body, tell: Tell) -> Body:
     done = 0
     while True:
         sweep = {"of": "search", "kind": "sweep", "response": asked["response"], "axes": axes}
-        sweep |= {"values": values, "done": done, "rows": len(values), "reasons": dict(reasons)}
+        warnings = [f"{n} without an answer: {why}" for why, n in reasons.items()]
+        warnings += fast_start_warnings(fast_starts)
+        sweep |= {"values": values, "done": done, "rows": len(values), "warnings": warnings}
         if done == len(values):
             return sweep
         tell(sweep)
@@ -80,6 +84,7 @@ def _sweep(machine: Machine, asked: Body, tell: Tell) -> Body:
         rows = evaluate(study, study.rows(done, end))
         values[done:end] = rows.columns["y"]
         reasons.update(rows.failures())
+        fast_starts.update(rows.not_settling())
         done = end
 
 
@@ -107,4 +112,5 @@ def _optimise(machine: Machine, asked: Body, tell: Tell) -> Body:
 
     optimum = optimise(study, machines, watch=watch)
     best = {name: float(value) for name, value in optimum.variables.items()}
-    return body(best, optimum.responses["y"], last=True, failed=optimum.n_failed)
+    warnings = [optimum.fast_starts] if optimum.fast_starts else []
+    return body(best, optimum.responses["y"], last=True, failed=optimum.n_failed, warnings=warnings)

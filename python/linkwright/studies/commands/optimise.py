@@ -93,7 +93,11 @@ def hand_over_optimum(
         machine=plan.machine.name,
         units=plan.machine.units,
         results=lambda _: {"optimum": optimum.to_dict()},
-        warnings=[*_flat_warnings(optimum), *one_by_one_warnings(optimum.one_by_one)],
+        warnings=[
+            *_flat_warnings(optimum),
+            *([optimum.fast_starts] if optimum.fast_starts else []),
+            *one_by_one_warnings(optimum.one_by_one),
+        ],
         head=lambda: _head(plan.machine.name, optimum),
         tables=lambda: optimum_tables(optimum, plan.units),
         machine_file=lambda: dumps(optimum.machine),
@@ -129,6 +133,7 @@ def _hand_over_front(
         warnings=[
             *dict.fromkeys(text for machine in best.machines for text in _flat_warnings(machine)),
             *(f"no machine has {limit}: {reason}" for limit, reason in best.failed.items()),
+            *(f"Machine {n}: {one.fast_starts}" for n, one in enumerate(best.machines, 1) if one.fast_starts),
             *one_by_one_warnings(best.one_by_one),
         ],
         head=lambda: f"{plan.machine.name}\n{best.n_evaluations} machines computed",

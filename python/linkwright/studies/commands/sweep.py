@@ -123,12 +123,13 @@ def _share(text: str | None) -> tuple[int, int] | None:
 
 def _answer(machine: Machine, swept: Sweep, units: dict[str, str]) -> Answer:
     """Counts, extremes, and what failed."""
+    from linkwright.studies.rows import fast_start_warnings
     from linkwright.studies.tables import sweep_tables
 
     solved = swept.n_done - swept.n_failed
     missing = swept.n_rows - swept.n_done
     warnings = [f"{name} was truncated or damaged, and is computed again." for name in swept.repaired]
-    warnings += one_by_one_warnings(swept.one_by_one)
+    warnings += [*fast_start_warnings(swept.fast_starts), *one_by_one_warnings(swept.one_by_one)]
     warnings += [
         f"{name} is truncated or damaged; the same sweep computes it again." for name in swept.truncated
     ]

@@ -49,6 +49,7 @@ def tolerance(
     Exit code 1 if no machine within the tolerances keeps the constraints.
     """
     from linkwright.studies.read import read_study
+    from linkwright.studies.rows import fast_start_warnings
     from linkwright.studies.tables import tolerance_tables
     from linkwright.studies.tolerance import tolerance as compute
 
@@ -70,6 +71,7 @@ def tolerance(
         warnings=[
             *([failed] if scatter.n_failed else []),
             *(f"{name} has a derivative on either side only: {why}" for name, why in scatter.ties.items()),
+            *fast_start_warnings(scatter.fast_starts),
             *one_by_one_warnings(scatter.one_by_one),
         ],
         head=lambda: _head(plan, scatter),
@@ -84,6 +86,7 @@ def _hand_over_allocation(
     """The cheapest tolerances for a yield."""
     from linkwright.kernel.errors import FindingError
     from linkwright.studies.allocation import allocate
+    from linkwright.studies.rows import fast_start_warnings
     from linkwright.studies.tables import allocation_tables
 
     try:
@@ -101,7 +104,10 @@ def _hand_over_allocation(
         machine=plan.machine.name,
         units=plan.machine.units,
         results=lambda _: {"allocation": allocation.to_dict()},
-        warnings=one_by_one_warnings(allocation.one_by_one),
+        warnings=[
+            *fast_start_warnings(allocation.fast_starts),
+            *one_by_one_warnings(allocation.one_by_one),
+        ],
         head=lambda: head,
         tables=lambda: allocation_tables(allocation, plan.units),
     )

@@ -200,7 +200,7 @@ function Found() {
     <p class="about" role="status" id="found">${state_}</p>
     ${found.kind === "sweep" ? html`<${Swept} found=${found} words=${words} />` : null}
     ${found.kind === "optimise" && found.course.machines.length ? html`<${Course} found=${found} words=${words} />` : null}
-    ${Object.entries(found.reasons ?? {}).map(([why, count]) => html`<p class="about" key=${why}>${count} without an answer: ${why}</p>`)}`;
+    ${found.warnings?.map((/** @type {string} */ text) => html`<p class="about" key=${text}>${text}</p>`)}`;
 }
 
 /** @param {{ found: any, words: Words }} props */

@@ -1,0 +1,122 @@
+"""Every study says which variants run away from fast starts, in the words of a single machine."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+import linkwright as lw
+from linkwright.app.application import application
+from linkwright.drive.batch import FAST_STARTS
+from linkwright.studies.parquet import columns_of
+
+# From 19.5 rad/s the load drives with 1 N m on average, which a dry resistance of more takes up.
+FILE = """format = 1
+name = "Crank"
+mechanism.cranks.A.radius = "1 m"
+bodies.A = { on = "A", inertia = 0.3 }
+[drive]
+motor = { kind = "table", speed = [0, 36], torque = [30, 0], inertia = 0 }
+gearbox = { ratio = 1, efficiency = 1 }
+[loads.L]
+kind = "formula"
+on = "A"
+torque = "-(15 + 7*cos(phi) - 16*where(omega > 19.5, 1, 0))"
+[loads.D]
+kind = "dry"
+on = "A"
+torque = 0.5
+"""
+
+SWEPT = """
+[study.variables.dry]
+address = "loads.D.torque"
+values = [0.2, 0.5, 0.8, 1.3, 1.6]
+"""
+RANGED = """
+[study.variables.dry]
+address = "loads.D.torque"
+range = [0.2, 0.8]
+[study.goals]
+y = "minimise"
+"""
+SCATTERS = """
+[study.variables.dry]
+address = "loads.D.torque"
+tolerance = "± 0.1 N m"
+cost = 1
+[study.constraints.y]
+max = 40
+"""
+AT_ONCE, ALONE = "steady_state.speed_max", "steady_state.torque_motor_max"
+RUNS_AWAY = FAST_STARTS[1]
+
+
+def file_of(folder: Path, study: str, response: str = AT_ONCE) -> Path:
+    path = folder / "machine.toml"
+    # The responses of a study stand in front of its variables.
+    path.write_text(f'{FILE}[study.responses]\ny = "{response}"\nz = "steady_state.period"\n{study}', "utf-8")
+    return path
+
+
+def warnings(*arguments: str) -> list[str]:
+    done = CliRunner().invoke(application(), [*arguments, "--json"])
+    assert done.exit_code == 0, done.output
+    told: list[str] = json.loads(done.stdout)["warnings"]
+    return told
+
+
+@pytest.mark.parametrize("response", [AT_ONCE, ALONE])
+def test_a_row_that_runs_away_from_fast_starts_is_told(response: str, tmp_path: Path) -> None:
+    path, folder = file_of(tmp_path, SWEPT, response), tmp_path / "rows"
+    swept = lw.sweep(lw.read_study(path), folder)
+    table = columns_of(folder / "part-000000.parquet")
+    assert table["status"].tolist() == [0] * 5
+    for dry, told in zip(table["dry"], table["fast_starts"], strict=True):
+        alone = lw.steady_state(lw.loads(FILE.replace("torque = 0.5", f"torque = {dry}")))
+        assert told == len(alone.start_limits)
+    assert table["fast_starts"].tolist() == [1, 1, 1, 0, 0]
+    assert swept.fast_starts == swept.to_dict()["fast_starts"] == {RUNS_AWAY: 3}
+    assert f"3 rows: {RUNS_AWAY}" in warnings("sweep", "show", str(folder))
+    text = CliRunner().invoke(application(), ["sweep", "show", str(folder)]).output
+    assert "runs away" in text
+
+
+def test_the_words_are_those_of_a_single_machine() -> None:
+    (alone,) = [text for text in lw.study(lw.loads(FILE)).warnings if "runs away" in text]
+    assert alone.partition(" the machine ")[2] == RUNS_AWAY.partition(" the machine ")[2]
+
+
+def test_a_row_that_fails_says_nothing_of_starts(tmp_path: Path) -> None:
+    path = file_of(tmp_path, f'{SWEPT}[study.responses.q]\nformula = "1/(dry - 0.5)"\n')
+    rows = lw.evaluate(lw.read_study(path), {"dry": np.array([0.2, 0.5, 1.3])})
+    assert rows.status.tolist() == [0, 1, 0]
+    assert rows.fast_starts.tolist() == [1, 0, 0]
+
+
+@pytest.mark.parametrize(
+    ("study", "command", "words"),
+    [
+        (SCATTERS, ("tolerance", "--rows", "100"), f"100 rows: {RUNS_AWAY}"),
+        (SCATTERS, ("tolerance", "--rows", "100", "--allocate", "0.5"), f"15 rows: {RUNS_AWAY}"),
+        (RANGED, ("optimise", "--evaluations", "20"), RUNS_AWAY),
+        (
+            f'{RANGED}z = "minimise"\n',
+            ("optimise", "--evaluations", "20", "--points", "3"),
+            f"Machine 1: {RUNS_AWAY}",
+        ),
+    ],
+)
+def test_every_study_tells_it(study: str, command: tuple[str, ...], words: str, tmp_path: Path) -> None:
+    path = file_of(tmp_path, study)
+    assert words in warnings(command[0], str(path), *command[1:])
+
+
+def test_a_search_that_goes_on_from_its_log_tells_it(tmp_path: Path) -> None:
+    plan, log = lw.read_study(file_of(tmp_path, RANGED)), tmp_path / "search.log"
+    first, second = (lw.optimise(plan, 20, log=log) for _ in range(2))
+    assert first.fast_starts == second.fast_starts == RUNS_AWAY
