@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 import re
+from collections import Counter
 from dataclasses import dataclass, fields, is_dataclass
 from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
@@ -70,6 +71,13 @@ def test_declarations_say_something_of_each(result: type) -> None:
             assert unit in ("", "–") or is_coherent(unit), (name, unit)
     for table in {mark.table for _, mark in declared(result).values() if isinstance(mark, Label)} - {""}:
         assert in_table(result, table)
+
+
+@pytest.mark.parametrize("result", DECLARED, ids=lambda each: each.__name__)
+def test_words_tell_the_quantities_of_a_result_apart(result: type) -> None:
+    """Curves and single numbers stand in different places."""
+    words = [(quantity.word, quantity.kind) for quantity in quantities_of(result)]
+    assert len(set(words)) == len(words), Counter(words).most_common(1)
 
 
 def test_docstrings_tell_what_is_declared() -> None:

@@ -59,6 +59,11 @@ def motion_coefficient(delta: V, H: V) -> V:
 DELTA = Label("coefficient of speed fluctuation", "δ", "")
 DYNAMIC_FACTOR = Label("dynamic factor", "H", "")
 K_P = Label("combined non-uniformity index", "k_p", "")
+# The same of one motion about another mean speed.
+_BY_TIME = "by the mean speed over time"
+DELTA_TIME, DYNAMIC_FACTOR_TIME, K_P_TIME = (
+    label._replace(word=f"{label.word}, {_BY_TIME}") for label in (DELTA, DYNAMIC_FACTOR, K_P)
+)
 MEAN_SPEED = Label("mean of the extreme speeds", "ω_m", "rad/s")
 
 

@@ -194,17 +194,17 @@ class SteadyState(Result, evenness.Evenness[float]):
         return 2 * np.pi * self.turns / self.period
 
     @property
-    def unevenness_time(self) -> Annotated[float, evenness.DELTA]:
+    def unevenness_time(self) -> Annotated[float, evenness.DELTA_TIME]:
         """δ with the mean over time."""
         return evenness.unevenness(self.speed_min, self.speed_max, self.speed_mean_time)
 
     @property
-    def dynamism_time(self) -> Annotated[float, evenness.DYNAMIC_FACTOR]:
+    def dynamism_time(self) -> Annotated[float, evenness.DYNAMIC_FACTOR_TIME]:
         """H with the mean over time."""
         return evenness.dynamism(self.acceleration_min, self.acceleration_max, self.speed_mean_time)
 
     @property
-    def motion_coefficient_time(self) -> Annotated[float, evenness.K_P]:
+    def motion_coefficient_time(self) -> Annotated[float, evenness.K_P_TIME]:
         """k_p with the mean over time."""
         return evenness.motion_coefficient(self.unevenness_time, self.dynamism_time)
 
