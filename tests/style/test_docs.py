@@ -7,6 +7,7 @@ import importlib.util
 import re
 import shlex
 import tomllib
+from functools import cache
 from pathlib import Path
 from types import ModuleType
 
@@ -23,7 +24,7 @@ DOCS = ROOT / "docs"
 PAGES = sorted(DOCS.rglob("*.md"))
 
 _FENCED = re.compile(r"^```(\w+)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
-_LINK = re.compile(r"\]\(([\w/.-]+\.md)(?:#[\w-]+)?\)")
+_LINK = re.compile(r"\]\(([\w/.-]+\.md)?(?:#([\w-]+))?\)")
 
 
 def blocks(page: Path, language: str) -> list[str]:
@@ -118,10 +119,38 @@ def test_units_of_the_page_are_read() -> None:
     assert [unit for unit in listed if unit != "–" and normal(unit) not in known] == []
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(DOCS)))
+def on_github(words: str) -> str:
+    """The anchor that GitHub gives a heading."""
+    return re.sub(r"[^\w\- ]", "", words.lower()).replace(" ", "-")
+
+
+def on_the_site(words: str) -> str:
+    """The anchor that the table of contents of Python-Markdown gives it."""
+    return re.sub(r"[-\s]+", "-", re.sub(r"[^\w\s-]", "", words.lower(), flags=re.ASCII).strip())
+
+
+@cache
+def anchors(page: Path) -> set[str]:
+    """The anchors of a page that lead to the same place on GitHub and on the site.
+
+    Of headings with the same words the first one, as others get numbers; and those that a page writes itself.
+    """
+    text = _FENCED.sub("", page.read_text(encoding="utf-8"))
+    heads = [
+        re.sub(r"\[(.*?)\]\(.*?\)|[`*]", r"\1", head) for head in re.findall(r"^#+ (.*)$", text, re.MULTILINE)
+    ]
+    known = {on_github(head) for head in heads if on_github(head) == on_the_site(head)}
+    return known | set(re.findall(r'<a id="([\w-]+)"></a>', text))
+
+
+@pytest.mark.parametrize(
+    "page", [*PAGES, *sorted(ROOT.glob("*.md"))], ids=lambda page: str(page.relative_to(ROOT))
+)
 def test_links_lead_somewhere(page: Path) -> None:
-    text = page.read_text(encoding="utf-8")
-    assert [link for link in _LINK.findall(text) if not (page.parent / link).is_file()] == []
+    for link, anchor in _LINK.findall(_FENCED.sub("", page.read_text(encoding="utf-8"))):
+        target = page.parent / link if link else page
+        assert target.is_file(), link
+        assert not anchor or anchor in anchors(target), f"{link}#{anchor}"
 
 
 def test_tests_that_theory_points_to_exist() -> None:
