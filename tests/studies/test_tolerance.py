@@ -6,9 +6,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 from scipy.stats import norm
 
 import linkwright as lw
+from linkwright.app.application import application
 from linkwright.kernel.errors import InputError
 from linkwright.studies.plan import StudyPlan
 
@@ -141,3 +143,31 @@ def test_joint_clearance_as_a_tolerance(tmp_path: Path) -> None:
     ):
         with pytest.raises(InputError, match=message):
             plan_of(tmp_path, text.replace("X", f'clearance = "{wrong}"'))
+
+
+def test_what_is_not_linear_is_told(tmp_path: Path) -> None:
+    """A square at its bottom scatters, and to first order does not; a sum is linear."""
+    found = lw.tolerance(plan_of(tmp_path), 2000)
+    assert found.bent == ("square",)
+    told = CliRunner().invoke(application(), ["tolerance", str(tmp_path / "study.toml"), "--rows", "2000"])
+    assert "square is not linear within the tolerances" in " ".join(told.stdout.split())
+    fixed = TEXT.replace("1e6*(a - 0.8)^2", "2 + 0*a")
+    assert lw.tolerance(plan_of(tmp_path, fixed), 2000).bent == ()
+
+
+def test_indices_of_failures(tmp_path: Path) -> None:
+    """A machine has no result where a is above its mean, whatever b is: a decides alone."""
+    found = lw.tolerance(
+        plan_of(tmp_path, TEXT.replace("1e6*(a - 0.8)^2", "1 + 0*sqrt(0.801 - a)")), indices=2000
+    )
+    share = norm.cdf(1.0)
+    # A block has two values of a, of which one in three rows stands twice.
+    assert found.n_dropped / 2000 == pytest.approx(1 - share**2, abs=4 * np.sqrt(0.25 / 2000))
+    first, total = found.failure_indices["a"]
+    assert (first, total) == pytest.approx((1.0, 1.0), abs=0.12)
+    assert found.failure_indices["b"] == pytest.approx((0.0, 0.0), abs=0.12)
+    told = CliRunner().invoke(
+        application(), ["tolerance", str(tmp_path / "study.toml"), "--rows", "500", "--indices", "200"]
+    )
+    assert "of 200 blocks are omitted" in " ".join(told.stdout.split())
+    assert "on that a has the most influence" in " ".join(told.stdout.split())

@@ -22,6 +22,7 @@ References
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Annotated, Any
 
@@ -43,6 +44,14 @@ from linkwright.studies.slopes import slopes
 # responses, and its square over six is the relative error where the third derivative counts as much as the
 # first over one deviation.
 _STEP = 0.25
+
+# By how much the deviation at random may differ from that to first order, as a share, and a band lie outside
+# of the worst case, as a share of this. The deviation of n machines scatters by 1/√(2n) if they are normal,
+# and by more with longer tails: 4/√n is beyond chance.
+_BENT, _BEYOND, _SCATTER = 0.1, 0.01, 4.0
+
+# A deviation that is a smaller share of the response may be rounding.
+_ROUNDING = 1e-8
 
 # Shares below which 99.73 % of a normal distribution lie between three deviations.
 _BAND = (0.00135, 0.99865)
@@ -76,6 +85,12 @@ class Tolerance(Result):
         dict[str, dict[str, tuple[float, float]]],
         About("Response → variable → first and total Sobol index; empty if not asked for."),
     ]
+    failure_indices: Annotated[
+        dict[str, tuple[float, float]],
+        About(
+            "Variable → first and total Sobol index of whether a machine has no result; empty if all have."
+        ),
+    ]
     n_dropped: Annotated[
         int, Label("blocks dropped from the Sobol indices", "", "", "Some row of each failed.")
     ]
@@ -88,9 +103,25 @@ class Tolerance(Result):
     fast_starts: FastStarts
     one_by_one: OneByOne = field(default_factory=dict)
 
+    @property
+    def bent(self) -> tuple[str, ...]:
+        """Responses whose scatter is not that to first order."""
+        return tuple(
+            name for name, row in self.responses.items() if _is_bent(row, self.n_rows - self.n_failed)
+        )
+
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Numbers and tables by name, ready for JSON; `curves` is without effect."""
-        names = ("responses", "contributions", "slopes", "indices", "ties", "fast_starts", "one_by_one")
+        names = (
+            "responses",
+            "contributions",
+            "slopes",
+            "indices",
+            "failure_indices",
+            "ties",
+            "fast_starts",
+            "one_by_one",
+        )
         return {**super().to_dict(), **{name: getattr(self, name) for name in names}}
 
 
@@ -141,7 +172,7 @@ def tolerance(
     )
     drawn = evaluate(plan, plan.values(sampling.random(len(plan.axes), seed, 0, rows)))
     deviations = np.array([spread[1] for spread in spreads])
-    sobol, n_dropped, alone = _indices(plan, seed, indices) if indices else ({}, 0, Counter[str]())
+    sobol = _indices(plan, seed, indices) if indices else _Indices({}, {}, 0, Counter[str]())
     names = [axis.name for axis in plan.axes]
     solved = drawn.status == SOLVED
     if solved.sum() < 2:
@@ -162,12 +193,13 @@ def tolerance(
         },
         exact=tuple(name for name in plan.responses if name in place.exact),
         ties=place.ties,
-        indices=sobol,
-        n_dropped=n_dropped,
+        indices=sobol.responses,
+        failure_indices=sobol.failures,
+        n_dropped=sobol.n_dropped,
         **yield_of(plan, drawn, level),
         level=level,
         fast_starts=drawn.not_settling(),
-        one_by_one=dict((drawn.one_by_one + alone).most_common()),
+        one_by_one=dict((drawn.one_by_one + sobol.one_by_one).most_common()),
     )
 
 
@@ -242,10 +274,18 @@ def yield_of(plan: StudyPlan, drawn: Rows, level: float) -> dict[str, float | No
     }
 
 
-def _indices(
-    plan: StudyPlan, seed: int, n: int
-) -> tuple[dict[str, dict[str, tuple[float, float]]], int, Counter[str]]:
-    """First and total Sobol indices, how many blocks were dropped, and why rows were computed one by one."""
+@dataclass(frozen=True)
+class _Indices:
+    """First and total Sobol indices by variable."""
+
+    responses: dict[str, dict[str, tuple[float, float]]]
+    failures: dict[str, tuple[float, float]]  # of whether a machine has no result; empty if all have
+    n_dropped: int  # blocks with a row without a result
+    one_by_one: Counter[str]  # why rows were computed one by one
+
+
+def _indices(plan: StudyPlan, seed: int, n: int) -> _Indices:
+    """Sobol indices of n blocks."""
     d = len(plan.axes)
     both = sampling.random(2 * d, seed + 1, 0, n)
     a, b = both[:, :d], both[:, d:]
@@ -253,18 +293,37 @@ def _indices(
     for i in range(d):
         mixed[i, :, i] = b[:, i]
     rows = evaluate(plan, plan.values(np.vstack([a, b, mixed.reshape(d * n, d)])))
-    kept = (rows.status == SOLVED).reshape(d + 2, n).all(axis=0)
-    indices: dict[str, dict[str, tuple[float, float]]] = {}
+    solved = (rows.status == SOLVED).reshape(d + 2, n)
+    kept = solved.all(axis=0)
     if kept.sum() < 2:
         raise FindingError("too few blocks of the Sobol indices have an answer in all their rows")
-    for name in plan.responses:
-        f = rows.columns[name].reshape(d + 2, n)[:, kept]
-        # A shift leaves the indices, and takes away rounding.
-        f = f - f[:2].mean()
-        variance = f[:2].var()
-        first = (f[1] * (f[2:] - f[0])).mean(axis=1) / variance if variance > 0 else np.zeros(d)
-        total = 0.5 * ((f[0] - f[2:]) ** 2).mean(axis=1) / variance if variance > 0 else np.zeros(d)
-        indices[name] = {
-            axis.name: (float(s), float(t)) for axis, s, t in zip(plan.axes, first, total, strict=True)
-        }
-    return indices, int((~kept).sum()), rows.one_by_one
+    names = [axis.name for axis in plan.axes]
+    return _Indices(
+        {name: _of_blocks(names, rows.columns[name].reshape(d + 2, n)[:, kept]) for name in plan.responses},
+        {} if solved.all() else _of_blocks(names, 1.0 - solved),
+        int((~kept).sum()),
+        rows.one_by_one,
+    )
+
+
+def _of_blocks(names: list[str], f: Floats) -> dict[str, tuple[float, float]]:
+    """First and total index of each variable; f: ndarray, shape (variables + 2, blocks)."""
+    # A shift leaves the indices, and takes away rounding.
+    f = f - f[:2].mean()
+    variance = f[:2].var()
+    if not variance > 0:
+        return dict.fromkeys(names, (0.0, 0.0))
+    first = (f[1] * (f[2:] - f[0])).mean(axis=1) / variance
+    total = 0.5 * ((f[0] - f[2:]) ** 2).mean(axis=1) / variance
+    return {name: (float(s), float(t)) for name, s, t in zip(names, first, total, strict=True)}
+
+
+def _is_bent(row: Mapping[str, float], n: int) -> bool:
+    """Whether random machines scatter otherwise than to first order."""
+    first, drawn = row["deviation_first_order"], row["deviation"]
+    if max(first, drawn) < _ROUNDING * abs(row["middle"]):
+        return False
+    if abs(drawn - first) > (_BENT + _SCATTER / np.sqrt(n)) * max(first, drawn):
+        return True
+    beyond = max(row["worst_low"] - row["band_low"], row["band_high"] - row["worst_high"])
+    return beyond > _BEYOND * (row["worst_high"] - row["worst_low"])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Annotated
 
 from linkwright.kernel.command.answer import Answer, hand_over
@@ -70,6 +71,8 @@ def tolerance(
         findings=["No machine within the tolerances keeps all limits."] if scatter.share_within == 0 else [],
         warnings=[
             *([failed] if scatter.n_failed else []),
+            *_dropped(scatter, indices),
+            *(_bent(name, scatter.responses[name], plan.units[name]) for name in scatter.bent),
             *(f"{name} has a derivative on either side only: {why}" for name, why in scatter.ties.items()),
             *fast_start_warnings(scatter.fast_starts),
             *one_by_one_warnings(scatter.one_by_one),
@@ -78,6 +81,29 @@ def tolerance(
         tables=lambda: tolerance_tables(scatter, plan.units),
     )
     hand_over(answer, json=json)
+
+
+def _dropped(scatter: Tolerance, n: int) -> list[str]:
+    """That blocks were omitted from the Sobol indices, and what decides on machines without a result."""
+    if not scatter.n_dropped:
+        return []
+    total = {name: index for name, (_, index) in scatter.failure_indices.items()}
+    most = max(total, key=total.__getitem__)
+    return [
+        f"{scatter.n_dropped} of {n} blocks are omitted from the Sobol indices, since a machine of each "
+        f"has no result; on that {most} has the most influence, with a total index of {total[most]:.3g}."
+    ]
+
+
+def _bent(name: str, row: Mapping[str, float], unit: str) -> str:
+    """That what holds to first order does not hold."""
+    from linkwright.kernel.page.numbers import measured
+
+    drawn, first = (measured(row[key], unit) for key in ("deviation", "deviation_first_order"))
+    return (
+        f"{name} is not linear within the tolerances: its standard deviation is {drawn} at random and "
+        f"{first} to first order; worst case and contributions are to first order and do not hold."
+    )
 
 
 def _hand_over_allocation(
