@@ -99,10 +99,11 @@ def _bent(name: str, row: Mapping[str, float], unit: str) -> str:
     """That what holds to first order does not hold."""
     from linkwright.kernel.page.numbers import measured
 
-    drawn, first = (measured(row[key], unit) for key in ("deviation", "deviation_first_order"))
+    shown = {key: measured(value, unit) for key, value in row.items()}
     return (
-        f"{name} is not linear within the tolerances: its standard deviation is {drawn} at random and "
-        f"{first} to first order; worst case and contributions are to first order and do not hold."
+        f"{name} is not linear within the tolerances, so that worst case and contributions, which are to first "
+        f"order, do not hold: 99.73 % of the machines lie from {shown['band_low']} to {shown['band_high']}, its "
+        f"standard deviation is {shown['deviation']}, to first order {shown['deviation_first_order']}."
     )
 
 
