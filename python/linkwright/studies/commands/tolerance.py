@@ -101,9 +101,10 @@ def _bent(name: str, row: Mapping[str, float], unit: str) -> str:
 
     shown = {key: measured(value, unit) for key, value in row.items()}
     return (
-        f"{name} is not linear within the tolerances, so that worst case and contributions, which are to first "
-        f"order, do not hold: 99.73 % of the machines lie from {shown['band_low']} to {shown['band_high']}, its "
-        f"standard deviation is {shown['deviation']}, to first order {shown['deviation_first_order']}."
+        f"{name} is not linear within the tolerances, so that worst case and contributions, which are to "
+        f"first order, do not hold: 99.73 % of the machines lie from {shown['band_low']} to "
+        f"{shown['band_high']}, its standard deviation is {shown['deviation']}, to first order "
+        f"{shown['deviation_first_order']}."
     )
 
 
