@@ -27,6 +27,7 @@ WRONG = {
     "no such analysis": (("steady_state.dynamism", "steady.dynamism"), "responses.H", 19),
     "no number to read": (('"steady_state.dynamism"', '{ entry = "drive.motor.kind" }'), "responses.H", 19),
     "no entry to read": (('"steady_state.dynamism"', '{ entry = "drive.motor.torque" }'), "responses.H", 19),
+    "a motion of nothing": (('"steady_state.dynamism"', '"motion"'), "responses.H", 19),
     "a curve": (('"steady_state.dynamism"', '"steady_state.speed"'), "responses.H", 19),
     "unknown name": (("delta^2 + H", "delta^2 + h_max"), "responses.k_p.formula", 20),
     "no formula": (("delta^2 + H", "delta^2 + + * H"), "responses.k_p.formula", 20),

@@ -237,9 +237,8 @@ def entry_number(machine: Machine, address: str) -> float:
 
 def _of_motion(machine: Machine, name: str, key: str, text: str, response: Response) -> StudyResponse:
     """A coordinate of a point."""
-    _, *place, coordinate = text.split(".")
+    point, _, coordinate = text.removeprefix(MOTION).removeprefix(".").rpartition(".")
     points = compile_machine(machine).points
-    point = ".".join(place)
     if coordinate not in ("x", "y") or point not in points:
         raise _wrong(name, key, text, "motion.POINT.x or motion.POINT.y", suggestion(point, points))
     if response.curve is None:
