@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from tests.samples.fast_starts import FILE
 
 import linkwright as lw
+from linkwright.drive.batch import FAST_STARTS
 from linkwright.kernel.errors import InputError
 from linkwright.studio.design import reach, slopes
 from linkwright.studio.search import search
@@ -69,3 +71,13 @@ def test_a_search_is_told_as_it_goes_on_and_can_be_ended(tab: Tab) -> None:
                 tab.send(ask="end search")
     assert seen[0]["value"] > 0
     assert list(seen[0]["entries"]) == [PHASE]
+
+
+def test_a_sweep_and_a_search_say_what_runs_away_from_fast_starts() -> None:
+    machine, asked = lw.loads(FILE), {"response": "steady_state.speed_max"}
+    entry = {"address": "loads.D.torque", "low": 0.2, "high": 1.4}
+    found = search(machine, {**asked, "kind": "sweep", "entries": [{**entry, "steps": 3}]}, lambda _: None)
+    assert found["warnings"] == [f"2 rows: {FAST_STARTS[1]}"]
+    asked |= {"kind": "optimise", "direction": "maximise"}
+    best = search(machine, {**asked, "machines": 20, "entries": [{**entry, "high": 0.8}]}, lambda _: None)
+    assert best["warnings"] == [FAST_STARTS[1]]
