@@ -36,6 +36,7 @@ WRONG = {
     "rows of a grid": (("chunk = 4", "rows = 4"), "sweep.rows", 26),
     "one entry twice": (('"bodies.cart2.mass"]', '"mechanism.cranks.A2.phase"]'), "mass.address", 10),
     "name twice": (("half = ", "phase = "), "derived.phase", 15),
+    "the name of a column": (("half = ", "fast_starts = "), "derived.fast_starts", 15),
     "goal of nothing": (("[sweep]", '[goals]\nnothing = "minimise"\n[sweep]'), "goals.nothing", 26),
     "no pair": (('["45 deg", "135 deg"]', '["45 deg", "90 deg", "135 deg"]'), "variables.phase.range", 6),
     "entry of a table": (

@@ -191,6 +191,7 @@ def steady_states(
         # The first machine was checked above.
         longer = np.broadcast_to(compiled.two_turns, status.shape)
         status[longer] = int(Status.TWO_TURNS)
+        motions.fast_starts[longer] = 0
         for column in columns.values():
             column[longer] = np.nan
     for name in ("energy_motor", "energy_drive", "energy_load"):

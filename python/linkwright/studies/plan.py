@@ -209,7 +209,7 @@ def _other_problems(study: StudyFile, listed: Floats | None) -> Iterable[Problem
         yield Problem("variables", "nothing", "a table for each entry that varies")
     if not study.responses and study.fit is None:
         yield Problem("responses", "nothing", 'what is asked, such as delta = "steady_state.unevenness"')
-    seen: dict[str, str] = {"row": "the number of a row", "status": "a column", "reason": "a column"}
+    seen = {"row": "the number of a row"} | dict.fromkeys(("status", "reason", "fast_starts"), "a column")
     for table in ("variables", "derived", "responses"):
         for name in getattr(study, table):
             if name in seen:
