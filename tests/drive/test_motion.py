@@ -10,6 +10,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import linkwright as lw
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import (
     AssemblyError,
     InputError,
@@ -18,7 +19,8 @@ from linkwright.kernel.errors import (
     StartError,
     SteadyStateError,
 )
-from linkwright.machine.program.compiled import compile_machine
+from linkwright.machine.program.compiled import CompiledMachine, compile_machine
+from linkwright.machine.program.core import NoSteadyMotion, SteadyMotion
 
 MACHINES = Path(__file__).parents[2] / "machines"
 
@@ -107,6 +109,19 @@ def test_a_run_up_does_not_depend_on_what_was_computed_before(name: str) -> None
         run_up = lw.run_up(machine, steady=known)
         found.append((run_up.time, run_up.turns, run_up.speed_peak))
     assert found == [found[0]] * 4
+
+
+def test_a_study_solves_its_steady_motion_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[float] = []
+
+    def solve(self: CompiledMachine, phi: Floats, accuracy: float) -> SteadyMotion | NoSteadyMotion:
+        asked.append(accuracy)
+        return steady(self, phi, accuracy)
+
+    steady = CompiledMachine.steady
+    monkeypatch.setattr(CompiledMachine, "steady", solve)
+    assert lw.study(lw.read(MACHINES / "roller_two_carts.toml")).run_up is not None
+    assert len(asked) == 1
 
 
 def test_too_weak_a_start_names_angle_and_torques(two_carts: lw.Machine) -> None:

@@ -23,8 +23,8 @@ from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.core import SteadyCurves
 
-# Relative accuracy of a step.
-_ACCURACY = 1e-9
+# Relative accuracy of a step, and of the steady motion that is approached: as in a study, which has it.
+_ACCURACY, _STEADY_ACCURACY = 1e-9, 1e-10
 
 # Steady speeds are read between angles at most so far apart [rad], and between so many where the motion
 # settles.
@@ -104,7 +104,7 @@ def accurate_run_up(machine: Machine, steady: SteadyState, accuracy: float) -> R
     """`run_up` of a machine that starts, with the relative accuracy of a step."""
     options = machine.run_up
     if not _is_dense(steady):
-        steady = steady_state(machine)
+        steady = steady_state(machine, accuracy=_STEADY_ACCURACY)
     turns = min(_FIRST_TURNS, options.turns_max)
     while True:
         motion = transient(
@@ -139,7 +139,7 @@ def accurate_run_up(machine: Machine, steady: SteadyState, accuracy: float) -> R
 def _steady_or_stall(machine: Machine) -> SteadyState:
     """The steady motion; where there is none because the machine comes to rest, a `StartError` says where."""
     try:
-        return steady_state(machine)
+        return steady_state(machine, accuracy=_STEADY_ACCURACY)
     except SteadyStateError:
         options = machine.run_up
         motion = transient(
@@ -246,7 +246,7 @@ def _settled(
     # A little beyond both ends, which rounding may leave.
     grid = first + (last - first) * np.linspace(-0.1, 1.1, _NEAR)
     cycle = 2 * np.pi * steady.turns
-    near = steady_curves(machine, accuracy, grid % cycle)
+    near = steady_curves(machine, min(accuracy, _STEADY_ACCURACY), grid % cycle)
 
     def excess(time: Floats) -> Floats:
         angle, speed = motion.at(time)
