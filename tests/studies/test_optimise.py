@@ -69,6 +69,23 @@ def test_tables_among_choices_are_shown_as_in_a_file(tmp_path: Path) -> None:
     assert "{" not in told.stdout
 
 
+@pytest.mark.parametrize("place", ["taken.toml", "nowhere/best.toml", "link.toml"])
+def test_a_file_that_cannot_be_written_is_refused_before_the_search(
+    place: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """After an hour of search the best machine would be lost."""
+    monkeypatch.setattr("linkwright.studies.optimise.searched", pytest.fail)
+    (tmp_path / "study.toml").write_text(TEXT)
+    (tmp_path / "taken.toml").write_text("mine")
+    (tmp_path / "link.toml").symlink_to(tmp_path / "taken.toml")
+    words = ["optimise", str(tmp_path / "study.toml"), "--out", str(tmp_path / place)]
+    told = CliRunner().invoke(application(), words)
+    assert told.exit_code == 2, told.output
+    assert place in told.output
+    assert (tmp_path / "taken.toml").read_text() == "mine"
+    assert {path.name for path in tmp_path.iterdir()} == {"study.toml", "taken.toml", "link.toml"}
+
+
 def test_a_goal_that_nothing_changes_is_told(tmp_path: Path) -> None:
     text = TEXT.replace("[goals]\nfar", 'fixed = { entry = "drive.gearbox.ratio" }\n[goals]\nfixed')
     found = optimum(tmp_path, text, 100)

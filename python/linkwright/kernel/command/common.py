@@ -77,6 +77,7 @@ def reports_errors(
     @wraps(command)
     def run(*args: P.args, **kwargs: P.kwargs) -> R | None:
         try:
+            _require_out(**kwargs)
             return command(*args, **kwargs)
         except LinkwrightError as error:
             if isinstance(error, FindingError):
@@ -96,6 +97,17 @@ def reports_errors(
             raise click.exceptions.Exit(EXIT_CODE) from None
 
     return run
+
+
+def _require_out(out: object = None, force: object = False, **_: object) -> None:
+    """Refuse a file of ``--out`` that cannot be written, before the command computes what belongs there."""
+    context = click.get_current_context(silent=True)
+    options = context.command.params if context else []
+    is_file = any(option.name == "out" and option.metavar == "FILE" for option in options)
+    if is_file and isinstance(out, Path):
+        from linkwright.kernel.files.output import require_place
+
+        require_place(out, replace=bool(force))
 
 
 # What a shell reports for a program that writes to a pipe which nobody reads any more: 128 + SIGPIPE.

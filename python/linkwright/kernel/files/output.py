@@ -54,13 +54,36 @@ def write_file(path: str | os.PathLike[str], content: str | bytes, *, replace: b
     """
     place = Path(path)
     try:
-        if os.path.lexists(place):
-            _require_file(place)
-            if not replace:
-                raise InputError(f"{place}: exists already; --force replaces it")
+        _require_free(place, replace=replace)
         _write_all({place: content})
     except OSError as error:
         raise unwritable(place, error) from None
+
+
+def require_place(place: Path, *, replace: bool) -> None:
+    """Refuse, before anything is computed, what `write_file` would refuse in the end."""
+    try:
+        _require_free(place, replace=replace)
+        _require_writable(place)
+    except OSError as error:
+        raise unwritable(place, error) from None
+
+
+def _require_free(place: Path, *, replace: bool) -> None:
+    """Refuse what is no plain file, and a file that is not to be replaced."""
+    if os.path.lexists(place):
+        _require_file(place)
+        if not replace:
+            raise InputError(f"{place}: exists already; --force replaces it")
+
+
+def _require_writable(place: Path) -> None:
+    """Raise the `OSError` of a folder in which no file can be made; rights alone do not tell."""
+    part = _part(place)
+    try:
+        part.touch(exist_ok=False)
+    finally:
+        _remove([part])
 
 
 @contextmanager
@@ -94,8 +117,9 @@ class OutputFolder:
         """Refuse by an `InputError` what is no folder, cannot be read, or holds files of no earlier run."""
         try:
             names = sorted(path.name for path in self.path.iterdir() if not path.name.startswith(_PART))
+            _require_writable(self.path / MARKER)
         except FileNotFoundError:
-            self._require_no_file_above()
+            self._require_place_above()
             return
         except NotADirectoryError:
             raise InputError(f"{self.path}: found a file, expected a folder for --out") from None
@@ -128,11 +152,17 @@ class OutputFolder:
             raise unwritable(self.path, error) from None
         return [self.path / name for name in contents]
 
-    def _require_no_file_above(self) -> None:
-        """A file where a folder above should be."""
+    def _require_place_above(self) -> None:
+        """Refuse a file where a folder above should be, and one in which nothing can be made."""
         above = next((parent for parent in self.path.parents if parent.exists()), None)
-        if above is not None and not above.is_dir():
+        if above is None:
+            return
+        if not above.is_dir():
             raise InputError(f"{self.path}: found a file {above}, expected a folder for --out")
+        try:
+            _require_writable(above / self.path.name)
+        except OSError as error:
+            raise unwritable(self.path, error) from None
 
     def _known(self) -> frozenset[str]:
         """Files that earlier runs wrote."""
