@@ -23,8 +23,8 @@ range = ["900 kg", "1100 kg"]
 steps = 2
 scale = "log"
 [variables.type]
-address = "drive.motor.catalogue"
-values = ["4A160S6U3", "4A180M6U3"]
+address = "drive.motor"
+values = [{ kind = "induction", catalogue = "4A160S6U3" }, { kind = "induction", catalogue = "4A180M6U3" }]
 """
 
 SCATTER = """machine = "machine.toml"
