@@ -42,7 +42,7 @@ RUNS_AWAY = FAST_STARTS[1]
 def file_of(folder: Path, study: str, response: str = AT_ONCE) -> Path:
     path = folder / "machine.toml"
     # The responses of a study stand in front of its variables.
-    path.write_text(f'{FILE}[study.responses]\ny = "{response}"\nz = "steady_state.period"\n{study}', "utf-8")
+    path.write_text(f'{FILE}[study.responses]\ny = "{response}"\n{study}', "utf-8")
     return path
 
 
@@ -53,7 +53,7 @@ def warnings(*arguments: str) -> list[str]:
     return told
 
 
-@pytest.mark.parametrize("response", [AT_ONCE, ALONE])
+@pytest.mark.parametrize("response", [AT_ONCE, ALONE, "forces.torque_drive_max"])
 def test_a_row_that_runs_away_from_fast_starts_is_told(response: str, tmp_path: Path) -> None:
     path, folder = file_of(tmp_path, SWEPT, response), tmp_path / "rows"
     swept = lw.sweep(lw.read_study(path), folder)
@@ -67,6 +67,12 @@ def test_a_row_that_runs_away_from_fast_starts_is_told(response: str, tmp_path: 
     assert f"3 rows: {RUNS_AWAY}" in warnings("sweep", "show", str(folder))
     text = CliRunner().invoke(application(), ["sweep", "show", str(folder)]).output
     assert "runs away" in text
+
+
+def test_a_response_without_steady_motion_does_not_hide_it(tmp_path: Path) -> None:
+    path = file_of(tmp_path, f'{SWEPT}[study.responses.J]\nquantity = "reduction.inertia_max"\n')
+    rows = lw.evaluate(lw.read_study(path), {"dry": np.array([0.2, 1.3])})
+    assert rows.fast_starts.tolist() == [1, 0]
 
 
 def test_the_words_are_those_of_a_single_machine() -> None:
@@ -88,7 +94,7 @@ def test_a_row_that_fails_says_nothing_of_starts(tmp_path: Path) -> None:
         (SCATTERS, ("tolerance", "--rows", "100", "--allocate", "0.5"), f"15 rows: {RUNS_AWAY}"),
         (RANGED, ("optimise", "--evaluations", "20"), RUNS_AWAY),
         (
-            f'{RANGED}z = "minimise"\n',
+            RANGED + 'z = "minimise"\n[study.responses.z]\nquantity = "steady_state.period"\n',
             ("optimise", "--evaluations", "20", "--points", "3"),
             f"Machine 1: {RUNS_AWAY}",
         ),

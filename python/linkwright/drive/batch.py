@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkwright.drive import evenness
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.sound_loads import require_same_turns
-from linkwright.drive.steady_state import START_WORDS, SteadyState
+from linkwright.drive.steady_state import START_WORDS, known_start_limits
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError, MachineError, Problem, ShapeError
 from linkwright.kernel.public import public
@@ -54,9 +54,12 @@ FAST_STARTS = {
 }
 
 
-def fast_starts(steady: SteadyState) -> int:
-    """What becomes of starts faster than a steady motion, as a key of `FAST_STARTS`, or 0."""
-    above = {limit.outcome for limit in steady.start_limits if limit.side == "above"}
+def fast_starts(machine: Machine) -> int:
+    """What becomes of starts faster than the steady motion of a machine, a key of `FAST_STARTS` or 0.
+
+    0 as well if no analysis has solved its steady motion.
+    """
+    above = [limit.outcome for limit in known_start_limits(machine) if limit.side == "above"]
     return max((_OUTCOMES.index(outcome) + 1 for outcome in above), default=0)
 
 

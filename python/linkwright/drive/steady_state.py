@@ -321,17 +321,29 @@ def solved_state(
     motion = compiled.steady(phi, accuracy)
     if isinstance(motion, NoSteadyMotion):
         raise _failure(motion, machine, compiled, accuracy)
-    compiled.kept["steady motion"] = accuracy, motion.solution
+    compile_machine(machine).kept["steady motion"] = accuracy, motion
     return _from_core(motion, phi, compiled), motion.solution
 
 
 def steady_curves(machine: Machine, accuracy: float, angles: Floats) -> SteadyState | SteadyCurves:
     """Curves of steady motion at crank angles, from the last solution if that is one to this accuracy."""
-    kept = over_whole_cycle(compile_machine(machine)).kept.get("steady motion")
-    if kept is not None and kept[0] == accuracy:
-        solution: SteadySolution = kept[1]
-        return solution.curves(angles)
+    known = _last_solved(machine)
+    if known is not None and known[0] == accuracy:
+        return known[1].solution.curves(angles)
     return solved_state(machine, accuracy, angles)[0]
+
+
+def known_start_limits(machine: Machine) -> tuple[StartLimit, ...]:
+    """Limits of starts of the steady motion that was solved last of a machine; empty if none was."""
+    known = _last_solved(machine)
+    return () if known is None else tuple(_start_limits(known[1]))
+
+
+def _last_solved(machine: Machine) -> tuple[float, SteadyMotion] | None:
+    """The last steady motion that was solved of a machine, behind the accuracy that was asked for."""
+    last: tuple[float, SteadyMotion] | None
+    last = compile_machine(machine).kept.get("steady motion")
+    return last
 
 
 def _from_core(motion: SteadyMotion, phi: Floats, compiled: CompiledMachine) -> SteadyState:

@@ -221,11 +221,11 @@ def _one_by_one(
             continue
         try:
             own = sound_variant(machine, {address: float(c[nth]) for address, c in entries.items()})
-            results: Results = {}
-            for asked, number in zip(wanted, numbers(own, wanted, results), strict=True):
+            for asked, number in zip(wanted, numbers(own, wanted), strict=True):
                 rows.columns[asked.name][row] = number
-            if STEADY in results:
-                rows.fast_starts[row] = fast_starts(results[STEADY])
+            if own.has_crank:
+                # The batch may have found them already, where no single analysis solves the steady motion.
+                rows.fast_starts[row] = max(rows.fast_starts[row], fast_starts(own))
         except FindingError as error:
             rows.fail(row, FAILED, _sentence(error))
         except InputError as error:
@@ -238,18 +238,13 @@ def sound_variant(machine: Machine, entries: Mapping[str, float]) -> Machine:
     return Machine.model_validate(changed.model_dump(by_alias=True, exclude_unset=True))
 
 
-# Results of analyses by `StudyResponse.key`, and the key of the steady motion.
-Results = dict[tuple[str, tuple[str, ...]], Any]
-STEADY = ("steady_state", ())
-
-
-def numbers(machine: Machine, wanted: list[StudyResponse], results: Results | None = None) -> list[float]:
-    """Responses of one machine; an analysis is made once for all that share it, and kept in `results`.
+def numbers(machine: Machine, wanted: list[StudyResponse]) -> list[float]:
+    """Responses of one machine; an analysis is made once for all that share it.
 
     Raises `FindingError` if the machine cannot do it, `InputError` if an analysis needs what it does not
     have.
     """
-    results = {} if results is None else results
+    results: dict[Any, Any] = {}
     answers = []
     for asked in wanted:
         if asked.analysis == MOTION:

@@ -54,8 +54,8 @@ class Rows:
     reasons : list of str
         Sentences; the first is empty.
     fast_starts : ndarray of uint8
-        Where steady motion is asked for: 1 if the machine runs away from fast starts, 2 if that was not
-        decided (`linkwright.drive.batch.FAST_STARTS`); 0 otherwise.
+        Where a response needs steady motion: 1 if the machine runs away from fast starts, 2 if that was
+        not decided (`linkwright.drive.batch.FAST_STARTS`); 0 otherwise.
     one_by_one : Counter of str
         Why rows were computed one by one that are computed at once as a rule → how many.
     """
