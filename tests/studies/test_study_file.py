@@ -16,6 +16,11 @@ Files = Callable[..., Path]
 
 WRONG = {
     "no such entry": (('"mechanism.cranks.A2.phase"', '"mechanism.cranks.A2.fase"'), "phase.address", 5),
+    "entry of a table left out": (
+        ('"mechanism.cranks.A2.phase"', '"drive.flywheel.inertia"'),
+        "phase.address",
+        5,
+    ),
     "wrong unit": (('"45 deg"', '"45 kg"'), "variables.phase.range", 6),
     "true in place of a number": (('"45 deg"', "true"), "variables.phase.range", 6),
     "a text in place of a count": (("steps = 5", 'steps = "5"'), "variables.phase.steps", 7),
@@ -101,6 +106,12 @@ def test_rows_that_are_not_there(study_file: Files) -> None:
         lw.read_study(study_file(("chunk = 4", 'method = "list"\nfile = "gone.csv"')))
     assert caught.value.problems[0].key == "sweep.file"
     assert caught.value.problems[0].found == '"gone.csv", no such file'
+
+
+def test_a_table_that_the_machine_lacks_is_named(study_file: Files) -> None:
+    """Entries of other tables are no remedy there."""
+    with pytest.raises(MachineFileError, match=r"no table \[drive\.flywheel\]; write it first"):
+        lw.read_study(study_file(('"mechanism.cranks.A2.phase"', '"drive.flywheel.inertia"')))
 
 
 def test_all_problems_are_told_at_once(study_file: Files) -> None:

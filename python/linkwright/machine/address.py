@@ -172,9 +172,15 @@ def known_place(machine: Machine, address: str) -> tuple[str, ...]:
 def _found_place(machine: Machine, address: str) -> tuple[str, ...]:
     place = resolve(machine, address)
     node: Any = machine
-    for key in place:
+    for nth, key in enumerate(place):
         if key not in keys(node):
-            remedy = suggestion(join(place), addresses(machine))
+            # A table that is left out stands in the machine without a value.
+            table = join(place[:nth])
+            remedy = (
+                f"the machine has no table [{table}]; write it first"
+                if node is None
+                else suggestion(join(place), addresses(machine))
+            )
             raise MachineError([Problem(address, "no such entry", "the address of an entry", remedy)])
         node = look(node, key)
     return place
