@@ -113,6 +113,27 @@ def test_range_below_a_faster_motion_is_told() -> None:
     assert any("one end of a range of motions that all repeat" in text for text in lw.study(of).warnings)
 
 
+def test_range_above_a_steady_motion_is_told() -> None:
+    """From 36 rad/s up nothing drives and nothing loads; above 25 rad/s the load falls to nothing."""
+    motor = '{ kind = "table", speed = [0, 36], torque = [30, 0] }'
+    load = (
+        'L = {{ kind = "formula", on = "A", torque = "-(15 + 7*cos(phi) - where(omega > {level}, 15, 0))" }}'
+    )
+    of = machine(motor, load.format(level=25))
+    motion = lw.steady_state(of)
+    # The motion does not reach the level, so it is that without the jump.
+    assert motion.speed == pytest.approx(
+        lw.steady_state(machine(motor, load.format(level=1e6))).speed, rel=1e-9
+    )
+    (end,) = motion.others
+    assert end.multiplier == 1.0
+    assert end.speed_min == pytest.approx(36.0, rel=1e-4)
+    (limit,) = motion.start_limits
+    assert (limit.outcome, limit.side) == ("runs away", "above")
+    assert motion.speed_max < limit.speed < end.speed_max
+    assert any("gains speed up to the range of motions" in text for text in lw.study(of).warnings)
+
+
 def test_a_slight_slope_is_none_of_these() -> None:
     """A damping of the path of the pin that takes a millionth of the torque decides the speed."""
     of = machine(TEN, f'{DRY}\nv = {{ kind = "viscous", on = "A", damping = 1e-6 }}')

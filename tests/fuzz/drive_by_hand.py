@@ -10,6 +10,8 @@ from __future__ import annotations
 import bisect
 import cmath
 import math
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -283,12 +285,16 @@ class ByHand:
         left, steep, at = self.net(complex(phi, _H), omega)
         return left.real, left.imag / _H, steep.real / omega, at
 
-    def keep_senses(self, phi: float | None) -> None:
-        """Let dry friction act everywhere as at one angle, a side of dead centres; None: no more."""
+    @contextmanager
+    def keeping_senses(self, phi: float) -> Iterator[None]:
+        """Dry friction acts everywhere as at one angle, a side of dead centres."""
         self._known.clear()
-        self.senses = (
-            {} if phi is None else {on: float(np.sign(self._way(on, phi))) for on in self._rubbing()}
-        )
+        self.senses = {on: float(np.sign(self._way(on, phi))) for on in self._rubbing()}
+        try:
+            yield
+        finally:
+            self._known.clear()
+            self.senses = {}
 
     def dead_centres(self, n: int = 720) -> list[float]:
         """Angles at which what is under dry friction reverses: the load has a corner there."""

@@ -205,8 +205,16 @@ def _others(steady: SteadyState) -> Iterator[str]:
 
 def _start_limits(steady: SteadyState) -> Iterator[str]:
     """Starts that do not settle, or of which that is not known."""
+    has_range = any(other.multiplier == 1.0 and other.period < steady.period for other in steady.others)
     for limit in steady.start_limits:
-        yield START_WORDS[limit.outcome].format(f"speeds {limit.side} {limit.speed:.4g} rad/s at φ = 0°")
+        starts = f"speeds {limit.side} {limit.speed:.4g} rad/s at φ = 0°"
+        if limit.outcome == "runs away" and has_range:
+            yield (
+                f"From {starts} the machine gains speed up to the range of motions that all repeat; "
+                "it reaches the steady motion from slower starts."
+            )
+        else:
+            yield START_WORDS[limit.outcome].format(starts)
 
 
 def _design_speed(drive: Drive, steady: SteadyState) -> Iterator[str]:

@@ -86,7 +86,8 @@ class StartLimit(NamedTuple):
     Attributes
     ----------
     outcome : str
-        ``"runs away"``: the machine gains speed from cycle to cycle, at 1500 times the working speed too.
+        ``"runs away"``: the machine gains speed from cycle to cycle, up to a range of motions that repeat,
+        or at 1500 times the working speed too.
         ``"undecided"``: the search for other motions ended before these starts were followed.
     side : str
         ``"above"`` or ``"below"``: which starts.
@@ -113,8 +114,9 @@ _MULTIPLIER = (
 )
 _ACCURACY = (
     "Measured relative error of speeds, of accelerations (relative to their peak, or to 1e-4 ω² if that is "
-    "larger), and of the integrals (relative to the sum of their parts, or to what that acceleration takes "
-    "if that is larger). Every step is compared with two half steps."
+    "larger), of the integrals (relative to the sum of their parts, or to what that acceleration takes if "
+    "that is larger), and of the Floquet multiplier (relative to 1, or to itself if that is larger). Every "
+    "step is compared with two half steps."
 )
 _OTHERS = "Other periodic motions of the machine, from the fastest down to a hundredth of the working speed."
 _LIMITS = "Starts from which the machine runs away, or was not followed to an end; empty if there are none."
@@ -258,8 +260,8 @@ def steady_state(
         The machine, with a motor.
     accuracy : float
         Relative accuracy of everything that is returned, down to 1e-13: speeds, accelerations against their
-        peak, integrals. Rounding may forbid it where the motor is very steep; `SteadyState.accuracy` says
-        what was reached.
+        peak, integrals, the multiplier against 1. Rounding may forbid it where the motor is very steep;
+        `SteadyState.accuracy` says what was reached.
     n : int
         Intervals of a revolution for the curves; extremes and integrals do not depend on it.
     angles : ndarray, shape (m,), optional

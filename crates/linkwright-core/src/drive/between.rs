@@ -86,14 +86,17 @@ impl<R: Real> Turn<R> {
                 (f[i], d[i]) = (epsilon.value, epsilon.d);
             }
             let delta = newton(step.u, step.h, &f, &d, &x);
-            let mut worst = zero;
+            let (mut worst, mut steepest) = (zero, d[0].abs());
             for i in 0..G {
                 worst = worst.max(delta[i].abs() / x[i]);
+                steepest = steepest.max(d[i].abs());
                 x[i] = x[i] + delta[i];
                 // The tangent gives ε at the corrected node to the square of the correction.
                 f[i] = d[i].mul_add(delta[i], f[i]);
             }
-            squared = worst.squared() * (1.0 / accuracy);
+            // What the next correction would be: of the speed, and what a steep drive makes of it.
+            let of_acceleration = steepest * step.u * (1.0 / scale);
+            squared = worst.squared() * (of_acceleration + 1.0) * (1.0 / accuracy);
             if squared.max_lane() < 0.1 * SHARE {
                 break;
             }

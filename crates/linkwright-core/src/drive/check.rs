@@ -6,8 +6,11 @@
 //! Where the motor is steep the curve may change fast behind the start of a step, though its end is right:
 //! there the parts of a half, a quarter, … of the step, from which the curve is read, are compared in the
 //! same way, down to where the steepness no longer matters.
+//!
+//! The multiplier errs by the growth of the steps, compared with that of their halves, and by where the motion passes kinks
+//! of the drive: a speed that is off passes them at another angle, and the more so the flatter it passes them.
 
-use crate::drive::cycle::{Machine, Step, Turn, stages_of_part};
+use crate::drive::cycle::{CONVERGED, Machine, Step, Turn, stages_of_part};
 use crate::drive::layout::{bundle, unbundle};
 use crate::drive::measures::INTEGRALS;
 use crate::kernel::radau::S;
@@ -27,6 +30,12 @@ pub(super) const EVEN: f64 = 1e-4;
 /// Accelerations count at least against this share of what the drive alone would give: where a machine creeps, drive and
 /// loads balance to so many digits that rounding of the speed leaves no more of their difference.
 const BALANCED: f64 = 1e-6;
+
+/// Share of the accuracy that the multiplier may lose by the last correction of a solution.
+const GROWTH_SHARE: f64 = 0.1;
+
+/// The least correction that is asked for: rounding does not undo it.
+const FINEST: f64 = 1e-13;
 
 /// What is wrong with a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,6 +67,21 @@ struct Differences<R> {
     relative: R,
     /// Errors of its integrals.
     integrals: [R; INTEGRALS],
+    /// Its growth, and that of its two halves.
+    growths: [R; 2],
+}
+
+/// A kink at the end of a step.
+#[derive(Clone, Copy, Debug)]
+pub struct KinkAtEnd {
+    /// Number of the step.
+    pub step: usize,
+    /// What is missing in the exponent of growth, since the kink is passed beside the end.
+    pub exponent: f64,
+    /// Change of the exponent per error of u there, which passes the kink at another angle.
+    pub per_u: f64,
+    /// The most that it changes the exponent by.
+    pub most: f64,
 }
 
 /// What errors are compared with.
@@ -67,17 +91,35 @@ struct Limits {
     accuracy: f64,
     /// What accelerations count against \[rad/s²\].
     epsilon: f64,
+    /// Last correction of a step that is compared.
+    correction: f64,
+}
+
+/// Relative correction after which a solution with a multiplier has converged: the growth of its steps is that before the
+/// correction, and its exponent is off by about as much.
+pub fn last_correction(multiplier: f64, accuracy: f64) -> f64 {
+    let size = multiplier.abs().clamp(f64::MIN_POSITIVE, 1.0);
+    (GROWTH_SHARE * accuracy / (size * (1.0 - size.ln()))).clamp(FINEST, CONVERGED)
 }
 
 impl<R: Real> Turn<R> {
     /// Measures the error of a solved revolution of one machine.
     #[inline(always)]
-    pub fn check(&self, machine: &Machine<'_, R>, accuracy: f64, m: &mut Motion<R>) -> Check {
-        let limits = Limits { accuracy, epsilon: self.acceleration_scale(machine) };
+    pub fn check(
+        &self,
+        machine: &Machine<'_, R>,
+        kinks: &[KinkAtEnd],
+        accuracy: f64,
+        m: &mut Motion<R>,
+    ) -> Check {
+        let correction = last_correction(self.multiplier.max_lane(), accuracy);
+        let limits = Limits { accuracy, epsilon: self.acceleration_scale(machine), correction };
         let (mut differences, mut integrals) = (Vec::new(), Vec::new());
+        let ends_on_kink = self.ends_on_kink(kinks);
         for (k, step) in self.steps.iter().enumerate() {
             let whole = machine.integrals(step, self.geometry_of(machine, k));
-            differences.push(self.differences(machine, k, whole, limits, m));
+            let of_step = self.differences(machine, k, whole, ends_on_kink.get(k).copied(), limits, m);
+            differences.push(of_step);
             integrals.push(whole);
         }
         let column = |of: &dyn Fn(usize) -> R| unbundle(&(0..differences.len()).map(of).collect::<Vec<_>>());
@@ -90,13 +132,28 @@ impl<R: Real> Turn<R> {
                 .collect(),
             reached: column(&|k| differences[k].relative).into_iter().fold(0.0, f64::max),
         };
-        self.add_carried(&mut check, &defect, limits);
+        let growths = [column(&|k| differences[k].growths[0]), column(&|k| differences[k].growths[1])];
+        let multiplier = add_growth(&mut check, &growths, accuracy);
+        self.add_carried(&mut check, &defect, kinks, multiplier, limits);
         let roundings = self.integral_roundings(machine, &integrals);
         for (i, size) in self.integral_sizes(machine, &integrals).into_iter().enumerate() {
             let parts = column(&|k| differences[k].integrals[i]);
             add_integral(&mut check, &parts, size, roundings[i], accuracy);
         }
         check
+    }
+
+    /// 1 in the lanes of steps that end on a kink, 0 elsewhere; nothing where there is no kink.
+    #[inline(always)]
+    fn ends_on_kink(&self, kinks: &[KinkAtEnd]) -> Vec<R> {
+        if kinks.is_empty() {
+            return Vec::new();
+        }
+        let mut flags = vec![0.0; self.steps.len() * R::LANES];
+        for kink in kinks {
+            flags[kink.step] = 1.0;
+        }
+        bundle(&flags)
     }
 
     /// What the errors of the integrals count against: the sum of their parts' sizes, so that nothing is lost
@@ -157,25 +214,43 @@ impl<R: Real> Turn<R> {
         machine: &Machine<'_, R>,
         k: usize,
         integrals: [R; INTEGRALS],
+        ends_on_kink: Option<R>,
         limits: Limits,
         m: &mut Motion<R>,
     ) -> Differences<R> {
         let step = &self.steps[k];
         let zero = R::splat(0.0);
         let steepness = step.steepness();
-        let mut d = Differences { defect: zero, error: zero, halvings: zero, relative: zero, integrals };
+        let growths = [zero; 2];
+        let mut d =
+            Differences { defect: zero, error: zero, halvings: zero, relative: zero, integrals, growths };
         let (mut whole, mut x, mut share) = (*step, step.h, 1.0);
         let quintic = step.quintic();
         for level in 0..LEVELS {
             x = x * 0.5;
             share *= 0.5;
-            let (at, zero) = (R::splat(share), R::splat(0.0));
+            let at = R::splat(share);
+            // Growth counts of the whole step.
+            let limit = if level == 0 { limits.correction } else { CONVERGED };
             let X = stages_of_part(&quintic, zero, at);
-            let (first, geometry) = machine.advance_near(step.phi, step.u, x, X, m);
+            let (first, geometry) = machine.advance_within(limit, step.phi, step.u, x, X, m);
             let X = stages_of_part(&quintic, at, at);
-            let (second, geometry_second) = machine.advance_near(step.phi + x, first.end(), x, X, m);
+            let (second, geometry_second) = machine.advance_within(limit, step.phi + x, first.end(), x, X, m);
             if level == 0 {
                 d.defect = second.end() - whole.end();
+                d.growths = [step.growth, first.growth * second.growth];
+                if let Some(flag) = ends_on_kink.filter(|flag| flag.max_lane() > 0.0) {
+                    let own = self.geometry_of(machine, k);
+                    let [whole, last] = R::out_of_line(
+                        #[inline(always)]
+                        || {
+                            let last = machine.growth_on_side(&second, &geometry_second);
+                            [machine.growth_on_side(step, own), first.growth * last]
+                        },
+                    );
+                    d.growths[0] = zero.select_lt(flag, whole, d.growths[0]);
+                    d.growths[1] = zero.select_lt(flag, last, d.growths[1]);
+                }
                 if machine.keeps_branch {
                     let of_speed = (step.u * (2.0 * limits.accuracy)).max(step.u * (4.0 * ROUNDING));
                     let off =
@@ -199,9 +274,16 @@ impl<R: Real> Turn<R> {
     }
 
     /// Adds what the errors of all steps make of the solution in each, carried on from step to step and
-    /// closed.
+    /// closed, and of the multiplier, which changes with the angles at which the motion passes kinks.
     #[inline(always)]
-    fn add_carried(&self, check: &mut Check, defect: &[f64], limits: Limits) {
+    fn add_carried(
+        &self,
+        check: &mut Check,
+        defect: &[f64],
+        kinks: &[KinkAtEnd],
+        multiplier: f64,
+        limits: Limits,
+    ) {
         let mut growth: Vec<R> = self.steps.iter().map(|step| step.growth).collect();
         for (growth, &[scale, _]) in growth.iter_mut().zip(&self.passed) {
             *growth = *growth * scale;
@@ -212,7 +294,13 @@ impl<R: Real> Turn<R> {
         let steepness = unbundle(&self.steps.iter().map(Step::steepness).collect::<Vec<_>>());
         let worst = sizes.iter().copied().fold(0.0, f64::max);
         let mut is_bad = false;
-        for (k, delta) in unbundle(&carried).into_iter().map(f64::abs).enumerate() {
+        let carried: Vec<f64> = unbundle(&carried).into_iter().map(f64::abs).collect();
+        let of_kink =
+            |kink: &KinkAtEnd| (kink.per_u * carried[(kink.step + 1) % carried.len()]).min(kink.most);
+        let of_kinks = multiplier.min(1.0) * kinks.iter().map(of_kink).sum::<f64>();
+        check.reached = check.reached.max(of_kinks);
+        is_bad |= of_kinks > limits.accuracy;
+        for (k, &delta) in carried.iter().enumerate() {
             let relative = (0.5 * delta / u[k]).max(steepness[k] * delta / limits.epsilon);
             check.reached = check.reached.max(relative);
             is_bad |= relative > limits.accuracy;
@@ -226,6 +314,18 @@ impl<R: Real> Turn<R> {
             }
         }
     }
+}
+
+/// Adds the errors of the multiplier by the growth of each step, which count against the multiplier, but at least against 1.
+/// Returns the multiplier.
+fn add_growth(check: &mut Check, [whole, halves]: &[Vec<f64>; 2], accuracy: f64) -> f64 {
+    let most = |(a, b): (&f64, &f64)| a.abs().max(b.abs());
+    let pairs = || whole.iter().zip(halves);
+    let multiplier: f64 = pairs().map(most).product();
+    let part = |(a, b)| if most((a, b)) > 0.0 { multiplier * (a - b).abs() / most((a, b)) } else { 0.0 };
+    let parts: Vec<f64> = pairs().map(part).collect();
+    add_integral(check, &parts, multiplier.max(1.0), 0.0, accuracy);
+    multiplier
 }
 
 /// The size of a difference; infinite for a NaN, which steps that do not converge leave.

@@ -599,6 +599,23 @@ impl<R: Real> Turn<R> {
         }
     }
 
+    /// One more sweep over a solved revolution whose last correction exceeds a limit: the growth of its steps is that before the
+    /// correction. Whether it was made.
+    #[inline(always)]
+    pub fn polish(&mut self, machine: &Machine<'_, R>, limit: f64) -> bool {
+        let is_needed = self.correction.max_lane() > limit;
+        if is_needed {
+            let converged = std::mem::replace(&mut self.limit, 0.0);
+            R::out_of_line(
+                #[inline(always)]
+                || self.sweep(machine, &mut Vec::with_capacity(self.steps.len())),
+            );
+            self.limit = converged;
+            self.sweeps += 1;
+        }
+        is_needed
+    }
+
     /// ε at the stages of a start.
     #[inline(always)]
     pub(super) fn take_accelerations(&mut self, machine: &Machine<'_, R>) {

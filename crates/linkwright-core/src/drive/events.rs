@@ -7,6 +7,7 @@
 //! then the end goes there. What depends on the side (a slope, a torque that jumps) is taken on the branch of the step
 //! ([`crate::kernel::branch`]).
 
+use crate::drive::check::KinkAtEnd;
 use crate::drive::cycle::{Machine, REFERENCE, Turn};
 use crate::drive::law::{LawGeometry, SpeedKink};
 use crate::drive::layout::bundle;
@@ -105,6 +106,11 @@ impl<R: Real> Passage<R> {
     #[inline(always)]
     pub fn late(&self) -> R {
         -self.g / (self.slopes[0] + self.slopes[1] * self.before)
+    }
+
+    /// Its derivative by u.
+    fn late_by_u(&self) -> R {
+        -self.slopes[1] / (self.slopes[0] + self.slopes[1] * self.before)
     }
 
     /// Whether the kink is at the end of the step, to the rounding of u.
@@ -472,9 +478,11 @@ impl Events<'_, f64> {
     }
 
     /// Shares of a step at which the quantity of a law turns near its zero or beyond, and its values there, as exact as the
-    /// step. A kink of the drive is no jump: what lies behind it and before the next end counts as far as the step errs by it.
+    /// step.
     fn turns_near_zero(&self, event: Event, piece: &Piece, m: &mut Motion<f64>) -> Vec<(f64, f64)> {
-        let Event::Law(_) = event else { return Vec::new() };
+        if let Event::Speed(nth) = event {
+            return self.turns_near_speed(nth, piece, m);
+        }
         let mut values = [0.0; N];
         for (i, value) in values.iter_mut().enumerate() {
             let u = if i == 0 { piece.u } else { piece.X[i - 1] };
@@ -484,6 +492,29 @@ impl Events<'_, f64> {
         let exact = |share: f64| {
             let end = self.machine.advance(piece.phi, piece.u, share * piece.h, m).0.end();
             (share, self.value(event, piece.phi + share * piece.h, end, m))
+        };
+        turns.map(exact).filter(|node| node.1.is_finite()).collect()
+    }
+
+    /// The same of a speed of the drive's kinks. Where the quintic clearly passes it, it is not made more exact.
+    fn turns_near_speed(&self, nth: usize, piece: &Piece, m: &mut Motion<f64>) -> Vec<(f64, f64)> {
+        let kink = 0.5 * self.speeds[nth].powi(2);
+        let (low, high) =
+            piece.X.iter().fold((piece.u, piece.u), |(low, high), &u| (low.min(u), high.max(u)));
+        let range = high - low;
+        // The quintic leaves the range of its six samples by less than three quarters of it.
+        if kink < low - range || kink > high + range {
+            return Vec::new();
+        }
+        let quintic = piece.quintic();
+        let turns = Bernstein::of_powers(&quintic).turns(ON_KINK * kink).into_iter();
+        let exact = |share: f64| {
+            let beyond = value(&quintic, share) - kink;
+            if beyond.abs() > NEARLY * range {
+                return (share, self.on_piece(Event::Speed(nth), piece, share, m));
+            }
+            let end = self.machine.advance(piece.phi, piece.u, share * piece.h, m).0.end();
+            (share, (2.0 * end).sqrt() - self.speeds[nth])
         };
         turns.map(exact).filter(|node| node.1.is_finite()).collect()
     }
@@ -640,9 +671,65 @@ impl Events<'_, f64> {
     }
 
     /// Growth of a step that ends on a kink of the drive.
-    pub fn growth_on_side(&self, piece: &Piece, m: &mut Motion<f64>) -> f64 {
+    fn growth_on_side(&self, piece: &Piece, m: &mut Motion<f64>) -> f64 {
         let (step, geometry) = self.machine.step_of(piece.phi, piece.h, piece.u, piece.X, m);
         self.machine.growth_on_side(&step, &geometry)
+    }
+
+    /// What is known of the kinks at ends of steps, on which the multiplier depends.
+    pub fn kinks_at_ends(
+        &self,
+        passages: &[(usize, Passage<f64>)],
+        pieces: &[Piece],
+        m: &mut Motion<f64>,
+    ) -> Vec<KinkAtEnd> {
+        let of_passage = |&(step, ref passage): &(usize, Passage<f64>)| {
+            let [before, behind] = [&pieces[step], &pieces[(step + 1) % pieces.len()]];
+            let (phi, u) = (before.phi + before.h, passage.u);
+            let sides = [
+                self.slope_on_branch_of(before, phi, u, m),
+                self.slope_on_branch_of(behind, behind.phi, u, m),
+            ];
+            let change = sides[0] - sides[1];
+            let late = passage.late();
+            let room = before.h.min(behind.h);
+            KinkAtEnd {
+                step,
+                exponent: if late.abs() < NEARLY * room { change * late } else { 0.0 },
+                per_u: (change * passage.late_by_u()).abs(),
+                most: change.abs() * room,
+            }
+        };
+        passages.iter().map(of_passage).collect()
+    }
+
+    /// ∂ε/∂u on the branch of a step.
+    fn slope_on_branch_of(&self, piece: &Piece, phi: f64, u: f64, m: &mut Motion<f64>) -> f64 {
+        let (mut geometry, mut known) = (Vec::new(), Vec::new());
+        self.machine.row(C[REFERENCE].mul_add(piece.h, piece.phi), m, &mut known);
+        let row = self.machine.row(phi, m, &mut geometry);
+        let at = piece.X[REFERENCE];
+        self.machine.acceleration_on_branch(&row, &geometry, u, (&known, at)).d
+            + self.machine.slope_besides(&row, u, at)
+    }
+
+    /// The multiplier: the growths of all steps, on the side of their kinks on which they lie, and up to where these are
+    /// passed.
+    pub fn multiplier(
+        &self,
+        growths: &[f64],
+        passages: &[(usize, Passage<f64>)],
+        kinks: &[KinkAtEnd],
+        pieces: &[Piece],
+        m: &mut Motion<f64>,
+    ) -> f64 {
+        let mut multiplier: f64 = growths.iter().product();
+        for ((k, passage), kink) in passages.iter().zip(kinks) {
+            // What the step has counted for so far, on the side that rounding chose.
+            let side = self.growth_on_side(&pieces[*k], m) / growths[*k];
+            multiplier *= passage.factor() * side * kink.exponent.exp();
+        }
+        multiplier
     }
 }
 

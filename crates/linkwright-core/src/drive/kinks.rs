@@ -96,6 +96,13 @@ const BESIDE: f64 = 1e-2;
 /// Zeros closer than this \[rad\] to the end of the revolution count as its start: rounding must not decide.
 const WRAP: f64 = 1e-7;
 
+/// A soft sign that changes within a smaller angle \[rad\] is sought out by ends of steps, so many times as far from its zero,
+/// but for those that would lie farther than the last \[rad\], or nearer to another end than this share of their distance.
+const SOFT: f64 = 0.01;
+const SOFT_ENDS: [f64; 3] = [1.5, 8.0, 40.0];
+const SOFT_FARTHEST: f64 = 0.1;
+const SOFT_ROOM: f64 = 0.3;
+
 impl Plan {
     /// All quantities to be watched, each once: two loads may ask for the same.
     fn watches(&self) -> Vec<Watch> {
@@ -154,6 +161,23 @@ impl Plan {
         for load in self.formula_loads().chain(in_laws) {
             let switches = &self.formulas[load.formula].switches;
             found.extend(switches.iter().filter(|s| s.degree != Degree::Mixed).map(|s| (load, s.at)));
+        }
+        found
+    }
+
+    /// Soft signs in all formulas with the power of the speed in proportion to which they grow.
+    fn soft_signs(&self) -> Vec<(Watch, i32)> {
+        let in_laws = self.laws.iter().filter_map(|law| match law {
+            Law::Formula(load) => Some(*load),
+            Law::Damper { .. } => None,
+        });
+        let mut found = Vec::new();
+        for load in self.formula_loads().chain(in_laws) {
+            for soft in &self.formulas[load.formula].soft_signs {
+                if let Degree::Of(power) = soft.degree {
+                    found.push((Watch::Switch(load, soft.at), power));
+                }
+            }
         }
         found
     }
@@ -235,6 +259,53 @@ impl<R: Real> Machine<'_, R> {
             lane.dedup();
         }
         lanes
+    }
+
+    /// The same, and ends of steps beside the angles at which a soft sign changes within a small angle, as that of a friction
+    /// c·tanh(20 v) at a dead centre: between two stages of a long step nothing would be seen of it.
+    #[inline(always)]
+    pub fn ends(&self, m: &mut Motion<R>) -> Vec<Vec<f64>> {
+        let mut lanes = self.breaks(m);
+        let signs = self.plan.soft_signs();
+        if signs.is_empty() {
+            return lanes;
+        }
+        let watches: Vec<Watch> = signs.iter().map(|sign| sign.0).collect();
+        let scan = R::out_of_line(
+            #[inline(always)]
+            || self.scan(&watches, m),
+        );
+        for (&(watch, power), values) in signs.iter().zip(scan.chunks_exact(2 * self.plan.scan() * R::LANES))
+        {
+            let mut zeros = vec![Vec::new(); R::LANES];
+            self.zeros(watch, values, &mut zeros, m);
+            for nth in 0..zeros.iter().map(Vec::len).max().unwrap_or(0) {
+                let at = |lane: usize| zeros[lane].get(nth).copied();
+                let mut widths: Vec<f64> = (0..R::LANES).map(|lane| at(lane).unwrap_or(0.0)).collect();
+                let width = R::out_of_line(
+                    #[inline(always)]
+                    || self.width(watch, power, R::load(&widths), m),
+                );
+                width.store(&mut widths);
+                for (lane, ends) in lanes.iter_mut().enumerate() {
+                    if let Some(zero) = at(lane) {
+                        add_ends_beside(zero, widths[lane], ends);
+                    }
+                }
+            }
+        }
+        lanes
+    }
+
+    /// Angle within which a soft sign changes at a zero, where it grows from 0 to 1, at the speed at which the search starts.
+    #[inline(always)]
+    fn width(&self, watch: Watch, power: i32, zero: R, m: &mut Motion<R>) -> R {
+        self.plan.mechanism.place::<R, 2>(self.q, Angle::new(zero), m);
+        let (mut slope, omega) = (self.watched(watch, zero, m).1.abs(), self.q[self.plan.drive.speed_start]);
+        for _ in 0..power.abs() {
+            slope = if power > 0 { slope * omega } else { slope / omega };
+        }
+        slope.recip()
     }
 
     /// Adds the joints of motion laws in pieces, where a derivative jumps.
@@ -497,6 +568,25 @@ impl<R: Real> Machine<'_, Dual<R>> {
         }
         joints
     }
+}
+
+/// Adds the zero of a soft sign, and ends on both sides of it, to those of a cycle; nothing where the steps of any revolution
+/// see the sign change.
+fn add_ends_beside(zero: f64, width: f64, ends: &mut Vec<f64>) {
+    let cycle = ends[ends.len() - 1];
+    // A NaN is not below the limit.
+    if !(width > 0.0 && width < SOFT) {
+        return;
+    }
+    let beside = SOFT_ENDS.into_iter().map(|times| times * width).filter(|&off| off < SOFT_FARTHEST);
+    let places = beside.flat_map(|off| [(zero - off, off), (zero + off, off)]);
+    for (place, off) in [(zero, 0.0)].into_iter().chain(places) {
+        let (place, room) = (place.rem_euclid(cycle), ON_KINK.max(SOFT_ROOM * off));
+        if ends.iter().all(|end| (end - place).abs() > room) {
+            ends.push(place);
+        }
+    }
+    ends.sort_by(f64::total_cmp);
 }
 
 /// Ends of the smooth pieces of one machine's turn \[rad\].

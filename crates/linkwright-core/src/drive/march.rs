@@ -260,7 +260,7 @@ pub fn repeating(
         followed: f64::INFINITY,
     };
     match march.walk(working, which) {
-        Err(NoMotion::Neutral { slowest, .. }) => march.take_range(slowest),
+        Err(NoMotion::Neutral { slowest, .. }) => march.take_range(slowest, working, which),
         // What comes to rest has been followed to its end.
         Ok(()) | Err(NoMotion::Rests { .. }) if !march.found.is_empty() => Ok(march.into_repeating(0.0)),
         Err(_) if !march.found.is_empty() => {
@@ -359,24 +359,34 @@ impl March<'_> {
     /// Goes down from the fastest start, until the machine comes to rest.
     fn walk(&mut self, working: f64, which: MotionChoice) -> Result<(), NoMotion> {
         let fast = self.hints.iter().copied().fold(9.0 * working, f64::max);
-        let mut high = self.fast_start(fast)?;
+        let high = self.fast_start(fast)?;
         // Among starts that run away, far above all that is known, leaps may be long.
         let far = if self.away.is_nan() {
             f64::INFINITY
         } else {
             self.beside.iter().fold(fast, |a, &b| a.max(4.0 * b))
         };
+        self.descend(high, far, working, which)
+    }
+
+    /// Goes down from a start until the machine comes to rest, in long leaps above `far`.
+    fn descend(
+        &mut self,
+        mut high: Revolution,
+        far: f64,
+        working: f64,
+        which: MotionChoice,
+    ) -> Result<(), NoMotion> {
+        let slows = high.gain() < 0.0;
         loop {
             self.followed = high.start;
-            // Below starts that run away the fastest motion is one that the machine departs from.
-            let holds = |motion: &PeriodicMotion| {
-                motion.slides.is_none() && (self.away.is_nan() || motion.growth < 1.0)
-            };
+            // Below starts that gain speed the fastest motion is one that the machine departs from.
+            let holds = |motion: &PeriodicMotion| motion.slides.is_none() && (slows || motion.growth < 1.0);
             if which == MotionChoice::Fastest && self.found.iter().any(holds) {
                 return Ok(());
             }
             // Below starts that slow down the known motion is where the next slower start gains speed.
-            let beside = if self.away.is_nan() { &[][..] } else { self.beside };
+            let beside = if slows { &[][..] } else { self.beside };
             let hints = self.hints.iter().chain(beside).copied().filter(|&hint| hint < high.start);
             let below = if high.start > far { (0.25 * high.start).max(far) } else { high.next_below() };
             let next = hints.fold(below, f64::max);
@@ -497,19 +507,43 @@ impl March<'_> {
     }
 
     /// Adds the ends of the range of motions around a speed that all repeat; an error where none is faster, but for one that
-    /// is its end.
-    fn take_range(mut self, omega: f64) -> Result<Repeating, NoMotion> {
+    /// is its end, nor any slower that holds the machine.
+    fn take_range(mut self, omega: f64, working: f64, which: MotionChoice) -> Result<Repeating, NoMotion> {
         let (slowest, fastest) = self.range(omega);
         let end = (1.0 + 2.0 * BESIDE) * 0.5 * fastest * fastest;
         self.found.retain(|motion| motion.u() > end);
-        if self.found.is_empty() {
-            return Err(NoMotion::Neutral { slowest, fastest });
-        }
-        for omega in [fastest, slowest] {
+        let is_fastest = !self.found.is_empty();
+        let mut ends = Vec::new();
+        for omega in [fastest, slowest].into_iter().filter(|omega| omega.is_finite() && *omega > 0.0) {
             let Revolution { pieces, crossings, slides, .. } = self.turn_from(0.5 * omega * omega)?;
-            self.found.push(PeriodicMotion { pieces, crossings, growth: 1.0, slides });
+            ends.push(PeriodicMotion { pieces, crossings, growth: 1.0, slides });
         }
-        Ok(self.into_repeating(0.5 * slowest * slowest))
+        let mut followed = 0.5 * slowest * slowest;
+        if !is_fastest {
+            if slowest > 0.0 && self.look_below(followed, working, which) {
+                followed = self.followed;
+            } else {
+                return Err(NoMotion::Neutral { slowest, fastest });
+            }
+        }
+        let at = if is_fastest { self.found.len() } else { 0 };
+        self.found.splice(at..at, ends);
+        Ok(self.into_repeating(followed))
+    }
+
+    /// Whether a motion below the slowest of a range, which has this u, holds the machine.
+    fn look_below(&mut self, slowest: f64, working: f64, which: MotionChoice) -> bool {
+        let Ok(high) = self.revolution((1.0 - 2.0 * BESIDE) * slowest) else { return false };
+        self.refined = 0;
+        if high.gain() > 0.0 {
+            // From here the machine gains speed up to the range.
+            self.away = high.start;
+        }
+        // Elsewhere nothing is known of what lies below the last start.
+        if let Ok(()) | Err(NoMotion::Rests { .. }) = self.descend(high, f64::INFINITY, working, which) {
+            self.followed = 0.0;
+        }
+        self.found.iter().any(|motion| motion.growth < 1.0 && motion.slides.is_none())
     }
 
     /// The range of speeds around one that all repeat.

@@ -90,7 +90,7 @@ impl<'a, R: Real> RowLanes<'a, R> {
         let (machine, m) = (Machine::new(self.plan, &self.q), &mut self.m);
         let breaks = R::out_of_line(
             #[inline(always)]
-            || machine.breaks(m),
+            || machine.ends(m),
         );
         let mut meshes: Vec<RowMesh> =
             rows.iter().zip(breaks).map(|(&row, breaks)| RowMesh::new(row, breaks)).collect();

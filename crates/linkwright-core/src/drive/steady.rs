@@ -12,6 +12,7 @@
 //! reported.
 
 use crate::drive::between::Between;
+use crate::drive::check::last_correction;
 use crate::drive::cycle::{Machine, Turn, divide};
 use crate::drive::events::{Events, leap};
 use crate::drive::extremes::{Extreme, Extremes};
@@ -48,6 +49,14 @@ const JUMP_PLACEMENTS_MAX: u32 = 60;
 
 /// An accuracy that is asked for and cannot be had is reported, as long as it is better than this.
 const USABLE: f64 = 1e-5;
+
+/// An accuracy below the first is taken as it is when more meshes than the second do not reduce it to this share.
+const NOISE: f64 = 1e-11;
+const IDLE_MAX: u32 = 3;
+const WON: f64 = 0.9;
+
+/// By how much the accuracy is lowered where that which is asked for cannot be had.
+const LOWER: f64 = 10.0;
 
 /// Steady motion of one machine.
 #[derive(Clone, Debug)]
@@ -194,12 +203,12 @@ pub fn steady_with_others(plan: &Plan, q: &[f64], accuracy: f64) -> Result<Stead
 
 fn fastest_and(which: MotionChoice, plan: &Plan, q: &[f64], accuracy: f64) -> Result<Steady, Failure> {
     let machine = Machine::new(plan, q).keeping_branch(plan.may_jump());
-    let breaks = machine.breaks(&mut Motion::new(&plan.mechanism, q)).swap_remove(0);
+    let breaks = machine.ends(&mut Motion::new(&plan.mechanism, q)).swap_remove(0);
     // With order 9 a mesh this much finer is good for the accuracy where 24 steps are for 1e-8.
     let steps = FIRST * (1e-8 / accuracy).powf(0.125).clamp(1.0, 4.0);
     let mesh = Mesh::new(divide(&breaks, steps as usize));
     let search = Search { plan, q, breaks: &breaks, accuracy, mesh, start: None, any: false };
-    let first = in_lanes(search.clone());
+    let first = search.best();
     let stable = match first {
         Ok(found) if found.multiplier < 1.0 => Some(found),
         Err(failure) if failure.status == Status::DoesNotClose => return Err(failure),
@@ -281,7 +290,7 @@ fn fastest_of(
         let is_known = |found: &&Steady| (motion.u() / found.marks[0].u - 1.0).abs() <= SAME;
         let solved = match known.as_ref().filter(is_known) {
             Some(found) => Ok(found.clone()),
-            None => in_lanes(search.from(motion, answer.is_some())),
+            None => search.from(motion, answer.is_some()).best(),
         };
         match solved {
             Ok(found) if answer.is_none() && found.multiplier < 1.0 => answer = Some(found),
@@ -361,6 +370,17 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
+    /// The solution, to a lower accuracy where that which is asked for ends in rounding: with ever shorter steps the noise of
+    /// accelerations under a steep drive only grows.
+    fn best(&self) -> Result<Steady, Failure> {
+        let (mut found, mut accuracy) = (in_lanes(self.clone()), self.accuracy);
+        while matches!(found, Err(Failure { status: Status::Inaccurate, .. })) && accuracy < 0.2 * USABLE {
+            accuracy *= LOWER;
+            found = in_lanes(Search { accuracy, ..self.clone() });
+        }
+        found
+    }
+
     /// The search from a marched revolution on: for the answer, or for another motion, which is only reported.
     fn from(&self, motion: &PeriodicMotion, told: bool) -> Self {
         let mut edges: Vec<f64> = motion.pieces.iter().map(|piece| piece.phi).collect();
@@ -389,7 +409,7 @@ impl Job for Search<'_> {
         let mut plain_motion = Motion::new(&self.plan.mechanism, self.q);
         let mut m = Motion::new(&self.plan.mechanism, &q);
         let (mut mesh, mut start, mut sweeps, mut reached) = (self.mesh, self.start, 0, f64::NAN);
-        let mut placements = 0;
+        let (mut placements, mut best, mut idle) = (0, f64::INFINITY, 0);
         for _ in 0..MESHES_MAX {
             poll();
             let machine = Machine::new(self.plan, &q).keeping_branch(may_jump);
@@ -425,23 +445,25 @@ impl Job for Search<'_> {
             if leap > USABLE.max(self.accuracy) {
                 break;
             }
-            let check = turn.check(&machine, self.accuracy, &mut m);
+            let is_better = turn.polish(&machine, last_correction(multiplier, self.accuracy));
+            let pieces = if is_better { turn.pieces() } else { pieces };
+            let passages = events.passages(&mesh, &pieces, &mut plain_motion);
+            let kinks = events.kinks_at_ends(&passages, &pieces, &mut plain_motion);
+            let check = turn.check(&machine, &kinks, self.accuracy, &mut m);
             let is_good = check.excess.iter().all(|excess| excess.error <= 1.0);
             reached = check.reached.max(leap);
-            let next = (!is_good).then(|| mesh.refined(&check.excess));
+            // Near rounding more steps may only make more noise.
+            idle = if reached < WON * best { 0 } else { idle + 1 };
+            best = best.min(reached);
+            let is_noise = reached < NOISE && idle > IDLE_MAX;
+            let next = (!is_good && !is_noise).then(|| mesh.refined(&check.excess));
             let next = next.filter(|next| next.edges.len() <= STEPS_MAX);
             let Some(next) = next else {
                 if !is_good && reached > USABLE.max(self.accuracy) {
                     break;
                 }
-                let growths = turn.growths();
-                let mut multiplier: f64 = growths.iter().product();
-                let passages = events.passages(&mesh, &pieces, &mut plain_motion);
-                for (k, passage) in &passages {
-                    // What the step has counted for so far, on the side that rounding chose.
-                    let side = events.growth_on_side(&pieces[*k], &mut plain_motion) / growths[*k];
-                    multiplier *= passage.factor() * side;
-                }
+                let multiplier =
+                    events.multiplier(&turn.growths(), &passages, &kinks, &pieces, &mut plain_motion);
                 if multiplier.is_nan() || (multiplier >= 1.0 && !self.any) {
                     return Err(Failure { reached, ..Failure::new(Status::NoSteadyMotion) });
                 }

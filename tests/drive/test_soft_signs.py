@@ -1,0 +1,48 @@
+"""Friction by a formula c·tanh(k v) changes within a small angle at dead centres: none of it is missed."""
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+
+FILE = """format = 1
+name = "Press"
+mechanism.cranks.A.radius = 0.4
+mechanism.sliders.S = {{ crank = "A", rod = 1.1 }}
+bodies.S.mass = 6
+[drive]
+motor = {{ kind = "dc", speed_no_load = 60, torque_stall = 900 }}
+flywheel.inertia = 5
+[loads.oil]
+kind = "formula"
+on = "S"
+force = "-300*{sign}"
+"""
+
+SIGNS = {"tanh": "tanh({k}*v)", "arc tangent": "2/pi*atan({k}*v)"}
+
+
+def work_of_load(machine: lw.Machine) -> float:
+    """∮M_r dφ by Gauss with pieces that get shorter towards dead centres, along a motion of more digits."""
+    x, weights = np.polynomial.legendre.leggauss(12)
+    off = np.pi / 2 * 0.5 ** np.arange(40)
+    ends = np.unique(
+        np.concatenate([[0.0, np.pi, 2 * np.pi], off, np.pi - off, np.pi + off, 2 * np.pi - off])
+    )
+    middle, half = (ends[1:] + ends[:-1]) / 2, np.diff(ends) / 2
+    angles = (middle[:, None] + half[:, None] * x).ravel()
+    curves = lw.steady_state(machine, angles=angles, accuracy=1e-12)
+    return float((half[:, None] * weights).ravel() @ curves.torque_load)
+
+
+@pytest.mark.parametrize("sign", SIGNS)
+@pytest.mark.parametrize("k", [1, 5, 20, 100, 1000, 1e5])
+def test_work_of_steady_motion(k: float, sign: str) -> None:
+    machine = lw.loads(FILE.format(sign=SIGNS[sign].format(k=k)))
+    motion = lw.steady_state(machine)
+    expected = work_of_load(machine)
+    assert motion.energy_load == pytest.approx(expected, rel=1e-9)
+    row = lw.steady_states(machine, {"bodies.S.mass": [6.0, 6.0]})
+    # A row is promised to 1e-7.
+    assert row.energy_load == pytest.approx(expected, rel=1e-7)
+    assert row.speed_max == pytest.approx(motion.speed_max, rel=1e-7)
