@@ -34,7 +34,7 @@ const BALANCED: f64 = 1e-6;
 /// Share of the accuracy that the multiplier may lose by the last correction of a solution.
 const GROWTH_SHARE: f64 = 0.1;
 
-/// The least correction that is asked for: rounding does not undo it.
+/// The smallest correction that is asked for: rounding does not undo it.
 const FINEST: f64 = 1e-13;
 
 /// What is wrong with a step.
