@@ -113,6 +113,27 @@ def test_a_place_that_a_list_does_not_have_is_refused(
         lw.read_study(study_file(change, ("chunk = 4", 'method = "list"\nfile = "rows.csv"')))
 
 
+def test_a_list_names_texts_among_values(study_file: Files, tmp_path: Path) -> None:
+    change = (
+        'address = "mechanism.cranks.A2.phase"\nrange = ["45 deg", "135 deg"]\nsteps = 5',
+        'address = "mechanism.sliders.cart1.assembly"\nvalues = ["positive", "negative"]',
+    )
+    listed = ("chunk = 4", 'method = "list"\nfile = "rows.csv"')
+    (tmp_path / "rows.csv").write_text(
+        "phase,mass [t],note\nnegative,1,as built\n0,1.1,\npositive,1.1,heavier\n"
+    )
+    plan = lw.read_study(study_file(change, listed))
+    assert plan.rows(0, 3)["phase"].tolist() == [1.0, 0.0, 0.0]
+    assert plan.rows(0, 3)["mass"].tolist() == [1000.0, 1100.0, 1100.0]
+    counts = (change[0], 'address = "drive.gearbox.ratio"\nvalues = [9, 10]')
+    (tmp_path / "rows.csv").write_text("phase,mass\n10,1000\n")
+    assert lw.read_study(study_file(counts, listed)).rows(0, 1)["phase"].tolist() == [10.0]
+    (tmp_path / "rows.csv").write_text("phase,mass\npositiv,1000\n")
+    with pytest.raises(InputError, match=r"rows\.csv:2: column phase") as caught:
+        lw.read_study(study_file(change, listed))
+    assert 'one of "positive", "negative"' in str(caught.value)
+
+
 def test_a_damaged_file_is_computed_anew(study_file: Files, tmp_path: Path) -> None:
     """Numbers that a disk has changed, in a file that is as long as before."""
     plan = lw.read_study(study_file())

@@ -19,7 +19,7 @@ from linkwright.kernel.files.points import read_columns, require_below
 from linkwright.kernel.files.text_file import TextError, text_of
 from linkwright.kernel.limits import FILE_BYTES
 from linkwright.kernel.public import public
-from linkwright.kernel.units import COUNT
+from linkwright.kernel.units import COUNT, is_number
 from linkwright.machine.address import kind
 from linkwright.machine.machine import Machine
 from linkwright.machine.overrides import Override, apply, parse_all
@@ -180,10 +180,19 @@ def _listed(path: Path, machine: Machine, study: StudyFile, *, allow_outside: bo
     if place.suffix == ".parquet":
         columns = parquet_columns(place, names)
     else:
-        kinds = {
-            name: kind(machine, variable.address[0]) or COUNT for name, variable in study.variables.items()
+        choices = {
+            name: variable.values
+            for name, variable in study.variables.items()
+            if variable.values
+            and kind(machine, variable.address[0]) is None
+            and not all(map(is_number, variable.values))
         }
-        columns = read_columns(place, kinds)
+        kinds = {
+            name: kind(machine, variable.address[0]) or COUNT
+            for name, variable in study.variables.items()
+            if name not in choices
+        }
+        columns = read_columns(place, kinds, choices)
     rows = np.stack([columns[name] for name in names], axis=1)
     if not len(rows):
         raise InputError(f"{place}: found no rows, expected at least one")

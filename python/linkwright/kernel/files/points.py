@@ -11,10 +11,11 @@ import csv
 import math
 import os
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from io import StringIO
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -107,11 +108,14 @@ def _tables(node: Any, place: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...]
         yield from _tables(below, (*place, str(key)))
 
 
-def columns_of(path: Path, key: str, kind: str = "table") -> tuple[dict[str, list[Any]], list[int]]:
+def columns_of(
+    path: Path, key: str, kind: str = "table", numbers: Collection[str] | None = None
+) -> tuple[dict[str, list[Any]], list[int]]:
     """Columns of a file of comma-separated values by name, entries with their units, and the number of each
     line.
 
-    The line of the head is first. `key`, `kind`: entry and table that name it, for messages. Raises
+    The line of the head is first. `key`, `kind`: entry and table that name it, for messages; `numbers`: names
+    of columns that hold numbers, all without it, and others keep their texts. Raises
     `MachineFileError` for what cannot be read, has no head or a row that does not fit it.
     """
     lines = lines_of(path, key)
@@ -129,10 +133,13 @@ def columns_of(path: Path, key: str, kind: str = "table") -> tuple[dict[str, lis
         remedy = f'"{twice}" stands there twice'
         raise MachineFileError([Problem(key, found, "each column once", remedy, str(path), line)])
     for line, row in lines[1:]:
-        for problem in _row_problems(key, names, row):
+        for problem in _row_problems(key, names, row, names if numbers is None else numbers):
             raise MachineFileError([replace(problem, path=str(path), line=line)])
     columns = {
-        head[1]: [_with_unit(row[i].strip(), head[2]) for _, row in lines[1:]]
+        head[1]: [
+            _with_unit(row[i].strip(), head[2]) if numbers is None or head[1] in numbers else row[i].strip()
+            for _, row in lines[1:]
+        ]
         for i, head in enumerate(heads)
         if head is not None
     }
@@ -165,12 +172,12 @@ def lines_of(path: Path, key: str) -> list[tuple[int, list[str]]]:
     return rows
 
 
-def _row_problems(key: str, names: list[str], row: list[str]) -> Iterator[Problem]:
+def _row_problems(key: str, names: list[str], row: list[str], numbers: Collection[str]) -> Iterator[Problem]:
     """What is wrong with a row of points."""
     if len(row) != len(names):
         yield Problem(key, show(",".join(row)), f"{len(names)} values, one for each column")
     for name, cell in zip(names, row, strict=False):
-        if not _is_number(cell):
+        if name in numbers and not _is_number(cell):
             found = show(cell.strip()) if cell.strip() else "an empty cell"
             yield Problem(f"{key}, column {name}".removeprefix(", "), found, "a finite number")
 
@@ -184,21 +191,41 @@ def _with_unit(number: str, unit: str | None) -> Any:
     return f"{number} {unit}" if unit else float(number)
 
 
-def read_columns(path: str | os.PathLike[str], kinds: Mapping[str, Kind]) -> dict[str, Floats]:
+def read_columns(
+    path: str | os.PathLike[str],
+    kinds: Mapping[str, Kind],
+    choices: Mapping[str, Sequence[object]] = MappingProxyType({}),
+) -> dict[str, Floats]:
     """Columns of a file, (n,) each [SI], by name and kind; others in it are passed over.
 
+    `choices`: columns by name that hold one of some values, or its place among them, which is what is read.
     Raises `MachineFileError`, with file and line, if it cannot be read, lacks a column, or holds something
     else.
     """
     place = Path(path)
-    columns, lines = columns_of(place, "")
-    missing = [name for name in kinds if name not in columns]
+    columns, lines = columns_of(place, "", numbers=kinds)
+    missing = [name for name in (*kinds, *choices) if name not in columns]
     if missing:
-        wanted = ", ".join(f"{name} [{kind.unit}]" for name, kind in kinds.items())
+        wanted = ", ".join([*(f"{name} [{kind.unit}]" for name, kind in kinds.items()), *choices])
         found = f"no column {missing[0]} among {show(', '.join(columns))}"
         remedy = f"begin the file with a head such as: {wanted}"
         raise MachineFileError([Problem("", found, "a column of each name", remedy, str(place), lines[0])])
-    return {name: _values(columns[name], kind, name, place, lines[1:]) for name, kind in kinds.items()}
+    read = {name: _values(columns[name], kind, name, place, lines[1:]) for name, kind in kinds.items()}
+    return read | {
+        name: _places(columns[name], values, name, place, lines[1:]) for name, values in choices.items()
+    }
+
+
+def _places(
+    cells: Sequence[str], values: Sequence[object], name: str, path: Path, lines: Sequence[int]
+) -> Floats:
+    """Places of values in a list; a number that is none of its texts is a place already."""
+    known = {str(value): float(nth) for nth, value in enumerate(values)}
+    for cell, line in zip(cells, lines, strict=True):
+        if cell not in known and not _is_number(cell):
+            found, expected = show(cell) if cell else "an empty cell", f"one of {', '.join(map(show, known))}"
+            raise MachineFileError([Problem(f"column {name}", found, expected, "", str(path), line)])
+    return np.array([known[cell] if cell in known else float(cell) for cell in cells])
 
 
 def _values(entries: Sequence[Any], kind: Kind, name: str, path: Path, lines: Sequence[int]) -> Floats:
