@@ -47,6 +47,17 @@ def test_integral_and_extreme_of_known_functions(name: str) -> None:
     assert curve.extreme(+1)[0] == pytest.approx(greatest, rel=1e-11, abs=1e-300)
 
 
+@pytest.mark.parametrize("apart", [1e-9, 1e-6, 1e-5, 1e-4, 3e-4, 1e-3, -1e-4])
+@pytest.mark.parametrize("end", [1, 5 / 8, 0.5 + 1 / 2**7])
+def test_a_kink_close_to_the_end_of_a_piece_is_seen(apart: float, end: float) -> None:
+    """Between the last node and the end no value of a piece tells of it: peak and integral were too high."""
+    at = 2 * np.pi * end - apart
+    curve = turn_curve(lambda x: (x - np.maximum(40 * (x - at), 0))[None], TURN, "kink")
+    end_slope = 40 * max(2 * np.pi - at, 0) ** 2 / 2
+    assert curve.integral()[0] == pytest.approx(2 * np.pi**2 - end_slope, rel=1e-11)
+    assert curve.extreme(+1)[0] == pytest.approx(min(at, 2 * np.pi), rel=1e-11)
+
+
 def test_square_harmonics_and_work_of_a_known_function() -> None:
     curve = turn_curve(lambda x: np.stack([1 + np.sin(3 * x), np.cos(x)]), TURN, "torque")
     assert curve.rms() == pytest.approx([np.sqrt(1.5), np.sqrt(0.5)], rel=1e-13)

@@ -21,7 +21,6 @@ import numpy as np
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.tangent_array import TangentArray, lifted, numbers, primal
 from linkwright.kernel.numerics.turn_fit import turn_curve
-from linkwright.kernel.numerics.zeros import zeros
 from linkwright.pumping.gear_torque import GearTorque, StrokeLoad, Strokes, stroke_load
 from linkwright.pumping.unit import PolishedRod, PumpingUnitMotion, end_angles
 
@@ -61,7 +60,7 @@ def gear_scalars(
     balanced = _balanced(at, size) if is_sought else given
     scalars = {name: stroke.net(balanced)[0] for name, stroke in at.items() if name != "load_max"}
     scalars |= {"load_max": at["load_max"].load[0], name: balanced}
-    scalars |= _means(along, _kinks(rod, strokes, size if is_air else 0.0), balanced)
+    scalars |= _means(along, _kinks(strokes, size if is_air else 0.0), balanced)
     scalars |= _shares(scalars, gear)
     still = "a peak is reached at an end of the stroke, where the table of the load has a corner that moves"
     return scalars, {
@@ -136,24 +135,10 @@ def _means(along: Any, kinks: Floats, balanced: Any) -> dict[str, Any]:
     }
 
 
-def _kinks(rod: PolishedRod, strokes: Strokes, effect: float) -> Floats:
+def _kinks(strokes: Strokes, effect: float) -> Floats:
     """Crank angles of one revolution between which the torque is smooth, with both of its ends."""
-    kinks = []
-    for span in strokes.spans():
-        kinks += [span, _corner_angles(rod, span[0], span[-1]), _flank_changes(strokes, span, effect)]
+    kinks = [*strokes.spans, *(_flank_changes(strokes, span, effect) for span in strokes.spans)]
     return np.array(sorted(set(np.concatenate(kinks).tolist())))
-
-
-def _corner_angles(rod: PolishedRod, start: float, end: float) -> Floats:
-    """Crank angles of a stroke at which the rod comes to corners of the table of the load."""
-    load = rod.unit.load
-    assert load is not None
-    places = np.array([place for place in load.position or () if 0.0 < place < 1.0])
-
-    def beyond(angles: Floats) -> Floats:
-        return np.asarray(rod.motion(angles % (2 * np.pi))[0] / rod.stroke - places)
-
-    return zeros(beyond, np.full(len(places), start), np.full(len(places), end))[0]
 
 
 def _flank_changes(strokes: Strokes, span: Floats, effect: float) -> Floats:

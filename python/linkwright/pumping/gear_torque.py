@@ -20,6 +20,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Annotated
 
 import numpy as np
@@ -212,19 +213,31 @@ class Strokes:
             stroke = stroke_load(self.unit, self.load, self.motion(at), at)
             return np.stack([stroke.net(size), stroke.load, stroke.load * stroke.factor])
 
-        up, down = self.spans()
+        up, down = self.spans
         return turn_curve(of, up, "torque of the gearbox"), turn_curve(of, down, "torque of the gearbox")
 
+    @cached_property
     def spans(self) -> tuple[Floats, Floats]:
-        """Crank angles of each stroke from end to end, with the corners of a table over the angle between."""
+        """Crank angles of each stroke from end to end, with those between at which the load has a corner."""
         bottom = self.ends[0]
         top = bottom + (self.ends[1] - bottom) % (2 * np.pi)
-        corners = bottom + (np.array(self.load.angle or ()) - bottom) % (2 * np.pi)
         up, down = (
-            np.unique([start, *corners[(corners > start) & (corners < end)], end])
+            np.unique([start, *self._corners(start, end), end])
             for start, end in ((bottom, top), (top, bottom + 2 * np.pi))
         )
         return up, down
+
+    def _corners(self, start: float, end: float) -> Floats:
+        """Crank angles of a stroke at which the table of the load has a corner."""
+        if self.load.angle is not None:
+            corners = start + (np.array(self.load.angle) - start) % (2 * np.pi)
+            return corners[(corners > start) & (corners < end)]
+        places = np.array([place for place in self.load.position or () if 0.0 < place < 1.0])
+
+        def beyond(angles: Floats) -> Floats:
+            return np.asarray(self.motion(angles % (2 * np.pi))[0] / self.unit.stroke - places)
+
+        return zeros(beyond, np.full(len(places), start), np.full(len(places), end))[0]
 
     def equal_peaks(self) -> float:
         """The counterbalance with which both strokes have equal peaks: bracketed by samples, then exact.

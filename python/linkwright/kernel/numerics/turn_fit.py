@@ -1,8 +1,9 @@
 r"""Quantities over a revolution, fitted by Chebyshev series from kink to kink with a measured error.
 
 A piece is a series through N nodes inside it, so that a jump at its end is seen from one side only. It is
-halved until the series of the whole agrees with the values of its halves, where nothing of it was fitted;
-that deviation is the error, and the halves, which are better, are kept.
+halved until the series of the whole agrees with the values of its halves and close to its ends, where nothing
+of it was fitted; that deviation is the error, and the halves, which are better, are kept. A kink between the
+last node and an end is seen at the end only.
 
 Where a kink or a jump is not known beforehand, halving closes in on it: the piece that holds it becomes as
 narrow as its share of the integral must be.
@@ -33,6 +34,12 @@ _NODES = 16
 # Pieces of the revolution to begin with, so that a peak of some ten degrees is not between the first nodes.
 _PIECES = 8
 
+# Where the ends of a piece are looked at, as a share of it: inside, since a jump may be at the end.
+_INSIDE = 1e-9
+
+# Deviation at an end over that inside, beyond which it is a kink: rounding is off by as much everywhere.
+_KINK = 10.0
+
 # Deviation over the peak, and share of the mean size, at which a piece will do: some hundreds of rounding.
 _CLOSE = 1e-13
 
@@ -40,7 +47,7 @@ _CLOSE = 1e-13
 # rounding. It is looked at at two places of a piece that is much longer, of which a jump is in one at most.
 _PROBE = 2e-10
 _PROBED = (0.382, 0.618)
-_LONG = 1e-7
+_LONG = 1e-8
 
 # Deviation in terms of the mean high coefficient of rounding: coefficients are a third of the values'
 # rounding (√(2/N)), and the maximum of some hundred deviations, amplified by extrapolation, is ten of them.
@@ -104,7 +111,9 @@ class _Fit:
         values = self._values(low.ravel(), high.ravel())
         self.peak = np.maximum(self.peak, np.abs(values).max(axis=(0, 2)))
         halves = values.reshape(len(middle), 2, *values.shape[1:])
-        off = np.abs(np.einsum("pkn,hmn->phkm", self.series, _prediction()) - halves).max(axis=(1, 3))
+        inside = np.abs(np.einsum("pkn,hmn->phkm", self.series, _prediction()) - halves).max(axis=(1, 3))
+        at_ends = np.abs(self.series @ _at_ends() - self._ends()).max(axis=2)
+        off = np.where(at_ends > _KINK * inside, at_ends, inside)
         width = (self.high - self.low)[:, None]
         rounding = np.zeros_like(off)
         doubtful = ~self._is_good(off, width, rounding) & (width[:, 0] > _LONG)
@@ -164,12 +173,21 @@ class _Fit:
     def _values(self, low: Floats, high: Floats) -> Floats:
         """Values at the nodes of pieces, (p, k, N)."""
         middle, half = 0.5 * (low + high), 0.5 * (high - low)
-        phi = np.ascontiguousarray((middle[:, None] + half[:, None] * _nodes()).ravel())
+        return self._at(middle[:, None] + half[:, None] * _nodes())
+
+    def _ends(self) -> Floats:
+        """Values close to the ends of the open pieces, (p, k, 2)."""
+        inside = _INSIDE * (self.high - self.low)
+        return self._at(np.stack([self.low + inside, self.high - inside], axis=1))
+
+    def _at(self, angles: Floats) -> Floats:
+        """Values at angles of each piece, (p, n) to (p, k, n)."""
+        phi = np.ascontiguousarray(angles.ravel())
         values = self.of(phi)
         if not np.isfinite(values).all():
             at = np.degrees(phi[np.argmin(np.isfinite(values).all(axis=0))])
             raise FindingError(f"the {self.what} has no finite value at crank angle {at:.4g}°")
-        samples: Floats = values.reshape(len(values), len(low), _NODES).swapaxes(0, 1)
+        samples: Floats = values.reshape(len(values), *angles.shape).swapaxes(0, 1)
         return samples
 
 
@@ -221,3 +239,9 @@ def _prediction() -> Floats:
     """Coefficients of a piece → values at the nodes of its halves, (2, N, N)."""
     halves = (0.5 * (_nodes() - 1), 0.5 * (_nodes() + 1))
     return np.stack([chebyshev.chebvander(x, _NODES - 1) for x in halves])
+
+
+@cache
+def _at_ends() -> Floats:
+    """Coefficients of a piece → values close to its ends, (N, 2)."""
+    return np.ascontiguousarray(chebyshev.chebvander([2 * _INSIDE - 1, 1 - 2 * _INSIDE], _NODES - 1).T)
