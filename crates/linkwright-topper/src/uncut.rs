@@ -8,9 +8,14 @@ use super::knife::{Head, Knife};
 use super::needed::{Stations, half_chord};
 use linkwright_kernel::gauss::{B, C};
 use linkwright_kernel::real::Real;
+use std::f64::consts::FRAC_PI_2;
 
 /// Length of u, and of the law's phase, that a part of Gauss's rule takes at most: of order 8, it leaves 1e-12 of a head.
 const PART: f64 = 0.25;
+
+/// Distances in u of a rim from the end of a stretch between which parts are shorter: nearer, nothing is left of the head to
+/// count; further, they are short enough.
+const NEAR_RIM: std::ops::Range<f64> = 1e-4..1.0;
 
 /// Steps of the search for a kink: regula falsi (Illinois) gains a digit and a half each.
 const SEARCH: usize = 60;
@@ -120,6 +125,9 @@ impl Uncut {
             kinks.push(u[0]);
             kinks.extend_from_slice(&self.brackets.rows[1][first..end]);
             kinks.push(u[u.len() - 1]);
+            if !edge.knife.corners.is_empty() {
+                swing.grade(edge.knife, kinks);
+            }
             kinks.sort_unstable_by(f64::total_cmp);
             first = end;
             let lanes = swing.splat::<R>();
@@ -285,6 +293,27 @@ impl<R: Real> Swing<R> {
 }
 
 impl Swing<f64> {
+    /// Ends of parts beside an end of the stretch that lies close to the rim: there the chord is a root of t − t₀ of the edge's
+    /// motion in this stretch, which without the corner would come to the rim at t₀, and parts must be short beside the
+    /// distance √(2 |t₀ − t| / w) in u.
+    fn grade(&self, knife: &Knife, kinks: &mut Vec<f64>) {
+        for side in [-1.0, 1.0] {
+            let [chord, _, speed] = self.at_sine(knife, side);
+            let apart = chord / (self.head.radius * speed * self.width).sqrt();
+            if !NEAR_RIM.contains(&apart) {
+                continue;
+            }
+            let mut from_end = 0.0_f64;
+            loop {
+                from_end += PART * from_end.hypot(apart);
+                if from_end >= NEAR_RIM.end {
+                    break;
+                }
+                kinks.push(side * (FRAC_PI_2 - from_end));
+            }
+        }
+    }
+
     /// The same in every lane.
     #[inline(always)]
     fn splat<R: Real>(&self) -> Swing<R> {

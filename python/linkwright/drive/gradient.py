@@ -103,22 +103,19 @@ def steady_tangents(machine: Machine, along: Directions) -> SteadyTangents:
     return SteadyTangents(replace(state, **tangents), ties, lost, rounding)
 
 
-def solved_along(
-    machine: Machine, along: Directions, accuracy: float = _ACCURACY, n: int = _LOOK
-) -> tuple[SteadyState, SteadySolution, Machine]:
+def solved_along(machine: Machine, along: Directions) -> tuple[SteadyState, SteadySolution, Machine]:
     """Steady motion, a solution whose derivatives by all directions are sound, and the machine that it is of.
 
-    `accuracy` of the motion, relative; `n`: its intervals per revolution. Raises what `steady_state` raises,
-    and InputError where the motor keeps its speed.
+    Raises what `steady_state` raises, and InputError where the motor keeps its speed.
     """
     if machine.drive is not None and isinstance(machine.drive.motor, ConstantSpeedMotor):
         raise InputError("a motor of constant speed has the same speed whatever the machine is")
-    state, solution = solved_state(machine, accuracy, n)
+    state, solution = solved_state(machine, _ACCURACY, _LOOK)
     assert solution is not None
     compiled = over_whole_cycle(compile_machine(machine))
     moving = _telling_directions(machine, compiled, state, along.values)
     if moving is not None:
-        _, solution = solved_state(moving, accuracy, n)
+        _, solution = solved_state(moving, _ACCURACY, _LOOK)
         assert solution is not None
     return state, solution, moving or machine
 

@@ -150,13 +150,14 @@ _MOTION = ("crank_angle", "speed", "acceleration", "time")
 
 
 def _steady(machine: Machine, program: Directions) -> tuple[Any, Any]:
-    """The steady motion, and a solution that has derivatives; None where the speed is given."""
+    """The steady motion of `forces`, and a solution that has derivatives; None where the speed is given."""
     motor = None if machine.drive is None else machine.drive.motor
     if motor is None:
         return None, None
     if isinstance(motor, ConstantSpeedMotor):
         return solved_state(machine, _ACCURACY, _N)
-    return solved_along(machine, program, _ACCURACY, _N)[:2]
+    # A steep motor makes much torque of little speed: derivatives are those of a finer mesh.
+    return solved_state(machine, _ACCURACY, _N)[0], solved_along(machine, program)[1]
 
 
 def _curves(result: Forces) -> dict[str, Any]:
