@@ -465,8 +465,12 @@ def left_by_trapezia(case: Case, length: float, phase: float) -> float:
         return edge.place(t, np.full(t.shape, phase), np.full(t.shape, offset))
 
     reach = 4 * radius / edge.mean_advance + 0.1 / case.forward
-    ends = [zero(lambda t: float(place(np.array([t]))[1][0]) - p, -reach, reach) for p in (-radius, radius)]
-    middle, width = 0.5 * (ends[0] + ends[1]), 0.5 * (ends[1] - ends[0])
+
+    def comes_to(level: float) -> float:
+        return zero(lambda t: float(place(np.array([t]))[1][0]) - level, -reach, reach)
+
+    start, end = comes_to(-radius), comes_to(radius)
+    middle, width = 0.5 * (start + end), 0.5 * (end - start)
     turns = 2 * np.pi * np.arange(-3, 4)
     corners = ((np.array(edge.knife.corners)[:, None] + turns - phase) / edge.knife.rate - middle) / width
     kinks = np.arcsin(np.concatenate([[-1.0], np.sort(corners[np.abs(corners) < 1]), [1.0]]))
