@@ -13,8 +13,8 @@ use std::f64::consts::FRAC_PI_2;
 /// Length of u, and of the law's phase, that a part of Gauss's rule takes at most: of order 8, it leaves 1e-12 of a head.
 const PART: f64 = 0.25;
 
-/// Distances in u of a rim from the end of a stretch between which parts are shorter: nearer, nothing is left of the head to
-/// count; further, they are short enough.
+/// Distances in u of a rim from the end of a stretch between which parts are shorter. Nothing of the head is left to count
+/// closer to it, and parts are short enough farther from it.
 const NEAR_RIM: std::ops::Range<f64> = 1e-4..1.0;
 
 /// Steps of the search for a kink: regula falsi (Illinois) gains a digit and a half each.
