@@ -234,9 +234,10 @@ def compared(case: Case, random: Generator) -> Tally:
     used = [found.variables.index(name) for name in {name for way in ways for name in way}]
     sizes = np.abs(d[:, used] * found.at[used]).max(axis=1, initial=0.0)
     scales = np.maximum(sizes, np.abs(found.values[rows])) + 1e-300
-    # Rounding of a net torque of zero is that of the largest.
-    net = np.array(["torque_net" in name for name in names], dtype=bool)
-    scales[net] = scales[net].max(initial=0.0)
+    # Rounding of a net torque of zero is that of the largest, of a place on an axis that along the axis.
+    for alike in ("torque_net", ".last_"):
+        those = np.array([alike in name for name in names], dtype=bool)
+        scales[those] = scales[those].max(initial=0.0)
     good = np.array([max(case.tolerance(name), case.reached) for name in names]) * scales
     tally = Tally()
     for direction in _directions(case.machine, ways, random):

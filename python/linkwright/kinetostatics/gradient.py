@@ -77,7 +77,10 @@ def force_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     if not places:
         return Derivatives(program.variables, {}, {}, missing, program.refused)
     at = np.unique(list(places.values()))
-    motion = Motion(*(getattr(result.motion, name)[at] for name in _MOTION))
+    if solution is None:
+        motion = Motion(*(getattr(result.motion, name)[at] for name in _MOTION))
+    else:
+        motion = _read(solution, result.crank_angle[at])
     along, lost = _motion_along(machine, motion, program, solution)
     tangents = _curves(_forces_along(machine, motion, along, program))
     extremes, ties = {}, {}
@@ -111,8 +114,7 @@ def drive_forces_along(
     if solution is None:
         motion = forces(machine, angles=angles, contributions=False).motion
     else:
-        read = solution.curves(angles)
-        motion = Motion(angles, read.speed, read.acceleration, read.time)
+        motion = _read(solution, angles)
     along, lost = _motion_along(machine, motion, program, solution)
     drives = _forces_along(machine, motion, along, program).drives
     return program, drives, lost, Kinks(machine, program, solution)
@@ -158,6 +160,12 @@ def _steady(machine: Machine, program: Directions) -> tuple[Any, Any]:
         return solved_state(machine, _ACCURACY, _N)
     # A steep motor makes much torque of little speed: derivatives are those of a finer mesh.
     return solved_state(machine, _ACCURACY, _N)[0], solved_along(machine, program)[1]
+
+
+def _read(solution: Any, angles: Floats) -> Motion:
+    """The motion that derivatives are of: what is left of large torques needs both from one mesh."""
+    read = solution.curves(angles)
+    return Motion(angles, read.speed, read.acceleration, read.time)
 
 
 def _curves(result: Forces) -> dict[str, Any]:
@@ -207,8 +215,7 @@ def _beside_kinks(
     if solution is None:
         there = forces(machine, speed=float(result.speed[0]), angles=phi, contributions=False)
     else:
-        read = solution.curves(phi)
-        there = forces(machine, Motion(phi, read.speed, read.acceleration, read.time), contributions=False)
+        there = forces(machine, _read(solution, phi), contributions=False)
     return {
         name: list(zip(phi.tolist(), np.abs(curve).tolist(), strict=True))
         for name, curve in _curves(there).items()
