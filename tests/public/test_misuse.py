@@ -7,6 +7,7 @@ import copy
 import dataclasses
 import inspect
 import pickle
+import re
 import warnings
 from collections.abc import Callable, Iterator
 from functools import cache
@@ -274,6 +275,22 @@ def test_a_table_that_is_put_into_a_machine_is_checked() -> None:
     for wrong, key in (({"radius": "x"}, "radius"), ({"radius": 1.0, "foo": 2}, "foo")):
         with pytest.raises(MachineError, match=rf"^mechanism\.cranks\.A1\.{key}\n"):
             lw.replace(cart, {"mechanism.cranks.A1": wrong})
+
+
+@pytest.mark.parametrize(
+    ("address", "value"),
+    [
+        ("drive.gearbox.efficiency", 1.0001),
+        ("drive.gearbox.efficiency", -1),
+        ("bodies.cart1.mass", -5.0),
+        ("mechanism.cranks.A1.radius", -0.1),
+        ("drive.motor.inertia", -3.0),
+    ],
+)
+def test_a_number_out_of_the_range_of_its_entry_is_refused(address: str, value: float) -> None:
+    """A gearbox that drives with an efficiency of −1 gave δ = 0.161."""
+    with pytest.raises(MachineError, match=rf"^{re.escape(address)}\n  found:    {value:g}\n  expected: "):
+        lw.replace(_machine("roller_two_carts"), {address: value})
 
 
 @pytest.mark.parametrize("value", [None, 1j, [[1.0], [1.0, 2.0]], np.nan, b"abc", {"a": 1}])

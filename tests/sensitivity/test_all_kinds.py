@@ -23,7 +23,7 @@ from sizes import cases
 import linkwright as lw
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import FindingError, LinkwrightError
-from linkwright.machine.address import is_given
+from linkwright.machine.address import exchanged, is_given
 
 # Shares of entries over which they are varied: shorter ones do not reach a kink or a tie of two extremes
 # beside the machine; over longer ones rounding counts less.
@@ -203,7 +203,7 @@ def _difference(machine: lw.Machine, direction: Way, measure: drives.Measure, st
     """Differences over h, 2h and 4h."""
     here = {name: lw.get(machine, name) for name in direction}
     near = {
-        n: np.array(measure(lw.replace(machine, {k: here[k] + n * step * x for k, x in direction.items()})))
+        n: np.array(measure(exchanged(machine, {k: here[k] + n * step * x for k, x in direction.items()})))
         for n in (-4, -2, -1, 0, 1, 2, 4)
     }
     once, twice, four = ((near[n] - near[-n]) / (2 * n * step) for n in (1, 2, 4))

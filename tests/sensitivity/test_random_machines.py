@@ -15,6 +15,7 @@ from sizes import cases
 import linkwright as lw
 from linkwright.kernel.errors import LinkwrightError
 from linkwright.kinetostatics.result import Forces
+from linkwright.machine.address import exchanged
 
 # Share of an entry by which it is varied: rounding over it, and h⁶ of what is left by extrapolation.
 _STEP = 1e-4
@@ -118,7 +119,7 @@ def difference(machine: lw.Machine, address: str, measure: Measure, step: float)
     """Central differences over h, 2h and 4h, extrapolated to sixth order, times the entry."""
     value = lw.get(machine, address)
     near = {
-        n: np.array(measure(lw.replace(machine, {address: value * (1 + n * step)})))
+        n: np.array(measure(exchanged(machine, {address: value * (1 + n * step)})))
         for n in (-4, -2, -1, 1, 2, 4)
     }
     once, twice, four = ((near[n] - near[-n]) / (2 * n * step) for n in (1, 2, 4))

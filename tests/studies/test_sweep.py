@@ -21,8 +21,9 @@ from linkwright.app.application import application
 from linkwright.kernel.errors import InputError
 from linkwright.studies.engine import numbers, sound_variant
 from linkwright.studies.figures import StudyRows, figures
-from linkwright.studies.folder import opened, plan_of
+from linkwright.studies.folder import MANIFEST, opened, plan_of
 from linkwright.studies.plan import plan as plan_with
+from linkwright.studies.rows import LAYOUT
 
 Files = Callable[..., Path]
 
@@ -199,6 +200,19 @@ def test_the_folder_of_another_study_is_left_alone(study_file: Files, tmp_path: 
     (tmp_path / "letters" / "to_mother.txt").write_text("Dear")
     with pytest.raises(InputError, match="other files"):
         lw.sweep(lw.read_study(study_file()), tmp_path / "letters")
+
+
+def test_files_of_another_layout_are_not_read(study_file: Files, tmp_path: Path) -> None:
+    """Columns that are not there ended in an error of the library that reads them."""
+    plan = lw.read_study(study_file())
+    lw.sweep(plan, tmp_path / "rows")
+    place = tmp_path / "rows" / MANIFEST
+    place.write_text(place.read_text().replace(f'"layout": {LAYOUT}', '"layout": 1'))
+    before = contents(tmp_path / "rows")
+    for read in (lambda: lw.sweep(plan, tmp_path / "rows"), lambda: opened(tmp_path / "rows")):
+        with pytest.raises(InputError, match="another version of Linkwright"):
+            read()
+    assert contents(tmp_path / "rows") == before
 
 
 def test_the_order_of_variables_makes_another_grid(study_file: Files, tmp_path: Path) -> None:

@@ -83,7 +83,7 @@ def kind(machine: Machine, address: str) -> Kind | None:
 
 @public
 def replace(machine: Machine, entries: Mapping[str, Any]) -> Machine:
-    """Copy of a machine with some entries exchanged, not checked against each other.
+    """Copy of a machine with some entries exchanged, each checked by itself and not against the others.
 
     Parameters
     ----------
@@ -100,8 +100,9 @@ def replace(machine: Machine, entries: Mapping[str, Any]) -> Machine:
     Raises
     ------
     MachineError
-        An address does not exist; the remedy names close ones. A table has no such entries, or a value is no
-        number where a number belongs.
+        An address does not exist; the remedy names close ones. A table has no such entries, a value is no
+        number where a number belongs, or a number is out of the range of its entry; of an array numbers out of
+        range are rows that fail.
     """
     places = {address: known_place(machine, address) for address in entries}
     return _exchanged(
@@ -194,7 +195,10 @@ def _checked(machine: Machine, place: tuple[str, ...], value: Any) -> Any:
     mark, old = mark_of(annotation), _at(machine, place)
     holds_number = isinstance(mark, Quantity) or is_number(old)
     if value is not None and holds_number:
-        return _numbers_of(address, value, mark.kind if isinstance(mark, Quantity) else COUNT)
+        numbers = _numbers_of(address, value, mark.kind if isinstance(mark, Quantity) else COUNT)
+        if isinstance(mark, Quantity) and not isinstance(numbers, np.ndarray) and not mark.holds(numbers):
+            raise MachineError([Problem(address, f"{numbers:g}", mark.expected, mark.remedy(numbers))])
+        return numbers
     if isinstance(value, np.ndarray) and not isinstance(mark, QuantityList):
         raise MachineError([Problem(address, shown(value), words_of(annotation))])
     # What is no number is a table, a list, a word or a choice: each as in a machine file.

@@ -28,7 +28,7 @@ from linkwright.machine.write import dumps
 from linkwright.studies.model import StudyFile
 from linkwright.studies.parquet import encoded, is_whole, require_pyarrow
 from linkwright.studies.plan import StudyPlan, plan
-from linkwright.studies.rows import Rows
+from linkwright.studies.rows import LAYOUT, Rows
 
 MANIFEST = "_study.json"
 
@@ -128,6 +128,7 @@ def new_folder(path: Path, ready: StudyPlan) -> SweepFolder:
         "study": study,
         "listed": _digest(ready),
         "version": __version__,
+        "layout": LAYOUT,
         "rows": ready.n_rows,
         "chunk": ready.sweep.chunk or (_ROWS if is_batch else _ROWS_SINGLE),
         "units": ready.units,
@@ -142,7 +143,7 @@ def opened(path: Path) -> SweepFolder:
     try:
         require_no_pipe(place)
         manifest = json.loads(place.read_text(encoding="utf-8"))
-        return SweepFolder(path, {**manifest, "rows": int(manifest["rows"]), "hash": manifest["hash"]})
+        folder = SweepFolder(path, {**manifest, "rows": int(manifest["rows"]), "hash": manifest["hash"]})
     except FileNotFoundError:
         raise InputError(f"{path}: found no {MANIFEST}, expected the folder of a sweep") from None
     except (ValueError, KeyError, TypeError, RecursionError, TextError):
@@ -151,6 +152,12 @@ def opened(path: Path) -> SweepFolder:
         ) from None
     except OSError as error:
         raise InputError(f"{place}: cannot be read ({error.strerror or error})") from None
+    if manifest.get("layout") != LAYOUT:
+        raise InputError(
+            f"{place}: found files of another version of Linkwright, whose columns are others; open them with "
+            "that version, or compute the sweep again in another folder"
+        )
+    return folder
 
 
 def plan_of(manifest: dict[str, Any]) -> StudyPlan:

@@ -19,6 +19,9 @@ from linkwright.kernel.arrays import Floats, Integers
 from linkwright.kernel.errors import FindingError
 from linkwright.kernel.quantities import About
 
+# Layout of rows in files and logs: 2 with what becomes of fast starts. Another layout is not read.
+LAYOUT = 2
+
 # Status of a row.
 SOLVED, FAILED, IMPOSSIBLE = 0, 1, 2
 

@@ -26,7 +26,7 @@ from linkwright.machine.machine import Machine
 from linkwright.machine.write import dumps
 from linkwright.studies.engine import evaluate
 from linkwright.studies.plan import StudyPlan
-from linkwright.studies.rows import Rows
+from linkwright.studies.rows import LAYOUT, Rows
 from linkwright.studies.slopes import Slopes, slopes
 
 
@@ -120,6 +120,6 @@ class SearchLog:
         """A sign for what is asked of which machine in which study."""
         if self._machine[0] is not plan.machine:
             study = plan.study.model_dump_json(by_alias=True, exclude_unset=True)
-            self._machine = plan.machine, f"{__version__}\n{study}\n{dumps(plan.machine)}"
+            self._machine = plan.machine, f"{__version__} {LAYOUT}\n{study}\n{dumps(plan.machine)}"
         names = ",".join(axis.name for axis in plan.axes)
         return sha256(f"{kind}\n{names}\n{self._machine[1]}\n".encode() + asked).hexdigest()
