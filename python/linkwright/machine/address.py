@@ -101,8 +101,8 @@ def replace(machine: Machine, entries: Mapping[str, Any]) -> Machine:
     ------
     MachineError
         An address does not exist; the remedy names close ones. A table has no such entries, a value is no
-        number where a number belongs, or a number is out of the range of its entry; of an array numbers out of
-        range are rows that fail.
+        number where a number belongs, or a number is out of the range of its entry. Of an array such numbers
+        are rows that fail.
     """
     places = {address: known_place(machine, address) for address in entries}
     return _exchanged(

@@ -154,8 +154,8 @@ def opened(path: Path) -> SweepFolder:
         raise InputError(f"{place}: cannot be read ({error.strerror or error})") from None
     if manifest.get("layout") != LAYOUT:
         raise InputError(
-            f"{place}: found files of another version of Linkwright, whose columns are others; open them with "
-            "that version, or compute the sweep again in another folder"
+            f"{place}: found files of another version of Linkwright, whose columns are others; open them "
+            "with that version, or compute the sweep again in another folder"
         )
     return folder
 
