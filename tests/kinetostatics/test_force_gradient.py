@@ -12,6 +12,7 @@ from zoo import ZOO, animal
 import linkwright as lw
 from linkwright import _core
 from linkwright.kernel.errors import FindingError, LinkwrightError
+from linkwright.machine.address import exchanged
 
 pytestmark = pytest.mark.skipif(
     not hasattr(_core, "motions_along"), reason="the core was built before its derivatives of motions"
@@ -54,6 +55,8 @@ oil = { kind = "viscous", on = "R.coupler", damping_torsional = 0.4 }
 def _varied(machine: lw.Machine, rng: np.random.Generator) -> lw.Machine:
     """A machine whose sizes, masses and loads differ by some per cent."""
     firm = ("drive.speed", ".sections.", ".size", ".size_other", ".cycle", ".angle.", ".position.")
+    # An efficiency of 1 is the largest.
+    firm += (".efficiency",)
     entries = {
         name: value * (1 + 0.03 * rng.uniform(-1, 1))
         for name, value in lw.addresses(machine).items()
@@ -82,7 +85,7 @@ def _check(machine: lw.Machine, every: int) -> int:
     for at in np.flatnonzero(found.at)[::every]:
         address, value = found.variables[at], found.at[at]
         try:
-            near = [_peaks(lw.replace(machine, {address: value * (1 + k * _STEP)})) for k in (-2, -1, 1, 2)]
+            near = [_peaks(exchanged(machine, {address: value * (1 + k * _STEP)})) for k in (-2, -1, 1, 2)]
         except LinkwrightError:
             continue
         for row, response in enumerate(found.responses):

@@ -10,6 +10,7 @@ from click.testing import CliRunner
 import linkwright as lw
 from linkwright.app.application import application
 from linkwright.kernel.errors import FindingError, InputError, LinkwrightError
+from linkwright.machine.address import exchanged
 from linkwright.machine.program.compiled import Translation
 from linkwright.machine.tangents import directions
 
@@ -45,7 +46,7 @@ def _difference(machine, address):
     """Richardson's extrapolation of central differences with steps h, 2h: error h⁴, and rounding 1e-12/h."""
     value = lw.get(machine, address)
     h = 2e-4 * max(abs(value), 1e-2)
-    at = {k: _measures(lw.replace(machine, {address: value + k * h})) for k in (-2, -1, 1, 2)}
+    at = {k: _measures(exchanged(machine, {address: value + k * h})) for k in (-2, -1, 1, 2)}
     return (8 * (at[1] - at[-1]) - (at[2] - at[-2])) / (12 * h)
 
 
@@ -96,7 +97,7 @@ def test_numbers_of_the_program_follow_the_entries(path):
         up, down = (
             np.array(
                 Translation(
-                    lw.replace(machine, {name: value + step}), motor=True, brake=False
+                    exchanged(machine, {name: value + step}), motor=True, brake=False
                 ).program.parameters,
                 dtype=float,
             )
@@ -175,7 +176,7 @@ def test_peaks_of_acceleration_are_differentiated_at_their_peak(address: str) ->
     value = dict(lw.addresses(machine))[address]
 
     def peak(share: float) -> float:
-        changed = lw.replace(machine, {address: value * (1 + share)})
+        changed = exchanged(machine, {address: value * (1 + share)})
         return lw.steady_state(changed, n=16, accuracy=1e-12).acceleration_max
 
     rough = [(peak(share) - peak(-share)) / (2 * share * value) for share in (8e-3, 4e-3, 2e-3)]
@@ -220,7 +221,7 @@ def test_kinks_under_a_steep_motor_have_derivatives(mass, inertia, rotor):
     for address in ("mechanism.cranks.A.radius", "loads.push.force", "drive.gearbox.efficiency"):
         value, h = lw.get(machine, address), 2e-4 * lw.get(machine, address)
         peak = {
-            k: lw.steady_state(lw.replace(machine, {address: value + k * h}), accuracy=1e-12).acceleration_max
+            k: lw.steady_state(exchanged(machine, {address: value + k * h}), accuracy=1e-12).acceleration_max
             for k in (-2, -1, 1, 2)
         }
         difference = (8 * (peak[1] - peak[-1]) - (peak[2] - peak[-2])) / (12 * h)

@@ -10,6 +10,7 @@ import pytest
 import linkwright as lw
 from linkwright.cam.dynamics.loaded import cam_force
 from linkwright.kernel.errors import InputError
+from linkwright.machine.address import exchanged
 from linkwright.sensitivity.sources import source
 
 # A roller in line with the cam, pressed by a spring or held in a groove, on which inertia prevails.
@@ -43,7 +44,7 @@ def differences(machine: lw.Machine, entry: str, measure: Measure, step: float =
     """Central differences over h, 2h and 4h, extrapolated to sixth order."""
     value = float(lw.get(machine, entry))
     h = step * (abs(value) or 1.0)
-    near = {n: np.array(measure(lw.replace(machine, {entry: value + n * h}))) for n in (-4, -2, -1, 1, 2, 4)}
+    near = {n: np.array(measure(exchanged(machine, {entry: value + n * h}))) for n in (-4, -2, -1, 1, 2, 4)}
     once, twice, four = ((near[n] - near[-n]) / (2 * n * h) for n in (1, 2, 4))
     found: np.ndarray = (64 * once - 20 * twice + four) / 45
     return found

@@ -13,6 +13,7 @@ from sizes import cases
 import linkwright as lw
 from linkwright.cam.gradient import cam_tangents
 from linkwright.kernel.errors import LinkwrightError
+from linkwright.machine.address import exchanged
 
 # Share of an entry by which it is varied: rounding leaves 1e-13 of a result over it, the extrapolated
 # differences h⁶ of a seventh derivative, which small radii of curvature make large.
@@ -113,7 +114,7 @@ def _difference(machine: lw.Machine, names: list[str], way: dict[str, float], st
     """Central differences over h, 2h and 4h, extrapolated to sixth order."""
     here = {name: lw.get(machine, name) for name in way}
     near = {
-        n: _numbers(lw.replace(machine, {name: here[name] + n * step * x for name, x in way.items()}), names)
+        n: _numbers(exchanged(machine, {name: here[name] + n * step * x for name, x in way.items()}), names)
         for n in (-4, -2, -1, 1, 2, 4)
     }
     once, twice, four = ((near[n] - near[-n]) / (2 * n * step) for n in (1, 2, 4))

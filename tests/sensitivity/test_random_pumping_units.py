@@ -10,6 +10,7 @@ from sizes import cases
 
 import linkwright as lw
 from linkwright.kernel.errors import LinkwrightError
+from linkwright.machine.address import exchanged
 from linkwright.sensitivity.sources import source
 
 # Shares of an entry by which it is varied: the shorter where two peaks nearly tie.
@@ -58,7 +59,7 @@ def _difference(machine: lw.Machine, names: list[str], address: str, step: float
     """Central differences over h, 2h and 4h, extrapolated to sixth order, times the entry."""
     value = lw.get(machine, address)
     near = {
-        n: _numbers(lw.replace(machine, {address: value * (1 + n * step)}), names)
+        n: _numbers(exchanged(machine, {address: value * (1 + n * step)}), names)
         for n in (-4, -2, -1, 1, 2, 4)
     }
     once, twice, four = ((near[n] - near[-n]) / (2 * n * step) for n in (1, 2, 4))

@@ -91,7 +91,7 @@ def _difference(machine: lw.Machine, names: list[str], address: str, step: float
     value = lw.get(machine, address)
 
     def measure(n: int) -> np.ndarray:
-        study = lw.topper(lw.replace(machine, {address: value * (1 + n * step)}))
+        study = lw.topper(exchanged(machine, {address: value * (1 + n * step)}))
         return np.array([float(getattr(study, name)) for name in names])
 
     near = {n: measure(n) for n in (-4, -2, -1, 1, 2, 4)}
@@ -196,7 +196,7 @@ def test_a_knife_in_pieces_follows_its_mechanism() -> None:
         size = lw.get(machine, address)
         h = 1e-3 * size
         near = {
-            n: np.array(_knife_numbers(knife(lw.replace(machine, {address: size + n * h})).law))
+            n: np.array(_knife_numbers(knife(exchanged(machine, {address: size + n * h})).law))
             for n in (-4, -2, -1, 1, 2, 4)
         }
         once, twice, four = ((near[n] - near[-n]) / (2 * n * h) for n in (1, 2, 4))
