@@ -66,7 +66,7 @@ def _diagram(machine: Machine, findings: Findings) -> Iterator[str]:
     from linkwright.turning.diagram import turning_moment
 
     findings.of(turning_moment, machine, n=1)
-    yield "turning-moment diagram: driver and load balance over a cycle"
+    yield "turning-moment diagram: balance of driver and load over a cycle"
 
 
 def _knife(machine: Machine, findings: Findings) -> Iterator[str]:
@@ -92,7 +92,7 @@ def _mechanism(machine: Machine, findings: Findings) -> Iterator[str]:
         from linkwright.pumping.unit import PolishedRod
 
         findings.of(PolishedRod.of, machine, machine.pumping_unit)
-        yield "pumping unit: its crank rotates fully"
+        yield "pumping unit: full rotation of its crank"
     if machine.rod_rotator is not None:
         from linkwright.pumping.rod_rotator import rod_rotator
 
@@ -104,7 +104,7 @@ def _mechanism(machine: Machine, findings: Findings) -> Iterator[str]:
         sound_cams(machine, findings)
         yield "cams: undercut, crossings, pressure angle of 90°, hollows, second followers"
     compiled = findings.of(require_turn, machine)
-    yield "mechanism: closes over the whole revolution" + (", loads there" if machine.loads else "")
+    yield "mechanism: closure over the whole revolution" + (", loads there" if machine.loads else "")
     if machine.drive is not None and machine.drive.motor is not None:
         if compiled is not None:
             findings.of(_require_drive, machine, compiled)
