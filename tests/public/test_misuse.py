@@ -288,9 +288,11 @@ def test_a_table_that_is_put_into_a_machine_is_checked() -> None:
     ],
 )
 def test_a_number_out_of_the_range_of_its_entry_is_refused(address: str, value: float) -> None:
-    """A gearbox that drives with an efficiency of −1 gave δ = 0.161."""
-    with pytest.raises(MachineError, match=rf"^{re.escape(address)}\n  found:    {value:g}\n  expected: "):
-        lw.replace(_machine("roller_two_carts"), {address: value})
+    """A gearbox that drives with an efficiency of −1 gave δ = 0.161; a crank of −0.1 m among many moved."""
+    told = rf"^{re.escape(address)}\n  found:    {value:g}\n  expected: "
+    for given in (value, np.array([0.5, value]), np.array([np.nan, value])):
+        with pytest.raises(MachineError, match=told):
+            lw.replace(_machine("roller_two_carts"), {address: given})
 
 
 @pytest.mark.parametrize("value", [None, 1j, [[1.0], [1.0, 2.0]], np.nan, b"abc", {"a": 1}])

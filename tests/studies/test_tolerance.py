@@ -12,6 +12,8 @@ from scipy.stats import norm
 import linkwright as lw
 from linkwright.app.application import application
 from linkwright.kernel.errors import InputError
+from linkwright.studies.axes import axis
+from linkwright.studies.model import Variable
 from linkwright.studies.plan import StudyPlan
 
 MACHINE = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"
@@ -73,6 +75,8 @@ def test_limits_of_a_tolerance(tmp_path: Path) -> None:
         ("+0.1 -0.3 mm", 0.7997, 0.8001),
         ("0.8 m ± 0.6 mm", 0.7994, 0.8006),
         ("800 mm +0.1 −0.3 mm", 0.7997, 0.8001),
+        ("800 ± 0.6 mm", 0.7994, 0.8006),
+        ("0.8 ± 0.0006", 0.7994, 0.8006),
     ):
         axis = plan_of(tmp_path, text.replace("X", f'tolerance = "{given}"')).axes[0]
         assert (axis.low, axis.high) == pytest.approx((low, high), abs=1e-15)
@@ -81,9 +85,16 @@ def test_limits_of_a_tolerance(tmp_path: Path) -> None:
         assert values.min() >= low - 1e-15
         assert values.max() <= high + 1e-15
         assert values.mean() == pytest.approx((low + high) / 2, abs=1e-12)
-    for wrong in ("0.6 mm", "0.7 m ± 0.6 mm", "0.8 kg ± 0.6 mm", "± 0.6 kg", "± 0 mm"):
+    for wrong in ("0.6 mm", "0.7 m ± 0.6 mm", "0.8 ± 0.6 mm", "0.8 kg ± 0.6 mm", "± 0.6 kg", "± 0 mm"):
         with pytest.raises(InputError, match=r"variables\.a\.tolerance"):
             plan_of(tmp_path, text.replace("X", f'tolerance = "{wrong}"'))
+
+
+def test_a_tolerance_of_a_size_below_zero() -> None:
+    machine = lw.read(MACHINE, {"mechanism.cranks.A2.phase": "-90 deg"})
+    for given in ("-90 deg ± 1 deg", "−90 ± 1 deg", "-90 deg +1 -1 deg"):
+        one = axis(machine, "phase", Variable(address=("mechanism.cranks.A2.phase",), tolerance=given))
+        assert np.degrees([one.low, one.high]) == pytest.approx([-91.0, -89.0], abs=1e-12)
 
 
 def test_worst_case_holds_all(tmp_path: Path) -> None:

@@ -101,8 +101,7 @@ def replace(machine: Machine, entries: Mapping[str, Any]) -> Machine:
     ------
     MachineError
         An address does not exist; the remedy names close ones. A table has no such entries, a value is no
-        number where a number belongs, or a number is out of the range of its entry. Of an array such numbers
-        are rows that fail.
+        number where a number belongs, or a number, also one of an array, is out of the range of its entry.
     """
     places = {address: known_place(machine, address) for address in entries}
     return _exchanged(
@@ -196,8 +195,8 @@ def _checked(machine: Machine, place: tuple[str, ...], value: Any) -> Any:
     holds_number = isinstance(mark, Quantity) or is_number(old)
     if value is not None and holds_number:
         numbers = _numbers_of(address, value, mark.kind if isinstance(mark, Quantity) else COUNT)
-        if isinstance(mark, Quantity) and not isinstance(numbers, np.ndarray) and not mark.holds(numbers):
-            raise MachineError([Problem(address, f"{numbers:g}", mark.expected, mark.remedy(numbers))])
+        if isinstance(mark, Quantity):
+            _require_range(address, numbers, mark)
         return numbers
     if isinstance(value, np.ndarray) and not isinstance(mark, QuantityList):
         raise MachineError([Problem(address, shown(value), words_of(annotation))])
@@ -209,6 +208,16 @@ def _checked(machine: Machine, place: tuple[str, ...], value: Any) -> Any:
         for key in reversed(place):
             data = {key: data}
         raise MachineError(problems(error, Machine, data, place)) from None
+
+
+def _require_range(address: str, numbers: Any, mark: Quantity) -> None:
+    """Refuse a number out of the range of its entry; a NaN among many is a machine without that number."""
+    given = np.atleast_1d(numbers)
+    given = given[~np.isnan(given)]
+    # A range holds all numbers between two that it holds.
+    for end in (float(given.min()), float(given.max())) if len(given) else ():
+        if not mark.holds(end):
+            raise MachineError([Problem(address, f"{end:g}", mark.expected, mark.remedy(end))])
 
 
 def _numbers_of(address: str, value: Any, kind: Kind) -> Any:

@@ -25,7 +25,9 @@ from linkwright.studies.model import Distribution, Variable
 _SPREAD = 6.0
 
 # "± 0.2 mm"; "+0.1 -0.3 mm", in either order; before both there may be the size, "0.8 m ± 0.2 mm".
-_SIZED = re.compile(r"\s*([\d.]+(?:[eE][+-]?\d+)?[^±+-]*?)\s*((?:±|\+/-|[+-]\s*[\d.]).*)", re.DOTALL)
+_SIZED = re.compile(
+    r"\s*(-?[\d.]+(?:[eE][+-]?\d+)?[^±+-]*?)\s*((?:±|\+/-|[+-]\s*[\d.]+\s+[+-]\s*[\d.]).*)", re.DOTALL
+)
 _EVEN = re.compile(r"\s*(?:±|\+/-)\s*([\d.]+(?:[eE][+-]?\d+)?)\s*(.*)", re.DOTALL)
 _UNEVEN = re.compile(r"\s*([+-]\s*[\d.]+)\s+([+-]\s*[\d.]+)\s*(.*)", re.DOTALL)
 
@@ -233,27 +235,32 @@ def _toleranced(name: str, value: object, text: str, kind: Kind) -> tuple[float,
     stripped = text.replace("−", "-")
     if code := iso286.CODE.fullmatch(stripped):
         return _coded(name, float(value), text, code, kind)
-    if match := _SIZED.fullmatch(stripped):
-        size, stripped = match.groups()
-        _require_size(name, float(value), text, size, kind)
-    if match := _EVEN.fullmatch(stripped):
+    sized = _SIZED.fullmatch(stripped)
+    size, limits = sized.groups() if sized else (None, stripped)
+    if match := _EVEN.fullmatch(limits):
         parts, unit = [f"-{match[1]}", match[1]], match[2]
-    elif match := _UNEVEN.fullmatch(stripped):
+    elif match := _UNEVEN.fullmatch(limits):
         parts, unit = [match[1].replace(" ", ""), match[2].replace(" ", "")], match[3]
     else:
-        raise _problem(name, "tolerance", show(text), 'such as "± 0.2 mm", "+0.1 -0.3 mm" or "25 H7"')
-    ends = [
-        _parsed(name, "tolerance", f"{part} {unit}".strip() if unit else float(part), kind) for part in parts
-    ]
-    low, high = sorted(value + end for end in ends)
+        expected = 'such as "± 0.2 mm", "800 ± 0.2 mm", "+0.1 -0.3 mm" or "25 H7"'
+        raise _problem(name, "tolerance", show(text), expected)
+    if size is not None:
+        _require_size(name, float(value), text, _measure(name, size, unit, kind), kind)
+    low, high = sorted(value + _measure(name, part, unit, kind) for part in parts)
     if not low < high:
         raise _problem(name, "tolerance", show(text), "two limits that differ")
     return low, high
 
 
-def _require_size(name: str, value: float, text: str, size: str, kind: Kind) -> None:
+def _measure(name: str, text: str, unit: str, kind: Kind) -> float:
+    """A number of a tolerance; without a unit of its own it has that at the end, as on a drawing."""
+    if not NUMBER.fullmatch(text):
+        return _parsed(name, "tolerance", text, kind)
+    return _parsed(name, "tolerance", f"{text} {unit}" if unit else float(text), kind)
+
+
+def _require_size(name: str, value: float, text: str, given: float, kind: Kind) -> None:
     """Refuse a tolerance of another size than the machine has."""
-    given = _parsed(name, "tolerance", float(size) if NUMBER.fullmatch(size) else size, kind)
     if abs(given - value) > 1e-9 * abs(value):
         expected = f"the size that the machine has, {value:.6g} {kind.unit}"
         raise _problem(name, "tolerance", show(text), expected, "leave the size out")
