@@ -6,11 +6,8 @@ from scipy.integrate import solve_ivp
 
 import linkwright as lw
 
-J, LINE, END = (
-    0.3,
-    30.0,
-    36.0,
-)  # kg m²; torque at standstill [N m] and speed [rad/s] where a straight motor has none
+# Inertia [kg m²]; torque at standstill [N m] and speed [rad/s] where a straight motor has none.
+J, LINE, END = 0.3, 30.0, 36.0
 
 # A crank of constant inertia; a motor of two straight lines with a corner.
 FILE = """format = 1

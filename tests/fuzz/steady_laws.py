@@ -137,7 +137,7 @@ def _integral(machine: Machine, steady: SteadyState) -> float:
 
     Panels in which they differ are halved: a corner of the acceleration is left in a panel so short that it
     does not count, and what is wrong stays wrong in all of them, and adds up; an acceleration that is off
-    everywhere by as much as is told adds up to 2π of it.
+    everywhere by as much as the result reports adds up to 2π of it.
     """
     compiled = compile_machine(machine)
     edges = np.unique(np.concatenate([compiled.kinks(), np.linspace(0, 2 * np.pi, 33)]))

@@ -44,8 +44,10 @@ class Sweep(Result):
         About("Response → its minimum and maximum [SI], and the rows that have them."),
     ]
     fast_starts: FastStarts
-    repaired: Annotated[tuple[str, ...], About("Truncated files that were computed again.")] = ()
-    truncated: Annotated[tuple[str, ...], About("Truncated files, whose rows are not computed yet.")] = ()
+    repaired: Annotated[tuple[str, ...], About("Truncated or damaged files that were computed again.")] = ()
+    truncated: Annotated[
+        tuple[str, ...], About("Truncated or damaged files, whose rows are not computed yet.")
+    ] = ()
     one_by_one: OneByOne = field(default_factory=dict)
 
     @property
