@@ -24,8 +24,8 @@ def _with_mechanism() -> list[Machine]:
 
 
 def _rows(value: float) -> np.ndarray:
-    """A number, a neighbour of it, and the number again."""
-    return np.array([value, value * 1.0001 if value else 1e-6, value])
+    """A number, a neighbour of it, and the number again; an efficiency of 1 has one below."""
+    return np.array([value, value * (0.9999 if value == 1.0 else 1.0001) if value else 1e-6, value])
 
 
 def _checked(machine: Machine) -> Machine:

@@ -85,7 +85,8 @@ def stiff_drive(random: Generator) -> Table:
         drive["flywheel"] = {"inertia": turning * log_uniform(random, 0.1, 10.0)}
     energy = inertia(description) * speed**2
     rated = _set_motor(random, drive["motor"], 10 ** random.uniform(*STIFF) * energy / ratio, speed * ratio)
-    size = rated * ratio * log_uniform(random, 0.01, 1.0) / r
+    # Loads of some times this size are within what files allow.
+    size = min(rated * ratio * log_uniform(random, 0.01, 1.0) / r, 1e9)
     for k in range(random.integers(1, 4)):
         one = load(random, str(random.choice(slides)), r, size)
         if one["kind"] == "spring":
