@@ -22,6 +22,7 @@ from linkwright.kernel.errors import InputError
 from linkwright.studies.engine import numbers, sound_variant
 from linkwright.studies.figures import StudyRows, figures
 from linkwright.studies.folder import MANIFEST, opened, plan_of
+from linkwright.studies.parquet import columns_of, one_by_one
 from linkwright.studies.plan import plan as plan_with
 from linkwright.studies.rows import LAYOUT
 
@@ -146,6 +147,21 @@ def test_a_damaged_file_is_computed_anew(study_file: Files, tmp_path: Path) -> N
         part.write_bytes(sound[:at] + bytes([sound[at] ^ 255]) + sound[at + 1 :])
         lw.sweep(plan, tmp_path / "rows")
         pd.testing.assert_frame_equal(pd.read_parquet(tmp_path / "rows"), wanted, check_exact=True)
+
+
+def test_a_file_with_a_damaged_footer_is_read_or_computed_anew(study_file: Files, tmp_path: Path) -> None:
+    """Checksums are of pages: names of columns and counts stand in none."""
+    lw.sweep(lw.read_study(study_file()), tmp_path / "rows")
+    folder = opened(tmp_path / "rows")
+    part = folder.part(1)
+    sound, wanted = part.read_bytes(), columns_of(part)
+    footer = len(sound) - 8 - int.from_bytes(sound[-8:-4], "little")
+    for at in range(footer, len(sound), 5):
+        part.write_bytes(sound[:at] + bytes([sound[at] ^ 0x15]) + sound[at + 1 :])
+        if folder.is_done(1):
+            one_by_one(part)
+            for name, column in columns_of(part, list(wanted)).items():
+                np.testing.assert_array_equal(column, wanted[name])
 
 
 def test_units_and_machine_are_in_the_metadata(study_file: Files, tmp_path: Path) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -71,8 +71,8 @@ def encoded(rows: Rows, start: int, units: Mapping[str, str], about: bytes) -> b
     return out.getvalue().to_pybytes()  # type: ignore[no-any-return]
 
 
-def is_whole(path: Path, n_rows: int, about: bytes) -> bool:
-    """Whether a file holds a number of rows of a study: not if it is cut off or damaged, or another's."""
+def is_whole(path: Path, n_rows: int, names: Iterable[str], about: bytes) -> bool:
+    """Whether a file holds rows of a study, with its columns: not if it is cut off, damaged, or another's."""
     import pyarrow as pa
     import pyarrow.parquet as pq
 
@@ -83,8 +83,9 @@ def is_whole(path: Path, n_rows: int, about: bytes) -> bool:
             metadata = file.schema_arrow.metadata or {}
             if file.metadata.num_rows != n_rows or metadata.get(KEY) != about:
                 return False
-            file.read()
-            return True
+            # Names and counts stand outside of the pages, which alone have checksums.
+            _counts(metadata)
+            return list(file.read().column_names) == ["row", *names, "status", "reason", "fast_starts"]
     except (pa.ArrowException, OSError, ValueError):
         return False
 
@@ -93,7 +94,12 @@ def one_by_one(path: Path) -> Counter[str]:
     """Why rows of a file were computed one by one → how many."""
     import pyarrow.parquet as pq
 
-    return Counter(json.loads((pq.read_schema(path).metadata or {}).get(ONE_BY_ONE, b"{}")))
+    return _counts(pq.read_schema(path).metadata or {})
+
+
+def _counts(metadata: Mapping[bytes, bytes]) -> Counter[str]:
+    """The same of its metadata."""
+    return Counter(json.loads(metadata.get(ONE_BY_ONE, b"{}")))
 
 
 def columns_of(path: Path, names: Sequence[str] | None = None) -> dict[str, Any]:
