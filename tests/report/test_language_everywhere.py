@@ -62,6 +62,32 @@ def test_a_command(name: str, kind: str, known: dict[str, str]) -> None:
         assert not _english(call(name, words, known))
 
 
+@pytest.mark.parametrize("name", ["sweep", "sweep show", "optimise", "tolerance"])
+def test_what_a_study_says_first(name: str, known: dict[str, str]) -> None:
+    content = _content(call(name, CASES[name].right, known), "")
+    said = UKRAINIAN(content.lead.removeprefix(f"{content.title}. "))
+    assert not _WORD.findall(_NO_WORDS.sub(" ", said)), said
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "4 machines computed, 2 without an answer",
+        "x is at its maximum, 0.1 m; y is at the lower end of its range, 3 kg",
+        "0.001 m more at the upper end of y would make x 0.001 m larger",
+        "derivatives exact",
+        "cost 3 instead of 4.2; yield 99 % (98 to 100 %) instead of 97 %",
+        "held down by x, y",
+        "no constraint holds them down: they are as wide as the search goes",
+        "6 samples of speed; derivatives by differences, to 3e-09; noise 0.0177 rad/s in speed",
+        "in row",
+    ],
+)
+def test_sentences_of_studies(text: str) -> None:
+    said = UKRAINIAN(text)
+    assert not re.findall("[A-Za-z]{2,}", said), said
+
+
 @pytest.mark.parametrize("text", [*list(STATUS.values())[1:], *FAST_STARTS.values(), OPEN, NO_NUMBER])
 def test_what_becomes_of_a_row_of_a_study(text: str) -> None:
     said = UKRAINIAN(f"3 rows: {text}").replace("(linkwright transient)", "")
