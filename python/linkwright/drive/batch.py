@@ -50,7 +50,9 @@ STATUS = SENTENCES
 # What each number of `SteadyStates.fast_starts` means; fast starts settle where it is 0.
 _OUTCOMES = ("runs away", "undecided")
 FAST_STARTS = {
-    number: START_WORDS[outcome].format("fast starts") for number, outcome in enumerate(_OUTCOMES, 1)
+    1: "From fast starts the machine runs away, or gains speed up to a range of motions that all repeat; it "
+    "reaches the steady motion from slower starts.",
+    2: START_WORDS["undecided"].format("fast starts"),
 }
 
 
