@@ -62,7 +62,10 @@ impl<R: Real> Div for Dual<R> {
     fn div(self, o: Self) -> Self {
         let inverse = o.value.recip();
         let value = self.value * inverse;
-        Dual { value, d: (self.d - value * o.d) * inverse }
+        let d = (self.d - value * o.d) * inverse;
+        // A divisor that overflows, as 1 + exp x, leaves nothing: 0 ∞ is no slope.
+        let nothing = R::splat(0.0);
+        Dual { value, d: inverse.abs().select_lt(R::splat(f64::MIN_POSITIVE), nothing, d) }
     }
 }
 impl<R: Real> Neg for Dual<R> {

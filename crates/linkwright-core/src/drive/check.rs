@@ -322,7 +322,7 @@ fn add_growth(check: &mut Check, [whole, halves]: &[Vec<f64>; 2], accuracy: f64)
     let most = |(a, b): (&f64, &f64)| a.abs().max(b.abs());
     let pairs = || whole.iter().zip(halves);
     let multiplier: f64 = pairs().map(most).product();
-    let part = |(a, b)| if most((a, b)) > 0.0 { multiplier * (a - b).abs() / most((a, b)) } else { 0.0 };
+    let part = |(a, b)| if most((a, b)) == 0.0 { 0.0 } else { multiplier * (a - b).abs() / most((a, b)) };
     let parts: Vec<f64> = pairs().map(part).collect();
     add_integral(check, &parts, multiplier.max(1.0), 0.0, accuracy);
     multiplier
@@ -338,6 +338,7 @@ fn size<R: Real>(difference: R) -> R {
 /// Adds the errors of an integral; its size is that of its parts, so that nothing is lost where they cancel. What the
 /// rounding of speeds makes of it is reported, but no finer step would take it away.
 fn add_integral(check: &mut Check, parts: &[f64], size: f64, rounding: f64, accuracy: f64) {
+    let parts: Vec<f64> = parts.iter().map(|&part| self::size(part)).collect();
     let sum: f64 = parts.iter().sum();
     if size <= 0.0 || sum <= ROUNDING * size {
         return;
@@ -346,7 +347,7 @@ fn add_integral(check: &mut Check, parts: &[f64], size: f64, rounding: f64, accu
     if sum > (accuracy * size).max(rounding) {
         let worst = parts.iter().copied().fold(0.0, f64::max);
         for (excess, part) in check.excess.iter_mut().zip(parts) {
-            if *part >= 0.3 * worst && *part > ROUNDING * size {
+            if part >= 0.3 * worst && part > ROUNDING * size {
                 excess.error = excess.error.max(2.0);
             }
         }
