@@ -53,6 +53,6 @@ def test_a_sign_with_an_overflow_has_a_slope() -> None:
     tanh, logistic = (
         lw.steady_state(lw.loads(FILE.format(sign=sign))) for sign in ("tanh(100*v)", "(2/(1+exp(-200*v))-1)")
     )
-    # Steps end beside the zeros of tanh alone; the check of the steps holds the other to what is told.
+    # Steps end beside the zeros of tanh alone, which is good to more digits.
     assert logistic.speed_max == pytest.approx(tanh.speed_max, rel=1e-7)
     assert logistic.energy_load == pytest.approx(tanh.energy_load, rel=1e-6)
