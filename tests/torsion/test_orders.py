@@ -10,6 +10,7 @@ import pytest
 import linkwright as lw
 from linkwright.kernel.errors import InputError
 from linkwright.torsion.excitation.excited_train import excited_train
+from linkwright.torsion.excitation.harmonics import orders_together, span
 from linkwright.torsion.modes.holzer import holzer_frequency
 from linkwright.torsion.response.forced import responded
 from linkwright.torsion.tables.orders import excitation_tables, manoeuvre_csv, order_files, order_results
@@ -80,3 +81,29 @@ def test_frequencies_in_any_unit(text: str, hertz: float) -> None:
 def test_other_texts_are_refused(text: str) -> None:
     with pytest.raises(InputError, match="holzer: found"):
         holzer_frequency(text, lw.free_vibration(machine()))
+
+
+@pytest.mark.parametrize(
+    ("orders", "waves"),
+    [
+        # Behind a stage of 1 : 250; its 7 vanes alone, and with twice as many.
+        ([1750.0], [1]),
+        ([1750.0, 3500.0], [1, 2]),
+        # Nothing is gained by less than a turn.
+        ([4.0], [4]),
+        ([2.0, 4.0, 6.0], [2, 4, 6]),
+        # With once in a turn all waves of the turn are needed; of too many each stands alone.
+        ([1.0, 500.0], [1, 500]),
+        ([1.0, 1750.0], [1, 0]),
+    ],
+)
+def test_orders_far_above_one_are_counted_by_the_lowest(orders: list[float], waves: list[int]) -> None:
+    """Extremes of 1750 waves a turn at 200 speeds took 75 s; a sine has them anywhere."""
+    found = orders_together(np.array(orders))
+    assert found.harmonic.tolist() == waves
+    assert found.turns * orders[0] == pytest.approx(waves[0])
+    amplitudes = np.linspace(1.0, 2.0, len(orders))[:, None] * np.exp(0.7j)
+    top, bottom = span(found, amplitudes)
+    tau = np.linspace(0, 2 * np.pi * found.turns, 40_000)
+    wave = sum((a * np.exp(1j * order * tau)).real for a, order in zip(amplitudes[:, 0], orders, strict=True))
+    assert [top[0], bottom[0]] == pytest.approx([wave.max(), wave.min()], abs=0.01)

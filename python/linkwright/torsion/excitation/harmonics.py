@@ -155,7 +155,11 @@ def _orders(listed: Iterable[Floats]) -> Floats:
 
 # Largest number of turns after which orders repeat, and of harmonics in that time.
 _TURNS = 60
-_HARMONICS = 2048
+_HARMONICS = 512
+
+# Waves of the highest order beyond which a turn is not what is looked at, if less will do: the work for
+# extremes grows by the square of their number.
+_WAVES_A_TURN = 128
 
 
 @dataclass(frozen=True)
@@ -185,9 +189,13 @@ def orders_together(values: Floats) -> Orders:
 def _together(listed: tuple[float, ...]) -> Orders:
     """The same once for all speeds at which a train is looked at."""
     values = np.array(listed)
-    # Orders behind a gear stage go by its ratio, which need be no fraction: they are counted by the lowest.
-    units = [1.0, values.min()] if len(values) else [1.0]
-    return max((_counted(values, unit) for unit in units), key=lambda torque: torque.together.sum())
+    whole = _counted(values, 1.0)
+    # Orders behind a gear stage go by its ratio, which need be no fraction, and may be far above one wave a
+    # turn: they are counted by the lowest.
+    by_lowest = _counted(values, values.min()) if len(values) else whole
+    gained = int(by_lowest.together.sum()) - int(whole.together.sum())
+    has_many_waves = int(whole.harmonic.max(initial=0)) > _WAVES_A_TURN
+    return by_lowest if gained > 0 or (gained == 0 and has_many_waves) else whole
 
 
 def _counted(values: Floats, unit: float) -> Orders:
