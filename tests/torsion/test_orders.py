@@ -89,16 +89,16 @@ def test_other_texts_are_refused(text: str) -> None:
         # Behind a stage of 1 : 250; its 7 vanes alone, and with twice as many.
         ([1750.0], [1]),
         ([1750.0, 3500.0], [1, 2]),
-        # Nothing is gained by less than a turn.
+        # Nothing is gained by less than a revolution.
         ([4.0], [4]),
         ([2.0, 4.0, 6.0], [2, 4, 6]),
-        # With once in a turn all waves of the turn are needed; of too many each stands alone.
+        # Beside order 1 all waves of the revolution are needed; of too many each stands alone.
         ([1.0, 500.0], [1, 500]),
         ([1.0, 1750.0], [1, 0]),
     ],
 )
 def test_orders_far_above_one_are_counted_by_the_lowest(orders: list[float], waves: list[int]) -> None:
-    """Extremes of 1750 waves a turn at 200 speeds took 75 s; a sine has them anywhere."""
+    """Extremes of 1750 waves per revolution at 200 speeds took 75 s; a sine has them anywhere."""
     found = orders_together(np.array(orders))
     assert found.harmonic.tolist() == waves
     assert found.turns * orders[0] == pytest.approx(waves[0])
