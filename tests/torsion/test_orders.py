@@ -98,7 +98,7 @@ def test_other_texts_are_refused(text: str) -> None:
     ],
 )
 def test_orders_far_above_one_are_counted_by_the_lowest(orders: list[float], waves: list[int]) -> None:
-    """Extremes of 1750 waves per revolution at 200 speeds took 75 s; a sine has them anywhere."""
+    """A sine has its extremes anywhere; among 1750 waves their search at 200 speeds lasted 75 s."""
     found = orders_together(np.array(orders))
     assert found.harmonic.tolist() == waves
     assert found.turns * orders[0] == pytest.approx(waves[0])

@@ -157,7 +157,7 @@ def _orders(listed: Iterable[Floats]) -> Floats:
 _TURNS = 60
 _HARMONICS = 512
 
-# Waves of the highest order beyond which a revolution is more than is looked at, if less will do: the work for
+# Waves of the highest order beyond which less than a revolution is looked at where that will do: the work for
 # extremes grows by the square of their number.
 _WAVES = 128
 
@@ -189,13 +189,13 @@ def orders_together(values: Floats) -> Orders:
 def _together(listed: tuple[float, ...]) -> Orders:
     """The same once for all speeds at which a train is looked at."""
     values = np.array(listed)
-    whole = _counted(values, 1.0)
+    of_revolution = _counted(values, 1.0)
     # Orders behind a gear stage go by its ratio, which need be no fraction, and may be far above one wave per
     # revolution: they are counted by the lowest.
-    by_lowest = _counted(values, values.min()) if len(values) else whole
-    gained = int(by_lowest.together.sum()) - int(whole.together.sum())
-    is_long = int(whole.harmonic.max(initial=0)) > _WAVES
-    return by_lowest if gained > 0 or (gained == 0 and is_long) else whole
+    by_lowest = _counted(values, values.min()) if len(values) else of_revolution
+    gained = int(by_lowest.together.sum()) - int(of_revolution.together.sum())
+    is_long = int(of_revolution.harmonic.max(initial=0)) > _WAVES
+    return by_lowest if gained > 0 or (gained == 0 and is_long) else of_revolution
 
 
 def _counted(values: Floats, unit: float) -> Orders:
