@@ -19,7 +19,7 @@ import numpy as np
 
 from linkwright.drive.gradient import solved_along
 from linkwright.drive.model.motor import ConstantSpeedMotor
-from linkwright.drive.steady_state import solved_state
+from linkwright.drive.steady_state import SteadyState, solved_state
 from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.kernel.numerics.tangent_array import TangentArray, lifted
@@ -37,6 +37,7 @@ from linkwright.linkages.model.structure import structure
 from linkwright.machine.address import get
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
+from linkwright.machine.program.core import SteadySolution
 from linkwright.machine.tangents import Derivatives, Directions, directions, followed, seeded
 
 # Relative accuracy of the steady motion, and its intervals per revolution: those of `forces`.
@@ -64,7 +65,7 @@ def force_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     Raises what `forces` raises.
     """
     program = _directions(machine, variables)
-    state, solution = _steady(machine, program)
+    state, solution = _state(machine), _solution(machine, program)
     result = forces(machine, state, contributions=False)
     curves = _curves(result)
     nothing = _rounding(machine, result)
@@ -110,7 +111,7 @@ def drive_forces_along(
     Beside the entries that have some: entries by which the motion is lost, and the kinks of the machine.
     """
     program = _directions(machine, variables)
-    solution = _steady(machine, program)[1]
+    solution = _solution(machine, program)
     if solution is None:
         motion = forces(machine, angles=angles, contributions=False).motion
     else:
@@ -151,18 +152,22 @@ def _directions(machine: Machine, variables: Sequence[str]) -> Directions:
 _MOTION = ("crank_angle", "speed", "acceleration", "time")
 
 
-def _steady(machine: Machine, program: Directions) -> tuple[Any, Any]:
-    """The steady motion of `forces`, and a solution that has derivatives; None where the speed is given."""
+def _state(machine: Machine) -> SteadyState | None:
+    """The steady motion of `forces`; None where the speed is given."""
+    has_motor = machine.drive is not None and machine.drive.motor is not None
+    return solved_state(machine, _ACCURACY, _N)[0] if has_motor else None
+
+
+def _solution(machine: Machine, program: Directions) -> SteadySolution | None:
+    """A solution that has derivatives; None where nothing is solved, since the speed is given."""
     motor = None if machine.drive is None else machine.drive.motor
-    if motor is None:
-        return None, None
-    if isinstance(motor, ConstantSpeedMotor):
-        return solved_state(machine, _ACCURACY, _N)
+    if motor is None or isinstance(motor, ConstantSpeedMotor):
+        return None
     # A steep motor makes much torque of little speed: derivatives are those of a finer mesh.
-    return solved_state(machine, _ACCURACY, _N)[0], solved_along(machine, program)[1]
+    return solved_along(machine, program)[1]
 
 
-def _read(solution: Any, angles: Floats) -> Motion:
+def _read(solution: SteadySolution, angles: Floats) -> Motion:
     """The motion that derivatives are of: what is left of large torques needs both from one mesh."""
     read = solution.curves(angles)
     return Motion(angles, read.speed, read.acceleration, read.time)
