@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import doctest
-import importlib.util
 import re
 import shlex
 import tomllib
@@ -13,6 +12,7 @@ from types import ModuleType
 
 import pytest
 from click.testing import CliRunner
+from docs_scripts import docs_script
 
 import linkwright as lw
 from linkwright.app.application import application
@@ -34,12 +34,7 @@ def blocks(page: Path, language: str) -> list[str]:
 
 def tables() -> ModuleType:
     """The script that writes the tables of the page on the machine file."""
-    spec = importlib.util.spec_from_file_location("tables", DOCS / "tables.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return docs_script("tables")
 
 
 @pytest.mark.parametrize(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-import importlib.util
 import inspect
 import re
 from collections.abc import Iterator
@@ -11,6 +10,7 @@ from pathlib import Path
 from types import ModuleType
 
 import pytest
+from docs_scripts import docs_script
 from markdown import Markdown
 
 ROOT = Path(__file__).parents[2]
@@ -24,12 +24,7 @@ _INDENTED = re.compile(r"^(?! *[-*\d]).*\n\n {4}\S.*$", re.MULTILINE)
 
 def hook() -> ModuleType:
     """The hook of the pages."""
-    spec = importlib.util.spec_from_file_location("formulas", DOCS / "formulas.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return docs_script("formulas")
 
 
 @pytest.mark.parametrize("page", [page for page in PAGES if "```math" in page.read_text("utf-8")], ids=str)
