@@ -13,7 +13,7 @@ from click.testing import CliRunner
 import linkwright as lw
 from linkwright.app.application import application
 from linkwright.kernel.errors import FindingError, InputError
-from linkwright.studies import search_log
+from linkwright.studies import engine, search_log, slopes
 from linkwright.studies.optimise import Optimum
 
 # The pin of a crank of 0.2 m at angle a: x = 0.2 cos a, y = 0.2 sin a.
@@ -261,3 +261,116 @@ def test_a_search_that_was_stopped_goes_on_from_its_log(
     with pytest.raises(InputError, match="another search"):
         lw.optimise(lw.read_study(tmp_path / "other.toml"), 200, log=log)
     assert log.read_bytes() == text
+
+
+@pytest.mark.parametrize("method", ["both", "global"])
+@pytest.mark.parametrize("evaluations", [10, 11, 40, 100])
+def test_no_more_machines_than_are_allowed(evaluations: int, method: str, tmp_path: Path) -> None:
+    text = TEXT.replace("[goals]", 'low = { curve = "motion.A1.y", extreme = "min" }\n[goals]')
+    found = optimum(tmp_path, text, evaluations, method)
+    # Populations, and derivatives by differences, are computed as a whole.
+    assert evaluations / 2 <= found.n_evaluations <= evaluations
+    text = text.replace('range = ["0.1 m", "0.3 m"]', 'values = ["0.1 m", "0.2 m", "0.3 m"]')
+    assert optimum(tmp_path, text, evaluations, method).n_evaluations <= 3 * evaluations
+
+
+def test_all_machines_are_counted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Also those of differences: a response without exact derivatives takes four a variable."""
+    counts: list[int] = []
+
+    def watched(plan: Any, values: Any) -> Any:
+        rows = engine.evaluate(plan, values)
+        counts.append(len(rows))
+        return rows
+
+    monkeypatch.setattr(search_log, "evaluate", watched)
+    monkeypatch.setattr(slopes, "evaluate", watched)
+    monkeypatch.setattr("linkwright.studies.optimise.prices", lambda *_: [])
+    for method in ("both", "gradient"):
+        counts.clear()
+        found = optimum(tmp_path, TEXT, 300, method, starts=2)
+        assert found.n_evaluations == sum(counts)
+
+
+def test_fewer_machines_than_a_population_are_refused_by_name(tmp_path: Path) -> None:
+    many = "".join(
+        f'[variables.v{i}]\naddress = "{place}"\nrange = [0.5, 1.0]\n'
+        for i, place in enumerate(
+            f"{table}.{key}"
+            for table in ("mechanism.sliders.cart1", "mechanism.sliders.cart2")
+            for key in ("rod", "offset")
+        )
+    )
+    bodies = "".join(
+        f'[variables.m{i}]\naddress = "bodies.cart{1 + i % 2}.{key}"\nrange = [100, 900]\n'
+        for i, key in enumerate(("mass", "mass"))
+    )
+    loads = "".join(
+        f'[variables.l{i}]\naddress = "loads.rolling{1 + i}.force"\nrange = [100, 900]\n' for i in range(2)
+    )
+    rest = """
+[variables.ratio]
+address = "drive.gearbox.ratio"
+range = [9, 10]
+"""
+    text = TEXT.replace("[responses]", many + bodies + loads + rest + "[responses]")
+    with pytest.raises(InputError, match="evaluations 10: expected at least 11, the first population of 11"):
+        optimum(tmp_path, text, 10)
+    assert optimum(tmp_path, text, 11).n_evaluations == 11
+
+
+# A mean of samples, and a mass that may be zero, and no less.
+AT_AN_END = """
+machine = "roller_two_carts"
+[variables.mass]
+address = "bodies.cart1.mass"
+range = ["0 kg", "1500 kg"]
+[responses]
+torque = { curve = "steady_state.torque_motor", extreme = "rms" }
+far = { formula = "torque + mass" }
+[goals]
+far = "minimise"
+"""
+
+
+@pytest.mark.parametrize("method", ["both", "gradient"])
+def test_the_best_machine_at_the_end_of_what_there_is(method: str, tmp_path: Path) -> None:
+    """Derivatives are differences, for which there are no machines beyond that end."""
+    found = optimum(tmp_path, AT_AN_END, 400, method, starts=2)
+    assert found.variables["mass"] == 0
+    assert found.active == ("mass is at the lower end of its range, 0 kg",)
+    small = lw.steady_state(lw.replace(found.machine, {"bodies.cart1.mass": 1e-3}))
+    none = lw.steady_state(found.machine)
+    rms = [float(np.sqrt(np.mean(state.torque_motor**2))) for state in (none, small)]
+    slope = 1 + (rms[1] - rms[0]) / 1e-3
+    assert found.multipliers == {"lower end of mass": pytest.approx(slope, rel=1e-3)}
+
+
+def test_a_best_machine_beside_which_there_is_none(tmp_path: Path) -> None:
+    """Rods shorter than 0.2 m do not close: where there are no derivatives, what was found stands."""
+    text = AT_AN_END.replace("bodies.cart1.mass", "mechanism.sliders.cart1.rod")
+    text = text.replace('["0 kg", "1500 kg"]', '["0.199999 m", "0.21 m"]').replace("torque + mass", "mass")
+    found = optimum(tmp_path, text, 400, "both")
+    assert found.variables["mass"] == pytest.approx(0.2, abs=1e-5)
+    assert found.variables["mass"] > 0.2
+    assert any("beside" in reason for reason in found.reasons)
+
+
+@pytest.mark.parametrize("given", ["range = [2, 6]\nwhole = true", "values = [2, 4, 6]"])
+def test_no_machine_is_computed_between_whole_numbers(
+    given: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """There may be none, and nobody asks for derivatives by them."""
+    text = AT_AN_END.replace(
+        "[responses]", f'[variables.n]\naddress = "drive.gearbox.ratio"\n{given}\n[responses]'
+    )
+    seen: set[float] = set()
+
+    def watched(plan: Any, values: Any) -> Any:
+        seen.update(values["n"].tolist())
+        return engine.evaluate(plan, values)
+
+    monkeypatch.setattr(slopes, "evaluate", watched)
+    optimum(tmp_path, text, 100, "both")
+    assert seen
+    assert all(number.is_integer() for number in seen)

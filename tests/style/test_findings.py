@@ -42,10 +42,6 @@ SILENT = {
         "_source",
     ): "what has no exact derivatives is differenced, where the analysis says again what is wrong",
     (
-        "studies/local.py",
-        "_slsqp",
-    ): "a machine on the way without an answer ends the way; the places before it count",
-    (
         "torsion/study.py",
         "_at_critical",
     ): "a mode in which the first disc is at rest has no Holzer table from that disc",
@@ -53,7 +49,6 @@ SILENT = {
         "torsion/limits/overlay.py",
         "_kind",
     ): "a unit that none of the quantities has is reported with those that have one",
-    ("studies/local.py", "_planes"): "a trial without an answer is taken back: the radius shrinks",
     (
         "linkages/model/drawing.py",
         "_number",

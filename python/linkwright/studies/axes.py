@@ -57,6 +57,11 @@ class Axis:
         return not self.choices or all(isinstance(choice, int | float) for choice in self.choices)
 
     @property
+    def is_continuous(self) -> bool:
+        """Whether it takes all values of a range, so that there are derivatives by it."""
+        return not self.choices and not self.is_whole
+
+    @property
     def n_levels(self) -> int:
         """How many levels a grid takes."""
         if self.choices:

@@ -78,7 +78,7 @@ def front(
     points : int
         How many machines, 3 to 1000.
     evaluations : int
-        Machines that each search may take, 10 to 10⁷.
+        Machines that each search computes at most for each combination of choices, as of `optimise`.
     seed : int
         Seed of the random generator.
     method : {"both", "global", "gradient"}

@@ -21,8 +21,10 @@ References
 
 from __future__ import annotations
 
+import math
+from collections import Counter
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -72,13 +74,26 @@ class _Place:
         return self.goal + _PENALTY * float(np.maximum(self.over, 0.0).sum())
 
 
-class Descent:
-    """The way down from starts of a study whose variables are numbers."""
+class _SpentError(Exception):
+    """As many machines are computed as may be."""
 
-    def __init__(self, plan: StudyPlan, goal: str, sign: float, slopes_of: SlopesOf = slopes) -> None:
-        self.plan, self.goal, self.sign, self.slopes_of = plan, goal, sign, slopes_of
+
+class Descent:
+    """The way down from starts of a study whose variables are numbers; `most`: machines it may compute."""
+
+    def __init__(
+        self,
+        plan: StudyPlan,
+        goal: str,
+        sign: float,
+        slopes_of: SlopesOf = slopes,
+        most: float = math.inf,
+    ) -> None:
+        self.plan, self.goal, self.sign, self.slopes_of, self.most = plan, goal, sign, slopes_of, most
         self.free = _free(plan)
+        # Machines that were computed, and why some on the way had no answer.
         self.count = 0
+        self.reasons: Counter[str] = Counter()
         self.size = 1.0
         self._known: dict[bytes, _Place] = {}
 
@@ -87,12 +102,15 @@ class Descent:
 
         Raises FindingError: the machine of the start has no answer.
         """
-        self.base = start.copy()
-        first = self.at(start[self.free])
-        self.size = max(abs(first.goal * self.size), 1e-300)
-        self._known.clear()
+        self.base = end = start.copy()
+        try:
+            first = self.at(start[self.free])
+        except _SpentError:
+            return end
+        size = max(abs(first.goal), 1e-300)
+        scaled = replace(first, goal=first.goal / size, goal_slope=first.goal_slope / size)
+        self.size, self._known = size, {first.share.tobytes(): scaled}
         best = self._planes(self._slsqp(start[self.free]))
-        end = self.base.copy()
         end[self.free] = best.share
         return end
 
@@ -100,11 +118,17 @@ class Descent:
         """Goal and limits at a place, its free shares given."""
         key = share.tobytes()
         if key not in self._known:
-            self.count += 1
-            self._known[key] = self._computed(share)
+            # It is not known beforehand whether derivatives are exact.
+            many = 1 + 4 * len(self.free)
+            if self.count + many > self.most:
+                raise _SpentError
+            self.count += many
+            self._known[key], is_exact = self._computed(share)
+            self.count += 1 - many if is_exact else 0
         return self._known[key]
 
-    def _computed(self, share: Floats) -> _Place:
+    def _computed(self, share: Floats) -> tuple[_Place, bool]:
+        """Goal and limits at a place, and whether all derivatives are exact, so that it was one machine."""
         shares = self.base.copy()
         shares[self.free] = np.clip(share, 0.0, 1.0)
         _, rates, slopes = _slopes(self.plan, shares, self.slopes_of)
@@ -115,13 +139,14 @@ class Descent:
             over.append(way * (slopes.values[name] - limit) / size + _MARGIN)
             over_slope.append(way * slope[name] / size)
         n = len(self.free)
-        return _Place(
+        place = _Place(
             share.copy(),
             self.sign * slopes.values[self.goal] / self.size,
             self.sign * slope[self.goal] / self.size,
             np.array(over),
             np.array(over_slope).reshape(len(over), n),
         )
+        return place, len(slopes.exact) == len(slopes.values)
 
     def _slsqp(self, start: Floats) -> _Place:
         """The best place on the way of SLSQP."""
@@ -143,8 +168,10 @@ class Descent:
         }
         try:
             minimize(**given)
-        except FindingError:
-            # A machine on the way has no answer: what was found before it stands.
+        except FindingError as error:
+            # What was found before it stands.
+            self.reasons[str(error)] += 1
+        except _SpentError:
             return self._least()
         return self._least()
 
@@ -162,9 +189,12 @@ class Descent:
             moved = float(np.abs(trial - best.share).max())
             try:
                 there = self.at(trial)
-            except FindingError:
+            except FindingError as error:
+                self.reasons[str(error)] += 1
                 radius /= 4
                 continue
+            except _SpentError:
+                return best
             near = [*near, there][-_KEPT:]
             if there.merit < best.merit:
                 best = there
@@ -220,7 +250,7 @@ def limits(plan: StudyPlan) -> list[tuple[str, float, float]]:
 
 def _free(plan: StudyPlan) -> list[int]:
     """Places of the variables that have derivatives."""
-    return [i for i, axis in enumerate(plan.axes) if not axis.choices and not axis.is_whole]
+    return [i for i, axis in enumerate(plan.axes) if axis.is_continuous]
 
 
 def _slopes(plan: StudyPlan, share: Floats, slopes_of: SlopesOf = slopes) -> tuple[Floats, Floats, Slopes]:
@@ -296,7 +326,7 @@ def _active(
             word = "maximum" if way > 0 else "minimum"
             yield _ActiveLimit(f"{word} of {name}", name, limit, way > 0, way * slope[name] * rates, 1.0)
     for i, axis in enumerate(plan.axes):
-        if axis.choices or axis.is_whole:
+        if not axis.is_continuous:
             continue
         for limit, way, word in ((axis.low, -1.0, "lower"), (axis.high, 1.0, "upper")):
             if abs(values[i] - limit) <= near * (axis.high - axis.low):

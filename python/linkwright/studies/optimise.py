@@ -50,6 +50,9 @@ _LOOKED = 16
 # Combinations of what is enumerated.
 _COMBINATIONS = 1000
 
+# Share of the machines that is for the derivatives.
+_KEPT = 0.5
+
 # First standard deviation of the search, as a share of each range: 0.3, as [1] advises in section B.5.
 _SIGMA = 0.3
 
@@ -122,7 +125,9 @@ def optimise(
     plan : StudyPlan
         A study with one goal; variables with ranges, or with values that are enumerated.
     evaluations : int
-        Machines that each combination of choices may take, 10 to 10⁷.
+        Machines that are computed at most for each combination of choices, 10 to 10⁷ and no fewer than the
+        first population; where `method` is ``"both"``, the second half is for derivatives. Without effect
+        where it is ``"gradient"``.
     seed : int
         Seed of the random generator; the same seed gives the same search.
     method : {"both", "global", "gradient"}
@@ -197,6 +202,10 @@ def check(plan: StudyPlan, evaluations: int, method: str, starts: int) -> None:
         raise InputError(f"values: found {combinations:.0f} combinations, expected at most {_COMBINATIONS}")
     if method == "gradient":
         return
+    n_free = sum(not axis.choices for axis in plan.axes)
+    if n_free and evaluations < _population(n_free):
+        expected = f"at least {_population(n_free)}, the first population of {n_free} variables"
+        raise InputError(f"evaluations {evaluations}: expected {expected}")
     try:
         import cmaes  # noqa: F401
     except ImportError:
@@ -235,9 +244,11 @@ class _Search:
         elif method == "gradient":
             self._descend(self._started(shares, free, seed, starts))
         else:
-            self._evolve(shares, free, evaluations, seed)
-            if method == "both" and self.best is not None and self.best[0][0] < 2:
-                self._descend([self.best[1]])
+            last = self.count + evaluations
+            is_both = method == "both"
+            self._evolve(shares, free, evaluations - int(_KEPT * evaluations) * is_both, seed)
+            if is_both and self.best is not None and self.best[0][0] < 2:
+                self._descend([self.best[1]], last)
         nearest = self.best
         own = (3, 0.0) if nearest is None else nearest[0]
         if before is not None and (self.best is None or before[0] <= own):
@@ -246,8 +257,8 @@ class _Search:
         best = self.sign * own[1] if own[0] == 0 else None
         self.tried.append({**chosen, self.goal: best, "refused": self._against(nearest)})
 
-    def _evolve(self, shares: Floats, free: list[int], evaluations: int, seed: int) -> None:
-        """Populations of the evolution strategy."""
+    def _evolve(self, shares: Floats, free: list[int], most: int, seed: int) -> None:
+        """Populations of the evolution strategy: the first one, and further ones up to so many machines."""
         from cmaes import CMAwM
 
         # The strategy takes two variables at least: one more, on which nothing depends.
@@ -255,16 +266,17 @@ class _Search:
         steps = np.zeros(size)
         steps[: len(free)] = [_step(self.plan.axes[i]) for i in free]
         bounds = np.tile([0.0, 1.0], (size, 1))
-        strategy = CMAwM(np.full(size, 0.5), _SIGMA, bounds, steps, seed=seed)
+        many = _population(len(free))
+        strategy = CMAwM(np.full(size, 0.5), _SIGMA, bounds, steps, seed=seed, population_size=many)
         used = 0
-        while used < evaluations and not strategy.should_stop():
-            asked = [strategy.ask() for _ in range(strategy.population_size)]
+        while (not used or used + many <= most) and not strategy.should_stop():
+            asked = [strategy.ask() for _ in range(many)]
             points = np.tile(shares, (len(asked), 1))
             points[:, free] = np.array([shares[0] for shares in asked])[:, : len(free)]
             keys = self._ranked(np.clip(points, 0.0, 1.0))
             order = {key: float(rank) for rank, key in enumerate(sorted(set(keys)))}
             strategy.tell([(shares[1], order[key]) for shares, key in zip(asked, keys, strict=True)])
-            used += len(asked)
+            used += many
 
     def _started(self, shares: Floats, free: list[int], seed: int, starts: int) -> list[Floats]:
         """The best of many places that fill the ranges."""
@@ -274,17 +286,24 @@ class _Search:
         order = sorted(range(len(keys)), key=keys.__getitem__)
         return [points[i] for i in order[:starts] if keys[i][0] < 2]
 
-    def _descend(self, starts: list[Floats]) -> None:
-        """Derivatives lead down from each start."""
+    def _descend(self, starts: list[Floats], last: float = math.inf) -> None:
+        """Derivatives lead down from each start, as long as no more than `last` machines are computed."""
         for start in starts:
             plan, kept = numbers_alone(self.plan, start)
-            if all(axis.is_whole or axis.choices for axis in plan.axes):
+            if not any(axis.is_continuous for axis in plan.axes):
                 return
-            descent = Descent(plan, self.goal, self.sign, self.log.slopes)
+            # The end is ranked as one machine more.
+            descent = Descent(plan, self.goal, self.sign, self.log.slopes, last - self.count - 1)
             point = start.copy()
-            point[kept] = descent.run(start[kept])
+            try:
+                point[kept] = descent.run(start[kept])
+            except FindingError as error:
+                # A machine beside the start has no answer: the start stands.
+                self.reasons[str(error)] += 1
             self.count += descent.count
-            self._ranked(point[None])
+            self.reasons += descent.reasons
+            if descent.count:
+                self._ranked(point[None])
 
     def _ranked(self, points: Floats) -> list[tuple[int, float]]:
         """How good machines are, the smaller the better: by limits kept, then by goal or violation."""
@@ -348,7 +367,12 @@ class _Search:
         """What active limits cost."""
         assert self.best is not None
         plan, kept = numbers_alone(self.plan, self.best[1])
-        return prices(plan, self.goal, self.sign, self.best[1][kept], _ACTIVE)
+        try:
+            return prices(plan, self.goal, self.sign, self.best[1][kept], _ACTIVE)
+        except FindingError as error:
+            # A machine beside the best has no answer, so that there are no derivatives to explain it by.
+            self.reasons[str(error)] += 1
+            return []
 
     def _against(self, best: tuple[tuple[int, float], Floats] | None) -> str | None:
         """Why no machine of a combination of choices serves; None if one does."""
@@ -425,6 +449,11 @@ def machine_of(plan: StudyPlan, rows: Rows) -> Machine:
     return sound_variant(
         base, {place: float(rows.columns[name][0]) for name, places in named for place in places}
     )
+
+
+def _population(n: int) -> int:
+    """Machines of a population that varies n numbers, as [1] advises in table 1; it has two at least."""
+    return 4 + math.floor(3 * math.log(max(n, 2)))
 
 
 def _step(axis: Axis) -> float:

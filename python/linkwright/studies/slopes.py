@@ -2,7 +2,7 @@
 
 A variable reaches a response through its entries of the machine, of which the derivatives are those of
 `linkwright.sensitivity`, and through derived numbers and formulas, which tangents go through. What has no
-exact derivative, such as an extreme of a sampled curve, is differenced over four places, extrapolated to
+exact derivative, such as an extreme of a sampled curve, is differenced over four places within the range, to
 fourth order.
 """
 
@@ -22,6 +22,7 @@ from linkwright.kernel.numerics.formula_value import value
 from linkwright.kernel.numerics.tangent import Tangent, primal
 from linkwright.machine.machine import Machine
 from linkwright.sensitivity.sources import SOURCES, Source, chosen, source
+from linkwright.studies.axes import Axis
 from linkwright.studies.engine import evaluate, sound_variant
 from linkwright.studies.plan import Formula, StudyPlan
 from linkwright.studies.responses import ENTRY, StudyResponse, entry_number
@@ -184,17 +185,37 @@ def _address(asked: StudyResponse) -> str:
     return ".".join((asked.analysis, *asked.of, asked.quantity, *place))
 
 
+# Places of differences in steps, and twelve times their weights: about the middle, and to either side of an
+# end of the range, beyond which there may be no machine.
+_NODES = {0: (1, -1, 2, -2), 1: (1, 2, 3, 4), -1: (-1, -2, -3, -4)}
+_WEIGHTS = {0: (8, -8, -1, 1), 1: (48, -36, 16, -3), -1: (-48, 36, -16, 3)}
+
+
 def _differences(plan: StudyPlan, at: Floats, steps: Floats) -> dict[str, Tangent]:
-    """All responses with central differences over h and 2h, extrapolated [1]."""
-    # [1] Richardson, The approximate arithmetical solution by finite differences, Phil. Trans. A 210 (1911)
-    # 307.
-    n = len(at)
-    points = np.vstack([at, *(at + k * np.diag(steps) for k in (1, -1, 2, -2))])
+    """All responses with differences of fourth order by each variable [1]; 0 by lists and whole numbers."""
+    # [1] Fornberg, Generation of finite difference formulas on arbitrarily spaced grids, Math. Comput. 51
+    # (1988) 699, tables 1 and 3.
+    free = [i for i, axis in enumerate(plan.axes) if axis.is_continuous]
+    n, h = len(free), steps[free]
+    sides = [_side(plan.axes[i], at[i], steps[i]) for i in free]
+    nodes, weights = (np.array([table[side] for side in sides], dtype=float) for table in (_NODES, _WEIGHTS))
+    points = np.tile(at, (1 + 4 * n, 1))
+    points[np.arange(1, 1 + 4 * n), np.repeat(free, 4)] += (nodes * h[:, None]).ravel()
     rows = evaluate(plan, {axis.name: points[:, i].copy() for i, axis in enumerate(plan.axes)})
-    rows.require_solved(lambda row: f"a step beside in {plan.axes[(row - 1) % n].name}" if row else "there")
+    rows.require_solved(
+        lambda row: f"a step beside in {plan.axes[free[(row - 1) // 4]].name}" if row else "there"
+    )
     differences = {}
     for name in plan.responses:
         f = rows.columns[name]
-        one, two = (f[1 + k * n : 1 + (k + 1) * n] - f[1 + (k + 1) * n : 1 + (k + 2) * n] for k in (0, 2))
-        differences[name] = Tangent(float(f[0]), (8 * one - two) / (12 * steps))
+        slope = np.zeros(len(at))
+        slope[free] = (weights * (f[1:].reshape(n, 4) - f[0])).sum(axis=1) / (12 * h)
+        differences[name] = Tangent(float(f[0]), slope)
     return differences
+
+
+def _side(axis: Axis, value: float, step: float) -> int:
+    """To which side of a value differences are taken: 0 to both, as far as its range goes."""
+    if axis.low <= value - 2 * step and value + 2 * step <= axis.high:
+        return 0
+    return 1 if value + 4 * step <= axis.high else -1

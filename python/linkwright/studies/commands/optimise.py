@@ -17,7 +17,8 @@ if TYPE_CHECKING:
     from linkwright.studies.plan import StudyPlan
 
 Evaluations = Annotated[
-    int, Option("--evaluations", metavar="N", help="Machines for each combination of values.", min=10)
+    int,
+    Option("--evaluations", metavar="N", help="Machines at most for each combination of values.", min=10),
 ]
 Way = Annotated[
     Literal["both", "global", "gradient"],
