@@ -1,4 +1,4 @@
-"""Friction by a formula c·tanh(k v) changes within a small angle at dead centres: none of it is missed."""
+"""Friction by a formula as c·tanh(k v) changes within a small angle at dead centres: none of it is missed."""
 
 import numpy as np
 import pytest
@@ -19,7 +19,18 @@ on = "S"
 force = "-300*{sign}"
 """
 
-SIGNS = {"tanh": "tanh({k}*v)", "arc tangent": "2/pi*atan({k}*v)"}
+# As they are written for a sign of the speed, beside a plain one that rises or falls there (Stribeck).
+SIGNS = {
+    "tanh": "tanh({k}*v)",
+    "arc tangent": "2/pi*atan({k}*v)",
+    "root": "v/sqrt(v*v + 1/{k}**2)",
+    "tanh of the square": "tanh({k}*v*abs(v))",
+    "off its zero": "tanh({k}*(v + 0.001))",
+    "logistic": "(2/(1 + exp(-{k}*v)) - 1)",
+    "bump": "(v/sqrt(v*v + 0.01) + 0.1*tanh(3*v)*exp(-({k}*v)**2))",
+    "Stribeck": "(1 + 0.1*exp(-({k}*v)**2))*sign(v)",
+    "narrow Stribeck of speeds": "(1 + 0.1*exp(-({k}*v/omega)**2))*sign(v)",
+}
 
 
 def work_of_load(machine: lw.Machine) -> float:
@@ -53,6 +64,17 @@ def test_a_sign_with_an_overflow_has_a_slope() -> None:
     tanh, logistic = (
         lw.steady_state(lw.loads(FILE.format(sign=sign))) for sign in ("tanh(100*v)", "(2/(1+exp(-200*v))-1)")
     )
-    # Steps end beside the zeros of tanh alone, which is good to more digits.
-    assert logistic.speed_max == pytest.approx(tanh.speed_max, rel=1e-7)
-    assert logistic.energy_load == pytest.approx(tanh.energy_load, rel=1e-6)
+    assert logistic.speed_max == pytest.approx(tanh.speed_max, rel=1e-9)
+    assert logistic.energy_load == pytest.approx(tanh.energy_load, rel=1e-9)
+
+
+@pytest.mark.parametrize("belt", [0.3, 2.0, 7.5])
+@pytest.mark.parametrize("k", [100, 1e4, 1e6])
+def test_friction_on_a_moving_belt(k: float, belt: float) -> None:
+    """Where the slide is as fast as the belt, the friction changes at any angle, the machine moves on through it."""
+    sign = f"tanh({k}*(v - {belt}))"
+    motion = lw.steady_state(lw.loads(FILE.format(sign=sign)))
+    finer = lw.steady_state(lw.loads(FILE.format(sign=sign)), accuracy=1e-11)
+    assert motion.energy_load == pytest.approx(finer.energy_load, rel=1e-9)
+    assert motion.speed_max == pytest.approx(finer.speed_max, rel=1e-9)
+    assert motion.speed_min == pytest.approx(finer.speed_min, rel=1e-9)

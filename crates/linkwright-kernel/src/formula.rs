@@ -158,9 +158,6 @@ pub struct Formula {
     pub degree: Degree,
     /// Where it has kinks or jumps.
     pub switches: Vec<Switch>,
-    /// Arguments of `tanh` and `atan`, which may stand for a sign: around a zero they change steeply. Their zeros are angles
-    /// that no speed moves.
-    pub soft_signs: Vec<Switch>,
 }
 
 /// Numbers that a formula may keep at once.
@@ -215,16 +212,13 @@ impl Formula {
     /// From instructions; `None` unless they leave one number and never keep more than [`DEPTH`].
     pub fn new(ops: Vec<Op>) -> Option<Formula> {
         let mut stack: Vec<Degree> = Vec::new();
-        let (mut switches, mut soft_signs) = (Vec::new(), Vec::new());
+        let mut switches = Vec::new();
         for (at, op) in ops.iter().enumerate() {
             let from = stack.split_off(stack.len().checked_sub(op.takes())?);
             match op {
                 Op::Abs | Op::Sign | Op::Step => switches.push(Switch { at, degree: from[0] }),
                 Op::Min | Op::Max | Op::Where => {
                     switches.push(Switch { at, degree: from[0].with(from[1]) });
-                }
-                Op::Tanh | Op::Atan if matches!(from[0], Degree::Of(_)) => {
-                    soft_signs.push(Switch { at, degree: from[0] });
                 }
                 _ => {}
             }
@@ -234,7 +228,7 @@ impl Formula {
             }
         }
         let &[degree] = stack.as_slice() else { return None };
-        Some(Formula { ops, degree, switches, soft_signs })
+        Some(Formula { ops, degree, switches })
     }
 
     /// The parameters that it asks for.

@@ -77,6 +77,28 @@ pub const N: usize = S + 1;
 /// Their places in the step.
 pub const AT: [f64; N] = [0.0, C[0], C[1], C[2], C[3], 1.0];
 
+/// A place just behind the start of the step.
+pub const BEHIND: f64 = 1e-6;
+
+/// Weights with which values at the stages give that just behind the start, by the polynomial through them.
+pub const TO_START: [f64; S] = to_start();
+
+const fn to_start() -> [f64; S] {
+    let mut weights = [1.0; S];
+    let mut i = 0;
+    while i < S {
+        let mut k = 0;
+        while k < S {
+            if k != i {
+                weights[i] *= (C[k] - BEHIND) / (C[k] - C[i]);
+            }
+            k += 1;
+        }
+        i += 1;
+    }
+    weights
+}
+
 /// Coefficients of the quintic through the samples of a step: `a_p = Σ POWERS[p][j] y_j`.
 const POWERS: [[f64; N]; N] = powers();
 
@@ -222,6 +244,14 @@ mod tests {
                 let exact = C[i].powi(q as i32 + 1) / f64::from(q + 1);
                 assert!((sum - exact).abs() < 2e-13, "C(5) in row {i}, power {q}: {sum} for {exact}");
             }
+        }
+    }
+
+    #[test]
+    fn stages_give_the_start_of_polynomials() {
+        for q in 0..5 {
+            let sum: f64 = (0..S).map(|j| TO_START[j] * (1.0 + C[j]).powi(q)).sum();
+            assert!((sum - (1.0 + BEHIND).powi(q)).abs() < 1e-12, "power {q}: {sum}");
         }
     }
 

@@ -55,8 +55,15 @@ pub struct Check {
     pub reached: f64,
 }
 
+impl Check {
+    /// Whether no step errs by more than the tolerance.
+    pub fn is_good(&self) -> bool {
+        self.excess.iter().all(|excess| excess.error <= 1.0)
+    }
+}
+
 /// Differences of a step from its two halves.
-struct Differences<R> {
+pub(super) struct Differences<R> {
     /// Error of its end, signed.
     defect: R,
     /// Error per tolerance.
@@ -66,7 +73,7 @@ struct Differences<R> {
     /// Relative error.
     relative: R,
     /// Errors of its integrals.
-    integrals: [R; INTEGRALS],
+    pub(super) integrals: [R; INTEGRALS],
     /// Its growth, and that of its two halves.
     growths: [R; 2],
 }
@@ -86,7 +93,7 @@ pub struct KinkAtEnd {
 
 /// What errors are compared with.
 #[derive(Clone, Copy)]
-struct Limits {
+pub(super) struct Limits {
     /// Relative accuracy asked for.
     accuracy: f64,
     /// What accelerations count against \[rad/s²\].
@@ -103,13 +110,15 @@ pub fn last_correction(multiplier: f64, accuracy: f64) -> f64 {
 }
 
 impl<R: Real> Turn<R> {
-    /// Measures the error of a solved revolution of one machine.
+    /// Measures the error of a solved revolution of one machine. A revolution that is not good is looked at `closely` only where
+    /// it is to be the answer all the same.
     #[inline(always)]
     pub fn check(
         &self,
         machine: &Machine<'_, R>,
         kinks: &[KinkAtEnd],
         accuracy: f64,
+        closely: bool,
         m: &mut Motion<R>,
     ) -> Check {
         let correction = last_correction(self.multiplier.max_lane(), accuracy);
@@ -122,6 +131,29 @@ impl<R: Real> Turn<R> {
             differences.push(of_step);
             integrals.push(whole);
         }
+        let check = self.judged(machine, &differences, &integrals, kinks, limits);
+        if !(closely || check.is_good()) || !machine.plan.has_rests() {
+            return check;
+        }
+        for (k, of_step) in differences.iter_mut().enumerate() {
+            R::out_of_line(
+                #[inline(always)]
+                || self.add_beside_ends(machine, k, of_step, limits, m),
+            );
+        }
+        self.judged(machine, &differences, &integrals, kinks, limits)
+    }
+
+    /// What the differences of all steps make of the revolution.
+    #[inline(always)]
+    fn judged(
+        &self,
+        machine: &Machine<'_, R>,
+        differences: &[Differences<R>],
+        integrals: &[[R; INTEGRALS]],
+        kinks: &[KinkAtEnd],
+        limits: Limits,
+    ) -> Check {
         let column = |of: &dyn Fn(usize) -> R| unbundle(&(0..differences.len()).map(of).collect::<Vec<_>>());
         let defect = column(&|k| differences[k].defect);
         let mut check = Check {
@@ -133,12 +165,12 @@ impl<R: Real> Turn<R> {
             reached: column(&|k| differences[k].relative).into_iter().fold(0.0, f64::max),
         };
         let growths = [column(&|k| differences[k].growths[0]), column(&|k| differences[k].growths[1])];
-        let multiplier = add_growth(&mut check, &growths, accuracy);
+        let multiplier = add_growth(&mut check, &growths, limits.accuracy);
         self.add_carried(&mut check, &defect, kinks, multiplier, limits);
-        let roundings = self.integral_roundings(machine, &integrals);
-        for (i, size) in self.integral_sizes(machine, &integrals).into_iter().enumerate() {
+        let roundings = self.integral_roundings(machine, integrals);
+        for (i, size) in self.integral_sizes(machine, integrals).into_iter().enumerate() {
             let parts = column(&|k| differences[k].integrals[i]);
-            add_integral(&mut check, &parts, size, roundings[i], accuracy);
+            add_integral(&mut check, &parts, size, roundings[i], limits.accuracy);
         }
         check
     }
@@ -357,16 +389,38 @@ fn add_integral(check: &mut Check, parts: &[f64], size: f64, rounding: f64, accu
 impl<R: Real> Differences<R> {
     /// Adds the difference of a part of the step from its two halves.
     #[inline(always)]
-    fn add_part(&mut self, whole: &Step<R>, halves: &Step<R>, steepness: R, level: usize, limits: Limits) {
+    pub(super) fn add_part(
+        &mut self,
+        whole: &Step<R>,
+        halves: &Step<R>,
+        steepness: R,
+        level: usize,
+        limits: Limits,
+    ) {
         let u = whole.u;
         let du = size(halves.end() - whole.end());
         let de = size(halves.K[S - 1] - whole.K[S - 1]);
         let of_speed = u * (2.0 * limits.accuracy).max(4.0 * ROUNDING);
-        let rounding = (steepness + 1.0) * u * (2.0 * ROUNDING);
-        let of_acceleration = R::splat(limits.accuracy * limits.epsilon).max(rounding);
-        let error = (du / of_speed).max(de / of_acceleration);
+        let error = (du / of_speed).max(de / limits.of_acceleration(u, steepness));
         self.halvings = R::splat(1.0).select_lt(error, R::splat(level as f64), self.halvings);
         self.error = self.error.max(error);
         self.relative = self.relative.max((du / u * 0.5).max(de * (1.0 / limits.epsilon)));
+    }
+
+    /// Adds an error of the acceleration in a step.
+    #[inline(always)]
+    pub(super) fn add_acceleration(&mut self, step: &Step<R>, off: R, limits: Limits) {
+        let off = size(off);
+        self.error = self.error.max(off / limits.of_acceleration(step.u, step.steepness()));
+        self.relative = self.relative.max(off * (1.0 / limits.epsilon));
+    }
+}
+
+impl Limits {
+    /// Error that an acceleration may have: rounding of the speed leaves some under a steep drive.
+    #[inline(always)]
+    fn of_acceleration<R: Real>(&self, u: R, steepness: R) -> R {
+        let rounding = (steepness + 1.0) * u * (2.0 * ROUNDING);
+        R::splat(self.accuracy * self.epsilon).max(rounding)
     }
 }

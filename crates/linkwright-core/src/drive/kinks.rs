@@ -4,12 +4,16 @@
 //! (s′ = 0); a table has one at each knot; a formula where the argument of `abs`, `sign`, `step`, `min`,
 //! `max` or `where` changes sign. Between these angles everything is smooth, so a method of high
 //! order keeps its order when it goes from kink to kink.
+//!
+//! Smooth, but as steep as one pleases: the friction c·tanh(k v) of a formula takes on its sign within a small angle beside
+//! a dead centre. Steps of a steady motion therefore end where a speed that a formula knows is zero, and where the force
+//! changes fast beside that angle, there too.
 
 use crate::drive::cycle::Machine;
-use crate::drive::loads::{ForceElement, FormulaLoad, Law, Load};
+use crate::drive::loads::{Carrier, ForceElement, FormulaLoad, Law, Load};
 use crate::drive::structure::Plan;
 use crate::kernel::dual::Dual;
-use crate::kernel::formula::Degree;
+use crate::kernel::formula::{Degree, Variable};
 use crate::kernel::plane::Angle;
 use crate::kernel::real::Real;
 use crate::kernel::slot::Slot;
@@ -26,6 +30,8 @@ enum Watch {
     LinkTurns(usize),
     /// The point comes to rest, on whatever path.
     PointRests(usize),
+    /// The point turns back in the direction of x, or of y.
+    PointTurns(usize, Axis),
     /// The slide passes a knot of a table.
     SlideAt(usize, f64),
     /// Two points stop parting or nearing each other.
@@ -36,6 +42,13 @@ enum Watch {
     Anchor(usize, usize, Slot),
     /// A switch of a formula.
     Switch(FormulaLoad, usize),
+}
+
+/// An axis of the frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Axis {
+    X,
+    Y,
 }
 
 /// A spring that gets shorter than this share of its free length turns round so fast that it counts as a
@@ -96,12 +109,20 @@ const BESIDE: f64 = 1e-2;
 /// Zeros closer than this \[rad\] to the end of the revolution count as its start: rounding must not decide.
 const WRAP: f64 = 1e-7;
 
-/// A soft sign that changes within a smaller angle \[rad\] is sought out by ends of steps, so many times as far from its zero,
-/// but for those that would lie farther than the last \[rad\], or nearer to another end than this share of their distance.
-const SOFT: f64 = 0.01;
-const SOFT_ENDS: [f64; 3] = [1.5, 8.0, 40.0];
-const SOFT_FARTHEST: f64 = 0.1;
-const SOFT_ROOM: f64 = 0.3;
+/// A force that changes within a small angle beside a rest is looked for from the first angle \[rad\] on at so many, each this
+/// share of the one before. Between two of them a smooth one changes by about this share of its change between the two before;
+/// it is steep where it changes by more than the next share of that, and by more than the last share of its size.
+const FARTHEST: f64 = 0.04;
+const LOOKS: usize = 9;
+const NEARER: f64 = 0.25;
+const STEEP: f64 = 0.5;
+const SLIGHT: f64 = 1e-3;
+
+/// Such a force is sought out by ends of steps, so many times as far from the rest as it changes within, but for those that
+/// would lie farther than the next \[rad\], or nearer to another end than the last share of their distance.
+const STEEP_ENDS: [f64; 3] = [1.5, 8.0, 40.0];
+const STEEP_FARTHEST: f64 = 0.1;
+const STEEP_ROOM: f64 = 0.3;
 
 impl Plan {
     /// All quantities to be watched, each once: two loads may ask for the same.
@@ -151,35 +172,39 @@ impl Plan {
         watches
     }
 
-    /// Formulas in all loads with the switches whose zeros are crank angles that no speed moves.
-    fn still_switches(&self) -> Vec<(FormulaLoad, usize)> {
+    /// Formulas in all loads.
+    fn all_formulas(&self) -> impl Iterator<Item = FormulaLoad> + '_ {
         let in_laws = self.laws.iter().filter_map(|law| match law {
             Law::Formula(load) => Some(*load),
             Law::Damper { .. } => None,
         });
+        self.formula_loads().chain(in_laws)
+    }
+
+    /// Formulas in all loads with the switches whose zeros are crank angles that no speed moves.
+    fn still_switches(&self) -> Vec<(FormulaLoad, usize)> {
         let mut found = Vec::new();
-        for load in self.formula_loads().chain(in_laws) {
+        for load in self.all_formulas() {
             let switches = &self.formulas[load.formula].switches;
             found.extend(switches.iter().filter(|s| s.degree != Degree::Mixed).map(|s| (load, s.at)));
         }
         found
     }
 
-    /// Soft signs in all formulas with the power of the speed in proportion to which they grow.
-    fn soft_signs(&self) -> Vec<(Watch, i32)> {
-        let in_laws = self.laws.iter().filter_map(|law| match law {
-            Law::Formula(load) => Some(*load),
-            Law::Damper { .. } => None,
-        });
+    /// Formulas in all loads with what is zero where a speed that they know is.
+    fn rests(&self) -> Vec<(FormulaLoad, Watch)> {
         let mut found = Vec::new();
-        for load in self.formula_loads().chain(in_laws) {
-            for soft in &self.formulas[load.formula].soft_signs {
-                if let Degree::Of(power) = soft.degree {
-                    found.push((Watch::Switch(load, soft.at), power));
-                }
-            }
+        for load in self.all_formulas() {
+            let formula = &self.formulas[load.formula];
+            let speeds = load.carrier.speeds().into_iter().filter(|(speed, _)| formula.reads(*speed));
+            found.extend(speeds.map(|(_, watch)| (load, watch)));
         }
         found
+    }
+
+    /// Whether some formula knows a speed that comes to zero.
+    pub fn has_rests(&self) -> bool {
+        !self.rests().is_empty()
     }
 
     /// Knots of tables over the crank angle, within the cycle.
@@ -223,6 +248,10 @@ impl<R: Real> Machine<'_, R> {
                 // ½ d|p′|²/dφ; where the point rests p′·p‴ is none of its slope.
                 (place.d1.dot(place.d2), place.d2.dot(place.d2))
             }
+            Watch::PointTurns(point, axis) => {
+                let (d1, d2) = (m.points[point].d1, m.points[point].d2);
+                if axis == Axis::X { (d1.x, d2.x) } else { (d1.y, d2.y) }
+            }
             Watch::SlideAt(slide, knot) => (m.slides[slide].s - R::splat(knot), m.slides[slide].d1),
             Watch::StretchTurns(from, to) | Watch::Anchor(from, to, _) => stretch_turns(from, to, m),
             Watch::StretchAt(from, to, knot) => {
@@ -261,35 +290,38 @@ impl<R: Real> Machine<'_, R> {
         lanes
     }
 
-    /// The same, and ends of steps beside the angles at which a soft sign changes within a small angle, as that of a friction
-    /// c·tanh(20 v) at a dead centre: between two stages of a long step nothing would be seen of it.
+    /// The same, and ends of steps at rests, and beside those at which the force of a formula changes within a small angle:
+    /// between two stages of a long step nothing would be seen of it.
     #[inline(always)]
     pub fn ends(&self, m: &mut Motion<R>) -> Vec<Vec<f64>> {
         let mut lanes = self.breaks(m);
-        let signs = self.plan.soft_signs();
-        if signs.is_empty() {
+        let rests = self.plan.rests();
+        if rests.is_empty() {
             return lanes;
         }
-        let watches: Vec<Watch> = signs.iter().map(|sign| sign.0).collect();
+        let watches: Vec<Watch> = rests.iter().map(|rest| rest.1).collect();
         let scan = R::out_of_line(
             #[inline(always)]
             || self.scan(&watches, m),
         );
-        for (&(watch, power), values) in signs.iter().zip(scan.chunks_exact(2 * self.plan.scan() * R::LANES))
-        {
+        for (&(load, watch), values) in rests.iter().zip(scan.chunks_exact(2 * self.plan.scan() * R::LANES)) {
             let mut zeros = vec![Vec::new(); R::LANES];
             self.zeros(watch, values, &mut zeros, m);
             for nth in 0..zeros.iter().map(Vec::len).max().unwrap_or(0) {
                 let at = |lane: usize| zeros[lane].get(nth).copied();
-                let mut widths: Vec<f64> = (0..R::LANES).map(|lane| at(lane).unwrap_or(0.0)).collect();
-                let width = R::out_of_line(
-                    #[inline(always)]
-                    || self.width(watch, power, R::load(&widths), m),
-                );
-                width.store(&mut widths);
+                let mut places: Vec<f64> = (0..R::LANES).map(|lane| at(lane).unwrap_or(0.0)).collect();
+                let zero = R::load(&places);
+                let widths = [-1.0, 1.0].map(|side| {
+                    let width = R::out_of_line(
+                        #[inline(always)]
+                        || self.width(&load, zero, side, m),
+                    );
+                    width.store(&mut places);
+                    places.clone()
+                });
                 for (lane, ends) in lanes.iter_mut().enumerate() {
                     if let Some(zero) = at(lane) {
-                        add_ends_beside(zero, widths[lane], ends);
+                        add_ends_beside(zero, [widths[0][lane], widths[1][lane]], ends);
                     }
                 }
             }
@@ -297,15 +329,29 @@ impl<R: Real> Machine<'_, R> {
         lanes
     }
 
-    /// Angle within which a soft sign changes at a zero, where it grows from 0 to 1, at the speed at which the search starts.
+    /// Angle within which the force of a formula changes steeply on one side of a rest, at the speed at which the search starts;
+    /// 0 where it does not.
     #[inline(always)]
-    fn width(&self, watch: Watch, power: i32, zero: R, m: &mut Motion<R>) -> R {
-        self.plan.mechanism.place::<R, 2>(self.q, Angle::new(zero), m);
-        let (mut slope, omega) = (self.watched(watch, zero, m).1.abs(), self.q[self.plan.drive.speed_start]);
-        for _ in 0..power.abs() {
-            slope = if power > 0 { slope * omega } else { slope / omega };
+    fn width(&self, load: &FormulaLoad, zero: R, side: f64, m: &mut Motion<R>) -> R {
+        let (mut forces, mut largest) = ([zero; LOOKS], R::splat(0.0));
+        let mut off = FARTHEST;
+        for force in &mut forces {
+            let phi = zero + R::splat(side * off);
+            self.plan.mechanism.place::<R, 1>(self.q, Angle::new(phi), m);
+            *force = self.plan.force(load, self.q, phi, self.q[self.plan.drive.speed_start], m);
+            largest = largest.max(force.abs());
+            off *= NEARER;
         }
-        slope.recip()
+        let (mut width, mut off) = (R::splat(0.0), FARTHEST);
+        let mut before = (forces[0] - forces[1]).abs();
+        for ends in forces[1..].windows(2) {
+            off *= NEARER;
+            let change = (ends[0] - ends[1]).abs();
+            let first = width.select_lt(R::splat(f64::MIN_POSITIVE), R::splat(off), width);
+            width = (before * STEEP).max(largest * SLIGHT).select_lt(change, first, width);
+            before = change;
+        }
+        width
     }
 
     /// Adds the joints of motion laws in pieces, where a derivative jumps.
@@ -570,18 +616,41 @@ impl<R: Real> Machine<'_, Dual<R>> {
     }
 }
 
-/// Adds the zero of a soft sign, and ends on both sides of it, to those of a cycle; nothing where the steps of any revolution
-/// see the sign change.
-fn add_ends_beside(zero: f64, width: f64, ends: &mut Vec<f64>) {
-    let cycle = ends[ends.len() - 1];
-    // A NaN is not below the limit.
-    if !(width > 0.0 && width < SOFT) {
-        return;
+impl Carrier {
+    /// Speeds that a formula may know here, each with what is zero where it is.
+    fn speeds(self) -> Vec<(Variable, Watch)> {
+        let of_point = |point| {
+            [
+                (Variable::Vx, Watch::PointTurns(point, Axis::X)),
+                (Variable::Vy, Watch::PointTurns(point, Axis::Y)),
+            ]
+        };
+        let mut speeds = match self {
+            Carrier::Slide { slide, point } => {
+                [(Variable::V, Watch::SlideTurns(slide))].into_iter().chain(of_point(point)).collect()
+            }
+            Carrier::Point { point, .. } | Carrier::Along { point, .. } => {
+                [(Variable::V, Watch::PointRests(point))].into_iter().chain(of_point(point)).collect()
+            }
+            Carrier::Link { .. } => Vec::new(),
+        };
+        if let Carrier::Along { link, .. } | Carrier::Link { link } = self {
+            speeds.push((Variable::PsiDot, Watch::LinkTurns(link)));
+        }
+        speeds
     }
-    let beside = SOFT_ENDS.into_iter().map(|times| times * width).filter(|&off| off < SOFT_FARTHEST);
-    let places = beside.flat_map(|off| [(zero - off, off), (zero + off, off)]);
-    for (place, off) in [(zero, 0.0)].into_iter().chain(places) {
-        let (place, room) = (place.rem_euclid(cycle), ON_KINK.max(SOFT_ROOM * off));
+}
+
+/// Adds a rest, and ends on both sides of it within which a force changes steeply, to those of a cycle.
+fn add_ends_beside(rest: f64, widths: [f64; 2], ends: &mut Vec<f64>) {
+    let cycle = ends[ends.len() - 1];
+    let mut places = vec![(rest, 0.0)];
+    for (side, width) in [-1.0, 1.0].into_iter().zip(widths).filter(|(_, width)| *width > 0.0) {
+        let beside = STEEP_ENDS.into_iter().map(|times| times * width).filter(|&off| off < STEEP_FARTHEST);
+        places.extend(beside.map(|off| (rest + side * off, off)));
+    }
+    for (place, off) in places {
+        let (place, room) = (place.rem_euclid(cycle), ON_KINK.max(STEEP_ROOM * off));
         if ends.iter().all(|end| (end - place).abs() > room) {
             ends.push(place);
         }

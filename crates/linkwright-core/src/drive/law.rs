@@ -231,6 +231,13 @@ impl Plan {
         -(formula.value(q, &geometry.inputs(sense, R::splat(f64::NAN))) * geometry.g)
     }
 
+    /// What a formula gives at a speed of the crank; NaN where it asks for the time.
+    #[inline(always)]
+    pub fn force<R: Real>(&self, load: &FormulaLoad, q: &[R], phi: R, omega: R, m: &Motion<R>) -> R {
+        let formula = &self.formulas[load.formula];
+        formula.value(q, &load.geometry(formula, q, phi, m).inputs(omega, R::splat(f64::NAN)))
+    }
+
     /// Adds what each law needs to know at an angle at which the mechanism has been placed.
     #[inline(always)]
     pub fn add_geometry<R: Real>(&self, q: &[R], phi: R, m: &Motion<R>, to: &mut Vec<LawGeometry<R>>) {

@@ -33,6 +33,7 @@
 
 pub mod along;
 pub mod batch;
+mod beside;
 pub mod between;
 pub mod check;
 pub mod cycle;

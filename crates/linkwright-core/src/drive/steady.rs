@@ -374,9 +374,13 @@ impl Search<'_> {
     /// accelerations under a steep drive only grows.
     fn best(&self) -> Result<Steady, Failure> {
         let (mut found, mut accuracy) = (in_lanes(self.clone()), self.accuracy);
-        while matches!(found, Err(Failure { status: Status::Inaccurate, .. })) && accuracy < 0.2 * USABLE {
+        while let Err(Failure { status: Status::Inaccurate, reached, .. }) = found
+            && accuracy < 0.2 * USABLE
+        {
             accuracy *= LOWER;
             found = in_lanes(Search { accuracy, ..self.clone() });
+            // What was reached before counts if nothing better follows.
+            found = found.map_err(|failure| Failure { reached: failure.reached.min(reached), ..failure });
         }
         found
     }
@@ -449,8 +453,8 @@ impl Job for Search<'_> {
             let pieces = if is_better { turn.pieces() } else { pieces };
             let passages = events.passages(&mesh, &pieces, &mut plain_motion);
             let kinks = events.kinks_at_ends(&passages, &pieces, &mut plain_motion);
-            let check = turn.check(&machine, &kinks, self.accuracy, &mut m);
-            let is_good = check.excess.iter().all(|excess| excess.error <= 1.0);
+            let check = turn.check(&machine, &kinks, self.accuracy, false, &mut m);
+            let is_good = check.is_good();
             reached = check.reached.max(leap);
             // Near rounding more steps may only make more noise.
             idle = if reached < WON * best { 0 } else { idle + 1 };
@@ -459,6 +463,9 @@ impl Job for Search<'_> {
             let next = (!is_good && !is_noise).then(|| mesh.refined(&check.excess));
             let next = next.filter(|next| next.edges.len() <= STEPS_MAX);
             let Some(next) = next else {
+                if !is_good {
+                    reached = reached.max(turn.check(&machine, &kinks, self.accuracy, true, &mut m).reached);
+                }
                 if !is_good && reached > USABLE.max(self.accuracy) {
                     break;
                 }
