@@ -71,7 +71,7 @@ def test_a_sign_with_an_overflow_has_a_slope() -> None:
 @pytest.mark.parametrize("belt", [0.3, 2.0, 7.5])
 @pytest.mark.parametrize("k", [100, 1e4, 1e6])
 def test_friction_on_a_moving_belt(k: float, belt: float) -> None:
-    """Where the slide is as fast as the belt the friction changes, at any angle; the machine moves on through it."""
+    """Where the slide is as fast as the belt, the friction changes within a small angle, wherever that is."""
     sign = f"tanh({k}*(v - {belt}))"
     motion = lw.steady_state(lw.loads(FILE.format(sign=sign)))
     finer = lw.steady_state(lw.loads(FILE.format(sign=sign)), accuracy=1e-11)

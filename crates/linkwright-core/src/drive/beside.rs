@@ -5,8 +5,8 @@
 //! step next to its ends, each half as long as the one before, are compared with halves of their own; and where the shortest
 //! begins, the acceleration is compared with what its stages make of it.
 
-use crate::drive::check::{Differences, Limits};
 use crate::drive::cycle::{CONVERGED, Machine, Step, Turn, stages_of_part};
+use crate::drive::differences::{Differences, Limits};
 use crate::drive::law::LawGeometry;
 use crate::drive::measures::INTEGRALS;
 use crate::kernel::radau::{BEHIND, N, S, TO_START, value};

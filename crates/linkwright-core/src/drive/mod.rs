@@ -37,6 +37,7 @@ mod beside;
 pub mod between;
 pub mod check;
 pub mod cycle;
+mod differences;
 pub mod events;
 pub mod extremes;
 pub mod force_elements;

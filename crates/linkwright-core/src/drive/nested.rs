@@ -12,8 +12,9 @@
 //! from that at ten nodes.
 
 use crate::drive::between::Between;
-use crate::drive::check::{EVEN, ROUNDING};
+use crate::drive::check::EVEN;
 use crate::drive::cycle::{Machine, REFERENCE, Row, Turn};
+use crate::drive::differences::ROUNDING;
 use crate::drive::law::LawGeometry;
 use crate::drive::measures::{INTEGRALS, Totals};
 use crate::kernel::dual::Dual;
