@@ -22,6 +22,7 @@ from rich.table import Table
 CASES = (
     "steady_one",
     "study_one",
+    "sensitivity_one",
     "transient_one",
     "steady_many",
     "sweep_many",

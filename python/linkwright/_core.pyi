@@ -1094,8 +1094,8 @@ class SteadySolution:
     def curves(self, phi: _Floats) -> SteadyCurves:
         """Curves at crank angles in [0, 2π], fastest where these increase; (angles,) each."""
 
-    def gradient(self, directions: _Floats, sizes: _Floats, phi: _Floats) -> SteadyGradient:
-        """Derivatives along `directions` (parameters, n), with curves at the angles `phi`."""
+    def gradient(self, directions: _Floats, sizes: _Floats) -> SteadyGradient:
+        """Derivatives along `directions` (parameters, n), by quantities of some `sizes`."""
 
 @final
 class SteadyCurves:
@@ -1131,7 +1131,6 @@ class NoSteadyMotion:
 class SteadyGradient:
     """Derivatives of steady motion along n directions of the parameters, each (n,).
 
-    `curves` are (angles, n) each. At the end of a step that moves with a kink a curve is followed along it.
     `lost` is the crank angle of a kink whose move was not found [rad], where all else is NaN; NaN where there
     is none.
     """
@@ -1148,7 +1147,12 @@ class SteadyGradient:
     torque_motor_mean: Final[_Floats]
     torque_motor_rms: Final[_Floats]
     lost: Final[_Floats]
-    curves: Final[SteadyCurves]
+
+    def curves(self, phi: _Floats) -> SteadyCurves:
+        """Derivatives of curves at crank angles within the cycle, (angles, n) each.
+
+        At the end of a step that moves with a kink a curve is followed along it.
+        """
 
 @final
 class SteadyRows:

@@ -65,3 +65,59 @@ def test_a_negative_base_has_no_derivative_by_its_power() -> None:
     base = TangentArray(np.array([-2.0]), np.array([[1.0, 0.0]]))
     power = TangentArray(np.array([2.0]), np.array([[0.0, 1.0]]))
     np.testing.assert_array_equal((base**power).d, [[-4.0, np.nan]])
+
+
+def _rows(formula, x: TangentArray, y: TangentArray) -> TangentArray:
+    """A formula of one number after another."""
+    pairs = zip(x.value, x.d, y.value, y.d, strict=True)
+    numbers = [formula(Tangent(a, da), Tangent(b, db)) for a, da, b, db in pairs]
+    return TangentArray([number.value for number in numbers], [number.d for number in numbers])
+
+
+@pytest.mark.parametrize(
+    "formula",
+    [
+        lambda x, y: (x + y) * (x - y) / (x * y) - -x,
+        lambda x, y: (2.0 + x) * (3 - y) / (0.5 * x) + 1.0 / y - x / 7,
+        lambda x, y: x**2 + y**3.0 + x**1 + y**-1.5 + x**y,
+        lambda x, y: np.sqrt(x) * np.hypot(x, y) + np.sin(x) / np.cos(y),
+    ],
+)
+def test_arrays_follow_the_rules_of_numbers(formula) -> None:
+    rng = np.random.default_rng(3)
+    x, y = (TangentArray(rng.uniform(0.5, 1.4, 5), rng.normal(size=(5, 4))) for _ in range(2))
+    expected = _rows(formula, x, y)
+    for found in (formula(x, y), formula(x[:, None], y[:, None])[:, 0]):
+        np.testing.assert_allclose(found.value, expected.value, rtol=1e-14)
+        np.testing.assert_allclose(found.d, expected.d, rtol=1e-12, atol=1e-13)
+
+
+def test_arrays_with_and_without_derivatives_stretch_like_those_of_numpy() -> None:
+    rng = np.random.default_rng(4)
+    x = TangentArray(rng.uniform(1, 2, (3, 1)), rng.normal(size=(3, 1, 4)))
+    y = TangentArray(rng.uniform(1, 2, 2), rng.normal(size=(2, 4)))
+    plain = rng.uniform(1, 2, (3, 2))
+    for found, value, d in (
+        (x + y, x.value + y.value, x.d + y.d),
+        (x - y, x.value - y.value, x.d - y.d),
+        (plain - y, plain - y.value, np.broadcast_to(-y.d, (3, 2, 4))),
+        (x * y, x.value * y.value, x.value[..., None] * y.d + x.d * y.value[:, None]),
+        (plain * y, plain * y.value, plain[..., None] * y.d),
+        (y / plain, y.value / plain, y.d / plain[..., None]),
+        (plain / y, plain / y.value, -(plain / y.value**2)[..., None] * y.d),
+    ):
+        np.testing.assert_allclose(found.value, value, rtol=1e-15)
+        np.testing.assert_allclose(found.d, d, rtol=1e-13)
+    assert x.T.shape == (1, 3)
+    np.testing.assert_array_equal(x.T.d, np.swapaxes(x.d, 0, 1))
+
+
+def test_a_slope_that_does_not_exist_counts_where_something_moves() -> None:
+    """0·∞ and 1/0 leave no derivative by what moves the zero, and none is needed by what does not."""
+    x = TangentArray(np.array([0.0, 2.0]), np.array([[1.0, 0.0], [1.0, 0.0]]))
+    with np.errstate(all="ignore"):
+        for found in (x * np.inf, np.array([np.inf, np.inf]) * x, x * TangentArray(np.inf, np.zeros(2))):
+            np.testing.assert_array_equal(found.d, [[np.inf, 0.0], [np.inf, 0.0]])
+        inverse = 1.0 / x
+        np.testing.assert_array_equal(inverse.d, [[-np.inf, 0.0], [-0.25, 0.0]])
+        np.testing.assert_array_equal((x / 0.0).d, [[np.inf, 0.0], [np.inf, 0.0]])

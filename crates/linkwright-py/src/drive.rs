@@ -2,7 +2,7 @@
 
 use linkwright_core::drive::along;
 use linkwright_core::drive::batch::{self, Outcome, QUANTITIES, Rows};
-use linkwright_core::drive::gradient::{CURVES, Gradient, NUMBERS};
+use linkwright_core::drive::gradient::{CURVES, CurvesAlong, Gradient, NUMBERS, SolutionAlong};
 use linkwright_core::drive::kinks as core_kinks;
 use linkwright_core::drive::reading::{Curves, ReadCurves};
 use linkwright_core::drive::reduce::{self, Reduction};
@@ -174,13 +174,12 @@ impl SteadySolution {
     }
 
     fn gradient(
-        &self,
-        py: Python<'_>,
+        slf: Bound<'_, Self>,
         directions: PyReadonlyArray2<'_, f64>,
         sizes: Floats<'_>,
-        phi: Floats<'_>,
     ) -> PyResult<SteadyGradient> {
-        let (plan, q, phi, sizes) = (&self.plan.get().0, &self.q, phi.as_slice()?, sizes.as_slice()?);
+        let (py, own) = (slf.py(), slf.get());
+        let (plan, q, sizes) = (&own.plan.get().0, &own.q, sizes.as_slice()?);
         let [rows, n] = [directions.as_array().nrows(), directions.as_array().ncols()];
         if rows != q.len() {
             let text = format!("directions of {rows} numbers, {} parameters", q.len());
@@ -190,15 +189,12 @@ impl SteadySolution {
             return Err(PyIndexError::new_err(format!("{} sizes, {n} directions", sizes.len())));
         }
         let directions = directions.as_slice()?;
-        let analysis = "derivatives of steady motion";
-        require_room(analysis, [n, NUMBERS + CURVES * phi.len()])?;
-        let steady = &self.steady;
+        require_room(DERIVATIVES, [n, NUMBERS])?;
+        let steady = &own.steady;
         let found =
-            guarded(py, analysis, || Gradient { plan, q, directions, sizes, steady, phi }.derivatives())?;
+            guarded(py, DERIVATIVES, || Gradient { plan, q, directions, sizes, steady }.derivatives())?;
         // In the order of `drive::gradient`.
         let number = |k: usize| kept(py, found.numbers[k * n..(k + 1) * n].to_vec());
-        let size = phi.len() * n;
-        let curve = |k: usize| &found.curves[k * size..(k + 1) * size];
         Ok(SteadyGradient {
             speed_min: number(0),
             speed_max: number(1),
@@ -212,7 +208,10 @@ impl SteadySolution {
             torque_motor_mean: number(9),
             torque_motor_rms: number(10),
             lost: kept(py, found.lost.clone()),
-            curves: Py::new(py, SteadyCurves::of(py, std::array::from_fn(curve), &[phi.len(), n])?)?,
+            directions: directions.to_vec(),
+            sizes: sizes.to_vec(),
+            along: found.along,
+            of: slf.unbind(),
         })
     }
 }
@@ -268,22 +267,54 @@ pub(crate) fn steady_state(
     })
 }
 
+/// The analysis of derivatives, in messages.
+const DERIVATIVES: &str = "derivatives of steady motion";
+
 /// Derivatives of steady motion along directions of the parameters.
-#[pyclass(frozen, get_all, module = "linkwright._core")]
+#[pyclass(frozen, module = "linkwright._core")]
 pub(crate) struct SteadyGradient {
+    #[pyo3(get)]
     speed_min: Array,
+    #[pyo3(get)]
     speed_max: Array,
+    #[pyo3(get)]
     acceleration_min: Array,
+    #[pyo3(get)]
     acceleration_max: Array,
+    #[pyo3(get)]
     period: Array,
+    #[pyo3(get)]
     multiplier: Array,
+    #[pyo3(get)]
     energy_motor: Array,
+    #[pyo3(get)]
     energy_drive: Array,
+    #[pyo3(get)]
     energy_load: Array,
+    #[pyo3(get)]
     torque_motor_mean: Array,
+    #[pyo3(get)]
     torque_motor_rms: Array,
+    #[pyo3(get)]
     lost: Array,
-    curves: Py<SteadyCurves>,
+    of: Py<SteadySolution>,
+    directions: Vec<f64>,
+    sizes: Vec<f64>,
+    along: SolutionAlong,
+}
+
+#[pymethods]
+impl SteadyGradient {
+    fn curves(&self, py: Python<'_>, phi: Floats<'_>) -> PyResult<SteadyCurves> {
+        let (own, phi, n) = (self.of.get(), phi.as_slice()?, self.sizes.len());
+        require_room(DERIVATIVES, [n, CURVES * phi.len()])?;
+        let (plan, q, steady, along) = (&own.plan.get().0, &own.q, &own.steady, &self.along);
+        let (directions, sizes) = (&self.directions, &self.sizes);
+        let of = Gradient { plan, q, directions, sizes, steady };
+        let found = guarded(py, DERIVATIVES, || CurvesAlong { of, along, phi }.curves())?;
+        let size = phi.len() * n;
+        SteadyCurves::of(py, std::array::from_fn(|k| &found[k * size..(k + 1) * size]), &[phi.len(), n])
+    }
 }
 
 /// Steady motion of many machines, an array over them each.

@@ -24,7 +24,7 @@ from linkwright.linkages.closure import over_whole_cycle, turn_angles
 from linkwright.machine.address import exchanged
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
-from linkwright.machine.program.core import SteadyCurves, SteadySolution
+from linkwright.machine.program.core import SteadyCurves, SteadyGradient, SteadySolution
 from linkwright.machine.tangents import Directions
 
 Floats = NDArray[np.float64]
@@ -89,15 +89,15 @@ def steady_tangents(machine: Machine, along: Directions) -> SteadyTangents:
     """
     state, solution, _ = solved_along(machine, along)
     compiled, values = over_whole_cycle(compile_machine(machine)), along.values
-    angles = np.array([state.speed_min_angle, state.speed_max_angle])
-    gradient = solution.gradient(values, along.sizes, angles)
+    gradient = gradient_along(machine, solution, along)
+    curves = gradient.curves(np.array([state.speed_min_angle, state.speed_max_angle]))
     # The core's works are those of a cycle.
     times = {name: state.turns if name.startswith("energy") else 1 for name in COLUMNS}
     tangents: dict[str, Any] = {
         name: Tangent(getattr(state, name), getattr(gradient, name) / turns) for name, turns in times.items()
     }
     ratio = Tangent(compiled.gear_factors[0], values[compiled.gear_slots[0]])
-    tangents |= _of_motor(compiled, state, tangents, gradient.curves, ratio)
+    tangents |= _of_motor(compiled, state, tangents, curves, ratio)
     ties = _ties(compiled, state, solution)
     lost, rounding = along.lost(gradient.lost), _rounding(compiled, state)
     return SteadyTangents(replace(state, **tangents), ties, lost, rounding)
@@ -110,14 +110,32 @@ def solved_along(machine: Machine, along: Directions) -> tuple[SteadyState, Stea
     """
     if machine.drive is not None and isinstance(machine.drive.motor, ConstantSpeedMotor):
         raise InputError("a motor of constant speed has the same speed whatever the machine is")
-    state, solution = solved_state(machine, _ACCURACY, _LOOK)
-    assert solution is not None
+    state, solution = _solved(machine)
     compiled = over_whole_cycle(compile_machine(machine))
     moving = _telling_directions(machine, compiled, state, along.values)
     if moving is not None:
-        _, solution = solved_state(moving, _ACCURACY, _LOOK)
-        assert solution is not None
+        solution = _solved(moving)[1]
     return state, solution, moving or machine
+
+
+def gradient_along(machine: Machine, solution: SteadySolution, along: Directions) -> SteadyGradient:
+    """Derivatives of a solution of the machine, once for all analyses that ask for the same directions."""
+    kept = compile_machine(machine).kept
+    known: tuple[SteadySolution, Directions, SteadyGradient] | None = kept.get("steady gradient")
+    if known is not None and known[0] is solution and known[1].has_those_of(along):
+        return known[2]
+    gradient = solution.gradient(along.values, along.sizes)
+    kept["steady gradient"] = solution, along, gradient
+    return gradient
+
+
+def _solved(machine: Machine) -> tuple[SteadyState, SteadySolution]:
+    """Steady motion and its solution, once for all analyses of a machine."""
+    kept = compile_machine(machine).kept
+    if "fine steady motion" not in kept:
+        kept["fine steady motion"] = solved_state(machine, _ACCURACY, _LOOK)
+    known: tuple[SteadyState, SteadySolution] = kept["fine steady motion"]
+    return known
 
 
 def _telling_directions(

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from linkwright.drive.gradient import solved_along
+from linkwright.drive.gradient import gradient_along, solved_along
 from linkwright.drive.run_up import RunUp, accurate_run_down, accurate_run_up, peak_until, start_of
 from linkwright.drive.steady_state import SteadyState
 from linkwright.drive.transient import Transient
@@ -22,7 +22,7 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
-from linkwright.machine.program.core import SteadySolution
+from linkwright.machine.program.core import SteadyGradient, SteadySolution
 from linkwright.machine.tangents import Derivatives, Directions, directions
 
 # Relative accuracy of the motions whose derivatives are taken: where a run-down ends softly, its time errs
@@ -62,7 +62,8 @@ def run_up_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     if up.time > 0:
         at = [peak_until(up.motion, up.time)[1], up.time]
         moved = _moved(compile_machine(telling), along, start, up.motion, at)
-        later, lost = _entry(up, state, solution, along, moved)
+        gradient = gradient_along(machine, solution, along)
+        later, lost = _entry(up, state, (solution, gradient), along, moved)
         speed = float(up.motion.at([up.time])[1][0])
         turned = (moved.angle[1] + speed * later - start[0]) / (2 * np.pi)
         peak = moved.speed[0] + (up.motion.slope(at[0]) * later if at[0] == at[1] else 0.0)
@@ -87,8 +88,8 @@ def run_down_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives
     running = running.only(coasting.variables)
     state, solution, _ = solved_along(machine, running)
     down = accurate_run_down(machine, float(state.speed[0]), _ACCURACY)
-    gradient = solution.gradient(running.values, running.sizes, np.zeros(1))
-    start = np.stack([np.zeros(len(running.variables)), gradient.curves.speed[0]])
+    gradient = gradient_along(machine, solution, running)
+    start = np.stack([np.zeros(len(running.variables)), gradient.curves(np.zeros(1)).speed[0]])
     compiled = compile_machine(machine, motor=False, brake=True)
     moved = _moved(compiled, coasting, start, down.motion, [down.time])
     later = -moved.speed[0] / moved.acceleration[0]
@@ -119,15 +120,20 @@ def _moved(
 
 
 def _entry(
-    up: RunUp, state: SteadyState, solution: SteadySolution, along: Directions, moved: _MotionDerivatives
+    up: RunUp,
+    state: SteadyState,
+    steady: tuple[SteadySolution, SteadyGradient],
+    along: Directions,
+    moved: _MotionDerivatives,
 ) -> tuple[Floats, dict[str, float]]:
     """By how much the speed enters the band later [s], and entries by which this was not found."""
     angle, speed = (part[0] for part in up.motion.at([up.time]))
     at = np.array([angle % (2 * np.pi * state.turns)])
-    there, gradient = solution.curves(at), solution.gradient(along.values, along.sizes, at)
+    solution, gradient = steady
+    there, by_entry = solution.curves(at), gradient.curves(at)
     rise = there.acceleration[0] / there.speed[0]
     mean = state.speed_mean_time
     side = np.copysign(1.0, speed - there.speed[0])
     width = mean * (_unit(along, "run_up.settled") - up.settled * gradient.period / state.period)
-    off = moved.speed[1] - rise * moved.angle[1] - gradient.curves.speed[0] - side * width
+    off = moved.speed[1] - rise * moved.angle[1] - by_entry.speed[0] - side * width
     return -off / (up.motion.slope(up.time) - rise * speed), along.lost(gradient.lost)

@@ -63,6 +63,7 @@ class Collector:
     ) -> None:
         self.scene, self.models, self.solution = scene, models, solution
         self.sources, self.columns = sources, columns
+        self.total = solution.x.sum(axis=-1)
         sizes = np.cumsum([0] + [len(model.unknowns) for model in models])
         self.spans = [slice(int(a), int(b)) for a, b in pairwise(sizes)]
         self.works = {model.name: model.unknowns[0].power() for model in models if model.kind in _DRIVES}
@@ -71,12 +72,10 @@ class Collector:
 
     def forces(self) -> Forces:
         """Everything, by name."""
-        total = self.solution.x.sum(axis=-1)
-        spans = list(zip(self.models, self.spans, strict=True))
-        pairs = {m.name: self._pair(m, span, total) for m, span in spans if m.kind not in _DRIVES}
-        drives = {m.name: total[:, span.start] for m, span in spans if m.kind in _DRIVES}
+        total, drives = self.total, self.drives()
+        pairs = {m.name: self._pair(m, span, total) for m, span in self._pairs()}
         motion = self.scene.motion
-        torque, frame = self._borne(list(self.columns.values()), total)
+        torque, frame = self.drive_and_frame()
         return Forces(
             crank_angle=motion.crank_angle,
             time=motion.time,
@@ -98,6 +97,29 @@ class Collector:
                 *self._left(drives),
             ),
         )
+
+    def drives(self) -> dict[str, Floats]:
+        """Torque or force of each drive, (n,)."""
+        spans = zip(self.models, self.spans, strict=True)
+        return {m.name: self.total[:, span.start] for m, span in spans if m.kind in _DRIVES}
+
+    def drive_and_frame(self) -> tuple[Floats, Floats]:
+        """Driving torque, (n,), and what acts on the frame, (n, 3)."""
+        return self._borne(list(self.columns.values()), self.total)
+
+    def reactions(self) -> dict[str, Floats]:
+        """Force of each pair on its second member, (n, 2)."""
+        return {m.name: self._on_second(m, span, self.total)[:, :2] for m, span in self._pairs()}
+
+    def _pairs(self) -> list[tuple[PairModel, slice]]:
+        """Models that are no drives."""
+        spans = zip(self.models, self.spans, strict=True)
+        return [(model, span) for model, span in spans if model.kind not in _DRIVES]
+
+    def _on_second(self, model: PairModel, span: slice, x: Floats) -> Floats:
+        """What a pair does to its second member, viscous friction included, (n, 3)."""
+        at = self._passed(model, span, x, model.second)
+        return at + self._viscous(model) if model.extra is not None and model.friction.viscous else at
 
     def _passed(self, model: PairModel, span: slice, x: Floats, member: str) -> Floats:
         """What a pair does to a member for values (n, unknowns): force and moment, (n, 3)."""
@@ -124,7 +146,7 @@ class Collector:
     def _pair(self, model: PairModel, span: slice, total: Floats) -> PairForce:
         """The force of one pair."""
         pair = self.scene.structure.pairs[model.name]
-        at = self._passed(model, span, total, pair.second) + self._viscous(model)
+        at = self._on_second(model, span, total)
         arm = self.scene.point(pair.point) - self.scene.reference(pair.second)
         moment = at[:, 2] - cross(arm, at[:, :2])
         friction = np.zeros(self.scene.n)

@@ -52,6 +52,11 @@ class Solution:
     locked: Bools
     iterations: int  # linear systems solved at each angle, at most
 
+    def at(self, rows: Indices) -> Solution:
+        """The solution at some of its angles."""
+        x, slopes = self.x[rows], self.slopes[rows]
+        return Solution(x, slopes, self.singular[rows], self.locked[rows], self.iterations)
+
 
 class Equilibrium:
     """The system of a scene.

@@ -11,34 +11,32 @@ given angles is that of the force at its angle; where two tie there is one on ei
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from linkwright.drive.gradient import solved_along
+from linkwright.drive.gradient import gradient_along, solved_along
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.steady_state import SteadyState, solved_state
-from linkwright.kernel.arrays import Bools, Floats
+from linkwright.kernel.arrays import Bools, Floats, Indices
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.kernel.numerics.tangent_array import TangentArray, lifted
 from linkwright.kinetostatics.applied import together
 from linkwright.kinetostatics.collect import Collector
 from linkwright.kinetostatics.equilibrium import Equilibrium, Solution
-from linkwright.kinetostatics.forces import acting, equilibrium, forces, solved
-from linkwright.kinetostatics.motion import Motion
+from linkwright.kinetostatics.forces import acting, equilibrium, solved
+from linkwright.kinetostatics.motion import Motion, motion_at
 from linkwright.kinetostatics.pairs import with_pulls
 from linkwright.kinetostatics.places import Scene
-from linkwright.kinetostatics.result import Forces
 from linkwright.linkages.closure import over_whole_cycle
 from linkwright.linkages.kinematics import kinematics_along
-from linkwright.linkages.model.structure import structure
-from linkwright.machine.address import get
+from linkwright.linkages.model.structure import Structure, structure
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 from linkwright.machine.program.core import SteadySolution
-from linkwright.machine.tangents import Derivatives, Directions, directions, followed, seeded
+from linkwright.machine.tangents import Derivatives, Directions, directions, followed
 
 # Relative accuracy of the steady motion, and its intervals per revolution: those of `forces`.
 _ACCURACY, _N = 1e-9, 360
@@ -59,16 +57,25 @@ _ROUNDING = 1e-12
 _ON_KINK, _BESIDE = 1e-8, 5e-9
 
 
+class _Entries(NamedTuple):
+    """What varies: numbers of the program, and the description with tangents by the same entries."""
+
+    program: Directions
+    machine: Machine
+    structure: Structure
+
+
 def force_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     """Largest driving torque, shaking force and reactions in the motion of the machine, by some entries.
 
     Raises what `forces` raises.
     """
-    program = _directions(machine, variables)
-    state, solution = _state(machine), _solution(machine, program)
-    result = forces(machine, state, contributions=False)
-    curves = _curves(result)
-    nothing = _rounding(machine, result)
+    entries = _entries(machine, variables)
+    program = entries.program
+    motion, solution = motion_at(machine, _state(machine)), _solution(machine, program)
+    result = _Balance(machine, motion)
+    curves = result.curves()
+    nothing = _rounding(result, curves)
     missing = {
         name: "it is zero but for rounding"
         for name, curve in curves.items()
@@ -77,26 +84,29 @@ def force_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     places = {name: int(np.nanargmax(np.abs(curve))) for name, curve in curves.items() if name not in missing}
     if not places:
         return Derivatives(program.variables, {}, {}, missing, program.refused)
-    at = np.unique(list(places.values()))
+    angles, kinks = motion.crank_angle, Kinks(machine, program, solution)
+    at, beside = angles[np.unique(list(places.values()))], kinks.beside(angles)
+    # Extremes and both sides of kinks in one system.
+    phi = np.unique(np.concatenate([at, beside]))
     if solution is None:
-        motion = Motion(*(getattr(result.motion, name)[at] for name in _MOTION))
+        there = _Balance(machine, motion_at(machine, None, speed=float(motion.speed[0]), angles=phi))
     else:
-        motion = _read(solution, result.crank_angle[at])
-    along, lost = _motion_along(machine, motion, program, solution)
-    tangents = _curves(_forces_along(machine, motion, along, program))
+        there = _Balance(machine, _read(solution, phi))
+    rows = np.searchsorted(phi, at)
+    along, lost = _motion_along(machine, there.scene.motion.at(rows), entries, solution)
+    tangents, sizes = there.along(rows, along, entries).curves(), there.curves()
     extremes, ties = {}, {}
-    kinks = Kinks(machine, program, solution)
-    beside = _beside_kinks(machine, result, solution, kinks)
     for name, place in places.items():
-        curve, tangent = curves[name], tangents[name][int(np.searchsorted(at, place))].number()
-        angle = float(result.crank_angle[place])
+        curve, angle = curves[name], float(angles[place])
+        tangent = tangents[name][int(np.searchsorted(at, angle))].number()
         moving = kinks.moved_at(angle)
-        larger = [at for at, size in beside[name] if size > abs(curve[place]) * (1.0 + _TIE)]
+        size = np.abs(sizes[name])[np.searchsorted(phi, beside)]
+        larger = beside[size > abs(curve[place]) * (1.0 + _TIE)].tolist()
         for other in larger:
             moving = moving | kinks.moved_at(other)
         # The extreme is that of the result to the last digit; the tangent's is worked out anew.
         extremes[name] = Tangent(float(curve[place]), np.where(moving, np.nan, tangent.d))
-        reasons = [tied(np.abs(curve), place, result.crank_angle)]
+        reasons = [tied(np.abs(curve), place, angles)]
         reasons += [kinks.words(larger[0] if larger else angle, moving)] if moving.any() else []
         if any(reasons):
             ties[name] = "; ".join(filter(None, reasons))
@@ -110,14 +120,12 @@ def drive_forces_along(
 
     Beside the entries that have some: entries by which the motion is lost, and the kinks of the machine.
     """
-    program = _directions(machine, variables)
+    entries = _entries(machine, variables)
+    program = entries.program
     solution = _solution(machine, program)
-    if solution is None:
-        motion = forces(machine, angles=angles, contributions=False).motion
-    else:
-        motion = _read(solution, angles)
-    along, lost = _motion_along(machine, motion, program, solution)
-    drives = _forces_along(machine, motion, along, program).drives
+    motion = motion_at(machine, None, angles=angles) if solution is None else _read(solution, angles)
+    along, lost = _motion_along(machine, motion, entries, solution)
+    drives = _Balance(machine, motion).along(np.arange(len(angles)), along, entries).collector.drives()
     return program, drives, lost, Kinks(machine, program, solution)
 
 
@@ -128,25 +136,28 @@ def drive_torque_along(
 
     Beside them the entries that have some, and the kinks of the machine.
     """
-    program = _directions(machine, variables)
+    entries = _entries(machine, variables)
+    program = entries.program
     assert machine.drive is not None
-    motion = forces(machine, speed=machine.drive.speed, angles=angles, contributions=False).motion
-    n, drive = len(program.variables), seeded(machine, program.variables).drive
+    motion = motion_at(machine, None, speed=machine.drive.speed, angles=angles)
+    n, drive = len(program.variables), entries.machine.drive
     assert drive is not None
     given: Any = drive.speed
     speed: Any = lifted(given * lifted(np.ones(len(angles)), n), n)
     still: Any = lifted(motion.acceleration, n)
     along = replace(motion, speed=speed, acceleration=still, time=motion.crank_angle / speed)
-    return program, _forces_along(machine, motion, along, program).torque_drive, Kinks(machine, program, None)
+    there = _Balance(machine, motion).along(np.arange(len(angles)), along, entries)
+    return program, there.curves()["torque_drive_max"], Kinks(machine, program, None)
 
 
-def _directions(machine: Machine, variables: Sequence[str]) -> Directions:
-    """Directions of the program's numbers by entries that the description can be followed by, too."""
+def _entries(machine: Machine, variables: Sequence[str]) -> _Entries:
+    """Entries by which both the program's numbers and the description can be followed."""
     program = directions(machine, variables)
     refused = dict(program.refused)
-    known, _ = followed(machine, program.variables, lambda along: structure(along.linkage), refused)
-    at = [program.variables.index(name) for name in known]
-    return Directions(known, program.values[:, at], program.sizes[at], refused)
+    known, (along, of) = followed(
+        machine, program.variables, lambda along: (along, structure(along.linkage)), refused
+    )
+    return _Entries(replace(program.only(known), refused=refused), along, of)
 
 
 _MOTION = ("crank_angle", "speed", "acceleration", "time")
@@ -173,58 +184,26 @@ def _read(solution: SteadySolution, angles: Floats) -> Motion:
     return Motion(angles, read.speed, read.acceleration, read.time)
 
 
-def _curves(result: Forces) -> dict[str, Any]:
-    """What is differentiated where it is largest."""
-    force = result.shaking_force
-    curves = {
-        "torque_drive_max": result.torque_drive,
-        "shaking_force_max": np.hypot(force[:, 0], force[:, 1]),
-    }
-    return curves | {f"reaction_max.{name}": pair.size for name, pair in result.pairs.items()}
-
-
-def _rounding(machine: Machine, result: Forces) -> dict[str, float]:
+def _rounding(result: _Balance, curves: Mapping[str, Floats]) -> dict[str, float]:
     """Torque [N m] and force [N] that are rounding in a motion of a machine."""
     # They follow the acceleration, which is what the torque of the motor and that of the loads leave: the
     # torque is known to rounding of the speed times its slope, however small it is.
-    size = Scene(machine, result.motion).size
-    force = max(
-        float(np.nanmax(np.abs(curve))) for name, curve in _curves(result).items() if "torque" not in name
-    )
-    torque = max(force * size, float(np.nanmax(np.abs(result.torque_drive))), _motor_change(machine, result))
+    size, peaks = result.scene.size, {name: float(np.nanmax(np.abs(curve))) for name, curve in curves.items()}
+    force = max(peak for name, peak in peaks.items() if "torque" not in name)
+    torque = max(force * size, peaks["torque_drive_max"], _motor_change(result.scene))
     return {"torque": _NOTHING * torque, "force": _NOTHING * torque / size}
 
 
-def _motor_change(machine: Machine, result: Forces) -> float:
+def _motor_change(scene: Scene) -> float:
     """By how much the motor's torque at the crank would change for a speed doubled, by its slope [N m]."""
-    motor = None if machine.drive is None else machine.drive.motor
+    motor = None if scene.machine.drive is None else scene.machine.drive.motor
     if motor is None or isinstance(motor, ConstantSpeedMotor):
         return 0.0
-    speeds = np.array([np.nanmin(result.speed), np.nanmax(result.speed)])
+    speeds = np.array([np.nanmin(scene.motion.speed), np.nanmax(scene.motion.speed)])
     above, below = (
-        compile_machine(machine).motor_torques(speeds * (1 + by)).crank for by in (_ASIDE, -_ASIDE)
+        compile_machine(scene.machine).motor_torques(speeds * (1 + by)).crank for by in (_ASIDE, -_ASIDE)
     )
     return float(np.abs(above - below).max()) / (2 * _ASIDE)
-
-
-def _beside_kinks(
-    machine: Machine, result: Forces, solution: Any, kinks: Kinks
-) -> dict[str, list[tuple[float, float]]]:
-    """Sizes of the curves on both sides of kinks that lie on angles of the result, with their angles."""
-    half = 0.5 * kinks.cycle
-    apart = np.abs((kinks.angles[:, None] - result.crank_angle + half) % kinks.cycle - half)
-    on = [angle for angle in kinks.angles[(apart <= _ON_KINK).any(axis=1)] if kinks.moved_at(angle).any()]
-    phi = np.sort(np.mod([angle + side for angle in on for side in (-_BESIDE, _BESIDE)], kinks.cycle))
-    if not on:
-        return {name: [] for name in _curves(result)}
-    if solution is None:
-        there = forces(machine, speed=float(result.speed[0]), angles=phi, contributions=False)
-    else:
-        there = forces(machine, _read(solution, phi), contributions=False)
-    return {
-        name: list(zip(phi.tolist(), np.abs(curve).tolist(), strict=True))
-        for name, curve in _curves(there).items()
-    }
 
 
 def tied(size: Floats, place: int, angles: Floats) -> str:
@@ -248,8 +227,7 @@ class Kinks:
         compiled = compiled if solution is None else over_whole_cycle(compiled)
         self.variables = program.variables
         self.angles, self.cycle = compiled.kinks(), compiled.cycle
-        at = np.array([float(get(machine, name)) for name in self.variables])
-        along = compiled.kinks_along(program.values, self.angles) * np.where(at == 0.0, 1.0, at)
+        along = compiled.kinks_along(program.values, self.angles) * program.sizes
         self.moves: Bools = np.abs(along) > _ROUNDING
 
     def on(self, angle: float) -> Bools:
@@ -262,6 +240,14 @@ class Kinks:
         """Which variables move a kink at a crank angle [rad], (variables,)."""
         return np.asarray(self.moves[self.on(angle)].any(axis=0))
 
+    def beside(self, angles: Floats) -> Floats:
+        """Both sides of the kinks that lie on some crank angles and that a variable moves, increasing."""
+        half = 0.5 * self.cycle
+        apart = np.abs((self.angles[:, None] - angles + half) % self.cycle - half)
+        on = self.angles[(apart <= _ON_KINK).any(axis=1)]
+        moved = [angle for angle in on.tolist() if self.moved_at(angle).any()]
+        return np.sort(np.mod([angle + side for angle in moved for side in (-_BESIDE, _BESIDE)], self.cycle))
+
     def words(self, angle: float, moving: Bools) -> str:
         """Which entries have no derivative there."""
         names = [name for name, moves in zip(self.variables, moving, strict=True) if moves]
@@ -273,18 +259,19 @@ class Kinks:
 
 
 def _motion_along(
-    machine: Machine, motion: Motion, program: Directions, solution: Any
+    machine: Machine, motion: Motion, entries: _Entries, solution: SteadySolution | None
 ) -> tuple[Motion, dict[str, float]]:
     """The motion at its angles, with derivatives, and entries by which these are lost."""
+    program, phi = entries.program, motion.crank_angle
     n = len(program.variables)
-    phi = motion.crank_angle
     if solution is not None:
-        gradient = solution.gradient(program.values, program.sizes, phi)
+        gradient = gradient_along(machine, solution, program)
+        curves = gradient.curves(phi)
         followed: dict[str, Any] = {
-            name: TangentArray(getattr(motion, name), getattr(gradient.curves, name)) for name in _MOTION[1:]
+            name: TangentArray(getattr(motion, name), getattr(curves, name)) for name in _MOTION[1:]
         }
         return replace(motion, **followed), program.lost(gradient.lost)
-    drive = seeded(machine, program.variables).drive
+    drive = entries.machine.drive
     assert drive is not None
     given: Any = drive.speed
     if isinstance(drive.motor, ConstantSpeedMotor):
@@ -296,35 +283,63 @@ def _motion_along(
 
 
 class _SceneAlong(Scene):
-    """A machine at the angles of a motion, with derivatives of all that is worked out."""
+    """A machine at some angles of a scene, with derivatives of all that is worked out."""
 
-    def __init__(self, scene: Scene, motion: Motion, program: Directions) -> None:
-        self.machine = seeded(scene.machine, program.variables)
+    def __init__(self, scene: Scene, rows: Indices, motion: Motion, entries: _Entries) -> None:
+        self.machine, self.structure = entries.machine, entries.structure
         self.mechanism = self.machine.linkage
         self.motion = motion
-        self.structure = structure(self.mechanism)
         self.links = self.mechanism.links()
-        self.kinematics = kinematics_along(scene.machine, scene.kinematics, program.values)
-        self.n, self.index, self.size = scene.n, scene.index, scene.size
-        self.n_variables = len(program.variables)
+        self.kinematics = kinematics_along(scene.machine, scene.kinematics, entries.program.values, rows)
+        self.n, self.index, self.size = len(rows), scene.index, scene.size
+        self.n_variables = len(entries.program.variables)
         self._still = self.zeros(self.n, 2)
 
     def zeros(self, *shape: int) -> Any:
         """An array to be filled with what follows from the machine."""
-        return lifted(np.zeros(shape), self.n_variables)
+        return TangentArray(np.zeros(shape), np.zeros((*shape, self.n_variables)))
 
 
-def _forces_along(machine: Machine, motion: Motion, along: Motion, program: Directions) -> Forces:
-    """Forces at the angles of a motion, with derivatives."""
-    scene = Scene(machine, motion)
-    models, sources = acting(scene, {})
-    solution, without = solved(scene, models, {"": together(scene, sources.values())})
-    moving = _SceneAlong(scene, along, program)
-    models, sources = acting(moving, {})
-    with_pulls(moving, models, without)
-    columns = {"": together(moving, sources.values())}
-    followed = _along(equilibrium(moving, models, columns), solution)
-    return Collector(moving, models, sources, columns, followed).forces()
+class _Balance:
+    """The equilibrium of a machine at the angles of a motion."""
+
+    def __init__(self, machine: Machine, motion: Motion) -> None:
+        self.scene = Scene(machine, motion)
+        models, sources = acting(self.scene, {})
+        columns = {"": together(self.scene, sources.values())}
+        self.solution, self.without = solved(self.scene, models, columns)
+        self.collector = Collector(self.scene, models, sources, columns, self.solution)
+
+    def along(self, rows: Indices, motion: Motion, entries: _Entries) -> _BalanceAlong:
+        """The same at some of the angles with derivatives; `motion` has those of the motion there."""
+        return _BalanceAlong(self, rows, motion, entries)
+
+    def curves(self) -> dict[str, Any]:
+        """What is differentiated where it is largest."""
+        return _curves(self.collector)
+
+
+class _BalanceAlong:
+    """The same with derivatives."""
+
+    def __init__(self, of: _Balance, rows: Indices, motion: Motion, entries: _Entries) -> None:
+        scene = _SceneAlong(of.scene, rows, motion, entries)
+        models, sources = acting(scene, {})
+        with_pulls(scene, models, of.without[rows])
+        columns = {"": together(scene, sources.values())}
+        solution = _along(equilibrium(scene, models, columns), of.solution.at(rows))
+        self.collector = Collector(scene, models, sources, columns, solution)
+
+    def curves(self) -> dict[str, Any]:
+        """What is differentiated where it is largest."""
+        return _curves(self.collector)
+
+
+def _curves(of: Collector) -> dict[str, Any]:
+    torque, frame = of.drive_and_frame()
+    curves = {"torque_drive_max": torque, "shaking_force_max": np.hypot(frame[:, 0], frame[:, 1])}
+    reactions = of.reactions().items()
+    return curves | {f"reaction_max.{name}": np.hypot(force[:, 0], force[:, 1]) for name, force in reactions}
 
 
 def _along(system: Equilibrium, solution: Solution) -> Solution:

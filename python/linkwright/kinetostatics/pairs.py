@@ -25,7 +25,7 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.tangent_array import variables_of
 from linkwright.kinetostatics.friction import FRICTIONLESS, Friction
 from linkwright.kinetostatics.places import Scene, dot, left
-from linkwright.kinetostatics.wrench import Wrenches
+from linkwright.kinetostatics.wrench import Wrenches, units_between
 from linkwright.linkages.model.element import Gear
 from linkwright.linkages.model.structure import FRAME, Drive, Pair
 
@@ -138,7 +138,7 @@ def _moving(scene: Scene, rate: Floats, size: float) -> tuple[Floats, Floats]:
 
 def _pin(scene: Scene, pair: Pair, friction: Friction) -> PairModel:
     place = scene.point(pair.point)
-    unknowns = [Wrenches(scene).unit_between(pair.first, pair.second, axis, place) for axis in (0, 1)]
+    unknowns = units_between(scene, pair.first, pair.second, place)
     if not friction.acts:
         return _without_friction(scene, pair.name, "pin", pair.second, *unknowns)
     one = np.ones(scene.n)
@@ -150,16 +150,15 @@ def _pin(scene: Scene, pair: Pair, friction: Friction) -> PairModel:
 def _guide(scene: Scene, pair: Pair, friction: Friction) -> PairModel:
     assert pair.guide is not None
     t = scene.direction(pair.guide)
-    none = np.zeros(scene.n)
-    unknowns = [Wrenches(scene).on_guide(pair, left(t), none)]
+    unknowns = [Wrenches(scene).on_guide(pair, left(t))]
     if scene.structure.members[pair.second].turns:
-        unknowns.append(Wrenches(scene).on_guide(pair, 0 * t, np.ones(scene.n)))
+        unknowns.append(Wrenches(scene).turning_guide(pair))
     moments = (False, True)[: len(unknowns)]
     if not friction.acts:
         without_friction = _without_friction(scene, pair.name, "guide", pair.second, *unknowns)
         without_friction.moments = moments
         return without_friction
-    extra = Wrenches(scene).on_guide(pair, t, none)
+    extra = Wrenches(scene).on_guide(pair, t)
     # The speed along the guide is the power of a unit of force between block and guide.
     rate, sense = _moving(scene, extra.power(), scene.size)
     return PairModel(pair.name, "guide", pair.second, unknowns, moments, extra, rate, sense, friction)
@@ -196,7 +195,7 @@ def _drive(scene: Scene, drive: Drive) -> PairModel:
         without_friction.moments = (True,)
         return without_friction
     pair = scene.structure.pairs[f"{drive.member}.guide"]
-    push = Wrenches(scene).on_guide(pair, scene.direction(drive.guide), np.zeros(scene.n))
+    push = Wrenches(scene).on_guide(pair, scene.direction(drive.guide))
     return _without_friction(scene, drive.name, "force", drive.member, push)
 
 
@@ -316,7 +315,7 @@ def _rack(scene: Scene, pair: Pair, spread: float) -> PairModel:
         return _teeth(scene, pair, pitch, t, -np.sign(radius) * left(t), spread)
     guide = scene.structure.pairs[f"{pair.element}.guide"]
     lever = radius * np.ones(scene.n)
-    push = Wrenches(scene).on_guide(guide, t, np.zeros(scene.n)).couple(pair.first, -lever)
+    push = Wrenches(scene).on_guide(guide, t).couple(pair.first, -lever)
     if pair.guide.on is not None:
         push.couple(pair.guide.on, lever)
     return _without_friction(scene, pair.name, "couple", pair.second, push)

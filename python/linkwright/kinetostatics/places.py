@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,6 +15,9 @@ from linkwright.linkages.model.element import Guide
 from linkwright.linkages.model.structure import FRAME, Structure, structure
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
+
+if TYPE_CHECKING:
+    from linkwright.kinetostatics.wrench import Mass
 
 
 class Scene:
@@ -32,6 +36,9 @@ class Scene:
     InputError
         Nothing moves.
     """
+
+    # Those of `linkwright.kinetostatics.wrench.masses`, once they are known.
+    masses: tuple[Mass, ...] | None = None
 
     def __init__(self, machine: Machine, motion: Motion) -> None:
         compiled = compile_machine(machine)
@@ -81,9 +88,22 @@ class Scene:
         """A member's point that its moments count about, (n, 2); the origin for the frame."""
         return self._still if member == FRAME else self.point(self.structure.members[member].point, order)
 
+    def arm(self, member: str, place: Floats) -> Floats | None:
+        """From a member's reference point to a place (n, 2); None where that is the point itself."""
+        reference = self.reference(member)
+        if place is reference:
+            return None
+        return place if member == FRAME else place - reference
+
     def turning(self, member: str, order: int = 1) -> Floats:
         """First or second derivative of a member's angle by the crank angle, (n,)."""
         return np.zeros(self.n) if member == FRAME else self.angle(self.structure.members[member].link, order)
+
+    @cached_property
+    def squares(self) -> Floats:
+        """Square of the crank's speed, (n, 1)."""
+        squares: Floats = self.motion.speed[:, None] ** 2
+        return squares
 
     @cached_property
     def rates(self) -> Floats:

@@ -60,7 +60,7 @@ class Wrenches:
         """Add others, times factors (n,)."""
         for member, wrench in other.on.items():
             more = wrench if factor is None else factor[:, None] * wrench
-            self.on[member] = self.on_member(member) + more
+            self.on[member] = self.on[member] + more if member in self.on else more.copy()
         return self
 
     def taken_over(self, other: Wrenches, own: Bools) -> None:
@@ -70,9 +70,14 @@ class Wrenches:
 
     def force(self, member: str, force: Floats, place: Floats) -> Wrenches:
         """Add a force (n, 2) at a place (n, 2)."""
+        arm, is_first = self.scene.arm(member, place), member not in self.on
         to = self._to(member)
-        to[:, :2] += force
-        to[:, 2] += cross(place - self.scene.reference(member), force)
+        if is_first:
+            to[:, :2] = force
+        else:
+            to[:, :2] += force
+        if arm is not None:
+            to[:, 2] += cross(arm, force)
         return self
 
     def couple(self, member: str, moment: Floats) -> Wrenches:
@@ -84,35 +89,34 @@ class Wrenches:
         """Add a force on the second member, and the opposite one on the first."""
         return self.force(second, force, place).force(first, -force, place)
 
-    def unit_between(self, first: str, second: str, axis: int, place: Floats) -> Wrenches:
-        """Add 1 N along x or y, axis 0 or 1, on the second member, and the opposite one on the first."""
-        for member, size in ((second, 1.0), (first, -1.0)):
-            to, arm = self._to(member), place - self.scene.reference(member)
-            to[:, axis] += size
-            to[:, 2] += arm[:, 0] * size if axis == 1 else arm[:, 1] * -size
-        return self
+    def on_guide(self, pair: Pair, force: Floats) -> Wrenches:
+        """Add a force on the second member of a guide; the guide's body takes the opposite one.
 
-    def on_guide(self, pair: Pair, force: Floats, moment: Floats) -> Wrenches:
-        """Add force and moment on the second member of a guide; the guide's body takes the opposite ones.
-
-        The force goes to what carries the point that the guide passes through, its moment about that point to
-        what turns the guide: as a rule the same body.
+        It goes to what carries the point that the guide passes through, its moment about that point to what
+        turns the guide: as a rule the same body.
         """
         assert pair.guide is not None
         place = self.scene.point(pair.point)
-        self.force(pair.second, force, place).couple(pair.second, moment)
+        self.force(pair.second, force, place)
         through = self.scene.structure.guide_point(pair.guide)
+        holder, turner = _holds_guide(pair.guide, through, self.scene), turns_guide(pair.guide, self.scene)
+        if holder == turner:
+            return self.force(holder, -force, place)
         foot = self.scene.point(through)
-        self.force(_holds_guide(pair.guide, through, self.scene), -force, foot)
-        turner = turns_guide(pair.guide, self.scene)
-        return self.couple(turner, -moment - cross(place - foot, force))
+        return self.force(holder, -force, foot).couple(turner, -cross(place - foot, force))
+
+    def turning_guide(self, pair: Pair) -> Wrenches:
+        """Add 1 N m on the second member of a guide; what turns the guide takes the opposite one."""
+        assert pair.guide is not None
+        one = np.ones(self.scene.n)
+        return self.couple(pair.second, one).couple(turns_guide(pair.guide, self.scene), -one)
 
     def along_slide(self, on: str, force: Floats) -> Wrenches:
         """Add a force (n,) along a slide on what slides, and its opposite on the guide."""
         pair = self.scene.structure.pairs[f"{on}.guide"]
         assert pair.guide is not None
         t = self.scene.direction(pair.guide)
-        return self.on_guide(pair, force[:, None] * t, np.zeros(self.scene.n))
+        return self.on_guide(pair, force[:, None] * t)
 
     def at_point(self, point: str, force: Floats) -> Wrenches:
         """Add a force (n, 2) on what carries a point."""
@@ -124,6 +128,18 @@ class Wrenches:
         for member, wrench in self.on.items():
             total = total + np.einsum("nc,nc->n", wrench, self.scene.rates[:, self.scene.index[member]])
         return total
+
+
+def units_between(scene: Scene, first: str, second: str, place: Floats) -> list[Wrenches]:
+    """1 N along x, and along y, at a place (n, 2) on the second member; the opposite one on the first."""
+    units = along_x, along_y = Wrenches(scene), Wrenches(scene)
+    for member, size in ((second, 1.0), (first, -1.0)):
+        on_x, on_y = (unit.on.setdefault(member, scene.zeros(scene.n, 3)) for unit in units)
+        on_x[:, 0] = on_y[:, 1] = size
+        arm = scene.arm(member, place)
+        if arm is not None:
+            on_x[:, 2], on_y[:, 2] = arm[:, 1] * -size, arm[:, 0] * size
+    return [along_x, along_y]
 
 
 def _holds_guide(guide: Guide, through: str, scene: Scene) -> str:
@@ -162,13 +178,18 @@ class Mass(NamedTuple):
 
     def acceleration(self, scene: Scene) -> Floats:
         """Of the centre, (n, 2) [m/s²]."""
-        motion = scene.motion
-        acceleration: Floats = self.d2 * motion.speed[:, None] ** 2 + self.d1 * motion.acceleration[:, None]
+        acceleration: Floats = self.d2 * scene.squares + self.d1 * scene.motion.acceleration[:, None]
         return acceleration
 
 
-def masses(scene: Scene) -> Iterator[Mass]:
+def masses(scene: Scene) -> tuple[Mass, ...]:
     """All masses of a machine. Returns: one for each body of the description."""
+    if scene.masses is None:
+        scene.masses = tuple(_masses(scene))
+    return scene.masses
+
+
+def _masses(scene: Scene) -> Iterator[Mass]:
     for name, body in scene.machine.bodies.items():
         on = body.on or name
         if on not in scene.links:
@@ -192,11 +213,11 @@ def _on_link(scene: Scene, link: str, along: float, across: float) -> tuple[Floa
 def inertia_forces(scene: Scene) -> Wrenches:
     """The forces of all masses. Returns: −m a at the centre and −J ψ̈ on each member."""
     wrenches = Wrenches(scene)
-    speed, acceleration = scene.motion.speed, scene.motion.acceleration
+    squares, acceleration = scene.squares[:, 0], scene.motion.acceleration
     for mass in masses(scene):
         wrenches.force(mass.member, -mass.mass * mass.acceleration(scene), mass.centre)
         # A zero that carries derivatives counts.
         if not (isinstance(mass.inertia, float) and mass.inertia == 0.0):
-            turning = scene.turning(mass.member, 2) * speed**2 + scene.turning(mass.member) * acceleration
+            turning = scene.turning(mass.member, 2) * squares + scene.turning(mass.member) * acceleration
             wrenches.couple(mass.member, -mass.inertia * turning)
     return wrenches

@@ -62,10 +62,10 @@ def get(machine: Machine, address: str) -> Any:
     MachineError
         There is no such entry.
     """
-    return _at(machine, known_place(machine, address))
+    return entry_at(machine, known_place(machine, address))
 
 
-def _at(machine: Machine, place: tuple[str, ...]) -> Any:
+def entry_at(machine: Machine, place: tuple[str, ...]) -> Any:
     """What stands below some keys."""
     node: Any = machine
     for key in place:
@@ -129,12 +129,12 @@ def _exchanged(machine: Machine, entries: Mapping[tuple[str, ...], Any]) -> Mach
 def is_given(machine: Machine, address: str) -> bool:
     """Whether an entry stands in the file or has its default, and does not follow from others."""
     *above, last = known_place(machine, address)
-    owner = _at(machine, tuple(above))
+    owner = entry_at(machine, tuple(above))
     if not isinstance(owner, Description):
         return True
     name = field_names(type(owner))[last]
     default = type(owner).model_fields[name].default
-    return name in owner.model_fields_set or _at(machine, (*above, last)) == default
+    return name in owner.model_fields_set or entry_at(machine, (*above, last)) == default
 
 
 def resolve(node: object, address: str) -> tuple[str, ...]:
@@ -191,7 +191,7 @@ def _checked(machine: Machine, place: tuple[str, ...], value: Any) -> Any:
     if isinstance(value, Description):
         return value
     address, annotation = join(place), annotation_at(Machine, place, machine)
-    mark, old = mark_of(annotation), _at(machine, place)
+    mark, old = mark_of(annotation), entry_at(machine, place)
     holds_number = isinstance(mark, Quantity) or is_number(old)
     if value is not None and holds_number:
         numbers = _numbers_of(address, value, mark.kind if isinstance(mark, Quantity) else COUNT)

@@ -17,7 +17,7 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import LinkwrightError
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.kernel.numerics.tangent_array import TangentArray
-from linkwright.machine.address import exchanged, get, is_given
+from linkwright.machine.address import entry_at, exchanged, get, is_given, known_place
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import Translation, compile_machine
 from linkwright.machine.program.mechanism import MechanismProgram
@@ -110,6 +110,10 @@ class Directions:
         at = [self.variables.index(entry) for entry in entries]
         return Directions(tuple(entries), self.values[:, at], self.sizes[at], self.refused)
 
+    def has_those_of(self, other: Directions) -> bool:
+        """Whether the numbers are those of other directions."""
+        return np.array_equal(self.values, other.values) and np.array_equal(self.sizes, other.sizes)
+
     def lost(self, angles: Floats) -> dict[str, float]:
         """Entries by which the move of a kink was not found, by `angles` of the kinks [rad], else NaN."""
         pairs = zip(self.variables, angles.tolist(), strict=True)
@@ -139,6 +143,10 @@ def directions(
         return Translation(machine, motor=motor, brake=brake).program
 
     compiled = compile_machine(machine, motor=motor, brake=brake)
+    asked, last = tuple(variables), compiled.kept.get("directions")
+    if last is not None and last[0] == asked:
+        kept: Directions = last[1]
+        return kept
     refused: dict[str, str] = {}
     derivatives = columns(machine, variables, lambda machine: program(machine).parameters, refused)
     if any(getattr(element, "change_points", ()) for element in compiled.elements):
@@ -151,7 +159,10 @@ def directions(
     for place, name in enumerate(known):
         values[: len(derivatives[name]), place] = derivatives[name]
     sizes = np.array([abs(float(get(machine, name))) or 1.0 for name in known])
-    return Directions(known, values, sizes, refused)
+    directions = Directions(known, values, sizes, refused)
+    # Several analyses of a machine ask for the same ones.
+    compiled.kept["directions"] = asked, directions
+    return directions
 
 
 @dataclass(frozen=True)
@@ -213,7 +224,7 @@ def seeded(machine: Machine, names: Sequence[str]) -> Machine:
     alone = [exchanged(machine, {name: seeds[name] for name in names if name not in set(following)})]
     alone += [exchanged(machine, {name: seeds[name]}) for name in following]
     for name in following:
-        entries = [get(one, name) for one in alone]
+        entries = [entry_at(one, known_place(machine, name)) for one in alone]
         d = sum((x.d for x in entries if isinstance(x, TangentArray)), start=np.zeros(len(names)))
         seeds[name] = TangentArray(seeds[name].value, d)
     return exchanged(machine, seeds)

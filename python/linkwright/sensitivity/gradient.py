@@ -9,8 +9,9 @@ they are found. What has no derivative is refused by name, with the reason.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import groupby
 from numbers import Number
 from typing import Annotated, Any
 
@@ -174,7 +175,7 @@ def gradient(
         variable_units=tuple(_unit(machine, name) for name in known),
         values=np.array([source.tangents[name].value for source, name in asked_of]),
         at=np.array([float(get(machine, name)) for name in known]),
-        derivatives=np.stack([_row(source, name, known) for source, name in asked_of]),
+        derivatives=np.concatenate([_rows(*of, known) for of in _by_source(asked_of)]),
         ties={name: source.ties[name] for source, name in asked_of if name in source.ties},
         refused=refused,
         missing={
@@ -221,10 +222,24 @@ def _named(of: Source, name: str) -> list[str]:
     return named
 
 
-def _row(of: Source, name: str, variables: Sequence[str]) -> Floats:
-    """Derivatives of a response by some of the variables of its source."""
-    by = dict(zip(of.variables, of.tangents[name].d, strict=True))
-    row = np.array([by[variable] for variable in variables])
+def _by_source(asked_of: Sequence[tuple[Source, str]]) -> Iterator[tuple[Source, list[str]]]:
+    """Responses that follow each other from one source."""
+    for _, pairs in groupby(asked_of, lambda pair: id(pair[0])):
+        listed = list(pairs)
+        yield listed[0][0], [name for _, name in listed]
+
+
+def _rows(of: Source, names: Sequence[str], variables: Sequence[str]) -> Floats:
+    """Derivatives of responses by some of the variables of their source."""
+    places = {variable: place for place, variable in enumerate(of.variables)}
+    rows = np.stack([of.tangents[name].d for name in names])[:, [places[variable] for variable in variables]]
+    for nth in np.flatnonzero(~np.isfinite(rows).all(axis=1)).tolist():
+        _require_found(of, names[nth], variables, rows[nth])
+    return rows
+
+
+def _require_found(of: Source, name: str, variables: Sequence[str], row: Floats) -> None:
+    """Raise FindingError if a derivative of a response is missing without a reason."""
     unknown = [variable for variable, slope in zip(variables, row, strict=True) if not np.isfinite(slope)]
     lost = next((variable for variable in unknown if name not in of.ties or variable in of.lost), None)
     if lost is not None:
@@ -234,7 +249,6 @@ def _row(of: Source, name: str, variables: Sequence[str]) -> Floats:
             f"{name}: its derivative by {lost} was not found: how it moves the kink of the motion{place} "
             "is as small as rounding; leave this entry out, or vary it in a sweep"
         )
-    return row
 
 
 def _unit(machine: Machine, address: str) -> str:

@@ -200,10 +200,10 @@ class RecordModel:
         if solution is None:
             return None
         sizes = np.abs(x[: by_entry.shape[1]])
-        gradient = solution.gradient(parameters, np.where(sizes == 0.0, 1.0, sizes), angles)
+        gradient = solution.gradient(parameters, np.where(sizes == 0.0, 1.0, sizes))
         if np.isfinite(gradient.lost).any():
             return None
-        curves = gradient.curves
+        curves = gradient.curves(angles)
         speed, torque = curves.speed[back], curves.torque_motor[back]
         compiled = compile_machine(machine)
         ratio = compiled.gear_factors[0], parameters[compiled.gear_slots[0]]

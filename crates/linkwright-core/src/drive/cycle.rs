@@ -396,6 +396,14 @@ impl<R: Real> Step<R> {
         Step { phi, h, rows, u, X: [u; S], K: [zero; S], D: [zero; S], growth: zero }
     }
 
+    /// A step whose stages are not known, as the machine there is not.
+    #[inline(always)]
+    pub(super) fn unsolved(phi: R, h: R, u: R) -> Self {
+        let zero = R::splat(0.0);
+        let row = Row { inverse: zero, drift: zero, load: zero, viscous: zero };
+        Self::at_rest(phi, h, [row; S], u)
+    }
+
     /// u at its end: the last stage.
     #[inline(always)]
     pub fn end(&self) -> R {
@@ -518,11 +526,10 @@ impl<R: Real> Turn<R> {
     #[inline(always)]
     pub fn tabulate_again(&mut self, machine: &Machine<'_, R>, steps: &[(R, R)], m: &mut Motion<R>) {
         let zero = R::splat(0.0);
-        let row = Row { inverse: zero, drift: zero, load: zero, viscous: zero };
         self.geometry.clear();
         self.passed.clear();
         if self.steps.len() != steps.len() {
-            self.steps.resize(steps.len(), Step::at_rest(zero, zero, [row; S], zero));
+            self.steps.resize(steps.len(), Step::unsolved(zero, zero, zero));
         }
         for (k, &(phi, h)) in steps.iter().enumerate() {
             (self.steps[k].phi, self.steps[k].h) = (phi, h);

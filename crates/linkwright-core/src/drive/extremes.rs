@@ -191,17 +191,19 @@ impl<R: Real> Turn<R> {
     #[inline(always)]
     pub fn starts(&self, machine: &Machine<'_, R>, m: &mut Motion<R>) -> Vec<R> {
         let mut geometry = Vec::with_capacity(machine.plan.laws.len());
-        let of_step = |(k, step): (usize, &Step<R>)| {
+        let mut starts = Vec::with_capacity(self.steps.len());
+        for (k, step) in self.steps.iter().enumerate() {
             geometry.clear();
             let row = machine.row(step.phi, m, &mut geometry);
-            if machine.keeps_branch {
+            let epsilon = if machine.keeps_branch {
                 let known = machine.geometry_at(self.geometry_of(machine, k), REFERENCE);
-                machine.acceleration_on_branch(&row, &geometry, step.u, (known, step.X[REFERENCE])).value
+                machine.acceleration_on_branch(&row, &geometry, step.u, (known, step.X[REFERENCE]))
             } else {
-                machine.acceleration(&row, &geometry, step.u).value
-            }
-        };
-        self.steps.iter().enumerate().map(of_step).collect()
+                machine.acceleration(&row, &geometry, step.u)
+            };
+            starts.push(epsilon.value);
+        }
+        starts
     }
 
     /// Takes ε at some ends of steps, numbered one by one, to both sides: into their last stages, and into the `starts`.

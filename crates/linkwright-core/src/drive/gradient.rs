@@ -9,9 +9,10 @@
 //! that a torque may jump there. An extreme stays an extreme: its derivative is that of the curve at its
 //! angle (envelope theorem), or along the kink that it sits on.
 
-use crate::drive::cycle::{Machine, REFERENCE, Turn, stages_of_part};
+use crate::drive::cycle::{Machine, REFERENCE, Step, Turn, stages_of_part};
 use crate::drive::events::{Events, Passage};
 use crate::drive::extremes::Extreme;
+use crate::drive::kinks::kinks;
 use crate::drive::layers::resolved;
 use crate::drive::layout::{Layout, bundle, unbundle};
 use crate::drive::reading::{Mark, State};
@@ -57,6 +58,9 @@ const AT_CORNER: f64 = 1e-3;
 /// An angle this near to the end of a step \[rad\] is that end.
 const AT_END: f64 = 1e-12;
 
+/// An end of a step this near to a kink of loads or motion \[rad\] may move with it.
+const ON_KINK: f64 = 1e-8;
+
 /// The derivatives along some directions of the parameters.
 pub struct Gradient<'a> {
     /// The machine's structure.
@@ -69,8 +73,6 @@ pub struct Gradient<'a> {
     pub sizes: &'a [f64],
     /// The solution.
     pub steady: &'a Steady,
-    /// Crank angles of the curves, within the cycle \[rad\].
-    pub phi: &'a [f64],
 }
 
 /// Derivatives, each list direction by direction.
@@ -78,11 +80,88 @@ pub struct Gradient<'a> {
 pub struct Derivatives {
     /// (numbers, directions).
     pub numbers: Vec<f64>,
-    /// (curves, angles, directions).
-    pub curves: Vec<f64>,
+    /// The solution along the directions.
+    pub along: SolutionAlong,
     /// By direction: the crank angle of a kink whose move was not found, so that nothing is known of the derivatives \[rad\];
     /// NaN where there is none.
     pub lost: Vec<f64>,
+}
+
+/// A solution on the steps that resolve its derivatives.
+#[derive(Clone, Debug)]
+struct SolvedSteps {
+    /// At the starts of the steps.
+    marks: Vec<Mark>,
+    /// Ends of steps that lie on kinks of loads or motion, and may move with them; the others stay \[rad\].
+    on_kinks: Vec<f64>,
+}
+
+impl SolvedSteps {
+    fn new(of: &Gradient<'_>) -> Self {
+        let marks = resolved(of.plan, of.q, of.steady);
+        let kinks = kinks(of.plan, of.q);
+        let ends = marks.iter().map(|mark| mark.phi).chain([of.plan.cycle()]);
+        let is_kink = |phi: &f64| kinks.iter().any(|kink| (kink - phi).abs() < ON_KINK);
+        let on_kinks = ends.filter(is_kink).collect();
+        SolvedSteps { marks, on_kinks }
+    }
+}
+
+/// A solution with its derivatives, from which those of curves are read.
+#[derive(Clone, Debug)]
+pub struct SolutionAlong {
+    solved: SolvedSteps,
+    /// By step: its start, u there and at its stages; last the end of the last step.
+    values: Vec<f64>,
+    /// (values, directions).
+    d: Vec<f64>,
+}
+
+/// Numbers of a step among [`SolutionAlong::values`].
+const OF_STEP: usize = 2 + S;
+
+/// Curves along the directions that a solution was differentiated along.
+pub struct CurvesAlong<'a> {
+    /// The solution, and what it was found from.
+    pub of: Gradient<'a>,
+    /// With its derivatives.
+    pub along: &'a SolutionAlong,
+    /// Crank angles of the curves, within the cycle \[rad\].
+    pub phi: &'a [f64],
+}
+
+impl CurvesAlong<'_> {
+    /// (curves, angles, directions). Not inlined: every crate that called it would compile its own kernel.
+    #[inline(never)]
+    pub fn curves(self) -> Vec<f64> {
+        in_single_lanes(self)
+    }
+}
+
+impl Job for CurvesAlong<'_> {
+    type Output = Vec<f64>;
+
+    #[inline(always)]
+    fn run<R: Real>(self) -> Vec<f64> {
+        let (n, of) = (self.of.n(), &self.of);
+        let mut curves = vec![0.0; CURVES * self.phi.len() * n];
+        let mut lanes = vec![0.0; R::LANES];
+        for first in (0..n).step_by(R::LANES) {
+            poll();
+            let width = R::LANES.min(n - first);
+            let q = of.numbers_from::<R>(first);
+            let mut m = Motion::new(&of.plan.mechanism, &q);
+            let dual = DualRevolution::read(of, &q, self.along, first);
+            for (at, &phi) in self.phi.iter().enumerate() {
+                for (curve, value) in dual.curves_at(phi, &mut m).into_iter().enumerate() {
+                    value.d.store(&mut lanes);
+                    let row = curve * self.phi.len() + at;
+                    curves[row * n + first..][..width].copy_from_slice(&lanes[..width]);
+                }
+            }
+        }
+        curves
+    }
 }
 
 impl Gradient<'_> {
@@ -96,6 +175,19 @@ impl Gradient<'_> {
     pub fn derivatives(self) -> Derivatives {
         in_single_lanes(self)
     }
+
+    /// The numbers of the machine along the directions from one on; lanes without a direction have no derivatives.
+    #[inline(always)]
+    fn numbers_from<R: Real>(&self, first: usize) -> Vec<Dual<R>> {
+        let (n, mut lanes) = (self.n(), vec![0.0; R::LANES]);
+        let width = R::LANES.min(n - first);
+        let mut q = Vec::with_capacity(self.q.len());
+        for (i, &value) in self.q.iter().enumerate() {
+            lanes[..width].copy_from_slice(&self.directions[i * n + first..][..width]);
+            q.push(Dual { value: R::splat(value), d: R::load(&lanes) });
+        }
+        q
+    }
 }
 
 impl Job for Gradient<'_> {
@@ -105,23 +197,24 @@ impl Job for Gradient<'_> {
     fn run<R: Real>(self) -> Derivatives {
         let n = self.n();
         let mut numbers = vec![0.0; NUMBERS * n];
-        let mut curves = vec![0.0; CURVES * self.phi.len() * n];
         let (mut lanes, mut lost) = (vec![0.0; R::LANES], vec![f64::NAN; n]);
-        let marks = resolved(self.plan, self.q, self.steady);
-        let ends = (!self.steady.crossings.is_empty()).then(|| MovingEnds::new::<R>(&self, &marks));
+        let solved = SolvedSteps::new(&self);
+        let ends = if self.steady.crossings.is_empty() {
+            None
+        } else {
+            Some(R::out_of_line(
+                #[inline(always)]
+                || MovingEnds::new::<R>(&self, &solved),
+            ))
+        };
+        let rows = OF_STEP * solved.marks.len() + 1;
+        let (mut values, mut d) = (vec![0.0; rows], vec![0.0; rows * n]);
         for first in (0..n).step_by(R::LANES) {
             poll();
             let width = R::LANES.min(n - first);
-            // Lanes without a direction have no derivatives.
-            lanes.fill(0.0);
-            let mut q = Vec::with_capacity(self.q.len());
-            for (i, &value) in self.q.iter().enumerate() {
-                let row = i * n + first;
-                lanes[..width].copy_from_slice(&self.directions[row..row + width]);
-                q.push(Dual { value: R::splat(value), d: R::load(&lanes) });
-            }
+            let q = self.numbers_from::<R>(first);
             let mut m = Motion::new(&self.plan.mechanism, &q);
-            let mut dual = DualRevolution::new(&self, &q, &marks, &mut m);
+            let mut dual = DualRevolution::new(&self, &q, &solved, &mut m);
             if let Some(ends) = &ends {
                 lanes.fill(1.0);
                 lanes[..width].copy_from_slice(&self.sizes[first..first + width]);
@@ -135,13 +228,18 @@ impl Job for Gradient<'_> {
             for (row, number) in dual.numbers(&mut m).into_iter().enumerate() {
                 put(&mut numbers, row, number);
             }
-            for (at, &phi) in self.phi.iter().enumerate() {
-                for (curve, value) in dual.curves_at(phi, &mut m).into_iter().enumerate() {
-                    put(&mut curves, curve * self.phi.len() + at, value);
+            for (k, step) in dual.turn.steps.iter().enumerate() {
+                let own = [dual.edges[k], step.u].into_iter().chain(step.X);
+                for (row, number) in (k * OF_STEP..).zip(own) {
+                    values[row] = number.value.max_lane();
+                    put(&mut d, row, number);
                 }
             }
+            let end = dual.edges[solved.marks.len()];
+            values[rows - 1] = end.value.max_lane();
+            put(&mut d, rows - 1, end);
         }
-        Derivatives { numbers, curves, lost }
+        Derivatives { numbers, along: SolutionAlong { solved, values, d }, lost }
     }
 }
 
@@ -158,24 +256,60 @@ struct DualRevolution<'a, R: Real> {
 
 impl<'a, R: Real> DualRevolution<'a, R> {
     #[inline(always)]
-    fn new(of: &Gradient<'a>, q: &'a [Dual<R>], marks: &'a [Mark], m: &mut Motion<Dual<R>>) -> Self {
+    fn new(of: &Gradient<'a>, q: &'a [Dual<R>], solved: &'a SolvedSteps, m: &mut Motion<Dual<R>>) -> Self {
         let (plan, steady) = (of.plan, of.steady);
         let machine = Machine::new(plan, q).keeping_branch(plan.may_jump());
-        let ends: Vec<f64> = marks.iter().map(|mark| mark.phi).chain([plan.cycle()]).collect();
-        let edges = R::out_of_line(
+        let mut moved = R::out_of_line(
             #[inline(always)]
-            || machine.moving(&ends, m),
-        );
+            || machine.moving(&solved.on_kinks, m),
+        )
+        .into_iter()
+        .peekable();
+        let ends = solved.marks.iter().map(|mark| mark.phi).chain([plan.cycle()]);
+        let mut edges = Vec::with_capacity(solved.marks.len() + 1);
+        for phi in ends {
+            let is_moved = moved.peek().is_some_and(|edge| edge.value.max_lane() == phi);
+            let edge = if is_moved { moved.next() } else { None };
+            edges.push(edge.unwrap_or(Dual::splat(phi)));
+        }
+        let marks = &solved.marks;
         let mut dual = DualRevolution { machine, steady, marks, turn: Turn::empty(Layout::Machines), edges };
         dual.differentiate(m);
         dual
+    }
+
+    /// The solution with its derivatives from one direction on, as it was found.
+    #[inline(always)]
+    fn read(of: &Gradient<'a>, q: &'a [Dual<R>], along: &'a SolutionAlong, first: usize) -> Self {
+        let (n, mut lanes) = (of.n(), vec![0.0; R::LANES]);
+        let width = R::LANES.min(n - first);
+        let mut numbers = Vec::with_capacity(along.values.len());
+        for (row, &value) in along.values.iter().enumerate() {
+            lanes[..width].copy_from_slice(&along.d[row * n + first..][..width]);
+            numbers.push(Dual { value: R::splat(value), d: R::load(&lanes) });
+        }
+        let machine = Machine::new(of.plan, q).keeping_branch(of.plan.may_jump());
+        let mut edges = Vec::with_capacity(along.solved.marks.len() + 1);
+        let mut turn = Turn::empty(Layout::Machines);
+        for (k, own) in numbers.chunks_exact(OF_STEP).enumerate() {
+            edges.push(own[0]);
+            let end = numbers[(k + 1) * OF_STEP];
+            let mut step = Step::unsolved(own[0], end - own[0], own[1]);
+            step.X.copy_from_slice(&own[2..]);
+            turn.steps.push(step);
+        }
+        edges.push(numbers[along.solved.marks.len() * OF_STEP]);
+        DualRevolution { machine, steady: of.steady, marks: &along.solved.marks, turn, edges }
     }
 
     /// The solution on the steps between the edges, with its derivatives.
     #[inline(always)]
     fn differentiate(&mut self, m: &mut Motion<Dual<R>>) {
         let marks = self.marks;
-        let steps: Vec<_> = self.edges.windows(2).map(|ends| (ends[0], ends[1] - ends[0])).collect();
+        let mut steps = Vec::with_capacity(marks.len());
+        for ends in self.edges.windows(2) {
+            steps.push((ends[0], ends[1] - ends[0]));
+        }
         self.turn.tabulate_again(&self.machine, &steps, m);
         for (step, mark) in self.turn.steps.iter_mut().zip(marks) {
             step.u = Dual::splat(mark.u);
@@ -246,19 +380,24 @@ impl<'a, R: Real> DualRevolution<'a, R> {
     #[inline(always)]
     fn misses(&self, passages: &[(usize, Passage<Dual<R>>)], share: f64, size: R) -> Vec<R> {
         let change = self.change();
-        let miss = |(k, passage): &(usize, Passage<Dual<R>>)| {
+        let mut misses = Vec::with_capacity(passages.len());
+        for (k, passage) in passages {
             let (step, missed) = (&self.turn.steps[*k], passage.late().d.abs());
             let of_u = missed * step.K[S - 1].value.abs();
             let beyond = (missed - self.edges[k + 1].d.abs() * share).min(of_u - change * share);
-            beyond.min(of_u * size - step.X[S - 1].value * NOTHING)
-        };
-        passages.iter().map(miss).collect()
+            misses.push(beyond.min(of_u * size - step.X[S - 1].value * NOTHING));
+        }
+        misses
     }
 
     /// Largest change of u at the starts of steps.
     #[inline(always)]
     fn change(&self) -> R {
-        self.turn.steps.iter().fold(R::splat(0.0), |most, step| most.max(step.u.d.abs()))
+        let mut most = R::splat(0.0);
+        for step in &self.turn.steps {
+            most = most.max(step.u.d.abs());
+        }
+        most
     }
 
     /// How the motion passes the kinks at ends of steps, with the number of the step before each. Of several kinks at one
@@ -350,7 +489,10 @@ impl<'a, R: Real> DualRevolution<'a, R> {
         }
         // Within the step, beyond whose ends the curve may bend.
         let middle = phi.clamp(low + 2.0 * aside, high - 2.0 * aside);
-        let at = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|k: f64| self.state(k.mul_add(aside, middle), m).1.epsilon);
+        let mut at = [Dual::splat(0.0); 5];
+        for (k, epsilon) in at.iter_mut().enumerate() {
+            *epsilon = self.state((k as f64 - 2.0).mul_add(aside, middle), m).1.epsilon;
+        }
         let slope = ((at[3] - at[1]) * 8.0 - (at[4] - at[0])) * (1.0 / (12.0 * aside));
         let bend = ((at[3] + at[1]) * 16.0 - (at[4] + at[0]) - at[2] * 30.0) * (1.0 / (12.0 * aside * aside));
         let off = -slope.value / bend.value;
@@ -422,10 +564,10 @@ struct MovingEnds {
 impl MovingEnds {
     /// Those of a solution: each end is moved in a lane of its own.
     #[inline(always)]
-    fn new<R: Real>(of: &Gradient<'_>, marks: &[Mark]) -> Self {
+    fn new<R: Real>(of: &Gradient<'_>, solved: &SolvedSteps) -> Self {
         let q: Vec<Dual<R>> = of.q.iter().map(|&value| Dual::splat(value)).collect();
         let mut m = Motion::new(&of.plan.mechanism, &q);
-        let mut dual = DualRevolution::new(of, &q, marks, &mut m);
+        let mut dual = DualRevolution::new(of, &q, solved, &mut m);
         let events = Events::new(dual.machine);
         let ends: Vec<usize> = dual.passages(&events, &mut m).iter().map(|(k, _)| *k).collect();
         let n = ends.len();

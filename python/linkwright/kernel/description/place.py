@@ -57,10 +57,18 @@ def field_names(model: type[BaseModel]) -> dict[str, str]:
     return {field.alias or name: name for name, field in model.model_fields.items()}
 
 
+@cache
+def _names_of(kind: type) -> dict[str, str] | None:
+    """Names of the fields of a model; None for another type. Whether it is one takes long to find out."""
+    return field_names(kind) if issubclass(kind, BaseModel) else None
+
+
 def keys(node: object) -> tuple[str, ...]:
     """The keys of a table, of a model, or the places of a list; nothing for a value."""
-    if isinstance(node, BaseModel):
-        return tuple(field_names(type(node)))
+    kind: Any = type(node)
+    names = _names_of(kind)
+    if names is not None:
+        return tuple(names)
     if isinstance(node, Mapping):
         return tuple(key for key in node if isinstance(key, str))
     if isinstance(node, list | tuple):
@@ -70,8 +78,10 @@ def keys(node: object) -> tuple[str, ...]:
 
 def look(node: object, key: str) -> Any:
     """The entry under a key; None if there is none."""
-    if isinstance(node, BaseModel):
-        return getattr(node, field_names(type(node)).get(key, ""), None)
+    kind: Any = type(node)
+    names = _names_of(kind)
+    if names is not None:
+        return getattr(node, names.get(key, ""), None)
     if isinstance(node, Mapping):
         return node.get(key)
     if isinstance(node, list | tuple):

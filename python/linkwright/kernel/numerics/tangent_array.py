@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from functools import partial
+from math import isfinite
 from typing import Any
 
 import numpy as np
@@ -54,8 +55,7 @@ class TangentArray:
     @property
     def T(self) -> TangentArray:
         """The axes in reverse."""
-        d = np.moveaxis(self.d.transpose(), 0, -1)
-        return TangentArray(self.value.T, d)
+        return TangentArray(self.value.T, self.d.transpose(*range(self.ndim - 1, -1, -1), self.ndim))
 
     def __len__(self) -> int:
         return len(self.value)
@@ -67,6 +67,9 @@ class TangentArray:
         return TangentArray(self.value[key], self.d[_with_lanes(key)])
 
     def __setitem__(self, key: Any, new: Any) -> None:
+        if type(new) is float:
+            self.value[key], self.d[_with_lanes(key)] = new, 0.0
+            return
         new = _lifted(new, self.d.shape[-1])
         self.value[key], self.d[_with_lanes(key)] = new.value, new.d
 
@@ -113,8 +116,11 @@ class TangentArray:
         """NumPy's functions of numbers."""
         if method != "__call__" or options:
             raise TypeError(f"no derivative of numpy.{ufunc.__name__} with {method} and {sorted(options)}")
-        if ufunc in _PLAIN and all(map(_is_simple, inputs)):
-            return _PLAIN[ufunc](*inputs)
+        own = _OWN_RULES.get(ufunc)
+        if own is not None and all(map(_is_simple, inputs)):
+            result = own(*inputs)
+            if result is not None:
+                return result
         arrays = [_lifted(x, self.d.shape[-1]) for x in inputs]
         values = [x.value for x in arrays]
         if ufunc.__name__ in _OF_VALUES:
@@ -124,7 +130,7 @@ class TangentArray:
             return TangentArray(value, _times(slope, arrays[0].d))
         if len(inputs) == 2 and ufunc.__name__ in _SLOPES_OF_TWO:
             value, *slopes = _SLOPES_OF_TWO[ufunc.__name__](*values)
-            d = sum(_times(slope, x.d) for slope, x in zip(slopes, arrays, strict=True))
+            d = _times(slopes[0], arrays[0].d) + _times(slopes[1], arrays[1].d)
             if ufunc.__name__ in _CHOICES:
                 first, second = (x.d for x in arrays)
                 d = np.where((values[0] == values[1])[..., None] & (first == second), first, d)
@@ -142,26 +148,41 @@ class TangentArray:
 def _times(slope: Any, d: Floats) -> Floats:
     """A slope times derivatives; where these are zero it need not exist."""
     slope = np.asarray(slope)[..., None]
-    if np.isfinite(slope).all():
+    if _is_finite(slope):
         return np.asarray(slope * d)
     with np.errstate(invalid="ignore"):
         return np.where(d == 0.0, 0.0, slope * d)
 
 
+def _is_finite(x: Any) -> bool:
+    """Whether all numbers are finite; not where their squares overflow, which costs time alone."""
+    return isfinite(np.vdot(x, x))
+
+
 def _is_simple(x: Any) -> bool:
     """Whether a number or an array has derivatives in one array, or none."""
-    return isinstance(x, TangentArray | float | int) or (isinstance(x, np.ndarray) and x.dtype != object)
+    return type(x) in _SIMPLE or (isinstance(x, np.ndarray) and x.dtype != object)
 
 
-def _sum_of(x: Any, y: Any, sign: float) -> TangentArray:
-    """x ± y, of which one has derivatives."""
+# Rules for what is worked out most, without a general rule; None where a slope does not exist.
+
+
+def _sum(x: Any, y: Any) -> TangentArray:
+    """x + y, of which one has derivatives."""
     if not isinstance(y, TangentArray):
-        return _with_shape(x.value + y if sign > 0 else x.value - y, x.d)
-    d = y.d if sign > 0 else -y.d
-    if isinstance(x, TangentArray):
-        d = x.d + d
-    first = primal(x)
-    return _with_shape(first + y.value if sign > 0 else first - y.value, d)
+        return _with_shape(x.value + y, x.d)
+    if not isinstance(x, TangentArray):
+        return _with_shape(x + y.value, y.d)
+    return _with_shape(x.value + y.value, x.d + y.d)
+
+
+def _difference(x: Any, y: Any) -> TangentArray:
+    """x − y, of which one has derivatives."""
+    if not isinstance(y, TangentArray):
+        return _with_shape(x.value - y, x.d)
+    if not isinstance(x, TangentArray):
+        return _with_shape(x - y.value, -y.d)
+    return _with_shape(x.value - y.value, x.d - y.d)
 
 
 def _with_shape(value: Any, d: Floats) -> TangentArray:
@@ -170,31 +191,75 @@ def _with_shape(value: Any, d: Floats) -> TangentArray:
     return TangentArray(value, d if d.shape == shape else np.broadcast_to(d, shape))
 
 
-def _product(x: Any, y: Any) -> TangentArray:
+def _product(x: Any, y: Any) -> TangentArray | None:
     """x·y, of which one has derivatives."""
-    first, second = np.asarray(primal(x)), np.asarray(primal(y))
-    parts = [(second, x.d)] if isinstance(x, TangentArray) else []
-    parts += [(first, y.d)] if isinstance(y, TangentArray) else []
-    value = first * second
+    if not isinstance(y, TangentArray):
+        return _scaled(x, y)
+    if not isinstance(x, TangentArray):
+        return _scaled(y, x)
+    value = x.value * y.value
     # A finite product has finite factors.
-    if np.isfinite(value).all():
-        d = sum(slope[..., None] * own for slope, own in parts)
-    else:
-        d = sum(_times(slope, own) for slope, own in parts)
+    if not _is_finite(value):
+        return None
+    d = y.value[..., None] * x.d
+    d += x.value[..., None] * y.d
     return TangentArray(value, d)
 
 
-# Sums and products, of which there are most, without a general rule.
-_PLAIN: dict[Any, Callable[..., TangentArray]] = {
-    np.add: partial(_sum_of, sign=1.0),
-    np.subtract: partial(_sum_of, sign=-1.0),
+def _scaled(x: TangentArray, factor: Any) -> TangentArray | None:
+    """An array times a factor without derivatives."""
+    if not _is_finite(factor):
+        return None
+    lanes = factor[..., None] if isinstance(factor, np.ndarray) else factor
+    return TangentArray(x.value * factor, lanes * x.d)
+
+
+def _quotient(x: Any, y: Any) -> TangentArray | None:
+    """x/y, of which one has derivatives."""
+    below = np.asarray(primal(y))
+    value = primal(x) / below
+    if not _is_finite(value):
+        return None
+    if not isinstance(y, TangentArray):
+        return TangentArray(value, x.d / below[..., None])
+    change = np.asarray(value)[..., None] * y.d
+    change = x.d - change if isinstance(x, TangentArray) else -change
+    return TangentArray(value, change / below[..., None])
+
+
+def _to_power(x: Any, power: Any) -> TangentArray | None:
+    """xᵖ with a number p from 1 up, whose slope exists everywhere."""
+    if type(power) not in (int, float) or power < 1:
+        return None
+    value = x.value**power
+    return TangentArray(value, _times(power * x.value ** (power - 1), x.d))
+
+
+def _negative(x: TangentArray) -> TangentArray:
+    return TangentArray(-x.value, -x.d)
+
+
+_SIMPLE = {TangentArray, float, int}
+
+_OWN_RULES: dict[Any, Callable[..., TangentArray | None]] = {
+    np.add: _sum,
+    np.subtract: _difference,
     np.multiply: _product,
+    np.divide: _quotient,
+    np.power: _to_power,
+    np.negative: _negative,
 }
 
 
 def _operator(ufunc: Any, *, turned: bool = False) -> Callable[..., Any]:
+    own = _OWN_RULES.get(ufunc)
+
     def apply(self: TangentArray, *others: Any) -> Any:
         inputs = (*others, self) if turned else (self, *others)
+        if own is not None and all(map(_is_simple, others)):
+            result = own(*inputs)
+            if result is not None:
+                return result
         return self.__array_ufunc__(ufunc, "__call__", *inputs)
 
     return apply
@@ -252,8 +317,9 @@ def _lifted(x: Any, n: int) -> TangentArray:
 
 def _with_lanes(key: Any) -> Any:
     """An index of the values as one of the derivatives, whose last axis is that of the variables."""
-    keys = key if isinstance(key, tuple) else (key,)
-    return (*keys, slice(None)) if any(entry is Ellipsis for entry in keys) else keys
+    if not isinstance(key, tuple):
+        return (key, slice(None)) if key is Ellipsis else key
+    return (*key, slice(None)) if any(entry is Ellipsis for entry in key) else key
 
 
 def _lanes(arrays: Sequence[Any]) -> int:

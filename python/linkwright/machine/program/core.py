@@ -44,6 +44,7 @@ Reductions = _core.Reductions
 SteadyMotion = _core.SteadyMotion
 SteadySolution = _core.SteadySolution
 SteadyCurves = _core.SteadyCurves
+SteadyGradient = _core.SteadyGradient
 NoSteadyMotion = _core.NoSteadyMotion
 motion_at = _core.motion_at
 
