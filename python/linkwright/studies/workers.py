@@ -17,9 +17,11 @@ from __future__ import annotations
 
 import json
 import os
+import signal
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
 from functools import lru_cache
 from multiprocessing import active_children, get_context, parent_process
 from pathlib import Path
@@ -71,7 +73,8 @@ def _round(ready: StudyPlan, folder: SweepFolder, numbers: list[int], workers: i
     # Started afresh: a copy of a process with threads may hang.
     with ProcessPoolExecutor(workers, get_context("spawn"), initializer=_begin, initargs=given) as pool:
         try:
-            waiting = {pool.submit(_compute, number): number for number in numbers}
+            with _deaf():
+                waiting = {pool.submit(_compute, number): number for number in numbers}
             for done in as_completed(waiting):
                 done.result()
                 yield waiting[done]
@@ -80,9 +83,21 @@ def _round(ready: StudyPlan, folder: SweepFolder, numbers: list[int], workers: i
             for process in active_children():
                 if process not in others:
                     process.terminate()
+            pool.shutdown(cancel_futures=True)
             raise
-        finally:
-            pool.shutdown(wait=False, cancel_futures=True)
+
+
+@contextmanager
+def _deaf() -> Iterator[None]:
+    """Processes that are started within it are not told of an interrupt, which ends this one, and it them."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _begin(path: Path, manifest: dict[str, Any], listed: Floats | None, workers: int) -> None:
