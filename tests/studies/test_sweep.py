@@ -10,15 +10,19 @@ import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
 import pytest
 from click.testing import CliRunner
+from matplotlib.text import Text
 
 import linkwright as lw
 from linkwright.app.application import application
 from linkwright.kernel.errors import InputError
+from linkwright.studies.choices import choice_names
+from linkwright.studies.commands.sweep import shown_of
 from linkwright.studies.engine import numbers, sound_variant
 from linkwright.studies.figures import StudyRows, figures
 from linkwright.studies.folder import MANIFEST, opened, plan_of
@@ -111,7 +115,7 @@ def test_a_place_that_a_list_does_not_have_is_refused(
     with pytest.raises(InputError, match="a place in its values, 0 to 1"):
         lw.evaluate(plan, {"phase": np.array([0.0, place]), "mass": np.array([1e3, 1e3])})
     (tmp_path / "rows.csv").write_text(f"phase, mass\n0, 1000\n{place}, 1000\n")
-    with pytest.raises(InputError, match="column phase, row 1: found"):
+    with pytest.raises(InputError, match=r"rows\.csv:3: column phase"):
         lw.read_study(study_file(change, ("chunk = 4", 'method = "list"\nfile = "rows.csv"')))
 
 
@@ -133,7 +137,32 @@ def test_a_list_names_texts_among_values(study_file: Files, tmp_path: Path) -> N
     (tmp_path / "rows.csv").write_text("phase,mass\npositiv,1000\n")
     with pytest.raises(InputError, match=r"rows\.csv:2: column phase") as caught:
         lw.read_study(study_file(change, listed))
-    assert 'one of "positive", "negative"' in str(caught.value)
+    assert 'one of "positive", "negative", or its place among them, 0 to 1' in str(caught.value)
+
+
+def test_a_list_names_tables_among_values(study_file: Files, tmp_path: Path) -> None:
+    """By the text in which they differ; a message has no table as Python prints it."""
+    motors = [f'{{ kind = "induction", catalogue = "{name}" }}' for name in ("4A132M6U3", "4A160M6U3")]
+    change = (
+        'address = "mechanism.cranks.A2.phase"\nrange = ["45 deg", "135 deg"]\nsteps = 5',
+        f'address = "drive.motor"\nvalues = [{", ".join(motors)}]',
+    )
+    for kind in ("csv", "parquet"):
+        path = study_file(change, ("chunk = 4", f'method = "list"\nfile = "rows.{kind}"'))
+        for cells, row in ((["4A160M6U3", "0"], 1.0), (["4A132M6U3", "none"], None), (["2", "0"], None)):
+            table = pd.DataFrame({"phase": cells, "mass": [1000.0, 1000.0]})
+            if kind == "csv":
+                table.to_csv(tmp_path / "rows.csv", index=False)
+            else:
+                table.to_parquet(tmp_path / "rows.parquet")
+            if row is not None:
+                assert lw.read_study(path).rows(0, 2)["phase"].tolist() == [row, 0.0]
+                continue
+            with pytest.raises(InputError, match="column phase") as caught:
+                lw.read_study(path)
+            assert f"rows.{kind}" in str(caught.value)
+            assert '"4A132M6U3", "4A160M6U3", or its place among them, 0 to 1' in str(caught.value)
+            assert "kind" not in str(caught.value)
 
 
 def test_a_damaged_file_is_computed_anew(study_file: Files, tmp_path: Path) -> None:
@@ -356,3 +385,68 @@ def test_rows_that_lack_a_response_are_drawn_without_lines() -> None:
     assert set(figures(shown)) == {"scatter"}
     columns["second"] = full
     assert set(figures(shown)) == {"scatter", "parallel"}
+
+
+def _texts(figure: Any) -> list[str]:
+    """All texts of a figure as it is drawn."""
+    figure.canvas.draw()
+    return [text.get_text() for text in figure.findobj(Text) if text.get_visible() and text.get_text()]
+
+
+@pytest.mark.parametrize("variables", [("motor",), ("motor", "a"), ("a", "motor"), ("a", "motor", "b")])
+def test_figures_name_the_values_of_a_choice(variables: tuple[str, ...]) -> None:
+    """They showed the places 0 and 1."""
+    motors = ("small", "large one")
+    grid = np.meshgrid(*(np.arange(2.0) for _ in variables), indexing="ij")
+    columns = {
+        name: table.ravel() - (0 if name == "motor" else 5)
+        for name, table in zip(variables, grid, strict=True)
+    }
+    columns["lowest"] = -np.arange(1.0, 1 + 2 ** len(variables))
+    labels = {name: name if name == "motor" else f"{name} [m]" for name in columns}
+    shown = StudyRows(columns, labels, variables, ("lowest",), is_grid=True, choices={"motor": motors})
+    drawn = figures(shown)
+    assert len(drawn) == (2 if len(variables) == 3 else 1)
+    for figure in drawn.values():
+        texts = _texts(figure)
+        assert set(motors) <= set(texts)
+        # The hyphen of a keyboard is no minus.
+        assert not [text for text in texts if "-" in text]
+    if len(variables) == 3:
+        assert {"−8", "−1", "−5", "−4"} <= set(_texts(drawn["parallel"]))
+    if variables == ("motor", "a"):
+        assert "minimum −4" in _texts(drawn["map_lowest"])
+
+
+def test_contours_of_a_map_have_a_minus() -> None:
+    x, y = (table.ravel() for table in np.meshgrid(np.arange(5.0), np.arange(5.0), indexing="ij"))
+    columns = {"x": x, "y": y, "low": -100 - x * y}
+    figure = figures(StudyRows(columns, {name: name for name in columns}, ("x", "y"), ("low",), is_grid=True))
+    texts = _texts(figure["map_low"])
+    assert any(text.startswith("−1") for text in texts)
+    assert not [text for text in texts if "-" in text]
+
+
+def test_what_is_shown_of_a_choice_has_its_names(study_file: Files, tmp_path: Path) -> None:
+    change = (
+        'address = "mechanism.cranks.A2.phase"\nrange = ["45 deg", "135 deg"]\nsteps = 5',
+        'address = "drive.gearbox.reverse"\nvalues = ["same", 1.25]',
+    )
+    lw.sweep(lw.read_study(study_file(change)), tmp_path / "rows")
+    shown = shown_of(opened(tmp_path / "rows"))
+    assert shown.choices == {"phase": ("same", "1.25")}
+    assert shown.labels["phase"] == "phase"
+
+
+@pytest.mark.parametrize(
+    ("values", "names"),
+    [
+        (["a", 2.5, True], ("a", "2.5", "true")),
+        ([{"kind": "dc", "n": 1}, {"kind": "table"}], ("dc", "table")),
+        ([{"kind": "dc", "n": 1}, {"kind": "dc", "n": 2}], ("kind = dc, n = 1", "kind = dc, n = 2")),
+        ([{"kind": "dc"}, "none"], ("kind = dc", "none")),
+        ([["1 m", "2 m"], []], ("[1 m, 2 m]", "[]")),
+    ],
+)
+def test_names_of_choices(values: list[Any], names: tuple[str, ...]) -> None:
+    assert choice_names(values) == names

@@ -90,6 +90,52 @@ def test_limits_of_a_tolerance(tmp_path: Path) -> None:
             plan_of(tmp_path, text.replace("X", f'tolerance = "{wrong}"'))
 
 
+@pytest.mark.parametrize(
+    ("given", "found", "told"),
+    [
+        ('tolerance = "810 ± 0.2 mm"', '"810 ± 0.2 mm"', "the size that the machine has, 800 mm"),
+        ('tolerance = "81 cm ± 0.2 mm"', '"81 cm ± 0.2 mm"', "the size that the machine has, 80 cm"),
+        ('tolerance = "0.9 ± 0.2"', '"0.9 ± 0.2"', "the size that the machine has, 0.8\n"),
+        ('tolerance = "0 mm ± 0.2 mm"', '"0 mm ± 0.2 mm"', "the size that the machine has, 0.8 m"),
+        ('tolerance = "0.8 m ± 0.2 kg"', '"0.8 m ± 0.2 kg"', '"kg" is a unit of mass'),
+        ('tolerance = "+0.1 -0.3 kg"', '"+0.1 -0.3 kg"', '"kg" is a unit of mass'),
+        ('tolerance = "± 0,2 mm"', '"± 0,2 mm"', "write the decimal point as a point"),
+        ('tolerance = "0,8 m ± 0.2 mm"', '"0,8 m ± 0.2 mm"', "write the decimal point as a point"),
+        ('range = ["900 mm", "80 cm"]', '"900 mm" to "80 cm"', "a minimum below the maximum"),
+        (
+            'distribution = { kind = "uniform", least = "9 mm", greatest = "8 mm" }',
+            '"8 mm"',
+            'more than `least`, "9 mm"',
+        ),
+        (
+            'distribution = { kind = "triangular", least = "7 mm", mean = "9 mm", greatest = "8 mm" }',
+            '"9 mm"',
+            '"7 mm" to "8 mm"',
+        ),
+        ('distribution = { kind = "normal", mean = "9 mm", deviation = "-1 mm" }', '"-1 mm"', "more than 0"),
+        (
+            'range = ["1 m", "2 m"]\n[constraints]\nx = { min = "9 mm", max = "8 mm" }',
+            '"9 mm" to "8 mm"',
+            "min",
+        ),
+    ],
+)
+def test_what_is_wrong_is_told_as_it_is_written(given: str, found: str, told: str, tmp_path: Path) -> None:
+    """In the units of the user, and all of a text."""
+    text = """
+machine = "roller_one_cart"
+[responses]
+x = { curve = "motion.cart1.x", extreme = "max" }
+[variables.rod]
+address = "mechanism.sliders.cart1.rod"
+"""
+    with pytest.raises(InputError) as caught:
+        plan_of(tmp_path, text + given)
+    message = f"{caught.value}\n"
+    assert f"found:    {found}\n" in message
+    assert told in message
+
+
 def test_a_tolerance_of_a_size_below_zero() -> None:
     machine = lw.read(MACHINE, {"mechanism.cranks.A2.phase": "-90 deg"})
     for given in ("-90 deg ± 1 deg", "−90 ± 1 deg", "-90 deg +1 -1 deg"):

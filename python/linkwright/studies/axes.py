@@ -13,23 +13,27 @@ import numpy as np
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError, MachineError, Problem, UnitError, show
-from linkwright.kernel.units import COUNT, LENGTH, NUMBER, Kind, is_number, parse
+from linkwright.kernel.units import COUNT, LENGTH, NUMBER, Kind, is_number, parse, worded
 from linkwright.machine.address import addresses, get, kind, known_place
 from linkwright.machine.machine import Machine
 from linkwright.machine.overrides import Override, apply
 from linkwright.studies import iso286
+from linkwright.studies.choices import choice_names
 from linkwright.studies.model import Distribution, Variable
 
 # Standard deviations between the limits of a tolerance: a centred process with a capability index of 1, of
 # which 0.27 % lie beyond and are sorted out (ISO 22514-2).
 _SPREAD = 6.0
 
-# "± 0.2 mm"; "+0.1 -0.3 mm", in either order; before both there may be the size, "0.8 m ± 0.2 mm".
+# "± 0.2 mm"; "+0.1 -0.3 mm", in either order; before both there may be the size, "0.8 m ± 0.2 mm". A comma
+# belongs to the number, so that it is that which is refused.
 _SIZED = re.compile(
-    r"\s*(-?[\d.]+(?:[eE][+-]?\d+)?[^±+-]*?)\s*((?:±|\+/-|[+-]\s*[\d.]+\s+[+-]\s*[\d.]).*)", re.DOTALL
+    r"\s*(-?[\d.,]+(?:[eE][+-]?\d+)?[^±+-]*?)\s*((?:±|\+/-|[+-]\s*[\d.,]+\s+[+-]\s*[\d.,]).*)", re.DOTALL
 )
-_EVEN = re.compile(r"\s*(?:±|\+/-)\s*([\d.]+(?:[eE][+-]?\d+)?)\s*(.*)", re.DOTALL)
-_UNEVEN = re.compile(r"\s*([+-]\s*[\d.]+)\s+([+-]\s*[\d.]+)\s*(.*)", re.DOTALL)
+_EVEN = re.compile(r"\s*(?:±|\+/-)\s*([\d.,]+(?:[eE][+-]?\d+)?)\s*(.*)", re.DOTALL)
+_UNEVEN = re.compile(r"\s*([+-]\s*[\d.,]+)\s+([+-]\s*[\d.,]+)\s*(.*)", re.DOTALL)
+# A number and its unit.
+_MEASURE = re.compile(rf"({NUMBER.pattern})\s*(.*)", re.DOTALL)
 
 
 @dataclass(frozen=True)
@@ -106,7 +110,7 @@ def require_places(axis: Axis, values: Floats, what: str) -> None:
     last = len(axis.choices) - 1
     wrong = np.flatnonzero((values != np.round(values)) | (values < 0) | (values > last))
     for row in wrong[:1].tolist():
-        expected = f"a place in its values, 0 to {last}: {', '.join(map(show, axis.choices))}"
+        expected = f"a place in its values, 0 to {last}: {', '.join(map(show, choice_names(axis.choices)))}"
         raise InputError(f"{what}, row {row}: found {values[row]:g}, expected {expected}")
 
 
@@ -223,12 +227,13 @@ def _parsed(name: str, key: str, value: object, kind: Kind) -> float:
 
 
 def _check_range(name: str, variable: Variable, low: float, high: float) -> None:
+    ends = " to ".join(map(show, variable.range or ()))
     if not low < high:
-        raise _problem(name, "range", f"{low:.6g} to {high:.6g}", "a minimum below the maximum")
+        raise _problem(name, "range", ends, "a minimum below the maximum")
     if variable.scale == "log" and low <= 0:
-        raise _problem(name, "range", f"from {low:.6g}", "numbers above 0 for a logarithmic scale")
+        raise _problem(name, "range", ends, "numbers above 0 for a logarithmic scale")
     if variable.whole and not (low.is_integer() and high.is_integer()):
-        raise _problem(name, "range", f"{low:.6g} to {high:.6g}", "whole numbers")
+        raise _problem(name, "range", ends, "whole numbers")
     if variable.whole and variable.steps is not None:
         raise _problem(name, "steps", str(variable.steps), "nothing: a range of whole numbers has its own")
 
@@ -250,24 +255,31 @@ def _toleranced(name: str, value: object, text: str, kind: Kind) -> tuple[float,
         expected = 'such as "± 0.2 mm", "800 ± 0.2 mm", "+0.1 -0.3 mm" or "25 H7"'
         raise _problem(name, "tolerance", show(text), expected)
     if size is not None:
-        _require_size(name, float(value), text, _measure(name, size, unit, kind), kind)
-    low, high = sorted(value + _measure(name, part, unit, kind) for part in parts)
+        _require_size(name, float(value), text, size, unit, kind)
+    low, high = sorted(value + _measure(name, text, part, unit, kind) for part in parts)
     if not low < high:
         raise _problem(name, "tolerance", show(text), "two limits that differ")
     return low, high
 
 
-def _measure(name: str, text: str, unit: str, kind: Kind) -> float:
+def _measure(name: str, whole: str, text: str, unit: str, kind: Kind) -> float:
     """A number of a tolerance; without a unit of its own it has that at the end, as on a drawing."""
-    if not NUMBER.fullmatch(text):
-        return _parsed(name, "tolerance", text, kind)
-    return _parsed(name, "tolerance", f"{text} {unit}" if unit else float(text), kind)
+    is_bare = NUMBER.fullmatch(text)
+    try:
+        return parse(float(text) if is_bare and not unit else f"{text} {unit if is_bare else ''}", kind)
+    except UnitError as error:
+        problem = error.problem
+        raise _problem(name, "tolerance", show(whole), problem.expected, problem.remedy) from None
 
 
-def _require_size(name: str, value: float, text: str, given: float, kind: Kind) -> None:
-    """Refuse a tolerance of another size than the machine has."""
+def _require_size(name: str, value: float, text: str, size: str, unit: str, kind: Kind) -> None:
+    """Refuse a tolerance of another size than the machine has, which is told in the unit of the text."""
+    given = _measure(name, text, size, unit, kind)
     if abs(given - value) > 1e-9 * abs(value):
-        expected = f"the size that the machine has, {value:.6g} {kind.unit}"
+        parts = _MEASURE.fullmatch(size)
+        assert parts is not None
+        shown = f"{float(parts[1]) * value / given:.6g} {parts[2] or unit}" if given else worded(value, kind)
+        expected = f"the size that the machine has, {shown.rstrip()}"
         raise _problem(name, "tolerance", show(text), expected, "leave the size out")
 
 
@@ -330,13 +342,17 @@ def _scatter(name: str, given: Distribution, kind: Kind) -> tuple[tuple[str, flo
     low, high = read.get("least", lowest), read.get("greatest", math.inf)
     mean, deviation = read.get("mean", math.nan), read.get("deviation", math.nan)
     if not low < high:
-        raise _problem(name, "distribution.greatest", f"{high:.6g}", f"more than `least`, {low:.6g}")
+        least = lowest if given.least is None else given.least
+        raise _problem(
+            name, "distribution.greatest", show(given.greatest), f"more than `least`, {show(least)}"
+        )
     if given.kind in ("normal", "lognormal") and not deviation > 0:
-        raise _problem(name, "distribution.deviation", f"{deviation:.6g}", "more than 0")
+        raise _problem(name, "distribution.deviation", show(given.deviation), "more than 0")
     if given.kind == "lognormal" and not mean > 0:
-        raise _problem(name, "distribution.mean", f"{mean:.6g}", "more than 0")
+        raise _problem(name, "distribution.mean", show(given.mean), "more than 0")
     if given.kind == "triangular" and not low <= mean <= high:
-        raise _problem(name, "distribution.mean", f"{mean:.6g}", f"{low:.6g} to {high:.6g}")
+        ends = f"{show(given.least)} to {show(given.greatest)}"
+        raise _problem(name, "distribution.mean", show(given.mean), ends)
     start, end = _normal_shares(given.kind, mean, deviation, low, high)
     if given.kind in ("normal", "lognormal") and end - start < 1e-9:
         raise _problem(name, "distribution", "ends that leave nothing of it", "ends within 6 deviations")

@@ -6,8 +6,8 @@ one rows spread over all files.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,16 +15,33 @@ from numpy.typing import NDArray
 
 from linkwright.kernel.arrays import Floats, Indices
 from linkwright.kernel.errors import FindingError
-from linkwright.kernel.figure.style import BLUE, INK, LINES, RED, SOFT, WIDTH, named, panels, roomy, styled
+from linkwright.kernel.figure.style import (
+    BLUE,
+    INK,
+    LINES,
+    PAPER,
+    RED,
+    SOFT,
+    WIDTH,
+    named,
+    panels,
+    roomy,
+    styled,
+)
+from linkwright.kernel.page.numbers import number
 from linkwright.studies.fit import Fit
 from linkwright.studies.folder import SweepFolder
 from linkwright.studies.parquet import columns_of
 
 if TYPE_CHECKING:
+    from matplotlib.axis import Axis as MatplotlibAxis
     from matplotlib.figure import Figure
 
 # Rows in a scatter matrix and lines in parallel coordinates: more make one dark patch.
 _POINTS, _LINES = 4_000, 600
+
+# Behind names between lines.
+_BEHIND: Any = {"facecolor": PAPER, "edgecolor": "none", "alpha": 0.75, "pad": 0.6}
 
 # Columns of a matrix that can still be read on a page.
 _PANELS = 7
@@ -40,6 +57,12 @@ class StudyRows:
     variables: tuple[str, ...]
     responses: tuple[str, ...]
     is_grid: bool  # whether the rows are all combinations of the values of two variables or one
+    # Variable that is no number, whose values are places → names of the values.
+    choices: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+
+    def is_number(self, name: str) -> bool:
+        """Whether a column has numbers, and no places of names."""
+        return name not in self.choices
 
 
 @styled
@@ -50,11 +73,14 @@ def curve_figure(shown: StudyRows) -> Figure:
     order = np.argsort(shown.columns[name], kind="stable")
     for panel, response in zip(axes, shown.responses, strict=True):
         values = shown.columns[response][order]
-        panel.plot(shown.columns[name][order], values, color=BLUE, marker="." if len(order) < 40 else None)
+        marker = "." if len(order) < 40 or not shown.is_number(name) else None
+        line = "-" if shown.is_number(name) else ""
+        panel.plot(shown.columns[name][order], values, linestyle=line, color=BLUE, marker=marker)
         panel.set_ylabel(named(shown.labels[response]))
         if np.isfinite(values).any():
             roomy(panel, values[np.isfinite(values)])
     axes[-1].set_xlabel(named(shown.labels[name]))
+    _name_places(shown, name, axes[-1].xaxis)
     return figure
 
 
@@ -69,15 +95,18 @@ def map_figure(shown: StudyRows, response: str) -> Figure:
     table[at] = shown.columns[response]
     drawn = panel.pcolormesh(x, y, table, cmap="viridis", shading="nearest", rasterized=True)
     figure.colorbar(drawn, ax=panel, label=named(shown.labels[response]))
-    if min(table.shape) > 1 and np.isfinite(table).any() and np.nanmin(table) < np.nanmax(table):
+    is_sloped = np.isfinite(table).any() and np.nanmin(table) < np.nanmax(table)
+    if min(table.shape) > 1 and is_sloped and shown.is_number(first) and shown.is_number(second):
         lines = panel.contour(x, y, table, colors="white", linewidths=0.8, levels=9)
-        panel.clabel(lines, fontsize=7, fmt="%.4g")
+        panel.clabel(lines, fontsize=7, fmt=lambda level: number(level, 4))
     for pick, mark, word in ((np.nanargmin, "v", "minimum"), (np.nanargmax, "^", "maximum")):
         if np.isfinite(table).any():
             row, column = np.unravel_index(pick(table), table.shape)
-            word = f"{word} {table[row, column]:.5g}"
+            word = f"{word} {number(table[row, column])}"
             panel.plot(x[column], y[row], mark, color=RED, markeredgecolor="white", markersize=9, label=word)
     panel.set(xlabel=named(shown.labels[first]), ylabel=named(shown.labels[second]))
+    _name_places(shown, first, panel.xaxis)
+    _name_places(shown, second, panel.yaxis)
     panel.grid(visible=False)
     panel.legend(loc="lower left", bbox_to_anchor=(0, 1.0), ncols=2, borderaxespad=0.2)
     return figure
@@ -101,10 +130,17 @@ def scatter_figure(shown: StudyRows) -> Figure:
             panel.plot(x, y, ".", color=BLUE, markersize=1.5, alpha=0.5, rasterized=True)
         panel.tick_params(labelsize=6)
         panel.grid(visible=False)
+        _name_places(shown, names[j], panel.xaxis, 60.0)
+        if i != j:
+            _name_places(shown, names[i], panel.yaxis)
         if i == len(names) - 1:
             panel.set_xlabel(named(shown.labels[names[j]]), fontsize=7)
+        elif not shown.is_number(names[j]):
+            panel.tick_params(labelbottom=False)
         if j == 0:
             panel.set_ylabel(named(shown.labels[names[i]]), fontsize=7)
+        elif not shown.is_number(names[i]):
+            panel.tick_params(labelleft=False)
     return figure
 
 
@@ -127,12 +163,34 @@ def parallel_figure(shown: StudyRows) -> Figure:
     panel.set(xlim=(0, max(len(names) - 1, 1)), ylim=(-0.08, 1.08), yticks=[])
     panel.set_xticks(places, [named(shown.labels[name]) for name in names], rotation=20, ha="right")
     for place, name in enumerate(names):
-        values = shown.columns[name][rows]
-        for text, height in ((f"{values.min():.4g}", -0.06), (f"{values.max():.4g}", 1.03)):
-            panel.text(place, height, text, ha="center", fontsize=7)
+        for text, height in _marks(shown, name, shown.columns[name][rows]):
+            panel.text(place, height, text, ha="center", fontsize=7, bbox=_BEHIND)
     panel.grid(visible=False)
     panel.grid(visible=True, axis="x", color=LINES[0], linewidth=0.8)
     return figure
+
+
+def _marks(shown: StudyRows, name: str, values: Floats) -> list[tuple[str, float]]:
+    """Texts along an axis of parallel coordinates with their heights: both ends, or names of all values."""
+    low, high = values.min(), values.max()
+    if shown.is_number(name):
+        return [(number(low, 4), -0.06), (number(high, 4), 1.03)]
+    places = np.unique(values)
+    heights = np.where(places == low, -0.06, _scaled(places) + 0.03)
+    return [(shown.choices[name][int(at)], float(height)) for at, height in zip(places, heights, strict=True)]
+
+
+def _name_places(shown: StudyRows, name: str, axis: MatplotlibAxis, slope: float = 20.0) -> None:
+    """Write the names of values along an axis in place of their numbers, `slope` degrees upwards below."""
+    if shown.is_number(name):
+        return
+    names = shown.choices[name]
+    if axis.axis_name == "x":
+        axis.set_ticks(range(len(names)), names, rotation=slope, ha="right", rotation_mode="anchor")
+        axis.axes.set_xlim(-0.5, len(names) - 0.5)
+    else:
+        axis.set_ticks(range(len(names)), names)
+        axis.axes.set_ylim(-0.5, len(names) - 0.5)
 
 
 def figures(shown: StudyRows) -> dict[str, Figure]:

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.errors import InputError
+from linkwright.kernel.errors import InputError, show
+from linkwright.kernel.files.points import one_of, place_of
 from linkwright.kernel.files.text_file import TextError, require_no_pipe
 from linkwright.studies.rows import Rows
 
@@ -121,10 +122,12 @@ def _as_array(column: pa.ChunkedArray) -> Any:
     return texts[coded.indices.fill_null(len(texts) - 1).to_numpy()]
 
 
-def parquet_columns(path: Path, names: Sequence[str]) -> dict[str, Floats]:
-    """Columns of numbers of somebody's Parquet file [SI].
+def parquet_columns(
+    path: Path, names: Sequence[str], choices: Mapping[str, Sequence[str]]
+) -> dict[str, Floats]:
+    """Columns of numbers of somebody's Parquet file [SI]; of `choices` the places of names, or these.
 
-    Raises `InputError` if the file cannot be read, or lacks a column of numbers.
+    Raises `InputError` if the file cannot be read, or lacks a column.
     """
     require_pyarrow()
     import pyarrow as pa
@@ -143,8 +146,25 @@ def parquet_columns(path: Path, names: Sequence[str]) -> dict[str, Floats]:
         raise InputError(
             f"{path}: found no column {missing[0]} among {listed}; name columns as the variables"
         )
-    columns = {name: table.column(name) for name in names}
-    for name, column in columns.items():
-        if not (pa.types.is_floating(column.type) or pa.types.is_integer(column.type)):
-            raise InputError(f"{path}: column {name}: found {column.type}, expected numbers in SI")
-    return {name: column.to_numpy().astype(float) for name, column in columns.items()}
+    columns = {}
+    for name in names:
+        column = table.column(name)
+        if name in choices and (pa.types.is_string(column.type) or pa.types.is_large_string(column.type)):
+            columns[name] = _places(path, name, column.to_pylist(), choices[name])
+        elif pa.types.is_floating(column.type) or pa.types.is_integer(column.type):
+            columns[name] = column.to_numpy().astype(float)
+        else:
+            expected = one_of(choices[name]) if name in choices else "numbers in SI"
+            raise InputError(f"{path}: column {name}: found {column.type}, expected {expected}")
+    return columns
+
+
+def _places(path: Path, name: str, cells: Sequence[str | None], names: Sequence[str]) -> Floats:
+    """Places of texts among names."""
+    places = [place_of(cell or "", names) for cell in cells]
+    if None in places:
+        row = places.index(None)
+        cell = cells[row]
+        found = show(cell) if cell else "an empty cell"
+        raise InputError(f"{path}: column {name}, row {row}: found {found}, expected {one_of(names)}")
+    return np.array(places, dtype=float)

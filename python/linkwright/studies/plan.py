@@ -323,7 +323,7 @@ def _limits(study: StudyFile, units: Mapping[str, str], name: str, constraint: A
         for key, value, default in (("min", constraint.min, -np.inf), ("max", constraint.max, np.inf))
     )
     if low > high:
-        found = f"{low:.6g} to {high:.6g}"
+        found = f"{show(constraint.min)} to {show(constraint.max)}"
         raise MachineError([Problem(f"constraints.{name}", found, "min of at most max: nothing keeps both")])
     return low, high
 

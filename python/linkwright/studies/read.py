@@ -24,6 +24,7 @@ from linkwright.machine.address import kind
 from linkwright.machine.machine import Machine
 from linkwright.machine.overrides import Override, apply, parse_all
 from linkwright.machine.read import Overrides, read, tables_of
+from linkwright.studies.choices import choice_names
 from linkwright.studies.model import StudyFile
 from linkwright.studies.parquet import parquet_columns
 from linkwright.studies.plan import StudyPlan, plan
@@ -177,16 +178,16 @@ def _listed(path: Path, machine: Machine, study: StudyFile, *, allow_outside: bo
             [Problem("sweep.file", found, "a CSV or Parquet file, from the folder of the study")]
         )
     names = list(study.variables)
+    choices = {
+        name: choice_names(variable.values)
+        for name, variable in study.variables.items()
+        if variable.values
+        and kind(machine, variable.address[0]) is None
+        and not all(map(is_number, variable.values))
+    }
     if place.suffix == ".parquet":
-        columns = parquet_columns(place, names)
+        columns = parquet_columns(place, names, choices)
     else:
-        choices = {
-            name: variable.values
-            for name, variable in study.variables.items()
-            if variable.values
-            and kind(machine, variable.address[0]) is None
-            and not all(map(is_number, variable.values))
-        }
         kinds = {
             name: kind(machine, variable.address[0]) or COUNT
             for name, variable in study.variables.items()

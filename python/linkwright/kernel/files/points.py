@@ -194,11 +194,11 @@ def _with_unit(number: str, unit: str | None) -> Any:
 def read_columns(
     path: str | os.PathLike[str],
     kinds: Mapping[str, Kind],
-    choices: Mapping[str, Sequence[object]] = MappingProxyType({}),
+    choices: Mapping[str, Sequence[str]] = MappingProxyType({}),
 ) -> dict[str, Floats]:
     """Columns of a file, (n,) each [SI], by name and kind; others in it are passed over.
 
-    `choices`: columns by name that hold one of some values, or its place among them, which is what is read.
+    `choices`: columns by name that hold one of some names, or its place among them, which is what is read.
     Raises `MachineFileError`, with file and line, if it cannot be read, lacks a column, or holds something
     else.
     """
@@ -217,15 +217,31 @@ def read_columns(
 
 
 def _places(
-    cells: Sequence[str], values: Sequence[object], name: str, path: Path, lines: Sequence[int]
+    cells: Sequence[str], names: Sequence[str], column: str, path: Path, lines: Sequence[int]
 ) -> Floats:
-    """Places of values in a list; a number that is none of its texts is a place already."""
-    known = {str(value): float(nth) for nth, value in enumerate(values)}
+    """Places of names in a list; a number that is none of them is a place already."""
+    places = []
     for cell, line in zip(cells, lines, strict=True):
-        if cell not in known and not _is_number(cell):
-            found, expected = show(cell) if cell else "an empty cell", f"one of {', '.join(map(show, known))}"
-            raise MachineFileError([Problem(f"column {name}", found, expected, "", str(path), line)])
-    return np.array([known[cell] if cell in known else float(cell) for cell in cells])
+        place = place_of(cell, names)
+        if place is None:
+            found = show(cell) if cell else "an empty cell"
+            problem = Problem(f"column {column}", found, one_of(names), "", str(path), line)
+            raise MachineFileError([problem])
+        places.append(place)
+    return np.array(places)
+
+
+def place_of(cell: str, names: Sequence[str]) -> float | None:
+    """The place of a name in a list, from 0, or a place itself; None if it is neither."""
+    if cell in names:
+        return float(names.index(cell))
+    place = float(cell) if _is_number(cell) else -1.0
+    return place if place.is_integer() and 0 <= place < len(names) else None
+
+
+def one_of(names: Sequence[str]) -> str:
+    """What belongs where one of some names does."""
+    return f"one of {', '.join(map(show, names))}, or its place among them, 0 to {len(names) - 1}"
 
 
 def _values(entries: Sequence[Any], kind: Kind, name: str, path: Path, lines: Sequence[int]) -> Floats:

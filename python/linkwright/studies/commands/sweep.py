@@ -159,6 +159,7 @@ def shown_of(folder: SweepFolder) -> StudyRows:
     """Rows of a folder with their labels, angles in degrees."""
     import numpy as np
 
+    from linkwright.studies.choices import choice_names
     from linkwright.studies.figures import StudyRows, rows_of
     from linkwright.studies.folder import plan_of
 
@@ -168,12 +169,14 @@ def shown_of(folder: SweepFolder) -> StudyRows:
     columns: dict[str, Any] = {
         name: np.degrees(rows[name]) if folder.units[name] == "rad" else rows[name] for name in names
     }
+    choices = {axis.name: choice_names(axis.choices) for axis in plan.axes if not axis.is_number}
     return StudyRows(
         columns,
-        {name: f"{name} [{units[name] or '–'}]" for name in names},
+        {name: name if name in choices else f"{name} [{units[name] or '–'}]" for name in names},
         tuple(axis.name for axis in plan.axes),
         plan.responses,
         plan.sweep.method == "grid",
+        choices,
     )
 
 
