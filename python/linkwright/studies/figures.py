@@ -185,7 +185,7 @@ def _name_places(shown: StudyRows, name: str, axis: MatplotlibAxis, slope: float
     if shown.is_number(name):
         return
     names = shown.choices[name]
-    if axis.axis_name == "x":
+    if axis is axis.axes.xaxis:
         axis.set_ticks(range(len(names)), names, rotation=slope, ha="right", rotation_mode="anchor")
         axis.axes.set_xlim(-0.5, len(names) - 0.5)
     else:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from linkwright.kernel.command.answer import Answer, hand_over
+from linkwright.kernel.command.answer import Answer, hand_over, is_reported
 from linkwright.kernel.command.common import File, Json, Outside, Sets
 from linkwright.kernel.errors import AssemblyError
 from linkwright.kernel.page.numbers import quantity
@@ -38,21 +39,38 @@ def check(file: File, set: Sets = None, allow_outside: Outside = False, json: Js
         head=lambda: f"{verdict}  {file}\n\n{summary(machine)}",
         tables=lambda: [_checks(judged.looked_at)],
     )
+    if is_reported():
+        # A report has the name of the machine as its title, and tables in place of columns of a terminal.
+        verdict = f"{count} finding{'s' if count > 1 else ''}" if count else "no finding"
+        tables = [_parts(machine), _checks(judged.looked_at)]
+        answer = replace(answer, head=lambda: f"Check of {file}: {verdict}", tables=lambda: tables)
     hand_over(answer, json=json)
 
 
 def summary(machine: Machine) -> str:
     """What a machine consists of, a line for each part."""
+    rows = [("machine", machine.name), *_rows(machine)]
+    return "\n".join(f"  {word:<14} {text}" for word, text in rows)
+
+
+def _parts(machine: Machine) -> Table:
+    """The same as a table."""
+    rows: list[Row] = [(word, "", text) for word, text in _rows(machine)]
+    return Table("parts", "Parts of the machine", ("part", "", "what"), rows, is_whole=True)
+
+
+def _rows(machine: Machine) -> list[tuple[str, str]]:
+    """Words and texts of the parts that a machine has."""
     from linkwright.linkages.model.mobility import mobility
 
-    rows = [("machine", machine.name), *_diagram(machine), *_topper(machine)]
+    rows = [*_diagram(machine), *_topper(machine)]
     if machine.has_crank or machine.is_train_alone:
         rows += [("motor", _motor(machine)), *_mechanism(machine)]
     if machine.has_crank:
         rows += [("mobility", str(mobility(_whole(machine))))]
     rows += _train(machine)
     rows += [("bodies", ", ".join(machine.bodies)), ("loads", _loads(machine))]
-    return "\n".join(f"  {word:<14} {text}" for word, text in rows if text)
+    return [(word, text) for word, text in rows if text]
 
 
 def _checks(looked_at: Sequence[str]) -> Table:
