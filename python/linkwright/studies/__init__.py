@@ -6,6 +6,7 @@
 | `read` | A study and its machine from files |
 | `plan` | A study checked against its machine, ready to run |
 | `axes` | Variables: the value of each share between 0 and 1 |
+| `choices` | Names of the values of a list |
 | `iso286` | Limit deviations of sizes by classes such as H7 |
 | `sampling` | Rows as shares: grid, Sobol, Latin hypercube, random |
 | `responses` | What is asked: analyses, and one number of each result |

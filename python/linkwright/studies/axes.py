@@ -262,18 +262,18 @@ def _toleranced(name: str, value: object, text: str, kind: Kind) -> tuple[float,
     return low, high
 
 
-def _measure(name: str, whole: str, text: str, unit: str, kind: Kind) -> float:
+def _measure(name: str, given: str, text: str, unit: str, kind: Kind) -> float:
     """A number of a tolerance; without a unit of its own it has that at the end, as on a drawing."""
     is_bare = NUMBER.fullmatch(text)
     try:
         return parse(float(text) if is_bare and not unit else f"{text} {unit if is_bare else ''}", kind)
     except UnitError as error:
         problem = error.problem
-        raise _problem(name, "tolerance", show(whole), problem.expected, problem.remedy) from None
+        raise _problem(name, "tolerance", show(given), problem.expected, problem.remedy) from None
 
 
 def _require_size(name: str, value: float, text: str, size: str, unit: str, kind: Kind) -> None:
-    """Refuse a tolerance of another size than the machine has, which is told in the unit of the text."""
+    """Refuse a tolerance of another size than the machine has, and give that in the unit of the text."""
     given = _measure(name, text, size, unit, kind)
     if abs(given - value) > 1e-9 * abs(value):
         parts = _MEASURE.fullmatch(size)
