@@ -17,10 +17,12 @@ import test_random_machines as drives
 import test_random_pumping_units as units
 import test_random_toppers as toppers
 from numpy.random import Generator
-from random_parts import random_train
+from random_diagrams import areas, formula, table
+from random_parts import log_uniform, random_train
 from sizes import cases
 
 import linkwright as lw
+from linkwright.cam.dynamics.loaded import cam_force
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import FindingError, LinkwrightError
 from linkwright.machine.address import exchanged, is_given
@@ -31,6 +33,13 @@ _STEPS = (1e-4, 2e-5, 4e-6, 1e-3, 1e-6, 1e-7)
 
 # What differences are good for, as a share of the largest derivative of a response, or of the response.
 _TOLERANCE = 1e-7
+
+# Responses of which one may be zero that is a difference of the others.
+_ALIKE = ("torque_net", ".last_", "torque_motor_", "power_motor_", "energy_", ".acceleration_m")
+
+# Accuracy of a steady motion that is asked for, and what is made of peaks of its acceleration.
+_ASKED = 1e-9
+_OF_PEAKS = ("acceleration", "dynamism", "motion_coefficient")
 
 # By how many of its own uncertainties a difference may be off.
 _UNCERTAIN = 3.0
@@ -74,8 +83,18 @@ def _as_listed(measure: drives.Measure, listed: list[str]) -> Callable[[lw.Machi
 
 
 def _steady(random: Generator) -> Case:
-    machine, names, measure = drives._drive(random)
-    return Case(machine, names, _as_listed(measure, names), _alone, reached=lw.steady_state(machine).accuracy)
+    machine = lw.Machine.model_validate(drives.random_drive(random))
+    # What is zero but for rounding, as the torque without load, is left out.
+    known = lw.gradient(machine, ["steady_state"], ["drive.gearbox.ratio"]).responses
+    reached = lw.steady_state(machine).accuracy
+    # Where rounding forbids the accuracy that is asked for, peaks of the acceleration have no known places.
+    names = [name for name in known if reached <= _ASKED or not any(of in name for of in _OF_PEAKS)]
+
+    def measure(machine: lw.Machine, names: list[str]) -> Floats:
+        state = lw.steady_state(machine, accuracy=1e-13)
+        return np.array([getattr(state, name.partition(".")[2]) for name in names], dtype=float)
+
+    return Case(machine, names, measure, _alone, reached=reached)
 
 
 def _jumping(random: Generator) -> Case:
@@ -106,8 +125,25 @@ def _running(kind: str) -> Callable[[Generator], Case]:
 
 
 def _train(random: Generator) -> Case:
-    machine, names, measure = drives._train(random)
-    return Case(machine, names, _as_listed(measure, names), _alone)
+    """Natural frequencies and shapes of modes."""
+    machine = lw.Machine.model_validate({"format": 1, "name": "train", "train": random_train(random)})
+
+    def measure(machine: lw.Machine, names: list[str]) -> Floats:
+        modes = lw.free_vibration(machine)
+        places = [name.split(".")[2:] for name in names]
+        shapes = dict(enumerate(modes.mode_shapes))
+        return np.array(
+            [
+                shapes[int(mode)][modes.discs.index(disc[0])]
+                if disc
+                else modes.natural_frequencies[int(mode)]
+                for mode, *disc in places
+            ]
+        )
+
+    return Case(
+        machine, ["free_vibration.natural_frequencies", "free_vibration.mode_shapes"], measure, _alone
+    )
 
 
 def _excited(random: Generator) -> Case:
@@ -138,6 +174,38 @@ def _cam(random: Generator) -> Case:
     return Case(machine, ["cam"], measure, cams._ways)
 
 
+def _loaded_cam(random: Generator) -> Case:
+    """Normal force and pressure of a cam that moves a mass against a spring."""
+    described = cams._machine(random).model_dump(exclude_unset=True)
+    described["mechanism"]["cams"]["c"]["width"] = float(random.uniform(8e-3, 20e-3))
+    described["bodies"] = {"c": {"mass": log_uniform(random, 0.1, 3.0)}}
+    described["drive"]["speed"] = log_uniform(random, 3.0, 60.0)
+    machine = lw.Machine.model_validate(described)
+    if faults := lw.cam_faults(lw.cam_profile(machine, "c")):
+        raise FindingError(str(faults[0]))
+
+    def measure(machine: lw.Machine, names: list[str]) -> Floats:
+        loaded = cam_force(machine, "c")
+        return np.array([getattr(loaded, name.rpartition(".")[2]) for name in names], dtype=float)
+
+    return Case(machine, ["cam_force"], measure, cams._ways)
+
+
+def _turning(random: Generator) -> Case:
+    described = (formula, table, areas)[random.integers(3)](random)
+    machine = lw.loads(f'format = 1\nname = "shaft"\n[turning_moment]\nspeed = 25\n{described}\n')
+
+    def measure(machine: lw.Machine, names: list[str]) -> Floats:
+        diagram = lw.turning_moment(machine, n=1)
+        return np.array([getattr(diagram, name.partition(".")[2]) for name in names], dtype=float)
+
+    def ways(machine: lw.Machine, names: tuple[str, ...]) -> Iterator[Way]:
+        # Areas balance together alone.
+        return _alone(machine, tuple(name for name in names if ".areas." not in name))
+
+    return Case(machine, ["turning_moment"], measure, ways)
+
+
 def _unit(random: Generator) -> Case:
     machine = units._machine(random, str(random.choice(list(units._BASES))))
 
@@ -166,11 +234,11 @@ def _topper(random: Generator) -> Case:
 
 
 # As often as they are quick; `make test` looks at the first of them.
-_QUICK = (_steady, _train, _cam, _forces, _excited, _unit, _topper)
+_QUICK = (_steady, _train, _cam, _forces, _excited, _unit, _topper, _turning, _loaded_cam)
 KINDS = (
     *_QUICK,
     *(_steady, _train, _cam, _forces, _jumping, _running("up"), _running("down"), _steady, _train, _cam),
-    *(_steady, _jumping, _topper),
+    *(_steady, _jumping, _topper, _loaded_cam),
 )
 
 
@@ -234,8 +302,10 @@ def compared(case: Case, random: Generator) -> Tally:
     used = [found.variables.index(name) for name in {name for way in ways for name in way}]
     sizes = np.abs(d[:, used] * found.at[used]).max(axis=1, initial=0.0)
     scales = np.maximum(sizes, np.abs(found.values[rows])) + 1e-300
+    # The largest amplitude of a shape is 1.
+    scales[["mode_shapes" in name for name in names]] += 1.0
     # Rounding of a net torque of zero is that of the largest, of a place on an axis that along the axis.
-    for alike in ("torque_net", ".last_"):
+    for alike in _ALIKE:
         those = np.array([alike in name for name in names], dtype=bool)
         scales[those] = scales[those].max(initial=0.0)
     good = np.array([max(case.tolerance(name), case.reached) for name in names]) * scales
@@ -256,9 +326,10 @@ def _compare(case: Case, names: list[str], exact: Floats, direction: Way, good: 
     agrees = np.zeros(len(names), dtype=bool)
     for step in _STEPS:
         found = _difference(case.machine, direction, lambda x: case.measure(x, names), step)
-        errors.append(np.abs(exact - found.value))
-        uncertainties.append(found.uncertainty)
-        agrees |= errors[-1] + found.uncertainty <= good
+        # There may be none beside the machine, as of a load factor where the mean passes zero.
+        errors.append(np.nan_to_num(np.abs(exact - found.value), nan=np.inf))
+        uncertainties.append(np.nan_to_num(found.uncertainty, nan=np.inf))
+        agrees |= errors[-1] + uncertainties[-1] <= good
         if agrees.all():
             tally.count += len(names)
             return

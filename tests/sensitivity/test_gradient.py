@@ -353,3 +353,34 @@ def test_a_gearbox_without_losses_has_derivatives_by_its_factors() -> None:
     size = np.where(np.array(_NUMBERS) == "energy_load", found.values, 0.0)
     error = found.derivatives[:, 0] - _difference(machine, "drive.gearbox.efficiency")
     assert (np.abs(error) < 1e-7 * np.abs(found.derivatives[:, 0]) + 1e-11 * size).all()
+
+
+# A steep motor turns a lever about a pivot; gravity gives back what it takes.
+NO_WORK = """
+format = 1
+name = "Lever"
+mechanism.cranks.A.radius = 0.2
+mechanism.points.P = { x = 0, y = -0.5 }
+mechanism.slotted_levers.L = { pin = "A", pivot = "P", length = 0.6 }
+bodies.A = { mass = 1, inertia = 0.2 }
+bodies.L.mass = 10
+loads.gravity.kind = "gravity"
+[drive.motor]
+kind = "induction"
+speed_synchronous = 60
+speed_rated = 59.8
+torque_rated = 200
+torque_breakdown = 500
+"""
+
+
+def test_what_is_zero_to_the_accuracy_of_the_motion_has_no_derivative() -> None:
+    """Works of gravity alone, ratios of them, and a multiplier far below rounding."""
+    machine = lw.loads(NO_WORK)
+    state = lw.steady_state(machine)
+    assert state.efficiency is None
+    assert 0 < state.multiplier < 1e-40
+    found = lw.gradient(machine, ["steady_state"])
+    nothing = {"energy_motor", "energy_drive", "energy_load", "power_motor_mean", "multiplier"}
+    assert {f"steady_state.{name}" for name in nothing} <= set(found.missing)
+    assert "steady_state.efficiency" not in found.responses

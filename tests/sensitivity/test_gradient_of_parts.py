@@ -177,3 +177,23 @@ def test_counterbalance_of_equal_peaks() -> None:
     # Central differences miss by h² of a third derivative.
     rough = (np.array(near[1]) - near[0]) / (2 * h)
     np.testing.assert_allclose([up, down, balance], rough, rtol=1e-4)
+
+
+def _limited(jerk: str) -> str:
+    limits = f'{{ kind = "limited", velocity_max = 0.02, acceleration_max = 0.2{jerk} }}'
+    return CAM.format(closure="groove", speed=25.0).replace('"cycloidal"', limits, 1)
+
+
+@pytest.mark.parametrize("analysis", ["cam_force", "forces"])
+def test_limits_of_a_law_are_no_entries_that_forces_follow(analysis: str) -> None:
+    """Also one that the law does not reach, so that nothing depends on it."""
+    found = lw.gradient(lw.loads(_limited(", jerk_max = 1")), [analysis])
+    assert "bodies.F.mass" in found.variables
+    assert "mechanism.cams.F.sections.0.law.velocity_max" in found.refused
+
+
+def test_a_law_without_a_limit_of_the_jerk_has_derivatives() -> None:
+    """An infinite limit times no derivative is none."""
+    found = lw.gradient(lw.loads(_limited("")), ["cam"])
+    limit = found.variables.index("mechanism.cams.F.sections.0.law.acceleration_max")
+    assert np.isfinite(found.derivatives[:, limit]).any()

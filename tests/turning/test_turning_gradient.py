@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from random_diagrams import areas, formula, table
 from sizes import cases
 
 import linkwright as lw
@@ -13,38 +14,8 @@ from linkwright.machine.address import exchanged
 # Share of an entry by which it is varied, and what differences are good for.
 _STEP, _TOLERANCE = 2e-4, 1e-7
 
-_RIM = 'rim = { density = "7200 kg/m^3", stress = "4 MPa", width_ratio = 2 }'
 
-
-def _formula(rng: np.random.Generator) -> str:
-    """Harmonics of a driver against a load that is left out."""
-    terms = [f"c{k}*cos({k}*phi + p{k})" for k in range(1, 5)]
-    constants = ", ".join(
-        f"c{k} = {rng.uniform(100, 900):.6g}, p{k} = {rng.uniform(-3, 3):.6g}" for k in range(1, 5)
-    )
-    torque = f'torque = "m + {" + ".join(terms)}", constants = {{ m = 1500, {constants} }}'
-    return f'driver = {{ kind = "formula", {torque} }}\nunevenness = 0.02\nradius_of_gyration = 0.7\n{_RIM}'
-
-
-def _table(rng: np.random.Generator) -> str:
-    """A load by a table, in lines or steps, on a shaft with an inertia."""
-    angles = np.sort(rng.uniform(0.1, 6.2, 7)).round(6).tolist()
-    torques = rng.uniform(50, 900, 7).round(6).tolist()
-    between = rng.choice(["linear", "steps"])
-    return (
-        f'load = {{ kind = "table", angle = {angles}, torque = {torques}, between = "{between}" }}\n'
-        f"inertia = 30\nrim = {{ density = 7200, radius = 0.4 }}"
-    )
-
-
-def _areas(rng: np.random.Generator) -> str:
-    """Areas of a diagram that add up to zero."""
-    areas = rng.uniform(20, 90, 6) * [1, -1, 1, -1, 1, -1]
-    areas[-1] -= areas.sum()
-    return f"areas = {areas.tolist()}\narea_scale = 12\nunevenness = 0.03\ninertia = 1.5"
-
-
-@pytest.mark.parametrize("kind", [_formula, _table, _areas])
+@pytest.mark.parametrize("kind", [formula, table, areas])
 def test_derivatives_are_those_of_the_diagram(kind) -> None:
     compared = 0
     for case in range(cases(4, 80)):
@@ -105,7 +76,7 @@ def test_rounding_errors_are_no_influence() -> None:
     from linkwright.sensitivity.tables import ranked
 
     machine = lw.loads(
-        f'format = 1\nname = "shaft"\n[turning_moment]\nspeed = 25\n{_areas(np.random.default_rng(3))}\n'
+        f'format = 1\nname = "shaft"\n[turning_moment]\nspeed = 25\n{areas(np.random.default_rng(3))}\n'
     )
     found = lw.gradient(machine, ["turning_moment.speed_max"])
     named = {found.variables[at] for at in ranked(found, "turning_moment.speed_max")}

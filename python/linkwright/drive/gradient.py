@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from linkwright.drive.batch import COLUMNS
 from linkwright.drive.model.motor import ConstantSpeedMotor
-from linkwright.drive.steady_state import SteadyState, solved_state
+from linkwright.drive.steady_state import SteadyState, solved_state, unknown_work
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.linkages.closure import over_whole_cycle, turn_angles
@@ -60,7 +60,8 @@ _TIE = 1e-7
 # Share of a speed to both sides at which the motor's torque is read for its slope.
 _ASIDE = 1e-6
 
-# Share of the torque by which a motor would change for a speed doubled, or of a speed, that is rounding.
+# Share of the torque by which a motor would change for a speed doubled, of a speed or of a disturbance, that
+# is rounding.
 _ROUNDING = 1e-14
 
 # A torque that is this near to the one at an extreme speed is the torque there.
@@ -200,10 +201,13 @@ def _rounding(compiled: CompiledMachine, state: SteadyState) -> dict[str, float]
     torque = _ROUNDING * max(change, state.torque_motor_rms)
     acceleration = torque * ratio / float(state.inertia_reduced.mean())
     dynamism = acceleration / state.speed_mean_time**2
+    work = max(torque * ratio * 2 * np.pi, unknown_work(state))
     return {
         **dict.fromkeys((f"torque_motor_{of}" for of in ("mean", "rms", "min", "max")), torque),
-        **dict.fromkeys(("power_motor_mean", "power_motor_max"), torque * ratio * state.speed_max),
-        **dict.fromkeys(("energy_motor", "energy_drive"), torque * ratio * 2 * np.pi),
+        "power_motor_mean": work * state.turns / state.period,
+        "power_motor_max": torque * ratio * state.speed_max,
+        **dict.fromkeys(("energy_motor", "energy_drive", "energy_load"), work),
+        "multiplier": _ROUNDING,
         **dict.fromkeys(("acceleration_min", "acceleration_max"), acceleration),
         **dict.fromkeys(("dynamism", "dynamism_time"), dynamism),
         **dict.fromkeys(("motion_coefficient", "motion_coefficient_time"), dynamism),

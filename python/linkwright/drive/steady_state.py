@@ -41,6 +41,9 @@ from linkwright.machine.program.core import (
 # Speeds at which it is looked whether the drive can balance the mean load at all.
 _SPEEDS = 400
 
+# Share of the square of the speed that accelerations are at least compared with.
+_LEAST_ACCELERATION = 1e-4
+
 _IN_TIME = "follow the machine in time (linkwright transient) to see what it does"
 
 # Share of the work of the motor below which that of the loads is rounding of a sum of ten thousand doubles.
@@ -244,8 +247,18 @@ class SteadyState(Result, evenness.Evenness[float]):
         Label("efficiency of the drive per revolution", "η", "", table="drive", before="power_motor_mean"),
     ]:
         """Work taken by the loads over work of the motor; None without any work of the motor."""
-        share = self.energy_load / self.energy_motor if self.energy_motor > 0 else None
+        share = self.energy_load / self.energy_motor if self.energy_motor > unknown_work(self) else None
         return 0.0 if share is not None and abs(share) <= _ROUNDING else share
+
+
+def unknown_work(state: SteadyState) -> float:
+    """Work per revolution that may be left where what is given in a part is taken back in another [J].
+
+    A share of the parts, or of what the acceleration takes, as `SteadyState.accuracy` says.
+    """
+    acceleration = max(np.abs(state.acceleration).max(), _LEAST_ACCELERATION * state.speed.max() ** 2)
+    torques = (state.torque_drive, state.torque_load, state.inertia_reduced * acceleration)
+    return state.accuracy * 2 * np.pi * max(float(np.abs(torque).max()) for torque in torques)
 
 
 @public

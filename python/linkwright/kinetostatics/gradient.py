@@ -154,10 +154,15 @@ def _entries(machine: Machine, variables: Sequence[str]) -> _Entries:
     """Entries by which both the program's numbers and the description can be followed."""
     program = directions(machine, variables)
     refused = dict(program.refused)
-    known, (along, of) = followed(
-        machine, program.variables, lambda along: (along, structure(along.linkage)), refused
-    )
+    known, (along, of) = followed(machine, program.variables, _described, refused)
     return _Entries(replace(program.only(known), refused=refused), along, of)
+
+
+def _described(along: Machine) -> tuple[Machine, Structure]:
+    """What forces take from the description: members and pairs; the laws of cams have to be followed, too."""
+    for cam in along.mechanism.cams.values():
+        assert cam.lift
+    return along, structure(along.linkage)
 
 
 _MOTION = ("crank_angle", "speed", "acceleration", "time")

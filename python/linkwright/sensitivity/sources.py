@@ -82,7 +82,7 @@ def _steady(machine: Machine, variables: Sequence[str]) -> Source:
     values = {name: getattr(steady.state, name) for name in listed}
     tangents = {name: value for name, value in values.items() if isinstance(value, Tangent)}
     nothing = _nothing(tangents, steady.rounding)
-    missing = dict.fromkeys(nothing, "it is zero but for rounding")
+    missing = dict.fromkeys(sorted(nothing), "it is zero but for rounding")
     missing |= {name: _BETWEEN for name in _OF_MOTOR if name not in tangents}
     tangents = {name: value for name, value in tangents.items() if name not in nothing}
     marks = {name: shown(SteadyState, name) for name in tangents}

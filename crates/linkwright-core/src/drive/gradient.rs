@@ -52,6 +52,9 @@ const SIDES: f64 = 1e-7;
 /// and by rounding over it.
 const ASIDE: f64 = 4e-3;
 
+/// Steps of Newton's method to the peak between those readings.
+const NEWTON: usize = 3;
+
 /// Share of that within which a peak at the end of a step is a corner.
 const AT_CORNER: f64 = 1e-3;
 
@@ -476,8 +479,8 @@ impl<'a, R: Real> DualRevolution<'a, R> {
         Dual { d: there.omega.d - off * there.epsilon.d / there.omega.value, ..there.omega }
     }
 
-    /// An extreme of the acceleration, or what its corner is. Its derivative is that at the place of the peak too, to which
-    /// slope and bend of the curve lead: −ε′/ε″.
+    /// An extreme of the acceleration, or what its corner is. Its derivative is that at the place of the peak too, which is
+    /// that of the quartic through readings beside it.
     #[inline(always)]
     fn peak_of_acceleration(&self, extreme: &Extreme<f64>, m: &mut Motion<Dual<R>>) -> Dual<R> {
         let phi = extreme.phi;
@@ -493,13 +496,12 @@ impl<'a, R: Real> DualRevolution<'a, R> {
         for (k, epsilon) in at.iter_mut().enumerate() {
             *epsilon = self.state((k as f64 - 2.0).mul_add(aside, middle), m).1.epsilon;
         }
-        let slope = ((at[3] - at[1]) * 8.0 - (at[4] - at[0])) * (1.0 / (12.0 * aside));
-        let bend = ((at[3] + at[1]) * 16.0 - (at[4] + at[0]) - at[2] * 30.0) * (1.0 / (12.0 * aside * aside));
-        let off = -slope.value / bend.value;
+        let curve = quartic(at);
+        let off = peak_of(&curve);
         // Where the acceleration is constant there is no peak.
-        let off = off.abs().select_lt(R::splat(4.0 * aside), off, R::splat(phi - middle));
+        let off = off.abs().select_lt(R::splat(4.0), off, R::splat((phi - middle) / aside));
         let off = Dual { value: off, d: R::splat(0.0) };
-        at[2] + off * (slope + off * bend * 0.5)
+        curve[0] + off * (curve[1] + off * (curve[2] + off * (curve[3] + off * curve[4])))
     }
 
     /// Number of the steps before the one that a crank angle lies in, and the ends of that.
@@ -552,6 +554,34 @@ impl<'a, R: Real> DualRevolution<'a, R> {
         let start = (self.turn.steps[0].u * 2.0).sqrt();
         (t + self.edges[0] / start, self.machine.state_at_end(&there))
     }
+}
+
+/// Coefficients, from the constant on, of the quartic through values at −2, −1, 0, 1 and 2.
+#[inline(always)]
+fn quartic<T: Real>(at: [T; 5]) -> [T; 5] {
+    let [odd, even] = [at[3] - at[1], at[3] + at[1]];
+    let [far_odd, far_even] = [at[4] - at[0], at[4] + at[0]];
+    [
+        at[2],
+        (odd * 8.0 - far_odd) * (1.0 / 12.0),
+        (even * 16.0 - far_even - at[2] * 30.0) * (1.0 / 24.0),
+        (far_odd - odd * 2.0) * (1.0 / 12.0),
+        (far_even - even * 4.0 + at[2] * 6.0) * (1.0 / 24.0),
+    ]
+}
+
+/// Where a quartic that is nearly a parabola has its peak: one step of Newton's method from 0 misses it by the square of its
+/// length, the third by its eighth power.
+#[inline(always)]
+fn peak_of<R: Real>(curve: &[Dual<R>; 5]) -> R {
+    let [slope, bend, third, fourth] = [curve[1].value, curve[2].value, curve[3].value, curve[4].value];
+    let mut off = R::splat(0.0);
+    for _ in 0..NEWTON {
+        let rise = ((fourth * 4.0 * off + third * 3.0) * off + bend * 2.0) * off + slope;
+        let rate = (fourth * 12.0 * off + third * 6.0) * off + bend * 2.0;
+        off = off - rise / rate;
+    }
+    off
 }
 
 /// How the ends of steps at kinks move one another: the motion passes a kink later where an end before it has moved, as a

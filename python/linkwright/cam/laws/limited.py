@@ -53,7 +53,7 @@ class Limits:
 
     def _is_short(self, v: float) -> bool:
         """Whether the full acceleration is not reached on the way to a velocity."""
-        return bool(v * self.jerk <= self.acceleration**2)
+        return bool(primal(v) * primal(self.jerk) <= primal(self.acceleration) ** 2)
 
     def ramp_slope(self, v: float) -> Any:
         """By how much that length grows with the velocity."""
