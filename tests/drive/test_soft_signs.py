@@ -78,3 +78,15 @@ def test_friction_on_a_moving_belt(k: float, belt: float) -> None:
     assert motion.energy_load == pytest.approx(finer.energy_load, rel=1e-9)
     assert motion.speed_max == pytest.approx(finer.speed_max, rel=1e-9)
     assert motion.speed_min == pytest.approx(finer.speed_min, rel=1e-9)
+
+
+def test_newton_is_brought_back_into_a_steep_layer() -> None:
+    """A stage in the layer in which the friction changes left a step of a finer mesh without a solution."""
+    text = FILE.format(sign="(2/(1+exp(-11848*(v - 2)))-1)").replace("-300*", "-192.9*")
+    text = text.replace("radius = 0.4", "radius = 0.3").replace("rod = 1.1", "rod = 1.001, offset = 0.15")
+    text = text.replace("mass = 6", "mass = 18.75").replace("inertia = 5", "inertia = 4")
+    text = text.replace("speed_no_load = 60, torque_stall = 900", "speed_no_load = 40, torque_stall = 600")
+    machine = lw.loads(text)
+    for accuracy in (1e-7, 1e-10, 1e-11):
+        motion = lw.steady_state(machine, accuracy=accuracy)
+        assert motion.speed_max == pytest.approx(41.2251905942326, rel=max(accuracy, 1e-10))

@@ -180,6 +180,10 @@ const BRIEF: f64 = 0.05;
 /// Ends of steps this near to each other \[rad\] are one.
 const NO_ANGLE: f64 = 1e-12;
 
+/// Most times that a revolution which Newton does not solve is marched through, and the shortest step of it \[rad\].
+const MARCHES_MAX: u32 = 8;
+const SHORTEST: f64 = 1e-11;
+
 /// Accuracy to which other motions are reported.
 const TOLD: f64 = 1e-7;
 
@@ -387,8 +391,7 @@ impl Search<'_> {
 
     /// The search from a marched revolution on: for the answer, or for another motion, which is only reported.
     fn from(&self, motion: &PeriodicMotion, told: bool) -> Self {
-        let mut edges: Vec<f64> = motion.pieces.iter().map(|piece| piece.phi).collect();
-        edges.push(self.plan.cycle());
+        let mut edges = ends_of(&motion.pieces, self.plan.cycle());
         // A jump may hold a motion over no angle at all.
         edges.dedup_by(|next, last| *next - *last < NO_ANGLE);
         let accuracy = if told { self.accuracy.max(TOLD) } else { self.accuracy };
@@ -413,7 +416,7 @@ impl Job for Search<'_> {
         let mut plain_motion = Motion::new(&self.plan.mechanism, self.q);
         let mut m = Motion::new(&self.plan.mechanism, &q);
         let (mut mesh, mut start, mut sweeps, mut reached) = (self.mesh, self.start, 0, f64::NAN);
-        let (mut placements, mut best, mut idle) = (0, f64::INFINITY, 0);
+        let (mut placements, mut marches, mut best, mut idle) = (0, 0, f64::INFINITY, 0);
         for _ in 0..MESHES_MAX {
             poll();
             let machine = Machine::new(self.plan, &q).keeping_branch(may_jump);
@@ -431,6 +434,16 @@ impl Job for Search<'_> {
             }
             turn.solve(&machine);
             sweeps += turn.sweeps;
+            if !may_jump
+                && !turn.is_solved()
+                && marches < MARCHES_MAX
+                && let Some(pieces) = &start
+                && let Some(marched) = marched(self.plan, self.q, &mesh.edges, pieces[0].u, &mut plain_motion)
+            {
+                (mesh.edges, marches) = (ends_of(&marched, self.plan.cycle()), marches + 1);
+                start = Some(marched);
+                continue;
+            }
             let multiplier = unbundle(&[turn.multiplier])[0];
             if !turn.is_solved() || (multiplier >= 1.0 && !self.any) {
                 return Err(Failure { reached, ..Failure::new(Status::NoSteadyMotion) });
@@ -517,6 +530,36 @@ impl Job for Search<'_> {
         let status = if reached.is_nan() { Status::NotConverged } else { Status::Inaccurate };
         Err(Failure { reached, ..Failure::new(status) })
     }
+}
+
+/// The motion from u at φ = 0 over some steps, one after the other; those that Newton does not solve are halved. Where a stage
+/// lies in the layer in which a steep formula takes on its sign, a step may have no solution.
+fn marched(plan: &Plan, q: &[f64], edges: &[f64], mut u: f64, m: &mut Motion<f64>) -> Option<Vec<Piece>> {
+    let (machine, mut phi) = (Machine::new(plan, q), edges[0]);
+    let (mut pieces, mut ends) = (Vec::new(), edges[1..].to_vec());
+    ends.reverse();
+    while let Some(&end) = ends.last() {
+        poll();
+        let h = end - phi;
+        if h < SHORTEST || pieces.len() > STEPS_MAX {
+            return None;
+        }
+        let step = machine.advance(phi, u, h, m).0;
+        // A step that does not converge leaves a NaN.
+        if step.end() > 0.0 {
+            pieces.push(Piece { phi, h, u, X: step.X });
+            (phi, u) = (end, step.end());
+            ends.pop();
+        } else {
+            ends.push(phi + 0.5 * h);
+        }
+    }
+    Some(pieces)
+}
+
+/// Ends of the steps of a revolution.
+fn ends_of(pieces: &[Piece], cycle: f64) -> Vec<f64> {
+    pieces.iter().map(|piece| piece.phi).chain([cycle]).collect()
 }
 
 impl<R: Real> Turn<R> {
