@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import pytest
@@ -104,6 +104,33 @@ def test_whole_numbers_and_choices(tmp_path: Path) -> None:
     assert [each["r"] for each in found.tried] == [0.1, 0.18, 0.3]
     # The circle of 0.18 m passes the place at √(0.1² + 0.15²) - 0.18.
     assert found.responses["far"] == pytest.approx((np.hypot(0.1, 0.15) - 0.18) ** 2, rel=1e-6)
+
+
+@pytest.mark.parametrize("method", ["both", "global", "gradient"])
+@pytest.mark.parametrize("given", ["range = [2, 40]\nwhole = true", "values = [2, 17, 40]"])
+@pytest.mark.parametrize("limits", ["", "[constraints]\nsize = { max = 17 }\n"])
+def test_a_study_without_a_continuous_variable(
+    given: str, method: Literal["both", "global", "gradient"], limits: str, tmp_path: Path
+) -> None:
+    """There is nothing to take derivatives by, neither on the way nor for what limits cost."""
+    if method == "gradient" and "whole" in given:
+        return
+    text = f"""
+machine = "roller_two_carts"
+[variables.n]
+address = "drive.gearbox.ratio"
+{given}
+[responses]
+x = {{ curve = "motion.A1.x", at = "0 deg" }}
+size = {{ formula = "n + 0*x" }}
+far = {{ formula = "(n - 18)^2 + 0*x" }}
+[goals]
+far = "minimise"
+{limits}"""
+    found = optimum(tmp_path, text, 200, method)
+    assert found.variables["n"] == (17 if limits or "values" in given else 18)
+    assert found.multipliers == {}
+    assert bool(found.active) == bool(limits)
 
 
 def test_what_cannot_be_kept_is_told(tmp_path: Path) -> None:

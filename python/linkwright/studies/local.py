@@ -285,8 +285,10 @@ def prices(plan: StudyPlan, goal: str, sign: float, share: Floats, near: float) 
     """
     from scipy.optimize import nnls
 
-    values, rates, slopes = _slopes(plan, share)
     free = _free(plan)
+    if not free:
+        return []
+    values, rates, slopes = _slopes(plan, share)
     listed = list(_active(plan, slopes.values, values, rates, slopes.slopes, near))
     if not listed or goal in slopes.ties:
         return []

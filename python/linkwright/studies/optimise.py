@@ -125,9 +125,9 @@ def optimise(
     plan : StudyPlan
         A study with one goal; variables with ranges, or with values that are enumerated.
     evaluations : int
-        Machines that are computed at most for each combination of choices, 10 to 10⁷ and no fewer than the
-        first population; where `method` is ``"both"``, the second half is for derivatives. Without effect
-        where it is ``"gradient"``.
+        Machines that the search computes at most for each combination of choices, 10 to 10⁷ and no fewer
+        than the first population; where `method` is ``"both"``, the second half is for derivatives. Without
+        effect where it is ``"gradient"``.
     seed : int
         Seed of the random generator; the same seed gives the same search.
     method : {"both", "global", "gradient"}
@@ -345,13 +345,14 @@ class _Search:
             for axis, s in zip(plan.axes, self.best[1], strict=True)
             if axis.choices
         }
-        worth = self._prices()
+        active = (*_active(plan, responses), *_ends(plan, self.best[1]))
+        worth = self._prices() if active else []
         return Optimum(
             machine=machine_of(plan, rows),
             goal=self.goal,
             variables={axis.name: kind.get(axis.name, float(values[axis.name][0])) for axis in plan.axes},
             responses=responses,
-            active=(*_active(plan, responses), *_ends(plan, self.best[1])),
+            active=active,
             multipliers={price.what: price.multiplier for price in worth},
             worth=tuple(_in_words(plan, self.goal, self.sign, price) for price in worth),
             tried=tuple(self.tried) if kind else (),

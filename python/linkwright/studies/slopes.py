@@ -195,10 +195,11 @@ def _differences(plan: StudyPlan, at: Floats, steps: Floats) -> dict[str, Tangen
     """All responses with differences of fourth order by each variable [1]; 0 by lists and whole numbers."""
     # [1] Fornberg, Generation of finite difference formulas on arbitrarily spaced grids, Math. Comput. 51
     # (1988) 699, tables 1 and 3.
-    free = [i for i, axis in enumerate(plan.axes) if axis.is_continuous]
+    free = np.flatnonzero([axis.is_continuous for axis in plan.axes])
     n, h = len(free), steps[free]
     sides = [_side(plan.axes[i], at[i], steps[i]) for i in free]
-    nodes, weights = (np.array([table[side] for side in sides], dtype=float) for table in (_NODES, _WEIGHTS))
+    tables = ([table[side] for side in sides] for table in (_NODES, _WEIGHTS))
+    nodes, weights = (np.array(rows, dtype=float).reshape(n, 4) for rows in tables)
     points = np.tile(at, (1 + 4 * n, 1))
     points[np.arange(1, 1 + 4 * n), np.repeat(free, 4)] += (nodes * h[:, None]).ravel()
     rows = evaluate(plan, {axis.name: points[:, i].copy() for i, axis in enumerate(plan.axes)})
