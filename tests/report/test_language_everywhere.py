@@ -10,8 +10,10 @@ import pytest
 from tests.cli.test_answer import CASES, NEVER, call, known
 from tests.report.test_language import UKRAINIAN, Watched
 
+import linkwright as lw
 from linkwright.app.commands.report import _content
 from linkwright.drive.batch import FAST_STARTS, STATUS
+from linkwright.kernel.page.content import Content
 from linkwright.kernel.page.language import in_language
 from linkwright.studies.rows import NO_NUMBER, OPEN
 from linkwright.synthesis.straight_line import straight_lines
@@ -58,7 +60,7 @@ def _is_names(text: str, files: str) -> bool:
 def _english(words: list[str]) -> set[str]:
     """Texts of the report of a command that are English still in Ukrainian."""
     content = _content(words, "")
-    watched = Watched(UKRAINIAN.code, UKRAINIAN.texts, UKRAINIAN.units, UKRAINIAN.decimal)
+    watched = Watched(UKRAINIAN.code, UKRAINIAN.texts, UKRAINIAN.units, UKRAINIAN.decimal, UKRAINIAN.titles)
     in_language(content, watched)
     files = [path.read_text(encoding="utf-8") for path in map(Path, words) if path.is_file()]
     # What files say of themselves, and what they name: a name in a sentence is asked for by itself.
@@ -147,10 +149,20 @@ def test_what_becomes_of_a_row_of_a_study(text: str) -> None:
     ],
 )
 def test_titles_of_machines_that_are_made(title: str) -> None:
-    assert not _WORD.findall(UKRAINIAN(title))
+    assert not _WORD.findall(in_language(Content(title=title), UKRAINIAN).title)
+
+
+def test_names_of_machines_stay_as_they_are() -> None:
+    """Also where they begin as a text of the catalogue does: "Cam {}"."""
+    title = "Cam with dwells"
+    said = in_language(Content(title=title, lead=f"{title}. driver formula, load constant torque"), UKRAINIAN)
+    assert said.title == title
+    assert said.lead == f"{title}. привод: формула, навантаження: сталий момент"
 
 
 @pytest.mark.parametrize("path", MACHINES, ids=lambda path: "/".join(path.parts[-2:]))
 def test_parts_that_a_check_lists(path: Path) -> None:
     """All kinds of elements, motors, toppers and diagrams of the machines that come with the package."""
-    assert not _english(["check", str(path)])
+    # Names that a pumping unit gives to its points are those of the file, too.
+    points = set(lw.read(path).linkage.points)
+    assert not {text for text in _english(["check", str(path)]) if not set(text.split(", ")) <= points}

@@ -384,3 +384,12 @@ def test_what_is_zero_to_the_accuracy_of_the_motion_has_no_derivative() -> None:
     nothing = {"energy_motor", "energy_drive", "energy_load", "power_motor_mean", "multiplier"}
     assert {f"steady_state.{name}" for name in nothing} <= set(found.missing)
     assert "steady_state.efficiency" not in found.responses
+
+
+def test_a_motor_of_constant_speed_without_work_has_no_efficiency() -> None:
+    """Its motion is exact, its works are sums that leave rounding alone."""
+    text = NO_WORK.split("[drive.motor]")[0] + '[drive.motor]\nkind = "constant_speed"\nspeed = 60\n'
+    assert lw.steady_state(lw.loads(text)).efficiency is None
+    assert lw.steady_state(lw.loads(text + '[loads.d]\nkind = "dry"\non = "A"\ntorque = 1\n')).efficiency == (
+        pytest.approx(1.0, abs=1e-9)
+    )

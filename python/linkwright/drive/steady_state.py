@@ -254,11 +254,12 @@ class SteadyState(Result, evenness.Evenness[float]):
 def unknown_work(state: SteadyState) -> float:
     """Work per revolution that may be left where what is given in a part is taken back in another [J].
 
-    A share of the parts, or of what the acceleration takes, as `SteadyState.accuracy` says.
+    A share of the parts, or of what the acceleration takes, as `SteadyState.accuracy` says, or rounding.
     """
     acceleration = max(np.abs(state.acceleration).max(), _LEAST_ACCELERATION * state.speed.max() ** 2)
     torques = (state.torque_drive, state.torque_load, state.inertia_reduced * acceleration)
-    return state.accuracy * 2 * np.pi * max(float(np.abs(torque).max()) for torque in torques)
+    share = max(state.accuracy, _ROUNDING)
+    return share * 2 * np.pi * max(float(np.abs(torque).max()) for torque in torques)
 
 
 @public

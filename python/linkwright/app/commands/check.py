@@ -17,6 +17,9 @@ if TYPE_CHECKING:
     from linkwright.machine.machine import Machine
     from linkwright.topping.model.topper import Topper
 
+# Kind of torque in a turning-moment diagram → words.
+_TORQUES = {"constant": "constant torque", "formula": "formula", "table": "torque table"}
+
 
 def check(file: File, set: Sets = None, allow_outside: Outside = False, json: Json = False) -> None:
     """Check a machine file.
@@ -91,7 +94,8 @@ def _diagram(machine: Machine) -> list[tuple[str, str]]:
         words = f"{len(described.areas)} areas between driver and load"
     else:
         torques = {"driver": described.driver, "load": described.load}
-        words = ", ".join(f"{name} {'constant' if t is None else t.kind}" for name, t in torques.items())
+        kinds = {name: "constant" if torque is None else torque.kind for name, torque in torques.items()}
+        words = ", ".join(f"{name} {_TORQUES[kind]}" for name, kind in kinds.items())
     turns = "one revolution" if described.turns == 1 else f"{described.turns:.5g} revolutions"
     return [("turning moment", f"{words}; cycle of {turns}, {quantity(described.speed, 'rad/s', 4)}")]
 

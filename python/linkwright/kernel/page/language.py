@@ -4,6 +4,7 @@ A catalogue, ``texts_CODE.toml``, has an English text and its translation a line
 a number with its unit, or a list of them, and ``{}`` for names; in the translation they come in the same
 order, or as ``#2``, ``{1}`` where the order is another one. A text of several sentences is translated
 sentence by sentence. What has no translation stays as it is: names of a machine file, symbols, sources.
+The title of a report is such a name, unless a command made the machine: its titles are listed as `titles`.
 """
 
 from __future__ import annotations
@@ -46,6 +47,8 @@ class Language:
     texts: Mapping[str, str] = field(default_factory=dict)
     units: Mapping[str, str] = field(default_factory=dict)
     decimal: str = "."  # decimal sign
+    titles: tuple[str, ...] = ()  # texts of titles of machines that commands make
+    names: frozenset[str] = frozenset()  # what stays as it is
 
     def __call__(self, text: str) -> str:
         """A text in this language; the text itself where it has no translation."""
@@ -62,6 +65,8 @@ class Language:
     def _known(self, text: str) -> str | None:
         """The translation of a whole text; None if there is none."""
         body = text.strip()
+        if body in self.names:
+            return text
         if "#" in body:
             # A sign of the user's own, which would count as a number.
             return None
@@ -178,7 +183,7 @@ def language(code: str, where: str = "--lang") -> Language:
     if code not in known:
         raise InputError(f'{where}: found "{code}", expected one of {", ".join(sorted(["en", *known]))}')
     tables = tomllib.loads(known[code].read_text(encoding="utf-8"))
-    return Language(code, tables["texts"], tables["units"], tables["decimal"])
+    return Language(code, tables["texts"], tables["units"], tables["decimal"], tuple(tables["titles"]))
 
 
 def in_language(content: Content, to: Language) -> Content:
@@ -186,10 +191,13 @@ def in_language(content: Content, to: Language) -> Content:
     if to.code == "en":
         return content
     names = {part.name for _, parts in content.groups for part in parts if part.is_named}
-    texts = {text: words for text, words in to.texts.items() if text not in names}
-    changed: Content = _changed(content, replace(to, texts=texts))
+    texts = {text: words for text, words in to.texts.items() if "{}" not in text or text in to.titles}
+    title = replace(to, texts=texts)(content.title)
+    if title == content.title:
+        names.add(title)
+    changed: Content = _changed(content, replace(to, names=frozenset(names)))
     groups = [(group, [_part(part, to) for part in parts]) for group, parts in changed.groups]
-    return replace(changed, groups=groups, language=to)
+    return replace(changed, title=title, groups=groups, language=to)
 
 
 def _part(part: Any, to: Language) -> Any:
