@@ -21,6 +21,7 @@ from matplotlib.text import Text
 import linkwright as lw
 from linkwright.app.application import application
 from linkwright.kernel.errors import InputError
+from linkwright.kernel.files.points import place_of
 from linkwright.studies.choices import choice_names
 from linkwright.studies.commands.sweep import shown_of
 from linkwright.studies.engine import numbers, sound_variant
@@ -443,6 +444,7 @@ def test_what_is_shown_of_a_choice_has_its_names(study_file: Files, tmp_path: Pa
     [
         (["a", 2.5, True], ("a", "2.5", "true")),
         ([{"kind": "dc", "n": 1}, {"kind": "table"}], ("dc", "table")),
+        ([{"kind": "ac", "of": "x"}, {"kind": "ac", "of": "y"}, {"kind": "dc"}], ("x", "y", "dc")),
         ([{"kind": "dc", "n": 1}, {"kind": "dc", "n": 2}], ("kind = dc, n = 1", "kind = dc, n = 2")),
         ([{"kind": "dc"}, "none"], ("kind = dc", "none")),
         ([["1 m", "2 m"], []], ("[1 m, 2 m]", "[]")),
@@ -450,3 +452,22 @@ def test_what_is_shown_of_a_choice_has_its_names(study_file: Files, tmp_path: Pa
 )
 def test_names_of_choices(values: list[Any], names: tuple[str, ...]) -> None:
     assert choice_names(values) == names
+
+
+@pytest.mark.parametrize(
+    ("cell", "place"),
+    [
+        ("same", 0),
+        ("1.25", 1),
+        ("1.250", 1),
+        ("1", 2),
+        ("1.0", 2),
+        ("0", 0),
+        ("2", 2),
+        ("3", None),
+        ("x", None),
+    ],
+)
+def test_numbers_among_choices_are_no_places(cell: str, place: float | None) -> None:
+    """However they are written: 1.0 was the second value, not the number 1."""
+    assert place_of(cell, choice_names(["same", 1.25, 1])) == place

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -96,6 +97,7 @@ def test_limits_of_a_tolerance(tmp_path: Path) -> None:
         ('tolerance = "810 ± 0.2 mm"', '"810 ± 0.2 mm"', "the size that the machine has, 800 mm"),
         ('tolerance = "81 cm ± 0.2 mm"', '"81 cm ± 0.2 mm"', "the size that the machine has, 80 cm"),
         ('tolerance = "0.9 ± 0.2"', '"0.9 ± 0.2"', "the size that the machine has, 0.8\n"),
+        ('tolerance = "31.5 in ± 0.01 in"', '"31.5 in ± 0.01 in"', "has, 31.49606299 in"),
         ('tolerance = "0 mm ± 0.2 mm"', '"0 mm ± 0.2 mm"', "the size that the machine has, 0.8 m"),
         ('tolerance = "0.8 m ± 0.2 kg"', '"0.8 m ± 0.2 kg"', '"kg" is a unit of mass'),
         ('tolerance = "+0.1 -0.3 kg"', '"+0.1 -0.3 kg"', '"kg" is a unit of mass'),
@@ -228,3 +230,21 @@ def test_indices_of_failures(tmp_path: Path) -> None:
     )
     assert "of 200 blocks are omitted" in " ".join(told.stdout.split())
     assert "on that a has the most influence" in " ".join(told.stdout.split())
+
+
+def test_the_size_that_is_told_is_accepted(tmp_path: Path) -> None:
+    """Rounded further it was refused again: 1000 rpm where 1000 rpm was expected."""
+    text = """
+machine = "roller_two_carts"
+[responses]
+delta = "steady_state.unevenness"
+[variables.speed]
+address = "drive.motor.speed_synchronous"
+tolerance = "SIZE ± 1 rpm"
+"""
+    with pytest.raises(InputError) as caught:
+        plan_of(tmp_path, text.replace("SIZE", "1000 rpm"))
+    told = re.search(r"the size that the machine has, (.* rpm)", str(caught.value))
+    assert told is not None
+    plan = plan_of(tmp_path, text.replace("SIZE", told[1]))
+    assert plan.axes[0].low < 104.72 < plan.axes[0].high

@@ -13,7 +13,16 @@ def choice_names(values: Sequence[object]) -> tuple[str, ...]:
             texts = {text for table in tables if isinstance(text := table.get(key), str)}
             if len(texts) == len(tables):
                 return tuple(table[key] for table in tables)
+        own = [_own_text(table, tables) for table in tables]
+        if all(own):
+            return tuple(own)
     return tuple(map(_written, values))
+
+
+def _own_text(table: Mapping[str, object], tables: Sequence[Mapping[str, object]]) -> str:
+    """The first text that no other table has; empty without one."""
+    others = [text for other in tables if other is not table for text in other.values()]
+    return next((text for text in table.values() if isinstance(text, str) and text not in others), "")
 
 
 def _written(value: object) -> str:

@@ -235,8 +235,14 @@ def place_of(cell: str, names: Sequence[str]) -> float | None:
     """The place of a name in a list, from 0, or a place itself; None if it is neither."""
     if cell in names:
         return float(names.index(cell))
-    place = float(cell) if _is_number(cell) else -1.0
-    return place if place.is_integer() and 0 <= place < len(names) else None
+    if not _is_number(cell):
+        return None
+    number = float(cell)
+    for nth, name in enumerate(names):
+        # A number among the names may be written otherwise: 1.0 for 1.
+        if _is_number(name) and float(name) == number:
+            return float(nth)
+    return number if number.is_integer() and 0 <= number < len(names) else None
 
 
 def one_of(names: Sequence[str]) -> str:
