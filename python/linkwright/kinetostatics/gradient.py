@@ -93,7 +93,7 @@ def force_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     else:
         there = _Balance(machine, _read(solution, phi))
     rows = np.searchsorted(phi, at)
-    along, lost = _motion_along(machine, there.scene.motion.at(rows), entries, solution)
+    along, lost = _motion_along(machine, _at_rows(there.scene.motion, rows), entries, solution)
     tangents, sizes = there.along(rows, along, entries).curves(), there.curves()
     extremes, ties = {}, {}
     for name, place in places.items():
@@ -261,6 +261,11 @@ class Kinks:
             f"it is reached at {np.degrees(kink):.4g}°, at a kink of loads or motion; there is no derivative "
             f"by the entries that move this kink: {', '.join(names)}"
         )
+
+
+def _at_rows(motion: Motion, rows: Indices) -> Motion:
+    """A motion at some of its angles."""
+    return Motion(*(getattr(motion, name)[rows] for name in _MOTION))
 
 
 def _motion_along(

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from linkwright.drive.steady_state import SteadyState, steady_state
 from linkwright.drive.transient import Transient
-from linkwright.kernel.arrays import Floats, Indices
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import AssemblyError, InputError, ShapeError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
@@ -32,10 +32,6 @@ class Motion(Record):
     time: Annotated[
         Floats, Label("time", "t", "s", "The crank angle itself where the machine stands at every angle.")
     ]
-
-    def at(self, rows: Indices) -> Motion:
-        """The motion at some of its angles."""
-        return Motion(self.crank_angle[rows], self.speed[rows], self.acceleration[rows], self.time[rows])
 
     @public
     def mean(self, values: ArrayLike) -> float:
