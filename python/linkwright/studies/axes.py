@@ -278,7 +278,7 @@ def _require_size(name: str, value: float, text: str, size: str, unit: str, kind
     if abs(given - value) > 1e-9 * abs(value):
         parts = _MEASURE.fullmatch(size)
         assert parts is not None
-        # As many digits as are compared, so that the size that is told is accepted.
+        # As many digits as are compared: a size so written is accepted.
         shown = f"{float(parts[1]) * value / given:.10g} {parts[2] or unit}" if given else worded(value, kind)
         expected = f"the size that the machine has, {shown.rstrip()}"
         raise _problem(name, "tolerance", show(text), expected, "leave the size out")
