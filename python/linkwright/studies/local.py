@@ -172,7 +172,7 @@ class Descent:
             # What was found before it stands.
             self.reasons[str(error)] += 1
         except _SpentError:
-            return self._least()
+            pass
         return self._least()
 
     def _least(self) -> _Place:
