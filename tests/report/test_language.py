@@ -163,6 +163,23 @@ def test_names_of_the_machine_stay() -> None:
     assert changed.groups[0][0] == "Тіла"
 
 
+def test_names_of_a_study_stay(tmp_path: Path) -> None:
+    """A variable `rod` is no word of the product; what is said of it is translated."""
+    (tmp_path / "study.toml").write_text("""
+machine = "roller_two_carts"
+[variables.rod]
+address = "mechanism.sliders.cart1.rod"
+range = ["-100 mm", "1 m"]
+[responses]
+speed = "steady_state.speed_mean_time"
+""")
+    content = _content(["tolerance", str(tmp_path / "study.toml"), "--rows", "100"], "")
+    changed = in_language(content, UKRAINIAN)
+    tables = {table.name: table for part in changed.parts for table in part.tables}
+    assert [tables[name].rows[0][0] for name in ("variables", "scatter")] == ["rod", "speed"]
+    assert changed.warnings[0].startswith("Без результату")
+
+
 def test_an_unknown_language_is_refused() -> None:
     with pytest.raises(InputError, match='--lang: found "xx", expected one of en, uk'):
         language("xx")

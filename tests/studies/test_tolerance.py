@@ -14,7 +14,7 @@ import linkwright as lw
 from linkwright.app.application import application
 from linkwright.kernel.errors import InputError
 from linkwright.studies.axes import axis
-from linkwright.studies.model import Variable
+from linkwright.studies.model import Distribution, Variable
 from linkwright.studies.plan import StudyPlan
 
 MACHINE = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"
@@ -136,6 +136,85 @@ address = "mechanism.sliders.cart1.rod"
     message = f"{caught.value}\n"
     assert f"found:    {found}\n" in message
     assert told in message
+
+
+@pytest.mark.parametrize(
+    ("address", "given", "low", "high"),
+    [
+        ("drive.gearbox.ratio", "± 1 %", 9.702, 9.898),
+        ("drive.gearbox.ratio", "± 0.01", 9.79, 9.81),
+        ("drive.gearbox.efficiency", "± 1 %", 0.891, 0.909),
+        ("drive.gearbox.efficiency", "+1 -2 %", 0.882, 0.909),
+        ("drive.gearbox.efficiency", "90 % ± 0.01", 0.89, 0.91),
+        ("mechanism.sliders.cart1.rod", "0.8 m ± 1 %", 0.792, 0.808),
+        ("mechanism.sliders.cart1.rod", "± 200 ppm", 0.79984, 0.80016),
+        ("bodies.cart1.mass", "± 10 %", 900.0, 1100.0),
+    ],
+)
+def test_percent_is_of_the_value_of_any_quantity(address: str, given: str, low: float, high: float) -> None:
+    one = axis(lw.read(MACHINE), "x", Variable(address=(address,), tolerance=given))
+    assert (one.low, one.high) == pytest.approx((low, high), rel=1e-12)
+
+
+@pytest.mark.parametrize("size", ["90 %", "90", "0.95"])
+def test_percent_of_a_size_in_percent_is_refused(size: str) -> None:
+    """One hundredth of 90 %, or from 89 to 91 %?"""
+    given = Variable(address=("drive.gearbox.efficiency",), tolerance=f"{size} ± 1 %")
+    with pytest.raises(InputError, match=r"variables\.x\.tolerance"):
+        axis(lw.read(MACHINE), "x", given)
+
+
+@pytest.mark.parametrize(
+    ("entry", "key", "given"),
+    [
+        ("mechanism.sliders.cart1.rod", "tolerance", '"0.8 m ± 1 furlong"'),
+        ("mechanism.sliders.cart1.rod", "tolerance", '"± 100 %"'),
+        ("mechanism.sliders.cart1.rod", "clearance", '"1.6 m"'),
+        ("drive.gearbox.efficiency", "tolerance", '"± 20 %"'),
+        ("drive.gearbox.efficiency", "distribution.greatest", "1.1"),
+        ("bodies.cart1.mass", "distribution.least", '"-1 kg"'),
+    ],
+)
+def test_limits_beyond_the_range_of_an_entry_are_refused(
+    entry: str, key: str, given: str, tmp_path: Path
+) -> None:
+    """A rod of negative length is in no worst case."""
+    first, _, end = key.partition(".")
+    value = f'{{ kind = "normal", mean = 0.9, deviation = 1, {end} = {given} }}' if end else given
+    text = f"""
+machine = "{MACHINE}"
+[variables.x]
+address = "{entry}"
+{first} = {value}
+[responses]
+y = {{ formula = "x" }}
+"""
+    with pytest.raises(InputError) as caught:
+        plan_of(tmp_path, text)
+    message = str(caught.value)
+    assert f"study.toml:5: variables.x.{key}" in message
+    assert given in message
+    assert "expected:" in message
+
+
+def test_ends_of_a_distribution_may_touch_the_range_of_an_entry() -> None:
+    given = {"kind": "uniform", "least": "0 kg", "greatest": "2 t"}
+    one = axis(
+        lw.read(MACHINE), "x", Variable(address=("bodies.cart1.mass",), distribution=Distribution(**given))
+    )
+    assert (one.low, one.high) == (0.0, 2000.0)
+
+
+def test_the_result_echoes_the_limits(tmp_path: Path) -> None:
+    text = TEXT.replace('distribution = { kind = "normal", mean = "0.8 m", deviation = "1 mm" }', "X", 1)
+    (tmp_path / "study.toml").write_text(text.replace("X", 'tolerance = "± 1 %"'))
+    found = lw.tolerance(lw.read_study(tmp_path / "study.toml"), 100).variables
+    assert (found["a"]["low"], found["a"]["high"]) == pytest.approx((0.792, 0.808), rel=1e-12)
+    assert found["a"]["mean"] == pytest.approx(0.8, rel=1e-12)
+    assert found["b"]["deviation"] == pytest.approx(2e-3, rel=2e-3)
+    told = CliRunner().invoke(application(), ["tolerance", str(tmp_path / "study.toml"), "--rows", "100"])
+    (row,) = (line.split() for line in told.stdout.splitlines() if line.split()[:1] == ["a"])
+    assert row[1:3] + row[5:] == ["0.8", "m", "−0.008", "m", "0.008", "m"]
 
 
 def test_a_tolerance_of_a_size_below_zero() -> None:

@@ -5,6 +5,9 @@
 | `model` | The study file |
 | `read` | A study and its machine from files |
 | `plan` | A study checked against its machine, ready to run |
+| `problems` | Values of variables as quantities of their entries |
+| `size_limits` | Limits of a size by its tolerance, and by the clearance of a joint |
+| `distributions` | Distributions: the value below which a share lies |
 | `axes` | Variables: the value of each share between 0 and 1 |
 | `choices` | Names of the values of a list |
 | `iso286` | Limit deviations of sizes by classes such as H7 |

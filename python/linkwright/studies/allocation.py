@@ -178,7 +178,7 @@ class _Problem:
         listed = [axis.name for axis in plan.axes if axis.distribution is None]
         if listed:
             raise InputError(f"variables.{listed[0]}: found no tolerance, expected one, or a distribution")
-        middles, spread = _moments(plan)
+        middles, spread = np.array([axis.moments() for axis in plan.axes]).T
         place = slopes(plan, middles, _STEP * spread)
         self.words, rows = [], []
         for name, limit, way in limits(plan):
@@ -240,13 +240,6 @@ class _Problem:
         """Limits that are nearest by their deviations."""
         use = z**2 * self.table @ factors**2
         return tuple(word for word, share in zip(self.words, use, strict=True) if share > 0.999)
-
-
-def _moments(plan: StudyPlan) -> tuple[Floats, Floats]:
-    """Means and standard deviations of the variables as they are cut off."""
-    shares = (np.arange(2000) + 0.5) / 2000
-    values = [axis.values(shares) for axis in plan.axes]
-    return np.array([column.mean() for column in values]), np.array([column.std() for column in values])
 
 
 def _widened(axis: Axis, factor: float) -> Axis:

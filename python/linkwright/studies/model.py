@@ -67,7 +67,8 @@ class Variable(CheckedDescription):
     distribution: Distribution | None = Field(None, description="Distribution.")
     tolerance: str | None = Field(
         None,
-        description='Limits about the value of the machine: "± 0.2 mm", "+0.1 -0.3 mm", "25 H7" by ISO 286.',
+        description='Limits about the value of the machine: "± 0.2 mm", "+0.1 -0.3 mm", "± 1 %" of it, '
+        '"25 H7" by ISO 286.',
     )
     clearance: Value | None = Field(
         None,

@@ -43,31 +43,44 @@ def sweep_tables(sweep: Sweep, units: dict[str, str]) -> list[Table]:
 
 
 def tolerance_tables(tolerance: Tolerance, units: dict[str, str]) -> list[Table]:
-    """Scatter of the responses, and what contributes to it."""
-    scatter: list[Row] = []
-    for name, response in tolerance.responses.items():
-        keys = (
-            "mean",
-            "deviation",
-            "deviation_first_order",
-            "band_low",
-            "band_high",
-            "worst_low",
-            "worst_high",
-        )
-        scatter.append((name, "", *(measured(response[key], units[name]) for key in keys)))
+    """Scatter of the variables and of the responses, and what contributes to it."""
+    return [_given(tolerance, units), _scatter(tolerance, units), _contributions(tolerance)]
+
+
+def _given(tolerance: Tolerance, units: dict[str, str]) -> Table:
+    """How variables scatter."""
+    rows: list[Row] = []
+    for name, given in tolerance.variables.items():
+        mean = given["mean"]
+        numbers = (mean, given["deviation"], given["low"] - mean, given["high"] - mean)
+        rows.append((name, "", *(measured(value, units[name]) for value in numbers)))
+    heads = ("variable", "", "mean", "standard deviation", "lower limit deviation", "upper limit deviation")
+    return Table("variables", "Variables", heads, rows)
+
+
+def _scatter(tolerance: Tolerance, units: dict[str, str]) -> Table:
+    """How responses scatter."""
+    keys = ("mean", "deviation", "deviation_first_order", "band_low", "band_high", "worst_low", "worst_high")
+    rows: list[Row] = [
+        (name, "", *(measured(response[key], units[name]) for key in keys))
+        for name, response in tolerance.responses.items()
+    ]
     heads = ("response", "", "mean", "standard deviation", "to first order", "99.73 % from", "to")
-    tables = [Table("scatter", "Scatter", (*heads, "worst case from", "to"), scatter)]
-    shares: list[Row] = []
+    return Table("scatter", "Scatter", (*heads, "worst case from", "to"), rows)
+
+
+def _contributions(tolerance: Tolerance) -> Table:
+    """What contributes to the scatter."""
+    rows: list[Row] = []
     for name, parts in tolerance.contributions.items():
         for variable, share in parts.items():
             first, total = tolerance.indices.get(name, {}).get(variable, (None, None))
             slope = number(tolerance.slopes[name][variable])
-            shares.append(
+            rows.append(
                 (name, "", variable, f"{100 * share:.3g} %", slope, number(first, 3), number(total, 3))
             )
     heads = ("response", "", "variable", "share of the variance", "derivative [SI]", "Sobol index", "total")
-    return [*tables, Table("contributions", "Contributions", heads, shares)]
+    return Table("contributions", "Contributions", heads, rows)
 
 
 def allocation_tables(allocation: Allocation, units: dict[str, str]) -> list[Table]:

@@ -34,7 +34,6 @@ from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.studies import sampling
-from linkwright.studies.axes import Axis
 from linkwright.studies.engine import evaluate
 from linkwright.studies.plan import StudyPlan
 from linkwright.studies.rows import SOLVED, FastStarts, OneByOne, Rows
@@ -63,6 +62,11 @@ class Tolerance(Result):
 
     n_rows: Annotated[int, Label("machines drawn at random", "", "")]
     n_failed: Annotated[int, Label("machines without a result", "", "", "They count as outside the limits.")]
+    reasons: Annotated[dict[str, int], About("Why machines had no result → how many.")]
+    variables: Annotated[
+        dict[str, dict[str, float]],
+        About("Variable → mean, standard deviation and limits as they are computed with [SI]."),
+    ]
     responses: Annotated[
         dict[str, dict[str, float]],
         About(
@@ -113,6 +117,8 @@ class Tolerance(Result):
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Numbers and tables by name, ready for JSON; `curves` is without effect."""
         names = (
+            "reasons",
+            "variables",
             "responses",
             "contributions",
             "slopes",
@@ -156,35 +162,26 @@ def tolerance(
     FindingError
         The machine in the middle of all tolerances, or a neighbour of it, has no answer.
     """
-    if not 2 <= rows <= 10_000_000 or not 0 <= indices <= 1_000_000:
-        raise InputError(
-            f"rows {rows}, indices {indices}: expected 2 to 10 000 000 rows, to 1 000 000 blocks"
-        )
-    listed = [axis.name for axis in plan.axes if axis.choices]
-    if listed:
-        raise InputError(
-            f"variables.{listed[0]}: found a list, expected a tolerance, a distribution or a range"
-        )
-    middle, bends = _bends(plan)
-    spreads = [_spread(axis) for axis in plan.axes]
-    place = slopes(
-        plan, np.array([spread[0] for spread in spreads]), np.array([_STEP * spread[1] for spread in spreads])
-    )
+    _check(plan, rows, indices)
+    scatters = _Scatters(plan)
+    middle, bends = _bends(plan, scatters)
+    place = slopes(plan, scatters.means, _STEP * scatters.deviations)
     drawn = evaluate(plan, plan.values(sampling.random(len(plan.axes), seed, 0, rows)))
-    deviations = np.array([spread[1] for spread in spreads])
-    sobol = _indices(plan, seed, indices) if indices else _Indices({}, {}, 0, Counter[str]())
-    names = [axis.name for axis in plan.axes]
     solved = drawn.status == SOLVED
     if solved.sum() < 2:
         ((reason, _),) = drawn.failures().most_common(1)
         raise FindingError(
             f"only {int(solved.sum())} of {rows} machines have an answer; most often: {reason}"
         )
+    sobol = _indices(plan, seed, indices) if indices else _Indices({}, {}, 0, Counter[str]())
+    names, deviations = scatters.names, scatters.deviations
     return Tolerance(
         n_rows=rows,
         n_failed=int((~solved).sum()),
+        reasons=dict(drawn.failures().most_common()),
+        variables=scatters.to_dict(),
         responses={
-            name: _row(plan, drawn.columns[name][solved], middle[name], place.slopes[name], bends[name])
+            name: _row(scatters, drawn.columns[name][solved], middle[name], place.slopes[name], bends[name])
             for name in plan.responses
         },
         contributions={name: _shares(names, place.slopes[name] * deviations) for name in plan.responses},
@@ -203,18 +200,41 @@ def tolerance(
     )
 
 
-def _spread(axis: Axis) -> tuple[float, float, float]:
-    """Middle, standard deviation and half width of a variable; infinite where it has no ends."""
-    # Moments of the distribution as it is cut off, by its quantiles.
-    values = axis.values((np.arange(2000) + 0.5) / 2000)
-    return float(values.mean()), float(values.std()), 0.5 * (axis.high - axis.low)
+def _check(plan: StudyPlan, rows: int, indices: int) -> None:
+    """Refuse what cannot be drawn at random."""
+    if not 2 <= rows <= 10_000_000 or not 0 <= indices <= 1_000_000:
+        raise InputError(
+            f"rows {rows}, indices {indices}: expected 2 to 10 000 000 rows, to 1 000 000 blocks"
+        )
+    listed = [axis.name for axis in plan.axes if axis.choices]
+    if listed:
+        raise InputError(
+            f"variables.{listed[0]}: found a list, expected a tolerance, a distribution or a range"
+        )
 
 
-def _bends(plan: StudyPlan) -> tuple[dict[str, float], dict[str, Floats]]:
+class _Scatters:
+    """Means, standard deviations, limits and half widths of the variables [SI], (variables,) each.
+
+    Where a variable has no ends, they are infinite.
+    """
+
+    def __init__(self, plan: StudyPlan) -> None:
+        self.names = [axis.name for axis in plan.axes]
+        self.means, self.deviations = np.array([axis.moments() for axis in plan.axes]).T
+        self.low, self.high = np.array([(axis.low, axis.high) for axis in plan.axes]).T
+        self.widths = 0.5 * (self.high - self.low)
+
+    def to_dict(self) -> dict[str, dict[str, float]]:
+        """All of it by the name of the variable."""
+        table = np.stack([self.means, self.deviations, self.low, self.high], axis=1).tolist()
+        keys = ("mean", "deviation", "low", "high")
+        return {name: dict(zip(keys, row, strict=True)) for name, row in zip(self.names, table, strict=True)}
+
+
+def _bends(plan: StudyPlan, scatters: _Scatters) -> tuple[dict[str, float], dict[str, Floats]]:
     """Value in the middle, and second derivatives by each variable, of each response."""
-    spreads = [_spread(axis) for axis in plan.axes]
-    middles = np.array([spread[0] for spread in spreads])
-    steps = np.array([_STEP * spread[1] for spread in spreads])
+    middles, steps = scatters.means, _STEP * scatters.deviations
     n = len(middles)
     points = np.vstack([middles, middles + np.diag(steps), middles - np.diag(steps)])
     rows = evaluate(plan, {axis.name: points[:, i].copy() for i, axis in enumerate(plan.axes)})
@@ -228,21 +248,22 @@ def _bends(plan: StudyPlan) -> tuple[dict[str, float], dict[str, Floats]]:
     return {name: float(f[0]) for name, f in values.items()}, second
 
 
-def _row(plan: StudyPlan, drawn: Floats, middle: float, slopes: Floats, bends: Floats) -> dict[str, float]:
+def _row(
+    scatters: _Scatters, drawn: Floats, middle: float, slopes: Floats, bends: Floats
+) -> dict[str, float]:
     """What is known of the scatter of a response."""
-    spreads = np.array([_spread(axis) for axis in plan.axes])
     low, high = np.quantile(drawn, _BAND)
     # What a variable without ends may do is without end, unless the response does not depend on it.
     with np.errstate(invalid="ignore"):
-        worst = float(np.where(slopes == 0, 0.0, np.abs(slopes) * spreads[:, 2]).sum())
+        worst = float(np.where(slopes == 0, 0.0, np.abs(slopes) * scatters.widths).sum())
     return {
         "middle": middle,
         "mean": float(drawn.mean()),
         "deviation": float(drawn.std(ddof=1)),
         "band_low": float(low),
         "band_high": float(high),
-        "deviation_first_order": float(np.sqrt(((slopes * spreads[:, 1]) ** 2).sum())),
-        "mean_shift_second_order": float(0.5 * (bends * spreads[:, 1] ** 2).sum()),
+        "deviation_first_order": float(np.sqrt(((slopes * scatters.deviations) ** 2).sum())),
+        "mean_shift_second_order": float(0.5 * (bends * scatters.deviations**2).sum()),
         "worst_low": middle - worst,
         "worst_high": middle + worst,
     }

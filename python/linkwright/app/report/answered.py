@@ -41,6 +41,7 @@ def answered(answer: Answer, command: str) -> Content:
         raise InputError("there is nothing to report: this command gives neither tables nor figures")
     return Content(
         title=answer.machine or "Linkwright",
+        names=answer.names,
         lead=". ".join(line.strip().rstrip(".") for line in shown_head(answer).split("\n")),
         findings=sentences(answer.findings),
         warnings=sentences(answer.warnings),

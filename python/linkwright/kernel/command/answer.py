@@ -6,7 +6,7 @@ asked for, so that JSON needs no tables and no drawing.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from contextvars import ContextVar
 from dataclasses import dataclass, field
@@ -44,6 +44,7 @@ class Answer:
     """What a command found."""
 
     machine: str | None  # name of the machine; None where there is none
+    names: Collection[str] = ()  # names that its author gave, which stay in every language
     # Whether curves are wanted → results by name, in SI: plain numbers, texts, tables and lists.
     results: Callable[[bool], Mapping[str, Any]] = _nothing
     # What the machine cannot do, in sentences; with any, the command ends with exit code 1.

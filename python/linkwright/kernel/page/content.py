@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -70,6 +70,7 @@ class Content:
 
     # Name of the machine, one sentence about it, where its numbers are from.
     title: str
+    names: Collection[str] = ()  # further names that its author gave, which stay in every language
     heading: Heading = _NO_HEADING  # what stands at its head
     lead: str = ""
     source: str = ""

@@ -35,7 +35,7 @@ _STOPS = frozenset(".;:,")
 _PLACE = re.compile(r"#(\d?)|\{(\d?)\}")
 
 # Entries that are read by programs, or that only their author may change.
-_KEPT = frozenset({"name", "file", "command", "scenes", "text", "source", "heading", "language"})
+_KEPT = frozenset({"name", "file", "command", "scenes", "text", "source", "heading", "language", "names"})
 
 
 @dataclass(frozen=True)
@@ -190,7 +190,7 @@ def in_language(content: Content, to: Language) -> Content:
     """A content in a language; its figures are changed in place, and names of the machine's parts stay."""
     if to.code == "en":
         return content
-    names = {part.name for _, parts in content.groups for part in parts if part.is_named}
+    names = {part.name for _, parts in content.groups for part in parts if part.is_named} | {*content.names}
     texts = {text: words for text, words in to.texts.items() if "{}" not in text or text in to.titles}
     title = replace(to, texts=texts)(content.title)
     if title == content.title:

@@ -69,6 +69,7 @@ def fit(
     hand_over(
         Answer(
             machine=plan.machine.name,
+            names=plan.columns,
             units=plan.machine.units,
             results=lambda curves: {"fit": fitted.to_dict(curves=curves)},
             findings=[

@@ -92,6 +92,7 @@ def hand_over_optimum(
         return
     answer = Answer(
         machine=plan.machine.name,
+        names=plan.columns,
         units=plan.machine.units,
         results=lambda _: {"optimum": optimum.to_dict()},
         warnings=[
@@ -129,6 +130,7 @@ def _hand_over_front(
     middle = best.machines[len(best.machines) // 2]
     answer = Answer(
         machine=plan.machine.name,
+        names=plan.columns,
         units=plan.machine.units,
         results=lambda _: {"front": best.to_dict()},
         warnings=[

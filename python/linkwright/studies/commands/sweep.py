@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from time import monotonic
@@ -21,9 +22,9 @@ from linkwright.kernel.command.parameter import Argument, Option
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from linkwright.machine.machine import Machine
     from linkwright.studies.figures import StudyRows
     from linkwright.studies.folder import SweepFolder
+    from linkwright.studies.plan import StudyPlan
     from linkwright.studies.sweep import Sweep
 
 
@@ -71,7 +72,7 @@ def sweep(
     with rows_bar() as watch:
         share = _share(chunks)
         swept = compute(plan, out, chunks=share, workers=workers, cluster=cluster, watch=watch)
-    hand_over(_answer(plan.machine, swept, plan.units), json=json)
+    hand_over(_answer(plan, swept, plan.units), json=json)
 
 
 def show(folder: Folder, out: Drawn = None, force: Force = False, json: Json = False) -> None:
@@ -87,18 +88,8 @@ def show(folder: Folder, out: Drawn = None, force: Force = False, json: Json = F
     known = opened(folder)
     plan = plan_of(known.manifest)
     extremes = summary(known, plan.responses)
-    answer = _answer(plan.machine, extremes, known.units)
-    drawn = Answer(
-        machine=answer.machine,
-        units=answer.units,
-        results=answer.results,
-        findings=answer.findings,
-        warnings=answer.warnings,
-        head=answer.head,
-        tables=answer.tables,
-        figures=partial(_figures, known),
-    )
-    hand_over(drawn, json=json, folder=into)
+    answer = replace(_answer(plan, extremes, known.units), figures=partial(_figures, known))
+    hand_over(answer, json=json, folder=into)
 
 
 def one_by_one_warnings(one_by_one: dict[str, int]) -> list[str]:
@@ -121,7 +112,7 @@ def _share(text: str | None) -> tuple[int, int] | None:
     return int(first), int(last)
 
 
-def _answer(machine: Machine, swept: Sweep, units: dict[str, str]) -> Answer:
+def _answer(plan: StudyPlan, swept: Sweep, units: dict[str, str]) -> Answer:
     """Counts, extremes, and what failed."""
     from linkwright.studies.rows import fast_start_warnings
     from linkwright.studies.tables import sweep_tables
@@ -136,13 +127,14 @@ def _answer(machine: Machine, swept: Sweep, units: dict[str, str]) -> Answer:
     if missing:
         warnings.append(f"{missing} rows of {swept.n_rows} are not computed yet.")
     return Answer(
-        machine=machine.name,
-        units=machine.units,
+        machine=plan.machine.name,
+        names=plan.columns,
+        units=plan.machine.units,
         results=lambda _: {"sweep": swept.to_dict()},
         findings=[] if solved else ["No row has a result."],
         warnings=warnings,
         head=lambda: (
-            f"{machine.name}\n{swept.n_done} of {swept.n_rows} rows in {swept.path}, {solved} solved"
+            f"{plan.machine.name}\n{swept.n_done} of {swept.n_rows} rows in {swept.path}, {solved} solved"
         ),
         tables=partial(sweep_tables, swept, units),
     )

@@ -61,16 +61,14 @@ def tolerance(
         return
     belong_to("--allocate", "power")
     scatter = compute(plan, rows, seed=seed, indices=indices)
-    failed = (
-        f"{scatter.n_failed} of {scatter.n_rows} machines have no result; they count as outside the limits."
-    )
     answer = Answer(
         machine=plan.machine.name,
+        names=plan.columns,
         units=plan.machine.units,
         results=lambda _: {"tolerance": scatter.to_dict()},
         findings=["No machine within the tolerances keeps all limits."] if scatter.share_within == 0 else [],
         warnings=[
-            *([failed] if scatter.n_failed else []),
+            *_failed(scatter),
             *_dropped(scatter, indices),
             *(_bent(name, scatter.responses[name], plan.units[name]) for name in scatter.bent),
             *(f"{name} has a derivative on either side only: {why}" for name, why in scatter.ties.items()),
@@ -81,6 +79,16 @@ def tolerance(
         tables=lambda: tolerance_tables(scatter, plan.units),
     )
     hand_over(answer, json=json)
+
+
+def _failed(scatter: Tolerance) -> list[str]:
+    """That machines have no result, and why most of them have none."""
+    if not scatter.n_failed:
+        return []
+    return [
+        f"{scatter.n_failed} of {scatter.n_rows} machines have no result; they count as outside the limits; "
+        f"most often: {next(iter(scatter.reasons))}"
+    ]
 
 
 def _dropped(scatter: Tolerance, n: int) -> list[str]:
@@ -130,6 +138,7 @@ def _hand_over_allocation(
     )
     answer = Answer(
         machine=plan.machine.name,
+        names=plan.columns,
         units=plan.machine.units,
         results=lambda _: {"allocation": allocation.to_dict()},
         warnings=[
