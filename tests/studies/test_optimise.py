@@ -14,7 +14,7 @@ import linkwright as lw
 from linkwright.app.application import application
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.studies import engine, search_log, slopes
-from linkwright.studies.optimise import Optimum
+from linkwright.studies.optimise import Optimum, searched
 
 # The pin of a crank of 0.2 m at angle a: x = 0.2 cos a, y = 0.2 sin a.
 TEXT = """
@@ -301,22 +301,82 @@ def test_no_more_machines_than_are_allowed(evaluations: int, method: str, tmp_pa
     assert optimum(tmp_path, text, evaluations, method).n_evaluations <= 3 * evaluations
 
 
-def test_all_machines_are_counted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Also those of differences: a response without exact derivatives takes four a variable."""
+# A mean of samples, and a mass that may be zero, and no less.
+AT_AN_END = """
+machine = "roller_two_carts"
+[variables.mass]
+address = "bodies.cart1.mass"
+range = ["0 kg", "1500 kg"]
+[responses]
+torque = { curve = "steady_state.torque_motor", extreme = "rms" }
+far = { formula = "torque + mass" }
+[goals]
+far = "minimise"
+"""
+
+# Rods shorter than 0.2 m do not close.
+BESIDE = (
+    AT_AN_END.replace("bodies.cart1.mass", "mechanism.sliders.cart1.rod")
+    .replace('["0 kg", "1500 kg"]', '["0.199999 m", "0.21 m"]')
+    .replace("torque + mass", "mass")
+)
+
+# The same with exact derivatives.
+AS_EXACT = '{ curve = "steady_state.torque_motor", extreme = "rms" }', '"steady_state.torque_motor_rms"'
+
+
+def machines(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """Numbers of machines that are computed from now on: derivatives take one, and those beside it."""
     counts: list[int] = []
 
-    def watched(plan: Any, values: Any) -> Any:
-        rows = engine.evaluate(plan, values)
-        counts.append(len(rows))
-        return rows
+    def watched(made: Any, many: Any) -> Any:
+        def made_and_counted(*given: Any) -> Any:
+            counts.append(many(given))
+            return made(*given)
 
-    monkeypatch.setattr(search_log, "evaluate", watched)
-    monkeypatch.setattr(slopes, "evaluate", watched)
-    monkeypatch.setattr("linkwright.studies.optimise.prices", lambda *_: [])
-    for method in ("both", "gradient"):
-        counts.clear()
-        found = optimum(tmp_path, TEXT, 300, method, starts=2)
-        assert found.n_evaluations == sum(counts)
+        return made_and_counted
+
+    rows = watched(engine.evaluate, lambda given: len(next(iter(given[1].values()))))
+    beside = watched(engine.evaluate, lambda given: len(next(iter(given[1].values()))) - 1)
+    monkeypatch.setattr(search_log, "evaluate", rows)
+    monkeypatch.setattr(slopes, "evaluate", beside)
+    monkeypatch.setattr(search_log, "slopes", watched(slopes.slopes, lambda given: 1))
+    return counts
+
+
+@pytest.mark.parametrize("method", ["both", "gradient"])
+@pytest.mark.parametrize("kind", ["differences", "exact", "limit", "no answer", "exact without answer"])
+def test_all_machines_are_counted(
+    kind: str, method: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Those of differences, of the cost of limits, and of places that have no answer."""
+    text = {
+        "differences": TEXT,
+        "exact": AT_AN_END.replace(*AS_EXACT),
+        "limit": TEXT + '[constraints]\ny = { max = "0.1 m" }\n',
+        "no answer": BESIDE,
+        "exact without answer": BESIDE.replace(*AS_EXACT),
+    }[kind]
+    counts = machines(monkeypatch)
+    found = optimum(tmp_path, text, 300, method, starts=2)
+    assert found.n_evaluations == sum(counts)
+    assert bool(found.reasons) == ("answer" in kind)
+
+
+def test_searches_of_a_front_that_fail_are_counted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    counts, searches = machines(monkeypatch), iter(range(9))
+
+    def failing(*given: Any) -> Optimum:
+        best = searched(*given)
+        if next(searches) == 3:
+            raise FindingError("none of all machines keeps all constraints")
+        return best
+
+    monkeypatch.setattr("linkwright.studies.front.searched", failing)
+    (tmp_path / "study.toml").write_text(FRONT)
+    found = lw.front(lw.read_study(tmp_path / "study.toml"), 5, 30, method="global")
+    assert len(found.failed) == 1
+    assert found.n_evaluations == sum(counts)
 
 
 def test_fewer_machines_than_a_population_are_refused_by_name(tmp_path: Path) -> None:
@@ -346,20 +406,6 @@ range = [9, 10]
     assert optimum(tmp_path, text, 11).n_evaluations == 11
 
 
-# A mean of samples, and a mass that may be zero, and no less.
-AT_AN_END = """
-machine = "roller_two_carts"
-[variables.mass]
-address = "bodies.cart1.mass"
-range = ["0 kg", "1500 kg"]
-[responses]
-torque = { curve = "steady_state.torque_motor", extreme = "rms" }
-far = { formula = "torque + mass" }
-[goals]
-far = "minimise"
-"""
-
-
 @pytest.mark.parametrize("method", ["both", "gradient"])
 def test_the_best_machine_at_the_end_of_what_there_is(method: str, tmp_path: Path) -> None:
     """Derivatives are differences, for which there are no machines beyond that end."""
@@ -374,10 +420,8 @@ def test_the_best_machine_at_the_end_of_what_there_is(method: str, tmp_path: Pat
 
 
 def test_a_best_machine_beside_which_there_is_none(tmp_path: Path) -> None:
-    """Rods shorter than 0.2 m do not close: where there are no derivatives, what was found stands."""
-    text = AT_AN_END.replace("bodies.cart1.mass", "mechanism.sliders.cart1.rod")
-    text = text.replace('["0 kg", "1500 kg"]', '["0.199999 m", "0.21 m"]').replace("torque + mass", "mass")
-    found = optimum(tmp_path, text, 400, "both")
+    """Where there are no derivatives, what was found stands."""
+    found = optimum(tmp_path, BESIDE, 400, "both")
     assert found.variables["mass"] == pytest.approx(0.2, abs=1e-5)
     assert found.variables["mass"] > 0.2
     assert any("beside" in reason for reason in found.reasons)

@@ -126,7 +126,7 @@ def front(
         (first, second),
         _best(optimums, (first, second), signs),
         failed,
-        sum(optimum.n_evaluations for optimum in optimums),
+        known.count,
         dict(sum((Counter(optimum.one_by_one) for optimum in optimums), start=Counter[str]()).most_common()),
     )
 

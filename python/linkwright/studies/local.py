@@ -23,7 +23,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
@@ -33,7 +33,8 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import FindingError
 from linkwright.studies.axes import Axis
 from linkwright.studies.plan import StudyPlan
-from linkwright.studies.slopes import Slopes, slopes
+from linkwright.studies.search_log import SearchLog
+from linkwright.studies.slopes import Slopes, n_beside
 
 # Limits are kept by this share of their size: batches, which judge in the end, are computed to 1e-9.
 _MARGIN = 3e-9
@@ -52,10 +53,6 @@ _STEP = 1e-4
 
 # A residual of the multipliers above this share of the goal's gradient: they explain nothing.
 _EXPLAINED = 0.05
-
-
-# Responses and their derivatives at a place.
-SlopesOf = Callable[[StudyPlan, Floats, Floats], Slopes]
 
 
 @dataclass(frozen=True)
@@ -79,20 +76,14 @@ class _SpentError(Exception):
 
 
 class Descent:
-    """The way down from starts of a study whose variables are numbers; `most`: machines it may compute."""
+    """The way down from starts of a study whose variables are numbers; `most`: machines a log may count."""
 
     def __init__(
-        self,
-        plan: StudyPlan,
-        goal: str,
-        sign: float,
-        slopes_of: SlopesOf = slopes,
-        most: float = math.inf,
+        self, plan: StudyPlan, goal: str, sign: float, log: SearchLog, most: float = math.inf
     ) -> None:
-        self.plan, self.goal, self.sign, self.slopes_of, self.most = plan, goal, sign, slopes_of, most
+        self.plan, self.goal, self.sign, self.log, self.most = plan, goal, sign, log, most
         self.free = _free(plan)
-        # Machines that were computed, and why some on the way had no answer.
-        self.count = 0
+        # Why machines on the way had no answer.
         self.reasons: Counter[str] = Counter()
         self.size = 1.0
         self._known: dict[bytes, _Place] = {}
@@ -119,19 +110,16 @@ class Descent:
         key = share.tobytes()
         if key not in self._known:
             # It is not known beforehand whether derivatives are exact.
-            many = 1 + 4 * len(self.free)
-            if self.count + many > self.most:
+            if self.log.count + 1 + n_beside(self.plan) > self.most:
                 raise _SpentError
-            self.count += many
-            self._known[key], is_exact = self._computed(share)
-            self.count += 1 - many if is_exact else 0
+            self._known[key] = self._computed(share)
         return self._known[key]
 
-    def _computed(self, share: Floats) -> tuple[_Place, bool]:
-        """Goal and limits at a place, and whether all derivatives are exact, so that it was one machine."""
+    def _computed(self, share: Floats) -> _Place:
+        """Goal and limits at a place."""
         shares = self.base.copy()
         shares[self.free] = np.clip(share, 0.0, 1.0)
-        _, rates, slopes = _slopes(self.plan, shares, self.slopes_of)
+        _, rates, slopes = _slopes(self.plan, shares, self.log)
         slope = {name: (slope * rates)[self.free] for name, slope in slopes.slopes.items()}
         over, over_slope = [], []
         for name, limit, way in limits(self.plan):
@@ -139,14 +127,13 @@ class Descent:
             over.append(way * (slopes.values[name] - limit) / size + _MARGIN)
             over_slope.append(way * slope[name] / size)
         n = len(self.free)
-        place = _Place(
+        return _Place(
             share.copy(),
             self.sign * slopes.values[self.goal] / self.size,
             self.sign * slope[self.goal] / self.size,
             np.array(over),
             np.array(over_slope).reshape(len(over), n),
         )
-        return place, len(slopes.exact) == len(slopes.values)
 
     def _slsqp(self, start: Floats) -> _Place:
         """The best place on the way of SLSQP."""
@@ -253,11 +240,11 @@ def _free(plan: StudyPlan) -> list[int]:
     return [i for i, axis in enumerate(plan.axes) if axis.is_continuous]
 
 
-def _slopes(plan: StudyPlan, share: Floats, slopes_of: SlopesOf = slopes) -> tuple[Floats, Floats, Slopes]:
+def _slopes(plan: StudyPlan, share: Floats, log: SearchLog) -> tuple[Floats, Floats, Slopes]:
     """Variables [SI] and their derivatives by the shares, (variables,) each; responses there."""
     values = np.array([float(axis.values(share[i : i + 1])[0]) for i, axis in enumerate(plan.axes)])
     rates = np.array([_rate(axis, x) for axis, x in zip(plan.axes, values, strict=True)])
-    return values, rates, slopes_of(plan, values, _STEP * np.abs(rates))
+    return values, rates, log.slopes(plan, values, _STEP * np.abs(rates))
 
 
 def _rate(axis: Axis, value: float) -> float:
@@ -278,7 +265,9 @@ class Price:
     multiplier: float
 
 
-def prices(plan: StudyPlan, goal: str, sign: float, share: Floats, near: float) -> list[Price]:
+def prices(
+    plan: StudyPlan, goal: str, sign: float, share: Floats, near: float, log: SearchLog
+) -> list[Price]:
     """Multipliers of the active limits of a place; none where they do not explain it.
 
     `share`: (variables,); `near`: distance from a limit over its size, up to which it is active.
@@ -288,7 +277,7 @@ def prices(plan: StudyPlan, goal: str, sign: float, share: Floats, near: float) 
     free = _free(plan)
     if not free:
         return []
-    values, rates, slopes = _slopes(plan, share)
+    values, rates, slopes = _slopes(plan, share, log)
     listed = list(_active(plan, slopes.values, values, rates, slopes.slopes, near))
     if not listed or goal in slopes.ties:
         return []

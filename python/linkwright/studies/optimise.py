@@ -227,10 +227,15 @@ class _Search:
         self.sign = 1.0 if direction == "minimise" else -1.0
         self.best: tuple[tuple[int, float], Floats] | None = None
         self.tried: list[dict[str, Any]] = []
-        self.count = self.failed = 0
+        self.computed_before = log.count
         self.low, self.high = math.inf, -math.inf
         self.reasons: Counter[str] = Counter()
         self.alone: Counter[str] = Counter()
+
+    @property
+    def count(self) -> int:
+        """Machines that this search computed."""
+        return self.log.count - self.computed_before
 
     def run(
         self, fixed: Mapping[str, float], evaluations: int, seed: int, method: Method, starts: int
@@ -244,7 +249,7 @@ class _Search:
         elif method == "gradient":
             self._descend(self._started(shares, free, seed, starts))
         else:
-            last = self.count + evaluations
+            last = self.log.count + evaluations
             is_both = method == "both"
             self._evolve(shares, free, evaluations - int(_KEPT * evaluations) * is_both, seed)
             if is_both and self.best is not None and self.best[0][0] < 2:
@@ -287,28 +292,26 @@ class _Search:
         return [points[i] for i in order[:starts] if keys[i][0] < 2]
 
     def _descend(self, starts: list[Floats], last: float = math.inf) -> None:
-        """Derivatives lead down from each start, as long as no more than `last` machines are computed."""
+        """Derivatives lead down from each start, as long as the log has no more than `last` machines."""
         for start in starts:
             plan, kept = numbers_alone(self.plan, start)
             if not any(axis.is_continuous for axis in plan.axes):
                 return
             # The end is ranked as one machine more.
-            descent = Descent(plan, self.goal, self.sign, self.log.slopes, last - self.count - 1)
-            point = start.copy()
+            descent = Descent(plan, self.goal, self.sign, self.log, last - 1)
+            point, before = start.copy(), self.log.count
             try:
                 point[kept] = descent.run(start[kept])
             except FindingError as error:
                 # A machine beside the start has no answer: the start stands.
                 self.reasons[str(error)] += 1
-            self.count += descent.count
             self.reasons += descent.reasons
-            if descent.count:
+            if self.log.count > before:
                 self._ranked(point[None])
 
     def _ranked(self, points: Floats) -> list[tuple[int, float]]:
         """How good machines are, the smaller the better: by limits kept, then by goal or violation."""
         rows = self.log.evaluate(self.plan, self.plan.values(points))
-        self.count += len(rows)
         self.reasons.update(rows.failures())
         self.alone.update(rows.one_by_one)
         solved = rows.columns[self.goal][rows.status == SOLVED].tolist()
@@ -369,7 +372,7 @@ class _Search:
         assert self.best is not None
         plan, kept = numbers_alone(self.plan, self.best[1])
         try:
-            return prices(plan, self.goal, self.sign, self.best[1][kept], _ACTIVE)
+            return prices(plan, self.goal, self.sign, self.best[1][kept], _ACTIVE, self.log)
         except FindingError as error:
             # A machine beside the best has no answer, so that there are no derivatives to explain it by.
             self.reasons[str(error)] += 1

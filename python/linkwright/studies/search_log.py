@@ -20,7 +20,7 @@ import numpy as np
 
 from linkwright import __version__
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.errors import InputError
+from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.files.output import unwritable
 from linkwright.machine.machine import Machine
 from linkwright.machine.write import dumps
@@ -29,15 +29,21 @@ from linkwright.studies.plan import StudyPlan
 from linkwright.studies.rows import LAYOUT, Rows
 from linkwright.studies.slopes import Slopes, slopes
 
+# Layout of the lines of a log: 2 with how many machines derivatives took.
+_LINES = 2
+
 
 class SearchLog:
-    """Computations of a search, from a file as far as they stand there; without a file each is made anew.
+    """Computations of a search, each made once; from a file as far as they stand there.
 
     Raises InputError: the file is that of another study, or cannot be read or written.
     """
 
     def __init__(self, plan: StudyPlan, path: Path | None) -> None:
         self.known: dict[str, dict[str, Any]] = {}
+        # Machines that were computed for this search, now or before it was stopped; and for what.
+        self.count = 0
+        self._counted: set[str] = set()
         self.file: TextIO | None = None
         self._machine: tuple[Machine | None, str] = (None, "")
         if path is not None:
@@ -80,7 +86,9 @@ class SearchLog:
             rest |= {"fast_starts": rows.fast_starts.tolist(), "one_by_one": rows.one_by_one}
             return {"columns": columns, **rest}
 
-        line = self._line(self._digest(plan, "rows", asked), computed)
+        key = self._digest(plan, "rows", asked)
+        line = self._line(key, computed)
+        self._count_once(key, len(line["status"]))
         columns = {name: np.array(column, dtype=float) for name, column in line["columns"].items()}
         status, reason = np.array(line["status"], np.uint8), np.array(line["reason"], np.int32)
         fast_starts = np.array(line["fast_starts"], np.uint8)
@@ -91,13 +99,26 @@ class SearchLog:
         """Responses with derivatives, as `slopes.slopes`."""
 
         def computed() -> dict[str, Any]:
-            there = slopes(plan, at, steps)
+            there = slopes(plan, at, steps, machines.append)
             rates = {name: rate.tolist() for name, rate in there.slopes.items()}
-            return {"values": there.values, "slopes": rates, "exact": sorted(there.exact), "ties": there.ties}
+            rest = {"exact": sorted(there.exact), "ties": there.ties, "machines": sum(machines)}
+            return {"values": there.values, "slopes": rates, **rest}
 
-        line = self._line(self._digest(plan, "slopes", at.tobytes() + steps.tobytes()), computed)
+        machines: list[int] = []
+        key = self._digest(plan, "slopes", at.tobytes() + steps.tobytes())
+        try:
+            line = self._line(key, computed)
+        except FindingError:
+            self.count += sum(machines)
+            raise
+        self._count_once(key, line["machines"])
         rates = {name: np.array(rate) for name, rate in line["slopes"].items()}
         return Slopes(dict(line["values"]), rates, frozenset(line["exact"]), dict(line["ties"]))
+
+    def _count_once(self, key: str, machines: int) -> None:
+        """Count the machines of a computation, once."""
+        self.count += 0 if key in self._counted else machines
+        self._counted.add(key)
 
     def _line(self, key: str, compute: Callable[[], dict[str, Any]]) -> dict[str, Any]:
         """What a computation gave, or gives now."""
@@ -120,6 +141,6 @@ class SearchLog:
         """A sign for what is asked of which machine in which study."""
         if self._machine[0] is not plan.machine:
             study = plan.study.model_dump_json(by_alias=True, exclude_unset=True)
-            self._machine = plan.machine, f"{__version__} {LAYOUT}\n{study}\n{dumps(plan.machine)}"
+            self._machine = plan.machine, f"{__version__} {LAYOUT} {_LINES}\n{study}\n{dumps(plan.machine)}"
         names = ",".join(axis.name for axis in plan.axes)
         return sha256(f"{kind}\n{names}\n{self._machine[1]}\n".encode() + asked).hexdigest()

@@ -8,7 +8,7 @@ fourth order.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -42,13 +42,16 @@ class Slopes:
     ties: dict[str, str]
 
 
-def slopes(plan: StudyPlan, at: Floats, steps: Floats) -> Slopes:
+def slopes(
+    plan: StudyPlan, at: Floats, steps: Floats, count: Callable[[int], None] = lambda n: None
+) -> Slopes:
     """Responses and their derivatives.
 
     `at`: values of the variables, numbers all of them, (variables,) [SI]; `steps`: of differences, where
-    there is no other way, likewise. Raises FindingError: the machine there, or one a step beside it, has no
-    answer.
+    there is no other way, likewise; `count`: called with the number of machines before they are computed.
+    Raises FindingError: the machine there, or one a step beside it, has no answer.
     """
+    count(1)
     known = _variables(plan, at)
     is_followed = not any(tangent is None for tangent in known.values())
     exact, ties = _analysed(plan, known) if is_followed else ({}, {})
@@ -56,6 +59,7 @@ def slopes(plan: StudyPlan, at: Floats, steps: Floats) -> Slopes:
     differenced: dict[str, Tangent] = {}
     missing = [asked.name for asked in plan.asked if asked.name not in exact]
     if missing or not is_followed or _worked_all(plan, known) is None:
+        count(n_beside(plan))
         differenced = _differences(plan, at, steps)
     known |= {name: differenced[name] for name in missing}
     rough = set(missing)
@@ -189,6 +193,11 @@ def _address(asked: StudyResponse) -> str:
 # end of the range, beyond which there may be no machine.
 _NODES = {0: (1, -1, 2, -2), 1: (1, 2, 3, 4), -1: (-1, -2, -3, -4)}
 _WEIGHTS = {0: (8, -8, -1, 1), 1: (48, -36, 16, -3), -1: (-48, 36, -16, 3)}
+
+
+def n_beside(plan: StudyPlan) -> int:
+    """Machines beside a place that differences by all variables take."""
+    return 4 * sum(axis.is_continuous for axis in plan.axes)
 
 
 def _differences(plan: StudyPlan, at: Floats, steps: Floats) -> dict[str, Tangent]:
