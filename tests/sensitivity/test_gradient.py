@@ -386,6 +386,19 @@ def test_what_is_zero_to_the_accuracy_of_the_motion_has_no_derivative() -> None:
     assert "steady_state.efficiency" not in found.responses
 
 
+def test_an_efficiency_of_zero_is_named() -> None:
+    """Without load the motor works against the losses of the gearbox alone, whatever moves."""
+    text = NO_WORK.replace('loads.gravity.kind = "gravity"\n', "")
+    machine = lw.loads(text + "[drive.gearbox]\nratio = 1\nefficiency = 0.8\n")
+    assert lw.steady_state(machine).efficiency == 0.0
+    found = lw.gradient(machine, ["steady_state"], ["bodies.A.inertia", "drive.gearbox.efficiency"])
+    assert found.values[found.responses.index("steady_state.energy_motor")] > 0.01
+    assert found.of("steady_state.efficiency") == dict.fromkeys(found.variables, 0.0)
+    with_weight = lw.loads(NO_WORK + "[drive.gearbox]\nratio = 1\nefficiency = 0.8\n")
+    found = lw.gradient(with_weight, ["steady_state"])
+    assert found.missing["steady_state.efficiency"] == "it is zero but for rounding"
+
+
 def test_a_motor_of_constant_speed_without_work_has_no_efficiency() -> None:
     """Its motion is exact, its works are sums that leave rounding alone."""
     text = NO_WORK.split("[drive.motor]")[0] + '[drive.motor]\nkind = "constant_speed"\nspeed = 60\n'

@@ -20,6 +20,7 @@ from linkwright.drive.reduction import NO_INERTIA, mean_laws, mean_over_turn
 from linkwright.drive.sound_loads import require_same_turns, require_sound_loads, sliding
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import ConvergenceError, InputError, SteadyStateError
+from linkwright.kernel.numerics.tangent import primal
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
@@ -248,7 +249,8 @@ class SteadyState(Result, evenness.Evenness[float]):
     ]:
         """Work taken by the loads over work of the motor; None without any work of the motor."""
         share = self.energy_load / self.energy_motor if self.energy_motor > unknown_work(self) else None
-        return 0.0 if share is not None and abs(share) <= _ROUNDING else share
+        # Zero, with the derivatives that it may have.
+        return share - primal(share) if share is not None and abs(share) <= _ROUNDING else share
 
 
 def unknown_work(state: SteadyState) -> float:

@@ -104,7 +104,10 @@ _OF_MOTOR = ("torque_motor_min", "torque_motor_max", "power_motor_max")
 _BETWEEN = "it is reached at a speed between the extremes, such as the breakdown speed"
 
 # Ratio → what it is a ratio of.
-_RATIOS = {"cyclic_load_factor": "torque_motor_mean", "efficiency": "energy_motor"}
+_RATIOS = {
+    "cyclic_load_factor": ("torque_motor_rms", "torque_motor_mean"),
+    "efficiency": ("energy_load", "energy_motor"),
+}
 
 
 def _nothing(tangents: Mapping[str, Tangent], rounding: Mapping[str, float]) -> set[str]:
@@ -114,7 +117,7 @@ def _nothing(tangents: Mapping[str, Tangent], rounding: Mapping[str, float]) -> 
         for name, least in rounding.items()
         if name in tangents and abs(tangents[name].value) <= least and tangents[name].d.any()
     }
-    return nothing | {ratio for ratio, of in _RATIOS.items() if of in nothing and ratio in tangents}
+    return nothing | {ratio for ratio, of in _RATIOS.items() if nothing & {*of} and ratio in tangents}
 
 
 def _run_up(machine: Machine, variables: Sequence[str]) -> Source:

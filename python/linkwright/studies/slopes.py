@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from linkwright.kernel.arrays import Floats
+from linkwright.kernel.arrays import Floats, Indices
 from linkwright.kernel.description.formula import NUMBERS
 from linkwright.kernel.description.formula import names as names_in
 from linkwright.kernel.errors import FindingError, InputError
@@ -54,19 +54,26 @@ def slopes(
     count(1)
     known = _variables(plan, at)
     is_followed = not any(tangent is None for tangent in known.values())
-    exact, ties = _analysed(plan, known) if is_followed else ({}, {})
-    known |= exact
-    differenced: dict[str, Tangent] = {}
-    missing = [asked.name for asked in plan.asked if asked.name not in exact]
+    analysed, ties = _analysed(plan, known) if is_followed else ({}, {})
+    known |= analysed
+    missing = [asked.name for asked in plan.asked if asked.name not in analysed]
+    is_lost = np.any([~np.isfinite(tangent.d) for tangent in analysed.values()], axis=0)
     if missing or not is_followed or _worked_all(plan, known) is None:
-        count(n_beside(plan))
-        differenced = _differences(plan, at, steps)
+        is_lost = np.ones(len(at), dtype=bool)
+    by = np.flatnonzero(is_lost & [axis.is_continuous for axis in plan.axes])
+    count(4 * len(by))
+    differenced = _differences(plan, at, steps, by) if is_lost.any() else {}
     known |= {name: differenced[name] for name in missing}
     rough = set(missing)
+    for name, tangent in analysed.items():
+        lost = ~np.isfinite(tangent.d)
+        if lost.any():
+            known[name] = Tangent(tangent.value, np.where(lost, differenced[name].d, tangent.d))
+            rough.add(name)
     for formula in plan.formulas:
-        tangent = _worked(formula, known) if is_followed else None
-        known[formula.name] = differenced[formula.name] if tangent is None else tangent
-        if tangent is None or rough & set(names_in(formula.tree)):
+        worked = _worked(formula, known) if is_followed else None
+        known[formula.name] = differenced[formula.name] if worked is None else worked
+        if worked is None or rough & set(names_in(formula.tree)):
             rough.add(formula.name)
     responses = {name: _tangent(known[name], len(at)) for name in plan.responses}
     return Slopes(
@@ -139,7 +146,7 @@ def _worked_all(plan: StudyPlan, known: Mapping[str, Any]) -> dict[str, Any] | N
 
 
 def _analysed(plan: StudyPlan, known: Mapping[str, Any]) -> tuple[dict[str, Tangent], dict[str, str]]:
-    """Responses of analyses that have exact derivatives, and which of them tie."""
+    """Responses of analyses that have exact derivatives, NaN by what has none, and which of them tie."""
     entries = _entries(plan, known)
     machine = machine_at(plan, entries)
     sources: dict[str, Source | None] = {}
@@ -161,15 +168,18 @@ def _analysed(plan: StudyPlan, known: Mapping[str, Any]) -> tuple[dict[str, Tang
             continue
         name = named[0]
         tangent = own.tangents[name]
-        by = zip(own.variables, tangent.d, strict=True)
-        slope = sum((d * entries[place].d for place, d in by), start=np.zeros(len(plan.axes)))
-        if not np.isfinite(slope).all():
-            # On a kink that a variable moves there is no derivative by it.
-            continue
-        tangents[asked.name] = Tangent(tangent.value, slope)
+        tangents[asked.name] = Tangent(tangent.value, _by_variables(own, tangent.d, entries, len(plan.axes)))
         if name in own.ties:
             ties[asked.name] = own.ties[name]
     return tangents, ties
+
+
+def _by_variables(own: Source, slopes: Floats, entries: Mapping[str, Any], n: int) -> Floats:
+    """Derivatives by entries as those by n variables; NaN where one moves an entry that has none."""
+    table = np.array([entries[place].d for place in own.variables]).reshape(-1, n)
+    is_known = np.isfinite(slopes)
+    lost = (table[~is_known] != 0).any(axis=0)
+    return np.where(lost, np.nan, slopes[is_known] @ table[is_known])
 
 
 def _source(machine: Any, analysis: str, entries: tuple[str, ...]) -> Source | None:
@@ -196,30 +206,29 @@ _WEIGHTS = {0: (8, -8, -1, 1), 1: (48, -36, 16, -3), -1: (-48, 36, -16, 3)}
 
 
 def n_beside(plan: StudyPlan) -> int:
-    """Machines beside a place that differences by all variables take."""
+    """Machines beside a place that differences take, at most."""
     return 4 * sum(axis.is_continuous for axis in plan.axes)
 
 
-def _differences(plan: StudyPlan, at: Floats, steps: Floats) -> dict[str, Tangent]:
-    """All responses with differences of fourth order by each variable [1]; 0 by lists and whole numbers."""
+def _differences(plan: StudyPlan, at: Floats, steps: Floats, by: Indices) -> dict[str, Tangent]:
+    """All responses with differences of fourth order [1] by some variables, and 0 by the others."""
     # [1] Fornberg, Generation of finite difference formulas on arbitrarily spaced grids, Math. Comput. 51
     # (1988) 699, tables 1 and 3.
-    free = np.flatnonzero([axis.is_continuous for axis in plan.axes])
-    n, h = len(free), steps[free]
-    sides = [_side(plan.axes[i], at[i], steps[i]) for i in free]
+    n, h = len(by), steps[by]
+    sides = [_side(plan.axes[i], at[i], steps[i]) for i in by]
     tables = ([table[side] for side in sides] for table in (_NODES, _WEIGHTS))
     nodes, weights = (np.array(rows, dtype=float).reshape(n, 4) for rows in tables)
     points = np.tile(at, (1 + 4 * n, 1))
-    points[np.arange(1, 1 + 4 * n), np.repeat(free, 4)] += (nodes * h[:, None]).ravel()
+    points[np.arange(1, 1 + 4 * n), np.repeat(by, 4)] += (nodes * h[:, None]).ravel()
     rows = evaluate(plan, {axis.name: points[:, i].copy() for i, axis in enumerate(plan.axes)})
     rows.require_solved(
-        lambda row: f"a step beside in {plan.axes[free[(row - 1) // 4]].name}" if row else "there"
+        lambda row: f"a step beside in {plan.axes[by[(row - 1) // 4]].name}" if row else "there"
     )
     differences = {}
     for name in plan.responses:
         f = rows.columns[name]
         slope = np.zeros(len(at))
-        slope[free] = (weights * (f[1:].reshape(n, 4) - f[0])).sum(axis=1) / (12 * h)
+        slope[by] = (weights * (f[1:].reshape(n, 4) - f[0])).sum(axis=1) / (12 * h)
         differences[name] = Tangent(float(f[0]), slope)
     return differences
 

@@ -71,7 +71,10 @@ def tolerance(
             *_failed(scatter),
             *_dropped(scatter, indices),
             *(_bent(name, scatter.responses[name], plan.units[name]) for name in scatter.bent),
-            *(f"{name} has a derivative on either side only: {why}" for name, why in scatter.ties.items()),
+            *(
+                f"{name} has a derivative on either side only, or none: {why}"
+                for name, why in scatter.ties.items()
+            ),
             *fast_start_warnings(scatter.fast_starts),
             *one_by_one_warnings(scatter.one_by_one),
         ],
