@@ -257,12 +257,15 @@ class _Peaks:
         at, top = extreme
         curve = sign * self.curves[quantity]
         span = float(np.ptp(curve))
-        peaks = np.flatnonzero((curve >= np.roll(curve, 1)) & (curve > np.roll(curve, -1)))
-        peaks = peaks[(curve[peaks] >= top - _DOUBT * span) & (self._apart(self.angles[peaks], at) > _APART)]
-        if not len(peaks):
+        near = np.flatnonzero(curve >= top - _DOUBT * span)
+        before, behind = near - 1, (near + 1) % len(curve)
+        is_peak = (curve[near] >= curve[before]) & (curve[near] > curve[behind])
+        is_peak &= self._apart(self.angles[near], at) > _APART
+        if not is_peak.any():
             return [at]
-        low = np.roll(self.angles, 1)[peaks] - self.cycle * (peaks == 0)
-        high = np.roll(self.angles, -1)[peaks] + self.cycle * (peaks == len(curve) - 1)
+        peaks = near[is_peak]
+        low = self.angles[before[is_peak]] - self.cycle * (peaks == 0)
+        high = self.angles[behind[is_peak]] + self.cycle * (peaks == len(curve) - 1)
         places, heights = self._refined(low, high, quantity, sign)
         angles = [at]
         for angle in places[heights >= top - _TIE * span] % self.cycle:

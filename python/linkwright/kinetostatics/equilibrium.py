@@ -12,12 +12,14 @@ converged the columns of b still add up.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from linkwright.kernel.arrays import Bools, Floats, Indices
 from linkwright.kernel.errors import FindingError
 from linkwright.kernel.limits import FORCES, grouped
+from linkwright.kernel.numerics.tangent_array import primal
 from linkwright.kinetostatics.pairs import PairModel
 from linkwright.kinetostatics.places import Scene
 from linkwright.kinetostatics.wrench import Wrenches
@@ -52,11 +54,6 @@ class Solution:
     locked: Bools
     iterations: int  # linear systems solved at each angle, at most
 
-    def at(self, rows: Indices) -> Solution:
-        """The solution at some of its angles."""
-        x, slopes = self.x[rows], self.slopes[rows]
-        return Solution(x, slopes, self.singular[rows], self.locked[rows], self.iterations)
-
 
 class Equilibrium:
     """The system of a scene.
@@ -67,42 +64,46 @@ class Equilibrium:
         The machine and its motion.
     models : list of PairModel
         Its pairs and drives.
-    loads : ndarray, shape (n, members + 1, 3, sources)
+    loads : list of ndarray, shape (n, members + 1, 3)
         Forces and moments on the members from each source.
+
+    Notes
+    -----
+    Of what carries derivatives, the system has the values.
     """
 
-    def __init__(self, scene: Scene, models: list[PairModel], loads: Floats) -> None:
+    def __init__(self, scene: Scene, models: list[PairModel], loads: list[Floats]) -> None:
         self.models = models
-        self.rows, row_scale = _rows(scene)
+        self.rows, self.row_scale = _rows(scene)
         sizes = [len(model.unknowns) for model in models]
         self.spans = [slice(end - size, end) for size, end in zip(sizes, np.cumsum(sizes), strict=True)]
         moments = np.array([moment for model in models for moment in model.moments])
         self.column_scale = np.where(moments, scene.size, 1.0)
-        _require_room(len(loads), len(self.rows), len(moments))
-        self.base = self._matrix(
-            scene, [unknown for model in models for unknown in model.unknowns], row_scale
-        )
+        _require_room(scene.n, len(self.rows), len(moments))
+        self.base = self._matrix(scene, [unknown for model in models for unknown in model.unknowns])
         self.extras = [
-            None
-            if model.extra is None or not model.is_nonlinear
-            else self._matrix(scene, [model.extra], row_scale)
+            None if model.extra is None or not model.is_nonlinear else self._matrix(scene, [model.extra])
             for model in models
         ]
-        self.b = loads.reshape(len(loads), -1, loads.shape[-1])[:, self.rows] * row_scale[:, None]
+        self.b = np.stack([self.equations(primal(load)) for load in loads], axis=-1)
 
-    def _matrix(self, scene: Scene, columns: list[Wrenches], row_scale: Floats) -> Floats:
+    def equations(self, wrenches: Any) -> Any:
+        """Of forces and moments (n, members + 1, 3) those that must balance, (n, equations)."""
+        return wrenches.reshape(len(wrenches), -1)[:, self.rows] * self.row_scale
+
+    def _matrix(self, scene: Scene, columns: list[Wrenches]) -> Floats:
         """Wrenches as columns, (n, equations, columns); in memory all angles follow each other."""
         # The equations of a member follow each other: two forces, and a moment if it turns.
         members = {name: 3 * i for name, i in scene.index.items() if name != FRAME}
         starts = self.rows.searchsorted([[at, at + 3] for at in members.values()]).tolist()
         spans = dict(zip(members, starts, strict=True))
-        matrix = scene.zeros(len(columns), len(self.rows), scene.n)
+        matrix = np.zeros((len(columns), len(self.rows), scene.n))
         for j, column in enumerate(columns):
             for member, wrench in column.on.items():
                 if member != FRAME:
                     first, last = spans[member]
-                    matrix[j, first:last] = wrench[:, : last - first].T
-        matrix *= row_scale[:, None]
+                    matrix[j, first:last] = primal(wrench)[:, : last - first].T
+        matrix *= self.row_scale[:, None]
         return matrix.T
 
     def solve(self) -> Solution:
@@ -158,20 +159,30 @@ class Equilibrium:
         return slopes, open_, step
 
     def _slopes(self, x: Floats) -> Floats:
+        slopes: Floats = primal(self.slopes_along(x))
+        return slopes
+
+    def slopes_along(self, x: Floats) -> Any:
+        """Extra force of its pair by each unknown, (n, unknowns), with derivatives if the system has some."""
         return np.concatenate(
             [model.slopes(x[:, span]) for model, span in zip(self.models, self.spans, strict=True)], axis=1
         )
 
     # -- the linear system -------------------------------------------------------------------------------
 
-    def _linear(self, slopes: Floats, b: Floats, where: Bools) -> tuple[Floats, Bools]:
-        """x of A x = −b at some angles, (n, unknowns, sources), and where it is unbounded."""
+    def matrix(self, slopes: Floats) -> Floats:
+        """A, (n, equations, unknowns), for unknowns over their scale."""
         A = self.base.copy(order="K")
         for k, span in enumerate(self.spans):
             extra = self.extras[k]
             if extra is not None:
                 A[:, :, span] += extra * slopes[:, None, span]
         A *= self.column_scale
+        return A
+
+    def _linear(self, slopes: Floats, b: Floats, where: Bools) -> tuple[Floats, Bools]:
+        """x of A x = −b at some angles, (n, unknowns, sources), and where it is unbounded."""
+        A = self.matrix(slopes)
         is_everywhere = bool(where.all())
         if not is_everywhere:
             A, b = A[where], b[where]

@@ -20,7 +20,6 @@ from numpy.typing import ArrayLike
 from linkwright.drive.model.drive import Drive
 from linkwright.drive.steady_state import SteadyState
 from linkwright.drive.transient import Transient
-from linkwright.kernel.arrays import Floats
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.units import ANGLE, Bound, Quantity
@@ -112,7 +111,7 @@ def forces(
     )
     models, sources = acting(scene, friction or {}, pressure_angle)
     columns = sources if contributions else {"": together(scene, sources.values())}
-    solution, _ = solved(scene, models, columns)
+    solution = solved(scene, models, columns)[1]
     result = Collector(scene, models, sources, columns, solution).forces()
     if has_axial(machine):
         result = replace(result, shaking_couple=inertia_force_and_couple(scene)[1])
@@ -129,20 +128,19 @@ def acting(
 
 def equilibrium(scene: Scene, models: list[PairModel], columns: Mapping[str, AppliedLoad]) -> Equilibrium:
     """The linear systems of pairs and drives under loads."""
-    return Equilibrium(
-        scene, models, np.stack([column.wrenches.values for column in columns.values()], axis=-1)
-    )
+    return Equilibrium(scene, models, [column.wrenches.values for column in columns.values()])
 
 
 def solved(
     scene: Scene, models: list[PairModel], columns: Mapping[str, AppliedLoad]
-) -> tuple[Solution, Floats]:
-    """The unknowns, with second contacts of cams where the first would have to pull, and those without."""
-    solution = equilibrium(scene, models, columns).solve()
-    without = solution.x.sum(axis=-1)
-    if with_pulls(scene, models, without):
-        solution = equilibrium(scene, models, columns).solve()
-    return solution, without
+) -> tuple[Equilibrium, Solution]:
+    """The systems, with second contacts of cams where the first would have to pull, and their solution."""
+    system = equilibrium(scene, models, columns)
+    solution = system.solve()
+    if with_pulls(scene, models, solution.x.sum(axis=-1)):
+        system = equilibrium(scene, models, columns)
+        solution = system.solve()
+    return system, solution
 
 
 def _sources(scene: Scene, models: list[PairModel]) -> dict[str, AppliedLoad]:

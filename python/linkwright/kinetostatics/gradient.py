@@ -19,17 +19,17 @@ import numpy as np
 
 from linkwright.drive.gradient import gradient_along, solved_along
 from linkwright.drive.model.motor import ConstantSpeedMotor
-from linkwright.drive.steady_state import SteadyState, solved_state
-from linkwright.kernel.arrays import Bools, Floats, Indices
+from linkwright.drive.steady_state import solved_state
+from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.numerics.tangent import Tangent
-from linkwright.kernel.numerics.tangent_array import TangentArray, lifted
-from linkwright.kinetostatics.applied import together
+from linkwright.kernel.numerics.tangent_array import TangentArray, lifted, primal
+from linkwright.kinetostatics.applied import AppliedLoad, together
 from linkwright.kinetostatics.collect import Collector
 from linkwright.kinetostatics.equilibrium import Equilibrium, Solution
-from linkwright.kinetostatics.forces import acting, equilibrium, solved
+from linkwright.kinetostatics.forces import acting, solved
 from linkwright.kinetostatics.motion import Motion, motion_at
-from linkwright.kinetostatics.pairs import with_pulls
 from linkwright.kinetostatics.places import Scene
+from linkwright.kinetostatics.wrench import Wrenches
 from linkwright.linkages.closure import over_whole_cycle
 from linkwright.linkages.kinematics import kinematics_along
 from linkwright.linkages.model.structure import Structure, structure
@@ -72,36 +72,35 @@ def force_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     """
     entries = _entries(machine, variables)
     program = entries.program
-    motion, solution = motion_at(machine, _state(machine)), _solution(machine, program)
-    result = _Balance(machine, motion)
-    curves = result.curves()
-    nothing = _rounding(result, curves)
+    solution = _solution(machine, program)
+    kinks = Kinks(machine, program, solution)
+    motion, is_beside = _motion_and_sides(machine, kinks)
+    scene = Scene(machine, motion)
+    curves = {
+        name: (curve[~is_beside], curve[is_beside]) for name, curve in _curves(_collected(scene)).items()
+    }
+    angles, beside = motion.crank_angle[~is_beside], motion.crank_angle[is_beside]
+    sizes = np.abs(np.stack([curve for curve, _ in curves.values()]))
+    peaks = dict(zip(curves, np.nanmax(sizes, axis=1).tolist(), strict=True))
+    nothing = _rounding(scene, peaks)
     missing = {
         name: "it is zero but for rounding"
-        for name, curve in curves.items()
-        if np.nanmax(np.abs(curve)) <= nothing["torque" if name.startswith("torque") else "force"]
+        for name, peak in peaks.items()
+        if peak <= nothing["torque" if name.startswith("torque") else "force"]
     }
-    places = {name: int(np.nanargmax(np.abs(curve))) for name, curve in curves.items() if name not in missing}
+    at_peaks = zip(curves, np.nanargmax(sizes, axis=1).tolist(), strict=True)
+    places = {name: place for name, place in at_peaks if name not in missing}
     if not places:
         return Derivatives(program.variables, {}, {}, missing, program.refused)
-    angles, kinks = motion.crank_angle, Kinks(machine, program, solution)
-    at, beside = angles[np.unique(list(places.values()))], kinks.beside(angles)
-    # Extremes and both sides of kinks in one system.
-    phi = np.unique(np.concatenate([at, beside]))
-    if solution is None:
-        there = _Balance(machine, motion_at(machine, None, speed=float(motion.speed[0]), angles=phi))
-    else:
-        there = _Balance(machine, _read(solution, phi))
-    rows = np.searchsorted(phi, at)
-    along, lost = _motion_along(machine, _at_rows(there.scene.motion, rows), entries, solution)
-    tangents, sizes = there.along(rows, along, entries).curves(), there.curves()
+    at = angles[np.unique(list(places.values()))]
+    along, lost = _motion_along(machine, _there(machine, solution, motion, at), entries, solution)
+    tangents = _curves(_collected(_SceneAlong(machine, along, entries)))
     extremes, ties = {}, {}
     for name, place in places.items():
-        curve, angle = curves[name], float(angles[place])
+        (curve, sides), angle = curves[name], float(angles[place])
         tangent = tangents[name][int(np.searchsorted(at, angle))].number()
         moving = kinks.moved_at(angle)
-        size = np.abs(sizes[name])[np.searchsorted(phi, beside)]
-        larger = beside[size > abs(curve[place]) * (1.0 + _TIE)].tolist()
+        larger = beside[np.abs(sides) > peaks[name] * (1.0 + _TIE)].tolist()
         for other in larger:
             moving = moving | kinks.moved_at(other)
         # The extreme is that of the result to the last digit; the tangent's is worked out anew.
@@ -125,7 +124,7 @@ def drive_forces_along(
     solution = _solution(machine, program)
     motion = motion_at(machine, None, angles=angles) if solution is None else _read(solution, angles)
     along, lost = _motion_along(machine, motion, entries, solution)
-    drives = _Balance(machine, motion).along(np.arange(len(angles)), along, entries).collector.drives()
+    drives = _collected(_SceneAlong(machine, along, entries)).drives()
     return program, drives, lost, Kinks(machine, program, solution)
 
 
@@ -146,8 +145,8 @@ def drive_torque_along(
     speed: Any = lifted(given * lifted(np.ones(len(angles)), n), n)
     still: Any = lifted(motion.acceleration, n)
     along = replace(motion, speed=speed, acceleration=still, time=motion.crank_angle / speed)
-    there = _Balance(machine, motion).along(np.arange(len(angles)), along, entries)
-    return program, there.curves()["torque_drive_max"], Kinks(machine, program, None)
+    torque, _ = _collected(_SceneAlong(machine, along, entries)).drive_and_frame()
+    return program, torque, Kinks(machine, program, None)
 
 
 def _entries(machine: Machine, variables: Sequence[str]) -> _Entries:
@@ -168,10 +167,18 @@ def _described(along: Machine) -> tuple[Machine, Structure]:
 _MOTION = ("crank_angle", "speed", "acceleration", "time")
 
 
-def _state(machine: Machine) -> SteadyState | None:
-    """The steady motion of `forces`; None where the speed is given."""
+def _motion_and_sides(machine: Machine, kinks: Kinks) -> tuple[Motion, Bools]:
+    """The motion of `forces`, and both sides of the kinks that lie on its angles; which angles are sides."""
     has_motor = machine.drive is not None and machine.drive.motor is not None
-    return solved_state(machine, _ACCURACY, _N)[0] if has_motor else None
+    state, solution = solved_state(machine, _ACCURACY, _N) if has_motor else (None, None)
+    motion = motion_at(machine, state)
+    beside = kinks.beside(motion.crank_angle)
+    if not len(beside):
+        return motion, np.zeros(len(motion.crank_angle), dtype=bool)
+    sides = _there(machine, solution, motion, beside)
+    order = np.argsort(np.concatenate([motion.crank_angle, beside]), kind="stable")
+    both = (np.concatenate([getattr(motion, name), getattr(sides, name)])[order] for name in _MOTION)
+    return Motion(*both), order >= len(motion.crank_angle)
 
 
 def _solution(machine: Machine, program: Directions) -> SteadySolution | None:
@@ -183,20 +190,26 @@ def _solution(machine: Machine, program: Directions) -> SteadySolution | None:
     return solved_along(machine, program)[1]
 
 
+def _there(machine: Machine, solution: SteadySolution | None, motion: Motion, angles: Floats) -> Motion:
+    """A motion that is solved, or at the speed of another one, at some crank angles."""
+    if solution is None:
+        return motion_at(machine, None, speed=float(motion.speed[0]), angles=angles)
+    return _read(solution, angles)
+
+
 def _read(solution: SteadySolution, angles: Floats) -> Motion:
     """The motion that derivatives are of: what is left of large torques needs both from one mesh."""
     read = solution.curves(angles)
     return Motion(angles, read.speed, read.acceleration, read.time)
 
 
-def _rounding(result: _Balance, curves: Mapping[str, Floats]) -> dict[str, float]:
+def _rounding(scene: Scene, peaks: Mapping[str, float]) -> dict[str, float]:
     """Torque [N m] and force [N] that are rounding in a motion of a machine."""
     # They follow the acceleration, which is what the torque of the motor and that of the loads leave: the
     # torque is known to rounding of the speed times its slope, however small it is.
-    size, peaks = result.scene.size, {name: float(np.nanmax(np.abs(curve))) for name, curve in curves.items()}
     force = max(peak for name, peak in peaks.items() if "torque" not in name)
-    torque = max(force * size, peaks["torque_drive_max"], _motor_change(result.scene))
-    return {"torque": _NOTHING * torque, "force": _NOTHING * torque / size}
+    torque = max(force * scene.size, peaks["torque_drive_max"], _motor_change(scene))
+    return {"torque": _NOTHING * torque, "force": _NOTHING * torque / scene.size}
 
 
 def _motor_change(scene: Scene) -> float:
@@ -213,14 +226,14 @@ def _motor_change(scene: Scene) -> float:
 
 def tied(size: Floats, place: int, angles: Floats) -> str:
     """Where a curve is as large as at its extreme; empty if nowhere."""
-    span = float(np.nanmax(size) - np.nanmin(size))
-    others = np.flatnonzero(size >= size[place] - _TIE * span)
+    span = float(size[place] - np.nanmin(size))
+    others = angles[size >= size[place] - _TIE * span]
     turn = round(float(angles[-1] - angles[0]) / (2 * np.pi)) * 2 * np.pi
-    off = np.abs(angles - angles[place])
-    apart = [i for i in others if min(off[i], abs(off[i] - turn)) > _ON_KINK]
-    if not apart or span == 0.0:
+    off = np.abs(others - angles[place])
+    apart = others[np.minimum(off, np.abs(off - turn)) > _ON_KINK]
+    if not len(apart) or span == 0.0:
         return "" if span else "it is the same at all angles"
-    return f"it is reached at {np.degrees(angles[place]):.4g}° and {np.degrees(angles[apart[0]]):.4g}°"
+    return f"it is reached at {np.degrees(angles[place]):.4g}° and {np.degrees(apart[0]):.4g}°"
 
 
 class Kinks:
@@ -263,11 +276,6 @@ class Kinks:
         )
 
 
-def _at_rows(motion: Motion, rows: Indices) -> Motion:
-    """A motion at some of its angles."""
-    return Motion(*(getattr(motion, name)[rows] for name in _MOTION))
-
-
 def _motion_along(
     machine: Machine, motion: Motion, entries: _Entries, solution: SteadySolution | None
 ) -> tuple[Motion, dict[str, float]]:
@@ -293,56 +301,32 @@ def _motion_along(
 
 
 class _SceneAlong(Scene):
-    """A machine at some angles of a scene, with derivatives of all that is worked out."""
+    """A machine at the angles of a motion, with derivatives of all that is worked out.
 
-    def __init__(self, scene: Scene, rows: Indices, motion: Motion, entries: _Entries) -> None:
+    `motion`: the motion with its derivatives.
+    """
+
+    def __init__(self, machine: Machine, motion: Motion, entries: _Entries) -> None:
+        self.n_variables = len(entries.program.variables)
+        super().__init__(machine, motion)
+        self.kinematics = kinematics_along(machine, self.kinematics, entries.program.values)
         self.machine, self.structure = entries.machine, entries.structure
         self.mechanism = self.machine.linkage
-        self.motion = motion
         self.links = self.mechanism.links()
-        self.kinematics = kinematics_along(scene.machine, scene.kinematics, entries.program.values, rows)
-        self.n, self.index, self.size = len(rows), scene.index, scene.size
-        self.n_variables = len(entries.program.variables)
-        self._still = self.zeros(self.n, 2)
 
     def zeros(self, *shape: int) -> Any:
         """An array to be filled with what follows from the machine."""
         return TangentArray(np.zeros(shape), np.zeros((*shape, self.n_variables)))
 
 
-class _Balance:
-    """The equilibrium of a machine at the angles of a motion."""
-
-    def __init__(self, machine: Machine, motion: Motion) -> None:
-        self.scene = Scene(machine, motion)
-        models, sources = acting(self.scene, {})
-        columns = {"": together(self.scene, sources.values())}
-        self.solution, self.without = solved(self.scene, models, columns)
-        self.collector = Collector(self.scene, models, sources, columns, self.solution)
-
-    def along(self, rows: Indices, motion: Motion, entries: _Entries) -> _BalanceAlong:
-        """The same at some of the angles with derivatives; `motion` has those of the motion there."""
-        return _BalanceAlong(self, rows, motion, entries)
-
-    def curves(self) -> dict[str, Any]:
-        """What is differentiated where it is largest."""
-        return _curves(self.collector)
-
-
-class _BalanceAlong:
-    """The same with derivatives."""
-
-    def __init__(self, of: _Balance, rows: Indices, motion: Motion, entries: _Entries) -> None:
-        scene = _SceneAlong(of.scene, rows, motion, entries)
-        models, sources = acting(scene, {})
-        with_pulls(scene, models, of.without[rows])
-        columns = {"": together(scene, sources.values())}
-        solution = _along(equilibrium(scene, models, columns), of.solution.at(rows))
-        self.collector = Collector(scene, models, sources, columns, solution)
-
-    def curves(self) -> dict[str, Any]:
-        """What is differentiated where it is largest."""
-        return _curves(self.collector)
+def _collected(scene: Scene) -> Collector:
+    """The forces of a scene, with derivatives where it has some."""
+    models, sources = acting(scene, {})
+    columns = {"": together(scene, sources.values())}
+    system, solution = solved(scene, models, columns)
+    if isinstance(scene, _SceneAlong):
+        solution = _along(system, solution, columns[""])
+    return Collector(scene, models, sources, columns, solution)
 
 
 def _curves(of: Collector) -> dict[str, Any]:
@@ -352,23 +336,21 @@ def _curves(of: Collector) -> dict[str, Any]:
     return curves | {f"reaction_max.{name}": np.hypot(force[:, 0], force[:, 1]) for name, force in reactions}
 
 
-def _along(system: Equilibrium, solution: Solution) -> Solution:
+def _along(system: Equilibrium, solution: Solution, load: AppliedLoad) -> Solution:
     """The unknowns with their derivatives, A dx = −(db + dA x)."""
     x = solution.x.sum(axis=-1)
     # The extra forces are homogeneous of degree one: slopes times x, with x held.
-    slopes: Any = np.concatenate(
-        [model.slopes(x[:, span]) for model, span in zip(system.models, system.spans, strict=True)], axis=1
-    )
-    A: Any = system.base
-    for k, span in enumerate(system.spans):
-        extra: Any = system.extras[k]
-        if extra is not None:
-            A = A.copy()
-            A[:, :, span] = A[:, :, span] + extra * slopes[:, None, span]
-    left = np.einsum("nij,nj->ni", A, x) + system.b.sum(axis=-1)
+    slopes = system.slopes_along(x)
+    left = Wrenches(load.wrenches.scene).add(load.wrenches)
+    for model, span in zip(system.models, system.spans, strict=True):
+        for unknown, force in zip(model.unknowns, x[:, span].T, strict=True):
+            left.add(unknown, force)
+        if model.is_nonlinear and model.extra is not None:
+            left.add(model.extra, (slopes[:, span] * x[:, span]).sum(axis=-1))
+    change = system.equations(left.values).d
     size = system.column_scale
     usable = ~(solution.singular | solution.locked)
-    d = np.full((*x.shape, left.d.shape[-1]), np.nan)
-    d[usable] = np.linalg.solve(A.value[usable] * size, -left.d[usable]) * size[:, None]
+    d = np.full((*x.shape, change.shape[-1]), np.nan)
+    d[usable] = np.linalg.solve(system.matrix(primal(slopes))[usable], -change[usable]) * size[:, None]
     followed: Any = TangentArray(x, d)
     return replace(solution, x=followed[:, :, None], slopes=slopes)

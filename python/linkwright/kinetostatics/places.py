@@ -58,6 +58,7 @@ class Scene:
         self.n = len(motion.crank_angle)
         self.index = {name: i for i, name in enumerate((*self.structure.members, FRAME))}
         self._still = self.zeros(self.n, 2)
+        self._rates: dict[str, Floats] = {}
         lengths = [link.length for link in self.links.values() if link.length]
         # Any length of the mechanism's size makes forces and moments comparable.
         self.size = float(np.mean(lengths)) if lengths else 1.0
@@ -105,14 +106,12 @@ class Scene:
         squares: Floats = self.motion.speed[:, None] ** 2
         return squares
 
-    @cached_property
-    def rates(self) -> Floats:
-        """First derivatives of the members' places and angles, (n, members + 1, 3); zero for the frame."""
-        rates = self.zeros(self.n, len(self.index), 3)
-        for name, i in self.index.items():
-            if name != FRAME:
-                rates[:, i, :2], rates[:, i, 2] = self.reference(name, 1), self.turning(name)
-        return rates
+    def rate(self, member: str) -> Floats:
+        """First derivatives of a member's place and angle, (n, 3)."""
+        if member not in self._rates:
+            rate = self._rates[member] = self.zeros(self.n, 3)
+            rate[:, :2], rate[:, 2] = self.reference(member, 1), self.turning(member)
+        return self._rates[member]
 
     def moved(self, member: str, place: Floats) -> Floats:
         """First derivative, by the crank angle, of the place (n, 2) as a point of a member."""

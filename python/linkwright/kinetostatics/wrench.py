@@ -126,7 +126,8 @@ class Wrenches:
         """Σ F·p′ + M ψ′ over the members, (n,) [N m]; times the speed it is power."""
         total = self.scene.zeros(self.scene.n)
         for member, wrench in self.on.items():
-            total = total + np.einsum("nc,nc->n", wrench, self.scene.rates[:, self.scene.index[member]])
+            if member != FRAME:
+                total = total + np.einsum("nc,nc->n", wrench, self.scene.rate(member))
         return total
 
 

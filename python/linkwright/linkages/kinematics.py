@@ -10,7 +10,7 @@ from typing import Annotated, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkwright.kernel.arrays import Floats, Indices
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import MachineError, Problem, ShapeError
 from linkwright.kernel.numerics.tangent_array import TangentArray
 from linkwright.kernel.public import public
@@ -145,22 +145,20 @@ def with_third(compiled: CompiledMachine, kinematics: Kinematics, what: list[tup
     return Kinematics(kinematics.angles, **parts)
 
 
-def kinematics_along(machine: Machine, motion: Kinematics, directions: Floats, rows: Indices) -> Kinematics:
+def kinematics_along(machine: Machine, motion: Kinematics, directions: Floats) -> Kinematics:
     """A motion of a machine with its derivatives by directions of the program's numbers (parameters, k).
 
-    The attributes of points, links and slides are arrays of tangents, at fixed crank angles: at some `rows`
-    of those of the motion.
+    The attributes of points, links and slides are arrays of tangents, at fixed crank angles.
     """
-    compiled, angles = compile_machine(machine), motion.angles[rows]
+    compiled = compile_machine(machine)
     what = everything(compiled)
-    table = rows_along(compiled, angles, what, directions)
+    table = rows_along(compiled, motion.angles, what, directions)
     parts: dict[str, dict[str, Any]] = {part: {} for part in _WIDTHS}
     at = 0
     for part, name in what:
-        own = getattr(motion, part)[name]
-        parts[part][name] = _along(part, own, rows, table[at : at + _WIDTHS[part]])
+        parts[part][name] = _along(part, getattr(motion, part)[name], table[at : at + _WIDTHS[part]])
         at += _WIDTHS[part]
-    return Kinematics(angles, **parts)
+    return Kinematics(motion.angles, **parts)
 
 
 def rows_along(
@@ -172,19 +170,18 @@ def rows_along(
     return compiled.motions_along(directions, angles, channels)
 
 
-def _along(part: str, motion: Any, rows: Indices, table: Floats) -> Any:
-    """A part's motion at some rows with derivatives, in the order of the core's rows."""
+def _along(part: str, motion: Any, table: Floats) -> Any:
+    """A part's motion with derivatives, in the order of the core's rows."""
     array: Any = TangentArray
-    d1, d2 = motion.d1[rows], motion.d2[rows]
     if part == "points":
         d = [table[k : k + 2].swapaxes(0, 1) for k in (0, 2, 4)]
-        return PointMotion(*map(array, (motion.position[rows], d1, d2), d))
+        return PointMotion(*map(array, (motion.position, motion.d1, motion.d2), d))
     if part == "slides":
-        return SlideMotion(*map(array, (motion.position[rows], d1, d2), table))
+        return SlideMotion(*map(array, (motion.position, motion.d1, motion.d2), table))
     # Of a unit vector e: dψ = e × de.
-    angle = motion.angle[rows]
-    cos, sin = np.cos(angle)[:, None], np.sin(angle)[:, None]
-    return LinkMotion(array(angle, cos * table[1] - sin * table[0]), array(d1, table[2]), array(d2, table[3]))
+    cos, sin = np.cos(motion.angle)[:, None], np.sin(motion.angle)[:, None]
+    angle = array(motion.angle, cos * table[1] - sin * table[0])
+    return LinkMotion(angle, array(motion.d1, table[2]), array(motion.d2, table[3]))
 
 
 def checked_angles(angles: ArrayLike) -> Floats:

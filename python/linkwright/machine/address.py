@@ -6,7 +6,7 @@ batch describes many machines at once. A table that is exchanged is checked by i
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from numbers import Number
 from typing import Any
 
@@ -39,7 +39,9 @@ def addresses(machine: Machine) -> dict[str, float]:
     dict of str to float
         Address → value in SI. The values of a list have addresses of their own, ``loads.press.forward.0``.
     """
-    return {join(place): value for place, value in _numbers(machine, ()) if place != ("format",)}
+    listed = {join(place): (place, value) for place, value in _numbers(machine, ()) if place != ("format",)}
+    _known_places(machine).update((address, place) for address, (place, _) in listed.items())
+    return {address: value for address, (_, value) in listed.items()}
 
 
 @public
@@ -62,10 +64,15 @@ def get(machine: Machine, address: str) -> Any:
     MachineError
         There is no such entry.
     """
+    return entry_of(machine, address)
+
+
+def entry_of(machine: Machine, address: str) -> Any:
+    """The same for whoever has checked what it asks for."""
     return entry_at(machine, known_place(machine, address))
 
 
-def entry_at(machine: Machine, place: tuple[str, ...]) -> Any:
+def entry_at(machine: Machine, place: Sequence[str]) -> Any:
     """What stands below some keys."""
     node: Any = machine
     for key in place:
@@ -77,7 +84,13 @@ def kind(machine: Machine, address: str) -> Kind | None:
     """The quantity that stands at an address. Returns: its kind with unit; None if the entry is no quantity.
     Raises MachineError: there is no such entry.
     """
-    mark = mark_of(annotation_at(Machine, known_place(machine, address), machine))
+    place = known_place(machine, address)
+    owner = entry_at(machine, place[:-1])
+    # A description that has been read is of one class, whatever its table may be.
+    is_table = isinstance(owner, Description)
+    mark = mark_of(
+        annotation_at(type(owner), place[-1:]) if is_table else annotation_at(Machine, place, machine)
+    )
     return mark.kind if mark else None
 
 
@@ -129,12 +142,11 @@ def _exchanged(machine: Machine, entries: Mapping[tuple[str, ...], Any]) -> Mach
 def is_given(machine: Machine, address: str) -> bool:
     """Whether an entry stands in the file or has its default, and does not follow from others."""
     *above, last = known_place(machine, address)
-    owner = entry_at(machine, tuple(above))
+    owner = entry_at(machine, above)
     if not isinstance(owner, Description):
         return True
     name = field_names(type(owner))[last]
-    default = type(owner).model_fields[name].default
-    return name in owner.model_fields_set or entry_at(machine, (*above, last)) == default
+    return name in owner.model_fields_set or getattr(owner, name) == type(owner).model_fields[name].default
 
 
 def resolve(node: object, address: str) -> tuple[str, ...]:
@@ -146,7 +158,8 @@ def resolve(node: object, address: str) -> tuple[str, ...]:
     parts = split(address)
     addresses: list[str] = []
     while parts:
-        known = keys(node)
+        # Keys with points are names, which only tables have.
+        known = node if isinstance(node, Mapping) else ()
         n = next((n for n in range(len(parts), 1, -1) if ".".join(parts[:n]) in known), 1)
         key = ".".join(parts[:n])
         addresses.append(key)
@@ -160,20 +173,26 @@ _asked: tuple[Machine | None, dict[str, tuple[str, ...]]] = (None, {})
 
 def known_place(machine: Machine, address: str) -> tuple[str, ...]:
     """The keys that an address means; an error if there is no such entry."""
-    global _asked
-    asked, places = _asked
-    if asked is not machine:
-        asked, places = _asked = machine, {}
+    places = _known_places(machine)
     if address not in places:
         places[address] = _found_place(machine, address)
     return places[address]
+
+
+def _known_places(machine: Machine) -> dict[str, tuple[str, ...]]:
+    """Addresses of a machine whose keys are known."""
+    global _asked
+    if _asked[0] is not machine:
+        _asked = machine, {}
+    return _asked[1]
 
 
 def _found_place(machine: Machine, address: str) -> tuple[str, ...]:
     place = resolve(machine, address)
     node: Any = machine
     for nth, key in enumerate(place):
-        if key not in keys(node):
+        below = look(node, key)
+        if below is None and key not in keys(node):
             # A table that is left out stands in the machine without a value.
             table = join(place[:nth])
             remedy = (
@@ -182,7 +201,7 @@ def _found_place(machine: Machine, address: str) -> tuple[str, ...]:
                 else suggestion(join(place), addresses(machine))
             )
             raise MachineError([Problem(address, "no such entry", "the address of an entry", remedy)])
-        node = look(node, key)
+        node = below
     return place
 
 
@@ -268,7 +287,10 @@ def _rebuilt(node: Any, tree: dict[str, Any] | _Leaf) -> Any:
     """The node with new values in it; the parts between are copied, the others shared."""
     if isinstance(tree, _Leaf):
         return held(tree.value)
-    new = {key: _rebuilt(look(node, key), below) for key, below in tree.items()}
+    new = {
+        key: _rebuilt(None if isinstance(below, _Leaf) else look(node, key), below)
+        for key, below in tree.items()
+    }
     if isinstance(node, Description):
         names = field_names(type(node))
         return node.with_entries({names[key]: value for key, value in new.items()})

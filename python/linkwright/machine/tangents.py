@@ -17,7 +17,7 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import LinkwrightError
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.kernel.numerics.tangent_array import TangentArray
-from linkwright.machine.address import entry_at, exchanged, get, is_given, known_place
+from linkwright.machine.address import entry_at, entry_of, exchanged, is_given, known_place
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import Translation, compile_machine
 from linkwright.machine.program.mechanism import MechanismProgram
@@ -81,7 +81,7 @@ def _derived(
     machine: Machine, names: Sequence[str], numbers: Callable[[Machine], Sequence[Any]]
 ) -> dict[str, Floats]:
     seeds = {
-        name: Tangent(float(get(machine, name)), unit)
+        name: Tangent(float(entry_of(machine, name)), unit)
         for name, unit in zip(names, np.eye(len(names)), strict=True)
     }
     listed = numbers(exchanged(machine, seeds))
@@ -158,7 +158,7 @@ def directions(
     values = np.zeros((len(compiled.parameters), len(known)))
     for place, name in enumerate(known):
         values[: len(derivatives[name]), place] = derivatives[name]
-    sizes = np.array([abs(float(get(machine, name))) or 1.0 for name in known])
+    sizes = np.array([abs(float(entry_of(machine, name))) or 1.0 for name in known])
     directions = Directions(known, values, sizes, refused)
     # Several analyses of a machine ask for the same ones.
     compiled.kept["directions"] = asked, directions
@@ -218,7 +218,7 @@ def seeded(machine: Machine, names: Sequence[str]) -> Machine:
     """
     units = dict(zip(names, np.eye(len(names)), strict=True))
     seeds: dict[str, Any] = {
-        name: TangentArray(float(get(machine, name)), unit) for name, unit in units.items()
+        name: TangentArray(float(entry_of(machine, name)), unit) for name, unit in units.items()
     }
     following = [name for name in names if not is_given(machine, name)]
     alone = [exchanged(machine, {name: seeds[name] for name in names if name not in set(following)})]

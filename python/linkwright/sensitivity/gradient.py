@@ -23,7 +23,7 @@ from linkwright.kernel.errors import FindingError, InputError, MachineError, cut
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About
 from linkwright.kernel.result import Result
-from linkwright.machine.address import addresses, get, kind
+from linkwright.machine.address import addresses, entry_of, kind
 from linkwright.machine.machine import Machine
 from linkwright.sensitivity.sources import SOURCES, Source, analysis_of, chosen, source, usual_analysis
 
@@ -174,7 +174,7 @@ def gradient(
         units=tuple(source.units[name] for source, name in asked_of),
         variable_units=tuple(_unit(machine, name) for name in known),
         values=np.array([source.tangents[name].value for source, name in asked_of]),
-        at=np.array([float(get(machine, name)) for name in known]),
+        at=np.array([float(entry_of(machine, name)) for name in known]),
         derivatives=np.concatenate([_rows(*of, known) for of in _by_source(asked_of)]),
         ties={name: source.ties[name] for source, name in asked_of if name in source.ties},
         refused=refused,
@@ -192,7 +192,7 @@ def _entries(machine: Machine, variables: Sequence[str]) -> tuple[str, ...]:
     known = addresses(machine)
     for name in variables:
         try:
-            value = get(machine, name)
+            value = entry_of(machine, name)
         except MachineError:
             remedy = "; ".join(filter(None, ["the address of a number", suggestion(name, known)]))
             raise InputError(f'variables: found "{cut(name)}", expected {remedy}') from None

@@ -157,11 +157,7 @@ class _Search:
             return slopes
         if exact.variables:
             motion = kinematics(machine, [self.angle])
-            along: Any = (
-                kinematics_along(machine, motion, exact.values, np.arange(len(motion.angles)))
-                .points[self.point]
-                .position
-            )
+            along: Any = kinematics_along(machine, motion, exact.values).points[self.point].position
             slopes[:, [self.free.index(name) for name in exact.variables]] = along.d[0]
         for n, address in enumerate(self.free):
             if address in exact.refused:

@@ -9,8 +9,8 @@ checked even where its tables could not be turned into models. Both are read thr
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
-from functools import cache
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from functools import cache, lru_cache
 from typing import Any
 
 import numpy as np
@@ -23,6 +23,7 @@ _PART = re.compile(r"""\s*(?:"([^"]*)"|'([^']*)'|([^."'\s][^."']*?))\s*(\.|$)"""
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
 
 
+@lru_cache(maxsize=1024)
 def split(address: str) -> tuple[str, ...]:
     """The parts of an address, without quotes; an `InputError` if the text is none.
 
@@ -63,12 +64,12 @@ def _names_of(kind: type) -> dict[str, str] | None:
     return field_names(kind) if issubclass(kind, BaseModel) else None
 
 
-def keys(node: object) -> tuple[str, ...]:
+def keys(node: object) -> Collection[str]:
     """The keys of a table, of a model, or the places of a list; nothing for a value."""
     kind: Any = type(node)
     names = _names_of(kind)
     if names is not None:
-        return tuple(names)
+        return names.keys()
     if isinstance(node, Mapping):
         return tuple(key for key in node if isinstance(key, str))
     if isinstance(node, list | tuple):

@@ -67,7 +67,7 @@ class TangentArray:
         return TangentArray(self.value[key], self.d[_with_lanes(key)])
 
     def __setitem__(self, key: Any, new: Any) -> None:
-        if type(new) is float:
+        if not isinstance(new, TangentArray) and _is_simple(new):
             self.value[key], self.d[_with_lanes(key)] = new, 0.0
             return
         new = _lifted(new, self.d.shape[-1])
@@ -121,10 +121,10 @@ class TangentArray:
             result = own(*inputs)
             if result is not None:
                 return result
+        if ufunc.__name__ in _OF_VALUES:
+            return ufunc(*(primal(_simple(x, self.d.shape[-1])) for x in inputs))
         arrays = [_lifted(x, self.d.shape[-1]) for x in inputs]
         values = [x.value for x in arrays]
-        if ufunc.__name__ in _OF_VALUES:
-            return ufunc(*values)
         if len(inputs) == 1 and ufunc.__name__ in _SLOPES:
             value, slope = _SLOPES[ufunc.__name__](values[0])
             return TangentArray(value, _times(slope, arrays[0].d))
@@ -256,7 +256,7 @@ def _operator(ufunc: Any, *, turned: bool = False) -> Callable[..., Any]:
 
     def apply(self: TangentArray, *others: Any) -> Any:
         inputs = (*others, self) if turned else (self, *others)
-        if own is not None and all(map(_is_simple, others)):
+        if own is not None and (not others or _is_simple(others[0])):
             result = own(*inputs)
             if result is not None:
                 return result
@@ -315,11 +315,17 @@ def _lifted(x: Any, n: int) -> TangentArray:
     return TangentArray(value, np.array([entry.d for entry in numbers]).reshape((*values.shape, n)))
 
 
+def _simple(x: Any, n: int) -> Any:
+    """A number or an array with derivatives in one array, or none."""
+    return x if _is_simple(x) else _lifted(x, n)
+
+
 def _with_lanes(key: Any) -> Any:
     """An index of the values as one of the derivatives, whose last axis is that of the variables."""
-    if not isinstance(key, tuple):
-        return (key, slice(None)) if key is Ellipsis else key
-    return (*key, slice(None)) if any(entry is Ellipsis for entry in key) else key
+    for entry in key if isinstance(key, tuple) else (key,):
+        if entry is Ellipsis:
+            return (*key, slice(None)) if isinstance(key, tuple) else (key, slice(None))
+    return key
 
 
 def _lanes(arrays: Sequence[Any]) -> int:
@@ -425,16 +431,16 @@ def _where(condition: Any, first: Any, second: Any) -> TangentArray:
 
 def _einsum(subscripts: str, *arrays: Any) -> TangentArray:
     """The product rule; the letter z is that of the variables."""
-    n = _lanes(arrays)
-    all_of = [_lifted(x, n) for x in arrays]
+    simple = [_simple(x, _lanes(arrays)) for x in arrays]
+    values = [primal(x) for x in simple]
     names, out = subscripts.split("->")
     terms = names.split(",")
     d: Any = 0.0
-    for k, array in enumerate(all_of):
-        parts = [name + "z" if k == i else name for i, name in enumerate(terms)]
-        operands = [array.d if k == i else x.value for i, x in enumerate(all_of)]
-        d = d + np.einsum(f"{','.join(parts)}->{out}z", *operands)
-    return TangentArray(np.einsum(subscripts, *(x.value for x in all_of)), d)
+    for k, array in enumerate(simple):
+        if isinstance(array, TangentArray):
+            parts = [name + "z" if k == i else name for i, name in enumerate(terms)]
+            d = d + np.einsum(f"{','.join(parts)}->{out}z", *values[:k], array.d, *values[k + 1 :])
+    return TangentArray(np.einsum(subscripts, *values), d)
 
 
 def _interp(x: Any, knots: Any, heights: Any, period: float | None = None) -> TangentArray:

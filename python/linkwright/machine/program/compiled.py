@@ -44,12 +44,12 @@ class Translation:
         self.bodies = bodies_of(machine, self.program)
         self.loads = Loads(machine, self.program).all(brake=brake)
         self.drive = drive_of(machine, self.program, motor=motor)
-        self.n_rows = _row_count(machine)
+        self.machine = machine
 
     @cached_property
     def assembly(self) -> InitialAssembly:
         """The program with all that follows from the motion filled in."""
-        columns = _columns(self.program.parameters, self.program.varying, self.n_rows)
+        columns = _columns(self.program.parameters, self.program.varying, _row_count(self.machine))
         assembly = InitialAssembly(self.program, columns, self._plan)
         assembly.run()
         return assembly
