@@ -148,7 +148,7 @@ pub trait Real:
 const TANH_NEAR: f64 = 0.5;
 
 /// Most lanes of a bundle.
-const LANES_MAX: usize = 16;
+pub const LANES_MAX: usize = 16;
 
 /// The first lanes of a list, zeros beyond its end.
 #[inline(always)]

@@ -9,7 +9,7 @@ use crate::kernel::call::poll;
 use crate::kernel::dual::Dual;
 use crate::kernel::lanes::{Job, in_single_lanes};
 use crate::kernel::plane::Angle;
-use crate::kernel::real::Real;
+use crate::kernel::real::{LANES_MAX, Real};
 use crate::linkage::motion::{Channel, Motion};
 
 /// The numbers of a machine, and directions of them.
@@ -26,21 +26,39 @@ pub struct Directions<'a> {
 }
 
 impl Directions<'_> {
-    /// The numbers with the directions from `first` on, one a lane; those beyond the last are zero.
+    /// Those that move a number of the machine; along the others nothing changes.
+    pub(super) fn moving(&self) -> Vec<usize> {
+        let moves = |&way: &usize| self.values.iter().skip(way).step_by(self.n).any(|&by| by != 0.0);
+        (0..self.n).filter(moves).collect()
+    }
+
+    /// The numbers with some of the directions, one a lane; those beyond the last, and of directions that are none of the
+    /// parameters, are constant.
     #[inline(always)]
-    pub(super) fn numbers<R: Real>(&self, first: usize) -> Vec<Dual<R>> {
-        let mut lanes = vec![0.0; R::LANES];
-        let width = R::LANES.min(self.n.saturating_sub(first));
-        let dual = |(i, &value): (usize, &f64)| {
-            let row = &self.values[i * self.n..][..self.n];
-            lanes[..width].copy_from_slice(&row[first.min(self.n)..][..width]);
-            Dual { value: R::splat(value), d: R::load(&lanes) }
-        };
-        self.q.iter().enumerate().map(dual).collect()
+    pub(super) fn numbers<R: Real>(&self, some: &[usize]) -> Vec<Dual<R>> {
+        let mut numbers = Vec::with_capacity(self.q.len());
+        for (i, &value) in self.q.iter().enumerate() {
+            let (row, mut lanes) = (&self.values[i * self.n..][..self.n], [0.0; LANES_MAX]);
+            for (lane, &way) in lanes.iter_mut().zip(some) {
+                *lane = row.get(way).copied().unwrap_or(0.0);
+            }
+            numbers.push(Dual { value: R::splat(value), d: R::load(&lanes) });
+        }
+        numbers
     }
 }
 
-/// Derivatives of motions at crank angles: `out` is (numbers of the channels, angles, directions).
+/// Writes lanes to the places of some directions in a row.
+#[inline(always)]
+pub(super) fn put<R: Real>(x: R, some: &[usize], row: &mut [f64]) {
+    let mut lanes = [0.0; LANES_MAX];
+    x.store(&mut lanes);
+    for (&lane, &way) in lanes.iter().zip(some) {
+        row[way] = lane;
+    }
+}
+
+/// Derivatives of motions at crank angles: `out` is (numbers of the channels, angles, directions), zero at first.
 pub fn motions_along(of: Directions<'_>, phi: &[f64], channels: &[Channel], out: &mut [f64]) {
     in_single_lanes(MotionsAlong { of, phi, channels, out });
 }
@@ -60,10 +78,9 @@ impl Job for MotionsAlong<'_> {
         let MotionsAlong { of, phi, channels, out } = self;
         let width: usize = channels.iter().map(|c| c.width()).sum();
         let mut found = vec![vec![0.0; R::LANES]; width];
-        for first in (0..of.n).step_by(R::LANES) {
+        for some in of.moving().chunks(R::LANES) {
             poll();
-            let some = R::LANES.min(of.n - first);
-            let q = of.numbers::<R>(first);
+            let q = of.numbers::<R>(some);
             let mut m = Motion::new(&of.plan.mechanism, &q);
             for (at, &angle) in phi.iter().enumerate() {
                 let angle = Angle::new(Dual::constant(R::splat(angle)));
@@ -71,15 +88,15 @@ impl Job for MotionsAlong<'_> {
                 let mut lists: Vec<&mut [f64]> = found.iter_mut().map(Vec::as_mut_slice).collect();
                 store(&m, channels, 0, &mut lists, |x: Dual<R>, to| x.d.store(to));
                 for (row, lanes) in found.iter().enumerate() {
-                    let place = (row * phi.len() + at) * of.n + first;
-                    out[place..place + some].copy_from_slice(&lanes[..some]);
+                    put(R::load(lanes), some, &mut out[(row * phi.len() + at) * of.n..][..of.n]);
                 }
             }
         }
     }
 }
 
-/// Derivatives of crank angles by each direction, where they are kinks: `out` is (angles, directions).
+/// Derivatives of crank angles by each direction, where they are kinks: `out` is (angles, directions),
+/// zero at first.
 pub fn kinks_along(of: Directions<'_>, phi: &[f64], out: &mut [f64]) {
     in_single_lanes(KinksAlong { of, phi, out });
 }
@@ -96,14 +113,11 @@ impl Job for KinksAlong<'_> {
     #[inline(always)]
     fn run<R: Real>(self) {
         let KinksAlong { of, phi, out } = self;
-        let mut lanes = vec![0.0; R::LANES];
-        for first in (0..of.n).step_by(R::LANES) {
-            let some = R::LANES.min(of.n - first);
-            let q = of.numbers::<R>(first);
+        for some in of.moving().chunks(R::LANES) {
+            let q = of.numbers::<R>(some);
             let mut m = Motion::new(&of.plan.mechanism, &q);
             for (i, kink) in Machine::new(of.plan, &q).moving(phi, &mut m).into_iter().enumerate() {
-                kink.d.store(&mut lanes);
-                out[i * of.n + first..][..some].copy_from_slice(&lanes[..some]);
+                put(kink.d, some, &mut out[i * of.n..][..of.n]);
             }
         }
     }

@@ -9,6 +9,7 @@
 //! that a torque may jump there. An extreme stays an extreme: its derivative is that of the curve at its
 //! angle (envelope theorem), or along the kink that it sits on.
 
+use crate::drive::along::{Directions, put};
 use crate::drive::cycle::{Machine, REFERENCE, Step, Turn, stages_of_part};
 use crate::drive::events::{Events, Passage};
 use crate::drive::extremes::Extreme;
@@ -23,7 +24,7 @@ use crate::kernel::dual::Dual;
 use crate::kernel::lanes::{Job, in_single_lanes};
 use crate::kernel::matrix::LuFactors;
 use crate::kernel::radau::S;
-use crate::kernel::real::Real;
+use crate::kernel::real::{LANES_MAX, Real};
 use crate::linkage::motion::Motion;
 
 /// Numbers of the revolution that are differentiated: the four extremes, the period, the multiplier, the works of
@@ -148,18 +149,15 @@ impl Job for CurvesAlong<'_> {
     fn run<R: Real>(self) -> Vec<f64> {
         let (n, of) = (self.of.n(), &self.of);
         let mut curves = vec![0.0; CURVES * self.phi.len() * n];
-        let mut lanes = vec![0.0; R::LANES];
-        for first in (0..n).step_by(R::LANES) {
+        let directions = of.along();
+        for some in directions.moving().chunks(R::LANES) {
             poll();
-            let width = R::LANES.min(n - first);
-            let q = of.numbers_from::<R>(first);
+            let q = directions.numbers::<R>(some);
             let mut m = Motion::new(&of.plan.mechanism, &q);
-            let dual = DualRevolution::read(of, &q, self.along, first);
+            let dual = DualRevolution::read(of, &q, self.along, some);
             for (at, &phi) in self.phi.iter().enumerate() {
                 for (curve, value) in dual.curves_at(phi, &mut m).into_iter().enumerate() {
-                    value.d.store(&mut lanes);
-                    let row = curve * self.phi.len() + at;
-                    curves[row * n + first..][..width].copy_from_slice(&lanes[..width]);
+                    put(value.d, some, &mut curves[(curve * self.phi.len() + at) * n..][..n]);
                 }
             }
         }
@@ -179,17 +177,8 @@ impl Gradient<'_> {
         in_single_lanes(self)
     }
 
-    /// The numbers of the machine along the directions from one on; lanes without a direction have no derivatives.
-    #[inline(always)]
-    fn numbers_from<R: Real>(&self, first: usize) -> Vec<Dual<R>> {
-        let (n, mut lanes) = (self.n(), vec![0.0; R::LANES]);
-        let width = R::LANES.min(n - first);
-        let mut q = Vec::with_capacity(self.q.len());
-        for (i, &value) in self.q.iter().enumerate() {
-            lanes[..width].copy_from_slice(&self.directions[i * n + first..][..width]);
-            q.push(Dual { value: R::splat(value), d: R::load(&lanes) });
-        }
-        q
+    fn along(&self) -> Directions<'_> {
+        Directions { plan: self.plan, q: self.q, values: self.directions, n: self.n() }
     }
 }
 
@@ -200,7 +189,7 @@ impl Job for Gradient<'_> {
     fn run<R: Real>(self) -> Derivatives {
         let n = self.n();
         let mut numbers = vec![0.0; NUMBERS * n];
-        let (mut lanes, mut lost) = (vec![0.0; R::LANES], vec![f64::NAN; n]);
+        let (directions, mut lost) = (self.along(), vec![f64::NAN; n]);
         let solved = SolvedSteps::new(&self);
         let ends = if self.steady.crossings.is_empty() {
             None
@@ -212,35 +201,31 @@ impl Job for Gradient<'_> {
         };
         let rows = OF_STEP * solved.marks.len() + 1;
         let (mut values, mut d) = (vec![0.0; rows], vec![0.0; rows * n]);
-        for first in (0..n).step_by(R::LANES) {
+        for some in directions.moving().chunks(R::LANES) {
             poll();
-            let width = R::LANES.min(n - first);
-            let q = self.numbers_from::<R>(first);
+            let q = directions.numbers::<R>(some);
             let mut m = Motion::new(&self.plan.mechanism, &q);
             let mut dual = DualRevolution::new(&self, &q, &solved, &mut m);
             if let Some(ends) = &ends {
-                lanes.fill(1.0);
-                lanes[..width].copy_from_slice(&self.sizes[first..first + width]);
-                dual.move_crossings(ends, R::load(&lanes), &mut m).store(&mut lanes);
-                lost[first..first + width].copy_from_slice(&lanes[..width]);
+                let mut sizes = [1.0; LANES_MAX];
+                for (size, &way) in sizes.iter_mut().zip(some) {
+                    *size = self.sizes[way];
+                }
+                put(dual.move_crossings(ends, R::load(&sizes), &mut m), some, &mut lost);
             }
-            let mut put = |list: &mut [f64], row: usize, x: Dual<R>| {
-                x.d.store(&mut lanes);
-                list[row * n + first..][..width].copy_from_slice(&lanes[..width]);
-            };
             for (row, number) in dual.numbers(&mut m).into_iter().enumerate() {
-                put(&mut numbers, row, number);
+                put(number.d, some, &mut numbers[row * n..][..n]);
             }
             for (k, step) in dual.turn.steps.iter().enumerate() {
                 let own = [dual.edges[k], step.u].into_iter().chain(step.X);
                 for (row, number) in (k * OF_STEP..).zip(own) {
                     values[row] = number.value.max_lane();
-                    put(&mut d, row, number);
+                    put(number.d, some, &mut d[row * n..][..n]);
                 }
             }
             let end = dual.edges[solved.marks.len()];
             values[rows - 1] = end.value.max_lane();
-            put(&mut d, rows - 1, end);
+            put(end.d, some, &mut d[(rows - 1) * n..]);
         }
         Derivatives { numbers, along: SolutionAlong { solved, values, d }, lost }
     }
@@ -281,16 +266,11 @@ impl<'a, R: Real> DualRevolution<'a, R> {
         dual
     }
 
-    /// The solution with its derivatives from one direction on, as it was found.
+    /// The solution with its derivatives along some directions, as it was found.
     #[inline(always)]
-    fn read(of: &Gradient<'a>, q: &'a [Dual<R>], along: &'a SolutionAlong, first: usize) -> Self {
-        let (n, mut lanes) = (of.n(), vec![0.0; R::LANES]);
-        let width = R::LANES.min(n - first);
-        let mut numbers = Vec::with_capacity(along.values.len());
-        for (row, &value) in along.values.iter().enumerate() {
-            lanes[..width].copy_from_slice(&along.d[row * n + first..][..width]);
-            numbers.push(Dual { value: R::splat(value), d: R::load(&lanes) });
-        }
+    fn read(of: &Gradient<'a>, q: &'a [Dual<R>], along: &'a SolutionAlong, some: &[usize]) -> Self {
+        let (values, d) = (&along.values, &along.d);
+        let numbers = Directions { plan: of.plan, q: values, values: d, n: of.n() }.numbers::<R>(some);
         let machine = Machine::new(of.plan, q).keeping_branch(of.plan.may_jump());
         let mut edges = Vec::with_capacity(along.solved.marks.len() + 1);
         let mut turn = Turn::empty(Layout::Machines);

@@ -12,7 +12,7 @@
 //! longer by that: δω behind is δω + (ε before − ε behind) δt (Aizerman, Gantmacher, *PMM* 22, 1958). Such places are kinks over
 //! the angle, speeds at which the drive has a kink, standstill, and kinks of laws, at which the steps are divided.
 
-use crate::drive::along::Directions;
+use crate::drive::along::{Directions, put};
 use crate::drive::cycle::Machine;
 use crate::drive::events::{Event, Events};
 use crate::drive::law::SpeedKink;
@@ -25,7 +25,7 @@ use crate::kernel::lanes::{Job, in_single_lanes};
 use crate::kernel::matrix::LuFactors;
 use crate::kernel::plane::Angle;
 use crate::kernel::radau::{A, B, C, S};
-use crate::kernel::real::Real;
+use crate::kernel::real::{LANES_MAX, Real};
 use crate::kernel::rk::rise;
 use crate::linkage::motion::Motion;
 
@@ -125,6 +125,10 @@ impl Job for Variation<'_> {
         let mut found = Variations { phi: Vec::new(), omega: Vec::new(), epsilon: Vec::new() };
         let mut next = 0;
         for k in 0..motion.t.len() - 1 {
+            // What follows the last instant is asked by nobody.
+            if next == at.len() {
+                break;
+            }
             poll();
             let mut cuts = along.law_cuts(k);
             let [begin, end] = [motion.t[k], motion.t[k + 1]];
@@ -243,6 +247,7 @@ fn slopes_at_end() -> [f64; S] {
 
 /// Some directions, one a lane: of the parameters, and behind them of the angle and of the speed.
 struct Lanes<R> {
+    some: Vec<usize>,
     q: Vec<Dual<R>>,
     m: Motion<Dual<R>>,
     /// Derivatives of angle and speed.
@@ -251,14 +256,14 @@ struct Lanes<R> {
 
 impl<R: Real> Lanes<R> {
     #[inline(always)]
-    fn new(of: &Directions<'_>, first: usize) -> Self {
-        let q = of.numbers::<R>(first);
+    fn new(of: &Directions<'_>, some: &[usize]) -> Self {
+        let q = of.numbers::<R>(some);
         let m = Motion::new(&of.plan.mechanism, &q);
-        let unit = |nth: usize| {
-            let lanes: Vec<f64> = (first..first + R::LANES).map(|i| f64::from(u8::from(i == nth))).collect();
-            R::load(&lanes)
-        };
-        Lanes { q, m, state: [unit(of.n), unit(of.n + 1)] }
+        let mut state = [[0.0; LANES_MAX]; 2];
+        for (lane, &way) in some.iter().enumerate().filter(|(_, way)| **way >= of.n) {
+            state[way - of.n][lane] = 1.0;
+        }
+        Lanes { some: some.to_vec(), q, m, state: [R::load(&state[0]), R::load(&state[1])] }
     }
 
     #[inline(always)]
@@ -276,19 +281,22 @@ struct Rates<'a, R> {
 impl<'a, R: Real> Rates<'a, R> {
     #[inline(always)]
     fn new(of: Directions<'a>) -> Self {
-        let lanes = (0..of.n + 2).step_by(R::LANES).map(|first| Lanes::new(&of, first)).collect();
+        let mut ways = of.moving();
+        ways.extend([of.n, of.n + 1]);
+        let mut lanes = Vec::with_capacity(ways.len().div_ceil(R::LANES));
+        for some in ways.chunks(R::LANES) {
+            lanes.push(Lanes::new(&of, some));
+        }
         Rates { of, lanes }
     }
 
     /// Derivatives of a quantity of some lanes, (directions + 2).
     #[inline(always)]
     fn derivatives(&mut self, mut of: impl FnMut(&Plan, &mut Lanes<R>) -> R) -> Vec<f64> {
-        let (width, plan) = (R::LANES, self.of.plan);
-        let mut all = vec![0.0; self.lanes.len() * width];
-        for (lanes, to) in self.lanes.iter_mut().zip(all.chunks_exact_mut(width)) {
-            of(plan, lanes).store(to);
+        let mut all = vec![0.0; self.of.n + 2];
+        for lanes in &mut self.lanes {
+            put(of(self.of.plan, lanes), &lanes.some, &mut all);
         }
-        all.truncate(self.of.n + 2);
         all
     }
 
