@@ -147,11 +147,42 @@ flywheel = {{ inertia = 2 }}
 [loads]
 {chr(10).join(loads)}
 """
-    found = lw.gradient(
-        lw.loads(text), [f"steady_state.{name}" for name in _EXTREMES], ["drive.gearbox.ratio"]
-    )
-    for name in _EXTREMES:
-        assert "° and 3 angles more" in found.ties[f"steady_state.{name}"], name
+    names = [f"steady_state.{name}" for name in _EXTREMES]
+    found = lw.gradient(lw.loads(text), names, ["drive.gearbox.ratio", "bodies.s0.mass"])
+    for name in names:
+        assert "° and 3 angles more, with other derivatives by" in found.ties[name], name
+        assert "bodies.s0.mass" in found.ties[name], name
+    # All parts of the revolution change alike with the ratio; where a steep motor bends the motion within
+    # rounding of its angle, that is not known.
+    tied = lw.gradient(lw.loads(text), names, ["drive.gearbox.ratio"]).ties
+    assert set(tied) <= ({"steady_state.acceleration_max"} if steep > 1 else set())
+
+
+@pytest.mark.parametrize("name", ["roller_cam", "roller_three_carts"])
+def test_entries_tie_where_differences_to_both_sides_differ(name):
+    """A symmetrical machine has a derivative by what it keeps its symmetry with, such as its flywheel."""
+    machine = lw.read(name)
+    responses = [f"steady_state.{extreme}" for extreme in _EXTREMES]
+    middle = lw.steady_state(machine, accuracy=1e-11)
+    found = lw.gradient(machine, responses)
+    n_tied = 0
+    for entry, value in zip(found.variables, found.at, strict=True):
+        h = 1e-6 * (abs(value) or 1.0)
+        try:
+            beside = [lw.replace(machine, {entry: value + step}) for step in (h, -h)]
+        except InputError:
+            # It is at the end of its range.
+            continue
+        up, down = (lw.steady_state(one, accuracy=1e-11) for one in beside)
+        tied = lw.gradient(machine, responses, [entry]).ties
+        for extreme, response in zip(_EXTREMES, responses, strict=True):
+            here = getattr(middle, extreme)
+            slopes = np.array([getattr(up, extreme) - here, here - getattr(down, extreme)]) / h
+            # Second derivatives and the accuracy of the motion over the step.
+            slack = 2e-3 * np.abs(slopes).max() + 5e-11 * abs(here) / h
+            assert (abs(slopes[0] - slopes[1]) > slack) == (response in tied), (entry, response)
+            n_tied += response in tied
+    assert (n_tied > 50) == (name == "roller_three_carts")
 
 
 _EXTREMES = ("speed_min", "speed_max", "acceleration_min", "acceleration_max")

@@ -13,11 +13,11 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkwright.drive.batch import COLUMNS
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.steady_state import SteadyState, solved_state, unknown_work
+from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.linkages.closure import over_whole_cycle, turn_angles
@@ -26,8 +26,6 @@ from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import SteadyCurves, SteadyGradient, SteadySolution
 from linkwright.machine.tangents import Directions
-
-Floats = NDArray[np.float64]
 
 # Angles at which rivals of an extreme are looked for. A peak between two of the even ones is missed by
 # (2π/1440)² of the curve at most; where the motor is steep, the motion bends sharply beside a kink.
@@ -53,6 +51,12 @@ _TOLD = 4
 
 # Peaks nearer than this [rad] are one: the two sides of a corner.
 _APART = 1e-3
+
+# How far the angles of rivals are known at most [rad], by the last of these rounds.
+_OFF = 2 * (2 * np.pi / _LOOK) / (_READINGS - 1) * (2 / (_READINGS - 1)) ** (_ROUNDS - 1)
+
+# Derivatives of rivals that differ by less than this share of their size are one.
+_ALIKE = 1e-7
 
 # Extremes that are this near, as a share of the curve's range, tie: their heights are not known better.
 _TIE = 1e-7
@@ -99,7 +103,11 @@ def steady_tangents(machine: Machine, along: Directions) -> SteadyTangents:
     }
     ratio = Tangent(compiled.gear_factors[0], values[compiled.gear_slots[0]])
     tangents |= _of_motor(compiled, state, tangents, curves, ratio)
-    ties = _ties(compiled, state, solution)
+    ties = {
+        name: tie.words(compiled, gradient, along) for name, tie in _ties(compiled, state, solution).items()
+    }
+    ties["acceleration_peak"] = _equal_peaks(state, gradient, along)
+    ties = {name: words for name, words in ties.items() if words}
     lost, rounding = along.lost(gradient.lost), _rounding(compiled, state)
     return SteadyTangents(replace(state, **tangents), ties, lost, rounding)
 
@@ -215,9 +223,55 @@ def _rounding(compiled: CompiledMachine, state: SteadyState) -> dict[str, float]
     }
 
 
-def _ties(compiled: CompiledMachine, state: SteadyState, solution: SteadySolution) -> dict[str, str]:
+@dataclass(frozen=True)
+class _Tie:
+    """An extreme of a quantity that the motion has at several angles."""
+
+    quantity: str
+    value: float
+    angles: list[float]
+
+    def words(self, compiled: CompiledMachine, gradient: SteadyGradient, along: Directions) -> str:
+        """Where, and by which entries there is a derivative on either side only; empty if by none."""
+        differs = self._differs(compiled, gradient, along.sizes) | self._moved(compiled, along.values)
+        by = [name for name, differs_by in zip(along.variables, differs, strict=True) if differs_by]
+        if not by:
+            return ""
+        places = _listed([f"{np.degrees(angle):.4g}°" for angle in self.angles], " and ", "angles")
+        return f"it is reached at {places}, with other derivatives by {_listed(by, ', ', 'entries')}"
+
+    def _differs(self, compiled: CompiledMachine, gradient: SteadyGradient, sizes: Floats) -> Bools:
+        """Whether rivals have other derivatives by each direction, or bend there, (directions,)."""
+        near = (np.array(self.angles)[:, None] + np.array([-_OFF, 0.0, _OFF])) % compiled.cycle
+        order, back = np.unique(near, return_inverse=True)
+        slopes = getattr(gradient.curves(order), self.quantity)[back.reshape(near.shape)]
+        rounding = np.maximum(_ALIKE * np.abs(slopes).max(axis=(0, 1)), _ROUNDING * abs(self.value) / sizes)
+        low, high = slopes.min(axis=1), slopes.max(axis=1)
+        is_one = low.max(axis=0) - high.min(axis=0) <= rounding
+        bend = np.abs(slopes[:, 1] - 0.5 * (slopes[:, 0] + slopes[:, 2]))
+        differs: Bools = ~(is_one & (bend <= 0.25 * (high - low) + rounding).all(axis=0))
+        return differs
+
+    def _moved(self, compiled: CompiledMachine, directions: Floats) -> Bools:
+        """Whether each direction moves a kink on which a rival lies, so that this moves with it."""
+        kinks = compiled.kinks()
+        off = np.abs(np.subtract.outer(np.array(self.angles), kinks))
+        on = kinks[(np.minimum(off, compiled.cycle - off) <= 2 * _OFF).any(axis=0)]
+        if not len(on):
+            return np.zeros(directions.shape[1], dtype=bool)
+        moved: Bools = (compiled.kinks_along(directions, on) != 0).any(axis=0)
+        return moved
+
+
+def _listed(words: list[str], between: str, what: str) -> str:
+    """The first of some words, and how many more there are."""
+    rest = [f"{len(words) - _TOLD} {what} more"] if len(words) > _TOLD else []
+    return between.join(words[:_TOLD] + rest)
+
+
+def _ties(compiled: CompiledMachine, state: SteadyState, solution: SteadySolution) -> dict[str, _Tie]:
     """Extremes that the motion has twice."""
-    ties: dict[str, str] = {}
+    ties: dict[str, _Tie] = {}
     peaks = _Peaks(compiled, solution)
     for quantity in ("speed", "acceleration"):
         for end, sign in (("min", -1.0), ("max", 1.0)):
@@ -225,13 +279,23 @@ def _ties(compiled: CompiledMachine, state: SteadyState, solution: SteadySolutio
             extreme = (getattr(state, f"{name}_angle"), sign * getattr(state, name))
             angles = peaks.as_high_as(extreme, quantity, sign)
             if len(angles) > 1:
-                places = [f"{np.degrees(angle):.4g}°" for angle in angles[:_TOLD]]
-                places += [f"{len(angles) - _TOLD} angles more"] if len(angles) > _TOLD else []
-                ties[name] = f"it is reached at {' and '.join(places)}"
-    low, high = state.acceleration_min, state.acceleration_max
-    if abs(low + high) <= _TIE * (high - low):
-        ties["acceleration_peak"] = "its positive and negative peaks are equal"
+                ties[name] = _Tie(quantity, getattr(state, name), angles)
     return ties
+
+
+def _equal_peaks(state: SteadyState, gradient: SteadyGradient, along: Directions) -> str:
+    """By which entries the larger peak of the acceleration changes its sign; empty if it does by none."""
+    low, high = state.acceleration_min, state.acceleration_max
+    if abs(low + high) > _TIE * (high - low):
+        return ""
+    change = np.abs(gradient.acceleration_min + gradient.acceleration_max)
+    is_one = change <= _ALIKE * np.abs(gradient.acceleration_max)
+    by = [name for name, is_same in zip(along.variables, is_one, strict=True) if not is_same]
+    if not by:
+        return ""
+    return (
+        f"its positive and negative peaks are equal, with other derivatives by {_listed(by, ', ', 'entries')}"
+    )
 
 
 class _Peaks:
