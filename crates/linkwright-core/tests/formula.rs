@@ -1,11 +1,13 @@
 //! Formulas: random expressions against plain recursion with the functions of the standard library, lanes
-//! against scalar, derivatives against differences, degrees, and programs that make no sense.
+//! against scalar, derivatives against differences, bounds against samples, degrees, and programs that make no sense.
 
 mod common;
 
 use common::Random;
+use linkwright_core::kernel::bounds::Bounds;
 use linkwright_core::kernel::dual::Dual;
 use linkwright_core::kernel::formula::{Degree, Formula, Inputs, Op, Variable};
+use linkwright_core::kernel::interval::Interval;
 use linkwright_core::kernel::lanes::{Job, in_lanes};
 use linkwright_core::kernel::real::{Lift, Real};
 
@@ -207,6 +209,95 @@ fn derivatives_are_those_of_differences() {
         assert!((found.d - exact).abs() < 1e-6 * (1.0 + exact.abs()), "{} for {exact}: {formula:?}", found.d);
     }
     assert!(compared > 250, "only {compared} derivatives compared");
+}
+
+/// Whether a number lies in an interval but for some ulps, magnified where the expression is steep.
+fn encloses(interval: Interval, x: f64) -> bool {
+    let room = 1e-9 * (1.0 + x.abs());
+    interval.widened(room).contains(x)
+}
+
+#[test]
+fn bounds_enclose_values_and_slopes() {
+    let (mut random, along, mut narrow) = (Random(5), [1.0, -0.7, 0.4, 0.9], 0);
+    for (_, formula, at) in samples() {
+        for _ in 0..8 {
+            let h = 10.0_f64.powf(random.between(-4.0, 0.5));
+            let bounds: [Bounds; 4] = std::array::from_fn(|i| Bounds {
+                value: Interval::around([at[i], at[i] + h * along[i]]),
+                slope: Interval::at(along[i]),
+            });
+            let all: Bounds = formula.value(&Q, &inputs(bounds));
+            narrow += u32::from(h < 1e-2 && all.value.width() < 1.0 && all.slope.width() < 10.0);
+            for k in 0..=64 {
+                let place = moved(at, h * f64::from(k) / 64.0);
+                let dual: [Dual<f64>; 4] = std::array::from_fn(|i| Dual { value: place[i], d: along[i] });
+                let one: Dual<f64> = formula.value(&Q, &inputs(dual));
+                let is_in = one.value.is_nan() || encloses(all.value, one.value);
+                assert!(is_in, "{} outside {:?}: {formula:?}", one.value, all.value);
+                let is_in = !one.value.is_finite() || one.d.is_nan() || encloses(all.slope, one.d);
+                assert!(is_in, "slope {} outside {:?}: {formula:?}", one.d, all.slope);
+            }
+        }
+    }
+    // Most of those over a small piece say something.
+    assert!(narrow > 1000, "only {narrow} bounds are narrow");
+}
+
+#[test]
+fn bounds_of_functions_are_their_ranges() {
+    let over = |op: Op, low: f64, high: f64| {
+        let x = Bounds { value: Interval { low, high }, slope: Interval::at(1.0) };
+        value_of(&[Op::Variable(Variable::X), op], x).value
+    };
+    let pi = std::f64::consts::PI;
+    for (op, of, range) in [
+        (Op::Sin, [0.3, 3.0], [3.0_f64.sin(), 1.0]),
+        (Op::Sin, [-2.0, 0.5], [-1.0, 0.5_f64.sin()]),
+        (Op::Sin, [1e3, 1e3 + 7.0], [-1.0, 1.0]),
+        (Op::Cos, [-0.1, 0.2], [0.2_f64.cos(), 1.0]),
+        (Op::Power(2), [-2.0, 1.0], [0.0, 4.0]),
+        (Op::Power(-2), [-2.0, 1.0], [0.25, f64::INFINITY]),
+        (Op::Abs, [-2.0, 1.0], [0.0, 2.0]),
+        (Op::Exp, [-1e3, 1.0], [0.0, 1.0_f64.exp()]),
+        (Op::Tanh, [-1e3, 1e3], [-1.0, 1.0]),
+        (Op::Sign, [-1.0, 1.0], [-1.0, 1.0]),
+        (Op::Sqrt, [0.0, 4.0], [0.0, 2.0]),
+        (Op::Sqrt, [-1.0, 4.0], [f64::NEG_INFINITY, f64::INFINITY]),
+        (Op::Acos, [-0.5, 0.5], [pi / 3.0, 2.0 * pi / 3.0]),
+    ] {
+        let found = over(op, of[0], of[1]);
+        let off = |found: f64, exact: f64| found != exact && (found - exact).abs() > 1e-12;
+        // What occurs twice, as in the root of 1 − x², may leave more.
+        let is_wide = op == Op::Acos && found.low < range[0] && found.high > range[1];
+        assert!(is_wide || !(off(found.low, range[0]) || off(found.high, range[1])), "{op:?} {found:?}");
+    }
+    assert!(over(Op::Sqrt, -2.0, -1.0).is_empty(), "root of negative numbers");
+    assert_eq!(over(Op::Log, 0.0, 1.0), Interval { low: f64::NEG_INFINITY, high: 0.0 });
+}
+
+#[test]
+fn smooth_formulas_are_not_steep() {
+    let [phi, v, number] = [Op::Variable(Variable::Phi), Op::Variable(Variable::V), Op::Number(0)];
+    for (ops, steep) in [
+        (vec![v, number, Op::Mul], vec![]),
+        (vec![phi, number, Op::Mul, Op::Cos, v, Op::Abs, Op::Mul], vec![]),
+        (vec![phi, number, Op::Div, Op::Power(8)], vec![]),
+        (vec![phi, number, Op::Div, Op::Power(9)], vec![3]),
+        (vec![phi, Op::Cos, Op::Power(400)], vec![2]),
+        (vec![number, Op::Exp, v, Op::Mul], vec![]),
+        (vec![phi, number, Op::Div, Op::Power(2), Op::Neg, Op::Exp], vec![5]),
+        (vec![v, Op::Tanh, phi, Op::Tanh, Op::Sub], vec![1, 3]),
+        (vec![number, v, Op::Div], vec![2]),
+        (vec![v, Op::Tanh, number, Op::Mul, Op::Sin], vec![1, 4]),
+        // Where it jumps, the motion passes a speed.
+        (vec![v, number, Op::Sub, Op::Step], vec![]),
+        (vec![phi, number, Op::Sub, Op::Step], vec![3]),
+    ] {
+        let formula = Formula::new(ops).expect("a sound program");
+        let found: Vec<usize> = formula.steep.iter().map(|steep| steep.at).collect();
+        assert_eq!(found, steep, "{formula:?}");
+    }
 }
 
 /// Values and derivatives in lanes.

@@ -3,10 +3,11 @@
 //! The text is read and checked before it comes here; a [`Formula`] is its postfix form, worked through with
 //! any kind of number: lanes do many angles or many machines, duals bring the exact derivative along.
 //!
-//! Two things are found out about a formula before it is used. Its **degree** in the speed of the crank: all
+//! Three things are found out about a formula before it is used. Its **degree** in the speed of the crank: all
 //! velocities are in proportion to ω, so a product of two of them has degree 2, and `sign(v)` has degree 0.
-//! And its **switches**, the arguments of `abs`, `sign`, `step`, `min`, `max` and `where` whose zeros are
-//! kinks or jumps.
+//! Its **switches**, the arguments of `abs`, `sign`, `step`, `min`, `max` and `where` whose zeros are
+//! kinks or jumps. And where it may be **steep**: the instructions whose result may change within a small part of the
+//! range of the variables.
 
 use crate::real::{Lift, Real};
 use crate::slot::Slot;
@@ -150,6 +151,14 @@ pub struct Switch {
     pub degree: Degree,
 }
 
+/// An instruction whose result may change within a small part of the range of the variables.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Steep {
+    pub at: usize,
+    /// Whether it does so at other angles at other speeds.
+    pub moves: bool,
+}
+
 /// A formula, checked.
 #[derive(Clone, Debug)]
 pub struct Formula {
@@ -158,7 +167,16 @@ pub struct Formula {
     pub degree: Degree,
     /// Where it has kinks or jumps.
     pub switches: Vec<Switch>,
+    /// Where it may be steep.
+    pub steep: Vec<Steep>,
 }
+
+/// A polynomial of no more than this degree has no pulse that is narrow within the range of its variables: x⁸ falls to half
+/// within a twelfth of it.
+const SMOOTH_POWER: u32 = 8;
+
+/// As a factor, what may be steep itself counts as such a power of a variable, and so does what a wave may be too short in.
+const STEEP_POWER: u32 = 3;
 
 /// Numbers that a formula may keep at once.
 pub const DEPTH: usize = 16;
@@ -208,11 +226,41 @@ impl Op {
     }
 }
 
+impl Op {
+    /// Degree of the result as a polynomial of the variables for those of the arguments, where a wave counts as the variable
+    /// that it is of; `None` for what may be steep.
+    fn power(self, from: &[u32]) -> Option<u32> {
+        let power = match (self, from) {
+            (Op::Variable(_), _) => 1,
+            (Op::Add | Op::Sub, &[a, b]) => a.max(b),
+            (Op::Mul, &[a, b]) => a.saturating_add(b),
+            (Op::Neg | Op::Abs, &[a]) | (Op::Div, &[a, 0]) => a,
+            (Op::Sin | Op::Cos, &[a]) if a < STEEP_POWER => a.min(1),
+            (Op::Power(n), &[a]) if n >= 0 => a.saturating_mul(n.unsigned_abs()),
+            _ if from.iter().all(|&a| a == 0) => 0,
+            _ => return None,
+        };
+        (power <= SMOOTH_POWER).then_some(power)
+    }
+}
+
+/// The instructions whose result may be steep.
+fn steep(ops: &[Op]) -> Vec<usize> {
+    let (mut stack, mut found) = (Vec::new(), Vec::new());
+    for (at, op) in ops.iter().enumerate() {
+        let from = stack.split_off(stack.len() - op.takes());
+        let power = op.power(&from);
+        found.extend(power.is_none().then_some(at));
+        stack.push(power.unwrap_or(STEEP_POWER));
+    }
+    found
+}
+
 impl Formula {
     /// From instructions; `None` unless they leave one number and never keep more than [`DEPTH`].
     pub fn new(ops: Vec<Op>) -> Option<Formula> {
         let mut stack: Vec<Degree> = Vec::new();
-        let mut switches = Vec::new();
+        let (mut switches, mut degrees) = (Vec::new(), Vec::new());
         for (at, op) in ops.iter().enumerate() {
             let from = stack.split_off(stack.len().checked_sub(op.takes())?);
             match op {
@@ -222,13 +270,18 @@ impl Formula {
                 }
                 _ => {}
             }
-            stack.push(op.degree(&from));
+            degrees.push(op.degree(&from));
+            stack.push(degrees[at]);
             if stack.len() > DEPTH {
                 return None;
             }
         }
         let &[degree] = stack.as_slice() else { return None };
-        Some(Formula { ops, degree, switches })
+        // What jumps at a speed is looked for in the solution.
+        let jumps = |at: &usize| switches.iter().any(|s| s.at == *at && s.degree == Degree::Mixed);
+        let found = steep(&ops).into_iter().filter(|at| !jumps(at));
+        let steep = found.map(|at| Steep { at, moves: degrees[at] == Degree::Mixed }).collect();
+        Some(Formula { ops, degree, switches, steep })
     }
 
     /// The parameters that it asks for.
@@ -253,6 +306,19 @@ impl Formula {
                 let mut stack = [N::splat(0.0); DEPTH];
                 self.run(self.ops.len(), q, inputs, &mut stack);
                 stack[0]
+            },
+        )
+    }
+
+    /// What one of its instructions gives.
+    #[inline(always)]
+    pub fn result<R: Real, N: Lift<R>>(&self, at: usize, q: &[R], inputs: &Inputs<N>) -> N {
+        N::out_of_line(
+            #[inline(always)]
+            || {
+                let mut stack = [N::splat(0.0); DEPTH];
+                let height = self.run(at + 1, q, inputs, &mut stack);
+                stack[height - 1]
             },
         )
     }
@@ -345,6 +411,25 @@ impl<N: Real> Inputs<N> {
         }
     }
 
+    /// Of what each variable is in three others.
+    #[inline(always)]
+    pub fn of_three<M: Real>(all: [&Inputs<M>; 3], f: impl Fn([M; 3]) -> N) -> Self {
+        let of = |variable| f(all.map(|inputs| inputs.get(variable)));
+        Inputs {
+            phi: of(Variable::Phi),
+            omega: of(Variable::Omega),
+            time: of(Variable::Time),
+            x: of(Variable::X),
+            y: of(Variable::Y),
+            vx: of(Variable::Vx),
+            vy: of(Variable::Vy),
+            v: of(Variable::V),
+            s: of(Variable::S),
+            psi: of(Variable::Psi),
+            psi_dot: of(Variable::PsiDot),
+        }
+    }
+
     #[inline(always)]
     fn get(&self, variable: Variable) -> N {
         match variable {
@@ -371,7 +456,7 @@ fn power<N: Real>(x: N, n: i32) -> N {
         if rest & 1 == 1 {
             result = result * square;
         }
-        square = square * square;
+        square = square.squared();
         rest >>= 1;
     }
     if n < 0 { result.recip() } else { result }

@@ -3,6 +3,7 @@
 //! | module | answers |
 //! | --- | --- |
 //! | [`real`], [`lanes`], [`dual`], [`jet`] | what a number is: scalar, SIMD lanes, with a derivative, with many |
+//! | [`interval`], [`bounds`] | all that a quantity can be over a piece; with its slope |
 //! | [`branch`] | numbers that stay on one branch of a function in pieces |
 //! | [`slot`] | where a number of a machine is found |
 //! | [`plane`] | vectors and motions in the plane |
@@ -20,6 +21,7 @@
 // Fields of enum variants and of plain records are named as in the equations beside them.
 #![allow(missing_docs)]
 
+pub mod bounds;
 pub mod branch;
 pub mod call;
 pub mod dual;
@@ -27,6 +29,7 @@ pub mod error;
 pub mod formula;
 pub mod formula_words;
 pub mod gauss;
+pub mod interval;
 pub mod jet;
 pub mod lanes;
 pub mod matrix;

@@ -97,7 +97,7 @@ impl<R: Real> Turn<R> {
             integrals.push(whole);
         }
         let check = self.judged(machine, &differences, &integrals, kinks, limits);
-        if !(closely || check.is_good()) || !machine.plan.has_rests() {
+        if !(closely || check.is_good()) || !machine.plan.may_hide() {
             return check;
         }
         for (k, of_step) in differences.iter_mut().enumerate() {

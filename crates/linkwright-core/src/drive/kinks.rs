@@ -7,10 +7,11 @@
 //!
 //! Smooth, but as steep as one pleases: the friction c·tanh(k v) of a formula takes on its sign within a small angle beside
 //! a dead centre. Steps of a steady motion therefore end where a speed that a formula knows is zero, and where the force
-//! changes fast beside that angle, there too.
+//! changes fast beside that angle, there too; and wherever else a formula is steep ([`crate::drive::pulses`]).
 
 use crate::drive::cycle::Machine;
 use crate::drive::loads::{Carrier, ForceElement, FormulaLoad, Law, Load};
+use crate::drive::pulses::Steepness;
 use crate::drive::structure::Plan;
 use crate::kernel::dual::Dual;
 use crate::kernel::formula::{Degree, Variable};
@@ -202,9 +203,9 @@ impl Plan {
         found
     }
 
-    /// Whether some formula knows a speed that comes to zero.
-    pub fn has_rests(&self) -> bool {
-        !self.rests().is_empty()
+    /// Whether some formula may hide something beside the end of a step: it knows a speed that comes to zero, or may be steep.
+    pub fn may_hide(&self) -> bool {
+        !self.rests().is_empty() || self.may_be_steep()
     }
 
     /// Knots of tables over the crank angle, within the cycle.
@@ -290,14 +291,30 @@ impl<R: Real> Machine<'_, R> {
         lanes
     }
 
-    /// The same, and ends of steps at rests, and beside those at which the force of a formula changes within a small angle:
-    /// between two stages of a long step nothing would be seen of it.
+    /// The same, and ends of steps at rests and where a formula is steep: between two stages of a long step nothing would be
+    /// seen of it.
     #[inline(always)]
     pub fn ends(&self, m: &mut Motion<R>) -> Vec<Vec<f64>> {
         let mut lanes = self.breaks(m);
+        let breaks = if self.plan.may_be_steep() { lanes.clone() } else { Vec::new() };
+        self.add_rests(&mut lanes, m);
+        let (mut row, mut q) = (vec![0.0; R::LANES], vec![0.0; self.q.len()]);
+        for (lane, breaks) in breaks.iter().enumerate() {
+            for (number, all) in q.iter_mut().zip(self.q) {
+                all.store(&mut row);
+                *number = row[lane];
+            }
+            add_steep(self.plan, &q, breaks, &mut lanes[lane]);
+        }
+        lanes
+    }
+
+    /// Adds ends of steps at rests, and beside those at which the force of a formula changes within a small angle.
+    #[inline(always)]
+    fn add_rests(&self, lanes: &mut [Vec<f64>], m: &mut Motion<R>) {
         let rests = self.plan.rests();
         if rests.is_empty() {
-            return lanes;
+            return;
         }
         let watches: Vec<Watch> = rests.iter().map(|rest| rest.1).collect();
         let scan = R::out_of_line(
@@ -326,7 +343,6 @@ impl<R: Real> Machine<'_, R> {
                 }
             }
         }
-        lanes
     }
 
     /// Angle within which the force of a formula changes steeply on one side of a rest, at the speed at which the search starts;
@@ -641,6 +657,14 @@ impl Carrier {
     }
 }
 
+/// Adds ends where formulas are steep whatever the speed.
+fn add_steep(plan: &Plan, q: &[f64], breaks: &[f64], ends: &mut Vec<f64>) {
+    let (mut m, omega) = (Motion::new(&plan.mechanism, q), Dual::constant(q[plan.drive.speed_start]));
+    for load in plan.all_formulas() {
+        Steepness { plan, q, load, omega: &|_| omega, moves: false, breaks }.add_ends(ends, &mut m);
+    }
+}
+
 /// Adds a rest, and ends on both sides of it within which a force changes steeply, to those of a cycle.
 fn add_ends_beside(rest: f64, widths: [f64; 2], ends: &mut Vec<f64>) {
     let cycle = ends[ends.len() - 1];
@@ -656,6 +680,16 @@ fn add_ends_beside(rest: f64, widths: [f64; 2], ends: &mut Vec<f64>) {
         }
     }
     ends.sort_by(f64::total_cmp);
+}
+
+/// Angles of one machine's turn at which steps of its motion in time end \[rad\]: the ends of its smooth pieces, and where a
+/// formula is steep whatever the speed.
+pub fn landings(plan: &Plan, q: &[f64], breaks: Vec<f64>) -> Vec<f64> {
+    let mut ends = breaks.clone();
+    if plan.may_be_steep() {
+        add_steep(plan, q, &breaks, &mut ends);
+    }
+    ends
 }
 
 /// Ends of the smooth pieces of one machine's turn \[rad\].

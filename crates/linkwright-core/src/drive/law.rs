@@ -160,6 +160,26 @@ impl FormulaLoad {
             Carrier::Link { link } => with_link(dual, link, formula, m),
         }
     }
+
+    /// What the formula needs with its derivatives by φ, at a speed of the crank that changes with φ.
+    pub fn along<R: Real>(
+        &self,
+        formula: &Formula,
+        phi: R,
+        omega: Dual<R>,
+        m: &Motion<R>,
+    ) -> Inputs<Dual<R>> {
+        let unit = self.over_angle(formula, phi, m);
+        Inputs {
+            omega,
+            time: Dual::constant(R::splat(f64::NAN)),
+            vx: unit.vx * omega,
+            vy: unit.vy * omega,
+            v: unit.v * omega,
+            psi_dot: unit.psi_dot * omega,
+            ..unit
+        }
+    }
 }
 
 impl<R: Real> LawGeometry<R> {

@@ -4,6 +4,7 @@
 use crate::drive::check::Excess;
 use crate::drive::cycle::Turn;
 use crate::drive::layout::{bundle, unbundle};
+use crate::kernel::dual::Dual;
 use crate::kernel::radau::{B, C, N, S, through, value};
 use crate::kernel::real::Real;
 
@@ -51,6 +52,19 @@ impl Piece {
         // Where the solution falls fast a polynomial may swing below zero.
         let least = self.X.iter().copied().fold(self.u, f64::min);
         value(quintic, (phi - self.phi) / self.h).max(0.5 * least)
+    }
+}
+
+/// Speed of the crank over the angle with its derivative, along solved steps.
+pub(super) fn speed_along(pieces: &[Piece]) -> impl Fn(f64) -> Dual<f64> + '_ {
+    let quintics: Vec<[f64; N]> = pieces.iter().map(Piece::quintic).collect();
+    move |phi| {
+        let k = pieces.partition_point(|piece| piece.phi <= phi).max(1) - 1;
+        let (piece, x) = (&pieces[k], Dual::variable(phi));
+        let share = (x - piece.phi) * (1.0 / piece.h);
+        let u = quintics[k].iter().rev().fold(Dual::splat(0.0), |sum, &c| sum * share + c);
+        let least = piece.X.iter().copied().fold(piece.u, f64::min);
+        (u.max(Dual::splat(0.5 * least)) * 2.0).sqrt()
     }
 }
 

@@ -10,6 +10,7 @@
 //! | [`force_elements`] | loads of the reduction in a loop of their own: springs by a curve, gas springs, dampers, … |
 //! | [`law`] | loads by formulas and tables that depend on speed or time |
 //! | [`kinks`] | where the reduced machine is not smooth |
+//! | `pulses` | where over the revolution a formula is steep |
 //! | [`layout`] | what the lanes of a revolution hold: machines or steps |
 //! | [`cycle`] | steady motion on one mesh, in any lanes |
 //! | [`mesh`], [`check`] | steps of one machine's turn; the error in each, measured |
@@ -55,6 +56,7 @@ pub mod motions;
 pub mod motor;
 pub mod motor_extremes;
 mod nested;
+mod pulses;
 pub mod reading;
 pub mod reduce;
 mod rough;

@@ -2,7 +2,10 @@
 
 use crate::drive::cycle::{Machine, Turn};
 use crate::drive::layout::{Layout, unbundle};
+use crate::drive::loads::FormulaLoad;
+use crate::drive::mesh::{Piece, speed_along};
 use crate::drive::nested::NodeSolution;
+use crate::drive::pulses::Steepness;
 use crate::drive::rough::RoughMotion;
 use crate::drive::row_mesh::RowMesh;
 use crate::drive::rows::{QUANTITIES, Rows, row_of};
@@ -231,6 +234,7 @@ impl<'a, R: Real> RowLanes<'a, R> {
                 || turn.give_samples(&mut meshes),
             );
         }
+        self.refuse_pulses(&meshes, &mut verdicts, to.first);
         for (lane, mut mesh) in meshes.into_iter().enumerate() {
             let goes_on = mesh.rounds < MESHES_MAX
                 && match verdicts[lane] {
@@ -252,6 +256,31 @@ impl<'a, R: Real> RowLanes<'a, R> {
             }
         }
         u64::from(self.turn.sweeps) * n
+    }
+
+    /// Refuses rows whose steps do not see where a formula that knows a speed is steep along their solution.
+    #[inline(always)]
+    fn refuse_pulses(&self, meshes: &[RowMesh], verdicts: &mut [Verdict], first: usize) {
+        let laws = self.plan.laws_with_pulses();
+        if laws.is_empty() {
+            return;
+        }
+        let mut pieces = vec![Vec::new(); R::LANES];
+        for step in &self.turn.steps {
+            let [phi, h, u] = [step.phi, step.h, step.u].map(|x| unbundle(&[x]));
+            let X = step.X.map(|x| unbundle(&[x]));
+            for (lane, pieces) in pieces.iter_mut().enumerate().filter(|&(lane, _)| h[lane] > 0.0) {
+                let X = std::array::from_fn(|i| X[i][lane]);
+                pieces.push(Piece { phi: phi[lane], h: h[lane], u: u[lane], X });
+            }
+        }
+        for ((mesh, verdict), pieces) in meshes.iter().zip(verdicts).zip(&pieces) {
+            if *verdict == Verdict::Good
+                && !sees_pulses(self.plan, &self.rows.row(first + mesh.row), &laws, mesh, pieces)
+            {
+                *verdict = Verdict::Refused;
+            }
+        }
     }
 
     /// Speeds of the drive's kinks between slowest and fastest, of each of some lanes.
@@ -358,6 +387,14 @@ impl<'a, R: Real> RowLanes<'a, R> {
         }
         errors
     }
+}
+
+/// Whether the steps of a row see all that these laws have steep along its solution.
+fn sees_pulses(plan: &Plan, q: &[f64], laws: &[FormulaLoad], mesh: &RowMesh, pieces: &[Piece]) -> bool {
+    let (mut m, omega, breaks) = (Motion::new(&plan.mechanism, q), speed_along(pieces), mesh.breaks());
+    laws.iter().all(|&load| {
+        Steepness { plan, q, load, omega: &omega, moves: true, breaks }.is_seen(&mesh.edges, &mut m)
+    })
 }
 
 /// u at the kink of the drive that is passed at each end of `n` steps; 0 in lanes in which there is none.

@@ -75,6 +75,11 @@ impl RowMesh {
         }
     }
 
+    /// Ends of the smooth pieces of its revolution.
+    pub(super) fn breaks(&self) -> &[f64] {
+        &self.breaks
+    }
+
     /// u at the kink on which this end of a step lies; 0 where there is none.
     pub(super) fn kink(&self, edge: usize) -> f64 {
         self.kinks.get(edge).copied().unwrap_or(0.0)

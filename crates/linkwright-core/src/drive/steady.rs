@@ -21,11 +21,13 @@ use crate::drive::march::{
     MotionChoice, NoMotion, PeriodicMotion, Repeating, Sliding, counts_as_rest, repeating,
 };
 use crate::drive::measures::Totals;
-use crate::drive::mesh::{Crossing, Mesh, Piece};
+use crate::drive::mesh::{Crossing, Mesh, Piece, speed_along};
+use crate::drive::pulses::Steepness;
 use crate::drive::reading::Mark;
 use crate::drive::structure::Plan;
 use crate::kernel::call::poll;
 use crate::kernel::lanes::{Job, in_lanes};
+use crate::kernel::radau::S;
 use crate::kernel::real::Real;
 use crate::kernel::status::Status;
 use crate::linkage::motion::Motion;
@@ -46,6 +48,9 @@ const PLACEMENTS_MAX: u32 = 8;
 
 /// The same where a law may jump: far from the motion an end of a step goes some way into the next at most.
 const JUMP_PLACEMENTS_MAX: u32 = 60;
+
+/// Most looks at where formulas are steep along a solution: what is found changes the solution, and so where it is.
+const LOOKS_MAX: u32 = 20;
 
 /// An accuracy that is asked for and cannot be had is reported, as long as it is better than this.
 const USABLE: f64 = 1e-5;
@@ -180,7 +185,7 @@ const BRIEF: f64 = 0.05;
 /// Ends of steps this near to each other \[rad\] are one.
 const NO_ANGLE: f64 = 1e-12;
 
-/// Most times that a revolution which Newton does not solve is marched through, and the shortest step of it \[rad\].
+/// Most times in a row that a revolution which Newton does not solve is marched through, and the shortest step of it \[rad\].
 const MARCHES_MAX: u32 = 8;
 const SHORTEST: f64 = 1e-11;
 
@@ -417,6 +422,7 @@ impl Job for Search<'_> {
         let mut m = Motion::new(&self.plan.mechanism, &q);
         let (mut mesh, mut start, mut sweeps, mut reached) = (self.mesh, self.start, 0, f64::NAN);
         let (mut placements, mut marches, mut best, mut idle) = (0, 0, f64::INFINITY, 0);
+        let mut looks = 0;
         for _ in 0..MESHES_MAX {
             poll();
             let machine = Machine::new(self.plan, &q).keeping_branch(may_jump);
@@ -438,7 +444,13 @@ impl Job for Search<'_> {
                 && !turn.is_solved()
                 && marches < MARCHES_MAX
                 && let Some(pieces) = &start
-                && let Some(marched) = marched(self.plan, self.q, &mesh.edges, pieces[0].u, &mut plain_motion)
+                && let Some(marched) = marched(
+                    self.plan,
+                    self.q,
+                    &mesh.edges,
+                    pieces[pieces.len() - 1].X[S - 1],
+                    &mut plain_motion,
+                )
             {
                 (mesh.edges, marches) = (ends_of(&marched, self.plan.cycle()), marches + 1);
                 start = Some(marched);
@@ -448,6 +460,7 @@ impl Job for Search<'_> {
             if !turn.is_solved() || (multiplier >= 1.0 && !self.any) {
                 return Err(Failure { reached, ..Failure::new(Status::NoSteadyMotion) });
             }
+            marches = 0;
             let pieces = turn.pieces();
             if (placements < PLACEMENTS_MAX || may_jump)
                 && let Some(next) = events.placed(&mesh, &pieces, self.breaks, &mut plain_motion)
@@ -476,6 +489,15 @@ impl Job for Search<'_> {
             let next = (!is_good && !is_noise).then(|| mesh.refined(&check.excess));
             let next = next.filter(|next| next.edges.len() <= STEPS_MAX);
             let Some(next) = next else {
+                let mut edges = mesh.edges.clone();
+                add_pulses(self.plan, self.q, self.breaks, &pieces, &mut edges, &mut plain_motion);
+                if edges.len() > mesh.edges.len() {
+                    if looks > LOOKS_MAX || edges.len() > STEPS_MAX {
+                        break;
+                    }
+                    (mesh.edges, start, placements, looks) = (edges, Some(pieces), 0, looks + 1);
+                    continue;
+                }
                 if !is_good {
                     reached = reached.max(turn.check(&machine, &kinks, self.accuracy, true, &mut m).reached);
                 }
@@ -555,6 +577,28 @@ fn marched(plan: &Plan, q: &[f64], edges: &[f64], mut u: f64, m: &mut Motion<f64
         }
     }
     Some(pieces)
+}
+
+/// Adds ends of steps where formulas that know a speed are steep along a solution that does not see it.
+fn add_pulses(
+    plan: &Plan,
+    q: &[f64],
+    breaks: &[f64],
+    pieces: &[Piece],
+    ends: &mut Vec<f64>,
+    m: &mut Motion<f64>,
+) {
+    let laws = plan.laws_with_pulses();
+    if laws.is_empty() {
+        return;
+    }
+    let omega = speed_along(pieces);
+    for load in laws {
+        let steepness = Steepness { plan, q, load, omega: &omega, moves: true, breaks };
+        if !steepness.is_seen(ends, m) {
+            steepness.add_ends(ends, m);
+        }
+    }
 }
 
 /// Ends of the steps of a revolution.

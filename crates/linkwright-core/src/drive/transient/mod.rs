@@ -31,6 +31,7 @@ use self::reduced::ReducedCurves;
 use self::stiff::StiffAttempt;
 use crate::drive::cycle::Machine;
 use crate::drive::events::turns_near_zero;
+use crate::drive::kinks::landings;
 use crate::drive::mesh::crossing;
 use crate::drive::structure::Plan;
 use crate::kernel::call::poll;
@@ -145,7 +146,7 @@ const NEAR_JUMP: f64 = 1e-5;
 pub fn follow(plan: &Plan, q: &[f64], start: &Start) -> Trajectory {
     let machine = Machine::new(plan, q);
     let mut motion = Motion::new(&plan.mechanism, q);
-    let mut kinks = machine.breaks(&mut motion).swap_remove(0);
+    let mut kinks = landings(plan, q, machine.breaks(&mut motion).swap_remove(0));
     let curves = ReducedCurves::new(plan, &kinks, start.turning.crank, start.accuracy);
     if start.turning.crank < 0.0 {
         kinks = kinks.iter().rev().map(|kink| plan.cycle() - kink).collect();

@@ -1,0 +1,182 @@
+"""A force of a formula that rises and falls back within a small angle is not passed over."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.interpolate import CubicSpline
+
+import linkwright as lw
+
+FILE = """format = 1
+name = "Press"
+mechanism.cranks.A.radius = {radius}
+mechanism.sliders.S = {{ crank = "A", rod = {rod} }}
+bodies.S.mass = {mass}
+[drive]
+motor = {{ kind = "dc", speed_no_load = {speed}, torque_stall = {torque} }}
+flywheel.inertia = {inertia}
+[loads.friction]
+kind = "formula"
+on = "S"
+force = "-{damping}*v"
+[loads.pulse]
+kind = "formula"
+on = "S"
+force = "{force}"
+"""
+
+# Over ξ, the distance from the place in widths.
+SHAPES = {
+    "Gauss": "{size}*exp(-({xi})^2)",
+    "pair of tanh": "{size}*(tanh({xi}) - tanh({xi} - 3))",
+    "power": "{size}/(1 + ({xi})^2)^4",
+}
+
+
+@dataclass(frozen=True)
+class Press:
+    """A crank drive with a pulse; its motion by SciPy, which is given the place of the pulse."""
+
+    shape: str
+    over: str
+    seed: int
+    wide: float
+
+    @cached_property
+    def numbers(self) -> dict[str, float]:
+        draw = np.random.default_rng([self.seed, len(self.shape), ord(self.over[0])])
+        radius = draw.uniform(0.1, 0.5)
+        ranges = {"mass": (2, 40), "speed": (10, 80), "torque": (200, 1500), "inertia": (1, 10)}
+        numbers = {"radius": radius, "rod": radius * draw.uniform(1.7, 5), "damping": 1 / radius**2}
+        numbers |= {name: draw.uniform(*ends) for name, ends in ranges.items()}
+        phi = draw.uniform(0.1, 6.1)
+        s, ds, dds = self.way(phi, numbers)
+        omega = 0.9 * numbers["speed"]
+        at, per_radian = {"phi": (phi, 1.0), "x": (s, ds), "v": (ds * omega, dds * omega)}[self.over]
+        size = draw.choice([-1, 1]) * draw.uniform(100, 1000)
+        return numbers | {"place": at, "width": self.wide * abs(per_radian), "size": size}
+
+    @property
+    def machine(self) -> lw.Machine:
+        numbers = {name: float(number) for name, number in self.numbers.items()}
+        xi = f"({self.over} - ({numbers['place']!r}))/{numbers['width']!r}"
+        return lw.loads(FILE.format(**numbers, force=SHAPES[self.shape].format(size=numbers["size"], xi=xi)))
+
+    @staticmethod
+    def way(phi: float, numbers: dict[str, float]) -> tuple[float, float, float]:
+        """Way of the slider and its derivatives by φ."""
+        r, rod, sin, cos = numbers["radius"], numbers["rod"], np.sin(phi), np.cos(phi)
+        leg = np.sqrt(rod**2 - (r * sin) ** 2)
+        d = -(r**2) * sin * cos / leg
+        return r * cos + leg, -r * sin + d, -r * cos - (r**2 * (cos**2 - sin**2) + d**2) / leg
+
+    def xi(self, phi: float, omega: float) -> float:
+        s, ds, _ = self.way(phi, self.numbers)
+        value = {"phi": phi, "x": s, "v": ds * omega}[self.over]
+        return (value - self.numbers["place"]) / self.numbers["width"]
+
+    def pulse(self, xi: float) -> float:
+        shape = {
+            "Gauss": lambda: np.exp(-xi * xi),
+            "pair of tanh": lambda: np.tanh(xi) - np.tanh(xi - 3),
+            "power": lambda: (1 + xi * xi) ** -4,
+        }
+        return float(self.numbers["size"] * shape[self.shape]())
+
+    def rate(self, phi: float, y: np.ndarray) -> list[float]:
+        """Derivatives of u = ½ω² and of the work against the loads, by φ."""
+        n, omega = self.numbers, np.sqrt(2 * y[0])
+        _, ds, dds = self.way(phi, n)
+        force = -n["damping"] * ds * omega + self.pulse(self.xi(phi, omega))
+        torque = n["torque"] * (1 - omega / n["speed"]) + force * ds
+        mass = n["mass"]
+        return [(torque - 2 * mass * ds * dds * y[0]) / (n["inertia"] + mass * ds**2), -force * ds]
+
+    def ends(self, omega: np.ndarray, phi: np.ndarray) -> np.ndarray:
+        """Angles that get closer to each other towards where the pulse is."""
+        xi, found = self.xi(phi, omega), [np.linspace(0, 2 * np.pi, 25)]
+        for level in (0.0, 3.0):
+            for i in np.nonzero((xi[:-1] - level) * (xi[1:] - level) <= 0)[0]:
+                slope = (xi[i + 1] - xi[i]) / (phi[1] - phi[0])
+                off = 1.5 ** np.arange(-3, 40) / max(abs(slope), 2.0)
+                at = phi[i] + (level - xi[i]) / slope
+                found += [[at], at - off[off < 0.5], at + off[off < 0.5]]
+        ends = np.unique(np.concatenate(found))
+        ends = ends[(ends >= 0) & (ends <= 2 * np.pi)]
+        return ends[np.append(np.diff(ends) > 1e-9, True)]
+
+    def revolution(self, u: float, ends: np.ndarray) -> tuple[np.ndarray, float]:
+        y, along = np.array([u, 0.0]), [u]
+        for part in pairwise(ends):
+            y = solve_ivp(self.rate, part, y, method="DOP853", rtol=1e-12, atol=1e-13 * u).y[:, -1]
+            along.append(y[0])
+        return np.array(along), float(y[1])
+
+    def steady(self) -> tuple[float, float]:
+        """Work against the loads and speed at φ = 0 of the motion that repeats."""
+        phi = np.linspace(0, 2 * np.pi, 20_001)
+        omega = np.full_like(phi, 0.9 * self.numbers["speed"])
+        u = 0.5 * omega[0] ** 2
+        for _ in range(12):
+            ends = self.ends(omega, phi)
+            along, work = self.revolution(u, ends)
+            beside = self.revolution((1 + 1e-6) * u, ends)[0]
+            growth = (beside[-1] - along[-1]) / (1e-6 * u)
+            change = (along[-1] - u) / (1 - growth)
+            omega = np.sqrt(2 * CubicSpline(ends, along)(phi))
+            if abs(change) < 1e-12 * u:
+                break
+            u += change
+        return work, float(np.sqrt(2 * u))
+
+
+@pytest.mark.parametrize("wide", [1.3e-4, 1.1e-3, 7e-3, 0.04])
+@pytest.mark.parametrize("over", ["phi", "x", "v"])
+@pytest.mark.parametrize("shape", SHAPES)
+def test_pulses_are_not_passed_over(shape: str, over: str, wide: float) -> None:
+    press = Press(shape, over, seed=round(1e5 * wide), wide=wide)
+    work, speed = press.steady()
+    motion = lw.steady_state(press.machine, angles=[0.0])
+    promised = max(3e-9, motion.accuracy)
+    assert promised < 1e-6
+    assert motion.speed[0] == pytest.approx(speed, rel=promised)
+    assert motion.energy_load == pytest.approx(work, rel=promised)
+    rows = lw.steady_states(press.machine, {"bodies.S.mass": [float(press.numbers["mass"])] * 2})
+    # A row is promised to 1e-7.
+    assert rows.energy_load == pytest.approx(work, rel=1e-7)
+
+
+@pytest.mark.parametrize("wide", [2e-4, 3e-3])
+@pytest.mark.parametrize("over", ["phi", "x"])
+def test_a_motion_in_time_does_not_pass_over_pulses(over: str, wide: float) -> None:
+    press = Press("Gauss", over, seed=7, wide=wide)
+    start = 0.5 * press.numbers["speed"]
+    phi, u = np.linspace(0, 2 * np.pi, 20_001), 0.5 * start**2
+    for _ in range(3):
+        u = press.revolution(u, press.ends(np.full_like(phi, start), phi))[0][-1]
+    motion = lw.transient(press.machine, speed=start, turns=3.0)
+    assert motion.speed[-1] == pytest.approx(np.sqrt(2 * u), rel=3e-8)
+
+
+def test_two_kinks_close_to_each_other_are_seen() -> None:
+    """Between two angles of the scan for kinks the argument of the switch has the same sign at both."""
+    text = FILE.format(
+        radius=0.4, rod=1.1, mass=6, speed=60, torque=900, inertia=5, damping=10, force="{force}"
+    )
+    for force, of_one in (
+        ("where(abs(phi - 2) < 0.002, 500, 0)", 2.0),
+        ("max(0, 1 - abs(phi - 2)/0.002)*500", 1.0),
+    ):
+        machine = lw.loads(text.replace("{force}", force))
+        motion = lw.steady_state(machine)
+        way = [Press.way(phi, {"radius": 0.4, "rod": 1.1})[0] for phi in (1.998, 2.002)]
+        plain = lw.steady_state(lw.loads(text.replace("{force}", "0*v")))
+        # The speed hardly changes: what the friction takes changes with its square.
+        taken = plain.energy_load - motion.energy_load
+        assert taken == pytest.approx(0.5 * of_one * 500 * (way[1] - way[0]), rel=0.1)
