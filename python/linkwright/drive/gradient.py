@@ -307,19 +307,18 @@ class _Peaks:
         beside = np.concatenate([-_BESIDE, _BESIDE])
         angles = np.concatenate([even, (compiled.kinks()[:, None] + beside).ravel()])
         self.angles = np.unique(angles % self.cycle)
-        self.curves = self._read(self.angles)
+        self.curves = solution.curves(self.angles)
 
-    def _read(self, angles: Floats) -> dict[str, Floats]:
-        """Speed and acceleration at crank angles of any shape."""
+    def _read(self, angles: Floats, quantity: str) -> Floats:
+        """Speed or acceleration at crank angles of any shape."""
         order, back = np.unique(angles % self.cycle, return_inverse=True)
-        read = self.solution.curves(order)
-        back = back.reshape(angles.shape)
-        return {name: getattr(read, name)[back] for name in ("speed", "acceleration")}
+        read: Floats = getattr(self.solution.curves(order), quantity)
+        return read[back.reshape(angles.shape)]
 
     def as_high_as(self, extreme: tuple[float, float], quantity: str, sign: float) -> list[float]:
         """Angles [rad] of the highest peak and of all that are as high, of a curve with a sign."""
         at, top = extreme
-        curve = sign * self.curves[quantity]
+        curve = sign * getattr(self.curves, quantity)
         span = float(np.ptp(curve))
         near = np.flatnonzero(curve >= top - _DOUBT * span)
         before, behind = near - 1, (near + 1) % len(curve)
@@ -342,7 +341,7 @@ class _Peaks:
         rows = np.arange(len(low))
         for _ in range(_ROUNDS):
             angles = np.linspace(low, high, _READINGS, axis=-1)
-            values = sign * self._read(angles)[quantity]
+            values = sign * self._read(angles, quantity)
             best = values.argmax(axis=-1)
             low, high = (angles[rows, np.clip(best + way, 0, _READINGS - 1)] for way in (-1, 1))
         return angles[rows, best], values[rows, best]

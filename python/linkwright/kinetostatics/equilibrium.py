@@ -81,6 +81,7 @@ class Equilibrium:
         self.column_scale = np.where(moments, scene.size, 1.0)
         _require_room(scene.n, len(self.rows), len(moments))
         self.base = self._matrix(scene, [unknown for model in models for unknown in model.unknowns])
+        self.base *= self.column_scale
         self.extras = [
             None if model.extra is None or not model.is_nonlinear else self._matrix(scene, [model.extra])
             for model in models
@@ -172,12 +173,12 @@ class Equilibrium:
 
     def matrix(self, slopes: Floats) -> Floats:
         """A, (n, equations, unknowns), for unknowns over their scale."""
-        A = self.base.copy(order="K")
-        for k, span in enumerate(self.spans):
-            extra = self.extras[k]
+        if all(extra is None for extra in self.extras):
+            return self.base
+        A, slopes = self.base.copy(order="K"), slopes * self.column_scale
+        for extra, span in zip(self.extras, self.spans, strict=True):
             if extra is not None:
                 A[:, :, span] += extra * slopes[:, None, span]
-        A *= self.column_scale
         return A
 
     def _linear(self, slopes: Floats, b: Floats, where: Bools) -> tuple[Floats, Bools]:

@@ -7,6 +7,7 @@ batch describes many machines at once. A table that is exchanged is checked by i
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from functools import cache
 from numbers import Number
 from typing import Any
 
@@ -87,10 +88,16 @@ def kind(machine: Machine, address: str) -> Kind | None:
     place = known_place(machine, address)
     owner = entry_at(machine, place[:-1])
     # A description that has been read is of one class, whatever its table may be.
-    is_table = isinstance(owner, Description)
-    mark = mark_of(
-        annotation_at(type(owner), place[-1:]) if is_table else annotation_at(Machine, place, machine)
-    )
+    if isinstance(owner, Description):
+        return _kind_of(type(owner), place[-1])
+    mark = mark_of(annotation_at(Machine, place, machine))
+    return mark.kind if mark else None
+
+
+@cache
+def _kind_of(model: type[Description], key: str) -> Kind | None:
+    """The quantity of an entry of a description."""
+    mark = mark_of(annotation_at(model, (key,)))
     return mark.kind if mark else None
 
 
@@ -117,17 +124,17 @@ def replace(machine: Machine, entries: Mapping[str, Any]) -> Machine:
         number where a number belongs, or a number, also one of an array, is out of the range of its entry.
     """
     places = {address: known_place(machine, address) for address in entries}
-    return _exchanged(
+    return exchanged_at(
         machine, {place: _checked(machine, place, entries[address]) for address, place in places.items()}
     )
 
 
 def exchanged(machine: Machine, entries: Mapping[str, Any]) -> Machine:
     """Copy of a machine with numbers of any kind at some addresses, unchecked."""
-    return _exchanged(machine, {known_place(machine, address): value for address, value in entries.items()})
+    return exchanged_at(machine, {known_place(machine, address): value for address, value in entries.items()})
 
 
-def _exchanged(machine: Machine, entries: Mapping[tuple[str, ...], Any]) -> Machine:
+def exchanged_at(machine: Machine, entries: Mapping[tuple[str, ...], Any]) -> Machine:
     """The same at known places."""
     tree: dict[str, Any] = {}
     for place, value in entries.items():

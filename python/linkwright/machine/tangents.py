@@ -17,7 +17,7 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import LinkwrightError
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.kernel.numerics.tangent_array import TangentArray
-from linkwright.machine.address import entry_at, entry_of, exchanged, is_given, known_place
+from linkwright.machine.address import entry_at, entry_of, exchanged, exchanged_at, is_given, known_place
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import Translation, compile_machine
 from linkwright.machine.program.mechanism import MechanismProgram
@@ -220,11 +220,11 @@ def seeded(machine: Machine, names: Sequence[str]) -> Machine:
     seeds: dict[str, Any] = {
         name: TangentArray(float(entry_of(machine, name)), unit) for name, unit in units.items()
     }
-    following = [name for name in names if not is_given(machine, name)]
-    alone = [exchanged(machine, {name: seeds[name] for name in names if name not in set(following)})]
-    alone += [exchanged(machine, {name: seeds[name]}) for name in following]
-    for name in following:
-        entries = [entry_at(one, known_place(machine, name)) for one in alone]
+    following = {name: known_place(machine, name) for name in names if not is_given(machine, name)}
+    given = exchanged(machine, {name: seeds[name] for name in names if name not in following})
+    alone = [given, *(exchanged(machine, {name: seeds[name]}) for name in following)]
+    for name, place in following.items():
+        entries = [entry_at(one, place) for one in alone]
         d = sum((x.d for x in entries if isinstance(x, TangentArray)), start=np.zeros(len(names)))
         seeds[name] = TangentArray(seeds[name].value, d)
-    return exchanged(machine, seeds)
+    return exchanged_at(given, {place: seeds[name] for name, place in following.items()})

@@ -55,7 +55,7 @@ def parse(value: object, kind: Kind) -> float:
 
 def is_number(value: object) -> TypeGuard[float]:
     """Whether an entry is a number: no switch, which Python counts as one, and no text."""
-    return isinstance(value, Real) and not isinstance(value, bool)
+    return type(value) is float or (isinstance(value, Real) and not isinstance(value, bool))
 
 
 def parse_any(value: object) -> float:
