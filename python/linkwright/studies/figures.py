@@ -23,7 +23,7 @@ from linkwright.kernel.figure.style import (
     RED,
     SOFT,
     WIDTH,
-    named,
+    broken,
     panels,
     roomy,
     styled,
@@ -42,6 +42,9 @@ _POINTS, _LINES = 4_000, 600
 
 # Behind names between lines.
 _BEHIND: Any = {"facecolor": PAPER, "edgecolor": "none", "alpha": 0.75, "pad": 0.6}
+
+# Letters of a label beside a panel of curves, along the side of a map, and of small ones an inch.
+_HIGH, _WIDE, _PER_INCH = 20, 44, 12
 
 # Columns of a matrix that can still be read on a page.
 _PANELS = 7
@@ -76,10 +79,10 @@ def curve_figure(shown: StudyRows) -> Figure:
         marker = "." if len(order) < 40 or not shown.is_number(name) else None
         line = "-" if shown.is_number(name) else ""
         panel.plot(shown.columns[name][order], values, linestyle=line, color=BLUE, marker=marker)
-        panel.set_ylabel(named(shown.labels[response]))
+        panel.set_ylabel(broken(shown.labels[response], _HIGH))
         if np.isfinite(values).any():
             roomy(panel, values[np.isfinite(values)])
-    axes[-1].set_xlabel(named(shown.labels[name]))
+    axes[-1].set_xlabel(broken(shown.labels[name], _WIDE))
     _name_places(shown, name, axes[-1].xaxis)
     return figure
 
@@ -94,7 +97,7 @@ def map_figure(shown: StudyRows, response: str) -> Figure:
     at = np.searchsorted(y, shown.columns[second]), np.searchsorted(x, shown.columns[first])
     table[at] = shown.columns[response]
     drawn = panel.pcolormesh(x, y, table, cmap="viridis", shading="nearest", rasterized=True)
-    figure.colorbar(drawn, ax=panel, label=named(shown.labels[response]))
+    figure.colorbar(drawn, ax=panel, label=broken(shown.labels[response], _WIDE))
     is_sloped = np.isfinite(table).any() and np.nanmin(table) < np.nanmax(table)
     if min(table.shape) > 1 and is_sloped and shown.is_number(first) and shown.is_number(second):
         lines = panel.contour(x, y, table, colors="white", linewidths=0.8, levels=9)
@@ -104,7 +107,7 @@ def map_figure(shown: StudyRows, response: str) -> Figure:
             row, column = np.unravel_index(pick(table), table.shape)
             word = f"{word} {number(table[row, column])}"
             panel.plot(x[column], y[row], mark, color=RED, markeredgecolor="white", markersize=9, label=word)
-    panel.set(xlabel=named(shown.labels[first]), ylabel=named(shown.labels[second]))
+    panel.set(xlabel=broken(shown.labels[first], _WIDE), ylabel=broken(shown.labels[second], _WIDE))
     _name_places(shown, first, panel.xaxis)
     _name_places(shown, second, panel.yaxis)
     panel.grid(visible=False)
@@ -119,6 +122,7 @@ def scatter_figure(shown: StudyRows) -> Figure:
     size = max(WIDTH, 1.25 * len(names))
     figure, axes = panels(len(names), height=size, columns=len(names), shared=False)
     figure.set_size_inches(size, size)
+    letters = int(_PER_INCH * size / len(names))
     rows = _spread(len(shown.columns[names[0]]), _POINTS)
     for place, panel in enumerate(axes):
         i, j = divmod(place, len(names))
@@ -134,11 +138,11 @@ def scatter_figure(shown: StudyRows) -> Figure:
         if i != j:
             _name_places(shown, names[i], panel.yaxis)
         if i == len(names) - 1:
-            panel.set_xlabel(named(shown.labels[names[j]]), fontsize=7)
+            panel.set_xlabel(broken(shown.labels[names[j]], letters), fontsize=7)
         elif not shown.is_number(names[j]):
             panel.tick_params(labelbottom=False)
         if j == 0:
-            panel.set_ylabel(named(shown.labels[names[i]]), fontsize=7)
+            panel.set_ylabel(broken(shown.labels[names[i]], letters), fontsize=7)
         elif not shown.is_number(names[i]):
             panel.tick_params(labelleft=False)
     return figure
@@ -161,7 +165,8 @@ def parallel_figure(shown: StudyRows) -> Figure:
     colours = colormaps["viridis"](np.linspace(0, 1, max(len(lines), 1)))
     panel.add_collection(LineCollection(lines, colors=colours, linewidths=0.6, alpha=0.7))
     panel.set(xlim=(0, max(len(names) - 1, 1)), ylim=(-0.08, 1.08), yticks=[])
-    panel.set_xticks(places, [named(shown.labels[name]) for name in names], rotation=20, ha="right")
+    letters = int(_PER_INCH * WIDTH / len(names))
+    panel.set_xticks(places, [broken(shown.labels[name], letters) for name in names], fontsize=8)
     for place, name in enumerate(names):
         for text, height in _marks(shown, name, shown.columns[name][rows]):
             panel.text(place, height, text, ha="center", fontsize=7, bbox=_BEHIND)

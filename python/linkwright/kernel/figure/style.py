@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import warnings
 from collections.abc import Callable
 from functools import cache, wraps
@@ -169,6 +170,17 @@ def _power_of_ten(value: float) -> str:
 def named(name: str) -> str:
     """A name of a machine file as a label: what begins with an underscore would stand in no legend."""
     return f" {name}" if name.startswith("_") else name
+
+
+def broken(name: str, width: int) -> str:
+    """A label in lines of about so many letters: a name of a file has no spaces, but underscores."""
+    lines = [""]
+    # The unit in brackets at the end stays whole.
+    for part in re.findall(r"\[[^\[\]]*\]$|[^_ ]*[_ ]|[^_ ]+$", named(name)):
+        if len(lines[-1]) + len(part.rstrip()) > width and lines[-1].strip():
+            lines.append("")
+        lines[-1] += part
+    return "\n".join(line.rstrip(" ") for line in lines)
 
 
 def zero_line(axes: Axes) -> None:
