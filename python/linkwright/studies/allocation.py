@@ -110,42 +110,12 @@ def allocate(
     FindingError
         The machine in the middle of the tolerances does not keep the limits, or no tolerances give the yield.
     """
-    if not 0 < wanted < 1:
-        raise InputError(f"wanted {wanted}: expected a number between 0 and 1, such as 0.99")
-    if not 0.1 <= power <= 10:
-        raise InputError(f"power {power}: expected 0.1 to 10")
-    if not 100 <= rows <= _ROWS_MOST:
-        raise InputError(f"rows {rows}: expected 100 to 10 000 000 rows")
-    # One machine of the rows, with room for rounding.
-    finest = (1 - 1e-9) / rows
-    if not finest <= wanted <= 1 - finest:
-        many = math.ceil(min((1 - 1e-9) / min(wanted, 1 - wanted), 1e300))
-        remedy = f"; give at least {many} rows" if many <= _ROWS_MOST else ""
-        expected = f"{1 / rows:g} to {1 - 1 / rows:.10g}, the shares that {rows} rows tell"
-        raise InputError(f"wanted {wanted:.15g}: expected {expected}{remedy}")
+    _check(wanted, power, rows)
     problem = _Problem(plan, power)
-    shares = sampling.random(len(plan.axes), seed, 0, rows)
-    alone = Counter[str]()
-
-    def yield_at(factors: Floats) -> dict[str, Any]:
-        wider = replace(plan, axes=tuple(map(_widened, plan.axes, factors)))
-        drawn = evaluate(plan, wider.values(shares))
-        alone.update(drawn.one_by_one)
-        return yield_of(plan, drawn, 0.95) | {"fast_starts": drawn.not_settling()}
-
-    low, high = _FEWEST, _MOST
-    tightest = problem.factors(high)
-    if yield_at(tightest)["share_within"] < wanted:
-        raise FindingError(
-            f"no tolerances give a yield of {100 * wanted:g} %: variables without a cost scatter too much, "
-            "or the middle is too near to a limit; give them a cost, or move the machine"
-        )
-    for _ in range(_HALVINGS):
-        middle = 0.5 * (low + high)
-        is_enough = yield_at(problem.factors(middle))["share_within"] >= wanted
-        low, high = (low, middle) if is_enough else (middle, high)
+    yields = _Yields(plan, sampling.random(len(plan.axes), seed, 0, rows))
+    high = _deviations(problem, yields, wanted)
     factors = problem.factors(high)
-    after, before = yield_at(factors), yield_at(np.ones(len(factors)))
+    after, before = yields.at(factors), yields.at(np.ones(len(factors)))
     names = [axis.name for axis in plan.axes]
     widened = dict(zip(names, map(_widened, plan.axes, factors), strict=True))
     return Allocation(
@@ -160,8 +130,55 @@ def allocate(
         active=problem.active(factors, high),
         n_rows=rows,
         fast_starts=after["fast_starts"],
-        one_by_one=dict(alone.most_common()),
+        one_by_one=dict(yields.alone.most_common()),
     )
+
+
+def _check(wanted: float, power: float, rows: int) -> None:
+    """Refuse numbers out of range, and a yield that so many rows do not tell."""
+    if not 0 < wanted < 1:
+        raise InputError(f"wanted {wanted}: expected a number between 0 and 1, such as 0.99")
+    if not 0.1 <= power <= 10:
+        raise InputError(f"power {power}: expected 0.1 to 10")
+    if not 100 <= rows <= _ROWS_MOST:
+        raise InputError(f"rows {rows}: expected 100 to 10 000 000 rows")
+    # One machine of the rows, with room for rounding.
+    finest = (1 - 1e-9) / rows
+    if not finest <= wanted <= 1 - finest:
+        many = math.ceil(min((1 - 1e-9) / min(wanted, 1 - wanted), 1e300))
+        remedy = f"; give at least {many} rows" if many <= _ROWS_MOST else ""
+        expected = f"{1 / rows:g} to {1 - 1 / rows:.10g}, the shares that {rows} rows tell"
+        raise InputError(f"wanted {wanted:.15g}: expected {expected}{remedy}")
+
+
+class _Yields:
+    """Yields of tolerances that are wider by factors, with the same random numbers each time."""
+
+    def __init__(self, plan: StudyPlan, shares: Floats) -> None:
+        self.plan, self.shares = plan, shares
+        self.alone: Counter[str] = Counter()  # why rows were computed one by one
+
+    def at(self, factors: Floats) -> dict[str, Any]:
+        """Yield with its interval, and what becomes of fast starts."""
+        wider = replace(self.plan, axes=tuple(map(_widened, self.plan.axes, factors)))
+        drawn = evaluate(self.plan, wider.values(self.shares))
+        self.alone.update(drawn.one_by_one)
+        return yield_of(self.plan, drawn, 0.95) | {"fast_starts": drawn.not_settling()}
+
+
+def _deviations(problem: _Problem, yields: _Yields, wanted: float) -> float:
+    """Fewest deviations to the nearest limit with which the cheapest tolerances give a yield."""
+    low, high = _FEWEST, _MOST
+    if yields.at(problem.factors(high))["share_within"] < wanted:
+        raise FindingError(
+            f"no tolerances give a yield of {100 * wanted:g} %: variables without a cost scatter too much, "
+            "or the middle is too near to a limit; give them a cost, or move the machine"
+        )
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        is_enough = yields.at(problem.factors(middle))["share_within"] >= wanted
+        low, high = (low, middle) if is_enough else (middle, high)
+    return high
 
 
 class _Problem:

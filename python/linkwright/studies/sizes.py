@@ -41,6 +41,19 @@ _PER_KILOWATT, _PER_KILOGRAM, _RADIUS = 150.0, 1.5, 0.6
 # How much larger than they are sizes of a cam and of a damper may become.
 _LARGER = 5.0
 
+# What a drive is judged by, beside its cost.
+_OF_DRIVE: dict[str, Any] = {
+    "delta": "steady_state.unevenness",
+    "speed": "steady_state.speed_mean_time",
+    "rms": "steady_state.torque_motor_rms",
+    "peak": "steady_state.torque_motor_max",
+    "power": {"entry": "drive.motor.power_rated"},
+    "rated": {"entry": "drive.motor.torque_rated"},
+    "breakdown": {"entry": "drive.motor.torque_breakdown"},
+    "load": {"formula": "rms/rated"},
+    "overload": {"formula": "peak/breakdown"},
+}
+
 
 def drive_study(
     machine: Machine,
@@ -97,20 +110,8 @@ def drive_study(
         "load": {"max": 1.0},
         "overload": {"max": _OVERLOAD},
     }
-    responses: dict[str, Any] = {
-        "delta": "steady_state.unevenness",
-        "speed": "steady_state.speed_mean_time",
-        "rms": "steady_state.torque_motor_rms",
-        "peak": "steady_state.torque_motor_max",
-        "power": {"entry": "drive.motor.power_rated"},
-        "rated": {"entry": "drive.motor.torque_rated"},
-        "breakdown": {"entry": "drive.motor.torque_breakdown"},
-        "load": {"formula": "rms/rated"},
-        "overload": {"formula": "peak/breakdown"},
-        "cost": {
-            "formula": f"{per_kilowatt!r}*power/1000 + {per_kilogram!r}*2*flywheel/{flywheel_radius!r}^2"
-        },
-    }
+    cost = f"{per_kilowatt!r}*power/1000 + {per_kilogram!r}*2*flywheel/{flywheel_radius!r}^2"
+    responses: dict[str, Any] = {**_OF_DRIVE, "cost": {"formula": cost}}
     if run_up_time is not None:
         responses["start"], limits["start"] = "run_up.time", {"max": run_up_time}
     variables = {
