@@ -17,6 +17,7 @@ import test_random_machines as drives
 import test_random_pumping_units as units
 import test_random_toppers as toppers
 from numpy.random import Generator
+from numpy.typing import NDArray
 from random_diagrams import areas, formula, table
 from random_parts import log_uniform, random_train
 from sizes import cases
@@ -265,6 +266,9 @@ class Difference:
     # By how much that of fourth order is another, and those to either side: where they are, truncation,
     # rounding or a kink count.
     uncertainty: Floats
+    # Smallest change from value to value, infinite where there is none; and whether some are equal.
+    smallest: Floats
+    has_equal: NDArray[np.bool_]
 
 
 def _difference(machine: lw.Machine, direction: Way, measure: drives.Measure, step: float) -> Difference:
@@ -280,7 +284,10 @@ def _difference(machine: lw.Machine, direction: Way, measure: drives.Measure, st
         (-21 * near[0] + 32 * near[side] - 12 * near[2 * side] + near[4 * side]) / (12 * side * step)
         for side in (1, -1)
     )
-    return Difference(sixth, np.abs(sixth - fourth) + 0.3 * np.abs(right - left))
+    changes = np.diff(np.sort(list(near.values()), axis=0), axis=0)
+    smallest = np.where(changes > 0.0, changes, np.inf).min(axis=0)
+    uncertainty = np.abs(sixth - fourth) + 0.3 * np.abs(right - left)
+    return Difference(sixth, uncertainty, smallest, (changes == 0.0).any(axis=0))
 
 
 @dataclass
@@ -323,17 +330,21 @@ def compared(case: Case, random: Generator) -> Tally:
 def _compare(case: Case, names: list[str], exact: Floats, direction: Way, good: Floats, tally: Tally) -> None:
     """Over each step as far as they are needed; what counts is the difference that is surest of itself."""
     errors, uncertainties = [], []
+    quantum, has_equal = np.full(len(names), np.inf), np.zeros(len(names), dtype=bool)
     agrees = np.zeros(len(names), dtype=bool)
     for step in _STEPS:
         found = _difference(case.machine, direction, lambda x: case.measure(x, names), step)
         # There may be none beside the machine, as of a load factor where the mean passes zero.
         errors.append(np.nan_to_num(np.abs(exact - found.value), nan=np.inf))
         uncertainties.append(np.nan_to_num(found.uncertainty, nan=np.inf))
+        quantum, has_equal = np.fmin(quantum, found.smallest), has_equal | found.has_equal
         agrees |= errors[-1] + uncertainties[-1] <= good
         if agrees.all():
             tally.count += len(names)
             return
-    least, off = _surest(np.array(uncertainties), np.array(errors))
+    # A number that stays the same over short steps is known to its smallest change only, over long ones too.
+    floor = np.where(has_equal & np.isfinite(quantum), quantum, 0.0) / np.array(_STEPS)[:, None]
+    least, off = _surest(np.array(uncertainties) + floor, np.array(errors))
     wrong = ~agrees & ~(off <= good + _UNCERTAIN * least)
     tally.count += len(names)
     tally.coarse += int((~agrees & ~wrong).sum())

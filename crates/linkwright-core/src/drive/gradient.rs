@@ -14,8 +14,10 @@ use crate::drive::cycle::{Machine, REFERENCE, Step, Turn, stages_of_part};
 use crate::drive::events::{Events, Passage};
 use crate::drive::extremes::Extreme;
 use crate::drive::kinks::kinks;
-use crate::drive::layers::resolved;
+use crate::drive::law::LawGeometry;
+use crate::drive::layers::{ON_KINK, resolved};
 use crate::drive::layout::{Layout, bundle, unbundle};
+use crate::drive::mesh::Crossing;
 use crate::drive::reading::{Mark, State};
 use crate::drive::steady::Steady;
 use crate::drive::structure::Plan;
@@ -49,21 +51,26 @@ const NOTHING: f64 = 1e-13;
 /// jump: the two are read from one solution, to its rounding.
 const SIDES: f64 = 1e-7;
 
-/// Share of a step beside a peak at which the acceleration is read for slope and bend: by its fourth power differences err,
-/// and by rounding over it.
+/// Share of a step beside a peak at which it is read again: by its fourth power differences err, and by rounding over it. So many
+/// secants lead from there to where the slope of the acceleration is zero, unless that lies farther off than so many times the share.
 const ASIDE: f64 = 4e-3;
+const SECANTS: usize = 2;
+const FAR: f64 = 4.0;
+
+/// Under a steep drive rounding of the speed is acceleration, which tells the place of an extreme of the speed worse than the
+/// speed itself: where that is more than the first share of its change over [`ASIDE`]. Then the speed is read, at the second
+/// share of a step, over which it changes by more than rounding.
+const PLACED: f64 = 1e-6;
+const ASIDE_OF_SPEED: f64 = 3e-2;
 
 /// Steps of Newton's method to the peak between those readings.
 const NEWTON: usize = 3;
 
-/// Share of that within which a peak at the end of a step is a corner.
-const AT_CORNER: f64 = 1e-3;
+/// Share of a step within which a peak at its end is a corner.
+const AT_CORNER: f64 = 4e-6;
 
 /// An angle this near to the end of a step \[rad\] is that end.
 const AT_END: f64 = 1e-12;
-
-/// An end of a step this near to a kink of loads or motion \[rad\] may move with it.
-const ON_KINK: f64 = 1e-8;
 
 /// The derivatives along some directions of the parameters.
 pub struct Gradient<'a> {
@@ -96,18 +103,20 @@ pub struct Derivatives {
 struct SolvedSteps {
     /// At the starts of the steps.
     marks: Vec<Mark>,
+    /// Where it passes kinks that depend on it.
+    crossings: Vec<Crossing>,
     /// Ends of steps that lie on kinks of loads or motion, and may move with them; the others stay \[rad\].
     on_kinks: Vec<f64>,
 }
 
 impl SolvedSteps {
     fn new(of: &Gradient<'_>) -> Self {
-        let marks = resolved(of.plan, of.q, of.steady);
         let kinks = kinks(of.plan, of.q);
+        let (marks, crossings) = resolved(of.plan, of.q, of.steady, &kinks);
         let ends = marks.iter().map(|mark| mark.phi).chain([of.plan.cycle()]);
         let is_kink = |phi: &f64| kinks.iter().any(|kink| (kink - phi).abs() < ON_KINK);
         let on_kinks = ends.filter(is_kink).collect();
-        SolvedSteps { marks, on_kinks }
+        SolvedSteps { marks, crossings, on_kinks }
     }
 }
 
@@ -237,6 +246,8 @@ struct DualRevolution<'a, R: Real> {
     steady: &'a Steady,
     /// The solution at the starts of its steps.
     marks: &'a [Mark],
+    /// Where it passes kinks that depend on it.
+    crossings: &'a [Crossing],
     turn: Turn<Dual<R>>,
     /// Ends of the steps, the last at the end of the cycle.
     edges: Vec<Dual<R>>,
@@ -260,8 +271,8 @@ impl<'a, R: Real> DualRevolution<'a, R> {
             let edge = if is_moved { moved.next() } else { None };
             edges.push(edge.unwrap_or(Dual::splat(phi)));
         }
-        let marks = &solved.marks;
-        let mut dual = DualRevolution { machine, steady, marks, turn: Turn::empty(Layout::Machines), edges };
+        let (marks, crossings, turn) = (&solved.marks, &solved.crossings, Turn::empty(Layout::Machines));
+        let mut dual = DualRevolution { machine, steady, marks, crossings, turn, edges };
         dual.differentiate(m);
         dual
     }
@@ -282,7 +293,8 @@ impl<'a, R: Real> DualRevolution<'a, R> {
             turn.steps.push(step);
         }
         edges.push(numbers[along.solved.marks.len() * OF_STEP]);
-        DualRevolution { machine, steady: of.steady, marks: &along.solved.marks, turn, edges }
+        let (marks, crossings) = (&along.solved.marks, &along.solved.crossings);
+        DualRevolution { machine, steady: of.steady, marks, crossings, turn, edges }
     }
 
     /// The solution on the steps between the edges, with its derivatives.
@@ -393,7 +405,7 @@ impl<'a, R: Real> DualRevolution<'a, R> {
     ) -> Vec<(usize, Passage<Dual<R>>)> {
         let (marks, n) = (self.marks, self.turn.steps.len());
         let mut passages: Vec<(usize, Passage<Dual<R>>)> = Vec::new();
-        for crossing in &self.steady.crossings {
+        for crossing in self.crossings {
             let behind = marks.partition_point(|mark| mark.phi < crossing.phi - AT_END);
             let k = (behind + n - 1) % n;
             if passages.iter().all(|passage| passage.0 != k) {
@@ -408,10 +420,18 @@ impl<'a, R: Real> DualRevolution<'a, R> {
     /// Acceleration at the start of a step, on its branch.
     #[inline(always)]
     fn start_of(&self, k: usize, m: &mut Motion<Dual<R>>) -> Dual<R> {
-        let (mut geometry, step) = (Vec::new(), &self.turn.steps[k]);
-        let row = self.machine.row(step.phi, m, &mut geometry);
+        let step = &self.turn.steps[k];
+        self.acceleration_in(k, step.phi, step.u, m)
+    }
+
+    /// Acceleration at an angle and u, on the branch of a step.
+    #[inline(always)]
+    fn acceleration_in(&self, k: usize, phi: Dual<R>, u: Dual<R>, m: &mut Motion<Dual<R>>) -> Dual<R> {
+        let mut geometry = Vec::new();
+        let row = self.machine.row(phi, m, &mut geometry);
         let known = self.machine.geometry_at(self.turn.geometry_of(&self.machine, k), REFERENCE);
-        self.machine.acceleration_on_branch(&row, &geometry, step.u, (known, step.X[REFERENCE])).value
+        let at = self.turn.steps[k].X[REFERENCE];
+        self.machine.acceleration_on_branch(&row, &geometry, u, (known, at)).value
     }
 
     /// The numbers of the revolution.
@@ -454,32 +474,76 @@ impl<'a, R: Real> DualRevolution<'a, R> {
         }
         let aside = ASIDE * (0.5 * (high + low) - phi).signum() * (high - low);
         let beside = self.state(phi + aside, m).1.epsilon.value;
-        let off = there.epsilon.value * aside / (beside - there.epsilon.value);
+        let change = beside - there.epsilon.value;
+        let step = &self.turn.steps[self.steps_before(phi)];
+        let rounding = step.steepness().value * step.u.value * f64::EPSILON;
+        if (rounding - change.abs() * PLACED).max_lane() > 0.0 {
+            return self.peak_by_speeds(phi, m);
+        }
+        let off = there.epsilon.value * aside / change;
         let off = off.abs().select_lt(R::splat(aside.abs()), off, R::splat(0.0));
         Dual { d: there.omega.d - off * there.epsilon.d / there.omega.value, ..there.omega }
     }
 
-    /// An extreme of the acceleration, or what its corner is. Its derivative is that at the place of the peak too, which is
-    /// that of the quartic through readings beside it.
+    /// An extreme of the acceleration, or what its corner is. Its derivative is that at the place of the peak too.
     #[inline(always)]
     fn peak_of_acceleration(&self, extreme: &Extreme<f64>, m: &mut Motion<Dual<R>>) -> Dual<R> {
         let phi = extreme.phi;
         let [low, high] = self.step_around(phi);
-        let aside = ASIDE * (high - low);
-        if (phi - low).min(high - phi) < AT_CORNER * aside {
+        if (phi - low).min(high - phi) < AT_CORNER * (high - low) {
             let k = self.steps_before(phi);
             return self.corner(if phi - low < high - phi { k } else { k + 1 }, extreme.value, m);
         }
+        let aside = ASIDE * (0.5 * (high + low) - phi).signum() * (high - low);
+        let mut places = [phi, phi + aside];
+        let mut slopes = [self.slope_of_acceleration(phi, m), self.slope_of_acceleration(phi + aside, m)];
+        for _ in 0..SECANTS {
+            let next = places[1] - slopes[1] * (places[1] - places[0]) / (slopes[1] - slopes[0]);
+            // There is none where the acceleration is constant, nor beyond the end of the step.
+            if !((next - phi).abs() < FAR * aside.abs() && low < next && next < high) {
+                break;
+            }
+            (places, slopes) = ([places[1], next], [slopes[1], self.slope_of_acceleration(next, m)]);
+        }
+        let nearest = if slopes[1].abs() < slopes[0].abs() { places[1] } else { places[0] };
+        self.state(nearest, m).1.epsilon
+    }
+
+    /// Derivative of the acceleration by φ along the motion: that at a fixed speed, whose rounding does not count there, and
+    /// what the change of speed does. The first is that of the quartic through readings beside it.
+    #[inline(always)]
+    fn slope_of_acceleration(&self, phi: f64, m: &mut Motion<Dual<R>>) -> f64 {
+        let (k, [low, high]) = (self.steps_before(phi), self.step_around(phi));
+        let aside = ASIDE * (high - low);
+        let (there, _) = self.step_to(phi, m);
         // Within the step, beyond whose ends the curve may bend.
         let middle = phi.clamp(low + 2.0 * aside, high - 2.0 * aside);
         let mut at = [Dual::splat(0.0); 5];
-        for (k, epsilon) in at.iter_mut().enumerate() {
-            *epsilon = self.state((k as f64 - 2.0).mul_add(aside, middle), m).1.epsilon;
+        for (i, epsilon) in at.iter_mut().enumerate() {
+            let beside = Dual::splat((i as f64 - 2.0).mul_add(aside, middle));
+            *epsilon = self.acceleration_in(k, beside, there.end(), m);
+        }
+        let curve = quartic(at).map(|c| c.value.max_lane());
+        let off = (phi - middle) / aside;
+        let at_speed = curve[1] + off * (2.0 * curve[2] + off * (3.0 * curve[3] + off * 4.0 * curve[4]));
+        at_speed / aside + (there.D[S - 1].value * there.K[S - 1].value).max_lane()
+    }
+
+    /// An extreme of the speed by the speed itself: that of the quartic through readings beside it.
+    #[inline(always)]
+    fn peak_by_speeds(&self, phi: f64, m: &mut Motion<Dual<R>>) -> Dual<R> {
+        let [low, high] = self.step_around(phi);
+        let aside = ASIDE_OF_SPEED * (high - low);
+        // Within the step, beyond whose ends the curve may bend.
+        let middle = phi.clamp(low + 2.0 * aside, high - 2.0 * aside);
+        let mut at = [Dual::splat(0.0); 5];
+        for (k, omega) in at.iter_mut().enumerate() {
+            *omega = self.state((k as f64 - 2.0).mul_add(aside, middle), m).1.omega;
         }
         let curve = quartic(at);
         let off = peak_of(&curve);
-        // Where the acceleration is constant there is no peak.
-        let off = off.abs().select_lt(R::splat(4.0), off, R::splat((phi - middle) / aside));
+        // Where the speed is constant there is no peak.
+        let off = off.abs().select_lt(R::splat(FAR), off, R::splat((phi - middle) / aside));
         let off = Dual { value: off, d: R::splat(0.0) };
         curve[0] + off * (curve[1] + off * (curve[2] + off * (curve[3] + off * curve[4])))
     }
@@ -517,6 +581,19 @@ impl<'a, R: Real> DualRevolution<'a, R> {
     /// Time and state at a crank angle, or at the end of a step that lies there, which may move.
     #[inline(always)]
     fn state(&self, phi: f64, m: &mut Motion<Dual<R>>) -> (Dual<R>, State<Dual<R>>) {
+        let there = self.step_to(phi, m);
+        let mut t = there.0.duration();
+        for before in &self.turn.steps[..self.steps_before(phi)] {
+            t = t + before.duration();
+        }
+        // Time counts from φ = 0, which may lie beside the start of the first step where that moves.
+        let start = (self.turn.steps[0].u * 2.0).sqrt();
+        (t + self.edges[0] / start, self.machine.state_at_end(&there))
+    }
+
+    /// The part of a step to a crank angle, or to the end of the step that lies there, which may move.
+    #[inline(always)]
+    fn step_to(&self, phi: f64, m: &mut Motion<Dual<R>>) -> (Step<Dual<R>>, Vec<LawGeometry<Dual<R>>>) {
         let k = self.steps_before(phi);
         let step = &self.turn.steps[k];
         let ends_here = (self.edges[k + 1].value - phi).abs().max_lane() < AT_END;
@@ -525,14 +602,7 @@ impl<'a, R: Real> DualRevolution<'a, R> {
         let near = stages_of_part(&step.quintic(), Dual::splat(0.0), h / step.h);
         // The second time from the solution of the first: its derivatives have converged too.
         let (first, _) = self.machine.advance_near(step.phi, step.u, h, near, m);
-        let there = self.machine.advance_near(step.phi, step.u, h, first.X, m);
-        let mut t = there.0.duration();
-        for before in &self.turn.steps[..k] {
-            t = t + before.duration();
-        }
-        // Time counts from φ = 0, which may lie beside the start of the first step where that moves.
-        let start = (self.turn.steps[0].u * 2.0).sqrt();
-        (t + self.edges[0] / start, self.machine.state_at_end(&there))
+        self.machine.advance_near(step.phi, step.u, h, first.X, m)
     }
 }
 
