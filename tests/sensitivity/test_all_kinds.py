@@ -30,7 +30,7 @@ from linkwright.machine.address import exchanged, is_given
 
 # Shares of entries over which they are varied: shorter ones do not reach a kink or a tie of two extremes
 # beside the machine; over longer ones rounding counts less.
-_STEPS = (1e-4, 2e-5, 4e-6, 1e-3, 1e-6, 1e-7)
+_STEPS = (1e-4, 2e-5, 4e-6, 1e-3, 1e-6, 1e-7, 1e-8)
 
 # What differences are good for, as a share of the largest derivative of a response, or of the response.
 _TOLERANCE = 1e-7

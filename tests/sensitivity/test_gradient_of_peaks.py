@@ -110,8 +110,11 @@ drag = { kind = "viscous", on = "A", damping = 9.4 }
 """
 
 
-@pytest.mark.parametrize("text", [STEEP, STIFF])
-def test_a_shaft_whose_angle_is_counted_from_elsewhere_does_the_same(text: str) -> None:
+# What is known of the sum. Behind the steep drive: rounding of the acceleration, 3e-16 of its parts that
+# balance each other, over the readings beside it. Of the stiff motor: the speed is read at 3 % of a step
+# from its peak, where it has changed by 1e-9 of itself, and rounding is 1e-7 of that.
+@pytest.mark.parametrize(("text", "known"), [(STEEP, 5e-8), (STIFF, 2e-6)])
+def test_a_shaft_whose_angle_is_counted_from_elsewhere_does_the_same(text: str, known: float) -> None:
     """Where no load knows the crank angle, the derivatives by the phases of all cranks add up to zero."""
     machine = lw.loads(text)
     assert machine.mechanism is not None
@@ -120,7 +123,7 @@ def test_a_shaft_whose_angle_is_counted_from_elsewhere_does_the_same(text: str) 
     # Rounding of the speed is acceleration: where the motor is stiff it has no known peaks.
     if text == STIFF:
         names = [name for name in names if "acceleration" not in name]
-    found = lw.gradient(machine, names, variables=[*phases, *lw.gradient(machine, names).variables])
-    sizes = np.abs(found.derivatives * found.at).max(axis=1)
-    sums = found.derivatives[:, : len(phases)].sum(axis=1)
-    assert (np.abs(sums) <= 1e-8 * sizes).all(), dict(zip(names, sums / sizes, strict=True))
+    by_all, by_phases = lw.gradient(machine, names), lw.gradient(machine, names, variables=phases)
+    sizes = np.abs(by_all.derivatives * by_all.at).max(axis=1)
+    sums = by_phases.derivatives.sum(axis=1)
+    assert (np.abs(sums) <= known * sizes).all(), dict(zip(names, sums / sizes, strict=True))
