@@ -195,3 +195,17 @@ def test_a_study_of_an_example_by_its_name(tmp_path: Path, monkeypatch: pytest.M
     assert "phase" in [axis.name for axis in lw.read_study("crank_phase_map").axes]
     with pytest.raises(MachineFileError, match="crank_phase_map"):
         lw.read_study("crank_phase_mop")
+
+
+def test_a_variable_of_a_fit_without_values_is_refused_elsewhere() -> None:
+    """Its range is without end: there is no mean, and no place to begin."""
+    tables = {
+        "variables": {"mass": {"address": "bodies.cart1.mass"}},
+        "responses": {"d": "steady_state.unevenness"},
+        "goals": {"d": "minimise"},
+        "fit": {"motion": "coast"},
+    }
+    plan = lw.new_study(lw.read("roller_two_carts"), tables)
+    for analyse in (lw.tolerance, lw.optimise):
+        with pytest.raises(InputError, match=r"variables\.mass: found nothing, expected"):
+            analyse(plan)

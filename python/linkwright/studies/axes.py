@@ -55,6 +55,11 @@ class Axis:
         return not self.choices or all(isinstance(choice, int | float) for choice in self.choices)
 
     @property
+    def is_open(self) -> bool:
+        """Whether nothing says which values it takes, as a fit permits."""
+        return self.distribution is None and self.low == -math.inf
+
+    @property
     def is_continuous(self) -> bool:
         """Whether it takes all values of a range, so that there are derivatives by it."""
         return not self.choices and not self.is_whole

@@ -193,9 +193,10 @@ def check(plan: StudyPlan, evaluations: int, method: str, starts: int) -> None:
             f"variables.{integers[0]}: found whole numbers, which have no derivatives; leave out --method"
         )
     for axis in plan.axes:
-        if axis.distribution is not None:
+        if axis.distribution is not None or axis.is_open:
+            what = "nothing" if axis.is_open else "a scatter"
             raise InputError(
-                f"variables.{axis.name}: found a scatter, expected a range or values to choose from"
+                f"variables.{axis.name}: found {what}, expected a range or values to choose from"
             )
     combinations = np.prod([len(axis.choices) for axis in plan.axes if axis.choices], dtype=float)
     if combinations > _COMBINATIONS:

@@ -206,11 +206,12 @@ def _check(plan: StudyPlan, rows: int, indices: int) -> None:
         raise InputError(
             f"rows {rows}, indices {indices}: expected 2 to 10 000 000 rows, to 1 000 000 blocks"
         )
-    listed = [axis.name for axis in plan.axes if axis.choices]
-    if listed:
-        raise InputError(
-            f"variables.{listed[0]}: found a list, expected a tolerance, a distribution or a range"
-        )
+    for axis in plan.axes:
+        if axis.choices or axis.is_open:
+            what = "a list" if axis.choices else "nothing"
+            raise InputError(
+                f"variables.{axis.name}: found {what}, expected a tolerance, a distribution or a range"
+            )
 
 
 class _Scatters:
