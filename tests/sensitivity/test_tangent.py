@@ -121,3 +121,15 @@ def test_a_slope_that_does_not_exist_counts_where_something_moves() -> None:
         inverse = 1.0 / x
         np.testing.assert_array_equal(inverse.d, [[-np.inf, 0.0], [-0.25, 0.0]])
         np.testing.assert_array_equal((x / 0.0).d, [[np.inf, 0.0], [np.inf, 0.0]])
+
+
+def test_a_sum_with_a_constant_does_not_change_what_it_is_of() -> None:
+    """Both have the same derivatives: they are not copied, and cannot be written to through the sum."""
+    array = TangentArray(np.arange(3.0), np.eye(3))
+    for other in (array + 1.0, 1.0 + array, array - 1.0):
+        with pytest.raises(ValueError, match="read-only"):
+            other[0] = 5.0
+    assert np.array_equal(array.d, np.eye(3))
+    own = (array + 1.0).copy()
+    own[0] = 5.0
+    assert not own.d[0].any()

@@ -170,19 +170,26 @@ def _is_simple(x: Any) -> bool:
 def _sum(x: Any, y: Any) -> TangentArray:
     """x + y, of which one has derivatives."""
     if not isinstance(y, TangentArray):
-        return _with_shape(x.value + y, x.d)
+        return _with_shape(x.value + y, _kept(x.d))
     if not isinstance(x, TangentArray):
-        return _with_shape(x + y.value, y.d)
+        return _with_shape(x + y.value, _kept(y.d))
     return _with_shape(x.value + y.value, x.d + y.d)
 
 
 def _difference(x: Any, y: Any) -> TangentArray:
     """x − y, of which one has derivatives."""
     if not isinstance(y, TangentArray):
-        return _with_shape(x.value - y, x.d)
+        return _with_shape(x.value - y, _kept(x.d))
     if not isinstance(x, TangentArray):
         return _with_shape(x - y.value, -y.d)
     return _with_shape(x.value - y.value, x.d - y.d)
+
+
+def _kept(d: Floats) -> Floats:
+    """Derivatives that two arrays share: neither copied, nor changed through the second."""
+    shared = d.view()
+    shared.flags.writeable = False
+    return shared
 
 
 def _with_shape(value: Any, d: Floats) -> TangentArray:
