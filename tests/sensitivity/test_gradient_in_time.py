@@ -13,6 +13,7 @@ import linkwright as lw
 from linkwright.drive.run_up import accurate_run_down, accurate_run_up
 from linkwright.drive.steady_state import steady_state
 from linkwright.kernel.errors import LinkwrightError
+from linkwright.machine.address import exchanged
 
 # A crank with a DC motor on its shaft against constant friction: the speed is ω₀ (1 − exp(−t/τ)) with
 # ω₀ = ω_n (1 − M/M_s) and τ = J ω_n/M_s; without the motor it falls by (M + B)/J.
@@ -175,3 +176,40 @@ def test_derivatives_are_those_of_the_analysis(kind: str) -> None:
         assert not wrong, (case, wrong)
         compared += 1
     assert compared >= 2
+
+
+# A motor that is far too strong: it is at its speed within 1e-4 rad, and passes its breakdown speed before.
+AT_ONCE = """format = 1
+name = "At once"
+[drive]
+gearbox = { ratio = 40, efficiency = 0.7 }
+[drive.motor]
+kind = "induction"
+inertia = 0.0001643
+speed_synchronous = 6.645327
+speed_rated = 6.586107
+torque_rated = 3.4025663
+torque_breakdown = 8.0708923
+torque_start = 4.4166437
+[mechanism]
+points.P0.y = -0.8557
+cranks.A = { radius = 0.42917, phase = 2.12644 }
+slotted_levers.L0 = { pin = "A", pivot = "P0", length = 0.466294 }
+[bodies]
+A.mass = 28.174
+[run_up]
+angle_start = 0.999293
+"""
+
+
+@pytest.mark.parametrize("address", ["bodies.A.mass", "drive.motor.speed_breakdown"])
+def test_a_run_up_within_no_angle_has_the_derivatives_of_any(address: str) -> None:
+    machine, step = lw.loads(AT_ONCE), 1e-5
+    found = lw.gradient(machine, ["run_up.time"], variables=[address])
+    at = lw.get(machine, address)
+    beside = [exchanged(machine, {address: at * (1 + n * step)}) for n in (-1, 1)]
+    steady = [steady_state(nearby, accuracy=1e-13) for nearby in beside]
+    times = [accurate_run_up(*pair, 1e-13).time for pair in zip(beside, steady, strict=True)]
+    difference = (times[1] - times[0]) / (2 * step * at)
+    # The motion is known to 1e-12 of its time: 1e-7 of what the step changes.
+    assert abs(found.derivatives[0, 0] - difference) < 3e-7 * abs(difference)

@@ -127,3 +127,41 @@ def test_a_shaft_whose_angle_is_counted_from_elsewhere_does_the_same(text: str, 
     sizes = np.abs(by_all.derivatives * by_all.at).max(axis=1)
     sums = by_phases.derivatives.sum(axis=1)
     assert (np.abs(sums) <= known * sizes).all(), dict(zip(names, sums / sizes, strict=True))
+
+
+# A motor by table that comes near rest in each revolution: its acceleration has a corner at the knot that it
+# passes at once.
+ALMOST_AT_REST = """format = 1
+name = "Almost at rest"
+[drive]
+gearbox.ratio = 40
+[drive.motor]
+kind = "table"
+speed = [0, 36.1858, 72.3716, 108.5574]
+torque = [4.664836, 5.831045, 2.332418, -4.664836]
+[mechanism]
+points.P0.y = -1.14213
+cranks.A = { radius = 0.502916, phase = -0.641242 }
+slotted_levers.L0 = { pin = "A", pivot = "P0", length = 1.167551 }
+[bodies]
+A.mass = 3.097806
+L0.mass = 2.778336
+[loads]
+l0 = { kind = "formula", on = "A", torque = "-736.823*(0.3 + sin(phi)^2)*tanh(omega)" }
+"""
+
+
+@pytest.mark.parametrize("address", ["drive.gearbox.ratio", "bodies.L0.mass"])
+def test_a_peak_at_a_corner_goes_with_the_corner(address: str) -> None:
+    machine, step = lw.loads(ALMOST_AT_REST), 2e-4
+    found = lw.gradient(machine, ["steady_state.acceleration_max"], variables=[address])
+    at = lw.get(machine, address)
+
+    def peak(share: float) -> float:
+        return lw.steady_state(
+            lw.replace(machine, {address: at * (1 + share)}), accuracy=1e-11
+        ).acceleration_max
+
+    once, twice = ((peak(n * step) - peak(-n * step)) / (2 * n * step * at) for n in (1, 2))
+    # By the fourth power of the step, and by rounding over it.
+    assert abs(found.derivatives[0, 0] - (4 * once - twice) / 3) < 1e-6 * abs(found.derivatives[0, 0])

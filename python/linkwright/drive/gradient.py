@@ -249,7 +249,9 @@ class _Tie:
         low, high = slopes.min(axis=1), slopes.max(axis=1)
         is_one = low.max(axis=0) - high.min(axis=0) <= rounding
         bend = np.abs(slopes[:, 1] - 0.5 * (slopes[:, 0] + slopes[:, 2]))
-        differs: Bools = ~(is_one & (bend <= 0.25 * (high - low) + rounding).all(axis=0))
+        # One that was lost at a kink is named for that.
+        is_known = np.isfinite(slopes).all(axis=(0, 1))
+        differs: Bools = is_known & ~(is_one & (bend <= 0.25 * (high - low) + rounding).all(axis=0))
         return differs
 
     def _moved(self, compiled: CompiledMachine, directions: Floats) -> Bools:
@@ -264,8 +266,8 @@ class _Tie:
 
 
 def _listed(words: list[str], between: str, what: str) -> str:
-    """The first of some words, and how many more there are."""
-    rest = [f"{len(words) - _TOLD} {what} more"] if len(words) > _TOLD else []
+    """The first of some words, and how many more there are; of one more it is the word."""
+    rest = [f"{len(words) - _TOLD} {what} more"] if len(words) > _TOLD + 1 else words[_TOLD:]
     return between.join(words[:_TOLD] + rest)
 
 

@@ -189,9 +189,11 @@ def known_place(machine: Machine, address: str) -> tuple[str, ...]:
 def _known_places(machine: Machine) -> dict[str, tuple[str, ...]]:
     """Addresses of a machine whose keys are known."""
     global _asked
-    if _asked[0] is not machine:
-        _asked = machine, {}
-    return _asked[1]
+    asked = _asked
+    # Read once: another thread may ask for another machine.
+    if asked[0] is not machine:
+        _asked = asked = machine, {}
+    return asked[1]
 
 
 def _found_place(machine: Machine, address: str) -> tuple[str, ...]:

@@ -15,9 +15,8 @@ use crate::drive::events::{Events, Passage};
 use crate::drive::extremes::Extreme;
 use crate::drive::kinks::kinks;
 use crate::drive::law::LawGeometry;
-use crate::drive::layers::{ON_KINK, resolved};
+use crate::drive::layers::resolved;
 use crate::drive::layout::{Layout, bundle, unbundle};
-use crate::drive::mesh::Crossing;
 use crate::drive::reading::{Mark, State};
 use crate::drive::steady::Steady;
 use crate::drive::structure::Plan;
@@ -63,6 +62,9 @@ const FAR: f64 = 4.0;
 const PLACED: f64 = 1e-6;
 const ASIDE_OF_SPEED: f64 = 3e-2;
 
+/// Speeds that differ by no more than so many roundings are the same.
+const ROUNDINGS: f64 = 4.0;
+
 /// Steps of Newton's method to the peak between those readings.
 const NEWTON: usize = 3;
 
@@ -71,6 +73,9 @@ const AT_CORNER: f64 = 4e-6;
 
 /// An angle this near to the end of a step \[rad\] is that end.
 const AT_END: f64 = 1e-12;
+
+/// An end of a step this near to a kink of loads or motion \[rad\] may move with it.
+const ON_KINK: f64 = 1e-8;
 
 /// The derivatives along some directions of the parameters.
 pub struct Gradient<'a> {
@@ -103,20 +108,18 @@ pub struct Derivatives {
 struct SolvedSteps {
     /// At the starts of the steps.
     marks: Vec<Mark>,
-    /// Where it passes kinks that depend on it.
-    crossings: Vec<Crossing>,
     /// Ends of steps that lie on kinks of loads or motion, and may move with them; the others stay \[rad\].
     on_kinks: Vec<f64>,
 }
 
 impl SolvedSteps {
     fn new(of: &Gradient<'_>) -> Self {
+        let marks = resolved(of.plan, of.q, of.steady);
         let kinks = kinks(of.plan, of.q);
-        let (marks, crossings) = resolved(of.plan, of.q, of.steady, &kinks);
         let ends = marks.iter().map(|mark| mark.phi).chain([of.plan.cycle()]);
         let is_kink = |phi: &f64| kinks.iter().any(|kink| (kink - phi).abs() < ON_KINK);
         let on_kinks = ends.filter(is_kink).collect();
-        SolvedSteps { marks, crossings, on_kinks }
+        SolvedSteps { marks, on_kinks }
     }
 }
 
@@ -246,8 +249,6 @@ struct DualRevolution<'a, R: Real> {
     steady: &'a Steady,
     /// The solution at the starts of its steps.
     marks: &'a [Mark],
-    /// Where it passes kinks that depend on it.
-    crossings: &'a [Crossing],
     turn: Turn<Dual<R>>,
     /// Ends of the steps, the last at the end of the cycle.
     edges: Vec<Dual<R>>,
@@ -271,8 +272,8 @@ impl<'a, R: Real> DualRevolution<'a, R> {
             let edge = if is_moved { moved.next() } else { None };
             edges.push(edge.unwrap_or(Dual::splat(phi)));
         }
-        let (marks, crossings, turn) = (&solved.marks, &solved.crossings, Turn::empty(Layout::Machines));
-        let mut dual = DualRevolution { machine, steady, marks, crossings, turn, edges };
+        let marks = &solved.marks;
+        let mut dual = DualRevolution { machine, steady, marks, turn: Turn::empty(Layout::Machines), edges };
         dual.differentiate(m);
         dual
     }
@@ -293,8 +294,7 @@ impl<'a, R: Real> DualRevolution<'a, R> {
             turn.steps.push(step);
         }
         edges.push(numbers[along.solved.marks.len() * OF_STEP]);
-        let (marks, crossings) = (&along.solved.marks, &along.solved.crossings);
-        DualRevolution { machine, steady: of.steady, marks, crossings, turn, edges }
+        DualRevolution { machine, steady: of.steady, marks: &along.solved.marks, turn, edges }
     }
 
     /// The solution on the steps between the edges, with its derivatives.
@@ -405,7 +405,7 @@ impl<'a, R: Real> DualRevolution<'a, R> {
     ) -> Vec<(usize, Passage<Dual<R>>)> {
         let (marks, n) = (self.marks, self.turn.steps.len());
         let mut passages: Vec<(usize, Passage<Dual<R>>)> = Vec::new();
-        for crossing in self.crossings {
+        for crossing in &self.steady.crossings {
             let behind = marks.partition_point(|mark| mark.phi < crossing.phi - AT_END);
             let k = (behind + n - 1) % n;
             if passages.iter().all(|passage| passage.0 != k) {
@@ -478,7 +478,14 @@ impl<'a, R: Real> DualRevolution<'a, R> {
         let step = &self.turn.steps[self.steps_before(phi)];
         let rounding = step.steepness().value * step.u.value * f64::EPSILON;
         if (rounding - change.abs() * PLACED).max_lane() > 0.0 {
-            return self.peak_by_speeds(phi, m);
+            // As far as rounding tells it is at the end of the step, where the speed may have a corner.
+            let at_ends = [low, high].map(|end| self.state(end, m).1.omega);
+            let is_as_high = |end: &Dual<R>| {
+                let off =
+                    (end.value - there.omega.value).abs() - there.omega.value * (ROUNDINGS * f64::EPSILON);
+                off.max_lane() <= 0.0
+            };
+            return at_ends.into_iter().find(is_as_high).unwrap_or_else(|| self.peak_by_speeds(phi, m));
         }
         let off = there.epsilon.value * aside / change;
         let off = off.abs().select_lt(R::splat(aside.abs()), off, R::splat(0.0));
@@ -490,9 +497,8 @@ impl<'a, R: Real> DualRevolution<'a, R> {
     fn peak_of_acceleration(&self, extreme: &Extreme<f64>, m: &mut Motion<Dual<R>>) -> Dual<R> {
         let phi = extreme.phi;
         let [low, high] = self.step_around(phi);
-        if (phi - low).min(high - phi) < AT_CORNER * (high - low) {
-            let k = self.steps_before(phi);
-            return self.corner(if phi - low < high - phi { k } else { k + 1 }, extreme.value, m);
+        if let Some(edge) = self.corner_near(phi) {
+            return self.corner(edge, extreme.value, m);
         }
         let aside = ASIDE * (0.5 * (high + low) - phi).signum() * (high - low);
         let mut places = [phi, phi + aside];
@@ -507,6 +513,24 @@ impl<'a, R: Real> DualRevolution<'a, R> {
         }
         let nearest = if slopes[1].abs() < slopes[0].abs() { places[1] } else { places[0] };
         self.state(nearest, m).1.epsilon
+    }
+
+    /// The end of a step that an extreme of the acceleration lies at: the nearest, or one at which the motion passes a kink, beside
+    /// which there may be steps that are shorter than the kink is known to.
+    #[inline(always)]
+    fn corner_near(&self, phi: f64) -> Option<usize> {
+        let (k, last) = (self.steps_before(phi), self.marks.len() - 1);
+        let length = |k: usize| (self.edges[k + 1].value - self.edges[k].value).max_lane();
+        let longest = length(k.saturating_sub(1)).max(length(k)).max(length((k + 1).min(last)));
+        let off = |edge: usize| (self.edges[edge].value.max_lane() - phi).abs();
+        let is_kink = |edge: usize| {
+            let at = self.edges[edge].value.max_lane();
+            self.steady.crossings.iter().any(|kink| (kink.phi - at).abs() < AT_END)
+        };
+        let mut around = k.saturating_sub(1)..=(k + 2).min(last + 1);
+        let on_kink = around.find(|&edge| is_kink(edge) && off(edge) < AT_CORNER * longest);
+        let nearest = if off(k) < off(k + 1) { k } else { k + 1 };
+        on_kink.or((off(nearest) < AT_CORNER * length(k)).then_some(nearest))
     }
 
     /// Derivative of the acceleration by φ along the motion: that at a fixed speed, whose rounding does not count there, and

@@ -14,7 +14,7 @@ use crate::drive::loads::{FormulaLoad, Law};
 use crate::drive::structure::Plan;
 use crate::kernel::bounds::Bounds;
 use crate::kernel::dual::Dual;
-use crate::kernel::formula::{Formula, Inputs};
+use crate::kernel::formula::{Formula, Inputs, Variable};
 use crate::kernel::interval::Interval;
 use crate::kernel::plane::Angle;
 use crate::linkage::motion::Motion;
@@ -22,7 +22,7 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::f64::consts::{PI, TAU};
 
-/// Pieces of a revolution that are looked at first.
+/// Pieces of a revolution of the fastest link that are looked at first: over them the mechanism moves smoothly.
 const FIRST: f64 = 48.0;
 
 /// A piece may hide this share of the largest value. What is less beside a pulse, its foot, is smooth beside the ends of steps
@@ -40,8 +40,11 @@ const SHORT: f64 = 0.004;
 /// The shortest piece \[rad\]: a pulse within it does no work. Ends of smooth pieces are as exact.
 const SHORTEST: f64 = 1e-9;
 
-/// Most pieces.
-const PIECES_MAX: usize = 4096;
+/// A link turns no faster than this: beside a change point it may be faster for a moment, in which a pulse does no work.
+const FASTEST: f64 = 1000.0;
+
+/// Most cuts.
+const CUTS_MAX: usize = 4096;
 
 /// Short pieces to a step: some 120 make up a pulse, so that steps are about half as long as its width on each side.
 const PER_STEP: usize = 16;
@@ -184,11 +187,12 @@ impl Search<'_, '_> {
     /// Cuts the cycle into pieces that hide nothing.
     fn run(&mut self) {
         self.start();
+        let first = self.pieces.len();
         while let Some(Waiting { hides, nth, .. }) = self.queue.pop() {
             if hides <= SHARE * self.largest {
                 return;
             }
-            if self.pieces.len() >= PIECES_MAX {
+            if self.pieces.len() - first >= CUTS_MAX {
                 return;
             }
             self.cut(nth);
@@ -198,14 +202,14 @@ impl Search<'_, '_> {
     /// Pieces from end to end of the smooth ones. These end a little beside the ends: on them rounding decides between the
     /// sides of a jump.
     fn start(&mut self) {
-        let cycle = self.of.plan.cycle();
+        let (cycle, per_turn) = (self.of.plan.cycle(), FIRST * self.fastest());
         let mut ends = self.of.breaks.to_vec();
         ends.extend((1..self.of.plan.turns).map(|turn| TAU * f64::from(turn)));
         ends.sort_by(f64::total_cmp);
         ends.dedup_by(|next, last| *next - *last < 4.0 * SHORTEST);
         for ends in ends.windows(2) {
             let (low, high) = (ends[0] + SHORTEST, ends[1].min(cycle) - SHORTEST);
-            let n = ((high - low) * FIRST / TAU).ceil();
+            let n = ((high - low) * per_turn / TAU).ceil();
             let mut last = self.sample(low);
             for i in 1..=n as usize {
                 let next = self.sample(low + (high - low) * i as f64 / n);
@@ -213,6 +217,21 @@ impl Search<'_, '_> {
                 last = next;
             }
         }
+    }
+
+    /// Turns of the fastest link to one of the crank, of the crank itself if that is faster, or if the formula knows it alone.
+    fn fastest(&mut self) -> f64 {
+        let Steepness { plan, q, .. } = self.of;
+        let known =
+            [Variable::X, Variable::Y, Variable::Vx, Variable::Vy, Variable::V, Variable::S, Variable::Psi];
+        let mut fastest = 1.0_f64;
+        if known.into_iter().chain([Variable::PsiDot]).any(|variable| self.formula.reads(variable)) {
+            for i in 0..FIRST as usize * plan.turns as usize {
+                plan.mechanism.place::<f64, 2>(q, Angle::new(i as f64 * TAU / FIRST), self.m);
+                fastest = self.m.links.iter().fold(fastest, |most, link| most.max(link.d1.abs()));
+            }
+        }
+        fastest.min(FASTEST)
     }
 
     /// The formula at an angle.
@@ -304,9 +323,9 @@ impl Piece {
     /// slopes, where a change that is wider than what lies between two stages is none that hides.
     fn hidden(&self, of: Bounds) -> f64 {
         let by_slope = 0.25 * of.slope.width() * self.width().min(WIDE);
+        let by_value = of.value.high - of.value.low;
         // An infinite value less an infinite one may be anything.
-        let by_value = (of.value.high - of.value.low).max(0.0);
-        if by_value.is_nan() { by_slope } else { by_value.min(by_slope) }
+        if by_value.is_nan() { by_slope } else { by_value.max(0.0).min(by_slope) }
     }
 }
 

@@ -492,7 +492,7 @@ impl Job for Search<'_> {
                 let mut edges = mesh.edges.clone();
                 add_pulses(self.plan, self.q, self.breaks, &pieces, &mut edges, &mut plain_motion);
                 if edges.len() > mesh.edges.len() {
-                    if looks > LOOKS_MAX || edges.len() > STEPS_MAX {
+                    if looks >= LOOKS_MAX || edges.len() > STEPS_MAX {
                         break;
                     }
                     (mesh.edges, start, placements, looks) = (edges, Some(pieces), 0, looks + 1);

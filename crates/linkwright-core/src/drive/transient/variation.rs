@@ -34,7 +34,8 @@ use crate::linkage::motion::Motion;
 const INSIDE: f64 = 1e-6;
 
 /// Angle \[rad\] that the crank turns by at its working speed in the time by which the sides of an event are apart at least: steps
-/// that close in on a jump become as short as rounding.
+/// that close in on a jump become as short as rounding. A motion may change in less than that, but not in less than the share
+/// [`INSIDE`] of the time that it took so far.
 const ASIDE: f64 = 1e-8;
 
 /// A crank angle this near to a kink \[rad\], and a speed this near, as a share, is on it.
@@ -125,7 +126,7 @@ impl Job for Variation<'_> {
         let mut found = Variations { phi: Vec::new(), omega: Vec::new(), epsilon: Vec::new() };
         let mut next = 0;
         for k in 0..motion.t.len() - 1 {
-            // What follows the last instant is asked by nobody.
+            // No derivatives are needed after the last instant.
             if next == at.len() {
                 break;
             }
@@ -356,7 +357,8 @@ impl<R: Real> Along<'_, R> {
     /// Time by which the sides of an instant of a step are apart from it.
     fn aside(&self, k: usize) -> f64 {
         let Machine { plan, q, .. } = self.plain.machine;
-        (INSIDE * (self.motion.t[k + 1] - self.motion.t[k])).max(ASIDE / q[plan.drive.speed_start])
+        let [begin, from, to] = [0, k, k + 1].map(|i| self.motion.t[i]);
+        (INSIDE * (to - from)).max((ASIDE / q[plan.drive.speed_start]).min(INSIDE * (to - begin)))
     }
 
     /// The acceleration at an instant of a step, read before it or behind it and carried on to it.
@@ -365,12 +367,20 @@ impl<R: Real> Along<'_, R> {
         2.0 * self.plain.acceleration(near) - self.plain.acceleration(far)
     }
 
-    /// From one share of a step to another.
+    /// From one share of a step to another, by halves: derivatives change faster than the motion that the step was chosen for.
     #[inline(always)]
     fn advance(&mut self, k: usize, from: f64, to: f64) {
         if to <= from {
             return;
         }
+        let middle = 0.5 * (from + to);
+        for [from, to] in [[from, middle], [middle, to]] {
+            self.step(k, from, to);
+        }
+    }
+
+    #[inline(always)]
+    fn step(&mut self, k: usize, from: f64, to: f64) {
         let h = (to - from) * (self.motion.t[k + 1] - self.motion.t[k]);
         let inside = C.map(|c| c.min(1.0 - INSIDE));
         let mut rates = inside.map(|c| self.rates.acceleration(self.motion.state(k, from + (to - from) * c)));
