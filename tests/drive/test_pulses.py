@@ -184,3 +184,28 @@ def test_two_kinks_close_to_each_other_are_seen() -> None:
         # The speed hardly changes: what the friction takes changes with its square.
         taken = plain.energy_load - motion.energy_load
         assert taken == pytest.approx(0.5 * of_one * 500 * (way[1] - way[0]), rel=0.1)
+
+
+FAST_LINK = """format = 1
+name = "Step-up gear"
+mechanism.cranks.A.radius = 0.1
+mechanism.points.O2.x = 0.5
+mechanism.gears.W = {{ kind = "belt", pivot = "O2", meshes = "A", size = 1, size_other = {ratio} }}
+[bodies]
+A.inertia = 20
+[drive]
+motor = {{ kind = "dc", speed_no_load = 20, torque_stall = 3000 }}
+[loads.pulse]
+kind = "formula"
+on = "W"
+torque = "-1*exp(-(sin((psi - 1)/2)/0.002)^2)"
+"""
+
+
+@pytest.mark.parametrize("ratio", [24, 96, 100])
+def test_a_link_that_goes_round_many_times_meets_its_pulse_each_time(ratio: int) -> None:
+    """Where it turns as often as the revolution is looked at, it seems to stand still."""
+    state = lw.steady_state(lw.loads(FAST_LINK.format(ratio=ratio)))
+    # ∫ exp(−(sin(x/2)/w)²) dx = 2 w √π, but for w² of it, in each turn of the link.
+    work = ratio * 2 * 0.002 * np.sqrt(np.pi)
+    assert abs(abs(state.energy_load) - work) < 1e-5 * work
