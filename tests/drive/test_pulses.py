@@ -206,6 +206,6 @@ torque = "-1*exp(-(sin((psi - 1)/2)/0.002)^2)"
 def test_a_link_that_goes_round_many_times_meets_its_pulse_each_time(ratio: int) -> None:
     """Where it turns as often as the revolution is looked at, it seems to stand still."""
     state = lw.steady_state(lw.loads(FAST_LINK.format(ratio=ratio)))
-    # ∫ exp(−(sin(x/2)/w)²) dx = 2 w √π, but for w² of it, in each turn of the link.
+    # ∫ exp(−(sin(x/2)/w)²) dx = 2 w √π, but for w² of it, in each revolution of the link.
     work = ratio * 2 * 0.002 * np.sqrt(np.pi)
     assert abs(abs(state.energy_load) - work) < 1e-5 * work
