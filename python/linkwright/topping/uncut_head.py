@@ -19,6 +19,7 @@ import numpy as np
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.tangent import Tangent
+from linkwright.kernel.numerics.tangent_array import lifted
 from linkwright.topping.coverage import coverage
 from linkwright.topping.edge import Edge
 from linkwright.topping.model.topper import Topper
@@ -142,7 +143,7 @@ class _Worst:
         }
         times = end_times(self.edge, wide, heads, ends, moved)
         weight = ends.sign * ends.chord * ends.side
-        phase = times * 0.0 + self.phase
+        phase = lifted(np.full(len(ends.time), self.phase), wide.n)
         phase.d[:] = moved["phase"]
         y = y_along(replace(wide.knife, drift=0.0), times, phase)
         return np.stack([(y * weight).sum().d, (times * weight).sum().d])

@@ -62,6 +62,10 @@ const FAR: f64 = 4.0;
 const PLACED: f64 = 1e-6;
 const ASIDE_OF_SPEED: f64 = 3e-2;
 
+/// Of the speed read so, rounding is as if of an acceleration under a drive of steepness 2 over that share of the step: where
+/// steepness times step is more than this the speed is surer. Behind a corner steps are short, and it is not.
+const SURER: f64 = 150.0;
+
 /// Speeds that differ by no more than so many roundings are the same.
 const ROUNDINGS: f64 = 4.0;
 
@@ -477,7 +481,8 @@ impl<'a, R: Real> DualRevolution<'a, R> {
         let change = beside - there.epsilon.value;
         let step = &self.turn.steps[self.steps_before(phi)];
         let rounding = step.steepness().value * step.u.value * f64::EPSILON;
-        if (rounding - change.abs() * PLACED).max_lane() > 0.0 {
+        let is_surer = (step.steepness().value * step.h.value).max_lane() > SURER;
+        if is_surer && (rounding - change.abs() * PLACED).max_lane() > 0.0 {
             // As far as rounding tells it is at the end of the step, where the speed may have a corner.
             let at_ends = [low, high].map(|end| self.state(end, m).1.omega);
             let is_as_high = |end: &Dual<R>| {
