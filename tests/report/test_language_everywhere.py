@@ -68,7 +68,8 @@ def _english(words: list[str]) -> set[str]:
     said = [text for file in machines + PAPERS for text in _said_by(file)]
     own = " ".join([*said, content.source, content.papers, str(content.groups)])
     listed = " ".join(files).replace("_", " ")
-    names = _NAMES | {word for _, parts in content.groups for part in parts for word in part.name.split()}
+    named = [*content.names, *(part.name for _, parts in content.groups for part in parts)]
+    names = _NAMES | {word for name in named for word in name.split()}
     left = (text for text in watched.left if text.rstrip(".") not in own and not _is_names(text, listed))
     return {text for text in left if set(_WORD.findall(_NO_WORDS.sub(" ", text))) - names}
 
