@@ -234,11 +234,8 @@ class _Tie:
     def words(self, compiled: CompiledMachine, gradient: SteadyGradient, along: Directions) -> str:
         """Where, and by which entries there is a derivative on either side only; empty if by none."""
         differs = self._differs(compiled, gradient, along.sizes) | self._moved(compiled, along.values)
-        by = [name for name, differs_by in zip(along.variables, differs, strict=True) if differs_by]
-        if not by:
-            return ""
         places = _listed([f"{np.degrees(angle):.4g}°" for angle in self.angles], " and ", "angles")
-        return f"it is reached at {places}, with other derivatives by {_listed(by, ', ', 'entries')}"
+        return _with_others(f"it is reached at {places}", differs, along)
 
     def _differs(self, compiled: CompiledMachine, gradient: SteadyGradient, sizes: Floats) -> Bools:
         """Whether rivals have other derivatives by each direction, or bend there, (directions,)."""
@@ -263,6 +260,12 @@ class _Tie:
             return np.zeros(directions.shape[1], dtype=bool)
         moved: Bools = (compiled.kinks_along(directions, on) != 0).any(axis=0)
         return moved
+
+
+def _with_others(tie: str, differs: Bools, along: Directions) -> str:
+    """A tie with the entries by which its sides have other derivatives; empty if by none."""
+    by = [name for name, differs_by in zip(along.variables, differs, strict=True) if differs_by]
+    return f"{tie}, with other derivatives by {_listed(by, ', ', 'entries')}" if by else ""
 
 
 def _listed(words: list[str], between: str, what: str) -> str:
@@ -291,13 +294,9 @@ def _equal_peaks(state: SteadyState, gradient: SteadyGradient, along: Directions
     if abs(low + high) > _TIE * (high - low):
         return ""
     change = np.abs(gradient.acceleration_min + gradient.acceleration_max)
-    is_one = change <= _ALIKE * np.abs(gradient.acceleration_max)
-    by = [name for name, is_same in zip(along.variables, is_one, strict=True) if not is_same]
-    if not by:
-        return ""
-    return (
-        f"its positive and negative peaks are equal, with other derivatives by {_listed(by, ', ', 'entries')}"
-    )
+    # One that was lost at a kink is named for that.
+    differs = np.isfinite(change) & (change > _ALIKE * np.abs(gradient.acceleration_max))
+    return _with_others("its positive and negative peaks are equal", differs, along)
 
 
 class _Peaks:
