@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -156,6 +157,21 @@ def test_pulses_are_not_passed_over(shape: str, over: str, wide: float) -> None:
         assert np.all(np.isnan(rows.energy_load) | (np.abs(rows.energy_load / work - 1) < 1e-6))
 
 
+@pytest.mark.parametrize("steep", [5, 200])
+@pytest.mark.parametrize("wide", [0.003, 0.01, 0.03])
+def test_both_flanks_of_a_plateau_are_seen(wide: float, steep: float) -> None:
+    """Each flank alone would be seen; two in one step come back, wherever pieces of the search end."""
+    text = _plain(force="{force}")
+    edge = wide / steep
+    with_flanks = f"-400*(tanh((v - 7 + {wide})/{edge}) - tanh((v - 7 - {wide})/{edge}))"
+    smooth, sharp, none = (
+        lw.steady_state(lw.loads(text.replace("{force}", force))).energy_load
+        for force in (with_flanks, f"where(abs(v - 7) < {wide}, -800, 0)", "0*v")
+    )
+    # Flanks that are as wide on both sides of the same places leave the work to the square of their share.
+    assert smooth - none == pytest.approx(sharp - none, rel=1e-3)
+
+
 @pytest.mark.parametrize("wide", [2e-4, 3e-3])
 @pytest.mark.parametrize("over", ["phi", "x"])
 def test_a_motion_in_time_does_not_pass_over_pulses(over: str, wide: float) -> None:
@@ -168,11 +184,77 @@ def test_a_motion_in_time_does_not_pass_over_pulses(over: str, wide: float) -> N
     assert motion.speed[-1] == pytest.approx(np.sqrt(2 * u), rel=3e-8)
 
 
+PLAIN = {"radius": 0.4, "rod": 1.1, "mass": 6, "speed": 60, "torque": 900, "inertia": 5, "damping": 10}
+
+
+def _plain(force: str) -> str:
+    return FILE.format(**PLAIN, force=force)
+
+
+def _speed_in_time(force: Callable[[float, float, float], float], ends: list[float], longest: float) -> float:
+    """Speed after 0.6 s from 20 rad/s with a force over time and speeds of slider and crank, by SciPy."""
+    n = PLAIN
+
+    def rate(t: float, y: np.ndarray) -> list[float]:
+        _, ds, dds = Press.way(y[0], n)
+        v, omega = ds * y[1], y[1]
+        torque = n["torque"] * (1 - omega / n["speed"]) + (force(t, v, omega) - n["damping"] * v) * ds
+        return [omega, (torque - n["mass"] * ds * dds * omega**2) / (n["inertia"] + n["mass"] * ds**2)]
+
+    y = np.array([0.0, 20.0])
+    for part in pairwise([0.0, *ends, 0.6]):
+        y = solve_ivp(rate, part, y, method="DOP853", rtol=1e-11, atol=1e-12, max_step=longest).y[:, -1]
+    return float(y[1])
+
+
+@pytest.mark.parametrize("wide", [1e-4, 1e-3])
+@pytest.mark.parametrize("accuracy", [1e-6, 1e-8])
+def test_a_motion_in_time_does_not_pass_over_a_blow(wide: float, accuracy: float) -> None:
+    ends = [0.3 + k * wide for k in (-8, -4, -1, 0, 1, 4, 8)]
+    for text, force in (
+        ("exp(-((t - 0.3)/{w})^2)", lambda t: np.exp(-(((t - 0.3) / wide) ** 2))),
+        ("where(abs(t - 0.3) < {w}, 1, 0)", lambda t: float(abs(t - 0.3) < wide)),
+        ("max(0, 1 - abs(t - 0.3)/{w})", lambda t: max(0.0, 1 - abs(t - 0.3) / wide)),
+        ("step(t - 0.3)*step(0.3 + {w} - t)", lambda t: float(0.3 < t < 0.3 + wide)),
+    ):
+        machine = lw.loads(_plain("2e4*" + text.format(w=wide)))
+        motion = lw.transient(machine, speed=20.0, duration=0.6, turns=1000.0, accuracy=accuracy)
+        speed = _speed_in_time(lambda t, v, omega, force=force: 2e4 * force(t), ends, 0.01)
+        assert motion.speed[-1] == pytest.approx(speed, rel=2 * accuracy)
+
+
+@pytest.mark.parametrize(
+    ("text", "force"),
+    [
+        ("exp(-((v - 7)/0.03)^2)", lambda t, v, omega: np.exp(-(((v - 7) / 0.03) ** 2))),
+        ("where(abs(v - 7) < 0.03, 1, 0)", lambda t, v, omega: float(abs(v - 7) < 0.03)),
+        ("where(abs(omega - 40) < 0.03, 0.5, 0)", lambda t, v, omega: 0.5 * (abs(omega - 40) < 0.03)),
+        ("exp(-((omega - 40)/0.03)^2)", lambda t, v, omega: np.exp(-(((omega - 40) / 0.03) ** 2))),
+    ],
+)
+def test_a_motion_in_time_does_not_pass_over_pulses_over_speeds(
+    text: str, force: Callable[[float, float, float], float]
+) -> None:
+    motion = lw.transient(lw.loads(_plain("-800*" + text)), speed=20.0, duration=0.6, turns=1000.0)
+    speed = _speed_in_time(lambda *now: -800 * force(*now), [], 5e-5)
+    # SciPy's steps pass jumps by up to their length.
+    assert motion.speed[-1] == pytest.approx(speed, rel=1e-7)
+
+
+@pytest.mark.parametrize("force", ["-800*exp(-((v - 7)/0.03)^2)", "2e4*exp(-((t - 0.3)/1e-4)^2)"])
+def test_a_clockwise_motion_meets_the_same_pulses(force: str) -> None:
+    """The press is its own mirror image: its slider moves alike."""
+    machine = lw.loads(_plain(force))
+    forward, back = (
+        lw.transient(machine, speed=speed, duration=0.6, turns=1000.0, clockwise=speed < 0).speed[-1]
+        for speed in (20.0, -20.0)
+    )
+    assert back == pytest.approx(-forward, rel=1e-9)
+
+
 def test_two_kinks_close_to_each_other_are_seen() -> None:
     """Between two angles of the scan for kinks the argument of the switch has the same sign at both."""
-    text = FILE.format(
-        radius=0.4, rod=1.1, mass=6, speed=60, torque=900, inertia=5, damping=10, force="{force}"
-    )
+    text = _plain("{force}")
     for force, of_one in (
         ("where(abs(phi - 2) < 0.002, 500, 0)", 2.0),
         ("max(0, 1 - abs(phi - 2)/0.002)*500", 1.0),

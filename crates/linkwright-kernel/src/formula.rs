@@ -155,8 +155,10 @@ pub struct Switch {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Steep {
     pub at: usize,
-    /// Whether it does so at other angles at other speeds.
+    /// Whether it does so at other angles at other speeds, or times.
     pub moves: bool,
+    /// Whether it may jump at such an angle, or have a kink there.
+    pub jumps: bool,
 }
 
 /// A formula, checked.
@@ -277,10 +279,11 @@ impl Formula {
             }
         }
         let &[degree] = stack.as_slice() else { return None };
-        // What jumps at a speed is looked for in the solution.
-        let jumps = |at: &usize| switches.iter().any(|s| s.at == *at && s.degree == Degree::Mixed);
-        let found = steep(&ops).into_iter().filter(|at| !jumps(at));
-        let steep = found.map(|at| Steep { at, moves: degrees[at] == Degree::Mixed }).collect();
+        let jumps = |at| switches.iter().any(|s| s.at == at && s.degree == Degree::Mixed);
+        let steep = steep(&ops).into_iter();
+        let steep =
+            steep.map(|at| Steep { at, moves: degrees[at] == Degree::Mixed || jumps(at), jumps: jumps(at) });
+        let steep = steep.collect();
         Some(Formula { ops, degree, switches, steep })
     }
 
@@ -395,26 +398,29 @@ impl<N: Real> Inputs<N> {
     /// The crank angle alone; everything else is zero.
     #[inline(always)]
     pub fn of_angle(phi: N) -> Self {
-        let zero = N::splat(0.0);
-        Inputs {
-            phi,
-            omega: zero,
-            time: zero,
-            x: zero,
-            y: zero,
-            vx: zero,
-            vy: zero,
-            v: zero,
-            s: zero,
-            psi: zero,
-            psi_dot: zero,
-        }
+        Inputs { phi, ..Inputs::all(N::splat(0.0)) }
     }
 
     /// Of what each variable is in three others.
     #[inline(always)]
     pub fn of_three<M: Real>(all: [&Inputs<M>; 3], f: impl Fn([M; 3]) -> N) -> Self {
-        let of = |variable| f(all.map(|inputs| inputs.get(variable)));
+        Inputs::by(|variable| f(all.map(|inputs| inputs.get(variable))))
+    }
+
+    /// With something done to each.
+    #[inline(always)]
+    #[must_use]
+    pub fn map(&self, f: impl Fn(N) -> N) -> Self {
+        Inputs::by(|variable| f(self.get(variable)))
+    }
+
+    /// The same for each.
+    pub fn all(each: N) -> Self {
+        Inputs::by(|_| each)
+    }
+
+    #[inline(always)]
+    fn by(of: impl Fn(Variable) -> N) -> Self {
         Inputs {
             phi: of(Variable::Phi),
             omega: of(Variable::Omega),

@@ -274,9 +274,11 @@ impl<Y: State> Stages<Y> {
 }
 
 /// Value of a polynomial with these factors ([`Stages::polynomial`]) at a share of the step.
-pub fn rise(factors: &[f64], share: f64) -> f64 {
+pub fn rise<R: Real>(factors: &[f64], share: R) -> R {
     let each = factors.iter().enumerate().rev();
-    each.fold(0.0, |sum, (i, factor)| (sum + factor) * if i % 2 == 0 { share } else { 1.0 - share })
+    each.fold(R::splat(0.0), |sum, (i, &factor)| {
+        (sum + factor) * if i % 2 == 0 { share } else { -share + 1.0 }
+    })
 }
 
 /// A polynomial without constant part by its factors of z, z (1 − z), z² (1 − z), … ([`Stages::polynomial`]).

@@ -32,6 +32,10 @@ _ACCURACY = 1e-12
 # An acceleration below this share of the mean one is zero: the peak of the speed is smooth there.
 _LEVEL = 1e-5
 
+# Share of a step by which a peak of the speed is looked at from both sides: what is a little off is carried
+# to it by slopes.
+_ASIDE = 1e-3
+
 
 class _MotionDerivatives(NamedTuple):
     """Derivatives of angle and speed at instants that are held, (instants, entries), and the accelerations
@@ -60,15 +64,20 @@ def run_up_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     later, turned, peak = np.zeros_like(start[0]), np.zeros_like(start[0]), start[1]
     missing = {}
     if up.time > 0:
-        at = [peak_until(up.motion, up.time)[1], up.time]
-        moved = _moved(compile_machine(telling), along, start, up.motion, at)
+        at = _beside_peak(up)
+        moved = _moved(compile_machine(telling), along, start, up.motion, [*at, up.time])
         gradient = gradient_along(machine, solution, along)
         later, lost = _entry(up, state, (solution, gradient), along, moved)
         speed = float(up.motion.at([up.time])[1][0])
-        turned = (moved.angle[1] + speed * later - start[0]) / (2 * np.pi)
-        peak = moved.speed[0] + (up.motion.slope(at[0]) * later if at[0] == at[1] else 0.0)
-        if 0 < at[0] < at[1] and abs(moved.acceleration[0]) > _LEVEL * up.speed_peak / up.time:
+        turned = (moved.angle[-1] + speed * later - start[0]) / (2 * np.pi)
+        if at[1] == up.time:
+            peak = moved.speed[-1] + up.motion.slope(up.time) * later
+        elif at[1] == 0.0:
+            peak = moved.speed[1]
+        elif abs(moved.acceleration[1]) > _LEVEL * up.speed_peak / up.time:
             missing = {"speed_peak": _CORNER}
+        else:
+            peak = _at_peak(moved)
     tangents = {
         "turns": Tangent(up.turns, turned),
         "time": Tangent(up.time, later),
@@ -104,6 +113,24 @@ def run_down_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives
     return Derivatives(running.variables, tangents, {}, {}, refused, running.lost(gradient.lost))
 
 
+def _beside_peak(up: RunUp) -> list[float]:
+    """When the speed is greatest [s], and a little before and after."""
+    peak, times = peak_until(up.motion, up.time)[1], up.motion.time
+    step = times[1:-1].searchsorted(peak)
+    aside = _ASIDE * (times[step + 1] - times[step])
+    return [max(peak - aside, 0.0), peak, min(peak + aside, up.time)]
+
+
+def _at_peak(moved: _MotionDerivatives) -> Floats:
+    """Derivatives of the speed where it is greatest, from three instants beside that.
+
+    The equation of motion tells the place, where ε = 0, better than speeds do; derivatives change fast there
+    under a steep motor.
+    """
+    before, at, after = moved.acceleration[:3]
+    return moved.speed[1] + (moved.speed[2] - moved.speed[0]) * (at / (before - after))
+
+
 def _unit(along: Directions, entry: str) -> Floats:
     """The derivatives of an entry that is no number of the program."""
     return np.array([float(name == entry) for name in along.variables])
@@ -135,5 +162,5 @@ def _entry(
     mean = state.speed_mean_time
     side = np.copysign(1.0, speed - there.speed[0])
     width = mean * (_unit(along, "run_up.settled") - up.settled * gradient.period / state.period)
-    off = moved.speed[1] - rise * moved.angle[1] - by_entry.speed[0] - side * width
+    off = moved.speed[-1] - rise * moved.angle[-1] - by_entry.speed[0] - side * width
     return -off / (up.motion.slope(up.time) - rise * speed), along.lost(gradient.lost)

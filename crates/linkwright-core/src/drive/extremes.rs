@@ -308,31 +308,17 @@ impl<R: Real> Turn<R> {
     }
 
     /// Of the steps of one machine: all that promise as much as the best, for all four extremes, as many at
-    /// once as there are lanes.
+    /// once as there are lanes. Where a torque jumps within a step this may promise what nothing gives; then all that promise as
+    /// much as what was found are read too.
     #[inline(always)]
     fn largest_of_steps(
         &self,
         machine: &Machine<'_, R>,
         samples: &[Samples<R>],
-        (numbers, has_series): (&[f64], bool),
+        numbers: (&[f64], bool),
         hints: &[Vec<Hint<R>>; 4],
         m: &mut Motion<R>,
     ) -> [Extreme<R>; 4] {
-        let mut picks: Vec<Pick> = Vec::new();
-        let (mut values, mut places) = (vec![0.0; self.steps.len() * R::LANES], vec![0.0; R::LANES]);
-        for (quantity, hints) in hints.iter().enumerate() {
-            for (hint, values) in hints.iter().zip(values.chunks_exact_mut(R::LANES)) {
-                hint.value.store(values);
-            }
-            let top = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-            self.range(samples, QUANTITIES[quantity]).store(&mut places);
-            let worth = top - DOUBT * places[0];
-            for (k, _) in values.iter().enumerate().filter(|&(_, &value)| value >= worth) {
-                let (step, lane) = (k / R::LANES, k % R::LANES);
-                hints[step].at.store(&mut places);
-                picks.push(Pick { step, lane, quantity, at: places[lane] });
-            }
-        }
         let mut best = [Extreme { value: f64::NEG_INFINITY, phi: 0.0 }; QUANTITIES.len()];
         for (best, quantity) in best.iter_mut().zip(QUANTITIES) {
             let of_lanes = self.largest_of_ends(samples, quantity);
@@ -340,6 +326,39 @@ impl<R: Real> Turn<R> {
                 best.keep_larger(&Extreme { value, phi });
             }
         }
+        let ranges = QUANTITIES.map(|quantity| unbundle(&[self.range(samples, quantity)])[0]);
+        let hints = hints.each_ref().map(|hints| hints_one_by_one(hints));
+        let mut worth: [f64; QUANTITIES.len()] = std::array::from_fn(|quantity| {
+            let top = hints[quantity].iter().map(|hint| hint.value).fold(f64::NEG_INFINITY, f64::max);
+            top - DOUBT * ranges[quantity]
+        });
+        let mut above = [f64::INFINITY; QUANTITIES.len()];
+        for _ in 0..2 {
+            let mut picks: Vec<Pick> = Vec::new();
+            for (quantity, hints) in hints.iter().enumerate() {
+                let is_worth =
+                    |hint: &Hint<f64>| hint.value >= worth[quantity] && hint.value < above[quantity];
+                for (k, hint) in hints.iter().enumerate().filter(|(_, hint)| is_worth(hint)) {
+                    picks.push(Pick { step: k / R::LANES, lane: k % R::LANES, quantity, at: hint.at });
+                }
+            }
+            self.read_picks(machine, &picks, numbers, &mut best, m);
+            above = worth;
+            worth = std::array::from_fn(|quantity| best[quantity].value - DOUBT * ranges[quantity]);
+        }
+        best.map(|best| Extreme { value: R::splat(best.value), phi: R::splat(best.phi) })
+    }
+
+    /// Reads what some steps promise.
+    #[inline(always)]
+    fn read_picks(
+        &self,
+        machine: &Machine<'_, R>,
+        picks: &[Pick],
+        (numbers, has_series): (&[f64], bool),
+        best: &mut [Extreme<f64>; QUANTITIES.len()],
+        m: &mut Motion<R>,
+    ) {
         for picks in picks.chunks(R::LANES) {
             let found = R::out_of_line(
                 #[inline(always)]
@@ -353,7 +372,6 @@ impl<R: Real> Turn<R> {
                 best[pick.quantity].keep_larger(&Extreme { value: values[lane], phi: places[lane] });
             }
         }
-        best.map(|best| Extreme { value: R::splat(best.value), phi: R::splat(best.phi) })
     }
 
     /// Largest minus smallest sample.
@@ -383,6 +401,13 @@ fn hints<R: Real>(samples: &[Samples<R>]) -> [Vec<Hint<R>>; 4] {
         }
     }
     hints
+}
+
+/// What steps promise, one after the other.
+fn hints_one_by_one<R: Real>(hints: &[Hint<R>]) -> Vec<Hint<f64>> {
+    let [values, places] = [|hint: &Hint<R>| hint.value, |hint: &Hint<R>| hint.at]
+        .map(|of| unbundle(&hints.iter().map(of).collect::<Vec<_>>()));
+    values.into_iter().zip(places).map(|(value, at)| Hint { value, at }).collect()
 }
 
 /// The best promise of each lane, and the number of its step; that promises nothing any more.

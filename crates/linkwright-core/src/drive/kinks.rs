@@ -7,11 +7,12 @@
 //!
 //! Smooth, but as steep as one pleases: the friction c·tanh(k v) of a formula takes on its sign within a small angle beside
 //! a dead centre. Steps of a steady motion therefore end where a speed that a formula knows is zero, and where the force
-//! changes fast beside that angle, there too; and wherever else a formula is steep ([`crate::drive::pulses`]).
+//! changes fast beside that angle, there too; and wherever else a formula is steep ([`crate::drive::steep`]).
 
 use crate::drive::cycle::Machine;
+use crate::drive::law::Moment;
 use crate::drive::loads::{Carrier, ForceElement, FormulaLoad, Law, Load};
-use crate::drive::pulses::Steepness;
+use crate::drive::steep::{Along, Steepness, Which};
 use crate::drive::structure::Plan;
 use crate::kernel::dual::Dual;
 use crate::kernel::formula::{Degree, Variable};
@@ -660,8 +661,10 @@ impl Carrier {
 /// Adds ends where formulas are steep whatever the speed.
 fn add_steep(plan: &Plan, q: &[f64], breaks: &[f64], ends: &mut Vec<f64>) {
     let (mut m, omega) = (Motion::new(&plan.mechanism, q), Dual::constant(q[plan.drive.speed_start]));
-    for load in plan.all_formulas() {
-        Steepness { plan, q, load, omega: &|_| omega, moves: false, breaks }.add_ends(ends, &mut m);
+    let moment = |phi| Moment::steady(phi, omega);
+    let along = Along::cycle(plan, &moment, breaks);
+    for load in plan.all_formulas().filter(|load| plan.is_steep(load, Which::Still)) {
+        Steepness::new(plan, q, load, Which::Still, &mut m).add_ends(&along, ends, &mut m);
     }
 }
 

@@ -48,6 +48,21 @@ enum KinkPlace {
     Knot(f64),
 }
 
+/// The machine at one place of a motion, with derivatives along it. The angle goes on from revolution to revolution.
+#[derive(Clone, Copy)]
+pub(super) struct Moment {
+    pub phi: Dual<f64>,
+    pub omega: Dual<f64>,
+    pub time: Dual<f64>,
+}
+
+impl Moment {
+    /// Of a steady motion, which knows no time.
+    pub(super) fn steady(phi: f64, omega: Dual<f64>) -> Self {
+        Moment { phi: Dual::variable(phi), omega, time: Dual::constant(f64::NAN) }
+    }
+}
+
 impl<R: Real> LawGeometry<R> {
     /// With what it is at a reference: the law then keeps to the branch that it has there.
     #[inline(always)]
@@ -161,24 +176,14 @@ impl FormulaLoad {
         }
     }
 
-    /// What the formula needs with its derivatives by φ, at a speed of the crank that changes with φ.
-    pub fn along<R: Real>(
-        &self,
-        formula: &Formula,
-        phi: R,
-        omega: Dual<R>,
-        m: &Motion<R>,
-    ) -> Inputs<Dual<R>> {
-        let unit = self.over_angle(formula, phi, m);
-        Inputs {
-            omega,
-            time: Dual::constant(R::splat(f64::NAN)),
-            vx: unit.vx * omega,
-            vy: unit.vy * omega,
-            v: unit.v * omega,
-            psi_dot: unit.psi_dot * omega,
-            ..unit
-        }
+    /// What the formula needs along a motion.
+    pub(super) fn along(&self, formula: &Formula, at: &Moment, m: &Motion<f64>) -> Inputs<Dual<f64>> {
+        let &Moment { phi, omega, time } = at;
+        let unit = self.over_angle(formula, phi.value, m);
+        let unit = unit.map(|by_phi| Dual { d: by_phi.d * phi.d, ..by_phi });
+        let [vx, vy, v, psi_dot] =
+            [unit.vx, unit.vy, unit.v, unit.psi_dot].map(|per_speed| per_speed * omega);
+        Inputs { omega, time, vx, vy, v, psi_dot, ..unit }
     }
 }
 

@@ -10,7 +10,8 @@
 //! | [`force_elements`] | loads of the reduction in a loop of their own: springs by a curve, gas springs, dampers, … |
 //! | [`law`] | loads by formulas and tables that depend on speed or time |
 //! | [`kinks`] | where the reduced machine is not smooth |
-//! | `pulses` | where over the revolution a formula is steep |
+//! | `steep` | where along a motion a formula is steep |
+//! | `pulses` | ends of steps there |
 //! | [`layout`] | what the lanes of a revolution hold: machines or steps |
 //! | [`cycle`] | steady motion on one mesh, in any lanes |
 //! | [`mesh`], [`check`] | steps of one machine's turn; the error in each, measured |
@@ -64,5 +65,6 @@ mod row_lanes;
 mod row_mesh;
 mod rows;
 pub mod steady;
+mod steep;
 pub mod structure;
 pub mod transient;

@@ -1,14 +1,15 @@
 //! Rows of a batch side by side in lanes.
 
 use crate::drive::cycle::{Machine, Turn};
+use crate::drive::law::Moment;
 use crate::drive::layout::{Layout, unbundle};
 use crate::drive::loads::FormulaLoad;
 use crate::drive::mesh::{Piece, speed_along};
 use crate::drive::nested::NodeSolution;
-use crate::drive::pulses::Steepness;
 use crate::drive::rough::RoughMotion;
 use crate::drive::row_mesh::RowMesh;
 use crate::drive::rows::{QUANTITIES, Rows, row_of};
+use crate::drive::steep::{Along, Steepness, Which};
 use crate::drive::structure::Plan;
 use crate::kernel::radau::{C, S};
 use crate::kernel::real::Real;
@@ -261,7 +262,7 @@ impl<'a, R: Real> RowLanes<'a, R> {
     /// Refuses rows whose steps do not see where a formula that knows a speed is steep along their solution.
     #[inline(always)]
     fn refuse_pulses(&self, meshes: &[RowMesh], verdicts: &mut [Verdict], first: usize) {
-        let laws = self.plan.laws_with_pulses();
+        let laws = self.plan.steep_laws(Which::Moving);
         if laws.is_empty() {
             return;
         }
@@ -391,10 +392,12 @@ impl<'a, R: Real> RowLanes<'a, R> {
 
 /// Whether the steps of a row see all that these laws have steep along its solution.
 fn sees_pulses(plan: &Plan, q: &[f64], laws: &[FormulaLoad], mesh: &RowMesh, pieces: &[Piece]) -> bool {
-    let (mut m, omega, breaks) = (Motion::new(&plan.mechanism, q), speed_along(pieces), mesh.breaks());
-    laws.iter().all(|&load| {
-        Steepness { plan, q, load, omega: &omega, moves: true, breaks }.is_seen(&mesh.edges, &mut m)
-    })
+    let (mut m, omega) = (Motion::new(&plan.mechanism, q), speed_along(pieces));
+    let moment = |phi| Moment::steady(phi, omega(phi));
+    let along = Along::cycle(plan, &moment, mesh.breaks());
+    let sees =
+        |&load| Steepness::new(plan, q, load, Which::Moving, &mut m).is_seen(&along, &mesh.edges, &mut m);
+    laws.iter().all(sees)
 }
 
 /// u at the kink of the drive that is passed at each end of `n` steps; 0 in lanes in which there is none.

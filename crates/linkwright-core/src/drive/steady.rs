@@ -16,14 +16,15 @@ use crate::drive::check::last_correction;
 use crate::drive::cycle::{Machine, Turn, divide};
 use crate::drive::events::{Events, leap};
 use crate::drive::extremes::{Extreme, Extremes};
+use crate::drive::law::Moment;
 use crate::drive::layout::unbundle;
 use crate::drive::march::{
     MotionChoice, NoMotion, PeriodicMotion, Repeating, Sliding, counts_as_rest, repeating,
 };
 use crate::drive::measures::Totals;
 use crate::drive::mesh::{Crossing, Mesh, Piece, speed_along};
-use crate::drive::pulses::Steepness;
 use crate::drive::reading::Mark;
+use crate::drive::steep::{Along, Steepness, Which};
 use crate::drive::structure::Plan;
 use crate::kernel::call::poll;
 use crate::kernel::lanes::{Job, in_lanes};
@@ -588,15 +589,17 @@ fn add_pulses(
     ends: &mut Vec<f64>,
     m: &mut Motion<f64>,
 ) {
-    let laws = plan.laws_with_pulses();
+    let laws = plan.steep_laws(Which::Moving);
     if laws.is_empty() {
         return;
     }
     let omega = speed_along(pieces);
+    let moment = |phi| Moment::steady(phi, omega(phi));
+    let along = Along::cycle(plan, &moment, breaks);
     for load in laws {
-        let steepness = Steepness { plan, q, load, omega: &omega, moves: true, breaks };
-        if !steepness.is_seen(ends, m) {
-            steepness.add_ends(ends, m);
+        let steepness = Steepness::new(plan, q, load, Which::Moving, m);
+        if !steepness.is_seen(&along, ends, m) {
+            steepness.add_ends(&along, ends, m);
         }
     }
 }

@@ -3,6 +3,7 @@
 //! [`Attempts`] is what events are met with; here by the explicit method, in [`super::stiff`] by the implicit one.
 
 use super::equation::{Equation, Jump, Y};
+use crate::kernel::real::Real;
 use crate::kernel::rk::{Stages, Trial, over, rise, worse};
 
 /// Share of the working speed that is added to a speed before the accuracy is taken of it.
@@ -23,8 +24,8 @@ pub struct Piece {
 
 impl Piece {
     /// State at a share of the piece, which starts from another.
-    pub fn state(&self, from: &Y, share: f64) -> Y {
-        std::array::from_fn(|n| from[n] + rise(&self.between[n], share))
+    pub fn state<R: Real>(&self, from: &Y, share: R) -> [R; 2] {
+        std::array::from_fn(|n| rise(&self.between[n], share) + from[n])
     }
 }
 
@@ -50,6 +51,9 @@ pub trait Attempts {
 
     /// The kink of a law with a number, at a time and a state that lies on it.
     fn jump(&mut self, nth: usize, t: f64, y: &Y) -> Jump;
+
+    /// The share of pieces from a time and a state after which the step is to end for a pulse that its stages may not see.
+    fn first_unseen(&mut self, from: (f64, &Y), pieces: &[Piece]) -> Option<f64>;
 }
 
 /// Attempts from `(t, y)` by the explicit method.
@@ -122,6 +126,10 @@ impl Attempts for ExplicitAttempt<'_, '_> {
 
     fn jump(&mut self, nth: usize, t: f64, y: &Y) -> Jump {
         self.equation.jump(nth, t, y)
+    }
+
+    fn first_unseen(&mut self, from: (f64, &Y), pieces: &[Piece]) -> Option<f64> {
+        self.equation.first_unseen(from, pieces)
     }
 }
 

@@ -3,6 +3,7 @@
 use super::reduced::{Reduced, ReducedCurves};
 use crate::drive::cycle::Machine;
 use crate::drive::law::{LawGeometry, SpeedKink};
+use crate::drive::steep::Steepness;
 use crate::kernel::dual::Dual;
 use crate::kernel::plane::Angle;
 use crate::kernel::real::Lift;
@@ -57,6 +58,8 @@ pub struct Equation<'a> {
     pub evaluations: usize,
     /// The machine over the angle, where polynomials can do.
     pub(super) curves: Option<ReducedCurves>,
+    /// Laws that may be steep over speed or time.
+    pub(super) steep: Vec<Steepness<'a>>,
 }
 
 impl Equation<'_> {

@@ -7,7 +7,8 @@
 //! counted in the direction in which the crank turns, by [`crate::kernel::rk`], or by [`crate::kernel::radau`] where the drive is so steep that stability would limit the steps of the
 //! former and not their error, with these events met exactly by the end of a step: kinks over the angle (dead centres
 //! under dry friction, knots of tables), speeds at which the drive's characteristic has a kink, standstill. A step whose
-//! speed passes such a speed and comes back inside is cut where the speed turns.
+//! speed passes such a speed and comes back inside is cut where the speed turns, and one between whose stages a formula has a
+//! pulse before it.
 //! At standstill the dry loads decide: what is left of the drive's torque must exceed them to move on.
 //!
 //! | module | answers |
@@ -16,12 +17,14 @@
 //! | [`attempt`] | steps of any length from one instant, by the explicit method |
 //! | [`stiff`] | the same by the implicit one |
 //! | `reduced` | inertia and loads as polynomials over the angle |
+//! | `unseen` | pulses of formulas between the stages of a step |
 //! | [`variation`] | derivatives of a motion by the numbers of the machine |
 
 pub mod attempt;
 pub mod equation;
 mod reduced;
 pub mod stiff;
+mod unseen;
 pub mod variation;
 
 use self::attempt::{Attempts, ExplicitAttempt, Piece, aside_of};
@@ -36,6 +39,7 @@ use crate::drive::mesh::crossing;
 use crate::drive::structure::Plan;
 use crate::kernel::call::poll;
 use crate::kernel::radau::{AT, N};
+use crate::kernel::real::Real;
 use crate::kernel::rk::{Trial, next_factor_of};
 use crate::kernel::turns::{Bernstein, passed_and_back};
 use crate::linkage::motion::Motion;
@@ -162,7 +166,9 @@ pub fn follow(plan: &Plan, q: &[f64], start: &Start) -> Trajectory {
         turning,
         evaluations: 0,
         curves,
+        steep: Vec::new(),
     };
+    follower.find_steep_laws();
     let mut path = Path::new(plan, q, start, kinks);
     path.run(&mut follower);
     path.finish(&mut follower)
@@ -409,6 +415,10 @@ impl Path {
                 longest = shorter;
                 continue;
             }
+            if let Some(share) = attempt.first_unseen((t, y), &pieces) {
+                longest = h * share;
+                continue;
+            }
             // A step cut short by an event says nothing about the length that the next may have.
             let grown = tried * next_factor_of(trial.error.max(on_the_way), order).min(growth_max);
             let next = if tried < longest { grown.max(longest) } else { grown };
@@ -561,16 +571,16 @@ fn time_to(angle: f64, omega: f64, epsilon: f64) -> f64 {
 }
 
 /// Angle and speed at a time since the start of a step, from which its pieces begin.
-fn state(start: &Y, pieces: &[Piece], time: f64) -> Y {
+fn state<R: Real>(start: &Y, pieces: &[Piece], time: R) -> [R; 2] {
     let (mut from, mut left) = (*start, time);
     for piece in &pieces[..pieces.len() - 1] {
-        if left <= piece.h {
-            return piece.state(&from, left / piece.h);
+        if left.max_lane() <= piece.h {
+            return piece.state(&from, left * (1.0 / piece.h));
         }
         (from, left) = (piece.y, left - piece.h);
     }
     let last = &pieces[pieces.len() - 1];
-    last.state(&from, left / last.h)
+    last.state(&from, left * (1.0 / last.h))
 }
 
 /// Newton on the length of the step until it ends on the target angle.

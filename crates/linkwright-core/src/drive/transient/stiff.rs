@@ -224,4 +224,8 @@ impl Attempts for StiffAttempt<'_, '_> {
     fn jump(&mut self, nth: usize, t: f64, y: &Y) -> Jump {
         self.equation.jump(nth, t, y)
     }
+
+    fn first_unseen(&mut self, from: (f64, &Y), pieces: &[Piece]) -> Option<f64> {
+        self.equation.first_unseen(from, pieces)
+    }
 }

@@ -367,20 +367,12 @@ impl<R: Real> Along<'_, R> {
         2.0 * self.plain.acceleration(near) - self.plain.acceleration(far)
     }
 
-    /// From one share of a step to another, by halves: derivatives change faster than the motion that the step was chosen for.
+    /// From one share of a step to another.
     #[inline(always)]
     fn advance(&mut self, k: usize, from: f64, to: f64) {
         if to <= from {
             return;
         }
-        let middle = 0.5 * (from + to);
-        for [from, to] in [[from, middle], [middle, to]] {
-            self.step(k, from, to);
-        }
-    }
-
-    #[inline(always)]
-    fn step(&mut self, k: usize, from: f64, to: f64) {
         let h = (to - from) * (self.motion.t[k + 1] - self.motion.t[k]);
         let inside = C.map(|c| c.min(1.0 - INSIDE));
         let mut rates = inside.map(|c| self.rates.acceleration(self.motion.state(k, from + (to - from) * c)));

@@ -1,0 +1,378 @@
+//! Where along a motion a formula is steep: a pulse may rise and fall back between two stages of a step, and nothing would
+//! be seen of it.
+//!
+//! Values at some places cannot tell; bounds can. The formula is worked through with all that its variables are over a piece of
+//! the motion ([`crate::kernel::bounds`]), which bounds its values and slopes there. Of a piece that may hide more than a
+//! small share of the largest value seen so far, both halves are looked at, the one that may hide most first, until none is
+//! left (branch and bound; Moore, *Interval Analysis*, 1966). What had to be cut into small pieces is steep.
+//!
+//! Each instruction of the formula that may be steep is looked at by itself, so that a large smooth force beside a small pulse
+//! does not cover it.
+
+use crate::drive::law::Moment;
+use crate::drive::loads::{FormulaLoad, Law};
+use crate::drive::structure::Plan;
+use crate::kernel::bounds::Bounds;
+use crate::kernel::dual::Dual;
+use crate::kernel::formula::{Formula, Inputs, Steep, Variable};
+use crate::kernel::interval::Interval;
+use crate::kernel::plane::Angle;
+use crate::linkage::motion::Motion;
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+use std::f64::consts::{PI, TAU};
+
+/// Pieces of a revolution of the fastest link that are looked at first: over them the mechanism moves smoothly.
+const FIRST: f64 = 48.0;
+
+/// A piece may hide this share of the largest value. What is less beside a pulse, its foot, is smooth beside the ends of steps
+/// there, and seen.
+const SHARE: f64 = 1e-3;
+
+/// Values below this share of the largest that there may be anywhere do not count: far beside a pulse its foot is as steep as
+/// it is small.
+const FAINT: f64 = 1e-6;
+
+/// What is wider \[rad\] lies between no two stages: those of the two halves of a step of a 24th of a revolution are no farther
+/// apart than 0.04 rad.
+pub(super) const WIDE: f64 = 0.04;
+
+/// Pieces shorter than this \[rad\] are steep. A pulse exp(−(x/w)²) is bent by 2/w² at most, so that it is cut to pieces of
+/// about √(2 · SHARE) w: those of one that is less than 0.1 rad wide on each side.
+const SHORT: f64 = 0.004;
+
+/// The shortest piece \[rad\]: a pulse within it does no work. Ends of smooth pieces are as exact.
+const SHORTEST: f64 = 1e-9;
+
+/// A link turns no faster than this: beside a change point it may be faster for a moment, in which a pulse does no work.
+const FASTEST: f64 = 1000.0;
+
+/// Most cuts.
+const CUTS_MAX: usize = 4096;
+
+/// What is looked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Which {
+    /// What is steep at angles that no speed moves.
+    Still,
+    /// What is steep at angles that depend on the speed. Jumps there are sought out by the solution.
+    Moving,
+    /// The same, and jumps.
+    MovingOrJumping,
+}
+
+/// A formula of a machine, of which it is asked where it is steep.
+#[derive(Clone, Copy)]
+pub(super) struct Steepness<'a> {
+    pub plan: &'a Plan,
+    pub q: &'a [f64],
+    pub load: FormulaLoad,
+    pub which: Which,
+    /// Revolutions of the fastest link that the formula knows to one of the crank.
+    fastest: f64,
+}
+
+/// A motion over the crank angle, or over what grows with it in a similar measure \[rad\].
+pub(super) struct Along<'a> {
+    pub moment: &'a dyn Fn(f64) -> Moment,
+    /// Ends of its smooth pieces.
+    pub breaks: Vec<f64>,
+}
+
+/// What the formula needs, and what the instruction gives, at a place of the motion.
+#[derive(Clone, Copy)]
+pub(super) struct Sample {
+    pub at: f64,
+    phi: Dual<f64>,
+    pub inputs: Inputs<Dual<f64>>,
+    pub value: f64,
+}
+
+/// A piece of the motion: its start, middle and end.
+pub(super) struct Piece {
+    pub samples: [Sample; 3],
+    /// How far the instruction may depart from what the samples say.
+    pub hides: f64,
+    /// Whether it is a part of another.
+    is_cut: bool,
+}
+
+/// A piece that is to be looked at.
+#[derive(PartialEq)]
+struct Waiting {
+    hides: f64,
+    width: f64,
+    nth: usize,
+}
+
+/// The look at one instruction.
+struct Search<'a, 'b> {
+    of: &'a Steepness<'a>,
+    along: &'a Along<'a>,
+    formula: &'a Formula,
+    at: usize,
+    m: &'b mut Motion<f64>,
+    pieces: Vec<Piece>,
+    queue: BinaryHeap<Waiting>,
+    /// The largest value seen.
+    largest: f64,
+}
+
+impl Plan {
+    /// Whether some formula may be steep.
+    pub(super) fn may_be_steep(&self) -> bool {
+        self.formulas.iter().any(|formula| !formula.steep.is_empty())
+    }
+
+    /// Loads that are laws with a formula in which something of this kind may be steep.
+    pub(super) fn steep_laws(&self, which: Which) -> Vec<FormulaLoad> {
+        let formulas = self.laws.iter().filter_map(|law| match law {
+            Law::Formula(load) => Some(*load),
+            Law::Damper { .. } => None,
+        });
+        formulas.filter(|load| self.is_steep(load, which)).collect()
+    }
+
+    /// Whether something of this kind may be steep in the formula of a load.
+    pub(super) fn is_steep(&self, load: &FormulaLoad, which: Which) -> bool {
+        self.formulas[load.formula].steep.iter().any(|steep| which.is(steep))
+    }
+}
+
+impl Which {
+    fn is(self, steep: &Steep) -> bool {
+        match self {
+            Which::Still => !steep.moves,
+            Which::Moving => steep.moves && !steep.jumps,
+            Which::MovingOrJumping => steep.moves,
+        }
+    }
+}
+
+impl<'a> Along<'a> {
+    /// A cycle with the ends of its smooth pieces, over the crank angle. A formula that repeats after a revolution may jump
+    /// after each.
+    pub(super) fn cycle(plan: &Plan, moment: &'a dyn Fn(f64) -> Moment, breaks: &[f64]) -> Self {
+        let mut breaks = breaks.to_vec();
+        breaks.extend((1..plan.turns).map(|turn| TAU * f64::from(turn)));
+        breaks.sort_by(f64::total_cmp);
+        Along { moment, breaks }
+    }
+}
+
+impl<'a> Steepness<'a> {
+    pub(super) fn new(
+        plan: &'a Plan,
+        q: &'a [f64],
+        load: FormulaLoad,
+        which: Which,
+        m: &mut Motion<f64>,
+    ) -> Self {
+        Steepness { plan, q, load, which, fastest: fastest(plan, q, &plan.formulas[load.formula], m) }
+    }
+
+    /// Goes through all places where the formula is steep, with what may hide there.
+    pub(super) fn for_each_place(
+        &self,
+        along: &Along<'_>,
+        m: &mut Motion<f64>,
+        mut act: impl FnMut(&[Piece], f64),
+    ) {
+        let formula = &self.plan.formulas[self.load.formula];
+        for at in formula.steep.iter().filter(|steep| self.which.is(steep)).map(|steep| steep.at) {
+            let (pieces, queue) = (Vec::new(), BinaryHeap::new());
+            let anything = Bounds { value: Interval::EVERYTHING, slope: Interval::EVERYTHING };
+            let all = formula.result::<f64, Bounds>(at, self.q, &Inputs::all(anything)).value.abs().high;
+            let largest = if all.is_finite() { FAINT * all } else { 0.0 };
+            let mut search = Search { of: self, along, formula, at, m, pieces, queue, largest };
+            search.run();
+            search.for_each_place(&mut act);
+        }
+    }
+
+    /// The force at a place.
+    pub(super) fn force(&self, at: &Sample) -> f64 {
+        self.plan.formulas[self.load.formula].value::<f64, Dual<f64>>(self.q, &at.inputs).value
+    }
+}
+
+impl Search<'_, '_> {
+    /// Cuts the motion into pieces that hide nothing.
+    fn run(&mut self) {
+        self.start();
+        let first = self.pieces.len();
+        while let Some(Waiting { hides, nth, .. }) = self.queue.pop() {
+            if hides <= SHARE * self.largest {
+                return;
+            }
+            if self.pieces.len() - first >= CUTS_MAX {
+                return;
+            }
+            self.cut(nth);
+        }
+    }
+
+    /// Pieces from end to end of the smooth ones. These end a little beside the ends: on them rounding decides between the
+    /// sides of a jump.
+    fn start(&mut self) {
+        let mut ends = self.along.breaks.clone();
+        let last = ends.last().copied().unwrap_or(0.0);
+        ends.dedup_by(|next, last| *next - *last < 4.0 * SHORTEST);
+        for ends in ends.windows(2) {
+            let (low, high) = (ends[0] + SHORTEST, ends[1].min(last) - SHORTEST);
+            let mut from = self.sample(low);
+            let turned = (self.moment(high).phi.value - from.phi.value).abs().max(high - low);
+            let n = (turned * FIRST * self.of.fastest / TAU).ceil();
+            for i in 1..=n as usize {
+                let to = self.sample(low + (high - low) * i as f64 / n);
+                self.add(from, to, false);
+                from = to;
+            }
+        }
+    }
+
+    fn moment(&self, at: f64) -> Moment {
+        (self.along.moment)(at)
+    }
+
+    /// The formula at a place.
+    fn sample(&mut self, at: f64) -> Sample {
+        let Steepness { plan, q, load, .. } = self.of;
+        let moment = self.moment(at);
+        plan.mechanism.place::<f64, 2>(q, Angle::new(moment.phi.value), self.m);
+        let inputs = load.along(self.formula, &moment, self.m);
+        let value = self.formula.result::<f64, Dual<f64>>(self.at, q, &inputs).value;
+        if value.is_finite() {
+            self.largest = self.largest.max(value.abs());
+        }
+        Sample { at, phi: moment.phi, inputs, value }
+    }
+
+    fn piece(&mut self, from: Sample, to: Sample, is_cut: bool) -> Piece {
+        let middle = self.sample(0.5 * (from.at + to.at));
+        let mut piece = Piece { samples: [from, middle, to], hides: 0.0, is_cut };
+        if piece.width() > SHORTEST {
+            let inputs = piece.bounds(TAU * f64::from(self.of.load.turns));
+            piece.hides = piece.hidden(self.formula.result::<f64, Bounds>(self.at, self.of.q, &inputs));
+        }
+        piece
+    }
+
+    fn add(&mut self, from: Sample, to: Sample, is_cut: bool) {
+        let piece = self.piece(from, to, is_cut);
+        self.wait(&piece, self.pieces.len());
+        self.pieces.push(piece);
+    }
+
+    fn wait(&mut self, piece: &Piece, nth: usize) {
+        if piece.hides > 0.0 {
+            self.queue.push(Waiting { hides: piece.hides, width: piece.width(), nth });
+        }
+    }
+
+    /// Puts both halves in the place of a piece.
+    fn cut(&mut self, nth: usize) {
+        let [from, middle, to] = self.pieces[nth].samples;
+        let first = self.piece(from, middle, true);
+        self.wait(&first, nth);
+        self.pieces[nth] = first;
+        self.add(middle, to, true);
+    }
+
+    /// Goes through the places where short pieces follow one another and the formula changes.
+    fn for_each_place(&mut self, act: &mut impl FnMut(&[Piece], f64)) {
+        let least = SHARE * self.largest;
+        self.pieces.sort_by(|a, b| a.samples[0].at.total_cmp(&b.samples[0].at));
+        for place in self.pieces.chunk_by(|a, b| a.is_steep(least) && b.is_steep(least)) {
+            let values = place.iter().flat_map(|piece| piece.samples.map(|sample| sample.value));
+            let changes = Interval::around(values).width() > least || place.iter().any(|p| p.hides > least);
+            if place[0].is_steep(least) && changes {
+                act(place, least);
+            }
+        }
+    }
+}
+
+impl Piece {
+    pub(super) fn ends(&self) -> [f64; 2] {
+        [self.samples[0].at, self.samples[2].at]
+    }
+
+    fn width(&self) -> f64 {
+        let [low, high] = self.ends();
+        high - low
+    }
+
+    /// Whether it had to be cut short, or may still hide something since there were too many pieces.
+    fn is_steep(&self, least: f64) -> bool {
+        self.is_cut && self.width() < SHORT || self.hides > least
+    }
+
+    /// Bounds of what the formula needs, which knows the crank angle within a cycle. The motion of the mechanism is smooth over
+    /// a piece; only the formula is steep. A parabola through the samples leaves their hull by a quarter of what the middle is
+    /// off the chord at most; that much four times leaves room for what is no parabola.
+    fn bounds(&self, cycle: f64) -> Inputs<Bounds> {
+        let [from, middle, to] = &self.samples;
+        let of = |three: [Dual<f64>; 3]| Bounds {
+            value: smooth(three.map(|x| x.value)),
+            slope: smooth(three.map(|x| x.d)),
+        };
+        let bounds = Inputs::of_three([&from.inputs, &middle.inputs, &to.inputs], of);
+        let anything = |value| Bounds { value, slope: Interval::EVERYTHING };
+        let turned =
+            of([from, middle, to]
+                .map(|sample| Dual { value: sample.phi.value - from.phi.value, ..sample.phi }));
+        let phi = turned + from.inputs.phi.value;
+        // The angle within a cycle starts anew after it, that of a link that goes round jumps from π to −π.
+        let restarts = (phi.value.high - phi.value.low - bounds.phi.value.width()).abs() > 1.0;
+        let wraps = bounds.psi.value.width() > PI;
+        Inputs {
+            phi: if restarts { anything(Interval { low: 0.0, high: cycle }) } else { phi },
+            psi: if wraps { anything(Interval { low: -PI, high: PI }) } else { bounds.psi },
+            ..bounds
+        }
+    }
+
+    /// By how much a value may depart from the straight lines through the samples: a quarter of the width times the range of
+    /// slopes, where a change that is wider than what lies between two stages is none that hides.
+    fn hidden(&self, of: Bounds) -> f64 {
+        let by_slope = 0.25 * of.slope.width() * self.width().min(WIDE);
+        let by_value = of.value.high - of.value.low;
+        // An infinite value less an infinite one may be anything.
+        if by_value.is_nan() { by_slope } else { by_value.max(0.0).min(by_slope) }
+    }
+}
+
+/// Bounds of what changes smoothly with given values at start, middle and end of a piece.
+fn smooth([from, middle, to]: [f64; 3]) -> Interval {
+    let sag = (middle - 0.5 * (from + to)).abs();
+    Interval::around([from, middle, to]).widened(sag)
+}
+
+/// Turns of the fastest link to one of the crank, of the crank itself if that is faster, or if the formula knows it alone.
+fn fastest(plan: &Plan, q: &[f64], formula: &Formula, m: &mut Motion<f64>) -> f64 {
+    let known =
+        [Variable::X, Variable::Y, Variable::Vx, Variable::Vy, Variable::V, Variable::S, Variable::Psi];
+    let mut fastest = 1.0_f64;
+    if known.into_iter().chain([Variable::PsiDot]).any(|variable| formula.reads(variable)) {
+        for i in 0..FIRST as usize * plan.turns as usize {
+            plan.mechanism.place::<f64, 2>(q, Angle::new(i as f64 * TAU / FIRST), m);
+            fastest = m.links.iter().fold(fastest, |most, link| most.max(link.d1.abs()));
+        }
+    }
+    fastest.min(FASTEST)
+}
+
+impl Eq for Waiting {}
+
+impl PartialOrd for Waiting {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Waiting {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.hides.total_cmp(&other.hides).then(self.width.total_cmp(&other.width))
+    }
+}
