@@ -178,3 +178,27 @@ def with_jump(random: Generator, drive: Table, speeds: tuple[float, float], size
     switch = random.choice(["omega", "omega*(1+0.1*cos(phi))"]) if random.random() < 0.3 else "omega"
     torque = f"-({0.05 * size!r}*cos(phi) + where({switch} > {level!r}, {jump!r}, 0))"
     return drive | {"loads": drive["loads"] | {"jump": {"kind": "formula", "on": "A", "torque": torque}}}
+
+
+# Loads that jump or have kinks at crank angles, of a place p, a width w and a size c.
+BLOWS = (
+    "where(abs(phi - p) < w, c, 0)",
+    "where(phi < p - w, 0, where(phi < p + w, c, 0))",
+    "c*step(phi - p)*step(p + w - phi)",
+    "c*max(0, 1 - abs(phi - p)/w)",
+    "where(exp(-((phi - p)/w)^2) > 0.5, c, 0)",
+    "c*sign(sin(2*phi - p) - 0.3*w)",
+    "c*min(1, abs(sin(phi - p))/w)",
+    "where(cos(phi - p) > 1 - 0.5*w^2, c*omega/10, 0)",
+)
+
+
+def with_blow(random: Generator, drive: Table, size: float) -> Table:
+    """A drive with one load more, which jumps or has kinks at some angles; torques are of the given size."""
+    constants = {
+        "p": float(random.uniform(1.0, 5.0)),
+        "w": float(10 ** random.uniform(-3.0, -0.2)),
+        "c": float(size * 10 ** random.uniform(-1.5, 0.0) * random.choice([-1, 1])),
+    }
+    load = {"kind": "formula", "on": "A", "torque": str(random.choice(BLOWS)), "constants": constants}
+    return drive | {"loads": drive["loads"] | {"blow": load}}

@@ -19,6 +19,7 @@ import test_random_toppers as toppers
 from numpy.random import Generator
 from numpy.typing import NDArray
 from random_diagrams import areas, formula, table
+from random_drives import Table, with_blow
 from random_parts import log_uniform, random_train
 from sizes import cases
 
@@ -87,7 +88,18 @@ def _as_listed(measure: drives.Measure, listed: list[str]) -> Callable[[lw.Machi
 
 
 def _steady(random: Generator) -> Case:
-    machine = lw.Machine.model_validate(drives.random_drive(random))
+    return _steady_of(drives.random_drive(random))
+
+
+def _struck(random: Generator) -> Case:
+    """A load jumps, or has kinks, at some angles."""
+    drive = drives.random_drive(random)
+    state = lw.steady_state(lw.Machine.model_validate(drive))
+    return _steady_of(with_blow(random, drive, float(np.abs([state.torque_load, state.torque_drive]).max())))
+
+
+def _steady_of(drive: Table) -> Case:
+    machine = lw.Machine.model_validate(drive)
     # What is zero but for rounding, as the torque without load, is left out.
     known = lw.gradient(machine, ["steady_state"], ["drive.gearbox.ratio"]).responses
     reached = lw.steady_state(machine).accuracy
@@ -233,11 +245,11 @@ def _topper(random: Generator) -> Case:
 
 
 # As often as they are quick; `make test` looks at the first of them.
-_QUICK = (_steady, _train, _cam, _forces, _excited, _unit, _topper, _turning, _loaded_cam)
+_QUICK = (_steady, _struck, _train, _cam, _forces, _excited, _unit, _topper, _turning, _loaded_cam)
 KINDS = (
     *_QUICK,
     *(_steady, _train, _cam, _forces, _jumping, _running("up"), _running("down"), _steady, _train, _cam),
-    *(_steady, _jumping, _topper, _loaded_cam),
+    *(_struck, _jumping, _topper, _loaded_cam),
 )
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Sequence
+from functools import partial
 
 import numpy as np
 import pytest
@@ -62,8 +63,8 @@ def _reason(error: LinkwrightError) -> str:
     return reasons[0]
 
 
-def _measures(machine: lw.Machine) -> list[float]:
-    state = lw.steady_state(machine, accuracy=1e-13)
+def _measures(machine: lw.Machine, accuracy: float = 1e-13) -> list[float]:
+    state = lw.steady_state(machine, accuracy=accuracy)
     return [getattr(state, name) for name in _NUMBERS]
 
 
@@ -186,18 +187,21 @@ def test_derivatives_are_those_of_the_analysis(kind, few: int, many: int) -> Non
 # What jumps leave of derivatives that are zero, or found by moving ends of steps in turn, which took turns.
 _JUMPS = (1, 23, 164, 222, 349)
 
+# Below, rounding of slow drives makes thousands of steps.
+_BESIDE_JUMPS = partial(_measures, accuracy=1e-12)
+
 
 def test_derivatives_are_found_where_a_load_jumps_over_speed() -> None:
     compared, refused = 0, Counter[str]()
     for case in (*_JUMPS, *range(400, cases(420, 1500))):
         try:
             machine = _jumping_drive(np.random.default_rng([11, case]))
-            _measures(machine)
+            _BESIDE_JUMPS(machine)
         except LinkwrightError as error:
             refused[_reason(error)] += 1
             continue
         names = [f"steady_state.{name}" for name in _NUMBERS]
-        one, wrong = check(machine, names, _measures, cases(6, 1), _BEHIND_JUMPS)
+        one, wrong = check(machine, names, _BESIDE_JUMPS, cases(6, 1), _BEHIND_JUMPS)
         assert not wrong, (case, wrong)
         compared += one
     assert compared > 50, refused

@@ -290,13 +290,31 @@ fn smooth_formulas_are_not_steep() {
         (vec![v, Op::Tanh, phi, Op::Tanh, Op::Sub], vec![1, 3]),
         (vec![number, v, Op::Div], vec![2]),
         (vec![v, Op::Tanh, number, Op::Mul, Op::Sin], vec![1, 4]),
-        // Where it jumps, the motion passes a speed.
-        (vec![v, number, Op::Sub, Op::Step], vec![]),
+        (vec![v, number, Op::Sub, Op::Step], vec![3]),
         (vec![phi, number, Op::Sub, Op::Step], vec![3]),
     ] {
         let formula = Formula::new(ops).expect("a sound program");
         let found: Vec<usize> = formula.steep.iter().map(|steep| steep.at).collect();
         assert_eq!(found, steep, "{formula:?}");
+        // The motion passes a speed there; an angle is known beforehand.
+        let jumps = formula.switches.iter().any(|switch| switch.degree == Degree::Mixed);
+        assert!(formula.steep.iter().all(|steep| steep.jumps == jumps), "{formula:?}");
+    }
+}
+
+#[test]
+fn arguments_that_wind_are_known() {
+    let [phi, number] = [Op::Variable(Variable::Phi), Op::Number(0)];
+    for (argument, winds) in [
+        (vec![phi, number, Op::Sub], false),
+        (vec![phi, Op::Sin], true),
+        (vec![phi, number, Op::Sub, Op::Abs, number, Op::Sub], true),
+        (vec![phi, number, Op::Div, Op::Exp], true),
+        (vec![phi, phi, Op::Mul, number, Op::Mul], false),
+    ] {
+        let formula = Formula::new([argument, vec![Op::Step]].concat()).expect("a sound program");
+        let last = formula.switches.last().expect("a switch");
+        assert_eq!(last.winds, winds, "{formula:?}");
     }
 }
 

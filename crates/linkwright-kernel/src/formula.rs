@@ -149,6 +149,8 @@ pub struct Switch {
     pub at: usize,
     /// How it grows with speed: where it is of one degree, its zeros are angles that no speed moves.
     pub degree: Degree,
+    /// Whether it has kinks or waves or may be steep: there may be zeros wherever one looks.
+    pub winds: bool,
 }
 
 /// An instruction whose result may change within a small part of the range of the variables.
@@ -246,44 +248,45 @@ impl Op {
     }
 }
 
-/// The instructions whose result may be steep.
-fn steep(ops: &[Op]) -> Vec<usize> {
+/// The instructions whose result may be steep; `None` where one has too few numbers.
+fn steep(ops: &[Op]) -> Option<Vec<usize>> {
     let (mut stack, mut found) = (Vec::new(), Vec::new());
     for (at, op) in ops.iter().enumerate() {
-        let from = stack.split_off(stack.len() - op.takes());
+        let from = stack.split_off(stack.len().checked_sub(op.takes())?);
         let power = op.power(&from);
         found.extend(power.is_none().then_some(at));
         stack.push(power.unwrap_or(STEEP_POWER));
     }
-    found
+    Some(found)
 }
 
 impl Formula {
     /// From instructions; `None` unless they leave one number and never keep more than [`DEPTH`].
     pub fn new(ops: Vec<Op>) -> Option<Formula> {
-        let mut stack: Vec<Degree> = Vec::new();
+        let steep = steep(&ops)?;
+        let mut stack: Vec<(Degree, bool)> = Vec::new();
         let (mut switches, mut degrees) = (Vec::new(), Vec::new());
         for (at, op) in ops.iter().enumerate() {
-            let from = stack.split_off(stack.len().checked_sub(op.takes())?);
-            match op {
-                Op::Abs | Op::Sign | Op::Step => switches.push(Switch { at, degree: from[0] }),
-                Op::Min | Op::Max | Op::Where => {
-                    switches.push(Switch { at, degree: from[0].with(from[1]) });
-                }
-                _ => {}
-            }
+            let (from, wind): (Vec<_>, Vec<_>) =
+                stack.split_off(stack.len().checked_sub(op.takes())?).into_iter().unzip();
+            let argument = match op {
+                Op::Abs | Op::Sign | Op::Step => Some(from[0]),
+                Op::Min | Op::Max | Op::Where => Some(from[0].with(from[1])),
+                _ => None,
+            };
+            let argument_winds = wind.iter().take(2).any(|&winds| winds);
+            switches.extend(argument.map(|degree| Switch { at, degree, winds: argument_winds }));
             degrees.push(op.degree(&from));
-            stack.push(degrees[at]);
+            let is_bent = argument.is_some() || matches!(op, Op::Sin | Op::Cos) || steep.contains(&at);
+            stack.push((degrees[at], is_bent || wind.contains(&true)));
             if stack.len() > DEPTH {
                 return None;
             }
         }
-        let &[degree] = stack.as_slice() else { return None };
+        let &[(degree, _)] = stack.as_slice() else { return None };
         let jumps = |at| switches.iter().any(|s| s.at == at && s.degree == Degree::Mixed);
-        let steep = steep(&ops).into_iter();
-        let steep =
-            steep.map(|at| Steep { at, moves: degrees[at] == Degree::Mixed || jumps(at), jumps: jumps(at) });
-        let steep = steep.collect();
+        let moves = |at| degrees[at] == Degree::Mixed || jumps(at);
+        let steep = steep.into_iter().map(|at| Steep { at, moves: moves(at), jumps: jumps(at) }).collect();
         Some(Formula { ops, degree, switches, steep })
     }
 

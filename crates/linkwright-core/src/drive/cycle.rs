@@ -90,7 +90,14 @@ pub struct Machine<'a, R> {
     pub keeps_branch: bool,
     /// The state that chooses the branch of all stages in the place of [`REFERENCE`]: what laws know there, and u.
     pub side: Option<(&'a [LawGeometry<R>], R)>,
+    /// By how much \[rad\] both ends of a step are read inside it, where the acceleration may jump there at an angle.
+    pub(super) inside: f64,
 }
+
+/// Ends of steps are as near \[rad\] to the angles at which the acceleration jumps, and are read inside by no more than the second
+/// share of their step.
+const AT_JUMP: f64 = 1e-12;
+const AT_JUMP_OF_STEP: f64 = 1e-3;
 
 /// The stage whose state chooses the branch: well inside the step.
 pub const REFERENCE: usize = 2;
@@ -113,7 +120,8 @@ const SOLVED: f64 = 1e-6;
 impl<'a, R: Real> Machine<'a, R> {
     /// A machine that is evaluated as it is at every stage.
     pub fn new(plan: &'a Plan, q: &'a [R]) -> Self {
-        Machine { plan, q, keeps_branch: false, side: None }
+        let inside = if plan.jumps_over_angle() { AT_JUMP } else { 0.0 };
+        Machine { plan, q, keeps_branch: false, side: None, inside }
     }
 
     /// A machine whose steps each keep to one branch, or not.
@@ -275,12 +283,25 @@ impl<'a, R: Real> Machine<'a, R> {
         )
     }
 
+    /// The angle at which a step begins, on its side of a jump there.
+    #[inline(always)]
+    pub fn start_angle(&self, phi: R, h: R) -> R {
+        phi + (h * AT_JUMP_OF_STEP).min(R::splat(self.inside))
+    }
+
+    /// The angle of a stage; at the end on the side of the step.
+    #[inline(always)]
+    pub fn stage_angle(&self, phi: R, h: R, stage: usize) -> R {
+        let at = h.mul_add(R::splat(C[stage]), phi);
+        if stage == S - 1 { at - (h * AT_JUMP_OF_STEP).min(R::splat(self.inside)) } else { at }
+    }
+
     /// The stages of a step.
     #[inline(always)]
     fn rows(&self, phi: R, h: R, m: &mut Motion<R>, geometry: &mut Vec<LawGeometry<R>>) -> [Row<R>; S] {
         let mut rows = [Row { inverse: h, drift: h, load: h, viscous: h }; S];
         for i in 0..S {
-            rows[i] = self.row(h.mul_add(R::splat(C[i]), phi), m, geometry);
+            rows[i] = self.row(self.stage_angle(phi, h, i), m, geometry);
         }
         rows
     }
@@ -543,7 +564,7 @@ impl<R: Real> Turn<R> {
     pub fn take_rows(&mut self, machine: &Machine<'_, R>, k: usize, m: &mut Motion<R>) {
         let step = &mut self.steps[k];
         for i in 0..S {
-            step.rows[i] = machine.row(step.h.mul_add(R::splat(C[i]), step.phi), m, &mut self.geometry);
+            step.rows[i] = machine.row(machine.stage_angle(step.phi, step.h, i), m, &mut self.geometry);
         }
     }
 

@@ -194,7 +194,7 @@ impl<R: Real> Turn<R> {
         let mut starts = Vec::with_capacity(self.steps.len());
         for (k, step) in self.steps.iter().enumerate() {
             geometry.clear();
-            let row = machine.row(step.phi, m, &mut geometry);
+            let row = machine.row(machine.start_angle(step.phi, step.h), m, &mut geometry);
             let epsilon = if machine.keeps_branch {
                 let known = machine.geometry_at(self.geometry_of(machine, k), REFERENCE);
                 machine.acceleration_on_branch(&row, &geometry, step.u, (known, step.X[REFERENCE]))

@@ -425,7 +425,7 @@ impl<'a, R: Real> DualRevolution<'a, R> {
     #[inline(always)]
     fn start_of(&self, k: usize, m: &mut Motion<Dual<R>>) -> Dual<R> {
         let step = &self.turn.steps[k];
-        self.acceleration_in(k, step.phi, step.u, m)
+        self.acceleration_in(k, self.machine.start_angle(step.phi, step.h), step.u, m)
     }
 
     /// Acceleration at an angle and u, on the branch of a step.

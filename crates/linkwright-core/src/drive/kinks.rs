@@ -11,6 +11,7 @@
 
 use crate::drive::cycle::Machine;
 use crate::drive::law::Moment;
+use crate::drive::layout::unbundle;
 use crate::drive::loads::{Carrier, ForceElement, FormulaLoad, Law, Load};
 use crate::drive::steep::{Along, Steepness, Which};
 use crate::drive::structure::Plan;
@@ -193,6 +194,11 @@ impl Plan {
         found
     }
 
+    /// Whether the argument of a switch of a formula may be zero more often than a scan sees.
+    fn winds(&self, load: FormulaLoad, at: usize) -> bool {
+        self.formulas[load.formula].switches.iter().any(|switch| switch.at == at && switch.winds)
+    }
+
     /// Formulas in all loads with what is zero where a speed that they know is.
     fn rests(&self) -> Vec<(FormulaLoad, Watch)> {
         let mut found = Vec::new();
@@ -207,6 +213,15 @@ impl Plan {
     /// Whether some formula may hide something beside the end of a step: it knows a speed that comes to zero, or may be steep.
     pub fn may_hide(&self) -> bool {
         !self.rests().is_empty() || self.may_be_steep()
+    }
+
+    /// Whether the acceleration may jump at an angle: by a formula, or where a motion law goes from piece to piece.
+    pub(super) fn jumps_over_angle(&self) -> bool {
+        let is_still = |load: FormulaLoad| {
+            self.formulas[load.formula].switches.iter().any(|switch| switch.degree != Degree::Mixed)
+        };
+        self.all_formulas().any(is_still)
+            || self.mechanism.elements.iter().any(|element| matches!(element, Element::Programme(_)))
     }
 
     /// Knots of tables over the crank angle, within the cycle.
@@ -274,8 +289,14 @@ impl<R: Real> Machine<'_, R> {
                 #[inline(always)]
                 || self.scan(&watches, m),
             );
-            for (watch, values) in watches.iter().zip(scan.chunks_exact(2 * self.plan.scan() * R::LANES)) {
-                self.zeros(*watch, values, &mut lanes, m);
+            for (&watch, values) in watches.iter().zip(scan.chunks_exact(2 * self.plan.scan() * R::LANES)) {
+                match watch {
+                    Watch::Switch(load, at) if self.plan.winds(load, at) => {
+                        let brackets = self.for_each_lane(|q| brackets(self.plan, q, load, at));
+                        self.add_zeros(watch, &brackets, &mut lanes, m);
+                    }
+                    _ => self.zeros(watch, values, &mut lanes, m),
+                }
             }
         }
         self.programme_joints(&mut lanes);
@@ -299,15 +320,20 @@ impl<R: Real> Machine<'_, R> {
         let mut lanes = self.breaks(m);
         let breaks = if self.plan.may_be_steep() { lanes.clone() } else { Vec::new() };
         self.add_rests(&mut lanes, m);
-        let (mut row, mut q) = (vec![0.0; R::LANES], vec![0.0; self.q.len()]);
-        for (lane, breaks) in breaks.iter().enumerate() {
-            for (number, all) in q.iter_mut().zip(self.q) {
-                all.store(&mut row);
-                *number = row[lane];
+        let mut of_lanes = breaks.iter().zip(&mut lanes);
+        self.for_each_lane(|q| {
+            if let Some((breaks, ends)) = of_lanes.next() {
+                add_steep(self.plan, q, breaks, ends);
             }
-            add_steep(self.plan, &q, breaks, &mut lanes[lane]);
-        }
+        });
         lanes
+    }
+
+    /// What comes of the numbers of each lane.
+    fn for_each_lane<T>(&self, mut act: impl FnMut(&[f64]) -> T) -> Vec<T> {
+        let numbers = unbundle(self.q);
+        let of_lane = |lane| numbers.iter().skip(lane).step_by(R::LANES).copied().collect::<Vec<_>>();
+        (0..R::LANES).map(|lane| act(&of_lane(lane))).collect()
     }
 
     /// Adds ends of steps at rests, and beside those at which the force of a formula changes within a small angle.
@@ -656,6 +682,20 @@ impl Carrier {
         }
         speeds
     }
+}
+
+/// Brackets of the zeros of the argument of a switch that no speed moves.
+fn brackets(plan: &Plan, q: &[f64], load: FormulaLoad, at: usize) -> Vec<Bracket> {
+    let mut m = Motion::new(&plan.mechanism, q);
+    let moment = |phi| Moment::steady(phi, Dual::constant(1.0));
+    let along = Along::cycle(plan, &moment, &[0.0, plan.cycle()]);
+    let zeros = Steepness::new(plan, q, load, Which::Still, &mut m).zeros(&along, at, &mut m);
+    let of_zero = |[low, high]: [f64; 2]| {
+        plan.mechanism.place::<f64, 2>(q, Angle::new(low), &mut m);
+        let sign = plan.switch_over_angle((load, at), q, low, &m).0;
+        Bracket { low, high, guess: 0.5 * (low + high), sign: if sign < 0.0 { -1.0 } else { 1.0 } }
+    };
+    zeros.into_iter().map(of_zero).collect()
 }
 
 /// Adds ends where formulas are steep whatever the speed.

@@ -19,7 +19,7 @@ use crate::kernel::interval::Interval;
 use crate::kernel::plane::Angle;
 use crate::linkage::motion::Motion;
 use std::cmp::Ordering;
-use std::collections::BinaryHeap;
+use std::collections::{BinaryHeap, VecDeque};
 use std::f64::consts::{PI, TAU};
 
 /// Pieces of a revolution of the fastest link that are looked at first: over them the mechanism moves smoothly.
@@ -119,9 +119,9 @@ struct Search<'a, 'b> {
 }
 
 impl Plan {
-    /// Whether some formula may be steep.
+    /// Whether some formula may be steep, jumps at a speed left out.
     pub(super) fn may_be_steep(&self) -> bool {
-        self.formulas.iter().any(|formula| !formula.steep.is_empty())
+        self.formulas.iter().any(|formula| formula.steep.iter().any(|steep| !steep.jumps))
     }
 
     /// Loads that are laws with a formula in which something of this kind may be steep.
@@ -190,6 +190,88 @@ impl<'a> Steepness<'a> {
         }
     }
 
+    /// Ends of the first pieces, from end to end of each smooth one. These end a little beside the ends: on them rounding decides
+    /// between the sides of a jump.
+    fn first_ends(&self, along: &Along<'_>) -> Vec<Vec<f64>> {
+        let mut ends = along.breaks.clone();
+        ends.dedup_by(|next, last| *next - *last < 4.0 * SHORTEST);
+        let mut all = Vec::new();
+        for ends in ends.windows(2) {
+            let (low, high) = (ends[0] + SHORTEST, ends[1] - SHORTEST);
+            let [from, to] = [low, high].map(|end| (along.moment)(end).phi.value);
+            let turned = (to - from).abs().max(high - low);
+            let n = (turned * FIRST * self.fastest / TAU).ceil();
+            all.push((0..=n as usize).map(|i| low + (high - low) * i as f64 / n).collect());
+        }
+        all
+    }
+
+    /// What the formula needs at a place.
+    fn sample(&self, along: &Along<'_>, at: f64, m: &mut Motion<f64>) -> Sample {
+        let moment = (along.moment)(at);
+        self.plan.mechanism.place::<f64, 2>(self.q, Angle::new(moment.phi.value), m);
+        let inputs = self.load.along(&self.plan.formulas[self.load.formula], &moment, m);
+        Sample { at, phi: moment.phi, inputs, value: f64::NAN }
+    }
+
+    /// Brackets of all zeros of the argument of a switch: pieces over which it may be zero are halved until it rises or falls
+    /// over each, or no more than rounding is left.
+    pub(super) fn zeros(&self, along: &Along<'_>, switch: usize, m: &mut Motion<f64>) -> Vec<[f64; 2]> {
+        let formula = &self.plan.formulas[self.load.formula];
+        let mut sample = |at: f64| {
+            let sample = self.sample(along, at, m);
+            let value = formula.switch::<f64, Dual<f64>>(switch, self.q, &sample.inputs).value;
+            Sample { value, ..sample }
+        };
+        let (mut pieces, mut zeros, mut cuts) = (VecDeque::new(), Vec::new(), 0);
+        for ends in self.first_ends(along) {
+            let samples: Vec<Sample> = ends.into_iter().map(&mut sample).collect();
+            pieces.extend(samples.windows(2).map(|piece| [piece[0], piece[1]]));
+        }
+        while let Some([from, to]) = pieces.pop_front() {
+            let middle = sample(0.5 * (from.at + to.at));
+            let inputs = self.bounds(&[from, middle, to]);
+            let Bounds { value, slope } = formula.switch::<f64, Bounds>(switch, self.q, &inputs);
+            if value.is_empty() || value.low > 0.0 || value.high < 0.0 {
+                continue;
+            }
+            let has_one = slope.low > 0.0 || slope.high < 0.0;
+            if has_one || to.at - from.at < SHORTEST || cuts >= CUTS_MAX {
+                if (from.value < 0.0) != (to.value < 0.0) {
+                    zeros.push([from.at, to.at]);
+                }
+                continue;
+            }
+            cuts += 1;
+            pieces.extend([[from, middle], [middle, to]]);
+        }
+        zeros.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        zeros
+    }
+
+    /// Bounds of what the formula needs, which knows the crank angle within a cycle. The motion of the mechanism is smooth over
+    /// a piece; only the formula is steep. A parabola through the samples leaves their hull by a quarter of what the middle is
+    /// off the chord at most; that much four times leaves room for what is no parabola.
+    fn bounds(&self, [from, middle, to]: &[Sample; 3]) -> Inputs<Bounds> {
+        let of = |three: [Dual<f64>; 3]| Bounds {
+            value: smooth(three.map(|x| x.value)),
+            slope: smooth(three.map(|x| x.d)),
+        };
+        let bounds = Inputs::of_three([&from.inputs, &middle.inputs, &to.inputs], of);
+        let anything = |value| Bounds { value, slope: Interval::EVERYTHING };
+        let turned = |sample: &Sample| Dual { value: sample.phi.value - from.phi.value, ..sample.phi };
+        let phi = of([from, middle, to].map(turned)) + from.inputs.phi.value;
+        // The angle within a cycle starts anew after it, that of a link that goes round jumps from π to −π.
+        let restarts = (phi.value.width() - bounds.phi.value.width()).abs() > 1.0;
+        let wraps = bounds.psi.value.width() > PI;
+        let cycle = TAU * f64::from(self.load.turns);
+        Inputs {
+            phi: if restarts { anything(Interval { low: 0.0, high: cycle }) } else { phi },
+            psi: if wraps { anything(Interval { low: -PI, high: PI }) } else { bounds.psi },
+            ..bounds
+        }
+    }
+
     /// The force at a place.
     pub(super) fn force(&self, at: &Sample) -> f64 {
         self.plan.formulas[self.load.formula].value::<f64, Dual<f64>>(self.q, &at.inputs).value
@@ -212,47 +294,32 @@ impl Search<'_, '_> {
         }
     }
 
-    /// Pieces from end to end of the smooth ones. These end a little beside the ends: on them rounding decides between the
-    /// sides of a jump.
     fn start(&mut self) {
-        let mut ends = self.along.breaks.clone();
-        let last = ends.last().copied().unwrap_or(0.0);
-        ends.dedup_by(|next, last| *next - *last < 4.0 * SHORTEST);
-        for ends in ends.windows(2) {
-            let (low, high) = (ends[0] + SHORTEST, ends[1].min(last) - SHORTEST);
-            let mut from = self.sample(low);
-            let turned = (self.moment(high).phi.value - from.phi.value).abs().max(high - low);
-            let n = (turned * FIRST * self.of.fastest / TAU).ceil();
-            for i in 1..=n as usize {
-                let to = self.sample(low + (high - low) * i as f64 / n);
+        for ends in self.of.first_ends(self.along) {
+            let mut from = self.sample(ends[0]);
+            for &end in &ends[1..] {
+                let to = self.sample(end);
                 self.add(from, to, false);
                 from = to;
             }
         }
     }
 
-    fn moment(&self, at: f64) -> Moment {
-        (self.along.moment)(at)
-    }
-
     /// The formula at a place.
     fn sample(&mut self, at: f64) -> Sample {
-        let Steepness { plan, q, load, .. } = self.of;
-        let moment = self.moment(at);
-        plan.mechanism.place::<f64, 2>(q, Angle::new(moment.phi.value), self.m);
-        let inputs = load.along(self.formula, &moment, self.m);
-        let value = self.formula.result::<f64, Dual<f64>>(self.at, q, &inputs).value;
-        if value.is_finite() {
-            self.largest = self.largest.max(value.abs());
+        let mut sample = self.of.sample(self.along, at, self.m);
+        sample.value = self.formula.result::<f64, Dual<f64>>(self.at, self.of.q, &sample.inputs).value;
+        if sample.value.is_finite() {
+            self.largest = self.largest.max(sample.value.abs());
         }
-        Sample { at, phi: moment.phi, inputs, value }
+        sample
     }
 
     fn piece(&mut self, from: Sample, to: Sample, is_cut: bool) -> Piece {
-        let middle = self.sample(0.5 * (from.at + to.at));
-        let mut piece = Piece { samples: [from, middle, to], hides: 0.0, is_cut };
+        let samples = [from, self.sample(0.5 * (from.at + to.at)), to];
+        let mut piece = Piece { samples, hides: 0.0, is_cut };
         if piece.width() > SHORTEST {
-            let inputs = piece.bounds(TAU * f64::from(self.of.load.turns));
+            let inputs = self.of.bounds(&samples);
             piece.hides = piece.hidden(self.formula.result::<f64, Bounds>(self.at, self.of.q, &inputs));
         }
         piece
@@ -306,31 +373,6 @@ impl Piece {
     /// Whether it had to be cut short, or may still hide something since there were too many pieces.
     fn is_steep(&self, least: f64) -> bool {
         self.is_cut && self.width() < SHORT || self.hides > least
-    }
-
-    /// Bounds of what the formula needs, which knows the crank angle within a cycle. The motion of the mechanism is smooth over
-    /// a piece; only the formula is steep. A parabola through the samples leaves their hull by a quarter of what the middle is
-    /// off the chord at most; that much four times leaves room for what is no parabola.
-    fn bounds(&self, cycle: f64) -> Inputs<Bounds> {
-        let [from, middle, to] = &self.samples;
-        let of = |three: [Dual<f64>; 3]| Bounds {
-            value: smooth(three.map(|x| x.value)),
-            slope: smooth(three.map(|x| x.d)),
-        };
-        let bounds = Inputs::of_three([&from.inputs, &middle.inputs, &to.inputs], of);
-        let anything = |value| Bounds { value, slope: Interval::EVERYTHING };
-        let turned =
-            of([from, middle, to]
-                .map(|sample| Dual { value: sample.phi.value - from.phi.value, ..sample.phi }));
-        let phi = turned + from.inputs.phi.value;
-        // The angle within a cycle starts anew after it, that of a link that goes round jumps from π to −π.
-        let restarts = (phi.value.high - phi.value.low - bounds.phi.value.width()).abs() > 1.0;
-        let wraps = bounds.psi.value.width() > PI;
-        Inputs {
-            phi: if restarts { anything(Interval { low: 0.0, high: cycle }) } else { phi },
-            psi: if wraps { anything(Interval { low: -PI, high: PI }) } else { bounds.psi },
-            ..bounds
-        }
     }
 
     /// By how much a value may depart from the straight lines through the samples: a quarter of the width times the range of

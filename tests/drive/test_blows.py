@@ -1,0 +1,116 @@
+"""Loads of formulas that jump or have kinks at crank angles: steps end there, each on its side."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from random_drives import BLOWS, Table, random_drive, with_blow
+from sizes import cases
+
+import linkwright as lw
+from linkwright.kernel.errors import LinkwrightError
+
+# What rows promise; of peaks of acceleration a digit less.
+_ROWS, _PEAKS = 1e-7, 1e-6
+
+
+def _blows() -> list[tuple[lw.Machine, lw.SteadyState]]:
+    found = []
+    for case in range(cases(60, 1000)):
+        random = np.random.default_rng([61, case])
+        drive: Table = random_drive(random)
+        try:
+            state = lw.steady_state(lw.Machine.model_validate(drive))
+            size = float(np.abs([state.torque_load, state.torque_drive]).max())
+            machine = lw.Machine.model_validate(with_blow(random, drive, size))
+            state = lw.steady_state(machine, n=4001)
+        except LinkwrightError:
+            continue
+        # Under a steep motor rounding forbids more.
+        if state.accuracy < 1e-8:
+            found.append((machine, state))
+    return found
+
+
+@pytest.fixture(scope="module")
+def blows() -> list[tuple[lw.Machine, lw.SteadyState]]:
+    found = _blows()
+    assert len(found) > cases(25, 400)
+    return found
+
+
+def test_extremes_are_those_of_the_curves(blows: list[tuple[lw.Machine, lw.SteadyState]]) -> None:
+    for machine, state in blows:
+        for curve, low, high in (
+            (state.speed, state.speed_min, state.speed_max),
+            (state.acceleration, state.acceleration_min, state.acceleration_max),
+        ):
+            room = 1e-7 * np.abs(curve).max()
+            assert low - room <= curve.min(), machine
+            assert curve.max() <= high + room, machine
+        for value, angle in (
+            (state.acceleration_min, state.acceleration_min_angle),
+            (state.acceleration_max, state.acceleration_max_angle),
+        ):
+            # On either side of a jump.
+            beside = lw.steady_state(
+                machine, angles=np.clip(angle + np.array([-1e-11, 0.0, 1e-11]), 0.0, 2 * np.pi)
+            )
+            peak = max(np.abs(state.acceleration).max(), abs(value))
+            assert np.abs(beside.acceleration - value).min() < _PEAKS * peak, machine
+
+
+def test_rows_are_single_answers(blows: list[tuple[lw.Machine, lw.SteadyState]]) -> None:
+    compared = 0
+    for machine, state in blows:
+        radius = float(lw.get(machine, "mechanism.cranks.A.radius"))
+        rows = lw.steady_states(machine, {"mechanism.cranks.A.radius": [radius] * 3})
+        scale = max(abs(state.energy_motor), abs(state.energy_load), 1e-300)
+        if np.isnan(rows.energy_load[1]):
+            continue
+        compared += 1
+        assert rows.energy_load[1] == pytest.approx(state.energy_load, abs=_ROWS * scale), machine
+        assert rows.speed_max[1] == pytest.approx(state.speed_max, rel=_ROWS), machine
+        peak = max(abs(state.acceleration_max), abs(state.acceleration_min))
+        assert rows.acceleration_max[1] == pytest.approx(state.acceleration_max, abs=_PEAKS * peak), machine
+        assert rows.acceleration_min[1] == pytest.approx(state.acceleration_min, abs=_PEAKS * peak), machine
+    assert compared > 0.8 * len(blows)
+
+
+@pytest.mark.parametrize("force", BLOWS)
+def test_derivatives_by_place_and_width(force: str) -> None:
+    """Central differences, far from kinks; a last stage on the wrong side of a jump cost a 25th."""
+    text = PRESS.format(force=force.replace("c*omega/10", "c"))
+    for place, width in ((2.0, 0.3), (1.0, 0.3), (4.0, 0.35), (2.0, 0.004)):
+        machine = lw.loads(text.format(place=place, width=width))
+        found = lw.gradient(machine, ["steady_state.energy_load"])
+        for name in ("p", "w", "c"):
+            address = f"loads.blow.constants.{name}"
+            value = lw.get(machine, address)
+            near = {
+                n: lw.steady_state(lw.replace(machine, {address: value * (1 + n * 1e-4)}), accuracy=1e-12)
+                for n in (-2, -1, 1, 2)
+            }
+            one, two = ((near[n].energy_load - near[-n].energy_load) / (2e-4 * n * value) for n in (1, 2))
+            exact = found.of("steady_state.energy_load")[address]
+            assert exact == pytest.approx((4 * one - two) / 3, rel=1e-6, abs=1e-6), (place, width, name)
+
+
+PRESS = """format = 1
+name = "Press"
+mechanism.cranks.A.radius = 0.4
+mechanism.sliders.S = {{{{ crank = "A", rod = 1.1 }}}}
+bodies.S.mass = 6
+[drive]
+motor = {{{{ kind = "dc", speed_no_load = 60, torque_stall = 900 }}}}
+flywheel.inertia = 2
+[loads.friction]
+kind = "formula"
+on = "S"
+force = "-10*v"
+[loads.blow]
+kind = "formula"
+on = "A"
+torque = "{force}"
+constants = {{{{ p = {{place}}, w = {{width}}, c = -300.0 }}}}
+"""
