@@ -8,6 +8,7 @@ from random_drives import BLOWS, Table, random_drive, with_blow
 from sizes import cases
 
 import linkwright as lw
+from linkwright.drive.run_up import accurate_run_up
 from linkwright.kernel.errors import LinkwrightError
 
 # What rows promise; of peaks of acceleration a digit less.
@@ -94,6 +95,31 @@ def test_derivatives_by_place_and_width(force: str) -> None:
             one, two = ((near[n].energy_load - near[-n].energy_load) / (2e-4 * n * value) for n in (1, 2))
             exact = found.of("steady_state.energy_load")[address]
             assert exact == pytest.approx((4 * one - two) / 3, rel=1e-6, abs=1e-6), (place, width, name)
+
+
+@pytest.mark.parametrize("force", BLOWS[::3])
+def test_derivatives_of_run_ups(force: str) -> None:
+    """Several steps end beside a jump, which is passed once."""
+    text = PRESS.format(force=force)
+    for place, width in ((2.0, 0.3), (4.0, 0.01)):
+        machine = lw.loads(text.format(place=place, width=width))
+        found = lw.gradient(machine, ["run_up.time", "run_up.speed_peak"])
+        for name in ("p", "w", "c"):
+            address = f"loads.blow.constants.{name}"
+            value = lw.get(machine, address)
+            near = {
+                n: _run_up(lw.replace(machine, {address: value * (1 + n * 1e-4)})) for n in (-2, -1, 1, 2)
+            }
+            one, two = ((near[n] - near[-n]) / (2e-4 * n) for n in (1, 2))
+            for result, off in zip(("run_up.time", "run_up.speed_peak"), (4 * one - two) / 3, strict=True):
+                exact = found.of(result)[address] * value
+                scale = np.abs(found.derivatives[found.responses.index(result)] * found.at).max()
+                assert exact == pytest.approx(off, abs=1e-6 * scale), (place, width, name)
+
+
+def _run_up(machine: lw.Machine) -> np.ndarray:
+    up = accurate_run_up(machine, lw.steady_state(machine, accuracy=1e-12), 1e-12)
+    return np.array([up.time, up.speed_peak])
 
 
 PRESS = """format = 1

@@ -296,9 +296,8 @@ fn smooth_formulas_are_not_steep() {
         let formula = Formula::new(ops).expect("a sound program");
         let found: Vec<usize> = formula.steep.iter().map(|steep| steep.at).collect();
         assert_eq!(found, steep, "{formula:?}");
-        // The motion passes a speed there; an angle is known beforehand.
-        let jumps = formula.switches.iter().any(|switch| switch.degree == Degree::Mixed);
-        assert!(formula.steep.iter().all(|steep| steep.jumps == jumps), "{formula:?}");
+        let is_switch = |at| formula.switches.iter().any(|switch| switch.at == at);
+        assert!(formula.steep.iter().all(|steep| steep.jumps == is_switch(steep.at)), "{formula:?}");
     }
 }
 

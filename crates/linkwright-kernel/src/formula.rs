@@ -159,7 +159,7 @@ pub struct Steep {
     pub at: usize,
     /// Whether it does so at other angles at other speeds, or times.
     pub moves: bool,
-    /// Whether it may jump at such an angle, or have a kink there.
+    /// Whether it is a switch, which may jump at the zeros of its argument and have a kink there.
     pub jumps: bool,
 }
 
@@ -284,9 +284,12 @@ impl Formula {
             }
         }
         let &[(degree, _)] = stack.as_slice() else { return None };
-        let jumps = |at| switches.iter().any(|s| s.at == at && s.degree == Degree::Mixed);
-        let moves = |at| degrees[at] == Degree::Mixed || jumps(at);
-        let steep = steep.into_iter().map(|at| Steep { at, moves: moves(at), jumps: jumps(at) }).collect();
+        let of = |at| {
+            let switch = switches.iter().find(|switch| switch.at == at);
+            let moves = [Some(degrees[at]), switch.map(|s| s.degree)].contains(&Some(Degree::Mixed));
+            Steep { at, moves, jumps: switch.is_some() }
+        };
+        let steep = steep.into_iter().map(of).collect();
         Some(Formula { ops, degree, switches, steep })
     }
 

@@ -53,11 +53,11 @@ const CUTS_MAX: usize = 4096;
 /// What is looked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Which {
-    /// What is steep at angles that no speed moves.
+    /// What is steep at angles that no speed moves. Switches are ends of smooth pieces.
     Still,
-    /// What is steep at angles that depend on the speed. Jumps there are sought out by the solution.
+    /// What is steep at angles that depend on the speed. Switches there are sought out by the solution.
     Moving,
-    /// The same, and jumps.
+    /// The same, and switches.
     MovingOrJumping,
 }
 
@@ -119,7 +119,7 @@ struct Search<'a, 'b> {
 }
 
 impl Plan {
-    /// Whether some formula may be steep, jumps at a speed left out.
+    /// Whether some formula may be steep besides its switches.
     pub(super) fn may_be_steep(&self) -> bool {
         self.formulas.iter().any(|formula| formula.steep.iter().any(|steep| !steep.jumps))
     }
@@ -142,7 +142,7 @@ impl Plan {
 impl Which {
     fn is(self, steep: &Steep) -> bool {
         match self {
-            Which::Still => !steep.moves,
+            Which::Still => !steep.moves && !steep.jumps,
             Which::Moving => steep.moves && !steep.jumps,
             Which::MovingOrJumping => steep.moves,
         }

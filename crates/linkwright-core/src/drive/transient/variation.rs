@@ -194,22 +194,31 @@ impl<'a> Plain<'a> {
         events.value(Event::Law(kink), phi, 0.5 * omega * omega, &mut self.m)
     }
 
-    /// The kinks on which a state lies.
-    fn passed(&self, [phi, omega]: Y) -> Option<EventPlace> {
-        let cycle = self.machine.plan.cycle();
-        let off = |kink: &f64| {
-            let apart = (phi - kink).rem_euclid(cycle);
-            apart.min(cycle - apart)
-        };
-        let near = self.kinks.iter().copied().min_by(|a, b| off(a).total_cmp(&off(b)));
-        if let Some(kink) = near.filter(|kink| off(kink) < ON_KINK) {
-            return Some(EventPlace::Angle(kink));
+    /// The kink on which a state lies.
+    fn passed(&self, state: Y) -> Option<EventPlace> {
+        let places = self.kinks.iter().copied().map(EventPlace::Angle);
+        let near = places.min_by(|a, b| self.off(*a, state).total_cmp(&self.off(*b, state)));
+        if let Some(kink) = near.filter(|kink| self.off(*kink, state) < ON_KINK) {
+            return Some(kink);
         }
-        if omega == 0.0 {
+        if state[1] == 0.0 {
             return Some(EventPlace::Rest);
         }
-        let nth = self.speeds.iter().position(|speed| (omega - speed).abs() <= ON_SPEED * speed);
-        nth.map(EventPlace::Speed)
+        let mut speeds = (0..self.speeds.len()).map(EventPlace::Speed);
+        speeds.find(|speed| self.off(*speed, state) <= ON_SPEED)
+    }
+
+    /// Distance of a state from a kink over the angle \[rad\], from one over the speed as a share of that, from rest \[rad/s\].
+    fn off(&self, event: EventPlace, [phi, omega]: Y) -> f64 {
+        match event {
+            EventPlace::Angle(kink) => {
+                let cycle = self.machine.plan.cycle();
+                let apart = (phi - kink).rem_euclid(cycle);
+                apart.min(cycle - apart)
+            }
+            EventPlace::Speed(nth) => (omega / self.speeds[nth] - 1.0).abs(),
+            EventPlace::Rest | EventPlace::Law(_) => omega,
+        }
     }
 }
 
@@ -407,14 +416,18 @@ impl<R: Real> Along<'_, R> {
         found.epsilon.push(self.beside(k, t, way));
     }
 
-    /// Past an event at the end of a step, if there is one.
+    /// Past an event at the end of a step, if there is one. Of several ends beside it the nearest counts.
     #[inline(always)]
     fn pass_end(&mut self, k: usize) {
-        let end = [self.motion.phi[k + 1], self.motion.omega[k + 1]];
-        if k + 2 < self.motion.t.len()
-            && let Some(event) = self.plain.passed(end)
-        {
-            self.pass(k, self.motion.t[k + 1], event);
+        if k + 2 >= self.motion.t.len() {
+            return;
+        }
+        let ends = [k, k + 1, k + 2].map(|i| [self.motion.phi[i], self.motion.omega[i]]);
+        if let Some(event) = self.plain.passed(ends[1]) {
+            let [before, at, behind] = ends.map(|end| self.plain.off(event, end));
+            if at < before && at <= behind {
+                self.pass(k, self.motion.t[k + 1], event);
+            }
         }
     }
 
