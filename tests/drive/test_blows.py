@@ -97,6 +97,19 @@ def test_derivatives_by_place_and_width(force: str) -> None:
             assert exact == pytest.approx((4 * one - two) / 3, rel=1e-6, abs=1e-6), (place, width, name)
 
 
+def test_friction_on_a_crank_pin_leaves_the_kinks_of_others() -> None:
+    """Its speed along its circle has no extremes, but p′·p″ is zero everywhere."""
+    text = PRESS.format(force="where(phi < p, c, 0)").format(place=2.0, width=0.3)
+    friction = '[loads.pin]\nkind = "dry"\non = "A"\nforce = 100\n'
+    derivatives = [
+        lw.gradient(lw.loads(one), ["steady_state.energy_load"]).of("steady_state.energy_load")
+        for one in (text, text + friction)
+    ]
+    # The work of the friction does not depend on the place of the jump; the speed hardly does.
+    plain, rubbing = (of["loads.blow.constants.p"] for of in derivatives)
+    assert rubbing == pytest.approx(plain, rel=0.1)
+
+
 @pytest.mark.parametrize("force", BLOWS[::3])
 def test_derivatives_of_run_ups(force: str) -> None:
     """Several steps end beside a jump, which is passed once."""

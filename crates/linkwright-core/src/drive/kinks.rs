@@ -552,18 +552,22 @@ impl<R: Real> Machine<'_, R> {
             let next = value.abs().select_lt(R::splat(f64::MIN_POSITIVE), phi, inside);
             (change, phi) = ((next - phi).abs(), next);
         }
-        if let Watch::Anchor(from, to, free_length) = watch {
-            // Where the spring stays long its extremes are smooth: no break there.
-            let length = stretch(m, from, to).0;
-            phi = length.select_lt(self.q[free_length] * SHORT, phi, R::splat(f64::NAN));
-        }
-        if let Watch::PointRests(point) = watch {
+        zero.select_lt(self.room(watch, m), phi, R::splat(f64::NAN))
+    }
+
+    /// Positive where a zero of the watched quantity is a kink.
+    #[inline(always)]
+    fn room(&self, watch: Watch, m: &Motion<R>) -> R {
+        match watch {
+            // Where the spring stays long its extremes are smooth.
+            Watch::Anchor(from, to, free_length) => self.q[free_length] * SHORT - stretch(m, from, to).0,
             // Elsewhere the path speed has an extreme only.
-            let place = &m.points[point];
-            let (speed, bend) = (place.d1.dot(place.d1), place.d2.dot(place.d2));
-            phi = speed.select_lt(bend * (AT_REST * AT_REST), phi, R::splat(f64::NAN));
+            Watch::PointRests(point) => {
+                let place = &m.points[point];
+                place.d2.dot(place.d2) * (AT_REST * AT_REST) - place.d1.dot(place.d1)
+            }
+            _ => R::splat(1.0),
         }
-        phi
     }
 }
 
@@ -614,9 +618,12 @@ impl<R: Real> Machine<'_, Dual<R>> {
         for &angle in angles {
             let mut d = R::splat(0.0);
             let beside = self.watched_at(&watches, angle + BESIDE, m);
-            for ((value, slope), (_, next)) in self.watched_at(&watches, angle, m).into_iter().zip(beside) {
+            for ([value, slope, room], [_, next, _]) in
+                self.watched_at(&watches, angle, m).into_iter().zip(beside)
+            {
                 let bend = (next.value - slope.value) * (1.0 / BESIDE);
-                let is_zero = (value.value.abs() - slope.value.abs() * ON_KINK).max_lane() <= 0.0;
+                let is_zero = (value.value.abs() - slope.value.abs() * ON_KINK).max_lane() <= 0.0
+                    && room.max_lane() > 0.0;
                 // Where the quantity only touches zero, a change of the machine makes two kinks, or none.
                 let is_simple = (bend.abs() * TOUCHES - slope.value.abs()).max_lane() < 0.0;
                 if is_zero && is_simple {
@@ -632,14 +639,15 @@ impl<R: Real> Machine<'_, Dual<R>> {
         moving
     }
 
-    /// All watched quantities with their slopes at a crank angle.
+    /// All watched quantities with their slopes at a crank angle, and whether zeros are kinks there ([`Machine::room`]).
     #[inline(always)]
-    fn watched_at(&self, watches: &[Watch], angle: f64, m: &mut Motion<Dual<R>>) -> Vec<(Dual<R>, Dual<R>)> {
+    fn watched_at(&self, watches: &[Watch], angle: f64, m: &mut Motion<Dual<R>>) -> Vec<[Dual<R>; 3]> {
         let phi = Dual::splat(angle);
         self.plan.mechanism.place::<Dual<R>, 2>(self.q, Angle::new(phi), m);
         let mut values = Vec::with_capacity(watches.len());
         for &watch in watches {
-            values.push(self.watched(watch, phi, m));
+            let (value, slope) = self.watched(watch, phi, m);
+            values.push([value, slope, self.room(watch, m)]);
         }
         values
     }

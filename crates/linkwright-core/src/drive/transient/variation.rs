@@ -29,9 +29,12 @@ use crate::kernel::real::{LANES_MAX, Real};
 use crate::kernel::rk::rise;
 use crate::linkage::motion::Motion;
 
-/// Share of a step by which what lies at its end is read inside it, on its side of a kink there, and carried on to the end:
-/// beyond the distance at which steps land on kinks.
+/// Share of a step by which what lies at its end is read inside it, on its side of a kink there, and carried on to the end.
 const INSIDE: f64 = 1e-6;
+
+/// The same as an angle \[rad\], beyond the distance at which steps land on kinks; in a very short step no more than a share.
+const BESIDE_KINK: f64 = 5e-9;
+const INSIDE_MAX: f64 = 0.05;
 
 /// Angle \[rad\] that the crank turns by at its working speed in the time by which the sides of an event are apart at least: steps
 /// that close in on a jump become as short as rounding. A motion may change in less than that, but not in less than the share
@@ -383,13 +386,15 @@ impl<R: Real> Along<'_, R> {
             return;
         }
         let h = (to - from) * (self.motion.t[k + 1] - self.motion.t[k]);
-        let inside = C.map(|c| c.min(1.0 - INSIDE));
-        let mut rates = inside.map(|c| self.rates.acceleration(self.motion.state(k, from + (to - from) * c)));
+        let turned = (to - from) * (self.motion.phi[k + 1] - self.motion.phi[k]).abs();
+        let inside = (BESIDE_KINK / turned).clamp(INSIDE, INSIDE_MAX);
+        let stages = C.map(|c| c.min(1.0 - inside));
+        let mut rates = stages.map(|c| self.rates.acceleration(self.motion.state(k, from + (to - from) * c)));
         let n = self.rates.of.n;
         let slope = slopes_at_end();
         for way in 0..n + 2 {
             let rise: f64 = (0..S).map(|j| slope[j] * rates[j][way]).sum();
-            rates[S - 1][way] += INSIDE * rise;
+            rates[S - 1][way] += inside * rise;
         }
         let [by_angle, by_speed] = [n, n + 1].map(|i| -> [f64; S] { std::array::from_fn(|j| rates[j][i]) });
         let mut system = LuFactors::new(S);
