@@ -43,7 +43,7 @@ _ALIKE = ("torque_net", ".last_", "torque_motor_", "power_motor_", "energy_", ".
 _ASKED = 1e-9
 _OF_PEAKS = ("acceleration", "dynamism", "motion_coefficient")
 
-# Works are rounding where they are small against what inertia carries along; multipliers where all dies at once.
+# Works are rounding where inertia carries much more along; multipliers where all dies at once.
 _OF_WORKS = ("energy_", "efficiency", "multiplier")
 
 # By how many of its own uncertainties a difference may be off.
