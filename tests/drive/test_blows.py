@@ -99,7 +99,7 @@ def test_derivatives_by_place_and_width(force: str) -> None:
 
 def test_friction_on_a_crank_pin_leaves_the_kinks_of_others() -> None:
     """Its speed along its circle has no extremes, but p′·p″ is zero everywhere."""
-    text = PRESS.format(force="where(phi < p, c, 0)").format(place=2.0, width=0.3)
+    text = PRESS.format(force="where(phi < p, c, w)").format(place=2.0, width=0.3)
     friction = '[loads.pin]\nkind = "dry"\non = "A"\nforce = 100\n'
     derivatives = [
         lw.gradient(lw.loads(one), ["steady_state.energy_load"]).of("steady_state.energy_load")

@@ -114,7 +114,7 @@ def run_down_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives
 
 
 def _beside_peak(up: RunUp) -> list[float]:
-    """When the speed is greatest [s], and a little before and after."""
+    """Time of the maximum speed, and times a little before and after it [s]."""
     peak, times = peak_until(up.motion, up.time)[1], up.motion.time
     step = times[1:-1].searchsorted(peak)
     aside = _ASIDE * (times[step + 1] - times[step])
@@ -122,12 +122,10 @@ def _beside_peak(up: RunUp) -> list[float]:
 
 
 def _at_peak(moved: _MotionDerivatives) -> Floats:
-    """Derivatives of the speed where it is greatest, from three instants beside that.
-
-    The equation of motion tells the place, where ε = 0, better than speeds do; derivatives change fast there
-    under a steep motor.
-    """
-    before, at, after = moved.acceleration[:3]
+    """Derivatives of the maximum speed, from three instants beside it."""
+    # The equation of motion tells the place, where ε = 0, better than speeds do, and derivatives change fast
+    # there under a steep motor.
+    before, at, after = moved.acceleration[:3].tolist()
     return moved.speed[1] + (moved.speed[2] - moved.speed[0]) * (at / (before - after))
 
 

@@ -13,7 +13,7 @@ use crate::drive::cycle::Machine;
 use crate::drive::law::Moment;
 use crate::drive::layout::unbundle;
 use crate::drive::loads::{Carrier, ForceElement, FormulaLoad, Law, Load};
-use crate::drive::steep::{Along, Steepness, Which};
+use crate::drive::steep::{Along, SteepKind, Steepness};
 use crate::drive::structure::Plan;
 use crate::kernel::dual::Dual;
 use crate::kernel::formula::{Degree, Variable};
@@ -213,15 +213,6 @@ impl Plan {
     /// Whether some formula may hide something beside the end of a step: it knows a speed that comes to zero, or may be steep.
     pub fn may_hide(&self) -> bool {
         !self.rests().is_empty() || self.may_be_steep()
-    }
-
-    /// Whether the acceleration may jump at an angle: by a formula, or where a motion law goes from piece to piece.
-    pub(super) fn jumps_over_angle(&self) -> bool {
-        let is_still = |load: FormulaLoad| {
-            self.formulas[load.formula].switches.iter().any(|switch| switch.degree != Degree::Mixed)
-        };
-        self.all_formulas().any(is_still)
-            || self.mechanism.elements.iter().any(|element| matches!(element, Element::Programme(_)))
     }
 
     /// Knots of tables over the crank angle, within the cycle.
@@ -697,7 +688,7 @@ fn brackets(plan: &Plan, q: &[f64], load: FormulaLoad, at: usize) -> Vec<Bracket
     let mut m = Motion::new(&plan.mechanism, q);
     let moment = |phi| Moment::steady(phi, Dual::constant(1.0));
     let along = Along::cycle(plan, &moment, &[0.0, plan.cycle()]);
-    let zeros = Steepness::new(plan, q, load, Which::Still, &mut m).zeros(&along, at, &mut m);
+    let zeros = Steepness::new(plan, q, load, SteepKind::Still, &mut m).zeros(&along, at, &mut m);
     let of_zero = |[low, high]: [f64; 2]| {
         plan.mechanism.place::<f64, 2>(q, Angle::new(low), &mut m);
         let sign = plan.switch_over_angle((load, at), q, low, &m).0;
@@ -711,8 +702,8 @@ fn add_steep(plan: &Plan, q: &[f64], breaks: &[f64], ends: &mut Vec<f64>) {
     let (mut m, omega) = (Motion::new(&plan.mechanism, q), Dual::constant(q[plan.drive.speed_start]));
     let moment = |phi| Moment::steady(phi, omega);
     let along = Along::cycle(plan, &moment, breaks);
-    for load in plan.all_formulas().filter(|load| plan.is_steep(load, Which::Still)) {
-        Steepness::new(plan, q, load, Which::Still, &mut m).add_ends(&along, ends, &mut m);
+    for load in plan.all_formulas().filter(|load| plan.is_steep(load, SteepKind::Still)) {
+        Steepness::new(plan, q, load, SteepKind::Still, &mut m).add_ends(&along, ends, &mut m);
     }
 }
 

@@ -14,6 +14,7 @@ use crate::kernel::dual::Dual;
 use crate::kernel::formula::{Degree, Formula, Inputs, Variable};
 use crate::kernel::plane::Vec2;
 use crate::kernel::real::{Lift, Real};
+use crate::linkage::mechanism::Element;
 use crate::linkage::motion::{Motion, stretch};
 use std::f64::consts::TAU;
 
@@ -310,6 +311,14 @@ impl Plan {
     /// Whether some law depends on time, so that no turn repeats another.
     pub fn knows_time(&self) -> bool {
         self.formulas.iter().any(|formula| formula.reads(Variable::Time))
+    }
+
+    /// Whether the acceleration may jump at an angle: by a formula, or where a motion law goes from piece to piece.
+    pub fn jumps_over_angle(&self) -> bool {
+        let is_still =
+            |formula: &Formula| formula.switches.iter().any(|switch| switch.degree != Degree::Mixed);
+        self.formulas.iter().any(is_still)
+            || self.mechanism.elements.iter().any(|element| matches!(element, Element::Programme(_)))
     }
 
     /// Whether some law has kinks, or jumps, whose angle depends on the speed.

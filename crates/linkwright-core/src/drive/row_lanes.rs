@@ -9,7 +9,7 @@ use crate::drive::nested::NodeSolution;
 use crate::drive::rough::RoughMotion;
 use crate::drive::row_mesh::RowMesh;
 use crate::drive::rows::{QUANTITIES, Rows, row_of};
-use crate::drive::steep::{Along, Steepness, Which};
+use crate::drive::steep::{Along, SteepKind, Steepness};
 use crate::drive::structure::Plan;
 use crate::kernel::radau::{C, S};
 use crate::kernel::real::Real;
@@ -262,7 +262,7 @@ impl<'a, R: Real> RowLanes<'a, R> {
     /// Refuses rows whose steps do not see where a formula that knows a speed is steep along their solution.
     #[inline(always)]
     fn refuse_pulses(&self, meshes: &[RowMesh], verdicts: &mut [Verdict], first: usize) {
-        let laws = self.plan.steep_laws(Which::Moving);
+        let laws = self.plan.steep_laws(SteepKind::Moving);
         if laws.is_empty() {
             return;
         }
@@ -396,7 +396,7 @@ fn sees_pulses(plan: &Plan, q: &[f64], laws: &[FormulaLoad], mesh: &RowMesh, pie
     let moment = |phi| Moment::steady(phi, omega(phi));
     let along = Along::cycle(plan, &moment, mesh.breaks());
     let sees =
-        |&load| Steepness::new(plan, q, load, Which::Moving, &mut m).is_seen(&along, &mesh.edges, &mut m);
+        |&load| Steepness::new(plan, q, load, SteepKind::Moving, &mut m).is_seen(&along, &mesh.edges, &mut m);
     laws.iter().all(sees)
 }
 

@@ -24,7 +24,7 @@ use crate::drive::march::{
 use crate::drive::measures::Totals;
 use crate::drive::mesh::{Crossing, Mesh, Piece, speed_along};
 use crate::drive::reading::Mark;
-use crate::drive::steep::{Along, Steepness, Which};
+use crate::drive::steep::{Along, SteepKind, Steepness};
 use crate::drive::structure::Plan;
 use crate::kernel::call::poll;
 use crate::kernel::lanes::{Job, in_lanes};
@@ -589,7 +589,7 @@ fn add_pulses(
     ends: &mut Vec<f64>,
     m: &mut Motion<f64>,
 ) {
-    let laws = plan.steep_laws(Which::Moving);
+    let laws = plan.steep_laws(SteepKind::Moving);
     if laws.is_empty() {
         return;
     }
@@ -597,7 +597,7 @@ fn add_pulses(
     let moment = |phi| Moment::steady(phi, omega(phi));
     let along = Along::cycle(plan, &moment, breaks);
     for load in laws {
-        let steepness = Steepness::new(plan, q, load, Which::Moving, m);
+        let steepness = Steepness::new(plan, q, load, SteepKind::Moving, m);
         if !steepness.is_seen(&along, ends, m) {
             steepness.add_ends(&along, ends, m);
         }

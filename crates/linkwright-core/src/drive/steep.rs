@@ -26,8 +26,9 @@ use std::f64::consts::{PI, TAU};
 const FIRST: f64 = 48.0;
 
 /// A piece may hide this share of the largest value. What is less beside a pulse, its foot, is smooth beside the ends of steps
-/// there, and seen.
+/// there, and seen; a step in time, which ends before a pulse, measures more of it.
 const SHARE: f64 = 1e-3;
+const SHARE_IN_TIME: f64 = 1e-2;
 
 /// Values below this share of the largest that there may be anywhere do not count: far beside a pulse its foot is as steep as
 /// it is small.
@@ -52,7 +53,7 @@ const CUTS_MAX: usize = 4096;
 
 /// What is looked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Which {
+pub(super) enum SteepKind {
     /// What is steep at angles that no speed moves. Switches are ends of smooth pieces.
     Still,
     /// What is steep at angles that depend on the speed. Switches there are sought out by the solution.
@@ -67,7 +68,7 @@ pub(super) struct Steepness<'a> {
     pub plan: &'a Plan,
     pub q: &'a [f64],
     pub load: FormulaLoad,
-    pub which: Which,
+    pub kind: SteepKind,
     /// Revolutions of the fastest link that the formula knows to one of the crank.
     fastest: f64,
 }
@@ -125,27 +126,32 @@ impl Plan {
     }
 
     /// Loads that are laws with a formula in which something of this kind may be steep.
-    pub(super) fn steep_laws(&self, which: Which) -> Vec<FormulaLoad> {
+    pub(super) fn steep_laws(&self, kind: SteepKind) -> Vec<FormulaLoad> {
         let formulas = self.laws.iter().filter_map(|law| match law {
             Law::Formula(load) => Some(*load),
             Law::Damper { .. } => None,
         });
-        formulas.filter(|load| self.is_steep(load, which)).collect()
+        formulas.filter(|load| self.is_steep(load, kind)).collect()
     }
 
     /// Whether something of this kind may be steep in the formula of a load.
-    pub(super) fn is_steep(&self, load: &FormulaLoad, which: Which) -> bool {
-        self.formulas[load.formula].steep.iter().any(|steep| which.is(steep))
+    pub(super) fn is_steep(&self, load: &FormulaLoad, kind: SteepKind) -> bool {
+        self.formulas[load.formula].steep.iter().any(|steep| kind.is(steep))
     }
 }
 
-impl Which {
+impl SteepKind {
     fn is(self, steep: &Steep) -> bool {
         match self {
-            Which::Still => !steep.moves && !steep.jumps,
-            Which::Moving => steep.moves && !steep.jumps,
-            Which::MovingOrJumping => steep.moves,
+            SteepKind::Still => !steep.moves && !steep.jumps,
+            SteepKind::Moving => steep.moves && !steep.jumps,
+            SteepKind::MovingOrJumping => steep.moves,
         }
+    }
+
+    /// Share of the largest value that a piece may hide.
+    fn share(self) -> f64 {
+        if self == SteepKind::MovingOrJumping { SHARE_IN_TIME } else { SHARE }
     }
 }
 
@@ -165,10 +171,10 @@ impl<'a> Steepness<'a> {
         plan: &'a Plan,
         q: &'a [f64],
         load: FormulaLoad,
-        which: Which,
+        kind: SteepKind,
         m: &mut Motion<f64>,
     ) -> Self {
-        Steepness { plan, q, load, which, fastest: fastest(plan, q, &plan.formulas[load.formula], m) }
+        Steepness { plan, q, load, kind, fastest: fastest(plan, q, &plan.formulas[load.formula], m) }
     }
 
     /// Goes through all places where the formula is steep, with what may hide there.
@@ -179,7 +185,7 @@ impl<'a> Steepness<'a> {
         mut act: impl FnMut(&[Piece], f64),
     ) {
         let formula = &self.plan.formulas[self.load.formula];
-        for at in formula.steep.iter().filter(|steep| self.which.is(steep)).map(|steep| steep.at) {
+        for at in formula.steep.iter().filter(|steep| self.kind.is(steep)).map(|steep| steep.at) {
             let (pieces, queue) = (Vec::new(), BinaryHeap::new());
             let anything = Bounds { value: Interval::EVERYTHING, slope: Interval::EVERYTHING };
             let all = formula.result::<f64, Bounds>(at, self.q, &Inputs::all(anything)).value.abs().high;
@@ -284,7 +290,7 @@ impl Search<'_, '_> {
         self.start();
         let first = self.pieces.len();
         while let Some(Waiting { hides, nth, .. }) = self.queue.pop() {
-            if hides <= SHARE * self.largest {
+            if hides <= self.of.kind.share() * self.largest {
                 return;
             }
             if self.pieces.len() - first >= CUTS_MAX {
@@ -348,7 +354,7 @@ impl Search<'_, '_> {
 
     /// Goes through the places where short pieces follow one another and the formula changes.
     fn for_each_place(&mut self, act: &mut impl FnMut(&[Piece], f64)) {
-        let least = SHARE * self.largest;
+        let least = self.of.kind.share() * self.largest;
         self.pieces.sort_by(|a, b| a.samples[0].at.total_cmp(&b.samples[0].at));
         for place in self.pieces.chunk_by(|a, b| a.is_steep(least) && b.is_steep(least)) {
             let values = place.iter().flat_map(|piece| piece.samples.map(|sample| sample.value));

@@ -29,6 +29,19 @@ impl Piece {
     }
 }
 
+/// Angle and speed at a time since the start of a step, from which its pieces begin.
+pub fn state<R: Real>(start: &Y, pieces: &[Piece], time: R) -> [R; 2] {
+    let (mut from, mut left) = (*start, time);
+    for piece in &pieces[..pieces.len() - 1] {
+        if left.max_lane() <= piece.h {
+            return piece.state(&from, left * (1.0 / piece.h));
+        }
+        (from, left) = (piece.y, left - piece.h);
+    }
+    let last = &pieces[pieces.len() - 1];
+    last.state(&from, left * (1.0 / last.h))
+}
+
 /// Steps of any length from one instant.
 pub trait Attempts {
     /// Tries a length.

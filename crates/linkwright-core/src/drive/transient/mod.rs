@@ -27,7 +27,7 @@ pub mod stiff;
 mod unseen;
 pub mod variation;
 
-use self::attempt::{Attempts, ExplicitAttempt, Piece, aside_of};
+use self::attempt::{Attempts, ExplicitAttempt, Piece, aside_of, state};
 pub use self::equation::Turning;
 use self::equation::{AT_REST, Equation, Jump, Y};
 use self::reduced::ReducedCurves;
@@ -39,7 +39,6 @@ use crate::drive::mesh::crossing;
 use crate::drive::structure::Plan;
 use crate::kernel::call::poll;
 use crate::kernel::radau::{AT, N};
-use crate::kernel::real::Real;
 use crate::kernel::rk::{Trial, next_factor_of};
 use crate::kernel::turns::{Bernstein, passed_and_back};
 use crate::linkage::motion::Motion;
@@ -568,19 +567,6 @@ fn time_to(angle: f64, omega: f64, epsilon: f64) -> f64 {
     }
     let speed = omega + root.sqrt();
     if speed > 0.0 { 2.0 * angle / speed } else { f64::INFINITY }
-}
-
-/// Angle and speed at a time since the start of a step, from which its pieces begin.
-fn state<R: Real>(start: &Y, pieces: &[Piece], time: R) -> [R; 2] {
-    let (mut from, mut left) = (*start, time);
-    for piece in &pieces[..pieces.len() - 1] {
-        if left.max_lane() <= piece.h {
-            return piece.state(&from, left * (1.0 / piece.h));
-        }
-        (from, left) = (piece.y, left - piece.h);
-    }
-    let last = &pieces[pieces.len() - 1];
-    last.state(&from, left * (1.0 / last.h))
 }
 
 /// Newton on the length of the step until it ends on the target angle.

@@ -4,12 +4,11 @@
 //! where formulas are steep ([`crate::drive::steep`]); the step then ends before the pulse, and the next one is so short that its
 //! stages lie in it.
 
-use super::attempt::Piece;
+use super::attempt::{Piece, state};
 use super::equation::{Equation, Y};
-use super::state;
 use crate::drive::law::Moment;
 use crate::drive::pulses::Place;
-use crate::drive::steep::{Along, Steepness, WIDE, Which};
+use crate::drive::steep::{Along, SteepKind, Steepness, WIDE};
 use crate::kernel::dual::Dual;
 
 /// Between two stages of a step lies no more than this share of it: of the explicit method from 1/3 to 0.6.
@@ -25,8 +24,8 @@ impl Equation<'_> {
     /// Collects the laws that may be steep at angles that depend on speed or time.
     pub fn find_steep_laws(&mut self) {
         let (plan, q, m) = (self.machine.plan, self.machine.q, &mut self.motion);
-        let laws = plan.steep_laws(Which::MovingOrJumping).into_iter();
-        self.steep = laws.map(|load| Steepness::new(plan, q, load, Which::MovingOrJumping, m)).collect();
+        let laws = plan.steep_laws(SteepKind::MovingOrJumping).into_iter();
+        self.steep = laws.map(|load| Steepness::new(plan, q, load, SteepKind::MovingOrJumping, m)).collect();
     }
 
     /// The share of a step from a time and a state after which it is to end for a pulse that its stages may not see.

@@ -386,8 +386,7 @@ impl<R: Real> Along<'_, R> {
             return;
         }
         let h = (to - from) * (self.motion.t[k + 1] - self.motion.t[k]);
-        let turned = (to - from) * (self.motion.phi[k + 1] - self.motion.phi[k]).abs();
-        let inside = (BESIDE_KINK / turned).clamp(INSIDE, INSIDE_MAX);
+        let inside = if to < 1.0 { INSIDE } else { self.inside(k, from) };
         let stages = C.map(|c| c.min(1.0 - inside));
         let mut rates = stages.map(|c| self.rates.acceleration(self.motion.state(k, from + (to - from) * c)));
         let n = self.rates.of.n;
@@ -411,6 +410,15 @@ impl<R: Real> Along<'_, R> {
             *angle += h * (0..S).map(|j| B[j] * stages[j]).sum::<f64>();
             *speed = stages[S - 1];
         }
+    }
+
+    /// Share by which the end of a part of a step, from a share of it on, is read inside: beyond where it lands on a kink.
+    fn inside(&self, k: usize, from: f64) -> f64 {
+        let [start, end] = [k, k + 1].map(|i| self.motion.phi[i]);
+        let is_on_kink =
+            matches!(self.plain.passed([end, self.motion.omega[k + 1]]), Some(EventPlace::Angle(_)));
+        let share = BESIDE_KINK / ((1.0 - from) * (end - start)).abs();
+        if is_on_kink { share.clamp(INSIDE, INSIDE_MAX) } else { INSIDE }
     }
 
     /// Keeps what holds at an instant of a step.
