@@ -125,8 +125,9 @@ def _at_peak(moved: _MotionDerivatives) -> Floats:
     """Derivatives of the maximum speed, from three instants beside it."""
     # The equation of motion tells the place, where ε = 0, better than speeds do, and derivatives change fast
     # there under a steep motor.
-    before, at, after = moved.acceleration[:3].tolist()
-    return moved.speed[1] + (moved.speed[2] - moved.speed[0]) * (at / (before - after))
+    before, at, after = moved.acceleration[:3]
+    found: Floats = moved.speed[1] + (moved.speed[2] - moved.speed[0]) * (at / (before - after))
+    return found
 
 
 def _unit(along: Directions, entry: str) -> Floats:
