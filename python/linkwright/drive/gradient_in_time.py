@@ -126,8 +126,8 @@ def _at_peak(moved: _MotionDerivatives) -> Floats:
     # The equation of motion tells the place, where ε = 0, better than speeds do, and derivatives change fast
     # there under a steep motor.
     before, at, after = moved.acceleration[:3]
-    found: Floats = moved.speed[1] + (moved.speed[2] - moved.speed[0]) * (at / (before - after))
-    return found
+    peak: Floats = moved.speed[1] + (moved.speed[2] - moved.speed[0]) * (at / (before - after))
+    return peak
 
 
 def _unit(along: Directions, entry: str) -> Floats:
