@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from random_drives import BLOWS, Table, random_drive, with_blow
+from random_drives import BLOWS, Table, random_drive, torque_size, with_blow
 from sizes import cases
 
 import linkwright as lw
@@ -22,7 +22,7 @@ def _blows() -> list[tuple[lw.Machine, lw.SteadyState]]:
         drive: Table = random_drive(random)
         try:
             state = lw.steady_state(lw.Machine.model_validate(drive))
-            size = float(np.abs([state.torque_load, state.torque_drive]).max())
+            size = torque_size(state)
             machine = lw.Machine.model_validate(with_blow(random, drive, size))
             state = lw.steady_state(machine, n=4001)
         except LinkwrightError:

@@ -13,6 +13,8 @@ import numpy as np
 from numpy.random import Generator
 from random_parts import log_uniform
 
+import linkwright as lw
+
 Table = dict[str, Any]
 
 
@@ -169,6 +171,11 @@ def _motor(random: Generator, torque: float, speed: float) -> Table:
         "torque_breakdown": torque * random.uniform(1.8, 3.5),
     }
     return motor | ({"torque_start": torque * random.uniform(1.2, 1.7)} if kind == "started" else {})
+
+
+def torque_size(state: lw.SteadyState) -> float:
+    """Largest torque of a drive and its loads [N m]."""
+    return float(np.abs([state.torque_load, state.torque_drive]).max())
 
 
 def with_jump(random: Generator, drive: Table, speeds: tuple[float, float], size: float) -> Table:

@@ -19,7 +19,7 @@ import test_random_toppers as toppers
 from numpy.random import Generator
 from numpy.typing import NDArray
 from random_diagrams import areas, formula, table
-from random_drives import Table, with_blow
+from random_drives import Table, torque_size, with_blow
 from random_parts import log_uniform, random_train
 from sizes import cases
 
@@ -98,7 +98,7 @@ def _struck(random: Generator) -> Case:
     """A load jumps, or has kinks, at some angles."""
     drive = drives.random_drive(random)
     state = lw.steady_state(lw.Machine.model_validate(drive))
-    size = float(np.abs([state.torque_load, state.torque_drive]).max())
+    size = torque_size(state)
     # Beside jumps rounding of the angle allows no more.
     case = _steady_of(with_blow(random, drive, size), accuracy=1e-12)
     return replace(case, analyses=[name for name in case.analyses if not any(of in name for of in _OF_WORKS)])

@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 import pytest
 from numpy.random import Generator
-from random_drives import random_drive, with_jump
+from random_drives import random_drive, torque_size, with_jump
 from random_parts import random_train
 from sizes import cases
 
@@ -104,7 +104,7 @@ def _jumping_drive(random: Generator) -> lw.Machine:
     """A drive whose load jumps at a speed that it passed without the jump."""
     drive = random_drive(random)
     state = lw.steady_state(lw.Machine.model_validate(drive))
-    size = float(np.abs([state.torque_load, state.torque_drive]).max())
+    size = torque_size(state)
     return lw.Machine.model_validate(with_jump(random, drive, (state.speed_min, state.speed_max), size))
 
 

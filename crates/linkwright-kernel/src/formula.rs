@@ -153,6 +153,13 @@ pub struct Switch {
     pub winds: bool,
 }
 
+impl Switch {
+    /// Whether its zeros are angles that no speed moves.
+    pub fn is_still(&self) -> bool {
+        self.degree != Degree::Mixed
+    }
+}
+
 /// An instruction whose result may change within a small part of the range of the variables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Steep {

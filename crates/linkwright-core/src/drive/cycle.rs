@@ -286,14 +286,20 @@ impl<'a, R: Real> Machine<'a, R> {
     /// The angle at which a step begins, on its side of a jump there.
     #[inline(always)]
     pub fn start_angle(&self, phi: R, h: R) -> R {
-        phi + (h * AT_JUMP_OF_STEP).min(R::splat(self.inside))
+        phi + self.inside_by(h)
     }
 
     /// The angle of a stage; at the end on the side of the step.
     #[inline(always)]
     pub fn stage_angle(&self, phi: R, h: R, stage: usize) -> R {
         let at = h.mul_add(R::splat(C[stage]), phi);
-        if stage == S - 1 { at - (h * AT_JUMP_OF_STEP).min(R::splat(self.inside)) } else { at }
+        if stage == S - 1 { at - self.inside_by(h) } else { at }
+    }
+
+    /// By how much both ends of a step are read inside it.
+    #[inline(always)]
+    fn inside_by(&self, h: R) -> R {
+        (h * AT_JUMP_OF_STEP).min(R::splat(self.inside))
     }
 
     /// The stages of a step.

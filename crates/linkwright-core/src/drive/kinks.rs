@@ -16,7 +16,7 @@ use crate::drive::loads::{Carrier, ForceElement, FormulaLoad, Law, Load};
 use crate::drive::steep::{Along, SteepKind, Steepness};
 use crate::drive::structure::Plan;
 use crate::kernel::dual::Dual;
-use crate::kernel::formula::{Degree, Variable};
+use crate::kernel::formula::Variable;
 use crate::kernel::plane::Angle;
 use crate::kernel::real::Real;
 use crate::kernel::slot::Slot;
@@ -177,11 +177,7 @@ impl Plan {
 
     /// Formulas in all loads.
     fn all_formulas(&self) -> impl Iterator<Item = FormulaLoad> + '_ {
-        let in_laws = self.laws.iter().filter_map(|law| match law {
-            Law::Formula(load) => Some(*load),
-            Law::Damper { .. } => None,
-        });
-        self.formula_loads().chain(in_laws)
+        self.formula_loads().chain(self.formula_laws())
     }
 
     /// Formulas in all loads with the switches whose zeros are crank angles that no speed moves.
@@ -189,7 +185,7 @@ impl Plan {
         let mut found = Vec::new();
         for load in self.all_formulas() {
             let switches = &self.formulas[load.formula].switches;
-            found.extend(switches.iter().filter(|s| s.degree != Degree::Mixed).map(|s| (load, s.at)));
+            found.extend(switches.iter().filter(|s| s.is_still()).map(|s| (load, s.at)));
         }
         found
     }

@@ -11,7 +11,7 @@ use crate::drive::loads::{Carrier, FormulaLoad, Law};
 use crate::drive::structure::Plan;
 use crate::kernel::branch::OnBranch;
 use crate::kernel::dual::Dual;
-use crate::kernel::formula::{Degree, Formula, Inputs, Variable};
+use crate::kernel::formula::{Formula, Inputs, Switch, Variable};
 use crate::kernel::plane::Vec2;
 use crate::kernel::real::{Lift, Real};
 use crate::linkage::mechanism::Element;
@@ -308,6 +308,14 @@ impl Plan {
         sum
     }
 
+    /// Laws that are formulas.
+    pub(super) fn formula_laws(&self) -> impl Iterator<Item = FormulaLoad> + '_ {
+        self.laws.iter().filter_map(|law| match *law {
+            Law::Formula(load) => Some(load),
+            Law::Damper { .. } => None,
+        })
+    }
+
     /// Whether some law depends on time, so that no turn repeats another.
     pub fn knows_time(&self) -> bool {
         self.formulas.iter().any(|formula| formula.reads(Variable::Time))
@@ -315,9 +323,7 @@ impl Plan {
 
     /// Whether the acceleration may jump at an angle: by a formula, or where a motion law goes from piece to piece.
     pub fn jumps_over_angle(&self) -> bool {
-        let is_still =
-            |formula: &Formula| formula.switches.iter().any(|switch| switch.degree != Degree::Mixed);
-        self.formulas.iter().any(is_still)
+        self.formulas.iter().any(|formula| formula.switches.iter().any(Switch::is_still))
             || self.mechanism.elements.iter().any(|element| matches!(element, Element::Programme(_)))
     }
 
@@ -333,7 +339,7 @@ impl Plan {
             match *each {
                 Law::Formula(load) => {
                     let switches = self.formulas[load.formula].switches.iter();
-                    let moving = switches.filter(|s| s.degree == Degree::Mixed);
+                    let moving = switches.filter(|switch| !switch.is_still());
                     found.extend(moving.map(|s| SpeedKink { law, at: KinkPlace::Switch(s.at) }));
                 }
                 Law::Damper { table, .. } => {

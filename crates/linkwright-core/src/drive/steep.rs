@@ -10,7 +10,7 @@
 //! does not cover it.
 
 use crate::drive::law::Moment;
-use crate::drive::loads::{FormulaLoad, Law};
+use crate::drive::loads::FormulaLoad;
 use crate::drive::structure::Plan;
 use crate::kernel::bounds::Bounds;
 use crate::kernel::dual::Dual;
@@ -63,12 +63,13 @@ pub(super) enum SteepKind {
 }
 
 /// A formula of a machine, of which it is asked where it is steep.
-#[derive(Clone, Copy)]
 pub(super) struct Steepness<'a> {
-    pub plan: &'a Plan,
-    pub q: &'a [f64],
-    pub load: FormulaLoad,
-    pub kind: SteepKind,
+    plan: &'a Plan,
+    q: &'a [f64],
+    load: FormulaLoad,
+    kind: SteepKind,
+    /// Instructions that may be steep, and below what size their results do not count.
+    instructions: Vec<(usize, f64)>,
     /// Revolutions of the fastest link that the formula knows to one of the crank.
     fastest: f64,
 }
@@ -127,11 +128,7 @@ impl Plan {
 
     /// Loads that are laws with a formula in which something of this kind may be steep.
     pub(super) fn steep_laws(&self, kind: SteepKind) -> Vec<FormulaLoad> {
-        let formulas = self.laws.iter().filter_map(|law| match law {
-            Law::Formula(load) => Some(*load),
-            Law::Damper { .. } => None,
-        });
-        formulas.filter(|load| self.is_steep(load, kind)).collect()
+        self.formula_laws().filter(|load| self.is_steep(load, kind)).collect()
     }
 
     /// Whether something of this kind may be steep in the formula of a load.
@@ -174,7 +171,14 @@ impl<'a> Steepness<'a> {
         kind: SteepKind,
         m: &mut Motion<f64>,
     ) -> Self {
-        Steepness { plan, q, load, kind, fastest: fastest(plan, q, &plan.formulas[load.formula], m) }
+        let formula = &plan.formulas[load.formula];
+        let anything = Bounds { value: Interval::EVERYTHING, slope: Interval::EVERYTHING };
+        let faint = |steep: &Steep| {
+            let all = formula.result::<f64, Bounds>(steep.at, q, &Inputs::all(anything)).value.abs().high;
+            (steep.at, if all.is_finite() { FAINT * all } else { 0.0 })
+        };
+        let instructions = formula.steep.iter().filter(|steep| kind.is(steep)).map(faint).collect();
+        Steepness { plan, q, load, kind, instructions, fastest: fastest(plan, q, formula, m) }
     }
 
     /// Goes through all places where the formula is steep, with what may hide there.
@@ -185,11 +189,8 @@ impl<'a> Steepness<'a> {
         mut act: impl FnMut(&[Piece], f64),
     ) {
         let formula = &self.plan.formulas[self.load.formula];
-        for at in formula.steep.iter().filter(|steep| self.kind.is(steep)).map(|steep| steep.at) {
+        for &(at, largest) in &self.instructions {
             let (pieces, queue) = (Vec::new(), BinaryHeap::new());
-            let anything = Bounds { value: Interval::EVERYTHING, slope: Interval::EVERYTHING };
-            let all = formula.result::<f64, Bounds>(at, self.q, &Inputs::all(anything)).value.abs().high;
-            let largest = if all.is_finite() { FAINT * all } else { 0.0 };
             let mut search = Search { of: self, along, formula, at, m, pieces, queue, largest };
             search.run();
             search.for_each_place(&mut act);
