@@ -245,6 +245,9 @@ def test_constant_speed_takes_the_formula_at_that_speed() -> None:
 def test_time_has_no_steady_motion() -> None:
     with pytest.raises(SteadyStateError, match=r"formula of l0, .* depends on time t"):
         lw.steady_state(machine(FORMULA.format("S", 'force = "-100*sin(t)"')))
+    # Its reduction would have no value.
+    with pytest.raises(SteadyStateError, match=r"formula of l0, .* depends on time t"):
+        lw.reduction(machine(FORMULA.format("S", 'force = "-100*sin(t)"')))
 
 
 def test_formula_without_value_is_named() -> None:

@@ -31,6 +31,7 @@ def require_turn(machine: Machine) -> CompiledMachine:
     """
     compiled = compile_machine(machine)
     require_full_turn(compiled, machine)
+    require_same_turns(machine)
     require_sound_loads(compiled, machine)
     return compiled
 
