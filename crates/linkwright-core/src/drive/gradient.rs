@@ -118,8 +118,8 @@ struct SolvedSteps {
 
 impl SolvedSteps {
     fn new(of: &Gradient<'_>) -> Self {
-        let marks = resolved(of.plan, of.q, of.steady);
         let kinks = kinks(of.plan, of.q);
+        let marks = resolved(of.plan, of.q, of.steady, &kinks);
         let ends = marks.iter().map(|mark| mark.phi).chain([of.plan.cycle()]);
         let is_kink = |phi: &f64| kinks.iter().any(|kink| (kink - phi).abs() < ON_KINK);
         let on_kinks = ends.filter(is_kink).collect();

@@ -20,9 +20,12 @@ const GONE: f64 = 37.0;
 /// An end of a step this near to a kink \[rad\] is the kink's.
 const AT_END: f64 = 1e-12;
 
-/// The solution at the starts of steps that resolve its derivatives.
-pub(super) fn resolved(plan: &Plan, q: &[f64], steady: &Steady) -> Vec<Mark> {
-    if steady.crossings.is_empty() {
+/// The solution at the starts of steps that resolve its derivatives behind the kinks that the motion passes, those of the
+/// drive and those over the crank angle \[rad\].
+pub(super) fn resolved(plan: &Plan, q: &[f64], steady: &Steady, kinks: &[f64]) -> Vec<Mark> {
+    let mut all: Vec<f64> = steady.crossings.iter().map(|crossing| crossing.phi).collect();
+    all.extend(kinks);
+    if all.is_empty() {
         return steady.marks.clone();
     }
     let machine = Machine::new(plan, q).keeping_branch(plan.may_jump());
@@ -33,7 +36,7 @@ pub(super) fn resolved(plan: &Plan, q: &[f64], steady: &Steady) -> Vec<Mark> {
     }
     let mut marks = Vec::with_capacity(steps.len());
     let starts = steady.marks.iter().map(|mark| mark.t);
-    for ((step, is_fast), t) in steps.iter().zip(changing_fast(&steps, steady)).zip(starts) {
+    for ((step, is_fast), t) in steps.iter().zip(changing_fast(&steps, &all)).zip(starts) {
         let change = step.steepness() * step.h;
         let halvings = if is_fast && change > SHORT { (change / SHORT).log2().ceil() as i32 } else { 0 };
         add_parts(&machine, step, (halvings, t), &mut m, &mut marks);
@@ -43,8 +46,8 @@ pub(super) fn resolved(plan: &Plan, q: &[f64], steady: &Steady) -> Vec<Mark> {
 
 /// Of each step whether something is left there of what leapt at kinks; what is left at the end of the revolution is there
 /// at its start.
-fn changing_fast(steps: &[Step<f64>], steady: &Steady) -> Vec<bool> {
-    let is_kink = |phi: f64| steady.crossings.iter().any(|kink| (kink.phi - phi).abs() < AT_END);
+fn changing_fast(steps: &[Step<f64>], kinks: &[f64]) -> Vec<bool> {
+    let is_kink = |phi: f64| kinks.iter().any(|kink| (kink - phi).abs() < AT_END);
     let mut left = 0.0;
     let mut round = || -> Vec<bool> {
         let is_fast = |step: &Step<f64>| {
