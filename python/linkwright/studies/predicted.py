@@ -45,10 +45,16 @@ class RecordModel:
     count: int = 0  # motions computed so far
     reasons: Counter[str] = field(default_factory=Counter)  # why trials had no answer → how many
     _known: dict[bytes, Floats] = field(default_factory=dict, repr=False)
+    # Differences by the numbers of the record leave the machine; to check one may take as long as a motion.
+    _last: tuple[bytes, Machine] | None = field(default=None, repr=False)
 
     def machine(self, x: Floats) -> Machine:
         """The machine with its numbers exchanged."""
-        return machine_at(self.plan, entries_at(self.plan, x[: len(self.plan.axes)]))
+        entries = x[: len(self.plan.axes)]
+        key = entries.tobytes()
+        if self._last is None or self._last[0] != key:
+            self._last = key, machine_at(self.plan, entries_at(self.plan, entries))
+        return self._last[1]
 
     def at(self, x: Floats) -> Floats:
         """All channels one after the other, (size,); NaN where the machine cannot do it."""
