@@ -17,6 +17,7 @@ use crate::drive::kinks::kinks;
 use crate::drive::law::LawGeometry;
 use crate::drive::layers::resolved;
 use crate::drive::layout::{Layout, bundle, unbundle};
+use crate::drive::peaks::{AT_END, Peak, peaks_of_acceleration, steps_before};
 use crate::drive::reading::{Mark, State};
 use crate::drive::steady::Steady;
 use crate::drive::structure::Plan;
@@ -50,11 +51,8 @@ const NOTHING: f64 = 1e-13;
 /// jump: the two are read from one solution, to its rounding.
 const SIDES: f64 = 1e-7;
 
-/// Share of a step beside a peak at which it is read again: by its fourth power differences err, and by rounding over it. So many
-/// secants lead from there to where the slope of the acceleration is zero, unless that lies farther off than so many times the share.
+/// Share of a step beside a peak of the speed at which the acceleration is read again.
 const ASIDE: f64 = 4e-3;
-const SECANTS: usize = 2;
-const FAR: f64 = 4.0;
 
 /// Under a steep drive rounding of the speed is acceleration, which tells the place of an extreme of the speed worse than the
 /// speed itself: where that is more than the first share of its change over [`ASIDE`]. Then the speed is read, at the second
@@ -72,11 +70,8 @@ const ROUNDINGS: f64 = 4.0;
 /// Steps of Newton's method to the peak between those readings.
 const NEWTON: usize = 3;
 
-/// Share of a step within which a peak at its end is a corner.
-const AT_CORNER: f64 = 4e-6;
-
-/// An angle this near to the end of a step \[rad\] is that end.
-const AT_END: f64 = 1e-12;
+/// A peak by readings of the speed lies no farther from their middle than so many times their distance.
+const FAR: f64 = 4.0;
 
 /// An end of a step this near to a kink of loads or motion \[rad\] may move with it.
 const ON_KINK: f64 = 1e-8;
@@ -215,6 +210,9 @@ impl Job for Gradient<'_> {
                 || MovingEnds::new::<R>(&self, &solved),
             ))
         };
+        let extremes = &self.steady.extremes;
+        let accelerations = [&extremes.acceleration_min, &extremes.acceleration_max];
+        let peaks = peaks_of_acceleration(self.plan, self.q, self.steady, &solved.marks, accelerations);
         let rows = OF_STEP * solved.marks.len() + 1;
         let (mut values, mut d) = (vec![0.0; rows], vec![0.0; rows * n]);
         for some in directions.moving().chunks(R::LANES) {
@@ -229,7 +227,7 @@ impl Job for Gradient<'_> {
                 }
                 put(dual.move_crossings(ends, R::load(&sizes), &mut m), some, &mut lost);
             }
-            for (row, number) in dual.numbers(&mut m).into_iter().enumerate() {
+            for (row, number) in dual.numbers(peaks, &mut m).into_iter().enumerate() {
                 put(number.d, some, &mut numbers[row * n..][..n]);
             }
             for (k, step) in dual.turn.steps.iter().enumerate() {
@@ -424,37 +422,25 @@ impl<'a, R: Real> DualRevolution<'a, R> {
     /// Acceleration at the start of a step, on its branch.
     #[inline(always)]
     fn start_of(&self, k: usize, m: &mut Motion<Dual<R>>) -> Dual<R> {
-        let step = &self.turn.steps[k];
-        self.acceleration_in(k, self.machine.start_angle(step.phi, step.h), step.u, m)
-    }
-
-    /// Acceleration at an angle and u, on the branch of a step.
-    #[inline(always)]
-    fn acceleration_in(&self, k: usize, phi: Dual<R>, u: Dual<R>, m: &mut Motion<Dual<R>>) -> Dual<R> {
-        let mut geometry = Vec::new();
-        let row = self.machine.row(phi, m, &mut geometry);
+        let (step, mut geometry) = (&self.turn.steps[k], Vec::new());
+        let row = self.machine.row(self.machine.start_angle(step.phi, step.h), m, &mut geometry);
         let known = self.machine.geometry_at(self.turn.geometry_of(&self.machine, k), REFERENCE);
-        let at = self.turn.steps[k].X[REFERENCE];
-        self.machine.acceleration_on_branch(&row, &geometry, u, (known, at)).value
+        self.machine.acceleration_on_branch(&row, &geometry, step.u, (known, step.X[REFERENCE])).value
     }
 
     /// The numbers of the revolution.
     #[inline(always)]
-    fn numbers(&self, m: &mut Motion<Dual<R>>) -> [Dual<R>; NUMBERS] {
+    fn numbers(&self, peaks: [Peak; 2], m: &mut Motion<Dual<R>>) -> [Dual<R>; NUMBERS] {
         let extremes = &self.steady.extremes;
-        let places =
-            [extremes.speed_min, extremes.speed_max, extremes.acceleration_min, extremes.acceleration_max];
-        let mut found = [Dual::splat(0.0); 4];
-        for (k, extreme) in places.iter().enumerate() {
-            found[k] =
-                if k < 2 { self.peak_of_speed(extreme, m) } else { self.peak_of_acceleration(extreme, m) };
-        }
+        let speeds = [extremes.speed_min, extremes.speed_max].map(|extreme| self.peak_of_speed(&extreme, m));
+        let [least, largest] = [(peaks[0], extremes.acceleration_min), (peaks[1], extremes.acceleration_max)]
+            .map(|(peak, extreme)| self.peak_of_acceleration(peak, &extreme, m));
         let totals = self.turn.totals(&self.machine);
         [
-            found[0],
-            found[1],
-            found[2],
-            found[3],
+            speeds[0],
+            speeds[1],
+            least,
+            largest,
             totals.period,
             self.turn.multiplier,
             totals.motor_work,
@@ -499,63 +485,11 @@ impl<'a, R: Real> DualRevolution<'a, R> {
 
     /// An extreme of the acceleration, or what its corner is. Its derivative is that at the place of the peak too.
     #[inline(always)]
-    fn peak_of_acceleration(&self, extreme: &Extreme<f64>, m: &mut Motion<Dual<R>>) -> Dual<R> {
-        let phi = extreme.phi;
-        let [low, high] = self.step_around(phi);
-        if let Some(edge) = self.corner_near(phi) {
-            return self.corner(edge, extreme.value, m);
+    fn peak_of_acceleration(&self, peak: Peak, extreme: &Extreme<f64>, m: &mut Motion<Dual<R>>) -> Dual<R> {
+        match peak {
+            Peak::Corner(edge) => self.corner(edge, extreme.value, m),
+            Peak::Inside(phi) => self.state(phi, m).1.epsilon,
         }
-        let aside = ASIDE * (0.5 * (high + low) - phi).signum() * (high - low);
-        let mut places = [phi, phi + aside];
-        let mut slopes = [self.slope_of_acceleration(phi, m), self.slope_of_acceleration(phi + aside, m)];
-        for _ in 0..SECANTS {
-            let next = places[1] - slopes[1] * (places[1] - places[0]) / (slopes[1] - slopes[0]);
-            // There is none where the acceleration is constant, nor beyond the end of the step.
-            if !((next - phi).abs() < FAR * aside.abs() && low < next && next < high) {
-                break;
-            }
-            (places, slopes) = ([places[1], next], [slopes[1], self.slope_of_acceleration(next, m)]);
-        }
-        let nearest = if slopes[1].abs() < slopes[0].abs() { places[1] } else { places[0] };
-        self.state(nearest, m).1.epsilon
-    }
-
-    /// The end of a step that an extreme of the acceleration lies at: the nearest, or one at which the motion passes a kink, beside
-    /// which there may be steps that are shorter than the kink is known to.
-    #[inline(always)]
-    fn corner_near(&self, phi: f64) -> Option<usize> {
-        let (k, last) = (self.steps_before(phi), self.marks.len() - 1);
-        let length = |k: usize| (self.edges[k + 1].value - self.edges[k].value).max_lane();
-        let longest = length(k.saturating_sub(1)).max(length(k)).max(length((k + 1).min(last)));
-        let off = |edge: usize| (self.edges[edge].value.max_lane() - phi).abs();
-        let is_kink = |edge: usize| {
-            let at = self.edges[edge].value.max_lane();
-            self.steady.crossings.iter().any(|kink| (kink.phi - at).abs() < AT_END)
-        };
-        let mut around = k.saturating_sub(1)..=(k + 2).min(last + 1);
-        let on_kink = around.find(|&edge| is_kink(edge) && off(edge) < AT_CORNER * longest);
-        let nearest = if off(k) < off(k + 1) { k } else { k + 1 };
-        on_kink.or((off(nearest) < AT_CORNER * length(k)).then_some(nearest))
-    }
-
-    /// Derivative of the acceleration by φ along the motion: that at a fixed speed, whose rounding does not count there, and
-    /// what the change of speed does. The first is that of the quartic through readings beside it.
-    #[inline(always)]
-    fn slope_of_acceleration(&self, phi: f64, m: &mut Motion<Dual<R>>) -> f64 {
-        let (k, [low, high]) = (self.steps_before(phi), self.step_around(phi));
-        let aside = ASIDE * (high - low);
-        let (there, _) = self.step_to(phi, m);
-        // Within the step, beyond whose ends the curve may bend.
-        let middle = phi.clamp(low + 2.0 * aside, high - 2.0 * aside);
-        let mut at = [Dual::splat(0.0); 5];
-        for (i, epsilon) in at.iter_mut().enumerate() {
-            let beside = Dual::splat((i as f64 - 2.0).mul_add(aside, middle));
-            *epsilon = self.acceleration_in(k, beside, there.end(), m);
-        }
-        let curve = quartic(at).map(|c| c.value.max_lane());
-        let off = (phi - middle) / aside;
-        let at_speed = curve[1] + off * (2.0 * curve[2] + off * (3.0 * curve[3] + off * 4.0 * curve[4]));
-        at_speed / aside + (there.D[S - 1].value * there.K[S - 1].value).max_lane()
     }
 
     /// An extreme of the speed by the speed itself: that of the quartic through readings beside it.
@@ -580,7 +514,7 @@ impl<'a, R: Real> DualRevolution<'a, R> {
     /// Number of the steps before the one that a crank angle lies in, and the ends of that.
     #[inline(always)]
     fn steps_before(&self, phi: f64) -> usize {
-        self.marks.partition_point(|mark| mark.phi < phi - AT_END).max(1) - 1
+        steps_before(self.marks, phi)
     }
 
     /// See [`Self::steps_before`].

@@ -57,6 +57,7 @@ pub mod motions;
 pub mod motor;
 pub mod motor_extremes;
 mod nested;
+mod peaks;
 mod pulses;
 pub mod reading;
 pub mod reduce;
