@@ -17,8 +17,8 @@ const SHORT: f64 = 1.0;
 /// After this ∫ |∂ε/∂u| dφ nothing is left of what leapt: exp(−37) is rounding.
 const GONE: f64 = 37.0;
 
-/// An end of a step this near to a kink \[rad\] is the kink's.
-const AT_END: f64 = 1e-12;
+/// An end of a step this near to a kink \[rad\] is the kink's: ends are put at kinks found in lanes, and rounding differs.
+const AT_END: f64 = 1e-8;
 
 /// The solution at the starts of steps that resolve its derivatives behind the kinks that the motion passes, those of the
 /// drive and those over the crank angle \[rad\].

@@ -36,7 +36,7 @@ pub(super) enum Peak {
 }
 
 /// The solution at the starts of its steps, and the motion that it begins there.
-struct Marked<'a> {
+struct MarkedMotion<'a> {
     machine: Machine<'a, Dual<f64>>,
     marks: &'a [Mark],
 }
@@ -52,7 +52,7 @@ pub(super) fn peaks_of_acceleration<const N: usize>(
     let constants: Vec<Dual<f64>> = q.iter().copied().map(Dual::constant).collect();
     let machine = Machine::new(plan, &constants).keeping_branch(plan.may_jump());
     let mut m = Motion::new(&plan.mechanism, &constants);
-    let marked = Marked { machine, marks };
+    let marked = MarkedMotion { machine, marks };
     extremes.map(|extreme| match corner_near(extreme.phi, marks, steady) {
         Some(edge) => Peak::Corner(edge),
         None => Peak::Inside(marked.place(extreme.phi, &mut m)),
@@ -78,7 +78,7 @@ fn corner_near(phi: f64, marks: &[Mark], steady: &Steady) -> Option<usize> {
     on_kink.or((off(nearest) < AT_CORNER * marks[k].h).then_some(nearest))
 }
 
-impl Marked<'_> {
+impl MarkedMotion<'_> {
     /// Where the acceleration has its extreme, from where it was read.
     fn place(&self, phi: f64, m: &mut Motion<Dual<f64>>) -> f64 {
         let k = steps_before(self.marks, phi);
