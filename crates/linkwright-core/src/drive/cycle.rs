@@ -289,6 +289,15 @@ impl<'a, R: Real> Machine<'a, R> {
         phi + self.inside_by(h)
     }
 
+    /// ε at the start of a step, on its branch, of which the geometry of its stages is known.
+    #[inline(always)]
+    pub fn start_on_branch(&self, step: &Step<R>, geometry: &[LawGeometry<R>], m: &mut Motion<R>) -> R {
+        let mut own = Vec::with_capacity(self.plan.laws.len());
+        let row = self.row(self.start_angle(step.phi, step.h), m, &mut own);
+        let known = self.geometry_at(geometry, REFERENCE);
+        self.acceleration_on_branch(&row, &own, step.u, (known, step.X[REFERENCE])).value
+    }
+
     /// The angle of a stage; at the end on the side of the step.
     #[inline(always)]
     pub fn stage_angle(&self, phi: R, h: R, stage: usize) -> R {

@@ -6,7 +6,7 @@
 //! what it may fall short by.
 
 use crate::drive::between::Between;
-use crate::drive::cycle::{Machine, REFERENCE, Step, Turn, stages_of_part};
+use crate::drive::cycle::{Machine, Step, Turn, stages_of_part};
 use crate::drive::layout::{Layout, bundle, unbundle};
 use crate::kernel::radau::{AT, N, S, slope_and_bend, through};
 use crate::kernel::real::Real;
@@ -193,15 +193,13 @@ impl<R: Real> Turn<R> {
         let mut geometry = Vec::with_capacity(machine.plan.laws.len());
         let mut starts = Vec::with_capacity(self.steps.len());
         for (k, step) in self.steps.iter().enumerate() {
-            geometry.clear();
-            let row = machine.row(machine.start_angle(step.phi, step.h), m, &mut geometry);
-            let epsilon = if machine.keeps_branch {
-                let known = machine.geometry_at(self.geometry_of(machine, k), REFERENCE);
-                machine.acceleration_on_branch(&row, &geometry, step.u, (known, step.X[REFERENCE]))
+            starts.push(if machine.keeps_branch {
+                machine.start_on_branch(step, self.geometry_of(machine, k), m)
             } else {
-                machine.acceleration(&row, &geometry, step.u)
-            };
-            starts.push(epsilon.value);
+                geometry.clear();
+                let row = machine.row(machine.start_angle(step.phi, step.h), m, &mut geometry);
+                machine.acceleration(&row, &geometry, step.u).value
+            });
         }
         starts
     }

@@ -10,7 +10,7 @@
 //! angle (envelope theorem), or along the kink that it sits on.
 
 use crate::drive::along::{Directions, put};
-use crate::drive::cycle::{Machine, REFERENCE, Step, Turn, stages_of_part};
+use crate::drive::cycle::{Machine, Step, Turn, stages_of_part};
 use crate::drive::events::{Events, Passage};
 use crate::drive::extremes::Extreme;
 use crate::drive::kinks::kinks;
@@ -113,8 +113,8 @@ struct SolvedSteps {
 
 impl SolvedSteps {
     fn new(of: &Gradient<'_>) -> Self {
+        let marks = resolved(of.plan, of.q, of.steady);
         let kinks = kinks(of.plan, of.q);
-        let marks = resolved(of.plan, of.q, of.steady, &kinks);
         let ends = marks.iter().map(|mark| mark.phi).chain([of.plan.cycle()]);
         let is_kink = |phi: &f64| kinks.iter().any(|kink| (kink - phi).abs() < ON_KINK);
         let on_kinks = ends.filter(is_kink).collect();
@@ -422,10 +422,7 @@ impl<'a, R: Real> DualRevolution<'a, R> {
     /// Acceleration at the start of a step, on its branch.
     #[inline(always)]
     fn start_of(&self, k: usize, m: &mut Motion<Dual<R>>) -> Dual<R> {
-        let (step, mut geometry) = (&self.turn.steps[k], Vec::new());
-        let row = self.machine.row(self.machine.start_angle(step.phi, step.h), m, &mut geometry);
-        let known = self.machine.geometry_at(self.turn.geometry_of(&self.machine, k), REFERENCE);
-        self.machine.acceleration_on_branch(&row, &geometry, step.u, (known, step.X[REFERENCE])).value
+        self.machine.start_on_branch(&self.turn.steps[k], self.turn.geometry_of(&self.machine, k), m)
     }
 
     /// The numbers of the revolution.
@@ -433,8 +430,7 @@ impl<'a, R: Real> DualRevolution<'a, R> {
     fn numbers(&self, peaks: [Peak; 2], m: &mut Motion<Dual<R>>) -> [Dual<R>; NUMBERS] {
         let extremes = &self.steady.extremes;
         let speeds = [extremes.speed_min, extremes.speed_max].map(|extreme| self.peak_of_speed(&extreme, m));
-        let [least, largest] = [(peaks[0], extremes.acceleration_min), (peaks[1], extremes.acceleration_max)]
-            .map(|(peak, extreme)| self.peak_of_acceleration(peak, &extreme, m));
+        let [least, largest] = peaks.map(|peak| self.peak_of_acceleration(peak, m));
         let totals = self.turn.totals(&self.machine);
         [
             speeds[0],
@@ -485,9 +481,9 @@ impl<'a, R: Real> DualRevolution<'a, R> {
 
     /// An extreme of the acceleration, or what its corner is. Its derivative is that at the place of the peak too.
     #[inline(always)]
-    fn peak_of_acceleration(&self, peak: Peak, extreme: &Extreme<f64>, m: &mut Motion<Dual<R>>) -> Dual<R> {
+    fn peak_of_acceleration(&self, peak: Peak, m: &mut Motion<Dual<R>>) -> Dual<R> {
         match peak {
-            Peak::Corner(edge) => self.corner(edge, extreme.value, m),
+            Peak::Corner(edge, value) => self.corner(edge, value, m),
             Peak::Inside(phi) => self.state(phi, m).1.epsilon,
         }
     }

@@ -6,6 +6,7 @@
 //! parts that double from the start on.
 
 use crate::drive::cycle::{Machine, Step, stages_of_part};
+use crate::drive::peaks::AT_END;
 use crate::drive::reading::Mark;
 use crate::drive::steady::Steady;
 use crate::drive::structure::Plan;
@@ -17,15 +18,9 @@ const SHORT: f64 = 1.0;
 /// After this ∫ |∂ε/∂u| dφ nothing is left of what leapt: exp(−37) is rounding.
 const GONE: f64 = 37.0;
 
-/// An end of a step this near to a kink \[rad\] is the kink's: ends are put at kinks found in lanes, and rounding differs.
-const AT_END: f64 = 1e-8;
-
-/// The solution at the starts of steps that resolve its derivatives behind the kinks that the motion passes, those of the
-/// drive and those over the crank angle \[rad\].
-pub(super) fn resolved(plan: &Plan, q: &[f64], steady: &Steady, kinks: &[f64]) -> Vec<Mark> {
-    let mut all: Vec<f64> = steady.crossings.iter().map(|crossing| crossing.phi).collect();
-    all.extend(kinks);
-    if all.is_empty() {
+/// The solution at the starts of steps that resolve its derivatives.
+pub(super) fn resolved(plan: &Plan, q: &[f64], steady: &Steady) -> Vec<Mark> {
+    if steady.crossings.is_empty() {
         return steady.marks.clone();
     }
     let machine = Machine::new(plan, q).keeping_branch(plan.may_jump());
@@ -36,7 +31,7 @@ pub(super) fn resolved(plan: &Plan, q: &[f64], steady: &Steady, kinks: &[f64]) -
     }
     let mut marks = Vec::with_capacity(steps.len());
     let starts = steady.marks.iter().map(|mark| mark.t);
-    for ((step, is_fast), t) in steps.iter().zip(changing_fast(&steps, &all)).zip(starts) {
+    for ((step, is_fast), t) in steps.iter().zip(changing_fast(&steps, steady)).zip(starts) {
         let change = step.steepness() * step.h;
         let halvings = if is_fast && change > SHORT { (change / SHORT).log2().ceil() as i32 } else { 0 };
         add_parts(&machine, step, (halvings, t), &mut m, &mut marks);
@@ -46,8 +41,8 @@ pub(super) fn resolved(plan: &Plan, q: &[f64], steady: &Steady, kinks: &[f64]) -
 
 /// Of each step whether something is left there of what leapt at kinks; what is left at the end of the revolution is there
 /// at its start.
-fn changing_fast(steps: &[Step<f64>], kinks: &[f64]) -> Vec<bool> {
-    let is_kink = |phi: f64| kinks.iter().any(|kink| (kink - phi).abs() < AT_END);
+fn changing_fast(steps: &[Step<f64>], steady: &Steady) -> Vec<bool> {
+    let is_kink = |phi: f64| steady.crossings.iter().any(|kink| (kink.phi - phi).abs() < AT_END);
     let mut left = 0.0;
     let mut round = || -> Vec<bool> {
         let is_fast = |step: &Step<f64>| {

@@ -5,7 +5,7 @@
 //! its start by dφ, the speed there by ε dφ. What rounding takes from that ε dies out along the step, as it does of the
 //! speed, and ε at its end has the slope, with no differences.
 
-use crate::drive::cycle::{Machine, REFERENCE, Step, stages_of_part};
+use crate::drive::cycle::{Machine, Step, stages_of_part};
 use crate::drive::extremes::Extreme;
 use crate::drive::reading::Mark;
 use crate::drive::steady::Steady;
@@ -29,8 +29,8 @@ const FAR: f64 = 4.0;
 /// Where an extreme of the acceleration is.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Peak {
-    /// At an end of a step, with its number.
-    Corner(usize),
+    /// At an end of a step, with its number and the acceleration there.
+    Corner(usize, f64),
     /// Within a step, at a crank angle \[rad\].
     Inside(f64),
 }
@@ -54,7 +54,7 @@ pub(super) fn peaks_of_acceleration<const N: usize>(
     let mut m = Motion::new(&plan.mechanism, &constants);
     let marked = MarkedMotion { machine, marks };
     extremes.map(|extreme| match corner_near(extreme.phi, marks, steady) {
-        Some(edge) => Peak::Corner(edge),
+        Some(edge) => Peak::Corner(edge, extreme.value),
         None => Peak::Inside(marked.place(extreme.phi, &mut m)),
     })
 }
@@ -106,11 +106,7 @@ impl MarkedMotion<'_> {
         let start = Dual::variable(mark.phi);
         let (still, geometry) =
             self.machine.advance_near(start, Dual::constant(mark.u), Dual::constant(length), near, m);
-        let mut own = Vec::new();
-        let row = self.machine.row(self.machine.start_angle(still.phi, still.h), m, &mut own);
-        let known = (self.machine.geometry_at(&geometry, REFERENCE), still.X[REFERENCE]);
-        let epsilon = self.machine.acceleration_on_branch(&row, &own, still.u, known).value;
-        let u = Dual { value: mark.u, d: epsilon.value };
+        let u = Dual { value: mark.u, d: self.machine.start_on_branch(&still, &geometry, m).value };
         self.machine.advance_near(still.phi, u, still.h, still.X, m).0.K[S - 1].d
     }
 }
