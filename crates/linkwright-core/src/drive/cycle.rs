@@ -200,7 +200,8 @@ impl<'a, R: Real> Machine<'a, R> {
 
     /// ε at the stages of a step, and its derivatives.
     #[inline(always)]
-    fn accelerations(&self, rows: &[Row<R>; S], geometry: &[LawGeometry<R>], X: &[R; S]) -> ([R; S], [R; S]) {
+    fn accelerations(&self, step: &Step<R>, geometry: &[LawGeometry<R>]) -> ([R; S], [R; S]) {
+        let (rows, X) = (&step.rows, &step.X);
         let (mut f, mut d) = (*X, *X);
         if self.keeps_branch {
             let reference = self.side.unwrap_or((self.geometry_at(geometry, REFERENCE), X[REFERENCE]));
@@ -209,17 +210,23 @@ impl<'a, R: Real> Machine<'a, R> {
                 let epsilon = self.acceleration_on_branch(&rows[i], own, X[i], reference);
                 (f[i], d[i]) = (epsilon.value, epsilon.d);
             }
-            return (f, d);
-        }
-        for i in 0..S {
-            let free = self.drive_acceleration(&rows[i], Dual::variable(X[i]));
-            (f[i], d[i]) = (free.value, free.d);
-        }
-        if !geometry.is_empty() {
+        } else {
             for i in 0..S {
-                let taken = self.laws(self.geometry_at(geometry, i), (Dual::variable(X[i]) * 2.0).sqrt());
-                (f[i], d[i]) = (f[i] - taken.value * rows[i].inverse, d[i] - taken.d * rows[i].inverse);
+                let free = self.drive_acceleration(&rows[i], Dual::variable(X[i]));
+                (f[i], d[i]) = (free.value, free.d);
             }
+            if !geometry.is_empty() {
+                for i in 0..S {
+                    let u = Dual::variable(X[i]);
+                    let taken = self.laws(self.geometry_at(geometry, i), (u * 2.0).sqrt());
+                    (f[i], d[i]) = (f[i] - taken.value * rows[i].inverse, d[i] - taken.d * rows[i].inverse);
+                }
+            }
+        }
+        if self.inside > 0.0 {
+            let read = Dual { value: f[S - 1], d: d[S - 1] };
+            let end = along_the_motion(read, -self.inside_by(step.h));
+            (f[S - 1], d[S - 1]) = (end.value, end.d);
         }
         (f, d)
     }
@@ -243,7 +250,7 @@ impl<'a, R: Real> Machine<'a, R> {
     /// kink; the step's own has the slope that rounding chose. The torque itself is the same on either side.
     #[inline(always)]
     pub fn growth_on_side(&self, step: &Step<R>, geometry: &[LawGeometry<R>]) -> R {
-        let (f, mut d) = self.accelerations(&step.rows, geometry, &step.X);
+        let (f, mut d) = self.accelerations(step, geometry);
         d[S - 1] = d[S - 1] + self.slope_besides(&step.rows[S - 1], step.X[S - 1], step.X[REFERENCE]);
         stage_newton(step.u, step.h, &f, &d, &step.X).u[S - 1]
     }
@@ -292,10 +299,19 @@ impl<'a, R: Real> Machine<'a, R> {
     /// ε at the start of a step, on its branch, of which the geometry of its stages is known.
     #[inline(always)]
     pub fn start_on_branch(&self, step: &Step<R>, geometry: &[LawGeometry<R>], m: &mut Motion<R>) -> R {
+        let known = (self.geometry_at(geometry, REFERENCE), step.X[REFERENCE]);
         let mut own = Vec::with_capacity(self.plan.laws.len());
         let row = self.row(self.start_angle(step.phi, step.h), m, &mut own);
-        let known = self.geometry_at(geometry, REFERENCE);
-        self.acceleration_on_branch(&row, &own, step.u, (known, step.X[REFERENCE])).value
+        let read = self.acceleration_on_branch(&row, &own, step.u, known);
+        along_the_motion(read, self.inside_by(step.h)).value
+    }
+
+    /// ε at the start of a step.
+    #[inline(always)]
+    pub(super) fn start(&self, step: &Step<R>, m: &mut Motion<R>) -> R {
+        let mut own = Vec::with_capacity(self.plan.laws.len());
+        let row = self.row(self.start_angle(step.phi, step.h), m, &mut own);
+        along_the_motion(self.acceleration(&row, &own, step.u), self.inside_by(step.h)).value
     }
 
     /// The angle of a stage; at the end on the side of the step.
@@ -390,7 +406,7 @@ impl<'a, R: Real> Machine<'a, R> {
         limit: f64,
     ) -> StageNewton<R> {
         let limit = R::splat(limit);
-        let (f, d) = self.accelerations(&step.rows, geometry, &step.X);
+        let (f, d) = self.accelerations(step, geometry);
         let newton = stage_newton(step.u, step.h, &f, &d, &step.X);
         for i in 0..S {
             step.K[i] = correction.select_lt(limit, step.K[i], f[i]);
@@ -422,6 +438,14 @@ impl<'a, R: Real> Machine<'a, R> {
         // Where a flat characteristic just balances the load this is 0/0: stay at the start then.
         omega.select_lt(high * 2.0, omega, start)
     }
+}
+
+/// ε and its derivative by u where ε was read farther on by an angle, with u as it is here: the motion has u + ε × angle there.
+/// A steep drive would take u for a speed that is wrong there, and ε would be off by steepness × angle.
+#[inline(always)]
+fn along_the_motion<R: Real>(read: Dual<R>, angle: R) -> Dual<R> {
+    let share = (R::splat(1.0) - read.d * angle).recip();
+    Dual { value: read.value * share, d: read.d * share }
 }
 
 impl<R: Real> Step<R> {
@@ -664,7 +688,7 @@ impl<R: Real> Turn<R> {
     pub(super) fn take_accelerations(&mut self, machine: &Machine<'_, R>) {
         let laws = S * machine.plan.laws.len();
         for (k, step) in self.steps.iter_mut().enumerate() {
-            step.K = machine.accelerations(&step.rows, &self.geometry[k * laws..(k + 1) * laws], &step.X).0;
+            step.K = machine.accelerations(step, &self.geometry[k * laws..(k + 1) * laws]).0;
         }
     }
 

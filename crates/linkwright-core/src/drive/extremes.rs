@@ -190,15 +190,12 @@ impl<R: Real> Turn<R> {
     /// ε at the starts of the steps.
     #[inline(always)]
     pub fn starts(&self, machine: &Machine<'_, R>, m: &mut Motion<R>) -> Vec<R> {
-        let mut geometry = Vec::with_capacity(machine.plan.laws.len());
         let mut starts = Vec::with_capacity(self.steps.len());
         for (k, step) in self.steps.iter().enumerate() {
             starts.push(if machine.keeps_branch {
                 machine.start_on_branch(step, self.geometry_of(machine, k), m)
             } else {
-                geometry.clear();
-                let row = machine.row(machine.start_angle(step.phi, step.h), m, &mut geometry);
-                machine.acceleration(&row, &geometry, step.u).value
+                machine.start(step, m)
             });
         }
         starts
