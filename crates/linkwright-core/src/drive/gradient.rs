@@ -17,7 +17,7 @@ use crate::drive::kinks::kinks;
 use crate::drive::law::LawGeometry;
 use crate::drive::layers::resolved;
 use crate::drive::layout::{Layout, bundle, unbundle};
-use crate::drive::peaks::{AT_END, Peak, peaks_of_acceleration, steps_before};
+use crate::drive::peaks::{AT_END, Peak, SIDES, peaks_of_acceleration, steps_before};
 use crate::drive::reading::{Mark, State};
 use crate::drive::steady::Steady;
 use crate::drive::structure::Plan;
@@ -46,10 +46,6 @@ const MISSED: f64 = 1e-5;
 
 /// Change of u, as a share of u, that stands for none, for a change of the parameter by its own size: rounding.
 const NOTHING: f64 = 1e-13;
-
-/// Distance of the acceleration at a corner from its extreme, as a share, from which on it is that of the other side of a
-/// jump: the two are read from one solution, to its rounding.
-const SIDES: f64 = 1e-7;
 
 /// Share of a step beside a peak of the speed at which the acceleration is read again.
 const ASIDE: f64 = 4e-3;

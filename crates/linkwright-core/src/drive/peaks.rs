@@ -20,6 +20,13 @@ pub(super) const AT_END: f64 = 1e-12;
 /// Share of a step within which a peak at its end is a corner.
 const AT_CORNER: f64 = 4e-6;
 
+/// Share of a step behind its start at which the acceleration is read on the side of the step.
+const JUST_BEHIND: f64 = 1e-8;
+
+/// Two sides of an end of a step that differ by more than this share of the acceleration have a jump between them: the two are
+/// read from one solution, to its rounding.
+pub(super) const SIDES: f64 = 1e-7;
+
 /// Share of a step by which the first secant is long. So many secants lead to where the slope of the acceleration is zero,
 /// unless that lies farther off than so many times the share.
 const ASIDE: f64 = 4e-3;
@@ -41,21 +48,25 @@ struct MarkedMotion<'a> {
     marks: &'a [Mark],
 }
 
-/// Where extremes of the acceleration are.
-pub(super) fn peaks_of_acceleration<const N: usize>(
+/// Where the smallest and the largest acceleration are.
+pub(super) fn peaks_of_acceleration(
     plan: &Plan,
     q: &[f64],
     steady: &Steady,
     marks: &[Mark],
-    extremes: [&Extreme<f64>; N],
-) -> [Peak; N] {
+    extremes: [&Extreme<f64>; 2],
+) -> [Peak; 2] {
     let constants: Vec<Dual<f64>> = q.iter().copied().map(Dual::constant).collect();
     let machine = Machine::new(plan, &constants).keeping_branch(plan.may_jump());
     let mut m = Motion::new(&plan.mechanism, &constants);
     let marked = MarkedMotion { machine, marks };
-    extremes.map(|extreme| match corner_near(extreme.phi, marks, steady) {
-        Some(edge) => Peak::Corner(edge, extreme.value),
-        None => Peak::Inside(marked.place(extreme.phi, &mut m)),
+    [0, 1].map(|k| {
+        let (Extreme { phi, value }, upwards) = (*extremes[k], [-1.0, 1.0][k]);
+        match corner_near(phi, marks, steady) {
+            Some((edge, true)) => Peak::Corner(edge, value),
+            Some((edge, false)) => marked.at_end_or_beside(edge, value, upwards, &mut m),
+            None => Peak::Inside(marked.place(steps_before(marks, phi), phi, &mut m)),
+        }
     })
 }
 
@@ -64,9 +75,9 @@ pub(super) fn steps_before(marks: &[Mark], phi: f64) -> usize {
     marks.partition_point(|mark| mark.phi < phi - AT_END).max(1) - 1
 }
 
-/// The end of a step that an extreme of the acceleration lies at: the nearest, or one at which the motion passes a kink, beside
-/// which there may be steps that are shorter than the kink is known to.
-fn corner_near(phi: f64, marks: &[Mark], steady: &Steady) -> Option<usize> {
+/// The end of a step that an extreme of the acceleration lies at, and whether the motion passes a kink there: the nearest, or
+/// a kink, beside which there may be steps that are shorter than the kink is known to.
+fn corner_near(phi: f64, marks: &[Mark], steady: &Steady) -> Option<(usize, bool)> {
     let (k, last) = (steps_before(marks, phi), marks.len() - 1);
     let edge = |k: usize| if k > last { marks[last].phi + marks[last].h } else { marks[k].phi };
     let longest = marks[k.saturating_sub(1)].h.max(marks[k].h).max(marks[(k + 1).min(last)].h);
@@ -75,30 +86,51 @@ fn corner_near(phi: f64, marks: &[Mark], steady: &Steady) -> Option<usize> {
     let mut around = k.saturating_sub(1)..=(k + 2).min(last + 1);
     let on_kink = around.find(|&k| is_kink(k) && off(k) < AT_CORNER * longest);
     let nearest = if off(k) < off(k + 1) { k } else { k + 1 };
-    on_kink.or((off(nearest) < AT_CORNER * marks[k].h).then_some(nearest))
+    let at_end = || (off(nearest) < AT_CORNER * marks[k].h).then_some((nearest, false));
+    on_kink.map(|edge| (edge, true)).or_else(at_end)
 }
 
 impl MarkedMotion<'_> {
-    /// Where the acceleration has its extreme, from where it was read.
-    fn place(&self, phi: f64, m: &mut Motion<Dual<f64>>) -> f64 {
-        let k = steps_before(self.marks, phi);
+    /// An extreme at an end of a step, or so near beside it that it was read there: where the acceleration is continuous and still
+    /// goes `upwards`, to its extreme, beyond the end.
+    fn at_end_or_beside(&self, edge: usize, value: f64, upwards: f64, m: &mut Motion<Dual<f64>>) -> Peak {
+        let n = self.marks.len();
+        let [before, behind] = [(edge + n - 1) % n, edge % n];
+        let (end, start) = (self.marks[before].phi + self.marks[before].h, self.marks[behind].phi);
+        let just_behind = self.marks[behind].h.mul_add(JUST_BEHIND, start);
+        let [end_before, start_behind] =
+            [self.acceleration(before, end, m), self.acceleration(behind, just_behind, m)];
+        if (end_before.value - start_behind.value).abs() > SIDES * value.abs() {
+            return Peak::Corner(edge, value);
+        }
+        if end_before.d * upwards < 0.0 {
+            return Peak::Inside(self.place(before, end, m));
+        }
+        if start_behind.d * upwards > 0.0 {
+            return Peak::Inside(self.place(behind, start, m));
+        }
+        Peak::Corner(edge, value)
+    }
+
+    /// Where the acceleration has its extreme within a step, from where it was read.
+    fn place(&self, k: usize, phi: f64, m: &mut Motion<Dual<f64>>) -> f64 {
         let (low, high) = (self.marks[k].phi, self.marks[k].phi + self.marks[k].h);
         let aside = ASIDE * (0.5 * (high + low) - phi).signum() * (high - low);
         let mut places = [phi, phi + aside];
-        let mut slopes = places.map(|place| self.slope(k, place, m));
+        let mut slopes = places.map(|place| self.acceleration(k, place, m).d);
         for _ in 0..SECANTS {
             let next = places[1] - slopes[1] * (places[1] - places[0]) / (slopes[1] - slopes[0]);
             // There is none where the acceleration is constant, nor beyond the end of the step.
             if !((next - phi).abs() < FAR * aside.abs() && low < next && next < high) {
                 break;
             }
-            (places, slopes) = ([places[1], next], [slopes[1], self.slope(k, next, m)]);
+            (places, slopes) = ([places[1], next], [slopes[1], self.acceleration(k, next, m).d]);
         }
         if slopes[1].abs() < slopes[0].abs() { places[1] } else { places[0] }
     }
 
-    /// Derivative of the acceleration by φ along the motion, within a step.
-    fn slope(&self, k: usize, phi: f64, m: &mut Motion<Dual<f64>>) -> f64 {
+    /// The acceleration within a step, and its derivative by φ along the motion.
+    fn acceleration(&self, k: usize, phi: f64, m: &mut Motion<Dual<f64>>) -> Dual<f64> {
         let mark = &self.marks[k];
         let whole = Step { X: mark.X, ..Step::unsolved(mark.phi, mark.h, mark.u) };
         let length = phi - mark.phi;
@@ -107,6 +139,6 @@ impl MarkedMotion<'_> {
         let (still, geometry) =
             self.machine.advance_near(start, Dual::constant(mark.u), Dual::constant(length), near, m);
         let u = Dual { value: mark.u, d: self.machine.start_on_branch(&still, &geometry, m).value };
-        self.machine.advance_near(still.phi, u, still.h, still.X, m).0.K[S - 1].d
+        self.machine.advance_near(still.phi, u, still.h, still.X, m).0.K[S - 1]
     }
 }
