@@ -151,6 +151,8 @@ pub struct Switch {
     pub degree: Degree,
     /// Whether it has kinks or waves or may be steep: there may be zeros wherever one looks.
     pub winds: bool,
+    /// Whether the result may jump there; of others it has a kink.
+    pub jumps: bool,
 }
 
 impl Switch {
@@ -282,7 +284,8 @@ impl Formula {
                 _ => None,
             };
             let argument_winds = wind.iter().take(2).any(|&winds| winds);
-            switches.extend(argument.map(|degree| Switch { at, degree, winds: argument_winds }));
+            let jumps = matches!(op, Op::Sign | Op::Step | Op::Where);
+            switches.extend(argument.map(|degree| Switch { at, degree, winds: argument_winds, jumps }));
             degrees.push(op.degree(&from));
             let is_bent = argument.is_some() || matches!(op, Op::Sin | Op::Cos) || steep.contains(&at);
             stack.push((degrees[at], is_bent || wind.contains(&true)));

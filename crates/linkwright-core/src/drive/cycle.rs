@@ -124,6 +124,13 @@ impl<'a, R: Real> Machine<'a, R> {
         Machine { plan, q, keeps_branch: false, side: None, inside }
     }
 
+    /// A machine whose derivatives are on the side of the step too where the acceleration only bends at an angle.
+    #[must_use]
+    pub fn telling_sides(self) -> Self {
+        let inside = if self.plan.bends_over_angle() { AT_JUMP } else { 0.0 };
+        Machine { inside, ..self }
+    }
+
     /// A machine whose steps each keep to one branch, or not.
     #[must_use]
     pub fn keeping_branch(self, keeps_branch: bool) -> Self {

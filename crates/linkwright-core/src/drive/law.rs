@@ -323,7 +323,17 @@ impl Plan {
 
     /// Whether the acceleration may jump at an angle: by a formula, or where a motion law goes from piece to piece.
     pub fn jumps_over_angle(&self) -> bool {
-        self.formulas.iter().any(|formula| formula.switches.iter().any(Switch::is_still))
+        self.switches_over_angle(|switch| switch.jumps)
+    }
+
+    /// Whether it may jump or bend there, so that its derivatives jump.
+    pub fn bends_over_angle(&self) -> bool {
+        self.switches_over_angle(|_| true)
+    }
+
+    fn switches_over_angle(&self, is_one: impl Fn(&Switch) -> bool) -> bool {
+        let mut switches = self.formulas.iter().flat_map(|formula| &formula.switches);
+        switches.any(|switch| switch.is_still() && is_one(switch))
             || self.mechanism.elements.iter().any(|element| matches!(element, Element::Programme(_)))
     }
 

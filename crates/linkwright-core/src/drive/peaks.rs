@@ -57,7 +57,7 @@ pub(super) fn peaks_of_acceleration(
     extremes: [&Extreme<f64>; 2],
 ) -> [Peak; 2] {
     let constants: Vec<Dual<f64>> = q.iter().copied().map(Dual::constant).collect();
-    let machine = Machine::new(plan, &constants).keeping_branch(plan.may_jump());
+    let machine = Machine::new(plan, &constants).telling_sides().keeping_branch(plan.may_jump());
     let mut m = Motion::new(&plan.mechanism, &constants);
     let marked = MarkedMotion { machine, marks };
     [0, 1].map(|k| {
