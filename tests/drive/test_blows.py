@@ -78,6 +78,57 @@ def test_rows_are_single_answers(blows: list[tuple[lw.Machine, lw.SteadyState]])
     assert compared > 0.8 * len(blows)
 
 
+# A motor that gives or takes 2000 N m for 0.1 rad/s, on 0.2 kg m².
+STEEP = """
+format = 1
+name = "Steep drive"
+[drive.motor]
+kind = "table"
+speed = ["0 rad/s", "9.9 rad/s", "10.1 rad/s"]
+torque = ["2000 N m", "2000 N m", "-2000 N m"]
+[drive.flywheel]
+inertia = "0.2 kg m2"
+[mechanism.cranks.A]
+radius = "0.1 m"
+[mechanism.sliders.B]
+crank = "A"
+rod = "0.4 m"
+[bodies.B]
+mass = "5 kg"
+[loads.smooth]
+kind = "formula"
+on = "A"
+torque = "-1500*sin(phi)^8"
+"""
+
+
+def test_a_jump_of_nothing_changes_nothing() -> None:
+    plain = lw.loads(STEEP)
+    nothing = '[loads.nothing]\nkind = "formula"\non = "A"\ntorque = "1e-300*sign(sin(phi - {at}))"\n'
+    state = lw.steady_state(plain, accuracy=1e-11)
+    assert state.accuracy < 1e-8
+    # Where the acceleration is largest in size too, and where it is zero.
+    for at in (1.0, state.acceleration_max_angle, state.acceleration_min_angle, state.speed_max_angle):
+        other = lw.steady_state(lw.loads(STEEP + nothing.format(at=at)), accuracy=1e-11)
+        for name in ("acceleration_min", "acceleration_max", "speed_min", "speed_max", "dynamism"):
+            assert getattr(other, name) == pytest.approx(getattr(state, name), rel=2e-9), (name, at)
+
+
+@pytest.mark.parametrize("stiffness", [1.0, 10.0, 100.0])
+def test_a_steep_drive_jumps_by_torque_over_inertia(stiffness: float) -> None:
+    # Long after a jump the crank turns evenly; at the next the speed is what it was.
+    torque, inertia = 40.0, 0.2
+    drive = STEEP.replace("2000", str(2000 * stiffness)).partition("[mechanism.sliders")[0]
+    load = f"""[loads.jump]
+    kind = "formula"
+    on = "A"
+    torque = "-{torque}*step(sin(phi - 1))"
+    """
+    state = lw.steady_state(lw.loads(drive + load))
+    assert state.acceleration_max == pytest.approx(torque / inertia, rel=1e-8)
+    assert state.acceleration_min == pytest.approx(-torque / inertia, rel=1e-8)
+
+
 @pytest.mark.parametrize("force", BLOWS)
 def test_derivatives_by_place_and_width(force: str) -> None:
     """Central differences, far from kinks; a last stage on the wrong side of a jump cost a 25th."""

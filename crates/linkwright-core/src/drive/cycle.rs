@@ -90,14 +90,15 @@ pub struct Machine<'a, R> {
     pub keeps_branch: bool,
     /// The state that chooses the branch of all stages in the place of [`REFERENCE`]: what laws know there, and u.
     pub side: Option<(&'a [LawGeometry<R>], R)>,
-    /// By how much \[rad\] both ends of a step are read inside it, where the acceleration may jump there at an angle.
+    /// How far \[rad\] inside a step its ends are known to be on its side, where the machine may jump there at an angle; 0 where it
+    /// does not.
     pub(super) inside: f64,
 }
 
-/// Ends of steps are as near \[rad\] to the angles at which the acceleration jumps, and are read inside by no more than the second
-/// share of their step.
+/// Ends of steps are as near \[rad\] to the angles at which the machine jumps, and so far inside they are on the side of the step, but
+/// by no more than a share of it.
 const AT_JUMP: f64 = 1e-12;
-const AT_JUMP_OF_STEP: f64 = 1e-3;
+const AT_JUMP_OF_STEP: f64 = 0.25;
 
 /// The stage whose state chooses the branch: well inside the step.
 pub const REFERENCE: usize = 2;
@@ -124,9 +125,9 @@ impl<'a, R: Real> Machine<'a, R> {
         Machine { plan, q, keeps_branch: false, side: None, inside }
     }
 
-    /// A machine whose derivatives are on the side of the step too where the acceleration only bends at an angle.
+    /// A machine that is read on the side of the step also where it only bends at an angle, so that derivatives jump.
     #[must_use]
-    pub fn telling_sides(self) -> Self {
+    pub fn keeping_sides_of_bends(self) -> Self {
         let inside = if self.plan.bends_over_angle() { AT_JUMP } else { 0.0 };
         Machine { inside, ..self }
     }
@@ -205,35 +206,34 @@ impl<'a, R: Real> Machine<'a, R> {
         &geometry[stage * n..(stage + 1) * n]
     }
 
+    /// Whether the laws at a stage are on the branch of [`REFERENCE`].
+    #[inline(always)]
+    pub fn is_on_branch(&self, stage: usize) -> bool {
+        self.keeps_branch || (self.inside > 0.0 && stage == S - 1)
+    }
+
     /// ε at the stages of a step, and its derivatives.
     #[inline(always)]
     fn accelerations(&self, step: &Step<R>, geometry: &[LawGeometry<R>]) -> ([R; S], [R; S]) {
         let (rows, X) = (&step.rows, &step.X);
         let (mut f, mut d) = (*X, *X);
-        if self.keeps_branch {
-            let reference = self.side.unwrap_or((self.geometry_at(geometry, REFERENCE), X[REFERENCE]));
-            for i in 0..S {
-                let own = self.geometry_at(geometry, i);
+        for i in 0..S {
+            if self.is_on_branch(i) {
+                continue;
+            }
+            let free = self.drive_acceleration(&rows[i], Dual::variable(X[i]));
+            (f[i], d[i]) = (free.value, free.d);
+        }
+        for i in 0..S {
+            let own = self.geometry_at(geometry, i);
+            if self.is_on_branch(i) {
+                let reference = self.side.unwrap_or((self.geometry_at(geometry, REFERENCE), X[REFERENCE]));
                 let epsilon = self.acceleration_on_branch(&rows[i], own, X[i], reference);
                 (f[i], d[i]) = (epsilon.value, epsilon.d);
+            } else if !geometry.is_empty() {
+                let taken = self.laws(own, (Dual::variable(X[i]) * 2.0).sqrt());
+                (f[i], d[i]) = (f[i] - taken.value * rows[i].inverse, d[i] - taken.d * rows[i].inverse);
             }
-        } else {
-            for i in 0..S {
-                let free = self.drive_acceleration(&rows[i], Dual::variable(X[i]));
-                (f[i], d[i]) = (free.value, free.d);
-            }
-            if !geometry.is_empty() {
-                for i in 0..S {
-                    let u = Dual::variable(X[i]);
-                    let taken = self.laws(self.geometry_at(geometry, i), (u * 2.0).sqrt());
-                    (f[i], d[i]) = (f[i] - taken.value * rows[i].inverse, d[i] - taken.d * rows[i].inverse);
-                }
-            }
-        }
-        if self.inside > 0.0 {
-            let read = Dual { value: f[S - 1], d: d[S - 1] };
-            let end = along_the_motion(read, -self.inside_by(step.h));
-            (f[S - 1], d[S - 1]) = (end.value, end.d);
         }
         (f, d)
     }
@@ -297,41 +297,55 @@ impl<'a, R: Real> Machine<'a, R> {
         )
     }
 
-    /// The angle at which a step begins, on its side of a jump there.
+    /// The reduced machine at an end of a step, on its side of a jump there: drawn on from two angles inside, of which the
+    /// other is farther `inside` by as much. Read at the nearer one it would not be what the speed at the end belongs to, and a steep
+    /// drive would make that angle times its steepness of it.
     #[inline(always)]
-    pub fn start_angle(&self, phi: R, h: R) -> R {
-        phi + self.inside_by(h)
+    fn row_at_end(&self, phi: R, inside: R, m: &mut Motion<R>, geometry: &mut Vec<LawGeometry<R>>) -> Row<R> {
+        if self.inside == 0.0 {
+            return self.row(phi, m, geometry);
+        }
+        let mut none = Vec::new();
+        let [far, near] = [inside + inside, inside].map(|by| self.row(phi + by, m, &mut none));
+        if !self.plan.laws.is_empty() {
+            self.row(phi, m, geometry);
+        }
+        near.drawn_on_from(&far)
     }
 
-    /// ε at the start of a step, on its branch, of which the geometry of its stages is known.
+    /// ε at the start of a step, on its side where it may jump there, of which the geometry of its stages is known.
     #[inline(always)]
-    pub fn start_on_branch(&self, step: &Step<R>, geometry: &[LawGeometry<R>], m: &mut Motion<R>) -> R {
+    pub fn start(&self, step: &Step<R>, geometry: &[LawGeometry<R>], m: &mut Motion<R>) -> R {
+        let mut own = Vec::with_capacity(self.plan.laws.len());
+        let row = self.row_at_end(step.phi, self.inside_by(step.h), m, &mut own);
+        if !(self.keeps_branch || self.inside > 0.0) {
+            return self.acceleration(&row, &own, step.u).value;
+        }
         let known = (self.geometry_at(geometry, REFERENCE), step.X[REFERENCE]);
-        let mut own = Vec::with_capacity(self.plan.laws.len());
-        let row = self.row(self.start_angle(step.phi, step.h), m, &mut own);
-        let read = self.acceleration_on_branch(&row, &own, step.u, known);
-        along_the_motion(read, self.inside_by(step.h)).value
+        self.acceleration_on_branch(&row, &own, step.u, known).value
     }
 
-    /// ε at the start of a step.
-    #[inline(always)]
-    pub(super) fn start(&self, step: &Step<R>, m: &mut Motion<R>) -> R {
-        let mut own = Vec::with_capacity(self.plan.laws.len());
-        let row = self.row(self.start_angle(step.phi, step.h), m, &mut own);
-        along_the_motion(self.acceleration(&row, &own, step.u), self.inside_by(step.h)).value
-    }
-
-    /// The angle of a stage; at the end on the side of the step.
-    #[inline(always)]
-    pub fn stage_angle(&self, phi: R, h: R, stage: usize) -> R {
-        let at = h.mul_add(R::splat(C[stage]), phi);
-        if stage == S - 1 { at - self.inside_by(h) } else { at }
-    }
-
-    /// By how much both ends of a step are read inside it.
+    /// How far inside a step its ends are known to be on its side.
     #[inline(always)]
     fn inside_by(&self, h: R) -> R {
         (h * AT_JUMP_OF_STEP).min(R::splat(self.inside))
+    }
+
+    /// The reduced machine at a stage of a step; at the end on the side of the step.
+    #[inline(always)]
+    fn row_at(
+        &self,
+        (phi, h): (R, R),
+        stage: usize,
+        m: &mut Motion<R>,
+        geometry: &mut Vec<LawGeometry<R>>,
+    ) -> Row<R> {
+        let at = h.mul_add(R::splat(C[stage]), phi);
+        if stage == S - 1 {
+            self.row_at_end(at, -self.inside_by(h), m, geometry)
+        } else {
+            self.row(at, m, geometry)
+        }
     }
 
     /// The stages of a step.
@@ -339,7 +353,7 @@ impl<'a, R: Real> Machine<'a, R> {
     fn rows(&self, phi: R, h: R, m: &mut Motion<R>, geometry: &mut Vec<LawGeometry<R>>) -> [Row<R>; S] {
         let mut rows = [Row { inverse: h, drift: h, load: h, viscous: h }; S];
         for i in 0..S {
-            rows[i] = self.row(self.stage_angle(phi, h, i), m, geometry);
+            rows[i] = self.row_at((phi, h), i, m, geometry);
         }
         rows
     }
@@ -447,12 +461,17 @@ impl<'a, R: Real> Machine<'a, R> {
     }
 }
 
-/// ε and its derivative by u where ε was read farther on by an angle, with u as it is here: the motion has u + ε × angle there.
-/// A steep drive would take u for a speed that is wrong there, and ε would be off by steepness × angle.
-#[inline(always)]
-fn along_the_motion<R: Real>(read: Dual<R>, angle: R) -> Dual<R> {
-    let share = (R::splat(1.0) - read.d * angle).recip();
-    Dual { value: read.value * share, d: read.d * share }
+impl<R: Real> Row<R> {
+    /// What a row and one before it make of one as far behind it, all near each other.
+    #[inline(always)]
+    fn drawn_on_from(&self, before: &Self) -> Self {
+        Row {
+            inverse: self.inverse + (self.inverse - before.inverse),
+            drift: self.drift + (self.drift - before.drift),
+            load: self.load + (self.load - before.load),
+            viscous: self.viscous + (self.viscous - before.viscous),
+        }
+    }
 }
 
 impl<R: Real> Step<R> {
@@ -610,7 +629,7 @@ impl<R: Real> Turn<R> {
     pub fn take_rows(&mut self, machine: &Machine<'_, R>, k: usize, m: &mut Motion<R>) {
         let step = &mut self.steps[k];
         for i in 0..S {
-            step.rows[i] = machine.row(machine.stage_angle(step.phi, step.h, i), m, &mut self.geometry);
+            step.rows[i] = machine.row_at((step.phi, step.h), i, m, &mut self.geometry);
         }
     }
 

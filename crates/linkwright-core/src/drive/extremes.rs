@@ -190,15 +190,8 @@ impl<R: Real> Turn<R> {
     /// ε at the starts of the steps.
     #[inline(always)]
     pub fn starts(&self, machine: &Machine<'_, R>, m: &mut Motion<R>) -> Vec<R> {
-        let mut starts = Vec::with_capacity(self.steps.len());
-        for (k, step) in self.steps.iter().enumerate() {
-            starts.push(if machine.keeps_branch {
-                machine.start_on_branch(step, self.geometry_of(machine, k), m)
-            } else {
-                machine.start(step, m)
-            });
-        }
-        starts
+        let of_step = |(k, step): (usize, &Step<R>)| machine.start(step, self.geometry_of(machine, k), m);
+        self.steps.iter().enumerate().map(of_step).collect()
     }
 
     /// Takes ε at some ends of steps, numbered one by one, to both sides: into their last stages, and into the `starts`.

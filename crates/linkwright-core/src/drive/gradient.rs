@@ -256,7 +256,7 @@ impl<'a, R: Real> DualRevolution<'a, R> {
     #[inline(always)]
     fn new(of: &Gradient<'a>, q: &'a [Dual<R>], solved: &'a SolvedSteps, m: &mut Motion<Dual<R>>) -> Self {
         let (plan, steady) = (of.plan, of.steady);
-        let machine = Machine::new(plan, q).telling_sides().keeping_branch(plan.may_jump());
+        let machine = Machine::new(plan, q).keeping_sides_of_bends().keeping_branch(plan.may_jump());
         let mut moved = R::out_of_line(
             #[inline(always)]
             || machine.moving(&solved.on_kinks, m),
@@ -281,7 +281,7 @@ impl<'a, R: Real> DualRevolution<'a, R> {
     fn read(of: &Gradient<'a>, q: &'a [Dual<R>], along: &'a SolutionAlong, some: &[usize]) -> Self {
         let (values, d) = (&along.values, &along.d);
         let numbers = Directions { plan: of.plan, q: values, values: d, n: of.n() }.numbers::<R>(some);
-        let machine = Machine::new(of.plan, q).telling_sides().keeping_branch(of.plan.may_jump());
+        let machine = Machine::new(of.plan, q).keeping_sides_of_bends().keeping_branch(of.plan.may_jump());
         let mut edges = Vec::with_capacity(along.solved.marks.len() + 1);
         let mut turn = Turn::empty(Layout::Machines);
         for (k, own) in numbers.chunks_exact(OF_STEP).enumerate() {
@@ -418,7 +418,7 @@ impl<'a, R: Real> DualRevolution<'a, R> {
     /// Acceleration at the start of a step, on its branch.
     #[inline(always)]
     fn start_of(&self, k: usize, m: &mut Motion<Dual<R>>) -> Dual<R> {
-        self.machine.start_on_branch(&self.turn.steps[k], self.turn.geometry_of(&self.machine, k), m)
+        self.machine.start(&self.turn.steps[k], self.turn.geometry_of(&self.machine, k), m)
     }
 
     /// The numbers of the revolution.

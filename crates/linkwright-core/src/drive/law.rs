@@ -326,7 +326,7 @@ impl Plan {
         self.switches_over_angle(|switch| switch.jumps)
     }
 
-    /// Whether it may jump or bend there, so that its derivatives jump.
+    /// Whether it may jump or bend at an angle, so that its derivatives jump.
     pub fn bends_over_angle(&self) -> bool {
         self.switches_over_angle(|_| true)
     }

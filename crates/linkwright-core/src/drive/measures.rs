@@ -35,7 +35,7 @@ impl<R: Real> Machine<'_, R> {
     #[inline(always)]
     pub fn torques(&self, step: &Step<R>, geometry: &[LawGeometry<R>], stage: usize) -> [R; 3] {
         let (row, own) = (&step.rows[stage], self.geometry_at(geometry, stage));
-        if own.is_empty() || !self.keeps_branch {
+        if own.is_empty() || !self.is_on_branch(stage) {
             return self.torques_at(row, own, step.X[stage]);
         }
         let [torque, geared, drag] = self.torques_at(row, &[], step.X[stage]);

@@ -57,7 +57,7 @@ pub(super) fn peaks_of_acceleration(
     extremes: [&Extreme<f64>; 2],
 ) -> [Peak; 2] {
     let constants: Vec<Dual<f64>> = q.iter().copied().map(Dual::constant).collect();
-    let machine = Machine::new(plan, &constants).telling_sides().keeping_branch(plan.may_jump());
+    let machine = Machine::new(plan, &constants).keeping_sides_of_bends().keeping_branch(plan.may_jump());
     let mut m = Motion::new(&plan.mechanism, &constants);
     let marked = MarkedMotion { machine, marks };
     [0, 1].map(|k| {
@@ -138,7 +138,7 @@ impl MarkedMotion<'_> {
         let start = Dual::variable(mark.phi);
         let (still, geometry) =
             self.machine.advance_near(start, Dual::constant(mark.u), Dual::constant(length), near, m);
-        let u = Dual { value: mark.u, d: self.machine.start_on_branch(&still, &geometry, m).value };
+        let u = Dual { value: mark.u, d: self.machine.start(&still, &geometry, m).value };
         self.machine.advance_near(still.phi, u, still.h, still.X, m).0.K[S - 1]
     }
 }
