@@ -101,17 +101,43 @@ on = "A"
 torque = "-1500*sin(phi)^8"
 """
 
+# Puts an end of a step at an angle, and does nothing else.
+NOTHING = """
+[loads.nothing]
+kind = "formula"
+on = "A"
+torque = "1e-300*sign(sin(phi - {at}))"
+"""
+
 
 def test_a_jump_of_nothing_changes_nothing() -> None:
     plain = lw.loads(STEEP)
-    nothing = '[loads.nothing]\nkind = "formula"\non = "A"\ntorque = "1e-300*sign(sin(phi - {at}))"\n'
     state = lw.steady_state(plain, accuracy=1e-11)
     assert state.accuracy < 1e-8
     # Where the acceleration is largest in size too, and where it is zero.
     for at in (1.0, state.acceleration_max_angle, state.acceleration_min_angle, state.speed_max_angle):
-        other = lw.steady_state(lw.loads(STEEP + nothing.format(at=at)), accuracy=1e-11)
+        other = lw.steady_state(lw.loads(STEEP + NOTHING.format(at=at)), accuracy=1e-11)
         for name in ("acceleration_min", "acceleration_max", "speed_min", "speed_max", "dynamism"):
             assert getattr(other, name) == pytest.approx(getattr(state, name), rel=2e-9), (name, at)
+
+
+@pytest.mark.parametrize("off", [0.0, 1e-7, -3e-7])
+@pytest.mark.parametrize("text", [STEEP, STEEP.replace("0.2 kg", "20 kg")])
+def test_a_peak_beside_an_end_of_a_step_is_no_corner(text: str, off: float) -> None:
+    peaks = [f"steady_state.acceleration_{end}" for end in ("min", "max")]
+    entries = [
+        "mechanism.sliders.B.rod",
+        "bodies.B.mass",
+        "drive.flywheel.inertia",
+        "mechanism.cranks.A.radius",
+    ]
+    state, plain = lw.steady_state(lw.loads(text)), lw.gradient(lw.loads(text), peaks, entries)
+    for peak, at in zip(peaks, (state.acceleration_min_angle, state.acceleration_max_angle), strict=True):
+        beside = lw.gradient(lw.loads(text + NOTHING.format(at=at + off)), [peak], entries)
+        exact, found = (
+            np.array([of[name] for name in entries]) * plain.at for of in (plain.of(peak), beside.of(peak))
+        )
+        assert np.abs(found - exact).max() < 2e-7 * np.abs(exact).max()
 
 
 @pytest.mark.parametrize("stiffness", [1.0, 10.0, 100.0])
