@@ -142,7 +142,7 @@ def test_a_peak_beside_an_end_of_a_step_is_no_corner(text: str, off: float) -> N
 
 @pytest.mark.parametrize("stiffness", [1.0, 10.0, 100.0])
 def test_a_steep_drive_jumps_by_torque_over_inertia(stiffness: float) -> None:
-    # Long after a jump the crank turns evenly; at the next the speed is what it was.
+    # Long after a jump the speed of the crank is constant; at the next jump the speed is what it was.
     torque, inertia = 40.0, 0.2
     drive = STEEP.replace("2000", str(2000 * stiffness)).partition("[mechanism.sliders")[0]
     load = f"""[loads.jump]

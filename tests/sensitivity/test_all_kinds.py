@@ -39,9 +39,17 @@ _TOLERANCE = 1e-7
 # Responses of which one may be zero that is a difference of the others.
 _ALIKE = ("torque_net", ".last_", "torque_motor_", "power_motor_", "energy_", ".acceleration_m")
 
-# Accuracy of a steady motion that is asked for, and what is made of peaks of its acceleration.
+# Accuracy of a steady motion that is asked for, and what is made of peaks of its acceleration and of
+# the motor torque.
 _ASKED = 1e-9
-_OF_PEAKS = ("acceleration", "dynamism", "motion_coefficient")
+_OF_PEAKS = (
+    "acceleration",
+    "dynamism",
+    "motion_coefficient",
+    "torque_motor_max",
+    "torque_motor_min",
+    "power_motor_max",
+)
 
 # Works are rounding where inertia carries much more along; multipliers where all dies at once.
 _OF_WORKS = ("energy_", "efficiency", "multiplier")
@@ -109,7 +117,8 @@ def _steady_of(drive: Table, accuracy: float = 1e-13) -> Case:
     # What is zero but for rounding, as the torque without load, is left out.
     known = lw.gradient(machine, ["steady_state"], ["drive.gearbox.ratio"]).responses
     reached = lw.steady_state(machine).accuracy
-    # Where rounding forbids the accuracy that is asked for, peaks of the acceleration have no known places.
+    # Where rounding of the speed forbids the accuracy that is asked for, it leaves few digits of what a steep
+    # drive makes of the speed.
     names = [name for name in known if reached <= _ASKED or not any(of in name for of in _OF_PEAKS)]
 
     def measure(machine: lw.Machine, names: list[str]) -> Floats:

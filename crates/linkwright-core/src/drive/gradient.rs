@@ -321,19 +321,24 @@ impl<'a, R: Real> DualRevolution<'a, R> {
 
     /// Moves the ends of steps at which the motion passes a kink along with it: the quantity g whose zero the kink is
     /// stays zero, φ′ = −(g_p + g_u u_p)/g′, with g′ along the motion before the kink, which depends on the moves of all
-    /// ends. Sides and jumps count in the multiplier. The crank angle of an end that misses its kink, NaN where none does.
+    /// ends. First the ends are brought to the kinks themselves, from which they are as far off as the accuracy of the solution
+    /// allows: steepness leaps there, and with it derivatives. Sides and jumps count in the multiplier. The crank angle of an end
+    /// that misses its kink, NaN where none does.
     #[inline(always)]
     fn move_crossings(&mut self, ends: &MovingEnds, size: R, m: &mut Motion<Dual<R>>) -> R {
         let events = Events::new(self.machine);
         let (zero, none) = (R::splat(0.0), R::splat(f64::NAN));
         let mut passages = self.passages(&events, m);
-        for _ in 0..ROUNDS {
+        for round in 0..ROUNDS {
             if self.misses(&passages, MOVED, size).iter().all(|miss| miss.max_lane() <= 0.0) {
                 break;
             }
-            let late: Vec<R> = passages.iter().map(|(_, passage)| passage.late().d).collect();
-            for ((k, _), by) in passages.iter().zip(ends.moves(&late)) {
-                self.move_end(*k, by);
+            let late: Vec<Dual<R>> = passages.iter().map(|(_, passage)| passage.late()).collect();
+            let off = |late: &Dual<R>| if round == 0 { late.value } else { zero };
+            let values = ends.moves(&late.iter().map(off).collect::<Vec<_>>());
+            let moves = ends.moves(&late.iter().map(|late| late.d).collect::<Vec<_>>());
+            for ((k, _), (value, d)) in passages.iter().zip(values.into_iter().zip(moves)) {
+                self.move_end(*k, Dual { value, d });
             }
             self.differentiate(m);
             passages = self.passages(&events, m);
@@ -360,11 +365,11 @@ impl<'a, R: Real> DualRevolution<'a, R> {
 
     /// Moves the end of a step, and the start of the revolution with its end.
     #[inline(always)]
-    fn move_end(&mut self, k: usize, by: R) {
+    fn move_end(&mut self, k: usize, by: Dual<R>) {
         let last = self.edges.len() - 1;
-        self.edges[k + 1].d = self.edges[k + 1].d + by;
+        self.edges[k + 1] = self.edges[k + 1] + by;
         if k + 1 == last {
-            self.edges[0].d = self.edges[0].d + by;
+            self.edges[0] = self.edges[0] + by;
         }
     }
 
@@ -513,13 +518,20 @@ impl<'a, R: Real> DualRevolution<'a, R> {
     #[inline(always)]
     fn step_around(&self, phi: f64) -> [f64; 2] {
         let k = self.steps_before(phi);
-        [k, k + 1].map(|edge| self.edges[edge].value.max_lane())
+        [k, k + 1].map(|edge| self.marked(edge))
+    }
+
+    /// An end of a step where the solution was found; those at kinks have been brought to them.
+    #[inline(always)]
+    fn marked(&self, edge: usize) -> f64 {
+        let last = &self.marks[self.marks.len() - 1];
+        self.marks.get(edge).map_or(last.phi + last.h, |mark| mark.phi)
     }
 
     /// The acceleration at an end of a step, along its move. Where it jumps there, on the side that has the value.
     #[inline(always)]
     fn corner(&self, edge: usize, value: f64, m: &mut Motion<Dual<R>>) -> Dual<R> {
-        let before = self.state(self.edges[edge].value.max_lane(), m).1.epsilon;
+        let before = self.state(self.marked(edge), m).1.epsilon;
         let behind = self.start_of(edge % self.turn.steps.len(), m);
         let far = |side: Dual<R>| (side.value - value).abs().max_lane();
         // Where it is continuous rounding has no say.
@@ -551,7 +563,7 @@ impl<'a, R: Real> DualRevolution<'a, R> {
     fn step_to(&self, phi: f64, m: &mut Motion<Dual<R>>) -> (Step<Dual<R>>, Vec<LawGeometry<Dual<R>>>) {
         let k = self.steps_before(phi);
         let step = &self.turn.steps[k];
-        let ends_here = (self.edges[k + 1].value - phi).abs().max_lane() < AT_END;
+        let ends_here = (self.marked(k + 1) - phi).abs() < AT_END;
         let to = if ends_here { self.edges[k + 1] } else { Dual::splat(phi) };
         let h = to - step.phi;
         let near = stages_of_part(&step.quintic(), Dual::splat(0.0), h / step.h);
@@ -611,7 +623,7 @@ impl MovingEnds {
             let unit = |lane: usize, way: f64| {
                 let mut lanes = vec![0.0; R::LANES];
                 lanes[lane] = way;
-                R::load(&lanes)
+                Dual { value: R::splat(0.0), d: R::load(&lanes) }
             };
             for (lane, &k) in moved.iter().enumerate() {
                 dual.move_end(k, unit(lane, 1.0));
