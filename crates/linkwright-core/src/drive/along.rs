@@ -2,7 +2,7 @@
 //!
 //! The kernels themselves in dual numbers, with a direction of the parameters in every lane.
 
-use crate::drive::cycle::Machine;
+use crate::drive::equation::Machine;
 use crate::drive::motions::store;
 use crate::drive::structure::Plan;
 use crate::kernel::call::poll;

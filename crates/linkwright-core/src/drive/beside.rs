@@ -5,10 +5,12 @@
 //! step next to its ends, each half as long as the one before, are compared with halves of their own; and where the shortest
 //! begins, the acceleration is compared with what its stages make of it.
 
-use crate::drive::cycle::{CONVERGED, Machine, Step, Turn, stages_of_part};
+use crate::drive::cycle::Turn;
 use crate::drive::differences::{Differences, Limits};
+use crate::drive::equation::Machine;
 use crate::drive::law::LawGeometry;
 use crate::drive::measures::INTEGRALS;
+use crate::drive::step::{CONVERGED, Step, stages_of_part};
 use crate::kernel::radau::{BEHIND, N, S, TO_START, value};
 use crate::kernel::real::Real;
 use crate::linkage::motion::Motion;

@@ -7,7 +7,8 @@
 //! There are no series where the solution changes too fast within a step for them, as behind a kink under a steep motor,
 //! or where laws keep to branches: there it is read by a step of its own ([`crate::drive::reading`]).
 
-use crate::drive::cycle::{Machine, Turn};
+use crate::drive::cycle::Turn;
+use crate::drive::equation::Machine;
 use crate::drive::layout::unbundle;
 use crate::kernel::radau::value as on_quintic;
 use crate::kernel::real::Real;

@@ -7,10 +7,12 @@
 //! The multiplier errs by the growth of the steps, compared with that of their halves, and by where the motion passes kinks
 //! of the drive: a speed that is off passes them at another angle, and the more so the flatter it passes them.
 
-use crate::drive::cycle::{CONVERGED, Machine, Step, Turn};
+use crate::drive::cycle::Turn;
 use crate::drive::differences::{Differences, Limits, ROUNDING, size};
+use crate::drive::equation::Machine;
 use crate::drive::layout::{bundle, unbundle};
 use crate::drive::measures::INTEGRALS;
+use crate::drive::step::{CONVERGED, Step};
 use crate::kernel::radau::S;
 use crate::kernel::real::Real;
 use crate::linkage::motion::Motion;

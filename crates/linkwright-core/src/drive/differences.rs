@@ -5,8 +5,10 @@
 //! behind the start of a step, though its end is right: there the parts of a half, a quarter, … of the step, from which the
 //! curve is read, are compared in the same way, down to where the steepness no longer matters.
 
-use crate::drive::cycle::{CONVERGED, Machine, Step, Turn, stages_of_part};
+use crate::drive::cycle::Turn;
+use crate::drive::equation::Machine;
 use crate::drive::measures::INTEGRALS;
+use crate::drive::step::{CONVERGED, Step, stages_of_part};
 use crate::kernel::radau::S;
 use crate::kernel::real::Real;
 use crate::linkage::motion::Motion;

@@ -8,10 +8,12 @@
 //! ([`crate::kernel::branch`]).
 
 use crate::drive::check::KinkAtEnd;
-use crate::drive::cycle::{Machine, REFERENCE, Turn};
+use crate::drive::cycle::Turn;
+use crate::drive::equation::Machine;
 use crate::drive::law::{LawGeometry, SpeedKink};
 use crate::drive::layout::bundle;
 use crate::drive::mesh::{Crossing, Mesh, Piece, crossing};
+use crate::drive::step::REFERENCE;
 use crate::drive::structure::Plan;
 use crate::kernel::radau::{AT, C, N, S, through, value};
 use crate::kernel::real::Real;

@@ -6,8 +6,10 @@
 //! what it may fall short by.
 
 use crate::drive::between::Between;
-use crate::drive::cycle::{Machine, Step, Turn, stages_of_part};
+use crate::drive::cycle::Turn;
+use crate::drive::equation::Machine;
 use crate::drive::layout::{Layout, bundle, unbundle};
+use crate::drive::step::{Step, stages_of_part};
 use crate::kernel::radau::{AT, N, S, slope_and_bend, through};
 use crate::kernel::real::Real;
 use crate::kernel::series::{TERMS, derivatives, value as on_series};

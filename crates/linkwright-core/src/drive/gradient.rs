@@ -10,7 +10,8 @@
 //! angle (envelope theorem), or along the kink that it sits on.
 
 use crate::drive::along::{Directions, put};
-use crate::drive::cycle::{Machine, Step, Turn, stages_of_part};
+use crate::drive::cycle::Turn;
+use crate::drive::equation::Machine;
 use crate::drive::events::{Events, Passage};
 use crate::drive::extremes::Extreme;
 use crate::drive::kinks::kinks;
@@ -20,6 +21,7 @@ use crate::drive::layout::{Layout, bundle, unbundle};
 use crate::drive::peaks::{AT_END, Peak, SIDES, peaks_of_acceleration, steps_before};
 use crate::drive::reading::{Mark, State};
 use crate::drive::steady::Steady;
+use crate::drive::step::{Step, stages_of_part};
 use crate::drive::structure::Plan;
 use crate::kernel::call::poll;
 use crate::kernel::dual::Dual;

@@ -9,7 +9,7 @@
 //! a dead centre. Steps of a steady motion therefore end where a speed that a formula knows is zero, and where the force
 //! changes fast beside that angle, there too; and wherever else a formula is steep ([`crate::drive::steep`]).
 
-use crate::drive::cycle::Machine;
+use crate::drive::equation::Machine;
 use crate::drive::law::Moment;
 use crate::drive::layout::unbundle;
 use crate::drive::loads::{Carrier, ForceElement, FormulaLoad, Law, Load};

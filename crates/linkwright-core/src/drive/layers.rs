@@ -5,10 +5,11 @@
 //! change so little there that its steps need not be short. Those in which the derivatives change fast are cut, into
 //! parts that double from the start on.
 
-use crate::drive::cycle::{Machine, Step, stages_of_part};
+use crate::drive::equation::Machine;
 use crate::drive::peaks::AT_END;
 use crate::drive::reading::Mark;
 use crate::drive::steady::Steady;
+use crate::drive::step::{Step, stages_of_part};
 use crate::drive::structure::Plan;
 use crate::linkage::motion::Motion;
 

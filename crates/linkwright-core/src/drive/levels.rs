@@ -8,7 +8,8 @@
 //! changes of the motion and for a machine whose inertia outweighs the torques; [`crate::drive::march`] then finds
 //! out what there is.
 
-use crate::drive::cycle::{Machine, Turn};
+use crate::drive::cycle::Turn;
+use crate::drive::equation::Machine;
 use crate::drive::layout::unbundle;
 use crate::drive::motor::Motor;
 use crate::drive::structure::Plan;

@@ -13,9 +13,11 @@
 //! leapt over is read from the gain P(u) − u and its slope at both ends: the cubic through them must keep
 //! clear of zero, or the interval is halved.
 
-use crate::drive::cycle::{Machine, Step, divide};
+use crate::drive::cycle::divide;
+use crate::drive::equation::Machine;
 use crate::drive::events::{Event, Events, Pull, Side};
 use crate::drive::mesh::{Crossing, Piece};
+use crate::drive::step::Step;
 use crate::kernel::call::poll;
 use crate::kernel::radau::{B, C, N, S};
 use crate::linkage::motion::Motion;

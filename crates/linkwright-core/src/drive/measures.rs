@@ -2,9 +2,11 @@
 //!
 //! Source of δ, H, k_p: paper 1, equations (13)–(15).
 
-use crate::drive::cycle::{Machine, REFERENCE, Row, Step, Turn};
+use crate::drive::cycle::Turn;
+use crate::drive::equation::{Machine, Row};
 use crate::drive::law::LawGeometry;
 use crate::drive::layout::Layout;
+use crate::drive::step::{REFERENCE, Step};
 use crate::kernel::branch::OnBranch;
 use crate::kernel::radau::{B, S};
 use crate::kernel::real::{Lift, Real};

@@ -13,7 +13,8 @@
 //! | `steep` | where along a motion a formula is steep |
 //! | `pulses` | ends of steps there |
 //! | [`layout`] | what the lanes of a revolution hold: machines or steps |
-//! | [`cycle`] | steady motion on one mesh, in any lanes |
+//! | [`equation`] | the equation of motion over the crank angle |
+//! | [`step`], [`cycle`] | a step of its solution; steady motion on one mesh, in any lanes |
 //! | [`mesh`], [`check`] | steps of one machine's turn; the error in each, measured |
 //! | [`events`] | kinks and jumps at angles that depend on the motion |
 //! | [`between`] | the solution inside the steps as series |
@@ -40,6 +41,7 @@ pub mod between;
 pub mod check;
 pub mod cycle;
 mod differences;
+pub mod equation;
 pub mod events;
 pub mod extremes;
 pub mod force_elements;
@@ -67,5 +69,6 @@ mod row_mesh;
 mod rows;
 pub mod steady;
 mod steep;
+pub mod step;
 pub mod structure;
 pub mod transient;

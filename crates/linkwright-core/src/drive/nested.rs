@@ -13,10 +13,12 @@
 
 use crate::drive::between::Between;
 use crate::drive::check::EVEN;
-use crate::drive::cycle::{Machine, REFERENCE, Row, Turn};
+use crate::drive::cycle::Turn;
 use crate::drive::differences::ROUNDING;
+use crate::drive::equation::{Machine, Row};
 use crate::drive::law::LawGeometry;
 use crate::drive::measures::{INTEGRALS, Totals};
+use crate::drive::step::REFERENCE;
 use crate::kernel::dual::Dual;
 use crate::kernel::nested::{
     Correction, END, MORE, SHARES, START, WEIGHTS, correction, residual, spread, terms, unresolved, whole,

@@ -5,10 +5,11 @@
 //! its start by dφ, the speed there by ε dφ. What rounding takes from that ε dies out along the step, as it does of the
 //! speed, and ε at its end has the slope, with no differences.
 
-use crate::drive::cycle::{Machine, Step, stages_of_part};
+use crate::drive::equation::Machine;
 use crate::drive::extremes::Extreme;
 use crate::drive::reading::Mark;
 use crate::drive::steady::Steady;
+use crate::drive::step::{Step, stages_of_part};
 use crate::drive::structure::Plan;
 use crate::kernel::dual::Dual;
 use crate::kernel::radau::S;

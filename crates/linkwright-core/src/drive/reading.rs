@@ -5,8 +5,9 @@
 //! stiffly stable like it, and is what [`crate::drive::check`] compares.
 
 use crate::drive::between::Between;
-use crate::drive::cycle::{Machine, Step, stages_of_part};
+use crate::drive::equation::Machine;
 use crate::drive::law::LawGeometry;
+use crate::drive::step::{Step, stages_of_part};
 use crate::drive::structure::Plan;
 use crate::kernel::call::poll;
 use crate::kernel::lanes::{Job, in_lanes};

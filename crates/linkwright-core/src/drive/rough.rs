@@ -8,7 +8,9 @@
 //! stage and at the end is of order 3, and the machine is known there: a sweep takes two torques and one division a step, a
 //! quarter of what the stages take. Where it does not converge the constant speed that balances the mean load remains.
 
-use crate::drive::cycle::{Machine, SHRINK, Turn};
+use crate::drive::cycle::Turn;
+use crate::drive::equation::Machine;
+use crate::drive::step::SHRINK;
 use crate::kernel::dual::Dual;
 use crate::kernel::radau::{C, S};
 use crate::kernel::real::Real;

@@ -1,6 +1,7 @@
 //! Rows of a batch side by side in lanes.
 
-use crate::drive::cycle::{Machine, Turn};
+use crate::drive::cycle::Turn;
+use crate::drive::equation::Machine;
 use crate::drive::law::Moment;
 use crate::drive::layout::{Layout, unbundle};
 use crate::drive::loads::FormulaLoad;

@@ -4,9 +4,11 @@
 //! which it does so, also where it does so and returns between two stages. The solution on that mesh passes them elsewhere by the square of what the first was off; the ends of
 //! its steps are moved there, in all lanes at once, until they stay. Steps that are too coarse are halved.
 
-use crate::drive::cycle::{Machine, Step, Turn, divide};
+use crate::drive::cycle::{Turn, divide};
+use crate::drive::equation::Machine;
 use crate::drive::layout::unbundle;
 use crate::drive::mesh::crossing;
+use crate::drive::step::Step;
 use crate::kernel::radau::{C, S};
 use crate::kernel::real::Real;
 use crate::linkage::motion::Motion;

@@ -13,7 +13,8 @@
 
 use crate::drive::between::Between;
 use crate::drive::check::last_correction;
-use crate::drive::cycle::{Machine, Turn, divide};
+use crate::drive::cycle::{Turn, divide};
+use crate::drive::equation::Machine;
 use crate::drive::events::{Events, leap};
 use crate::drive::extremes::{Extreme, Extremes};
 use crate::drive::law::Moment;
@@ -613,7 +614,7 @@ impl<R: Real> Turn<R> {
     /// Whether Newton converged to a real motion.
     #[inline(always)]
     fn is_solved(&self) -> bool {
-        let flat = |of: &dyn Fn(&crate::drive::cycle::Step<R>) -> R| {
+        let flat = |of: &dyn Fn(&crate::drive::step::Step<R>) -> R| {
             unbundle(&self.steps.iter().map(of).collect::<Vec<_>>())
         };
         !self.steps.is_empty()

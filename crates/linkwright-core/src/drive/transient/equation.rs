@@ -1,7 +1,7 @@
 //! The equation of motion of the crank, and the balance of torques at standstill.
 
 use super::reduced::{Reduced, ReducedCurves};
-use crate::drive::cycle::Machine;
+use crate::drive::equation::Machine;
 use crate::drive::law::{LawGeometry, SpeedKink};
 use crate::drive::steep::Steepness;
 use crate::kernel::dual::Dual;

@@ -32,7 +32,7 @@ pub use self::equation::Turning;
 use self::equation::{AT_REST, Equation, Jump, Y};
 use self::reduced::ReducedCurves;
 use self::stiff::StiffAttempt;
-use crate::drive::cycle::Machine;
+use crate::drive::equation::Machine;
 use crate::drive::events::turns_near_zero;
 use crate::drive::kinks::landings;
 use crate::drive::mesh::crossing;

@@ -13,7 +13,7 @@
 //! the angle, speeds at which the drive has a kink, standstill, and kinks of laws, at which the steps are divided.
 
 use crate::drive::along::{Directions, put};
-use crate::drive::cycle::Machine;
+use crate::drive::equation::Machine;
 use crate::drive::events::{Event, Events};
 use crate::drive::law::SpeedKink;
 use crate::drive::mesh::crossing;
