@@ -31,8 +31,9 @@ from linkwright.machine.tangents import Directions
 # (2π/1440)² of the curve at most; where the motor is steep, the motion bends sharply beside a kink.
 _LOOK = 1440
 
-# Relative accuracy of the steady motion whose derivatives are taken.
-_ACCURACY = 1e-11
+# Relative accuracy of the steady motion whose derivatives are taken: with formulas, which may bend at any
+# angle, a digit more, as derivatives by the place of a bend change faster behind it than the motion does.
+_ACCURACY, _ACCURACY_WITH_FORMULAS = 1e-11, 1e-12
 _BESIDE = np.geomspace(1e-9, 3e-3, 14)
 
 # How far a rival may seem to stay below the extreme before it is read more closely, as a share of the range:
@@ -142,7 +143,9 @@ def _solved(machine: Machine) -> tuple[SteadyState, SteadySolution]:
     """Steady motion and its solution, once for all analyses of a machine."""
     kept = compile_machine(machine).kept
     if "fine steady motion" not in kept:
-        kept["fine steady motion"] = solved_state(machine, _ACCURACY, _LOOK)
+        has_formulas = any(load.kind == "formula" for load in machine.loads.values())
+        accuracy = _ACCURACY_WITH_FORMULAS if has_formulas else _ACCURACY
+        kept["fine steady motion"] = solved_state(machine, accuracy, _LOOK)
     known: tuple[SteadyState, SteadySolution] = kept["fine steady motion"]
     return known
 
