@@ -4,7 +4,7 @@ mod common;
 
 use common::{Builder, Random, SampleMachine, mixed, two_carts};
 use linkwright_core::drive::batch::{Outcome, QUANTITIES, Rows, row_of_steady, steady_rows};
-use linkwright_core::drive::cycle::Machine;
+use linkwright_core::drive::equation::Machine;
 use linkwright_core::drive::loads::Load;
 use linkwright_core::drive::motor::Motor;
 use linkwright_core::drive::steady::steady;
