@@ -54,6 +54,9 @@ _OF_PEAKS = (
 # Works are rounding where inertia carries much more along; multipliers where all dies at once.
 _OF_WORKS = ("energy_", "efficiency", "multiplier")
 
+# Ratios of means, which are small differences of what noise counts of, where the motion is not known better.
+_OF_MEANS, _QUIET = ("cyclic_load_factor", "efficiency"), 1e-10
+
 # By how many of its own uncertainties a difference may be off.
 _UNCERTAIN = 3.0
 
@@ -78,6 +81,11 @@ class Case:
     tolerance: Callable[[str], float] = lambda name: _TOLERANCE
     # What the motion itself is good for: under a steep motor rounding of the speed is torque.
     reached: float = 0.0
+    # The same of the motions that differences are taken of: what a nearly neutral drive makes of rounding.
+    noise: float = 0.0
+    # Elasticities up to this are compared: a run-up that barely settles, or barely does not, changes within
+    # shares of an entry that no difference is short enough for.
+    steepest: float = 1e100
 
 
 def _alone(machine: lw.Machine, names: tuple[str, ...]) -> Iterator[Way]:
@@ -125,7 +133,9 @@ def _steady_of(drive: Table, accuracy: float = 1e-13) -> Case:
         state = lw.steady_state(machine, accuracy=accuracy)
         return np.array([getattr(state, name.partition(".")[2]) for name in names], dtype=float)
 
-    return Case(machine, names, measure, _alone, reached=reached)
+    noise = lw.steady_state(machine, accuracy=accuracy).accuracy
+    names = [name for name in names if noise <= _QUIET or not any(of in name for of in _OF_MEANS)]
+    return Case(machine, names, measure, _alone, reached=reached, noise=noise)
 
 
 def _jumping(random: Generator) -> Case:
@@ -139,13 +149,14 @@ def _jumping(random: Generator) -> Case:
 
 def _forces(random: Generator) -> Case:
     machine, names, measure = drives._forces(random)
-    return Case(machine, names, _as_listed(measure, names), _alone, reached=lw.steady_state(machine).accuracy)
+    reached, noise = (lw.steady_state(machine, accuracy=of).accuracy for of in (_ASKED, 1e-13))
+    return Case(machine, names, _as_listed(measure, names), _alone, reached=reached, noise=noise)
 
 
 def _running(kind: str) -> Callable[[Generator], Case]:
     def case(random: Generator) -> Case:
         names, measure = in_time.KINDS[kind]
-        return Case(in_time._drive(random), names, _as_listed(measure, names), _alone)
+        return Case(in_time._drive(random), names, _as_listed(measure, names), _alone, steepest=1e3)
 
     return case
 
@@ -328,11 +339,12 @@ class Tally:
 def compared(case: Case, random: Generator) -> Tally:
     """Derivatives of a machine against differences along random directions."""
     found = lw.gradient(case.machine, case.analyses)
-    rows = [row for row, name in enumerate(found.responses) if name not in found.ties]
-    names, d = [found.responses[row] for row in rows], found.derivatives[rows]
     ways = list(case.ways(case.machine, found.variables))
     used = [found.variables.index(name) for name in {name for way in ways for name in way}]
-    sizes = np.abs(d[:, used] * found.at[used]).max(axis=1, initial=0.0)
+    sizes = np.abs(found.derivatives[:, used] * found.at[used]).max(axis=1, initial=0.0)
+    is_flat = ~(sizes > case.steepest * np.abs(found.values))
+    rows = [row for row, name in enumerate(found.responses) if name not in found.ties and is_flat[row]]
+    names, d, sizes = [found.responses[row] for row in rows], found.derivatives[rows], sizes[rows]
     # Where a disturbance dies at once its growth over a revolution is no number.
     scales = np.maximum(sizes, np.abs(found.values[rows])) + 1e-200
     # The largest amplitude of a shape is 1.
@@ -346,15 +358,20 @@ def compared(case: Case, random: Generator) -> Tally:
     for direction in _directions(case.machine, ways, random):
         exact = sum(d[:, found.variables.index(name)] * x for name, x in direction.items())
         try:
-            _compare(case, names, np.broadcast_to(exact, len(names)), direction, good, tally)
+            _compare(
+                case, names, np.broadcast_to(exact, len(names)), direction, (good, case.noise * scales), tally
+            )
         except (LinkwrightError, TypeError):
             # Beside it the machine cannot do it, or the law of the cam is another one.
             continue
     return tally
 
 
-def _compare(case: Case, names: list[str], exact: Floats, direction: Way, good: Floats, tally: Tally) -> None:
+def _compare(
+    case: Case, names: list[str], exact: Floats, direction: Way, limits: tuple[Floats, Floats], tally: Tally
+) -> None:
     """Over each step as far as they are needed; what counts is the difference that is surest of itself."""
+    good, noise = limits
     errors, uncertainties = [], []
     quantum, has_equal = np.full(len(names), np.inf), np.zeros(len(names), dtype=bool)
     agrees = np.zeros(len(names), dtype=bool)
@@ -369,7 +386,7 @@ def _compare(case: Case, names: list[str], exact: Floats, direction: Way, good: 
             tally.count += len(names)
             return
     # A number that stays the same over short steps is known to its smallest change only, over long ones too.
-    floor = np.where(has_equal & np.isfinite(quantum), quantum, 0.0) / np.array(_STEPS)[:, None]
+    floor = (np.where(has_equal & np.isfinite(quantum), quantum, 0.0) + noise) / np.array(_STEPS)[:, None]
     least, off = _surest(np.array(uncertainties) + floor, np.array(errors))
     wrong = ~agrees & ~(off <= good + _UNCERTAIN * least)
     tally.count += len(names)

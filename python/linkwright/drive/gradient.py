@@ -69,6 +69,10 @@ _ASIDE = 1e-6
 # is rounding.
 _ROUNDING = 1e-14
 
+# A disturbance of which no more than this is left after a revolution has died out: what is left is known as
+# the motion is, by its share of 1.
+_DIED_OUT = 1e-9
+
 # A torque that is this near to the one at an extreme speed is the torque there.
 _SAME = 1e-9
 
@@ -218,7 +222,7 @@ def _rounding(compiled: CompiledMachine, state: SteadyState) -> dict[str, float]
         "power_motor_mean": work * state.turns / state.period,
         "power_motor_max": torque * ratio * state.speed_max,
         **dict.fromkeys(("energy_motor", "energy_drive", "energy_load"), work),
-        "multiplier": _ROUNDING,
+        "multiplier": _DIED_OUT,
         **dict.fromkeys(("acceleration_min", "acceleration_max"), acceleration),
         **dict.fromkeys(("dynamism", "dynamism_time"), dynamism),
         **dict.fromkeys(("motion_coefficient", "motion_coefficient_time"), dynamism),

@@ -12,7 +12,7 @@ use crate::drive::cycle::Turn;
 use crate::drive::equation::Machine;
 use crate::drive::law::{LawGeometry, SpeedKink};
 use crate::drive::layout::bundle;
-use crate::drive::mesh::{Crossing, Mesh, Piece, crossing};
+use crate::drive::mesh::{Crossing, Mesh, Move, Piece, crossing};
 use crate::drive::step::REFERENCE;
 use crate::drive::structure::Plan;
 use crate::kernel::radau::{AT, C, N, S, through, value};
@@ -33,8 +33,9 @@ const KINK_SHARE_JUMP: f64 = 1e-10;
 /// enough that what extrapolation to it leaves is of the order of their product.
 const BESIDE: f64 = 1e-5;
 
-/// Rounding of u after a revolution, relative.
+/// Rounding of u after a revolution, relative, and after a step that forgets where it started.
 const ROUNDING: f64 = 1e-12;
+const ROUNDING_OF_STEP: f64 = 1e-14;
 
 /// A change of the acceleration at a kink below this share of it is no jump.
 const NO_JUMP: f64 = 1e-8;
@@ -107,7 +108,13 @@ impl<R: Real> Passage<R> {
     /// Angle behind the end of the step at which the motion before it passes the kink \[rad\]: −g/g′.
     #[inline(always)]
     pub fn late(&self) -> R {
-        -self.g / (self.slopes[0] + self.slopes[1] * self.before)
+        self.late_with(self.before)
+    }
+
+    /// The same with an acceleration.
+    #[inline(always)]
+    fn late_with(&self, epsilon: R) -> R {
+        -self.g / (self.slopes[0] + self.slopes[1] * epsilon)
     }
 
     /// Its derivative by u.
@@ -115,9 +122,9 @@ impl<R: Real> Passage<R> {
         -self.slopes[1] / (self.slopes[0] + self.slopes[1] * self.before)
     }
 
-    /// Whether the kink is at the end of the step, to the rounding of u.
-    fn is_there(&self) -> bool {
-        self.g.abs().max_lane() <= ROUNDING * (self.slopes[1] * self.u).abs().max_lane()
+    /// Whether the kink is at the end of the step, to a relative rounding of u.
+    fn is_there(&self, rounding: f64) -> bool {
+        self.g.abs().max_lane() <= rounding * (self.slopes[1] * self.u).abs().max_lane()
     }
 
     /// How the passing changes a small disturbance: the later the motion passes a jump, the longer the acceleration before
@@ -270,8 +277,8 @@ impl Events<'_, f64> {
         changes.then_some(next)
     }
 
-    /// By how much the end of a step has to move to where the motion passes its kink; none where it does not.
-    fn move_of(&self, crossing: &Crossing, pieces: &[Piece], m: &mut Motion<f64>) -> Option<f64> {
+    /// How the end of a step has to move to where the motion passes its kink; none where it does not.
+    fn move_of(&self, crossing: &Crossing, pieces: &[Piece], m: &mut Motion<f64>) -> Option<Move> {
         let event = self.nth(crossing.nth);
         let [before, behind] = beside(crossing.phi, pieces);
         let sides = [before, behind].map(|piece| self.on_piece(event, piece, C[REFERENCE], m));
@@ -279,17 +286,27 @@ impl Events<'_, f64> {
             return None;
         }
         let passage = self.passage_between(event, before, behind, m);
-        if passage.is_there() {
-            return Some(0.0);
+        let slopes =
+            [before, behind].map(|piece| self.slope_on_branch_of(piece, crossing.phi, passage.u, m).abs());
+        let layer = slopes[0].max(slopes[1]).recip();
+        let rounding = ROUNDING_OF_STEP.max(ROUNDING * (-slopes[0] * before.h).exp());
+        if passage.is_there(rounding) {
+            return Some(Move { by: 0.0, layer });
         }
-        let late = passage.late();
+        // Where the drive is steep ε on a branch tells nothing of a motion that has left it: at a kink of the drive u itself,
+        // along the step in which the end lies on its own side.
+        let late = passage.late_with(match event {
+            Event::Law(_) => passage.before,
+            Event::Speed(_) if passage.g * sides[0] > 0.0 => before.slope(1.0),
+            Event::Speed(_) => behind.slope(0.0),
+        });
         let room = [(C[REFERENCE] - 1.0) * before.h, C[REFERENCE] * behind.h];
         if room[0] < late && late < room[1] {
-            return Some(late);
+            return Some(Move { by: late, layer });
         }
         // Where it passes at a flat angle the tangent points far off: the sign changes between the middles of the steps.
         let end = self.value(event, before.phi + before.h, before.X[S - 1], m);
-        Some(if end * sides[0] < 0.0 {
+        let by = if end * sides[0] < 0.0 {
             self.within(event, before, [C[REFERENCE], 1.0], [sides[0], end], m) - before.h
         } else {
             let start = self.value(event, behind.phi, behind.u, m);
@@ -299,7 +316,8 @@ impl Events<'_, f64> {
                 // u leaps over the kink here, by what the acceleration before it makes of a long way: some of that way.
                 late.clamp(ON_THE_WAY * room[0], ON_THE_WAY * room[1])
             }
-        })
+        };
+        Some(Move { by, layer })
     }
 
     /// Where the quintic of a step passes a kink between two shares of it, with the values there: a length from its start.
@@ -410,7 +428,7 @@ impl Events<'_, f64> {
     fn crossings(
         &self,
         mesh: &Mesh,
-        moves: &[Option<f64>],
+        moves: &[Option<Move>],
         pieces: &[Piece],
         m: &mut Motion<f64>,
     ) -> Vec<Crossing> {

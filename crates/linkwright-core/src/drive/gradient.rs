@@ -324,15 +324,15 @@ impl<'a, R: Real> DualRevolution<'a, R> {
     /// Moves the ends of steps at which the motion passes a kink along with it: the quantity g whose zero the kink is
     /// stays zero, φ′ = −(g_p + g_u u_p)/g′, with g′ along the motion before the kink, which depends on the moves of all
     /// ends. First the ends are brought to the kinks themselves, from which they are as far off as the accuracy of the solution
-    /// allows: steepness leaps there, and with it derivatives. Sides and jumps count in the multiplier. The crank angle of an end
-    /// that misses its kink, NaN where none does.
+    /// allows: steepness leaps there, and with it derivatives. That depends on no direction: the solution is one for all. Sides
+    /// and jumps count in the multiplier. The crank angle of an end that misses its kink, NaN where none does.
     #[inline(always)]
     fn move_crossings(&mut self, ends: &MovingEnds, size: R, m: &mut Motion<Dual<R>>) -> R {
         let events = Events::new(self.machine);
         let (zero, none) = (R::splat(0.0), R::splat(f64::NAN));
         let mut passages = self.passages(&events, m);
         for round in 0..ROUNDS {
-            if self.misses(&passages, MOVED, size).iter().all(|miss| miss.max_lane() <= 0.0) {
+            if round > 0 && self.misses(&passages, MOVED, size).iter().all(|miss| miss.max_lane() <= 0.0) {
                 break;
             }
             let late: Vec<Dual<R>> = passages.iter().map(|(_, passage)| passage.late()).collect();
@@ -569,9 +569,7 @@ impl<'a, R: Real> DualRevolution<'a, R> {
         let to = if ends_here { self.edges[k + 1] } else { Dual::splat(phi) };
         let h = to - step.phi;
         let near = stages_of_part(&step.quintic(), Dual::splat(0.0), h / step.h);
-        // The second time from the solution of the first: its derivatives have converged too.
-        let (first, _) = self.machine.advance_near(step.phi, step.u, h, near, m);
-        self.machine.advance_near(step.phi, step.u, h, first.X, m)
+        self.machine.advance_near(step.phi, step.u, h, near, m)
     }
 }
 

@@ -47,6 +47,12 @@ impl Piece {
         through(&values)
     }
 
+    /// du/dφ at a share of the step, of the quintic.
+    pub(super) fn slope(&self, share: f64) -> f64 {
+        let x = Dual::variable(share);
+        self.quintic().iter().rev().fold(Dual::splat(0.0), |sum, &c| sum * x + c).d / self.h
+    }
+
     /// u at an angle, on the quintic.
     pub(super) fn value(&self, quintic: &[f64; N], phi: f64) -> f64 {
         // Where the solution falls fast a polynomial may swing below zero.
@@ -126,6 +132,16 @@ pub struct Crossing {
     pub nth: usize,
 }
 
+/// How the end of a step at a kink has to move.
+#[derive(Clone, Copy, Debug)]
+pub struct Move {
+    /// By what angle \[rad\].
+    pub by: f64,
+    /// Angle within which a disturbance dies out beside the kink \[rad\]: under a steep drive what is left of the way there
+    /// changes the acceleration in proportion to its share of this.
+    pub layer: f64,
+}
+
 /// Steps of a revolution.
 #[derive(Clone, Debug)]
 pub struct Mesh {
@@ -141,26 +157,30 @@ impl Mesh {
         Mesh { edges, crossings: Vec::new() }
     }
 
-    /// Moves the ends at kinks by some angles; where there is none the end is an ordinary one again. Whether any changes by
-    /// more than the share `kink_share` of a step.
-    pub fn follow(&mut self, moves: &[Option<f64>], breaks: &[f64], kink_share: f64) -> bool {
+    /// Moves the ends at kinks; where there is no move the end is an ordinary one again. Whether any changes by more than the
+    /// share `kink_share` of a step, or of the layer beside it.
+    pub fn follow(&mut self, moves: &[Option<Move>], breaks: &[f64], kink_share: f64) -> bool {
         let mut changes = false;
-        for (crossing, by) in self.crossings.clone().into_iter().zip(moves) {
+        for (crossing, to) in self.crossings.clone().into_iter().zip(moves) {
             let at = self.edges.partition_point(|&edge| edge < crossing.phi);
             let cycle = self.edges[self.edges.len() - 1];
             let h = self.edges.get(at + 1).map_or(cycle, |next| next - crossing.phi);
             let h = if at > 0 { h.min(crossing.phi - self.edges[at - 1]) } else { h };
             let shares_end =
                 self.crossings.iter().any(|other| other.phi == crossing.phi && other.nth != crossing.nth);
-            let near = if shares_end { SHARED.max(h) } else { h.max(SHORTEST) };
-            if by.is_some_and(|by| by.abs() <= kink_share * near) {
+            let is_break = breaks.contains(&crossing.phi);
+            let near = |to: &Move| match (shares_end, is_break) {
+                (true, _) => SHARED.max(h),
+                (_, true) => h.max(SHORTEST),
+                _ => h.min(to.layer).max(SHORTEST),
+            };
+            if to.is_some_and(|to| to.by.abs() <= kink_share * near(&to)) {
                 continue;
             }
             changes = true;
             self.crossings.retain(|other| *other != crossing);
-            let Some(by) = *by else { continue };
-            if !breaks.contains(&crossing.phi) && self.crossings.iter().all(|other| other.phi != crossing.phi)
-            {
+            let Some(Move { by, .. }) = *to else { continue };
+            if !is_break && self.crossings.iter().all(|other| other.phi != crossing.phi) {
                 self.edges.remove(at);
             }
             let phi = (crossing.phi + by).rem_euclid(cycle);

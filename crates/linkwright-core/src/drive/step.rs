@@ -167,7 +167,8 @@ impl<R: Real> Machine<'_, R> {
         self.advance_near(phi, u, h, [u; S], m)
     }
 
-    /// The same with stages to start from.
+    /// The same with stages to start from. After the last correction there is one more: of duals the derivatives have converged
+    /// too then, and a stage that the last one took over a kink of the drive lies on the torque of its side.
     #[inline(always)]
     pub fn advance_near(
         &self,
@@ -177,7 +178,16 @@ impl<R: Real> Machine<'_, R> {
         X: [R; S],
         m: &mut Motion<R>,
     ) -> (Step<R>, Vec<LawGeometry<R>>) {
-        self.advance_within(CONVERGED, phi, u, h, X, m)
+        let (mut step, geometry) = self.advance_within(CONVERGED, phi, u, h, X, m);
+        R::out_of_line(
+            #[inline(always)]
+            || {
+                let once = R::splat(f64::INFINITY);
+                let newton = self.step_newton(&mut step, &geometry, once, 0.0);
+                step.take(&newton, R::splat(0.0), once, 0.0);
+            },
+        );
+        (step, geometry)
     }
 
     /// The same until the relative correction is below a limit.
