@@ -7,6 +7,7 @@
 
 use crate::drive::equation::Machine;
 use crate::drive::extremes::Extreme;
+use crate::drive::law::LawGeometry;
 use crate::drive::reading::Mark;
 use crate::drive::steady::Steady;
 use crate::drive::step::{Step, stages_of_part};
@@ -48,6 +49,9 @@ struct MarkedMotion<'a> {
     machine: Machine<'a, Dual<f64>>,
     marks: &'a [Mark],
 }
+
+/// A step with its derivatives, and what its laws needed.
+type StepOfLaws = (Step<Dual<f64>>, Vec<LawGeometry<Dual<f64>>>);
 
 /// Where the smallest and the largest acceleration are.
 pub(super) fn peaks_of_acceleration(
@@ -98,16 +102,15 @@ impl MarkedMotion<'_> {
         let n = self.marks.len();
         let [before, behind] = [(edge + n - 1) % n, edge % n];
         let (end, start) = (self.marks[before].phi + self.marks[before].h, self.marks[behind].phi);
-        let just_behind = self.marks[behind].h.mul_add(JUST_BEHIND, start);
-        let [end_before, start_behind] =
-            [self.acceleration(before, end, m), self.acceleration(behind, just_behind, m)];
-        if (end_before.value - start_behind.value).abs() > SIDES * value.abs() {
+        let end_before = self.acceleration(before, end, m);
+        if (end_before.value - self.start(behind, m)).abs() > SIDES * value.abs() {
             return Peak::Corner(edge, value);
         }
         if end_before.d * upwards < 0.0 {
             return Peak::Inside(self.place(before, end, m));
         }
-        if start_behind.d * upwards > 0.0 {
+        let just_behind = self.marks[behind].h.mul_add(JUST_BEHIND, start);
+        if self.acceleration(behind, just_behind, m).d * upwards > 0.0 {
             return Peak::Inside(self.place(behind, start, m));
         }
         Peak::Corner(edge, value)
@@ -130,16 +133,25 @@ impl MarkedMotion<'_> {
         if slopes[1].abs() < slopes[0].abs() { places[1] } else { places[0] }
     }
 
+    /// The acceleration at the start of a step, on its side.
+    fn start(&self, k: usize, m: &mut Motion<Dual<f64>>) -> f64 {
+        let (still, geometry) = self.part(k, self.marks[k].h, m);
+        self.machine.start(&still, &geometry, m).value
+    }
+
     /// The acceleration within a step, and its derivative by φ along the motion.
     fn acceleration(&self, k: usize, phi: f64, m: &mut Motion<Dual<f64>>) -> Dual<f64> {
+        let (still, geometry) = self.part(k, phi - self.marks[k].phi, m);
+        let u = Dual { value: self.marks[k].u, d: self.machine.start(&still, &geometry, m).value };
+        self.machine.advance_near(still.phi, u, still.h, still.X, m).0.K[S - 1]
+    }
+
+    /// A step up to a length, of which the start is varied alone, and what its laws needed.
+    fn part(&self, k: usize, length: f64, m: &mut Motion<Dual<f64>>) -> StepOfLaws {
         let mark = &self.marks[k];
         let whole = Step { X: mark.X, ..Step::unsolved(mark.phi, mark.h, mark.u) };
-        let length = phi - mark.phi;
         let near = stages_of_part(&whole.quintic(), 0.0, length / mark.h).map(Dual::constant);
         let start = Dual::variable(mark.phi);
-        let (still, geometry) =
-            self.machine.advance_near(start, Dual::constant(mark.u), Dual::constant(length), near, m);
-        let u = Dual { value: mark.u, d: self.machine.start(&still, &geometry, m).value };
-        self.machine.advance_near(still.phi, u, still.h, still.X, m).0.K[S - 1]
+        self.machine.advance_near(start, Dual::constant(mark.u), Dual::constant(length), near, m)
     }
 }
