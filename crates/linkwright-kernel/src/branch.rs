@@ -58,6 +58,17 @@ macro_rules! with_number {
 }
 with_number!(Add add, Sub sub, Mul mul);
 
+impl<R: Real, N: Lift<R>> OnBranch<N, R> {
+    /// A result that numbers above zero have. On the branch of such a one a number that rounding took to zero or below lies at
+    /// the end of the branch, where the result is known.
+    #[inline(always)]
+    fn where_defined(self, value: N, at: R, at_zero: f64) -> Self {
+        let (zero, end) = (N::splat(0.0), N::splat(at_zero));
+        let beside = zero.select_lt(N::lift(self.at), end, value);
+        OnBranch { value: zero.select_lt(self.value, value, beside), at }
+    }
+}
+
 impl<R: Real, N: Lift<R>> Neg for OnBranch<N, R> {
     type Output = Self;
     #[inline(always)]
@@ -88,7 +99,7 @@ impl<R: Real, N: Lift<R>> Real for OnBranch<N, R> {
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
-        OnBranch { value: self.value.sqrt(), at: self.at.sqrt() }
+        self.where_defined(self.value.sqrt(), self.at.sqrt(), 0.0)
     }
     #[inline(always)]
     fn abs(self) -> Self {
@@ -127,7 +138,7 @@ impl<R: Real, N: Lift<R>> Real for OnBranch<N, R> {
     }
     #[inline(always)]
     fn ln(self) -> Self {
-        OnBranch { value: self.value.ln(), at: self.at.ln() }
+        self.where_defined(self.value.ln(), self.at.ln(), f64::MIN_POSITIVE.ln())
     }
     /// It is written in two pieces, but is one function: there is nothing to choose.
     #[inline(always)]

@@ -151,7 +151,7 @@ pub struct Switch {
     pub degree: Degree,
     /// Whether it has kinks or waves or may be steep: there may be zeros wherever one looks.
     pub winds: bool,
-    /// Whether the result may jump there; of others it has a kink.
+    /// Whether what is made of the result may jump there; of others it has a kink.
     pub jumps: bool,
 }
 
@@ -273,6 +273,8 @@ impl Formula {
     /// From instructions; `None` unless they leave one number and never keep more than [`DEPTH`].
     pub fn new(ops: Vec<Op>) -> Option<Formula> {
         let steep = steep(&ops)?;
+        // v/|v| jumps although |v| does not.
+        let divides = ops.iter().any(|op| matches!(op, Op::Div | Op::Pow | Op::Power(..0)));
         let mut stack: Vec<(Degree, bool)> = Vec::new();
         let (mut switches, mut degrees) = (Vec::new(), Vec::new());
         for (at, op) in ops.iter().enumerate() {
@@ -284,7 +286,7 @@ impl Formula {
                 _ => None,
             };
             let argument_winds = wind.iter().take(2).any(|&winds| winds);
-            let jumps = matches!(op, Op::Sign | Op::Step | Op::Where);
+            let jumps = divides || matches!(op, Op::Sign | Op::Step | Op::Where);
             switches.extend(argument.map(|degree| Switch { at, degree, winds: argument_winds, jumps }));
             degrees.push(op.degree(&from));
             let is_bent = argument.is_some() || matches!(op, Op::Sin | Op::Cos) || steep.contains(&at);

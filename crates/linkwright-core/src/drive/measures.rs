@@ -36,14 +36,30 @@ impl<R: Real> Machine<'_, R> {
     /// Torque of the motor at its shaft, the same at the crank, and load torque, at a stage \[N m\].
     #[inline(always)]
     pub fn torques(&self, step: &Step<R>, geometry: &[LawGeometry<R>], stage: usize) -> [R; 3] {
-        let (row, own) = (&step.rows[stage], self.geometry_at(geometry, stage));
-        if own.is_empty() || !self.is_on_branch(stage) {
-            return self.torques_at(row, own, step.X[stage]);
-        }
-        let [torque, geared, drag] = self.torques_at(row, &[], step.X[stage]);
-        let u = OnBranch { value: step.X[stage], at: step.X[REFERENCE] };
-        let known = self.geometry_at(geometry, REFERENCE);
-        [torque, geared, drag + self.laws_on_branch(own, known, (u * 2.0).sqrt()).value]
+        let own = self.geometry_at(geometry, stage);
+        let reference =
+            self.is_on_branch(stage).then(|| (self.geometry_at(geometry, REFERENCE), step.X[REFERENCE]));
+        self.torques_beside(&step.rows[stage], own, step.X[stage], reference)
+    }
+
+    /// The same of a row at u, with laws on the branch of a reference if there is one.
+    #[inline(always)]
+    pub fn torques_beside<N: Lift<R>>(
+        &self,
+        row: &Row<R>,
+        geometry: &[LawGeometry<R>],
+        u: N,
+        reference: Option<(&[LawGeometry<R>], R)>,
+    ) -> [N; 3]
+    where
+        OnBranch<N, R>: Lift<R> + Lift<OnBranch<R, R>>,
+    {
+        let Some((known, at)) = reference.filter(|_| !geometry.is_empty()) else {
+            return self.torques_at(row, geometry, u);
+        };
+        let [torque, geared, drag] = self.torques_at(row, &[], u);
+        let omega = (OnBranch { value: u, at } * 2.0).sqrt();
+        [torque, geared, drag + self.laws_on_branch(geometry, known, omega).value]
     }
 
     /// The same of a row at u, with laws as they are there.

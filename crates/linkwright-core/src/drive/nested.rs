@@ -150,11 +150,18 @@ impl<R: Real> NodeSolution<R> {
         }
         for i in 0..MORE {
             let phi = step.h.mul_add(R::splat(SHARES[S + i]), step.phi);
-            at.rows[i] = machine.row(phi, m, &mut self.geometry);
+            at.rows[i] = if S + i == START {
+                machine.row_at_end(phi, machine.inside_by(step.h), m, &mut self.geometry)
+            } else {
+                machine.row(phi, m, &mut self.geometry)
+            };
         }
+        let of_stages = turn.geometry_of(machine, k);
         for i in 0..MORE {
             let (row, u) = (&at.rows[i], at.x[S + i]);
-            let [_, geared, drag] = machine.torques_at(row, known(machine, &self.geometry, k * MORE + i), u);
+            let own = machine.geometry_at(&self.geometry, k * MORE + i);
+            let reference = reference_of(machine, S + i, of_stages, step.X[REFERENCE]);
+            let [_, geared, drag] = machine.torques_beside(row, own, u, reference);
             at.f[S + i] = (geared - drag) * row.inverse - row.drift * u;
         }
         let mut slopes = step.D;
@@ -187,12 +194,13 @@ impl<R: Real> NodeSolution<R> {
         let (h, geometry) = (step.h, turn.geometry_of(machine, k));
         for i in 0..G {
             let row = if i < S { &step.rows[i] } else { &at.rows[i - S] };
-            let geometry = if i < S {
+            let own = if i < S {
                 machine.geometry_at(geometry, i)
             } else {
-                known(machine, &self.geometry, k * MORE + i - S)
+                machine.geometry_at(&self.geometry, k * MORE + i - S)
             };
-            let [torque, geared, drag] = machine.torques_at(row, geometry, Dual::variable(at.x[i]));
+            let reference = reference_of(machine, i, geometry, at.x[REFERENCE]);
+            let [torque, geared, drag] = machine.torques_beside(row, own, Dual::variable(at.x[i]), reference);
             let net = (geared - drag) * Dual::constant(row.inverse);
             (at.f[i], d[i]) = (net.value - row.drift * at.x[i], net.d - row.drift);
             let dt = (at.x[i] * 2.0).sqrt().recip();
@@ -340,15 +348,17 @@ impl<R: Real> NodeStep<R> {
     }
 }
 
-/// What laws need to know at one of many nodes.
+/// The state whose branch the laws at a node are on: at an end of a step where the machine may jump, that of its reference, which
+/// has `u`; `geometry` is what laws know at the stages.
 #[inline(always)]
-fn known<'g, R: Real>(
+fn reference_of<'g, R: Real>(
     machine: &Machine<'_, R>,
-    geometry: &'g [LawGeometry<R>],
     node: usize,
-) -> &'g [LawGeometry<R>] {
-    let n = machine.plan.laws.len();
-    &geometry[node * n..(node + 1) * n]
+    geometry: &'g [LawGeometry<R>],
+    u: R,
+) -> Option<(&'g [LawGeometry<R>], R)> {
+    let is_end = [START, END].contains(&node) && machine.is_on_branch(END);
+    is_end.then(|| (machine.geometry_at(geometry, REFERENCE), u))
 }
 
 /// The integral over a step by all nodes, and how much that by the stages alone differs.

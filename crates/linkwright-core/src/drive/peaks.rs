@@ -62,7 +62,7 @@ pub(super) fn peaks_of_acceleration(
     extremes: [&Extreme<f64>; 2],
 ) -> [Peak; 2] {
     let constants: Vec<Dual<f64>> = q.iter().copied().map(Dual::constant).collect();
-    let machine = Machine::new(plan, &constants).keeping_sides_of_bends().keeping_branch(plan.may_jump());
+    let machine = Machine::new(plan, &constants).keeping_sides().keeping_branch(plan.may_jump());
     let mut m = Motion::new(&plan.mechanism, &constants);
     let marked = MarkedMotion { machine, marks };
     [0, 1].map(|k| {
@@ -111,7 +111,7 @@ impl MarkedMotion<'_> {
         }
         let just_behind = self.marks[behind].h.mul_add(JUST_BEHIND, start);
         if self.acceleration(behind, just_behind, m).d * upwards > 0.0 {
-            return Peak::Inside(self.place(behind, start, m));
+            return Peak::Inside(self.place(behind, just_behind, m));
         }
         Peak::Corner(edge, value)
     }
