@@ -125,9 +125,12 @@ impl<R: Real> Differences<R> {
         level: usize,
         limits: Limits,
     ) {
-        let u = whole.u;
-        let du = size(halves.end() - whole.end());
-        let de = size(halves.K[S - 1] - whole.K[S - 1]);
+        let (u, zero) = (whole.u, R::splat(0.0));
+        // Parts at the start count where a disturbance dies out within them; shorter ones are those of other lanes.
+        let counts = if level == 0 { R::splat(f64::INFINITY) } else { steepness * whole.h };
+        let of_part = |difference: R| R::splat(1.0).select_lt(counts, size(difference), zero);
+        let du = of_part(halves.end() - whole.end());
+        let de = of_part(halves.K[S - 1] - whole.K[S - 1]);
         let of_speed = u * (2.0 * limits.accuracy).max(4.0 * ROUNDING);
         let error = (du / of_speed).max(de / limits.of_acceleration(u, steepness));
         self.halvings = R::splat(1.0).select_lt(error, R::splat(level as f64), self.halvings);
