@@ -5,11 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from random_drives import BLOWS, Table, random_drive, torque_size, with_blow
+from scipy.optimize import brentq
 from sizes import cases
 
 import linkwright as lw
 from linkwright.drive.run_up import accurate_run_up
 from linkwright.kernel.errors import LinkwrightError
+from linkwright.machine.program.compiled import compile_machine
 
 # What rows promise; of peaks of acceleration a digit less.
 _ROWS, _PEAKS = 1e-7, 1e-6
@@ -156,6 +158,60 @@ def test_a_steep_drive_jumps_by_torque_over_inertia(stiffness: float) -> None:
     assert state.acceleration_min == pytest.approx(-torque / inertia, rel=1e-8)
 
 
+# Half widths of blows [rad] told by a cosine: its rounding leaves their place known to 1e-16 over the width.
+@pytest.mark.parametrize("width", [1e-3, 3e-4, 1e-4, 3e-5, 1e-5])
+@pytest.mark.parametrize("stiffness", [1.0, 10.0, 100.0, 1000.0])
+def test_a_short_blow_begins_with_torque_over_inertia(stiffness: float, width: float) -> None:
+    torque, inertia = 40.0, 0.2
+    drive = STEEP.replace("2000", str(2000 * stiffness)).partition("[mechanism.sliders")[0]
+    for at in (1.0, 4.0):
+        load = f"""[loads.blow]
+        kind = "formula"
+        on = "A"
+        torque = "where(cos(phi - {at}) > 1 - 0.5*{width}^2, {torque}, 0)"
+        """
+        machine = lw.loads(drive + load)
+        assert lw.steady_state(machine).acceleration_max == pytest.approx(torque / inertia, rel=1e-8)
+        found = lw.gradient(machine, ["steady_state.acceleration_max"], ["drive.flywheel.inertia"])
+        assert found.values[0] == pytest.approx(torque / inertia, rel=1e-8)
+        assert found.derivatives[0, 0] == pytest.approx(-torque / inertia**2, rel=1e-7)
+
+
+@pytest.mark.parametrize("stiffness", [1e5, 1e6, 1e7, 1e8])
+def test_beside_a_kink_of_a_steep_drive_torques_balance(stiffness: float) -> None:
+    """The motor's torque changes sign under a gearbox with losses: the acceleration changes by half within a
+    thousandth of a degree and less."""
+    no_load, inertia, lift, efficiency = 12.0, 1.9, 59.0, 0.7
+    machine = lw.loads(f"""
+    format = 1
+    name = "flywheel"
+    [drive]
+    motor = {{ kind = "dc", speed_no_load = {no_load}, torque_stall = {stiffness} }}
+    gearbox = {{ efficiency = {efficiency} }}
+    flywheel = {{ inertia = {inertia} }}
+    [mechanism.cranks.A]
+    radius = 0.2
+    [loads]
+    lift = {{ kind = "formula", on = "A", torque = "-{lift} * cos(phi)" }}
+    """)
+    compiled = compile_machine(machine)
+
+    def above(angle: float) -> float:
+        return float(compiled.steady(np.array([angle]), 1e-9).speed[0]) - no_load
+
+    near = np.geomspace(1e-9, 1e-2, 15)
+    for about in (0.5 * np.pi, 1.5 * np.pi):
+        kink = brentq(above, about - 0.1, about + 0.1, xtol=1e-14)
+        angles = kink + np.concatenate([-near[::-1], [0.0], near])
+        motion = compiled.steady(angles, 1e-9)
+        torque = stiffness * (1.0 - motion.speed / no_load)
+        torque *= np.where(torque > 0.0, efficiency, 1.0 / efficiency)
+        exact = (torque - lift * np.cos(angles)) / inertia
+        # Some roundings of the speed, which the motor makes torque of.
+        rounding = 1e-15 * stiffness / efficiency / inertia
+        assert np.abs(motion.acceleration - exact).max() < rounding + 1e-9 * np.abs(exact).max()
+
+
 @pytest.mark.parametrize("force", BLOWS)
 def test_derivatives_by_place_and_width(force: str) -> None:
     """Central differences, far from kinks; a last stage on the wrong side of a jump cost a 25th."""
@@ -231,3 +287,61 @@ on = "A"
 torque = "{force}"
 constants = {{{{ p = {{place}}, w = {{width}}, c = -300.0 }}}}
 """
+
+
+PRESS_WITH_STOP = """format = 1
+name = "press with a stop"
+[drive]
+motor = {{ kind = "dc", speed_no_load = 12.0, torque_stall = 900 }}
+flywheel = {{ inertia = 2.0 }}
+[mechanism.cranks.A]
+radius = 0.1
+[mechanism.sliders.B]
+crank = "A"
+rod = 0.4
+offset = {offset}
+[bodies.B]
+mass = 5
+[loads.stop]
+kind = "formula"
+on = "B"
+force = "{force}"
+"""
+
+
+# A stop that damps as it is pressed in (Hunt, Crossley, *J. Appl. Mech.* 42, 1975, pp. 440-445): the root is of
+# a number that rounding takes below zero at half of all ends of steps at the stop.
+@pytest.mark.parametrize("stop", np.linspace(0.31, 0.49, 7).tolist())
+@pytest.mark.parametrize(
+    "force",
+    [
+        "where(s > {stop}, -20000*(s - {stop})^1.5*(1 + 0.5*v), 0)",
+        "-20000*max(0, s - {stop})^1.5*(1 + 0.5*v)",
+        "-20000*max(0, s - {stop})^1.5*v^2",
+    ],
+)
+def test_a_stop_with_damping(force: str, stop: float) -> None:
+    machine = lw.loads(PRESS_WITH_STOP.format(offset=0, force=force.format(stop=stop)))
+    names, entries = ["speed_min", "speed_max"], ["drive.flywheel.inertia", "mechanism.cranks.A.radius"]
+    found = lw.gradient(machine, [f"steady_state.{name}" for name in names], entries)
+    for at, entry in enumerate(entries):
+        value, step = lw.get(machine, entry), 1e-4
+
+        def around(n: int, entry: str = entry, value: float = value, step: float = step) -> np.ndarray:
+            state = lw.steady_state(lw.replace(machine, {entry: value * (1 + n * step)}), accuracy=1e-12)
+            return np.array([getattr(state, name) for name in names])
+
+        once, twice = ((around(n) - around(-n)) / (2 * n * step) for n in (1, 2))
+        sizes = np.abs(found.values) + np.abs(found.derivatives[:, at] * value)
+        assert (np.abs((4 * once - twice) / 3 - found.derivatives[:, at] * value) < 1e-7 * sizes).all()
+
+
+def test_a_jump_may_be_made_of_kinks() -> None:
+    """The sign of the speed as v/|v|: at the rest it is nothing by nothing."""
+    written = ("-50*sign(v)", "-50*v/abs(v)", "-50*max(0, v)/v + 50*max(0, -v)/(-v)")
+    states = [
+        lw.steady_state(lw.loads(PRESS_WITH_STOP.format(offset=0.03, force=force))) for force in written
+    ]
+    for name in ("speed_min", "speed_max", "acceleration_min", "acceleration_max"):
+        values = [getattr(state, name) for state in states]
+        assert values == pytest.approx([values[0]] * len(values), rel=1e-8), name

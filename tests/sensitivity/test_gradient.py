@@ -9,9 +9,10 @@ from click.testing import CliRunner
 
 import linkwright as lw
 from linkwright.app.application import application
+from linkwright.drive.gradient import gradient_along, solved_along
 from linkwright.kernel.errors import FindingError, InputError, LinkwrightError
 from linkwright.machine.address import exchanged
-from linkwright.machine.program.compiled import Translation
+from linkwright.machine.program.compiled import Translation, compile_machine
 from linkwright.machine.tangents import directions
 
 TWO_CARTS = "machines/roller_two_carts.toml"
@@ -437,3 +438,37 @@ def test_a_motor_of_constant_speed_without_work_has_no_efficiency() -> None:
     assert lw.steady_state(lw.loads(text + '[loads.d]\nkind = "dry"\non = "A"\ntorque = 1\n')).efficiency == (
         pytest.approx(1.0, abs=1e-9)
     )
+
+
+def test_derivatives_do_not_depend_on_what_else_is_asked_for():
+    """The motor's torque changes sign where no entry of another bundle of lanes moves the motion."""
+    machine = lw.loads("""
+    format = 1
+    name = "idling crank"
+    [drive]
+    motor = { kind = "table", speed = [0, 6.5, 13, 19.5], torque = [1.55, 1.94, 0.776, -1.55] }
+    gearbox = { ratio = 3, efficiency = 0.9 }
+    flywheel = { inertia = 85 }
+    [mechanism]
+    points.P = { x = 0.3, y = -0.1 }
+    cranks.A = { radius = 0.08 }
+    sliders.S = { crank = "A", rod = 0.3 }
+    rockers.R = { crank = "A", pivot = "P", coupler = 0.32, rocker = 0.16 }
+    [bodies]
+    A = { mass = 3 }
+    R = { mass = 40 }
+    """)
+    asked = "mechanism.rockers.R.coupler"
+    others = ["bodies.A.mass", "drive.gearbox.ratio", "drive.flywheel.inertia", "mechanism.points.P.x"]
+    others += ["mechanism.points.P.y", "mechanism.cranks.A.radius", "mechanism.rockers.R.rocker"]
+    # A slider without mass moves nothing: with this one there is a second bundle.
+    others += ["mechanism.sliders.S.angle"]
+    angles = np.linspace(0.0, 2 * np.pi, 721)
+
+    def curve(names):
+        compile_machine(machine).kept.clear()
+        along = directions(machine, names)
+        _, solution, _ = solved_along(machine, along)
+        return gradient_along(machine, solution, along).curves(angles).speed[:, along.variables.index(asked)]
+
+    np.testing.assert_array_equal(curve([asked, *others]), curve([asked]))
