@@ -140,9 +140,7 @@ impl<R: Real> Turn<R> {
     #[inline(always)]
     pub fn take_rows(&mut self, machine: &Machine<'_, R>, k: usize, m: &mut Motion<R>) {
         let step = &mut self.steps[k];
-        for i in 0..S {
-            step.rows[i] = machine.row_at((step.phi, step.h), i, m, &mut self.geometry);
-        }
+        step.rows = machine.rows(step.phi, step.h, m, &mut self.geometry);
     }
 
     /// What the laws need to know at the stages of a step.

@@ -41,7 +41,7 @@ pub struct Machine<'a, R> {
     /// law jumps at some speed the jump is the end of a step then, and rounding does not decide on which side of it a
     /// stage lies.
     pub keeps_branch: bool,
-    /// The state that chooses the branch of all stages in the place of that stage: what laws know there, and u.
+    /// The state that chooses the branch of all stages in the place of the reference: what laws know there, and u.
     pub side: Option<(&'a [LawGeometry<R>], R)>,
     /// How far \[rad\] inside a step its ends are known to be on its side; 0 where they are read as they are.
     pub(super) inside: f64,

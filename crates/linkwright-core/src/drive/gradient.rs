@@ -510,13 +510,13 @@ impl<'a, R: Real> DualRevolution<'a, R> {
         curve[0] + off * (curve[1] + off * (curve[2] + off * (curve[3] + off * curve[4])))
     }
 
-    /// Number of the steps before the one that a crank angle lies in, and the ends of that.
+    /// Number of the steps before the one that a crank angle lies in.
     #[inline(always)]
     fn steps_before(&self, phi: f64) -> usize {
         steps_before(self.marks, phi)
     }
 
-    /// See [`Self::steps_before`].
+    /// The ends of the step that a crank angle lies in.
     #[inline(always)]
     fn step_around(&self, phi: f64) -> [f64; 2] {
         let k = self.steps_before(phi);

@@ -43,7 +43,8 @@ const SOLVED: f64 = 1e-6;
 /// A sweep may lower u at most to this share of itself, so that roots stay real.
 pub(super) const SHRINK: f64 = 0.25;
 
-/// Ends of a step are on its side by no more than this share of it.
+/// Ends of a step are on its side by no more than this share of it, so that what they are drawn on from twice as far inside
+/// lies in its near half.
 const AT_JUMP_OF_STEP: f64 = 0.25;
 
 impl<R: Real> Machine<'_, R> {
