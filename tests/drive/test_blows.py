@@ -309,8 +309,8 @@ force = "{force}"
 """
 
 
-# A stop that damps as it is pressed in (Hunt, Crossley, *J. Appl. Mech.* 42, 1975, pp. 440-445): the root is of
-# a number that rounding takes below zero at half of all ends of steps at the stop.
+# A stop that damps as it is pressed in (Hunt, Crossley, *J. Appl. Mech.* 42, 1975): the root is of a number
+# that rounding takes below zero at half of all ends of steps at the stop.
 @pytest.mark.parametrize("stop", np.linspace(0.31, 0.49, 7).tolist())
 @pytest.mark.parametrize(
     "force",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from itertools import combinations, pairwise
 from typing import Any
 
@@ -9,9 +10,17 @@ import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from scipy.stats.qmc import Sobol
 
 from linkwright.kernel.figure.style import broken
-from linkwright.studies.figures import StudyRows, curve_figure, parallel_figure, scatter_figure
+from linkwright.studies.figures import (
+    StudyRows,
+    _drawn,
+    _mixed,
+    curve_figure,
+    parallel_figure,
+    scatter_figure,
+)
 
 VARIABLES = ("crank_radius_of_first_cart", "phase_of_second_crank", "mass_of_both_carts", "gearbox_ratio")
 RESPONSES = ("coefficient_of_speed_fluctuation", "dynamic_factor_H", "mean_speed_over_time")
@@ -78,3 +87,27 @@ def test_labels_of_curves() -> None:
 def test_a_name_breaks_behind_its_underscores(label: str, lines: list[str]) -> None:
     assert broken(label, 10).split("\n") == lines
     assert broken(label, 60).strip() == label
+
+
+@pytest.mark.parametrize("draw", [scatter_figure, parallel_figure])
+def test_a_part_of_a_sobol_sequence_covers_its_ranges(draw: Callable[[StudyRows], Figure]) -> None:
+    """Every second row of the sequence has half the range of one variable, every fourth of another."""
+    n = 65536
+    columns = dict(zip(("radius", "rod", "mass"), Sobol(3, scramble=False).random(n).T, strict=True))
+    # The greatest is found in one row.
+    columns["delta"] = np.where(np.arange(n) == 4711, 9.0, columns["rod"])
+    labels = {name: f"{name} [–]" for name in columns}
+    shown = StudyRows(columns, labels, ("radius", "rod", "mass"), ("delta",), is_grid=False, n_rows=n)
+    figure = draw(shown)
+    drawn = _drawn(shown, np.arange(n), 600)
+    assert f"of {n} rows" in figure.get_suptitle()
+    assert 4711 in drawn
+    for name in shown.variables:
+        values = columns[name][drawn]
+        assert (values.min(), values.max()) == (columns[name].min(), columns[name].max())
+        # Each tenth of the range has a tenth of the rows, but for chance.
+        counts = np.histogram(values, bins=10, range=(0.0, 1.0))[0]
+        assert (np.abs(counts - 60) < 5 * np.sqrt(60)).all()
+        mixed = _mixed(np.arange(n)) % np.uint64(2) == 0
+        halves = np.histogram(columns[name][mixed], bins=2, range=(0.0, 1.0))[0]
+        assert np.abs(halves / n - 0.25).max() < 0.01

@@ -1,7 +1,8 @@
 """Pictures of the rows of a sweep, and of a fit beside its record.
 
 Curves, maps with contours, a scatter matrix, parallel coordinates show all rows of a small sweep, of a large
-one rows spread over all files.
+one rows drawn without order and those with the extremes: every k-th row of a Sobol sequence leaves out parts
+of its ranges.
 """
 
 from __future__ import annotations
@@ -62,6 +63,8 @@ class StudyRows:
     is_grid: bool  # whether the rows are all combinations of the values of two variables or one
     # Variable that is no number, whose values are places → names of the values.
     choices: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    # Rows of the sweep, where these are some of them.
+    n_rows: int = 0
 
     def is_number(self, name: str) -> bool:
         """Whether a column has numbers, and no places of names."""
@@ -123,7 +126,8 @@ def scatter_figure(shown: StudyRows) -> Figure:
     figure, axes = panels(len(names), height=size, columns=len(names), shared=False)
     figure.set_size_inches(size, size)
     letters = int(_PER_INCH * size / len(names))
-    rows = _spread(len(shown.columns[names[0]]), _POINTS)
+    rows = _drawn(shown, np.arange(len(shown.columns[names[0]])), _POINTS)
+    _say_how_many(figure, shown, len(rows))
     for place, panel in enumerate(axes):
         i, j = divmod(place, len(names))
         x, y = (shown.columns[names[k]][rows] for k in (j, i))
@@ -156,8 +160,8 @@ def parallel_figure(shown: StudyRows) -> Figure:
 
     names = _chosen(shown)
     figure, (panel,) = panels(1, height=4.2)
-    rows = _whole_rows(shown)
-    rows = rows[_spread(len(rows), _LINES)]
+    rows = _drawn(shown, _whole_rows(shown), _LINES)
+    _say_how_many(figure, shown, len(rows))
     scaled = np.stack([_scaled(shown.columns[name][rows]) for name in names], axis=1)
     order = np.argsort(scaled[:, -1])
     places = np.arange(len(names))
@@ -223,9 +227,25 @@ def _chosen(shown: StudyRows) -> Sequence[str]:
     return (*shown.variables[: _PANELS - len(responses)], *responses)
 
 
-def _spread(n: int, most: int) -> Indices:
-    """Numbers of rows, spread evenly over all."""
-    return np.unique(np.linspace(0, n - 1, min(n, most)).astype(np.intp)) if n else np.empty(0, np.intp)
+def _drawn(shown: StudyRows, rows: Indices, most: int) -> Indices:
+    """So many of some rows, drawn without order, and those with the extremes of each column."""
+    if len(rows) <= most:
+        return rows
+    some = np.random.default_rng(0).choice(rows, most, replace=False)
+    ends = [rows[_ends(shown.columns[name][rows])] for name in _chosen(shown)]
+    return np.unique(np.concatenate([some, *ends]))
+
+
+def _ends(values: Floats) -> Indices:
+    """Places of the smallest and the largest of some values; none where there is none."""
+    known = np.flatnonzero(np.isfinite(values))
+    return known[[values[known].argmin(), values[known].argmax()]] if len(known) else known
+
+
+def _say_how_many(figure: Figure, shown: StudyRows, n: int) -> None:
+    """Write how many rows of how many are drawn, unless all are."""
+    if n < shown.n_rows:
+        figure.suptitle(f"{n} of {shown.n_rows} rows", fontsize=8)
 
 
 def _scaled(values: Floats) -> Floats:
@@ -265,15 +285,25 @@ _ROWS, _GRID = 40_000, 4_000_000
 
 
 def rows_of(folder: SweepFolder) -> dict[str, NDArray[Any]]:
-    """Columns of a sweep, (n,) each; of a large one every k-th row. A `FindingError` without rows yet."""
+    """Columns of a sweep, (n,) each; of a large one some rows. A `FindingError` without rows yet."""
     is_grid = folder.manifest["study"].get("sweep", {}).get("method", "grid") == "grid"
     every = -(-folder.n_rows // (_GRID if is_grid else _ROWS))
     names = ["row", *folder.units, "status", "reason"]
     parts = []
     for path in folder.parts():
         columns = columns_of(path, names)
-        kept = columns["row"] % every == 0
+        kept = columns["row"] % every == 0 if is_grid else _mixed(columns["row"]) % np.uint64(every) == 0
+        if every > 1 and not is_grid:
+            kept[np.concatenate([_ends(columns[name]) for name in folder.units])] = True
         parts.append({name: column[kept] for name, column in columns.items()})
     if not parts:
         raise FindingError(f"{folder.path}: no rows are computed yet")
     return {name: np.concatenate([part[name] for part in parts]) for name in names}
+
+
+def _mixed(numbers: NDArray[Any]) -> NDArray[np.uint64]:
+    """Numbers without any order, each always the same: splitmix64 (Steele, Lea, Flood, *OOPSLA*, 2014)."""
+    mixed = numbers.astype(np.uint64) * np.uint64(0x9E3779B97F4A7C15)
+    for shift, factor in ((30, 0xBF58476D1CE4E5B9), (27, 0x94D049BB133111EB)):
+        mixed = (mixed ^ (mixed >> np.uint64(shift))) * np.uint64(factor)
+    return mixed ^ (mixed >> np.uint64(31))

@@ -249,5 +249,5 @@ def _best_phase(needs: Needs, study: TopperStudy) -> Any:
             place = _at_end(needs, share)
             points.append(_in_phase(needs, (nth, *last[1:]), _lift(station, needs.n), place).needed)
     d_of = np.array([_number(x).d for x in points])
-    apart = np.abs(d_of - d_of[0]).max(axis=0) > _SAME * np.abs(d_of).max()
+    apart = np.abs(d_of - d_of[0]).max(axis=0) > _SAME * np.abs(d_of).max(initial=0.0)
     return Tangent(best, np.where(apart, np.nan, d_of[0]))

@@ -169,6 +169,7 @@ def shown_of(folder: SweepFolder) -> StudyRows:
         plan.responses,
         plan.sweep.method == "grid",
         choices,
+        folder.n_rows,
     )
 
 

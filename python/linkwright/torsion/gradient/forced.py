@@ -211,7 +211,9 @@ def _torque_tangents(
     waves = np.einsum("md,sodv->somv", onto, table[:, :n] + 1j * table[:, n : 2 * n])
     damping = np.einsum("md,sdv->smv", onto * referred.speed, table[:, -1])
     means = [
-        np.stack([mean_shaft_torques(referred, m[:, None])[:, 0] for m in value.T], axis=1)
+        np.array([mean_shaft_torques(referred, m[:, None])[:, 0] for m in value.T])
+        .reshape(-1, len(referred.shafts))
+        .T
         for value in table[:, -2]
     ]
     return [_TorqueTangents(*values) for values in zip(waves, means, damping, strict=True)]

@@ -65,8 +65,8 @@ def train_tangents(
     free = [name for name in variables if name not in refused]
     derivatives = columns(machine, free, partial(_numbers, inertia=J), refused)
     known = tuple(name for name in free if name in derivatives)
-    table = np.array([derivatives[name] for name in known]).T.reshape(-1, len(known))
     ends = np.cumsum([len(getattr(referred, name)) for name in _NUMBERS])
+    table = np.array([derivatives[name] for name in known]).reshape(len(known), ends[-1]).T
     return train, referred, TrainTangents(known, *np.split(table, ends[:-1]))
 
 
