@@ -438,8 +438,8 @@ def test_steps_of_rounding_are_no_wrong_derivatives() -> None:
         return np.sin(lw.get(machine, "mechanism.cranks.A.radius")) + 1e-10 * steps
 
     case = Case(lw.loads(described), [], measure, _alone)
-    good = np.full(len(names), _TOLERANCE)
+    limits = np.full(len(names), _TOLERANCE), np.zeros(len(names))
     for off, wrong in ((0.0, 0), (1e-5, len(names))):
         tally, exact = Tally(), np.full(len(names), np.cos(1.0) + off)
-        _compare(case, names, exact, {"mechanism.cranks.A.radius": 1.0}, good, tally)
+        _compare(case, names, exact, {"mechanism.cranks.A.radius": 1.0}, limits, tally)
         assert len(tally.wrong) == wrong
