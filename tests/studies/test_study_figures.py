@@ -94,7 +94,7 @@ def test_a_part_of_a_sobol_sequence_covers_its_ranges(draw: Callable[[StudyRows]
     """Every second row of the sequence has half the range of one variable, every fourth of another."""
     n = 65536
     columns = dict(zip(("radius", "rod", "mass"), Sobol(3, scramble=False).random(n).T, strict=True))
-    # One row alone has the greatest value.
+    # One row alone has the maximum.
     columns["delta"] = np.where(np.arange(n) == 4711, 9.0, columns["rod"])
     labels = {name: f"{name} [–]" for name in columns}
     shown = StudyRows(columns, labels, ("radius", "rod", "mass"), ("delta",), is_grid=False, n_rows=n)
