@@ -36,6 +36,20 @@ def test_the_smallest_cam_within_a_pressure_angle() -> None:
     assert lw.cam_profile(smaller).pressure_angle_max > np.radians(30)
 
 
+def test_contact_pressure_asks_for_width_and_speed(tmp_path: Path) -> None:
+    """Before the search: without them no machine has an answer."""
+    limits = ("--pressure-angle", "30 deg", "--contact-stress", "600 MPa")
+    without_width = size(str(CAM), *limits)
+    assert without_width.exit_code == 2
+    assert "mechanism.cams.finger: found no width" in without_width.output
+    text = CAM.read_text("utf-8").replace('side = "right"', 'side = "right"\nwidth = "10 mm"')
+    without_speed = tmp_path / "cam.toml"
+    without_speed.write_text(text.replace('speed = "200 rad/s"', ""), "utf-8")
+    found = size(str(without_speed), *limits)
+    assert found.exit_code == 2
+    assert "drive.speed: found none, and no drive.motor" in found.output
+
+
 def test_the_smallest_damper_that_keeps_a_shaft() -> None:
     """At the damping that is best for a ring the limit is just met: Den Hartog's optimum of that ring."""
     machine = lw.read(DAMPER)

@@ -392,3 +392,9 @@ def test_orders_far_apart_ask_for_no_more_harmonics_than_there_may_be(listed: li
     # One alone repeats; what repeats and what does not reach their peaks together.
     assert top == pytest.approx(len(listed))
     assert -len(listed) - 1e-9 <= bottom <= 0
+
+
+@pytest.mark.parametrize("speed", [1e200, 1e120, -5.0])
+def test_speeds_are_those_of_machines(speed: float) -> None:
+    with pytest.raises(InputError, match=r"speeds: found .* at index 1, expected an angular speed"):
+        forced_vibration(two_discs(damping=1.0), np.array([10.0, speed]))

@@ -157,7 +157,7 @@ def cam_study(
     Raises
     ------
     InputError
-        There is no such cam, or it has no base circle.
+        There is no such cam, or it has no base circle; no width or no speed for a contact pressure.
     """
     in_range(
         pressure_angle=(pressure_angle, positive(ANGLE)), contact_stress=(contact_stress, positive(PRESSURE))
@@ -166,6 +166,14 @@ def cam_study(
     cam, address = machine.mechanism.cams[name], f"mechanism.cams.{name}"
     if cam.base_radius is None:
         raise InputError(f"{address}: found no base_radius, expected one: it is what becomes small")
+    drive = machine.drive
+    if contact_stress is not None and cam.width is None:
+        raise InputError(f"{address}: found no width, expected one: contact pressure is that of a breadth")
+    if contact_stress is not None and (drive is None or (drive.motor is None and drive.speed is None)):
+        raise InputError(
+            "drive.speed: found none, and no drive.motor, expected one of them: contact pressure is that of "
+            "the forces at a speed; give it in the machine file"
+        )
     variables = {"base": _about(f"{address}.base_radius", float(cam.base_radius))}
     # Without loads the pressure angle alone counts, which follows the prime circle whatever the roller is.
     with_roller = bool(contact_stress is not None and cam.is_roller and cam.roller_radius)

@@ -32,8 +32,10 @@ from numpy.typing import NDArray
 
 from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.public import public
+from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
+from linkwright.kernel.units import SPEED, not_negative
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.response import respond, shaft_torques
 from linkwright.torsion.excitation.excited_train import ExcitedTrain, excited_train
@@ -278,12 +280,13 @@ def forced_vibration(machine: Machine, speeds: Floats | None = None) -> ForcedVi
     Raises
     ------
     InputError
-        Nothing excites the train, or it has no speeds.
+        Nothing excites the train, it has no speeds, or one is none of a machine.
 
     References
     ----------
     .. [1] Ker Wilson, Practical Solution of Torsional Vibration Problems, vol. 2, 1963.
     """
+    in_range(speeds=(speeds, not_negative(SPEED)))
     return responded(excited_train(machine, speeds))
 
 
