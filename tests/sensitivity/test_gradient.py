@@ -472,3 +472,35 @@ def test_derivatives_do_not_depend_on_what_else_is_asked_for():
         return gradient_along(machine, solution, along).curves(angles).speed[:, along.variables.index(asked)]
 
     np.testing.assert_array_equal(curve([asked, *others]), curve([asked]))
+
+
+def test_the_driving_torque_of_a_nearly_neutral_drive():
+    """The torques of inertia are a million times as large as that of the motor, which they leave."""
+    machine = lw.loads("""
+    format = 1
+    name = "idling slider-crank"
+    [drive]
+    motor = { kind = "dc", speed_no_load = 368, torque_stall = 4.4 }
+    gearbox = { ratio = 1, efficiency = 0.7 }
+    flywheel = { inertia = 20 }
+    [mechanism.cranks.A]
+    radius = 0.56
+    phase = -2.4
+    [mechanism.sliders]
+    S = { crank = "A", rod = 1.2 }
+    T = { crank = "A", rod = 2.0, offset = 0.24, angle = 2.0 }
+    [bodies]
+    S = { mass = 270 }
+    T = { mass = 19 }
+    """)
+    name, entry, step = "forces.torque_drive_max", "mechanism.cranks.A.phase", 1e-4
+    found = lw.gradient(machine, [name], [entry])
+    value = lw.get(machine, entry)
+
+    def around(n):
+        near = lw.replace(machine, {entry: value + n * step})
+        return lw.forces(near, lw.steady_state(near, accuracy=1e-13)).torque_drive_max
+
+    once, twice = ((around(n) - around(-n)) / (2 * n * step) for n in (1, 2))
+    # Rounding of the speed is all that differences know of such a torque.
+    assert found.derivatives[0, 0] == pytest.approx((4 * once - twice) / 3, rel=1e-4)

@@ -95,6 +95,11 @@ def force_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     at = angles[np.unique(list(places.values()))]
     along, lost = _motion_along(machine, _there(machine, solution, motion, at), entries, solution)
     tangents = _curves(_collected(_SceneAlong(machine, along, entries)))
+    if solution is not None:
+        # Equilibrium makes the driving torque of torques of inertia, in a nearly neutral drive of some that
+        # are a million times as large. It is that of the motor at its speed.
+        driving = gradient_along(machine, solution, program).curves(at).torque_drive
+        tangents["torque_drive_max"] = TangentArray(solution.curves(at).torque_drive, driving)
     extremes, ties = {}, {}
     for name, place in places.items():
         (curve, sides), angle = curves[name], float(angles[place])
