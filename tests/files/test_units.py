@@ -173,6 +173,8 @@ def test_spellings_of_one_unit(given: str, same: str) -> None:
         ("1 кг", units.LENGTH, "unit of mass"),
         ("1 обертань", units.SPEED, "not a known unit"),
         ("1 wobble", units.LENGTH, "not a known unit"),
+        ("0.2 m ± 0.2 mm", units.LENGTH, "tolerance of [study.variables.NAME]"),
+        ("25 H7", units.LENGTH, "tolerance of [study.variables.NAME]"),
         ("1 N/m s", units.STIFFNESS, "two ways"),
         ("50 Hz", units.SPEED, "revolutions or radians"),
         ("3000 1/min", units.SPEED, "revolutions or radians"),

@@ -159,6 +159,8 @@ _SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
 _SUPERSCRIPT_RUN = re.compile(r"[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+")
 _WORD = re.compile(r"[A-Za-z]+")
 _POUND = re.compile(r"\blb\b")
+# Limits about a size, or a class of ISO 286 behind it.
+_TOLERANCE = re.compile(r"±|^[Hh]\d{1,2}$")
 # Newton metre seconds, or newton milliseconds?
 _NMS = re.compile(r"\bk?Nms\b")
 _HYPHEN = re.compile(r"(?<=[A-Za-z])-(?=[A-Za-z])")
@@ -262,6 +264,8 @@ def _registry() -> pint.UnitRegistry[Any]:
 
 def unknown(unit: str) -> str:
     """What to change in a unit that nobody knows."""
+    if _TOLERANCE.search(unit):
+        return "a tolerance belongs to a variable of a study: address and tolerance of [study.variables.NAME]"
     text = normal(unit)
     if _OTHER_ZERO.fullmatch(text):
         return (
