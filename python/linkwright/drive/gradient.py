@@ -32,8 +32,9 @@ from linkwright.machine.tangents import Directions
 _LOOK = 1440
 
 # Relative accuracy of the steady motion whose derivatives are taken: with formulas, which may bend at any
-# angle, a digit more, as derivatives by the place of a bend change faster behind it than the motion does.
-_ACCURACY, _ACCURACY_WITH_FORMULAS = 1e-11, 1e-12
+# angle, two digits more, as derivatives by the place of a bend, sharp or soft, change faster beside it than
+# the motion does.
+_ACCURACY, _ACCURACY_WITH_FORMULAS = 1e-11, 1e-13
 _BESIDE = np.geomspace(1e-9, 3e-3, 14)
 
 # How far a rival may seem to stay below the extreme before it is read more closely, as a share of the range:
