@@ -93,13 +93,12 @@ def force_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     if not places:
         return Derivatives(program.variables, {}, {}, missing, program.refused)
     at = angles[np.unique(list(places.values()))]
-    along, lost = _motion_along(machine, _there(machine, solution, motion, at), entries, solution)
+    along, lost, driving = _motion_along(machine, _there(machine, solution, motion, at), entries, solution)
     tangents = _curves(_collected(_SceneAlong(machine, along, entries)))
-    if solution is not None:
+    if driving is not None:
         # Equilibrium makes the driving torque of torques of inertia, in a nearly neutral drive of some that
         # are a million times as large. It is that of the motor at its speed.
-        driving = gradient_along(machine, solution, program).curves(at).torque_drive
-        tangents["torque_drive_max"] = TangentArray(solution.curves(at).torque_drive, driving)
+        tangents["torque_drive_max"] = TangentArray(primal(tangents["torque_drive_max"]), driving)
     extremes, ties = {}, {}
     for name, place in places.items():
         (curve, sides), angle = curves[name], float(angles[place])
@@ -128,7 +127,7 @@ def drive_forces_along(
     program = entries.program
     solution = _solution(machine, program)
     motion = motion_at(machine, None, angles=angles) if solution is None else _read(solution, angles)
-    along, lost = _motion_along(machine, motion, entries, solution)
+    along, lost, _ = _motion_along(machine, motion, entries, solution)
     drives = _collected(_SceneAlong(machine, along, entries)).drives()
     return program, drives, lost, Kinks(machine, program, solution)
 
@@ -283,8 +282,8 @@ class Kinks:
 
 def _motion_along(
     machine: Machine, motion: Motion, entries: _Entries, solution: SteadySolution | None
-) -> tuple[Motion, dict[str, float]]:
-    """The motion at its angles, with derivatives, and entries by which these are lost."""
+) -> tuple[Motion, dict[str, float], Floats | None]:
+    """The motion with derivatives, entries by which they are lost, those of the driving torque if solved."""
     program, phi = entries.program, motion.crank_angle
     n = len(program.variables)
     if solution is not None:
@@ -293,7 +292,7 @@ def _motion_along(
         followed: dict[str, Any] = {
             name: TangentArray(getattr(motion, name), getattr(curves, name)) for name in _MOTION[1:]
         }
-        return replace(motion, **followed), program.lost(gradient.lost)
+        return replace(motion, **followed), program.lost(gradient.lost), curves.torque_drive
     drive = entries.machine.drive
     assert drive is not None
     given: Any = drive.speed
@@ -302,7 +301,7 @@ def _motion_along(
     speed: Any = lifted(given * lifted(np.ones(len(phi)), n), n)
     acceleration: Any = lifted(motion.acceleration, n)
     time: Any = phi / speed if motion.speed.any() else lifted(phi, n)
-    return replace(motion, speed=speed, acceleration=acceleration, time=time), {}
+    return replace(motion, speed=speed, acceleration=acceleration, time=time), {}, None
 
 
 class _SceneAlong(Scene):

@@ -212,7 +212,7 @@ def _torque_tangents(
     damping = np.einsum("md,sdv->smv", onto * referred.speed, table[:, -1])
     means = [
         np.array([mean_shaft_torques(referred, m[:, None])[:, 0] for m in value.T])
-        .reshape(-1, len(referred.shafts))
+        .reshape(value.shape[1], len(referred.shafts))
         .T
         for value in table[:, -2]
     ]
