@@ -57,6 +57,16 @@ class TangentArray:
         """The axes in reverse."""
         return TangentArray(self.value.T, self.d.transpose(*range(self.ndim - 1, -1, -1), self.ndim))
 
+    @property
+    def real(self) -> TangentArray:
+        """Real parts."""
+        return TangentArray(self.value.real, self.d.real)
+
+    @property
+    def imag(self) -> TangentArray:
+        """Imaginary parts."""
+        return TangentArray(self.value.imag, self.d.imag)
+
     def __len__(self) -> int:
         return len(self.value)
 
@@ -88,6 +98,10 @@ class TangentArray:
         """The same numbers in another shape."""
         value = self.value.reshape(*shape)
         return TangentArray(value, self.d.reshape((*value.shape, self.d.shape[-1])))
+
+    def mean(self) -> TangentArray:
+        """Mean of all values."""
+        return self.sum() / self.size
 
     def sum(self, axis: int | None = None) -> TangentArray:
         """Sum over an axis or all."""
@@ -156,7 +170,7 @@ def _times(slope: Any, d: Floats) -> Floats:
 
 def _is_finite(x: Any) -> bool:
     """Whether all numbers are finite; not where their squares overflow, which costs time alone."""
-    return isfinite(np.vdot(x, x))
+    return isfinite(np.vdot(x, x).real)
 
 
 def _is_simple(x: Any) -> bool:
@@ -285,6 +299,16 @@ for _name, _ufunc in (_OPERATORS | _COMPARISONS | {"neg": np.negative, "abs": np
     setattr(TangentArray, f"__{_name}__", _operator(_ufunc))
 for _name, _ufunc in _OPERATORS.items():
     setattr(TangentArray, f"__r{_name}__", _operator(_ufunc, turned=True))
+
+
+def in_arrays(x: Any) -> Any:
+    """A number that meets arrays: one with derivatives becomes an array without axes."""
+    return TangentArray(x.value, x.d) if isinstance(x, Tangent) else x
+
+
+def plain(x: Any) -> Any:
+    """One number of arrays as a number, with its derivatives if it has some."""
+    return x.number() if isinstance(x, TangentArray) else float(x)
 
 
 def primal(x: Any) -> Any:

@@ -20,6 +20,7 @@ from pydantic_core import InitErrorDetails
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.description.curve import curve_faults, not_rising
+from linkwright.kernel.numerics.tangent_array import numbers, primal
 from linkwright.kernel.numerics.zeros import zeros
 from linkwright.kernel.units import INERTIA, POWER, Angles, Torques, positive
 from linkwright.torsion.model.train_base import Damping, LossFactor, PositiveStiffness, PositiveTorque
@@ -78,8 +79,10 @@ class Coupling(CheckedDescription):
         if self.stiffness is not None:
             return np.full_like(np.asarray(torque, float), self.stiffness)
         twist, torques, slopes = self.curve()
-        size = np.minimum(np.abs(torque), torques[-1])
-        n = np.minimum(np.searchsorted(torques, size, side="right") - 1, len(twist) - 2)
+        knots = primal(torques)
+        is_inside = np.abs(torque) < knots[-1]
+        size = np.where(is_inside, np.abs(torque), torques[-1])
+        n = np.minimum(np.searchsorted(knots, primal(size), side="right") - 1, len(knots) - 2)
         h, rise = twist[n + 1] - twist[n], torques[n + 1] - torques[n]
         piece = (rise, h * slopes[n], h * slopes[n + 1])
 
@@ -88,7 +91,9 @@ class Coupling(CheckedDescription):
             over: Floats = torques[n] + _hermite(z, *piece)[0] - size
             return over
 
-        z, _ = zeros(beyond, np.zeros_like(size), np.ones_like(size))
+        z, _ = zeros(lambda z: primal(beyond(z)), np.zeros_like(primal(size)), np.ones_like(primal(size)))
+        # Where the curve moves with its points, the place on it moves by one step of Newton's method.
+        z = z - (beyond(z) - primal(beyond(z))) / primal(_hermite(z, *piece)[1])
         stiffness: Floats = _hermite(z, *piece)[1] / h
         return stiffness
 
@@ -100,20 +105,19 @@ class Coupling(CheckedDescription):
         """
         assert self.twist is not None
         assert self.torque is not None
-        x, y = np.array(self.twist), np.array(self.torque)
-        h, s = np.diff(x), np.diff(y) / np.diff(x)
-        slopes = np.empty_like(x)
+        x, y = numbers(self.twist), numbers(self.torque)
+        h = x[1:] - x[:-1]
+        s = (y[1:] - y[:-1]) / h
         w = (h[:-1] + 2 * h[1:]) / (3 * (h[:-1] + h[1:]))
-        slopes[1:-1] = s[:-1] * s[1:] / (w * s[1:] + (1 - w) * s[:-1])
+        inside = s[:-1] * s[1:] / (w * s[1:] + (1 - w) * s[:-1])
         # Odd about zero: the piece before the first is the same again.
-        slopes[0] = s[0] if len(s) < 2 else _end_slope(s[0], slopes[1])
-        slopes[-1] = _end_slope(s[-1], slopes[-2]) if len(s) > 1 else s[-1]
-        return x, y, slopes
+        ends = (_end_slope(s[0], inside[0]), _end_slope(s[-1], inside[-1])) if len(s) > 1 else (s[0], s[0])
+        return x, y, numbers([ends[0], *inside, ends[1]])
 
 
 def _end_slope(chord: float, inside: float) -> float:
     """Slope at an end for a parabola-like piece, kept where the curve rises."""
-    return float(min(max(1.5 * chord - 0.5 * inside, 0.1 * chord), 3 * chord))
+    return min(max(1.5 * chord - 0.5 * inside, 0.1 * chord), 3 * chord)
 
 
 def _hermite(z: Floats, rise: Floats, first: Floats, last: Floats) -> tuple[Floats, Floats]:

@@ -14,6 +14,7 @@ from typing import NamedTuple, TypeVar
 
 from pydantic import Field
 
+from linkwright.kernel.numerics.tangent_array import plain
 from linkwright.torsion.model.coupling import Coupling, Damper
 from linkwright.torsion.model.engine.engine_motion import mean_throw_inertia, throw_stiffness
 from linkwright.torsion.model.shaft_row import RodPiece, end_inertias, rod_pieces
@@ -114,7 +115,7 @@ def _coupling(coupling: Coupling) -> Shaft:
     """What a coupling without mean torque does."""
     return Shaft.model_construct(
         between=coupling.between,
-        stiffness=float(coupling.slope()) if coupling.stiffness is None else coupling.stiffness,
+        stiffness=plain(coupling.slope()) if coupling.stiffness is None else coupling.stiffness,
         damping=coupling.damping,
         loss_factor=coupling.loss_factor,
     )

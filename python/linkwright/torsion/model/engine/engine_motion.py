@@ -7,7 +7,6 @@ import math
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.numerics.tangent import primal
 from linkwright.torsion.model.engine.engine import ReciprocatingEngine
 from linkwright.torsion.model.engine.equivalent_inertia import mean_inertia
 from linkwright.torsion.model.engine.running_gear import (
@@ -65,11 +64,7 @@ def own_inertia(engine: ReciprocatingEngine) -> float:
 
 def mean_throw_inertia(engine: ReciprocatingEngine) -> float:
     """Mean over the revolution of the inertia of a throw with its rods and pistons [kg m²]."""
-    own = own_inertia(engine)
-    mean: float = mean_inertia(engine.radius, running_gears(engine), primal(own)).mean
-    # It is linear in what turns with the throw, which may have derivatives.
-    inertia: float = mean + (own - primal(own))
-    return inertia
+    return mean_inertia(engine.radius, running_gears(engine), own_inertia(engine)).mean
 
 
 def throw_stiffness(engine: ReciprocatingEngine) -> float:

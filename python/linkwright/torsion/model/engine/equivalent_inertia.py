@@ -70,6 +70,7 @@ from numpy.typing import ArrayLike
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import AssemblyError, ConvergenceError
+from linkwright.kernel.numerics.tangent_array import plain
 from linkwright.torsion.model.engine.rod import Rod
 from linkwright.torsion.model.engine.running_gear import RunningGear, throw_reduction
 
@@ -98,8 +99,8 @@ def mean_inertia(crank_radius: float, gears: Sequence[RunningGear], own_inertia:
     while n < _LAST:
         n *= 2
         after = _means(crank_radius, gears, own_inertia, n)
-        if np.abs(after - before).max() <= _AGREE * after[0]:
-            return MeanInertia(*after.tolist())
+        if max(abs(a - b) for a, b in zip(after, before, strict=True)) <= _AGREE * after.mean:
+            return after
         before = after
     text = (
         f"the mean inertia of a throw was not found to {_AGREE:g} with {n} crank angles: a rod comes close "
@@ -108,13 +109,13 @@ def mean_inertia(crank_radius: float, gears: Sequence[RunningGear], own_inertia:
     raise ConvergenceError(text, method="mean inertia", iterations=n)
 
 
-def _means(crank_radius: float, gears: Sequence[RunningGear], own_inertia: float, n: int) -> np.ndarray:
-    """The three means over n even angles."""
+def _means(crank_radius: float, gears: Sequence[RunningGear], own_inertia: float, n: int) -> MeanInertia:
+    """The three means over n even angles; derivatives are squared from mesh to mesh as the means are."""
     phi = np.linspace(0.0, 2.0 * math.pi, n, endpoint=False)
     J = throw_reduction(crank_radius, gears, phi, own_inertia).inertia_reduced
     # Without own inertia and piston a rod of two masses may rest for a moment: its harmonic mean is zero.
-    inverse = float(np.mean(1.0 / J)) if J.min() > 0.0 else math.inf
-    return np.array([J.mean(), np.mean(np.sqrt(J)) ** 2, 1.0 / inverse])
+    harmonic = 1.0 / (1.0 / J).mean() if J.min() > 0.0 else 0.0
+    return MeanInertia(*(plain(mean) for mean in (J.mean(), np.sqrt(J).mean() ** 2, harmonic)))
 
 
 def central_mean_inertia(

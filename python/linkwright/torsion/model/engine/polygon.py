@@ -17,6 +17,8 @@ from collections.abc import Iterator
 from itertools import combinations
 from typing import NamedTuple
 
+from linkwright.kernel.numerics.tangent import total
+
 Point = tuple[float, float]
 Points = tuple[Point, ...]
 
@@ -40,7 +42,7 @@ def _cross(a: Point, b: Point) -> float:
 
 def signed_area(corners: Points) -> float:
     """Area of a polygon [m²], positive if its corners go round counter-clockwise."""
-    return math.fsum(_cross(a, b) for a, b in sides(corners)) / 2
+    return total(_cross(a, b) for a, b in sides(corners)) / 2
 
 
 def area_moments(corners: Points) -> AreaMoments:
@@ -53,11 +55,11 @@ def area_moments(corners: Points) -> AreaMoments:
     near = tuple((x - x_0, y - y_0) for x, y in corners)
     area = signed_area(near)
     weighed = [(_cross(a, b), a, b) for a, b in sides(near)]
-    x = math.fsum(c * (a[0] + b[0]) for c, a, b in weighed) / (6 * area)
-    y = math.fsum(c * (a[1] + b[1]) for c, a, b in weighed) / (6 * area)
+    x = total(c * (a[0] + b[0]) for c, a, b in weighed) / (6 * area)
+    y = total(c * (a[1] + b[1]) for c, a, b in weighed) / (6 * area)
     squares = (c * (a[n] ** 2 + a[n] * b[n] + b[n] ** 2) for c, a, b in weighed for n in (0, 1))
-    polar = math.fsum(squares) / 12 - area * (x * x + y * y)
-    return AreaMoments(abs(area), (x_0 + x, y_0 + y), math.copysign(polar, 1.0))
+    polar = total(squares) / 12 - area * (x * x + y * y)
+    return AreaMoments(abs(area), (x_0 + x, y_0 + y), abs(polar))
 
 
 def _side_of(a: Point, b: Point, p: Point) -> float:

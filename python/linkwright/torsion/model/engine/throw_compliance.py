@@ -53,6 +53,7 @@ from types import MappingProxyType
 
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError
+from linkwright.kernel.numerics.tangent import sqrt
 from linkwright.torsion.model.engine.throw import CrankThrow
 from linkwright.torsion.model.shaft_flexibility import polar_moment
 
@@ -137,7 +138,7 @@ def zimanenko(throw: CrankThrow) -> float:
     R, L_1, D_1 = throw.radius, throw.journal.length, throw.journal.diameter
     first = L_1 + 0.6 * throw.web.thickness * D_1 / L_1
     second = 0.8 * throw.pin.length + 0.2 * D_1 * throw.web.breadth / R
-    bent = R * math.sqrt(R / throw.pin.diameter)
+    bent = R * sqrt(R / throw.pin.diameter)
     return 32 / (math.pi * throw.shear_modulus) * (first / journal + second / pin + bent / web)
 
 

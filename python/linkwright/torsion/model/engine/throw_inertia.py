@@ -32,6 +32,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from linkwright.kernel.errors import InputError
+from linkwright.kernel.numerics.tangent import cos, sin, total
 from linkwright.torsion.model.engine.polygon import Point, area_moments
 from linkwright.torsion.model.engine.throw import Counterweight, CrankThrow, Drilling, Journal
 
@@ -75,13 +76,13 @@ def throw_inertia(throw: CrankThrow) -> ThrowInertia:
     Exact for the shapes as described; nothing is known of fillets and chamfers.
     """
     parts = tuple(_parts(throw))
-    mass, inertia = math.fsum(part.mass for part in parts), math.fsum(part.inertia for part in parts)
+    mass, inertia = total(part.mass for part in parts), total(part.inertia for part in parts)
     if mass <= 0 or inertia <= 0:
         raise InputError(
             f"crank throw: found {mass:.6g} kg and {inertia:.6g} kg m² left after drillings and bores, "
             "expected more than 0; check diameters, lengths and radii of the drillings"
         )
-    moment = tuple(math.fsum(part.mass * part.centre[n] for part in parts) for n in (0, 1))
+    moment = tuple(total(part.mass * part.centre[n] for part in parts) for n in (0, 1))
     return ThrowInertia(parts, mass, (moment[0], moment[1]), inertia)
 
 
@@ -128,7 +129,7 @@ def _hole(name: str, drilling: Drilling, density: float) -> ThrowPart:
     """A drilling, as negative mass."""
     d, length, gamma = drilling.diameter, drilling.length, drilling.inclination
     mass = -density * _volume(d, length)
-    own = d**2 / 8 * math.cos(gamma) ** 2 + (d**2 / 16 + length**2 / 12) * math.sin(gamma) ** 2
+    own = d**2 / 8 * cos(gamma) ** 2 + (d**2 / 16 + length**2 / 12) * sin(gamma) ** 2
     return ThrowPart(name, mass, (drilling.radius, 0.0), mass * own)
 
 
@@ -139,7 +140,7 @@ def _counterweight(name: str, weight: Counterweight, density: float) -> ThrowPar
         mass, r, own = weight.mass, weight.radius, weight.inertia or 0.0
     else:
         mass, r, own = _sector(weight, density if weight.density is None else weight.density)
-    at = (r * math.cos(weight.direction), r * math.sin(weight.direction))
+    at = (r * cos(weight.direction), r * sin(weight.direction))
     return ThrowPart(name, mass, at, own)
 
 
@@ -150,7 +151,7 @@ def _sector(weight: Counterweight, density: float) -> tuple[float, float, float]
     assert weight.thickness is not None
     b, a, half = weight.outer_radius, weight.inner_radius or 0.0, weight.angle / 2
     mass = density * weight.thickness * half * (b - a) * (b + a)
-    centre = 2 / 3 * (a * a + a * b + b * b) / (a + b) * math.sin(half) / half
+    centre = 2 / 3 * (a * a + a * b + b * b) / (a + b) * sin(half) / half
     return mass, centre, mass * ((a * a + b * b) / 2 - centre**2)
 
 
@@ -172,7 +173,7 @@ def published_inertia(throw: CrankThrow) -> float:
     ]
     holes = ((drilling.diameter, drilling.length, drilling.radius) for drilling in throw.drillings)
     terms += [-_volume(d, length) * (d**2 / 8 + at**2) for d, length, at in holes]
-    return throw.density * math.fsum(terms)
+    return throw.density * total(terms)
 
 
 def _volume(diameter: float, length: float) -> float:
