@@ -110,9 +110,12 @@ MESH_STEPS_MAX: int
 
 @final
 class Table:
-    """Straight lines between points; raises ValueError unless x increases and all is finite."""
+    """Straight lines between points; raises ValueError unless x increases and all is finite.
 
-    def __new__(cls, x: Sequence[float], y: Sequence[float]) -> Table: ...
+    `first`: the first of the parameters that the values are as well.
+    """
+
+    def __new__(cls, x: Sequence[float], y: Sequence[float], first: int | None = None) -> Table: ...
 
 @final
 class Formula:

@@ -190,9 +190,9 @@ def test_mesh_is_fine_enough(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.parametrize(
     ("entries", "least", "within"),
     [
-        ({"load": PROPELLER, "charge_pressure_unloaded": 1e5, "walls": WOSCHNI}, 60.0, 2e-5),
-        ({"load": PROPELLER, "charge_pressure_unloaded": 1e5}, 60.0, 2e-5),
-        ({"walls": WOSCHNI}, 20.0, 1e-3),
+        ({"load": PROPELLER, "charge_pressure_unloaded": 1e5, "walls": WOSCHNI}, 60.0, 2e-7),
+        ({"load": PROPELLER, "charge_pressure_unloaded": 1e5}, 60.0, 2e-7),
+        ({"walls": WOSCHNI}, 20.0, 5e-8),
     ],
 )
 def test_few_speeds_for_many(
@@ -200,7 +200,7 @@ def test_few_speeds_for_many(
 ) -> None:
     gas, speeds = diesel(mean_effective_pressure=16e5, **entries), np.linspace(least, 200, 60)
     few = gas.cycle_pressure(cylinder(), speeds)
-    assert len(few.traces) == 14
+    assert len(few.traces) == 42
     monkeypatch.setattr(combustion, "_ALONE", 100)
     all_of_them = gas.cycle_pressure(cylinder(), speeds)
     assert len(all_of_them.traces) == 120

@@ -1,10 +1,14 @@
 //! Tables: values at knots, straight lines between, end values held outside or repeated every period.
 
+use crate::real::{Lift, Real};
+
 /// A table of `y` over increasing `x`.
 #[derive(Clone, Debug)]
 pub struct Table {
     x: Vec<f64>,
     y: Vec<f64>,
+    /// First of the parameters that its values are as well, if they are: then its derivatives follow theirs.
+    first: Option<usize>,
 }
 
 impl Table {
@@ -12,8 +16,76 @@ impl Table {
     pub fn new(x: &[f64], y: &[f64]) -> Option<Self> {
         let increasing = x.windows(2).all(|pair| pair[0] < pair[1]);
         let finite = x.iter().chain(y).all(|v| v.is_finite());
-        (!x.is_empty() && x.len() == y.len() && increasing && finite)
-            .then(|| Table { x: x.to_vec(), y: y.to_vec() })
+        (!x.is_empty() && x.len() == y.len() && increasing && finite).then(|| Table {
+            x: x.to_vec(),
+            y: y.to_vec(),
+            first: None,
+        })
+    }
+
+    /// The table whose values are parameters as well, one behind the other from the first on.
+    #[must_use]
+    pub fn with_parameters(self, first: usize) -> Self {
+        Table { first: Some(first), ..self }
+    }
+
+    /// The parameters that its values are.
+    pub fn parameters(&self) -> std::ops::Range<usize> {
+        self.first.map_or(0..0, |first| first..first.saturating_add(self.y.len()))
+    }
+
+    /// Value at `x`, the end values being held outside; derivatives by `x` and by the values.
+    #[inline(always)]
+    pub fn held_at<R: Real, N: Lift<R>>(&self, x: N, q: &[R]) -> N {
+        let value = x.map(
+            #[inline(always)]
+            |x| self.held(x),
+        );
+        self.with_values(value, q, |i| x.map(|x| self.share(i, x, None)))
+    }
+
+    /// The same of the table repeated every `period`.
+    #[inline(always)]
+    pub fn periodic_at<R: Real, N: Lift<R>>(&self, x: N, period: f64, q: &[R]) -> N {
+        let value = x.map(
+            #[inline(always)]
+            |x| self.periodic(x, period),
+        );
+        self.with_values(value, q, |i| x.map(|x| self.share(i, x, Some(period))))
+    }
+
+    /// A value with what its own values' derivatives add to it, by the share that each has in it.
+    #[inline(always)]
+    fn with_values<R: Real, N: Lift<R>>(&self, value: N, q: &[R], share: impl Fn(usize) -> N) -> N {
+        if N::IS_PLAIN {
+            return value;
+        }
+        let moved = |sum: N, (i, slot): (usize, usize)| {
+            // Zero but for its derivatives.
+            (N::lift(q[slot]) - self.y[i]).mul_add(share(i), sum)
+        };
+        self.parameters().enumerate().fold(value, moved)
+    }
+
+    /// Share of the value of a knot in that at `x`.
+    fn share(&self, i: usize, x: f64, period: Option<f64>) -> (f64, f64) {
+        let (first, last) = (self.x[0], self.x.len() - 1);
+        let line = |from: f64, to: f64, x: f64| ((x - from) / (to - from), (to - from).recip());
+        let x = period.map_or(x, |period| first + (x - first).rem_euclid(period));
+        match period {
+            Some(period) if x >= self.x[last] && first + period > self.x[last] => match i {
+                0 if last == 0 => (1.0, 0.0),
+                0 => line(self.x[last], first + period, x),
+                _ if i == last => line(first + period, self.x[last], x),
+                _ => (0.0, 0.0),
+            },
+            Some(_) if x >= self.x[last] => (f64::from(i == 0), 0.0),
+            _ if x <= first => (f64::from(i == 0), 0.0),
+            _ if x >= self.x[last] => (f64::from(i == last), 0.0),
+            _ if i > 0 && self.x[i - 1] <= x && x < self.x[i] => line(self.x[i - 1], self.x[i], x),
+            _ if i < last && self.x[i] <= x && x < self.x[i + 1] => line(self.x[i + 1], self.x[i], x),
+            _ => (0.0, 0.0),
+        }
     }
 
     /// The knots.
@@ -68,7 +140,26 @@ fn between(x: f64, a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dual::Dual;
     use std::f64::consts::TAU;
+
+    /// The values' shares make up the value, between knots, before, behind, and where it closes.
+    #[test]
+    fn a_value_is_the_sum_of_its_shares() {
+        let (x, y) = ([0.5, 1.0, 3.0], [1.0, 3.0, -1.0]);
+        let table = Table::new(&x, &y).expect("increasing knots").with_parameters(2);
+        let sum = |at: f64, period| (0..3).map(|i| table.share(i, at, period).0 * y[i]).sum::<f64>();
+        let slopes = |at: f64, period| (0..3).map(|i| table.share(i, at, period).1 * y[i]).sum::<f64>();
+        for at in [-1.0, 0.5, 0.7, 1.0, 2.9, 3.0, 4.0, 5.9, 6.2, 9.0] {
+            let ((held, slope), (turned, slope_turned)) = (table.held(at), table.periodic(at, 4.0));
+            assert!((sum(at, None) - held).abs() < 1e-15 && (slopes(at, None) - slope).abs() < 1e-15, "{at}");
+            let (value, d1) = (sum(at, Some(4.0)), slopes(at, Some(4.0)));
+            assert!((value - turned).abs() < 1e-14 && (d1 - slope_turned).abs() < 1e-14, "{at} of a turn");
+        }
+        let q = [0.0, 0.0, 1.0, 3.0, -1.0].map(|value| Dual { value, d: f64::from(value == 3.0) });
+        let beside = table.held_at(Dual { value: 2.0, d: 0.0 }, &q);
+        assert!((beside.value - 1.0).abs() < 1e-15 && (beside.d - 0.5).abs() < 1e-15, "{beside:?}");
+    }
 
     #[test]
     fn ends_are_held_and_turns_repeat() {

@@ -71,7 +71,7 @@ def _of_group(
 
 def _reason(name: str, error: Exception) -> str:
     if name.rsplit(".", 1)[-1].isdecimal():
-        return "an entry of a table; its numbers do not vary"
+        return "the place of a point of a table has no derivative; its value has"
     if isinstance(error, TypeError):
         return "the machine does not follow it by plain arithmetic (a count, a motion law, a searched length)"
     return str(error)

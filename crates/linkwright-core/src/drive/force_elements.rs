@@ -50,11 +50,7 @@ impl Plan {
             }
             ForceElement::SpringTable { from, to, table } => {
                 let (length, length1) = stretch(m, from, to);
-                let pull = length.map(
-                    #[inline(always)]
-                    |x| self.tables[table].held(x),
-                );
-                (pull * length1, zero)
+                (self.tables[table].held_at(length, q) * length1, zero)
             }
             ForceElement::Damper { from, to, damping } => {
                 (zero, stretch(m, from, to).1.squared() * q[damping])

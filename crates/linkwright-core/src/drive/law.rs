@@ -296,13 +296,7 @@ impl Plan {
                     let inputs = geometry.inputs(omega, time);
                     sum - self.formulas[load.formula].value::<R, N>(q, &inputs) * g
                 }
-                Law::Damper { table, .. } => {
-                    let force = (g * omega).map(
-                        #[inline(always)]
-                        |v| self.tables[table].held(v),
-                    );
-                    force * g + sum
-                }
+                Law::Damper { table, .. } => self.tables[table].held_at(g * omega, q) * g + sum,
             };
         }
         sum

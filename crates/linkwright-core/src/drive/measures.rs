@@ -70,7 +70,7 @@ impl<R: Real> Machine<'_, R> {
         let torque = drive.motor_torque(tables, self.q, omega);
         let mut drag = N::lift(row.viscous).mul_add(omega, N::lift(row.load));
         if !drive.speed_loads.is_empty() {
-            drag = drag + drive.speed_load(tables, omega);
+            drag = drag + drive.speed_load(tables, self.q, omega);
         }
         if !geometry.is_empty() {
             drag = drag + self.laws(geometry, omega);

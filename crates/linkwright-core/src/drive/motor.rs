@@ -71,7 +71,7 @@ impl Drive {
             Motor::Line { torque, inverse_speed } => {
                 N::lift(q[*torque]) * (N::splat(1.0) - speed * N::lift(q[*inverse_speed]))
             }
-            Motor::Table { table } => speed.map(|x| tables[*table].held(x)),
+            Motor::Table { table } => tables[*table].held_at(speed, q),
             Motor::Induction { inverse_synchronous, torque, slip, resistance, spans } => {
                 let s = N::splat(1.0) - speed * N::lift(q[*inverse_synchronous]);
                 let mut m = kloss(s, q[*torque], q[*slip], q[*resistance]);
@@ -97,10 +97,10 @@ impl Drive {
 
     /// Load torque of loads over speed \[N m\] at crank speed ω.
     #[inline(always)]
-    pub fn speed_load<N: Real>(&self, tables: &[Table], omega: N) -> N {
+    pub fn speed_load<R: Real, N: Lift<R>>(&self, tables: &[Table], q: &[R], omega: N) -> N {
         let mut sum = N::splat(0.0);
         for &table in &self.speed_loads {
-            sum = sum + omega.map(|x| tables[table].held(x));
+            sum = sum + tables[table].held_at(omega, q);
         }
         sum
     }
@@ -109,7 +109,7 @@ impl Drive {
     #[inline(always)]
     pub fn torque<R: Real, N: Lift<R>>(&self, tables: &[Table], q: &[R], omega: N) -> N {
         let torque = self.geared_torque(q, self.motor_torque(tables, q, omega));
-        if self.speed_loads.is_empty() { torque } else { torque - self.speed_load(tables, omega) }
+        if self.speed_loads.is_empty() { torque } else { torque - self.speed_load(tables, q, omega) }
     }
 
     /// The same in the direction in which the crank turns, at its speed in that direction; `along` is +1 where the motor
@@ -117,7 +117,7 @@ impl Drive {
     pub fn torque_turning<N: Lift<f64>>(&self, tables: &[Table], q: &[f64], speed: N, along: f64) -> N {
         let sense = N::splat(along);
         let torque = self.geared_torque(q, self.motor_torque(tables, q, speed * sense) * sense);
-        if self.speed_loads.is_empty() { torque } else { torque - self.speed_load(tables, speed) }
+        if self.speed_loads.is_empty() { torque } else { torque - self.speed_load(tables, q, speed) }
     }
 
     /// Crank speeds at which [`Drive::torque_turning`] has a kink.
@@ -171,9 +171,7 @@ impl Drive {
                 for &knot in table.knots() {
                     at_motor.push(R::splat(knot));
                 }
-                for zero in zeros(table) {
-                    at_motor.push(if_apart(R::splat(zero)));
-                }
+                at_motor.extend(zeros(table, q).into_iter().map(if_apart));
             }
         }
         for speed in &mut at_motor {
@@ -193,10 +191,12 @@ fn positive_in_order<R: Real>(mut speeds: Vec<R>) -> Vec<R> {
 }
 
 /// Zeros of a table between its knots.
-fn zeros(table: &Table) -> Vec<f64> {
+#[inline(always)]
+fn zeros<R: Real>(table: &Table, q: &[R]) -> Vec<R> {
     let crossing = |pair: &[f64]| {
-        let (y0, y1) = (table.held(pair[0]).0, table.held(pair[1]).0);
-        (y0 * y1 < 0.0).then(|| pair[0] - y0 * (pair[1] - pair[0]) / (y1 - y0))
+        let [y0, y1] = [pair[0], pair[1]].map(|knot| table.held_at(R::splat(knot), q));
+        let crosses = table.held(pair[0]).0 * table.held(pair[1]).0 < 0.0;
+        crosses.then(|| R::splat(pair[0]) - y0 * (pair[1] - pair[0]) / (y1 - y0))
     };
     table.knots().windows(2).filter_map(crossing).collect()
 }

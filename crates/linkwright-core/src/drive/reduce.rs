@@ -160,16 +160,16 @@ impl Plan {
             }
             Load::ForcePosition { slide, forward, back } => {
                 let slide = &m.slides[slide];
-                let ahead = slide.s.map(|s| self.tables[forward].held(s));
-                let behind = slide.s.map(|s| self.tables[back].held(s));
+                let ahead = self.tables[forward].held_at(slide.s, q);
+                let behind = self.tables[back].held_at(slide.s, q);
                 let force = (slide.d1 * sense).select_lt(R::splat(0.0), behind, ahead);
                 r.dry = slide.d1.abs().mul_add(force, r.dry);
             }
             Load::TorqueAngle { table, turns } => {
-                r.load = r.load + self.over_angle(table, turns, angle.phi);
+                r.load = r.load + self.over_angle(table, turns, angle.phi, q);
             }
             Load::ForceAngle { slide, table, turns } => {
-                r.load = r.load - self.over_angle(table, turns, angle.phi) * m.slides[slide].d1;
+                r.load = r.load - self.over_angle(table, turns, angle.phi, q) * m.slides[slide].d1;
             }
         }
     }
@@ -178,12 +178,8 @@ impl Plan {
 impl Plan {
     /// Value of a table over the crank angle that repeats after some turns.
     #[inline(always)]
-    fn over_angle<R: Real>(&self, table: usize, turns: u32, phi: R) -> R {
-        let period = TAU * f64::from(turns);
-        phi.map(
-            #[inline(always)]
-            |phi| self.tables[table].periodic(phi, period),
-        )
+    fn over_angle<R: Real>(&self, table: usize, turns: u32, phi: R, q: &[R]) -> R {
+        self.tables[table].periodic_at(phi, TAU * f64::from(turns), q)
     }
 }
 

@@ -103,7 +103,11 @@ impl Builder {
     }
 
     pub(super) fn tables(&self, tables: &[usize]) -> Result<(), PlanError> {
-        all_below(tables, self.tables.len(), "table")
+        all_below(tables, self.tables.len(), "table")?;
+        tables.iter().try_for_each(|&table| {
+            let last = self.tables[table].parameters().next_back();
+            last.map_or(Ok(()), |slot| self.slots(&[slot]))
+        })
     }
 
     pub(super) fn check_formula(&self, formula: &Formula) -> Result<(), PlanError> {

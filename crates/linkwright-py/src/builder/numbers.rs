@@ -16,9 +16,15 @@ pub(crate) struct Knots(pub(crate) CoreTable);
 
 #[pymethods]
 impl Knots {
+    /// `first`: the first of the parameters that the values are as well.
     #[new]
-    fn new(x: Vec<f64>, y: Vec<f64>) -> PyResult<Self> {
+    #[pyo3(signature = (x, y, first=None))]
+    fn new(x: Vec<f64>, y: Vec<f64>, first: Option<usize>) -> PyResult<Self> {
         let table = CoreTable::new(&x, &y);
+        let table = table.map(|table| match first {
+            Some(first) => table.with_parameters(first),
+            None => table,
+        });
         table.map(Knots).ok_or_else(|| {
             PyValueError::new_err("table: knots must be finite and increase, with one value each")
         })

@@ -55,7 +55,7 @@ def _motor(machine: Machine, program: MechanismProgram, motor: Any) -> _core.Mot
         case InductionMotor():
             return _induction(program, motor)
         case TableMotor():
-            return _core.Motor.Table(table=table_of(machine, motor.speed, motor.torque))
+            return _core.Motor.Table(table=table_of(machine, program, motor.speed, motor.torque))
     # No motor, or one of constant speed: nothing that answers to the load.
     return None
 

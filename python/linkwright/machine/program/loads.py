@@ -17,7 +17,6 @@ from linkwright.kinetostatics.model import loads
 from linkwright.kinetostatics.model.body import Body
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.mechanism import MechanismProgram
-from linkwright.machine.program.numbers import table
 
 
 def bodies_of(machine: Machine, program: MechanismProgram) -> list[_core.Body]:
@@ -43,7 +42,7 @@ def _body(program: MechanismProgram, carrier: str, body: Body, length: Any) -> _
     )
 
 
-def table_of(machine: Machine, x: Sequence[Any], y: Sequence[Any]) -> _core.Table:
+def table_of(machine: Machine, program: MechanismProgram, x: Sequence[Any], y: Sequence[Any]) -> _core.Table:
     """A table of the description. Raises ShapeError: they vary from machine to machine."""
     if any(np.ndim(value) for value in (*x, *y)):
         points = ", ".join(join(place) for place, _ in arrays(machine) if place[-1].isdecimal())
@@ -51,7 +50,7 @@ def table_of(machine: Machine, x: Sequence[Any], y: Sequence[Any]) -> _core.Tabl
             f"{points}: the points of a table cannot vary from machine to machine in a batch; "
             "compute machines with others one by one"
         )
-    return table(x, y)
+    return program.table(x, y)
 
 
 class Loads:
@@ -87,7 +86,7 @@ class Loads:
         return parts
 
     def _table(self, x: Sequence[Any], y: Sequence[Any]) -> _core.Table:
-        return table_of(self.machine, x, y)
+        return table_of(self.machine, self.program, x, y)
 
     def _load(self, load: Any) -> _core.Load:
         match load:

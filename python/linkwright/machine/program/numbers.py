@@ -10,6 +10,7 @@ import numpy as np
 
 from linkwright import _core
 from linkwright.kernel.description import formula
+from linkwright.kernel.numerics.tangent import primal
 
 if TYPE_CHECKING:
     # A machine without cams has no use for their laws.
@@ -43,6 +44,13 @@ class Numbers:
             self.varying.append(len(self.parameters))
         self.parameters.append(value)
         return len(self.parameters) - 1
+
+    def table(self, x: Sequence[Any], y: Sequence[Any]) -> _core.Table:
+        """Straight lines between points, whose values are parameters as well."""
+        first = len(self.parameters)
+        for value in y:
+            self.slot(value)
+        return _core.Table(list(x), [primal(value) for value in y], first)
 
     def formula(self, term: formula.Node, constants: dict[str, int]) -> _core.Formula:
         """A formula, whose constants have their slots."""

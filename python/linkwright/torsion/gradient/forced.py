@@ -19,7 +19,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -28,17 +27,13 @@ from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.machine.machine import Machine
-from linkwright.machine.tangents import columns
-from linkwright.torsion.core.response import extremes, tree_of
+from linkwright.torsion.core.response import extremes
 from linkwright.torsion.core.train import HELD, ReferredTrain
-from linkwright.torsion.excitation.excited_train import ExcitedTrain, excited_train, mean_shaft_torques
+from linkwright.torsion.excitation.excited_train import ExcitedTrain, excited_train
 from linkwright.torsion.excitation.harmonics import coefficients, orders_together, waveform
+from linkwright.torsion.gradient.torques import TorqueTangents, torque_tangents
 from linkwright.torsion.gradient.train import TrainTangents, train_tangents
-from linkwright.torsion.model.train import Train
 from linkwright.torsion.response.forced import response_by_amplitudes, responses
-
-# Entries of an engine that change its train, but none of its torques.
-_OF_TRAIN = ("stiffness", "loss_factor", "damping", "throw_inertia")
 
 # Peaks that are this near, as a share of the highest, tie; and derivatives that differ by less, of their
 # largest, are one.
@@ -74,14 +69,15 @@ def forced_tangents(machine: Machine, variables: Sequence[str]) -> ForcedTangent
         raise InputError(
             "forced vibration with train.modal_damping has no derivatives: give dampings or loss factors"
         )
-    refused = _refused(machine, variables)
+    refused = _refused(variables)
     train, referred, d = train_tangents(machine, variables, refused)
+    _refuse_moved(d, refused)
+    d = d.only([name for name in d.variables if name not in refused])
     at = excited_train(machine)
     q = responses(at)
-    peaks = _peaks(at, q, has_engine=bool(machine.train.installed))
+    peaks = _peaks(at, q)
     places = sorted({place for _, _, place, _ in peaks})
-    torques = _torque_tangents(machine, train, referred, at.torques.speeds[places], d.variables, refused)
-    _refuse_moved(machine, d, torques, refused)
+    torques = torque_tangents(machine, train, referred, at.torques.speeds[places], d, refused)
     known = [name for name in d.variables if name not in refused]
     forced = _Adjoint(
         at, q, d.only(known), {place: torques[n].only(d.variables, known) for n, place in enumerate(places)}
@@ -97,47 +93,28 @@ def forced_tangents(machine: Machine, variables: Sequence[str]) -> ForcedTangent
     return ForcedTangents(tuple(known), tangents["vibratory"], tangents["greatest"], ties, refused)
 
 
-def _refused(machine: Machine, variables: Sequence[str]) -> dict[str, str]:
-    """Entries that change what is looked at, or torques that do not follow from them by plain arithmetic."""
+def _refused(variables: Sequence[str]) -> dict[str, str]:
+    """Entries that change what is looked at."""
     refused: dict[str, str] = {}
     for name in variables:
-        last = name.rsplit(".", 1)[-1]
         if name.startswith("train.run."):
             refused[name] = "it says at which speeds and orders the train is looked at"
-        elif last == "order":
+        elif name.rsplit(".", 1)[-1] == "order":
             refused[name] = "an order says which torques meet"
-        elif name.startswith(("train.engine.", "train.engines.")) and last not in _OF_TRAIN:
-            refused[name] = "gas and inertia torques of an engine have no derivatives"
-        elif (
-            name.startswith("train.loads.")
-            and machine.train
-            and machine.train.run
-            and machine.train.run.loads_follow
-        ):
-            refused[name] = "the loads follow the engine"
     return refused
 
 
-def _refuse_moved(
-    machine: Machine, d: TrainTangents, torques: list[_TorqueTangents], refused: dict[str, str]
-) -> None:
-    """Entries that change the speeds of discs, so orders; and those that move a coupling along its curve."""
-    assert machine.train is not None
-    is_curved = any(coupling.twist is not None for coupling in machine.train.couplings.values())
+def _refuse_moved(d: TrainTangents, refused: dict[str, str]) -> None:
+    """Entries that change the speeds of discs, and with them the orders."""
     for n, name in enumerate(d.variables):
         if d.speed[:, n].any():
             refused[name] = "it changes the speeds of discs, and with them the orders that meet"
-        elif is_curved and any(torque.mean[:, n].any() for torque in torques):
-            refused[name] = "it changes the mean torque of a coupling, whose stiffness is that of a curve"
 
 
-def _peaks(at: ExcitedTrain, q: Complexes, *, has_engine: bool) -> list[tuple[str, int, int, str]]:
+def _peaks(at: ExcitedTrain, q: Complexes) -> list[tuple[str, int, int, str]]:
     """What is asked: quantity, place of the shaft, place of the speed where it is largest, why it ties."""
     response = response_by_amplitudes(at, q)
-    curves = {"vibratory": response.shaft_torque_vibratory}
-    # What an engine gives beyond its loads goes into all inertias, and loops share by stiffness.
-    if tree_of(at.referred) is not None and not has_engine:
-        curves["greatest"] = response.shaft_torque_max
+    curves = {"vibratory": response.shaft_torque_vibratory, "greatest": response.shaft_torque_max}
     peaks = []
     for kind, table in curves.items():
         for shaft, row in enumerate(table):
@@ -173,99 +150,11 @@ def _twist(referred: ReferredTrain, q: Complexes, shaft: int) -> Complexes:
     return (q[:, first] if first != HELD else zero) - (q[:, second] if second != HELD else zero)
 
 
-@dataclass(frozen=True)
-class _TorqueTangents:
-    """Derivatives of the torques of a train at a speed by its variables, the last axis."""
-
-    pulsating: Complexes  # (orders, masses, variables) referred [N m]
-    mean: Floats  # (shafts, variables) in the shafts at their own speed [N m]
-    damping: Floats  # (masses, variables) of the loads, referred [N m s/rad]
-
-    def only(self, variables: Sequence[str], known: Sequence[str]) -> _TorqueTangents:
-        """Those by some of the variables."""
-        at = [variables.index(name) for name in known]
-        return _TorqueTangents(self.pulsating[..., at], self.mean[:, at], self.damping[:, at])
-
-
-def _torque_tangents(
-    machine: Machine,
-    train: Train,
-    referred: ReferredTrain,
-    speeds: Floats,
-    variables: Sequence[str],
-    refused: dict[str, str],
-) -> list[_TorqueTangents]:
-    """Derivatives of the torques at each speed."""
-    orders = excited_train(machine, speeds[:1]).torques.orders
-    discs = list(train.discs)
-    shape = (len(speeds), 2 * len(orders) + 2, len(discs))
-    numbers = partial(_torques, discs=discs, turning=referred.speed, orders=orders, speeds=speeds)
-    acting = [name for name in variables if name.startswith(("train.excitations.", "train.loads."))]
-    derivatives = columns(machine, acting, numbers, refused)
-    table = np.zeros((*shape, len(variables)))
-    for name, column in derivatives.items():
-        table[..., list(variables).index(name)] = column.reshape(shape)
-    onto = np.zeros((len(referred.inertia), len(discs)))
-    onto[referred.mass, np.arange(len(discs))] = referred.speed
-    n = len(orders)
-    waves = np.einsum("md,sodv->somv", onto, table[:, :n] + 1j * table[:, n : 2 * n])
-    damping = np.einsum("md,sdv->smv", onto * referred.speed, table[:, -1])
-    means = [
-        np.array([mean_shaft_torques(referred, m[:, None])[:, 0] for m in value.T])
-        .reshape(value.shape[1], len(referred.shafts))
-        .T
-        for value in table[:, -2]
-    ]
-    return [_TorqueTangents(*values) for values in zip(waves, means, damping, strict=True)]
-
-
-def _torques(
-    machine: Machine, discs: list[str], turning: Floats, orders: Floats, speeds: Floats
-) -> Sequence[Any]:
-    """Of file and loads at each speed: cosines and −sines of each order, means, dampings, on all discs."""
-    train = machine.train
-    assert train is not None
-    table = np.zeros((len(speeds), 2 * len(orders) + 2, len(discs)), dtype=object)
-    for k, speed in enumerate(speeds.tolist()):
-        for excitation in train.excitations.values():
-            disc = discs.index(excitation.on)
-            factor = excitation.factor(turning[disc] * speed)
-            for wave in excitation.harmonics:
-                _add_wave(
-                    table[k], orders, disc, turning[disc] * wave.order, wave.torque * factor, wave.phase
-                )
-        for load in train.loads.values():
-            disc = discs.index(load.on)
-            resistance = load.resistance(turning[disc] * speed)
-            table[k, -2, disc] -= resistance
-            table[k, -1, disc] += load.damping(turning[disc] * speed)
-            for part in load.harmonics:
-                _add_wave(
-                    table[k], orders, disc, turning[disc] * part.order, -part.share * resistance, part.phase
-                )
-        for driver in train.drivers.values():
-            if driver.torque is not None:
-                disc = discs.index(driver.on)
-                table[k, -2, disc] += driver.torque_at(turning[disc] * speed)
-        if not train.installed and not any("ground" in shaft.between for shaft in train.shafts.values()):
-            left = (turning * table[k, -2]).sum()
-            for on, share in train.shares.items():
-                table[k, -2, discs.index(on)] -= share * left / turning[discs.index(on)]
-    return list(table.ravel())
-
-
-def _add_wave(table: Any, orders: Floats, disc: int, order: float, size: Any, phase: Any) -> None:
-    """Add size·e^{i phase} to the order of a disc."""
-    nth = int(np.abs(orders - order).argmin())
-    table[nth, disc] += size * np.cos(phase)
-    table[len(orders) + nth, disc] += size * np.sin(phase)
-
-
 class _Adjoint:
     """Derivatives of what shafts carry at some speeds."""
 
     def __init__(
-        self, at: ExcitedTrain, q: Complexes, d: TrainTangents, torques: dict[int, _TorqueTangents]
+        self, at: ExcitedTrain, q: Complexes, d: TrainTangents, torques: dict[int, TorqueTangents]
     ) -> None:
         self.at, self.q, self.d, self.torques = at, q, d, torques
         self.lead = at.referred.lead
@@ -330,7 +219,8 @@ class _Adjoint:
             k = at.operating.stiffness[:, place]
             s = k * (1 + 1j * r.loss_factor) + 1j * omega * r.damping
             ds = (
-                (1 + 1j * r.loss_factor)[:, None] * d.stiffness + 1j * k[:, None] * d.loss_factor
+                (1 + 1j * r.loss_factor)[:, None] * self.torques[place].stiffness
+                + 1j * k[:, None] * d.loss_factor
             ) + 1j * omega * d.damping
             H = (r.joins.T * s) @ r.joins
             H[np.diag_indices_from(H)] += (

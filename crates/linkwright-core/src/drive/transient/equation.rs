@@ -165,7 +165,7 @@ impl Equation<'_> {
         back.load = sense * (back.load + self.laws(t, phi, -sense * slow));
         let drive = plan.drive.geared_torque(q, along * plan.drive.motor_torque(&plan.tables, q, 0.0));
         // At rest a load over speed holds in either direction, like a dry one; a driving one drives.
-        let over_speed: f64 = plan.drive.speed_load(&plan.tables, 0.0);
+        let over_speed: f64 = plan.drive.speed_load(&plan.tables, q, 0.0);
         let holding = over_speed.max(0.0);
         let free = drive - over_speed.min(0.0);
         let way = if free - ahead.load > ahead.dry + holding {

@@ -115,8 +115,9 @@ def _polynomial(a: Floats, T: Floats) -> Floats:
     return np.asarray(a[0] + T * (a[1] + T * (a[2] + T * (a[3] + T * a[4]))))
 
 
-# The iterates contract by an order of magnitude each, so what is left is ten times less.
-_TOLERANCE = 1e-8
+# The iterates contract by an order of magnitude each, so what is left is ten times less: far below what
+# differences between two machines look at.
+_TOLERANCE = 1e-12
 _ITERATIONS = 60
 # Rich mixtures burn with up to a quarter more fuel than the air suffices for.
 _RICHEST = 1.25

@@ -12,7 +12,6 @@ References
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from itertools import combinations
 from typing import NamedTuple

@@ -1,0 +1,203 @@
+r"""Derivatives of the torques that act on a train, and of what its couplings are under their mean.
+
+Torques of the file and of its loads follow from the entries by plain arithmetic, which tangents go through.
+Those of an engine come out of a working cycle that is solved for, couplings with a curve take the slope at
+their mean torque, and shafts in loops share it by stiffness: in such trains the derivatives of torques and
+stiffnesses, and of nothing else, are extrapolated differences (`linkwright.kernel.numerics.differences`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from linkwright.kernel.arrays import Complexes, Floats
+from linkwright.kernel.errors import InputError, LinkwrightError
+from linkwright.kernel.numerics.differences import slope, step_at
+from linkwright.machine.address import entry_of, outside, replace
+from linkwright.machine.machine import Machine
+from linkwright.machine.tangents import columns
+from linkwright.torsion.core.response import tree_of
+from linkwright.torsion.core.train import ReferredTrain
+from linkwright.torsion.excitation.excited_train import excited_train, mean_shaft_torques
+from linkwright.torsion.gradient.train import TrainTangents
+from linkwright.torsion.model.train import Train
+
+
+@dataclass(frozen=True)
+class TorqueTangents:
+    """Derivatives of the torques of a train at a speed by its variables, the last axis."""
+
+    pulsating: Complexes  # (orders, masses, variables) referred [N m]
+    mean: Floats  # (shafts, variables) in the shafts at their own speed [N m]
+    damping: Floats  # (masses, variables) of the loads, referred [N m s/rad]
+    stiffness: Floats  # (shafts, variables) under the mean torque, referred [N m/rad]
+
+    def only(self, variables: Sequence[str], known: Sequence[str]) -> TorqueTangents:
+        """Those by some of the variables."""
+        at = [variables.index(name) for name in known]
+        return TorqueTangents(*(array[..., at] for array in _arrays(self)))
+
+
+def _arrays(tangents: TorqueTangents) -> tuple[Any, ...]:
+    return tangents.pulsating, tangents.mean, tangents.damping, tangents.stiffness
+
+
+def torque_tangents(
+    machine: Machine,
+    train: Train,
+    referred: ReferredTrain,
+    speeds: Floats,
+    d: TrainTangents,
+    refused: dict[str, str],
+) -> list[TorqueTangents]:
+    """Derivatives of the torques at each speed; entries without any go into `refused`.
+
+    `train`, `referred`, `d`: that of the machine, referred, and its derivatives; `speeds`: (speeds,) [rad/s].
+    """
+    assert machine.train is not None
+    if not is_plain(machine.train, referred):
+        return _by_differences(machine, referred, speeds, d, refused)
+    orders = excited_train(machine, speeds[:1]).torques.orders
+    discs = list(train.discs)
+    shape = (len(speeds), 2 * len(orders) + 2, len(discs))
+    numbers = partial(_torques, discs=discs, turning=referred.speed, orders=orders, speeds=speeds)
+    acting = [name for name in d.variables if name.startswith(_ACTING)]
+    derivatives = columns(machine, acting, numbers, refused)
+    table = np.zeros((*shape, len(d.variables)))
+    for name, column in derivatives.items():
+        table[..., list(d.variables).index(name)] = column.reshape(shape)
+    onto = np.zeros((len(referred.inertia), len(discs)))
+    onto[referred.mass, np.arange(len(discs))] = referred.speed
+    n = len(orders)
+    waves = np.einsum("md,sodv->somv", onto, table[:, :n] + 1j * table[:, n : 2 * n])
+    damping = np.einsum("md,sdv->smv", onto * referred.speed, table[:, -1])
+    means = [
+        np.array([mean_shaft_torques(referred, m[:, None])[:, 0] for m in value.T])
+        .reshape(value.shape[1], len(referred.shafts))
+        .T
+        for value in table[:, -2]
+    ]
+    return [
+        TorqueTangents(*values, stiffness=d.stiffness) for values in zip(waves, means, damping, strict=True)
+    ]
+
+
+# What acts on a train besides an engine.
+_ACTING = ("train.excitations.", "train.loads.", "train.drivers.", "train.shares.")
+
+
+def is_plain(train: Train, referred: ReferredTrain) -> bool:
+    """Whether torques and stiffnesses follow from the entries by plain arithmetic."""
+    is_curved = any(coupling.twist is not None for coupling in train.couplings.values())
+    return not train.installed and not is_curved and tree_of(referred) is not None
+
+
+def _by_differences(
+    machine: Machine, referred: ReferredTrain, speeds: Floats, d: TrainTangents, refused: dict[str, str]
+) -> list[TorqueTangents]:
+    """The same by extrapolated differences."""
+    at = excited_train(machine, speeds)
+    orders, masses, shafts, n = (
+        len(at.torques.orders),
+        len(referred.inertia),
+        len(referred.shafts),
+        len(speeds),
+    )
+    shapes = ((orders, masses, n), (orders, masses, n), (shafts, n), (masses, n), (shafts, n))
+    ends = np.cumsum([np.prod(shape) for shape in shapes])
+    table = np.zeros((ends[-1], len(d.variables)))
+    for place, name in enumerate(d.variables):
+        try:
+            column = _column(machine, name, speeds)
+        except LinkwrightError as error:
+            refused[name] = " ".join(str(error).split())
+            continue
+        if column is None:
+            refused[name] = (
+                "the torques that act on the train have no derivative by it here, such as at a kink"
+            )
+        else:
+            table[:, place] = column
+    parts = np.split(table, ends[:-1])
+    real, imag, mean, damping, stiffness = (
+        part.reshape(*shape, -1) for part, shape in zip(parts, shapes, strict=True)
+    )
+    # But for couplings with a curve, stiffnesses are those of the train, whose derivatives are exact.
+    assert machine.train is not None
+    curved = {name for name, coupling in machine.train.couplings.items() if coupling.twist is not None}
+    is_exact = [name not in curved for name in referred.shafts]
+    stiffness[is_exact] = d.stiffness[is_exact][:, None, :]
+    return [
+        TorqueTangents((real + 1j * imag)[:, :, k], mean[:, k], damping[:, k], stiffness[:, k])
+        for k in range(n)
+    ]
+
+
+def _column(machine: Machine, name: str, speeds: Floats) -> Floats | None:
+    """Derivatives of all numbers of an excited train by one entry; None where it has none."""
+    x = entry_of(machine, name)
+    if isinstance(x, int):
+        raise InputError("a count has no derivative")
+    h = step_at(x)
+    is_outside = outside(machine, name, np.array([x - h, x + h]))[0]
+    return slope(
+        lambda value: _numbers(replace(machine, {name: value}), speeds),
+        x,
+        (not is_outside[0], not is_outside[1]),
+    )
+
+
+def _numbers(machine: Machine, speeds: Floats) -> Floats:
+    """All numbers of an excited train that may depend on an entry, one behind the other."""
+    at = excited_train(machine, speeds)
+    waves = at.referred_harmonics
+    damping = at.operating.disc_damping - at.referred.disc_damping[:, None]
+    arrays = (waves.real, waves.imag, at.mean_torques, damping, at.operating.stiffness)
+    return np.concatenate([array.ravel() for array in arrays])
+
+
+def _torques(
+    machine: Machine, discs: list[str], turning: Floats, orders: Floats, speeds: Floats
+) -> Sequence[Any]:
+    """Of file and loads at each speed: cosines and −sines of each order, means, dampings, on all discs."""
+    train = machine.train
+    assert train is not None
+    table = np.zeros((len(speeds), 2 * len(orders) + 2, len(discs)), dtype=object)
+    for k, speed in enumerate(speeds.tolist()):
+        for excitation in train.excitations.values():
+            disc = discs.index(excitation.on)
+            factor = excitation.factor(turning[disc] * speed)
+            for wave in excitation.harmonics:
+                _add_wave(
+                    table[k], orders, disc, turning[disc] * wave.order, wave.torque * factor, wave.phase
+                )
+        for load in train.loads.values():
+            disc = discs.index(load.on)
+            resistance = load.resistance(turning[disc] * speed)
+            table[k, -2, disc] -= resistance
+            table[k, -1, disc] += load.damping(turning[disc] * speed)
+            for part in load.harmonics:
+                _add_wave(
+                    table[k], orders, disc, turning[disc] * part.order, -part.share * resistance, part.phase
+                )
+        for driver in train.drivers.values():
+            if driver.torque is not None:
+                disc = discs.index(driver.on)
+                table[k, -2, disc] += driver.torque_at(turning[disc] * speed)
+        if not train.installed and not any("ground" in shaft.between for shaft in train.shafts.values()):
+            left = (turning * table[k, -2]).sum()
+            for on, share in train.shares.items():
+                table[k, -2, discs.index(on)] -= share * left / turning[discs.index(on)]
+    return list(table.ravel())
+
+
+def _add_wave(table: Any, orders: Floats, disc: int, order: float, size: Any, phase: Any) -> None:
+    """Add size·e^{i phase} to the order of a disc."""
+    nth = int(np.abs(orders - order).argmin())
+    table[nth, disc] += size * np.cos(phase)
+    table[len(orders) + nth, disc] += size * np.sin(phase)
