@@ -5,7 +5,7 @@ A smooth function's central difference has an error in even powers of the step, 
 .. math:: f' = \tfrac13 \left(4 D_{h/2} - D_h\right) + O(h^4), \qquad D_h = \frac{f(x + h) - f(x - h)}{2h}
 
 Where its bend jumps at x the error grows with the step itself, :math:`f' = 2 D_{h/2} - D_h`, which a third
-step tells. At a kink the steps tell different slopes, and there is no derivative.
+step tells. At a kink the slopes of both sides differ however small the step is, and there is no derivative.
 
 References
 ----------
@@ -20,8 +20,9 @@ import numpy as np
 
 from linkwright.kernel.arrays import Floats
 
-# Step, as a share of the number: its fourth power and rounding over it are both some 1e-11.
-_STEP = 2.0**-9
+# Step, as a share of the number: small against what bends in a working cycle, such as a valve's flow that
+# turns back; rounding over it is some 1e-9.
+_STEP = 2.0**-14
 
 # Shares of the largest derivative: by which two steps may differ with their error in even powers whatever the
 # function is; and by which they may differ at all, as at a kink they do by as much as they are.
@@ -51,13 +52,18 @@ def slope(
     if not all(ends):
         same, moved = function(x), function(x + h if ends[1] else x - h)
         return np.zeros_like(same) if np.array_equal(same, moved) else None
-    less, more = function(x - h), function(x + h)
-    if np.array_equal(less, more) and np.array_equal(less, function(x)):
-        return np.zeros_like(less)
-    far, near = (more - less) / (2.0 * h), _central(function, x, 0.5 * h)
+    here, less, more = function(x), function(x - h), function(x + h)
+    if np.array_equal(less, more) and np.array_equal(less, here):
+        return np.zeros_like(here)
+    within = function(x - 0.5 * h), function(x + 0.5 * h)
+    far, near = (more - less) / (2.0 * h), (within[1] - within[0]) / h
+    # By how much the slopes on both sides differ: of a smooth function as much as the step is long.
+    sides = [
+        (left - 2.0 * here + right) / step for left, right, step in ((less, more, h), (*within, 0.5 * h))
+    ]
     change, size = _largest(near - far), _largest(near)
-    rounding = _ROUNDING * max(_largest(less), _largest(more)) / h
-    if change > max(_SMOOTH * size, rounding):
+    rounding = _ROUNDING * _largest(here) / h
+    if max(change, _largest(2.0 * sides[1] - sides[0])) > max(_SMOOTH * size, rounding):
         return None
     if change <= max(_EVEN * size, rounding):
         return _extrapolated(far, near, 4.0)

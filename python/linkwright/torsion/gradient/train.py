@@ -26,6 +26,9 @@ from linkwright.torsion.model.whole_train import whole_train
 _MECHANISM = "the mean inertia of a mechanism has no derivative here; it is that of the disc `crank`"
 
 
+_START = "the curve of a coupling starts at zero"
+
+
 @dataclass(frozen=True)
 class TrainTangents:
     """Derivatives of the arrays of a `ReferredTrain` by `variables`, the last axis of each."""
@@ -62,12 +65,19 @@ def train_tangents(
     if machine.train is None:
         moving = ("mechanism.", "bodies.", "pumping_unit.", "rod_rotator.")
         refused.update({name: _MECHANISM for name in variables if name.startswith(moving)})
+    refused.update({name: _START for name in variables if name in _starts_of_curves(machine)})
     free = [name for name in variables if name not in refused]
     derivatives = columns(machine, free, partial(_numbers, inertia=J), refused)
     known = tuple(name for name in free if name in derivatives)
     ends = np.cumsum([len(getattr(referred, name)) for name in _NUMBERS])
     table = np.array([derivatives[name] for name in known]).reshape(len(known), ends[-1]).T
     return train, referred, TrainTangents(known, *np.split(table, ends[:-1]))
+
+
+def _starts_of_curves(machine: Machine) -> set[str]:
+    """First points of the curves of couplings."""
+    couplings = {} if machine.train is None else machine.train.couplings
+    return {f"train.couplings.{name}.{key}.0" for name in couplings for key in ("twist", "torque")}
 
 
 def _described(machine: Machine) -> Train:

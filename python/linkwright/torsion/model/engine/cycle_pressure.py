@@ -30,6 +30,8 @@ _POINTS = 6
 _CLOSED = math.radians(6.0)
 # Panels of the gas exchange: order 24 advances by less than a third of its period from point to point.
 _OPEN = math.radians(10.0)
+# Share of a panel by which the angles at which one more is taken lie beside its multiples.
+_BESIDE = 0.137
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,7 +82,7 @@ def closed_edges(start: float, end: float, releases: list[tuple[float, float]]) 
     """
     marks = [_even(start, end, _CLOSED)]
     for begin, duration in releases:
-        n = 2 * math.ceil(duration / _CLOSED)
+        n = 2 * _panels(duration, _CLOSED)
         marks.append(begin + duration * (np.arange(n + 1) / n) ** 2)
     edges = np.unique(np.concatenate(marks))
     return _apart(edges, {start, end, *(edge for b, d in releases for edge in (b, b + d))})
@@ -97,7 +99,14 @@ def open_edges(start: float, end: float, corners: tuple[float, ...]) -> Floats:
 
 
 def _even(start: float, end: float, width: float) -> Floats:
-    return np.linspace(start, end, math.ceil((end - start) / width) + 1)
+    return np.linspace(start, end, _panels(end - start, width) + 1)
+
+
+def _panels(angle: float, width: float) -> int:
+    """Panels of at most a width; their number changes beside round angles, which are those of most files, so
+    that a small change of one of these leaves the mesh as it is.
+    """
+    return math.ceil(angle / width + _BESIDE)
 
 
 def _apart(edges: Floats, corners: set[float]) -> Floats:
