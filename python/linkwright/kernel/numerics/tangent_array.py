@@ -101,7 +101,7 @@ class TangentArray:
 
     def mean(self) -> TangentArray:
         """Mean of all values."""
-        return self.sum() / self.size
+        return TangentArray(self.value.mean(), self.d.sum(axis=tuple(range(self.ndim))) / self.size)
 
     def sum(self, axis: int | None = None) -> TangentArray:
         """Sum over an axis or all."""

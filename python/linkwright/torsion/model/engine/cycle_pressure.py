@@ -30,7 +30,8 @@ _POINTS = 6
 _CLOSED = math.radians(6.0)
 # Panels of the gas exchange: order 24 advances by less than a third of its period from point to point.
 _OPEN = math.radians(10.0)
-# Share of a panel by which the angles at which one more is taken lie beside its multiples.
+# Share of a panel by which angles at which one more is taken lie beside its multiples: so a small change of a
+# round angle, as most files have, leaves the mesh as it is.
 _BESIDE = 0.137
 
 
@@ -103,9 +104,7 @@ def _even(start: float, end: float, width: float) -> Floats:
 
 
 def _panels(angle: float, width: float) -> int:
-    """Panels of at most a width; their number changes beside round angles, which are those of most files, so
-    that a small change of one of these leaves the mesh as it is.
-    """
+    """Panels of at most a width over an angle."""
     return math.ceil(angle / width + _BESIDE)
 
 

@@ -41,7 +41,8 @@ def _cross(a: Point, b: Point) -> float:
 
 def signed_area(corners: Points) -> float:
     """Area of a polygon [m²], positive if its corners go round counter-clockwise."""
-    return total(_cross(a, b) for a, b in sides(corners)) / 2
+    area: float = total(_cross(a, b) for a, b in sides(corners)) / 2
+    return area
 
 
 def area_moments(corners: Points) -> AreaMoments:

@@ -139,7 +139,8 @@ def zimanenko(throw: CrankThrow) -> float:
     first = L_1 + 0.6 * throw.web.thickness * D_1 / L_1
     second = 0.8 * throw.pin.length + 0.2 * D_1 * throw.web.breadth / R
     bent = R * sqrt(R / throw.pin.diameter)
-    return 32 / (math.pi * throw.shear_modulus) * (first / journal + second / pin + bent / web)
+    e: float = 32 / (math.pi * throw.shear_modulus) * (first / journal + second / pin + bent / web)
+    return e
 
 
 DEFAULT_FORMULA = "constrained"

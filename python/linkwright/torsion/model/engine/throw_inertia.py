@@ -173,7 +173,8 @@ def published_inertia(throw: CrankThrow) -> float:
     ]
     holes = ((drilling.diameter, drilling.length, drilling.radius) for drilling in throw.drillings)
     terms += [-_volume(d, length) * (d**2 / 8 + at**2) for d, length, at in holes]
-    return throw.density * total(terms)
+    inertia: float = throw.density * total(terms)
+    return inertia
 
 
 def _volume(diameter: float, length: float) -> float:
