@@ -58,6 +58,9 @@ _STEPS = 8
 # Share of a speed by which the growth of a torque is looked at: an order's torques are smooth.
 _ASIDE = 1e-3
 
+# Digits to which the growth of a torque is known.
+_DIGITS = 6
+
 # Speeds that differ by a smaller share are one.
 _EQUAL = 1e-12
 
@@ -286,6 +289,8 @@ def _peak(speed: float, ratio: float | None, growth: float) -> float | None:
     """Speed of the largest amplitude of the mode alone near a crossing."""
     if ratio is None:
         return None
+    # What rounding leaves of a whole power would have the amplitude peak at no speed, or at any.
+    growth = round(growth, _DIGITS)
     roots = np.roots([growth - 2, (growth - 1) * (4 * ratio**2 - 2), growth])
     real = roots.real[(roots.imag == 0) & (roots.real > 0)]
     # Of two the one near the crossing is the peak, the other a minimum value.
