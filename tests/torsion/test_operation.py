@@ -49,7 +49,7 @@ def test_application_factor_with_a_misfire(ship: lw.Machine, study: TorsionStudy
 def test_orders_alone_and_together(ship: lw.Machine, study: TorsionStudy) -> None:
     """Where an order peaks, stress of one order and of all, from the torques over the section modulus.
 
-    The shaft is the most used of those in which the order peaks: the speeds are those of shafts of one engine,
+    The shaft is the most used of those in which the order peaks: the speed is that of a shaft of one engine,
     whose twin may be used more there. Where it peaks in none, it is the most used of all.
     """
     seen = survey(ship)
