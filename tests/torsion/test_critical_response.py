@@ -170,7 +170,7 @@ def is_spare(machine: lw.Machine, one: CriticalResponse, peaks: list[float]) -> 
 
 @pytest.mark.parametrize("seed", range(12))
 def test_random_trains(seed: int) -> None:
-    """Each peak is a maximum of the response, none is told twice, and none that is free is left out."""
+    """Each peak is a maximum of the response and counts once; a critical speed without one has none left."""
     machine = chain(seed)
     _, found = responses(machine)
     assert found

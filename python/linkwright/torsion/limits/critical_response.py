@@ -109,8 +109,8 @@ def critical_responses(seen: Survey, diagram: CampbellDiagram) -> tuple[Critical
     places: dict[int, list[_Place]] = {}
     for order in dict.fromkeys(one.order for one in diagram.critical):
         numbers = [n for n, one in enumerate(diagram.critical) if one.order == order]
-        found = _places(loads, order, [diagram.critical[n] for n in numbers])
-        places |= dict(zip(numbers, found, strict=True))
+        of_order = _places(loads, order, [diagram.critical[n] for n in numbers])
+        places |= dict(zip(numbers, of_order, strict=True))
     return tuple(_chosen(loads, diagram.critical, [places[n] for n in range(len(diagram.critical))]))
 
 
@@ -138,30 +138,32 @@ class _Loads:
     @cached_property
     def rounding(self) -> Floats:
         """What is rounding in each, (shafts,)."""
-        found = self.of(self.seen.found)
-        largest: Floats = np.where(np.isfinite(found), found, 0.0).max(axis=1)
+        amplitudes = self.of(self.seen.found)
+        largest: Floats = np.where(np.isfinite(amplitudes), amplitudes, 0.0).max(axis=1)
         return _ROUNDING * largest
 
     def of(self, response: TorsionResponse) -> Floats:
         """Vibratory stress or torque, (shafts, speeds); infinite where unbounded."""
-        found = response.shaft_torque_vibratory
+        amplitudes = response.shaft_torque_vibratory
         if self.limited:
             rows = [response.shafts.index(name) for name in self.shafts]
-            found = stress_per_torque(self.seen.at.train.shafts, response)[self.limited] * found[rows]
-        return np.where(np.isfinite(found), found, np.inf)
+            amplitudes = (
+                stress_per_torque(self.seen.at.train.shafts, response)[self.limited] * amplitudes[rows]
+            )
+        return np.where(np.isfinite(amplitudes), amplitudes, np.inf)
 
     def together(self, speeds: Floats) -> tuple[Floats, Floats]:
         """All orders in phase, and what is permitted, (shafts, speeds)."""
-        found, permitted = [], []
+        amplitudes, permitted = [], []
         for at in self.seen.parts(speeds):
             response = torsion_response(at)
-            found.append(self.of(response))
+            amplitudes.append(self.of(response))
             if self.limited:
                 stress = shaft_stress(self.seen.machine, response, self.seen.service)
                 permitted.append(stress.continuous[self.limited])
             else:
-                permitted.append(np.full_like(found[-1], np.nan))
-        return np.concatenate(found, axis=1), np.concatenate(permitted, axis=1)
+                permitted.append(np.full_like(amplitudes[-1], np.nan))
+        return np.concatenate(amplitudes, axis=1), np.concatenate(permitted, axis=1)
 
     def alone(self, order: float) -> Survey:
         """The train under one order."""
@@ -253,12 +255,9 @@ def _bounded(one: CriticalSpeed, speed: float, size: float) -> tuple[float, bool
 
 
 def _owned(critical: Sequence[float], peaks: Sequence[tuple[float, float]]) -> list[int | None]:
-    """Which of the peaks, by speed with their height, belongs to each critical speed.
-
-    Each lies between the critical speeds next to its own. Of all such choices that with most peaks, then with
-    the highest, then with the nearest ones.
-    """
-    # The best choice so far by the last peak that it uses.
+    """Which of the peaks, by speed with their height, belongs to each critical speed, if any does."""
+    # Each lies between the critical speeds next to its own. Of all such choices that with most peaks, then
+    # with the highest, then with the nearest ones. The best choice so far by the last peak that it uses:
     best: dict[int, tuple[_Score, list[int | None]]] = {-1: ((0, 0.0, 0.0), [])}
     for n, speed in enumerate(critical):
         below = critical[n - 1] if n else 0.0
@@ -291,16 +290,18 @@ def _chosen(
     if not loads.limited:
         places = [[max(listed, key=lambda place: place.single)] for listed in places]
     every = [place for listed in places for place in listed]
-    found, permitted = loads.together(np.array([place.speed for place in every]))
+    amplitudes, permitted = loads.together(np.array([place.speed for place in every]))
     columns = iter(range(len(every)))
     chosen = []
     for one, listed in zip(critical, places, strict=True):
         mine = [next(columns) for _ in listed]
-        ratio = [found[place.row, n] / permitted[place.row, n] for place, n in zip(listed, mine, strict=True)]
+        ratio = [
+            amplitudes[place.row, n] / permitted[place.row, n] for place, n in zip(listed, mine, strict=True)
+        ]
         best = int(np.nan_to_num(ratio, nan=-1.0, posinf=np.inf).argmax())
         place, n = listed[best], mine[best]
         limit = float(permitted[place.row, n])
-        total = math.inf if math.isinf(place.single) else float(found[place.row, n])
+        total = math.inf if math.isinf(place.single) else float(amplitudes[place.row, n])
         chosen.append(
             CriticalResponse(
                 order=one.order,
