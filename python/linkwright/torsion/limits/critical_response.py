@@ -207,8 +207,8 @@ def _places(loads: _Loads, order: float, critical: Sequence[CriticalSpeed]) -> l
             if peak is not None:
                 listed[n].append(_Place(row, *_bounded(critical[n], *real[peak])))
     return [
-        found or [_Place(row, one.speed, False, float(heights[row, n])) for row in rows]
-        for n, (one, found) in enumerate(zip(critical, listed, strict=True))
+        peaking or [_Place(row, one.speed, False, float(heights[row, n])) for row in rows]
+        for n, (one, peaking) in enumerate(zip(critical, listed, strict=True))
     ]
 
 
