@@ -177,8 +177,11 @@ def test_what_is_missing_is_told(arguments: dict[str, Any], words: str) -> None:
 
 @pytest.mark.parametrize("exponent", [0.0, 1.0, 2.0])
 @pytest.mark.parametrize("zeta", [0.0, 0.02, 0.1, 0.3])
-def test_peak_beside_the_crossing_is_that_of_the_response(zeta: float, exponent: float) -> None:
-    """Damping in proportion to the inertias leaves one mode: its largest twist, by dense speeds."""
+def test_peak_of_the_mode_alone_beside_the_crossing(zeta: float, exponent: float) -> None:
+    """Damping in proportion to the inertias leaves one mode: its largest twist, by dense speeds.
+
+    Trains of several modes peak elsewhere: `test_critical_response.py`.
+    """
     c = 2 * zeta * OMEGA
     discs = {"a": {"inertia": J1, "damping": c * J1}, "b": {"inertia": J2, "damping": c * J2}}
     pulse = {"on": "a", "harmonics": [{"order": 2.0, "torque": 50.0}], "speed": 50.0, "exponent": exponent}
@@ -192,6 +195,18 @@ def test_peak_beside_the_crossing_is_that_of_the_response(zeta: float, exponent:
     twist = np.abs(forced_vibration(machine, beside).shaft_torques[0, 0])
     # The speeds looked at are a thousandth apart.
     assert beside[twist.argmax()] == pytest.approx(found.peak_speed, rel=1.001e-3)
+
+
+@pytest.mark.parametrize("exponent", [0.0, 2.0])
+def test_no_peak_of_a_machine_whose_damping_is_strong(exponent: float) -> None:
+    """From ζ = 1/√2 on; rounding of the exponent once made peaks at 0 and at 4e6 times the speed."""
+    c = 2 * 0.8 * OMEGA
+    discs = {"a": {"inertia": J1, "damping": c * J1}, "b": {"inertia": J2, "damping": c * J2}}
+    pulse = {"on": "a", "harmonics": [{"order": 2.0, "torque": 50.0}], "speed": 47.0, "exponent": exponent}
+    for top in (200.0, 210.0, 220.0, 230.0):
+        machine = two_discs(discs=discs, excitations={"e": pulse})
+        (found,) = lw.campbell(machine, [2.0], (20.0, top)).critical
+        assert found.peak_speed is None
 
 
 def test_no_peak_where_damping_is_strong() -> None:

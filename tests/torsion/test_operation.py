@@ -47,7 +47,11 @@ def test_application_factor_with_a_misfire(ship: lw.Machine, study: TorsionStudy
 
 
 def test_orders_alone_and_together(ship: lw.Machine, study: TorsionStudy) -> None:
-    """At a critical speed, stress of one order and of all, from the torques over the section modulus."""
+    """Where an order peaks, stress of one order and of all, from the torques over the section modulus.
+
+    The shaft is the most used of those in which the order peaks: the speed is that of a shaft of one engine,
+    whose twin may be used more there. Where it peaks in none, it is the most used of all.
+    """
     seen = survey(ship)
     assert study.critical_responses
     assert study.campbell is not None
@@ -56,8 +60,8 @@ def test_orders_alone_and_together(ship: lw.Machine, study: TorsionStudy) -> Non
         response = seen.carried_at(np.array([one.speed]))
         stress = lw.shaft_stress(ship, response)
         used = stress.vibratory[:, 0] / stress.continuous[:, 0]
-        row = int(np.nanargmax(used))
-        assert one.shaft == stress.shafts[row]
+        row = stress.shafts.index(one.shaft)
+        assert one.is_peak or used[row] == pytest.approx(np.nanmax(used), rel=1e-12)
         s = response.shafts.index(one.shaft)
         order = int(np.abs(response.orders - one.order).argmin())
         amplitude = abs(response.shaft_torques[order, s, 0]) / stress.section_modulus[row]

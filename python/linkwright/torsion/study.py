@@ -98,7 +98,7 @@ class TorsionStudy(PlainRecord):
     fatigue : tuple of CrankshaftFatigue
         Of the crankshafts whose fillets and steel are known.
     critical_responses : tuple of CriticalResponse
-        Synthesis of the orders at the critical speeds.
+        Synthesis of the orders at the critical speeds, where forced response peaks.
     """
 
     machine: Machine
@@ -223,7 +223,7 @@ class TorsionStudy(PlainRecord):
             results["operation"] = self.operation
         if self.critical_responses:
             results["critical_responses"] = [
-                one._asdict() | {"kind": one.kind.unit} for one in self.critical_responses
+                one.to_dict() | {"kind": one.kind.unit} for one in self.critical_responses
             ]
         if self.overlays:
             results["measured"] = [one.to_dict() for one in self.overlays]

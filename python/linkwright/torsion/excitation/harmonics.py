@@ -221,8 +221,12 @@ def span(orders: Orders, amplitudes: Complexes, mean: Floats | float = 0.0) -> t
     """Maximum and minimum value of what harmonics add up to.
 
     Gives `greatest`, `least`: with the amplitudes of orders without a common base added to both sides.
-    `amplitudes`: (orders, ...).
+    `amplitudes`: (orders, ...). A wave that is not finite has no extremes: NaN.
     """
+    if len(amplitudes) == 1:
+        size = np.abs(amplitudes[0])
+        size = np.where(np.isfinite(size), size, np.nan)
+        return mean + size, mean - size
     top, _, bottom, _ = extremes(coefficients(orders, amplitudes, mean))
     rest = np.abs(amplitudes[~orders.together]).sum(axis=0)
     return top + rest, bottom - rest

@@ -237,7 +237,10 @@ def _write_labels(axes: Axes, listed: list[tuple[float, float, float, float]]) -
 def _severity(diagram: CampbellDiagram) -> tuple[Floats, str]:
     """How severe critical speeds are, and by what; infinite ones as twice the largest that is not."""
     for entry, name in (
-        ("resonance_amplitude", "critical: rpm (order), by amplitude at resonance"),
+        (
+            "resonance_amplitude",
+            "critical, undamped: rpm (order), by amplitude of the mode alone at resonance",
+        ),
         ("equilibrium_amplitude", "critical: rpm (order), by equilibrium amplitude"),
     ):
         amplitudes = [getattr(crossing, entry) for crossing in diagram.critical]

@@ -31,7 +31,7 @@ from linkwright.torsion.limits.criteria import (
     VIBRATORY_STRESS,
     Criterion,
     Exceedance,
-    peaks_between,
+    peaks_on,
 )
 from linkwright.torsion.limits.survey import Survey, survey
 from linkwright.torsion.model.permitted_stress import barred_speeds
@@ -260,35 +260,13 @@ def _peaks(seen: Survey, above: list[Exceedance]) -> list[list[float]]:
     def sizes(at: Floats) -> Floats:
         return np.array([_size(criterion) for criterion in seen.criteria_at(at)])
 
-    grids = [_grid(seen, exceedance) for exceedance in above]
-    every = np.split(sizes(np.concatenate(grids)), np.cumsum([len(grid) for grid in grids])[:-1], axis=1)
-    tops = [
-        (n, above[n].row, grid[k - 1 : k + 2], values[above[n].row, k])
-        for n, (grid, values) in enumerate(zip(grids, every, strict=True))
-        for k in _maxima(values[above[n].row])
-    ]
-    speeds = peaks_between(
-        sizes,
-        [(row, float(about[0]), float(about[2])) for _, row, about, _ in tops],
-        [(float(about[1]), float(value)) for _, _, about, value in tops],
-    )
-    listed: list[list[float]] = [[] for _ in above]
-    for (n, *_), peak in zip(tops, speeds, strict=True):
-        listed[n].append(peak)
-    return listed
+    return peaks_on(sizes, [(exceedance.row, _grid(seen, exceedance)) for exceedance in above])
 
 
 def _grid(seen: Survey, exceedance: Exceedance) -> Floats:
     """Speeds of a range close enough to show its peaks, those of resonances among them."""
     inside = seen.speeds[(seen.speeds > exceedance.low) & (seen.speeds < exceedance.high)]
     return np.unique(np.concatenate([np.linspace(exceedance.low, exceedance.high, _POINTS), inside]))
-
-
-def _maxima(values: Floats) -> list[int]:
-    """Places that are no lower than both their neighbours, and higher than one."""
-    here, before, after = values[1:-1], values[:-2], values[2:]
-    maxima: list[int] = (1 + np.flatnonzero((here > before) & (here >= after))).tolist()
-    return maxima
 
 
 def _size(criterion: Criterion) -> Floats:

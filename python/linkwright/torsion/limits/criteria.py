@@ -13,7 +13,7 @@ Found over permitted is known at some speeds and can be asked for at any other; 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -254,6 +254,51 @@ def peaks_between(
         low, high = np.maximum(best - step, low), np.minimum(best + step, high)
     listed: list[float] = best.tolist()
     return listed
+
+
+def peaks_on(
+    curves: Curves, grids: Sequence[tuple[int, Floats]], dip: float = 0.0, rounds: int = _PEAK_ROUNDS
+) -> list[list[float]]:
+    """Speeds of all maxima of curves that grids of speeds show, all at once, by grid [rad/s].
+
+    `grids`: row and increasing speeds of each [rad/s]; `dip`: maxima between which a curve falls by a smaller
+    share are one, and one so close to the height of an end is none; `rounds`: of `peaks_between`.
+    """
+    if not grids:
+        return []
+    every = np.unique(np.concatenate([grid for _, grid in grids]))
+    values = curves(every)
+    tops = []
+    for n, (row, grid) in enumerate(grids):
+        here = values[row, np.searchsorted(every, grid)]
+        tops += [(n, row, grid[k - 1 : k + 2], here[k]) for k in _maxima(here, dip)]
+    speeds = peaks_between(
+        curves,
+        [(row, float(about[0]), float(about[2])) for _, row, about, _ in tops],
+        [(float(about[1]), float(value)) for _, _, about, value in tops],
+        rounds,
+    )
+    listed: list[list[float]] = [[] for _ in grids]
+    for (n, *_), peak in zip(tops, speeds, strict=True):
+        listed[n].append(peak)
+    return listed
+
+
+def _maxima(values: Floats, dip: float) -> list[int]:
+    """Places that are no lower than both their neighbours and higher than one, with dips between them."""
+    here, before, after = values[1:-1], values[:-2], values[2:]
+    inside = (1 + np.flatnonzero((here > before) & (here >= after))).tolist()
+    if dip == 0:
+        return inside
+    last = len(values) - 1
+    kept = [0]
+    for place in (*inside, last):
+        lowest = values[kept[-1] : place + 1].min()
+        if lowest < (1 - dip) * min(values[kept[-1]], values[place]):
+            kept.append(place)
+        elif values[place] > values[kept[-1]]:
+            kept[-1] = place
+    return [place for place in kept if 0 < place < last]
 
 
 def _at(curves: Curves, rows: NDArray[np.int64], points: Floats) -> Floats:

@@ -1,98 +1,319 @@
 """Synthesis at the critical speeds: the order that is critical alone, and all orders in phase.
 
-At the speed at which an order peaks in a mode, the shaft that is nearest to its permitted stress there; where
-no stress is limited, the shaft that the order twists most.
+Critical is the speed at which an order meets a natural frequency without damping. Damping, dampers above all,
+and neighbouring modes have the forced response peak beside it. The peak is therefore a maximum of the forced
+response to that order, in the shaft, over the speed. It belongs to the critical speed below or above it:
+as many critical speeds as possible have a peak, those beyond the speeds analysed included, and among such
+choices the peaks are highest. A critical speed is left without one where its peak has merged with that of a
+neighbour, where damping is too strong for one, where the order does no work, or where the peak lies beyond
+the speeds analysed.
+
+Of the shafts in which the order peaks, the one that is nearest to its permitted stress there, with all
+orders; where no stress is limited, the shaft that the order twists most.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
-from typing import NamedTuple
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
+from linkwright.kernel.arrays import Floats
+from linkwright.kernel.quantities import About, Label
+from linkwright.kernel.result import Result
 from linkwright.kernel.units import PRESSURE, TORQUE, Kind
+from linkwright.torsion.excitation.excited_train import ExcitedTrain
+from linkwright.torsion.limits.criteria import peaks_on
 from linkwright.torsion.limits.survey import Survey
 from linkwright.torsion.modes.campbell import CampbellDiagram, CriticalSpeed
-from linkwright.torsion.response.forced import TorsionResponse
-from linkwright.torsion.response.stress import ShaftStress, shaft_stress
+from linkwright.torsion.response.forced import TorsionResponse, torsion_response
+from linkwright.torsion.response.stress import shaft_stress, stress_per_torque
 
 # Orders that differ by a smaller share are one.
 _EQUAL = 1e-9
 
+# Even speeds at which the response to an order is looked at, and shares of the distance between two speeds of
+# resonance at which it is looked at from both: peaks are as narrow as modes are lightly damped.
+_POINTS = 200
+_SHARES = 0.5 * np.logspace(-4, 0, 16)
 
-class CriticalResponse(NamedTuple):
-    """A shaft at a critical speed.
+# Share by which a response falls between two peaks, beyond what interpolated torques make.
+_DIP = 1e-6
 
-    Attributes
-    ----------
-    order, mode : float, int
-        Cycles per revolution of the first disc; row of `FreeVibration`.
-    speed : float
-        Of the first disc, at which the order peaks [rad/s].
-    shaft : str
-        The shaft that is nearest to its limit there.
-    kind : Kind
-        Stress, or torque where none is limited.
-    single, total : float
-        Amplitude of the order alone, and half the peak-to-peak value of all orders in phase [SI].
-    permitted : float or None
-        In continuous operation [Pa].
-    """
+# Rounds in which a peak is closed in on: to some 10⁻⁶ of what it is apart from the next speed looked at.
+_ROUNDS = 8
 
-    order: float
-    mode: int
-    speed: float
-    shaft: str
-    kind: Kind
-    single: float
-    total: float
-    permitted: float | None
+# Share of a shaft's largest stress or torque below which an order alone is rounding.
+_ROUNDING = 1e-12
+
+# Share of a critical speed beside it, where nothing damps a mode: at it there is no solution.
+_BESIDE = 1e-6
+
+
+@dataclass(frozen=True)
+class CriticalResponse(Result):
+    """A shaft at a critical speed."""
+
+    order: Annotated[float, Label("excitation order of the first disc", "ν", "")]
+    mode: Annotated[int, About("Row of `FreeVibration`.")]
+    critical_speed: Annotated[
+        float,
+        Label("critical speed of the first disc", "ω", "rad/s", "Where the order meets the undamped mode."),
+    ]
+    speed: Annotated[
+        float,
+        Label(
+            "speed at which the order peaks in the shaft",
+            "",
+            "rad/s",
+            "By forced response. The critical speed where it has no peak of its own.",
+        ),
+    ]
+    is_peak: Annotated[
+        bool, About("Whether the order has a peak of its own there, among the speeds analysed.")
+    ]
+    shaft: Annotated[str, About("Of those in which it peaks, the shaft that is nearest to its limit there.")]
+    kind: Annotated[Kind, About("Stress, or torque where none is limited.")]
+    single: Annotated[
+        float, About("Amplitude of the order alone; infinite at a resonance that nothing damps [SI].")
+    ]
+    total: Annotated[float, About("Half the peak-to-peak value of all orders in phase [SI].")]
+    permitted: Annotated[
+        float | None,
+        Label("stress permitted there in continuous operation", "", "Pa", "None without a limit."),
+    ]
+
+
+# Peaks that a choice has, their heights together, their nearness together.
+_Score = tuple[int, float, float]
+
+
+class _Place(NamedTuple):
+    """Where a shaft is looked at for a critical speed."""
+
+    row: int  # of the shafts that count
+    speed: float  # [rad/s]
+    is_peak: bool
+    single: float  # of the order alone [SI]
 
 
 def critical_responses(seen: Survey, diagram: CampbellDiagram) -> tuple[CriticalResponse, ...]:
-    """What the shafts carry at all critical speeds, by speed."""
-    speeds = seen.at.torques.speeds
-    listed = [(one, _peak(one, float(speeds.min()), float(speeds.max()))) for one in diagram.critical]
-    if not listed or not seen.found.shafts:
+    """What the shafts carry at all critical speeds, by critical speed."""
+    if not diagram.critical or not seen.found.shafts:
         return ()
-    response = seen.carried_at(np.array([speed for _, speed in listed]))
-    stress = shaft_stress(seen.machine, response, seen.service)
-    limited = np.flatnonzero(np.isfinite(stress.continuous).any(axis=1)).tolist()
-    return tuple(_at(one, n, response, stress, limited) for n, (one, _) in enumerate(listed))
+    loads = _Loads(seen)
+    places: dict[int, list[_Place]] = {}
+    for order in dict.fromkeys(one.order for one in diagram.critical):
+        numbers = [n for n, one in enumerate(diagram.critical) if one.order == order]
+        of_order = _places(loads, order, [diagram.critical[n] for n in numbers])
+        places |= dict(zip(numbers, of_order, strict=True))
+    return tuple(_chosen(loads, diagram.critical, [places[n] for n in range(len(diagram.critical))]))
 
 
-def _peak(critical: CriticalSpeed, low: float, high: float) -> float:
-    """Speed at which the order peaks, as far as it is among the speeds."""
-    speed = critical.speed if critical.peak_speed is None else critical.peak_speed
-    return min(max(speed, low), high)
+@dataclass(frozen=True)
+class _Loads:
+    """What is compared at the critical speeds: stresses that are limited, else torques."""
+
+    seen: Survey
+
+    @cached_property
+    def limited(self) -> list[int]:
+        """Rows of shafts with a permitted stress."""
+        stress = shaft_stress(self.seen.machine, self.seen.found, self.seen.service)
+        rows: list[int] = np.flatnonzero(np.isfinite(stress.continuous).any(axis=1)).tolist()
+        return rows
+
+    @cached_property
+    def shafts(self) -> tuple[str, ...]:
+        """Those that count."""
+        if not self.limited:
+            return self.seen.found.shafts
+        stress = shaft_stress(self.seen.machine, self.seen.found, self.seen.service)
+        return tuple(stress.shafts[row] for row in self.limited)
+
+    @cached_property
+    def rounding(self) -> Floats:
+        """What is rounding in each, (shafts,)."""
+        amplitudes = self.of(self.seen.found)
+        largest: Floats = np.where(np.isfinite(amplitudes), amplitudes, 0.0).max(axis=1)
+        return _ROUNDING * largest
+
+    def of(self, response: TorsionResponse) -> Floats:
+        """Vibratory stress or torque, (shafts, speeds); infinite where unbounded."""
+        amplitudes = response.shaft_torque_vibratory
+        if self.limited:
+            rows = [response.shafts.index(name) for name in self.shafts]
+            amplitudes = (
+                stress_per_torque(self.seen.at.train.shafts, response)[self.limited] * amplitudes[rows]
+            )
+        return np.where(np.isfinite(amplitudes), amplitudes, np.inf)
+
+    def together(self, speeds: Floats) -> tuple[Floats, Floats]:
+        """All orders in phase, and what is permitted, (shafts, speeds)."""
+        amplitudes, permitted = [], []
+        for at in self.seen.parts(speeds):
+            response = torsion_response(at)
+            amplitudes.append(self.of(response))
+            if self.limited:
+                stress = shaft_stress(self.seen.machine, response, self.seen.service)
+                permitted.append(stress.continuous[self.limited])
+            else:
+                permitted.append(np.full_like(amplitudes[-1], np.nan))
+        return np.concatenate(amplitudes, axis=1), np.concatenate(permitted, axis=1)
+
+    def alone(self, order: float) -> Survey:
+        """The train under one order."""
+        return replace(self.seen, at=_one_order(self.seen.at, order))
 
 
-def _at(
-    critical: CriticalSpeed, n: int, response: TorsionResponse, stress: ShaftStress, limited: Sequence[int]
-) -> CriticalResponse:
-    """One critical speed, in its column of the response."""
-    same = np.abs(response.orders - critical.order) <= _EQUAL * critical.order
-    single = np.abs(response.shaft_torques[same, :, n].sum(axis=0))
-    speed = float(response.speeds[n])
-    if limited:
-        used = np.nan_to_num(stress.vibratory[limited, n] / stress.continuous[limited, n], nan=-1.0)
-        row = limited[int(used.argmax())]
-        s = response.shafts.index(stress.shafts[row])
-        total, torque = float(stress.vibratory[row, n]), float(response.shaft_torque_vibratory[s, n])
-        permitted = float(stress.continuous[row, n])
-        share = float(single[s]) / torque if torque else 0.0
-        return CriticalResponse(
-            critical.order,
-            critical.mode,
-            speed,
-            stress.shafts[row],
-            PRESSURE,
-            share * total,
-            total,
-            permitted if np.isfinite(permitted) else None,
+def _one_order(at: ExcitedTrain, order: float) -> ExcitedTrain:
+    """A train under one order of its torques."""
+    same = np.abs(at.torques.orders - order) <= _EQUAL * order
+    harmonics = at.torques.harmonics[same].sum(axis=0, keepdims=True)
+    return replace(at, torques=replace(at.torques, orders=np.array([order]), harmonics=harmonics))
+
+
+def _places(loads: _Loads, order: float, critical: Sequence[CriticalSpeed]) -> list[list[_Place]]:
+    """For each critical speed of an order the shafts in which it peaks, with the peak; all if in none."""
+    alone = loads.alone(order)
+
+    def curves(speeds: Floats) -> Floats:
+        parts = [loads.of(torsion_response(_one_order(at, order))) for at in alone.parts(speeds)]
+        return np.concatenate(parts, axis=1)
+
+    grid = _grid(loads.seen, order, critical)
+    below, above = loads.seen.resonances_beyond(order)
+    rows = range(len(loads.shafts))
+    peaks = peaks_on(curves, [(row, grid) for row in rows], _DIP, _ROUNDS)
+    beside = [_beside(one, grid) for one in critical]
+    every = np.array([*beside, *(speed for listed in peaks for speed in listed)])
+    heights = curves(every)
+    listed: list[list[_Place]] = [[] for _ in critical]
+    first = len(beside)
+    for row, speeds in enumerate(peaks):
+        sizes = heights[row, first : first + len(speeds)]
+        first += len(speeds)
+        real = [
+            (speed, size)
+            for speed, size in zip(speeds, sizes.tolist(), strict=True)
+            if size > loads.rounding[row]
+        ]
+        owned = _owned([*below, *(one.speed for one in critical), *above], real)
+        for n, peak in enumerate(owned[len(below) : len(below) + len(critical)]):
+            if peak is not None:
+                listed[n].append(_Place(row, *_bounded(critical[n], *real[peak])))
+    return [
+        peaking or [_Place(row, one.speed, False, float(heights[row, n])) for row in rows]
+        for n, (one, peaking) in enumerate(zip(critical, listed, strict=True))
+    ]
+
+
+def _grid(seen: Survey, order: float, critical: Sequence[CriticalSpeed]) -> Floats:
+    """Speeds close enough to show the peaks of an order: even ones, and closer ones about resonances."""
+    run = seen.at.torques.speeds
+    low, high = float(run.min()), float(run.max())
+    moved, orders = seen.damped_resonances
+    damped = [one.speed for one in critical if one.damping_ratio != 0]
+    marks = [one.speed for one in critical] + [
+        one.peak_speed for one in critical if one.peak_speed is not None
+    ]
+    marks += moved[np.abs(orders - order) <= _EQUAL * order].tolist()
+    ends = np.unique([low, *(mark for mark in marks if low < mark < high), high])
+    between = np.multiply.outer(np.diff(ends), np.concatenate([_SHARES, 1 - _SHARES])) + ends[:-1, None]
+    resonant = set(marks) - {one.speed for one in critical} | set(damped)
+    points = np.concatenate(
+        [
+            [low, high],
+            np.linspace(low, high, _POINTS),
+            run,
+            between.ravel(),
+            [x for x in resonant if low < x < high],
+        ]
+    )
+    undamped = [one.speed for one in critical if one.damping_ratio == 0]
+    apart = np.abs(points[:, None] - np.array(undamped)).min(axis=1, initial=np.inf)
+    return np.unique(points[(apart > _EQUAL * points) | (points == low) | (points == high)])
+
+
+def _beside(one: CriticalSpeed, grid: Floats) -> float:
+    """A critical speed, or one beside it where there is no solution at it."""
+    if one.damping_ratio != 0:
+        return one.speed
+    above = one.speed * (1 + _BESIDE)
+    return above if above <= grid[-1] else one.speed * (1 - _BESIDE)
+
+
+def _bounded(one: CriticalSpeed, speed: float, size: float) -> tuple[float, bool, float]:
+    """A peak, whether it is one, and its height: without bounds where nothing damps the mode."""
+    if one.damping_ratio == 0 and abs(speed - one.speed) < _BESIDE * one.speed:
+        return one.speed, True, math.inf
+    return speed, True, size
+
+
+def _owned(critical: Sequence[float], peaks: Sequence[tuple[float, float]]) -> list[int | None]:
+    """Which of the peaks, by speed with their height, belongs to each critical speed, if any does."""
+    # Each lies between the critical speeds next to its own. Of all such choices that with most peaks, then
+    # with the highest, then with the nearest ones. The best choice so far by the last peak that it uses:
+    best: dict[int, tuple[_Score, list[int | None]]] = {-1: ((0, 0.0, 0.0), [])}
+    for n, speed in enumerate(critical):
+        below = critical[n - 1] if n else 0.0
+        above = critical[n + 1] if n + 1 < len(critical) else math.inf
+        inside = [k for k, (at, _) in enumerate(peaks) if below < at < above]
+        longer: dict[int, tuple[_Score, list[int | None]]] = {}
+        for last, ((count, height, nearness), chosen) in best.items():
+            choices: list[tuple[int, _Score, int | None]] = [(last, (count, height, nearness), None)]
+            for k in inside:
+                if k > last:
+                    at, size = peaks[k]
+                    score = (count + 1, height + _height(size), nearness - abs(math.log(at / speed)))
+                    choices.append((k, score, k))
+            for k, score, pick in choices:
+                if k not in longer or score > longer[k][0]:
+                    longer[k] = score, [*chosen, pick]
+        best = longer
+    return max(best.values(), key=lambda choice: choice[0])[1]
+
+
+def _height(size: float) -> float:
+    """A height on the scale on which heights are compared, in steps below which they are equal."""
+    return round(math.log(min(size, 1e300)), 9)
+
+
+def _chosen(
+    loads: _Loads, critical: Sequence[CriticalSpeed], places: Sequence[Sequence[_Place]]
+) -> list[CriticalResponse]:
+    """The shaft of each critical speed, with its numbers."""
+    if not loads.limited:
+        places = [[max(listed, key=lambda place: place.single)] for listed in places]
+    every = [place for listed in places for place in listed]
+    amplitudes, permitted = loads.together(np.array([place.speed for place in every]))
+    columns = iter(range(len(every)))
+    chosen = []
+    for one, listed in zip(critical, places, strict=True):
+        mine = [next(columns) for _ in listed]
+        ratio = [
+            amplitudes[place.row, n] / permitted[place.row, n] for place, n in zip(listed, mine, strict=True)
+        ]
+        best = int(np.nan_to_num(ratio, nan=-1.0, posinf=np.inf).argmax())
+        place, n = listed[best], mine[best]
+        limit = float(permitted[place.row, n])
+        total = math.inf if math.isinf(place.single) else float(amplitudes[place.row, n])
+        chosen.append(
+            CriticalResponse(
+                order=one.order,
+                mode=one.mode,
+                critical_speed=one.speed,
+                speed=place.speed,
+                is_peak=place.is_peak,
+                shaft=loads.shafts[place.row],
+                kind=PRESSURE if loads.limited else TORQUE,
+                single=place.single,
+                total=total,
+                permitted=limit if math.isfinite(limit) else None,
+            )
         )
-    s = int(np.nan_to_num(single, nan=-1.0).argmax())
-    total = float(response.shaft_torque_vibratory[s, n])
-    numbers = (TORQUE, float(single[s]), total, None)
-    return CriticalResponse(critical.order, critical.mode, speed, response.shafts[s], *numbers)
+    return chosen

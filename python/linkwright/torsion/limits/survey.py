@@ -75,14 +75,16 @@ def _frequencies(at: ExcitedTrain) -> Floats:
     return frequencies
 
 
-def damped_resonances(at: ExcitedTrain) -> Floats:
-    """Speeds at which an order meets a damped natural frequency far from those without damping, (n,) [rad/s].
+def damped_resonances(at: ExcitedTrain) -> tuple[Floats, Floats]:
+    """Speeds at which orders meet damped natural frequencies far from those without damping, and the orders.
+
+    (n,) each [rad/s], cycles per revolution of the first disc.
 
     A strong damper holds its ring, so that a train resonates where it does not without damping. Natural
     frequencies are those of some speeds, each taken to hold halfway to the next.
     """
     if not _has_viscous_damping(at):
-        return np.empty(0)
+        return np.empty(0), np.empty(0)
     speeds, undamped = at.torques.speeds, _frequencies(at)
     changing = np.concatenate([at.operating.stiffness, at.operating.disc_damping])
     size = 2 * len(at.referred.inertia)
@@ -90,11 +92,13 @@ def damped_resonances(at: ExcitedTrain) -> Floats:
     places = np.unique(np.linspace(0, len(speeds) - 1, min(count, len(speeds))).round().astype(int))
     halfway = 0.5 * (speeds[places[:-1]] + speeds[places[1:]])
     ends = np.concatenate([speeds[:1], halfway, speeds[-1:]])
-    listed = [np.empty(0)]
+    listed, of_orders = [np.empty(0)], [np.empty(0)]
     for place, low, high in zip(places, ends[:-1], ends[1:], strict=True):
-        crossings = np.divide.outer(_moved(at, place, undamped[place]), at.torques.orders).ravel()
-        listed.append(crossings[(crossings >= low) & (crossings <= high)])
-    return np.unique(np.concatenate(listed))
+        crossings = np.divide.outer(_moved(at, place, undamped[place]), at.torques.orders)
+        inside = (crossings >= low) & (crossings <= high)
+        listed.append(crossings[inside])
+        of_orders.append(np.broadcast_to(at.torques.orders, crossings.shape)[inside])
+    return np.concatenate(listed), np.concatenate(of_orders)
 
 
 def _has_viscous_damping(at: ExcitedTrain) -> bool:
@@ -158,6 +162,18 @@ class Survey:
     def resonances(self) -> tuple[Resonance, ...]:
         """Resonances between the lowest and the highest speed."""
         return resonances(self.at)
+
+    @cached_property
+    def _end_frequencies(self) -> tuple[Floats, Floats]:
+        """Natural frequencies above zero at the lowest and at the highest speed [rad/s]."""
+        speeds, omega = self.at.torques.speeds, _frequencies(self.at)
+        return omega[int(np.argmin(speeds))], omega[int(np.argmax(speeds))]
+
+    def resonances_beyond(self, order: float) -> tuple[list[float], list[float]]:
+        """Speeds below and above all speeds at which an order meets the frequencies of the ends [rad/s]."""
+        speeds = self.at.torques.speeds
+        low, high = (np.sort(omega / order) for omega in self._end_frequencies)
+        return low[low < speeds.min()].tolist(), high[high > speeds.max()].tolist()
 
     @cached_property
     def service(self) -> float:
@@ -262,11 +278,16 @@ class Survey:
             yield between(self.machine, self.at, speeds[first : first + _AT_ONCE])
 
     @cached_property
+    def damped_resonances(self) -> tuple[Floats, Floats]:
+        """Speeds of resonances that damping has moved far, with their orders."""
+        return damped_resonances(self.at)
+
+    @cached_property
     def resonant_speeds(self) -> Floats:
         """Speeds of resonances, without damping and with it, that the run does not have."""
         run = self.at.torques.speeds
         undamped = [resonance.speed for resonance in self.resonances]
-        every = np.unique(np.concatenate([undamped, damped_resonances(self.at)]))
+        every = np.unique(np.concatenate([undamped, self.damped_resonances[0]]))
         every = every[np.diff(every, prepend=-1.0) > _EQUAL * every]
         apart = np.abs(every[:, None] - run).min(axis=1, initial=np.inf) > _EQUAL * every
         speeds: Floats = every[apart]

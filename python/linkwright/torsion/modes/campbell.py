@@ -14,13 +14,15 @@ slowly, and that of resonance, which damping limits,
 
 The ratio :math:`\zeta_n` is that of light damping, and other modes are left out; forced vibration has both.
 
-Damping moves the peak of the response away from the undamped crossing. Where the torque grows with the power
-q of the speed, the amplitude :math:`s^{q/2}/\sqrt{(1 - s)^2 + 4\zeta^2 s}` over
+Damping moves the peak of the mode's response away from the undamped crossing. Where the torque grows with the
+power q of the speed, the amplitude :math:`s^{q/2}/\sqrt{(1 - s)^2 + 4\zeta^2 s}` over
 :math:`s = (\nu\Omega/\omega_n)^2` peaks at a root of
 
 .. math:: (q - 2)\,s^2 + (q - 1)(4\zeta^2 - 2)\,s + q = 0
 
 which is :math:`1 - 2\zeta^2` of a constant torque and :math:`1/(1 - 2\zeta^2)` of one of inertia (q = 2).
+This peak is that of the mode alone. That of the forced response, in which the other modes and the damping
+between modes take part, is found by `linkwright.torsion.limits.critical_response`.
 
 References
 ----------
@@ -56,6 +58,9 @@ _STEPS = 8
 # Share of a speed by which the growth of a torque is looked at: an order's torques are smooth.
 _ASIDE = 1e-3
 
+# Digits to which the growth of a torque is known.
+_DIGITS = 6
+
 # Speeds that differ by a smaller share are one.
 _EQUAL = 1e-12
 
@@ -80,10 +85,11 @@ class CriticalSpeed(NamedTuple):
     damping_ratio : float or None
         ζ of the mode; None where it is not known.
     resonance_amplitude : float or None
-        At the disc of largest amplitude; infinite without damping [rad].
+        Of the mode alone, at the disc of largest amplitude; infinite without damping [rad].
     peak_speed : float or None
-        At which the damped response of the mode to the order peaks; None where it has no peak, or the damping
-        is not known [rad/s].
+        At which the damped response of the mode alone to the order peaks; None where it has no peak, or the
+        damping is not known. Neighbouring modes and strong dampers move the peak of the forced response, as
+        `CriticalResponse` has it [rad/s].
     """
 
     speed: float
@@ -280,9 +286,11 @@ def _growth(modes: ModesAt, at: Floats, orders: Floats, shapes: Floats) -> Float
 
 
 def _peak(speed: float, ratio: float | None, growth: float) -> float | None:
-    """Speed of the largest amplitude near a crossing."""
+    """Speed of the largest amplitude of the mode alone near a crossing."""
     if ratio is None:
         return None
+    # What rounding leaves of a whole power would have the amplitude peak at no speed, or at any.
+    growth = round(growth, _DIGITS)
     roots = np.roots([growth - 2, (growth - 1) * (4 * ratio**2 - 2), growth])
     real = roots.real[(roots.imag == 0) & (roots.real > 0)]
     # Of two the one near the crossing is the peak, the other a minimum value.

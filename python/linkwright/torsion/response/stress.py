@@ -17,12 +17,14 @@ References
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
+from numpy.typing import NDArray
 
-from linkwright.kernel.arrays import Floats
+from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
@@ -33,6 +35,7 @@ from linkwright.torsion.excitation.drive_line import steady_speed, train_of
 from linkwright.torsion.excitation.excited_train import excited_train
 from linkwright.torsion.model.drive_train import CRANK
 from linkwright.torsion.model.shaft_limit import ShaftLimit, StressedSection
+from linkwright.torsion.model.shaft_row import RodPiece
 from linkwright.torsion.model.train import Shaft
 from linkwright.torsion.model.whole_train import RodShaft
 from linkwright.torsion.model.whole_train import speeds as turning
@@ -134,23 +137,18 @@ def shaft_stress(
     """
     in_range(service=(service, positive(SPEED)))
     response = torsion_response(excited_train(machine)) if response is None else response
-    known = stressed(train_of(machine).shafts)
+    shafts = train_of(machine).shafts
+    known = stressed(shafts)
     rows = [response.shafts.index(name) for name in known]
     W = np.array([section.section_modulus for section, _ in known.values()])
     K = np.array([limit.concentration for _, limit in known.values()])
     ratio = response.speeds / (service_speed(machine, response.speeds) if service is None else service)
-    factor = np.repeat((K / W)[:, None], len(ratio), axis=1)
+    factor = stress_per_torque(shafts, response)
     permitted = [limit.permitted_stress(ratio, section.diameter) for section, limit in known.values()]
     both = np.array(permitted).reshape(len(known), 2, len(ratio))
-    shafts = train_of(machine).shafts
     for row, (name, (_, limit)) in enumerate(known.items()):
-        shaft, places = shafts[name], response.places.get(name)
-        if isinstance(shaft, RodShaft) and places is not None and not limit.has_section:
-            for piece in np.unique(places).tolist():
-                there, one = places == piece, shaft.pieces[piece]
-                assert one.section_modulus is not None
-                factor[row, there] = K[row] / one.section_modulus
-                both[row, :, there] = np.transpose(limit.permitted_stress(ratio[there], one.diameter))
+        for one, there in _pieces(shafts[name], limit, response.places.get(name)):
+            both[row, :, there] = np.transpose(limit.permitted_stress(ratio[there], one.diameter))
     return ShaftStress(
         speeds=response.speeds,
         shafts=tuple(known),
@@ -162,6 +160,27 @@ def shaft_stress(
         continuous=both[:, 0],
         transient=both[:, 1],
     )
+
+
+def stress_per_torque(shafts: dict[str, Shaft], response: TorsionResponse) -> Floats:
+    """Stress with its concentration over torque, of shafts of which a section is known, (shafts, speeds)."""
+    known = stressed(shafts)
+    factor = np.empty((len(known), len(response.speeds)))
+    for row, (name, (section, limit)) in enumerate(known.items()):
+        factor[row] = limit.concentration / section.section_modulus
+        for one, there in _pieces(shafts[name], limit, response.places.get(name)):
+            assert one.section_modulus is not None
+            factor[row, there] = limit.concentration / one.section_modulus
+    return factor
+
+
+def _pieces(
+    shaft: Shaft, limit: ShaftLimit, places: NDArray[np.int64] | None
+) -> Iterator[tuple[RodPiece, Bools]]:
+    """Pieces of a shaft with distributed inertia, with the speeds at which each carries most."""
+    if isinstance(shaft, RodShaft) and places is not None and not limit.has_section:
+        for piece in np.unique(places).tolist():
+            yield shaft.pieces[piece], places == piece
 
 
 def stressed(shafts: dict[str, Shaft]) -> dict[str, tuple[StressedSection, ShaftLimit]]:

@@ -101,12 +101,16 @@ def _passage(one: BarredRange) -> str:
 
 
 def critical_table(responses: Sequence[CriticalResponse]) -> Table:
-    """The critical order alone and all orders in phase, with what is permitted."""
+    """The critical order alone and all orders in phase where it peaks, with what is permitted.
+
+    At the critical speed itself where the order has no peak of its own.
+    """
     rows: list[Row] = [
         (
             f"mode {one.mode}, order {one.order:.4g}",
             "",
-            rpm(one.speed),
+            rpm(one.critical_speed),
+            rpm(one.speed) if one.is_peak else "–",
             one.shaft,
             shown(one.single, one.kind),
             shown(one.total, one.kind),
@@ -115,7 +119,7 @@ def critical_table(responses: Sequence[CriticalResponse]) -> Table:
         for one in responses
     ]
     at = f"peaks at {per_minute()}"
-    heads = ("critical speed", "", at, "shaft", "order alone", "all orders", "permitted")
+    heads = ("critical speed", "", per_minute(), at, "shaft", "order alone", "all orders", "permitted")
     return Table("synthesis", "Synthesis at the most severe critical speeds", heads, rows)
 
 

@@ -143,7 +143,7 @@ def _kind(natural: float, damped: float) -> str:
 
 
 def _critical(diagram: CampbellDiagram) -> Table:
-    """The most severe critical speeds, by speed."""
+    """The most severe critical speeds, by speed, with peak and amplitude of the mode alone."""
     by_severity = sorted(diagram.critical, key=lambda point: point.resonance_amplitude or 0.0, reverse=True)
     kept = set(by_severity[:_CRITICAL])
     rows: list[Row] = [
@@ -159,7 +159,8 @@ def _critical(diagram: CampbellDiagram) -> Table:
         for crossing in diagram.critical
         if crossing in kept
     ]
-    heads = ("order", "", "mode", "Hz", per_minute(), f"peaks at [{per_minute()}]", "amplitude")
+    alone = (f"mode alone: peak [{per_minute()}]", "mode alone: amplitude")
+    heads = ("order", "", "mode", "Hz", per_minute(), *alone)
     more = len(diagram.critical) - len(rows)
     title = "Critical speeds" + (f", the most severe of {len(diagram.critical)}" if more else "")
     return Table("critical_speeds", title, heads, rows)
