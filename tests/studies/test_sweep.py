@@ -354,7 +354,8 @@ def test_a_cluster_with_a_worker_killed(
     study_file: Files, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Its folder is that of one process; what cannot be reached is reported."""
-    distributed = pytest.importorskip("distributed")
+    import distributed
+
     plan = lw.read_study(study_file(("chunk = 4", "chunk = 1")))
     lw.sweep(plan, tmp_path / "alone")
     options = {"n_workers": 2, "threads_per_worker": 1, "dashboard_address": None, "silence_logs": 50}
