@@ -309,6 +309,23 @@ def test_killed_at_any_moment(study_file: Files, tmp_path: Path) -> None:
     assert {path.suffix for path in (tmp_path / "rows").iterdir()} == {".parquet", ".json"}
 
 
+def test_a_damaged_description_loses_no_row(study_file: Files, tmp_path: Path) -> None:
+    """The same study writes it anew; another one leaves the folder as it is."""
+    plan, rows = lw.read_study(study_file()), tmp_path / "rows"
+    lw.sweep(plan, rows)
+    whole = contents(rows)
+    (rows / "_study.json").write_text("{", encoding="utf-8")
+    with pytest.raises(InputError, match="writes it anew"):
+        opened(rows)
+    other = lw.read_study(study_file(("1100 kg", "1200 kg"), name="other.toml"))
+    with pytest.raises(InputError, match="rows of another study"):
+        lw.sweep(other, rows)
+    written = {name: (rows / name).stat().st_mtime_ns for name in whole if name != "_study.json"}
+    assert lw.sweep(plan, rows).is_complete
+    assert contents(rows) == whole
+    assert written == {name: (rows / name).stat().st_mtime_ns for name in written}
+
+
 def test_a_full_disk(study_file: Files, tmp_path: Path) -> None:
     """The limit on a file's size stands for a disk without room: a write fails in its middle."""
     import resource

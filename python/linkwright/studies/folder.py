@@ -95,7 +95,12 @@ class SweepFolder:
         require_pyarrow()
         try:
             if (self.path / MANIFEST).exists():
-                _require_same(opened(self.path), self)
+                known = _manifest_of(self.path / MANIFEST)
+                if known is not None:
+                    _require_same(opened(self.path), self)
+                    return
+                self._require_own_rows()
+                write_file(self.path / MANIFEST, _text(self.manifest))
                 return
             if self.path.exists() and not self.path.is_dir():
                 raise InputError(f"{self.path}: found a file, expected a folder")
@@ -108,6 +113,15 @@ class SweepFolder:
             write_file(self.path / MANIFEST, _text(self.manifest))
         except OSError as error:
             raise unwritable(self.path, error) from None
+
+    def _require_own_rows(self) -> None:
+        """Refuse a folder without a readable description whose rows are not those of this study."""
+        others = [path for path in self.path.glob("part-*.parquet") if path not in set(self.parts())]
+        if others and not any(self.is_done(number) for number in range(self.n_parts)):
+            raise InputError(
+                f"{self.path / MANIFEST}: found no description of a sweep, and rows of another study beside "
+                "it; nothing was changed; name another folder"
+            )
 
     def write(self, number: int, rows: Rows) -> None:
         """Write the file of a number; an `InputError` if the disk is full, or cannot be written to."""
@@ -142,24 +156,33 @@ def opened(path: Path) -> SweepFolder:
     """The folder of a sweep that was begun; an `InputError` if there is none."""
     require_pyarrow()
     place = path / MANIFEST
-    try:
-        require_no_pipe(place)
-        manifest = json.loads(place.read_text(encoding="utf-8"))
-        folder = SweepFolder(path, {**manifest, "rows": int(manifest["rows"]), "hash": manifest["hash"]})
-    except FileNotFoundError:
-        raise InputError(f"{path}: found no {MANIFEST}, expected the folder of a sweep") from None
-    except (ValueError, KeyError, TypeError, RecursionError, TextError):
+    manifest = _manifest_of(place)
+    if manifest is None:
         raise InputError(
-            f"{place}: found no description of a sweep; remove the folder or name another"
-        ) from None
-    except OSError as error:
-        raise InputError(f"{place}: cannot be read ({error.strerror or error})") from None
+            f"{place}: found no description of a sweep; `linkwright sweep` with the same study writes it anew "
+            "and keeps the rows that are there"
+        )
+    folder = SweepFolder(path, manifest)
     if manifest.get("layout") != LAYOUT:
         raise InputError(
             f"{place}: found files of another version of Linkwright, whose columns are others; open them "
             "with that version, or compute the sweep again in another folder"
         )
     return folder
+
+
+def _manifest_of(place: Path) -> dict[str, Any] | None:
+    """The description of a sweep; None if the file holds none, an `InputError` if there is no file."""
+    try:
+        require_no_pipe(place)
+        manifest = json.loads(place.read_text(encoding="utf-8"))
+        return {**manifest, "rows": int(manifest["rows"]), "hash": manifest["hash"]}
+    except FileNotFoundError:
+        raise InputError(f"{place.parent}: found no {MANIFEST}, expected the folder of a sweep") from None
+    except (ValueError, KeyError, TypeError, RecursionError, TextError):
+        return None
+    except OSError as error:
+        raise InputError(f"{place}: cannot be read ({error.strerror or error})") from None
 
 
 def plan_of(manifest: dict[str, Any]) -> StudyPlan:

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.page.numbers import measured, number
 from linkwright.kernel.page.table import Row, Table
 from linkwright.studies.allocation import Allocation
+from linkwright.studies.axes import Axis
+from linkwright.studies.choices import choice_names
 from linkwright.studies.fit import Fit
 from linkwright.studies.front import Front
 from linkwright.studies.optimise import Optimum
+from linkwright.studies.plan import StudyPlan
 from linkwright.studies.sweep import Sweep
 from linkwright.studies.tolerance import Tolerance
 
@@ -18,20 +22,21 @@ from linkwright.studies.tolerance import Tolerance
 _REASONS = 8
 
 
-def sweep_tables(sweep: Sweep, units: dict[str, str]) -> list[Table]:
-    """Extremes of the responses, and why rows have no answer."""
-    rows: list[Row] = [
-        (
-            name,
-            "",
-            measured(extremes["min"], units[name]),
-            str(extremes["min_row"]),
-            measured(extremes["max"], units[name]),
-            str(extremes["max_row"]),
-        )
-        for name, extremes in sweep.extremes.items()
-    ]
-    heads = ("response", "", "minimum", "in row", "maximum", "in row")
+# Variables whose values stand beside the extremes.
+_BESIDE = 5
+
+
+def sweep_tables(sweep: Sweep, plan: StudyPlan, units: dict[str, str]) -> list[Table]:
+    """Extremes of the responses with the variables there, and why rows have no answer."""
+    shown = plan.axes[:_BESIDE]
+    rows: list[Row] = []
+    for name, extremes in sweep.extremes.items():
+        for key, word in (("min", "minimum"), ("max", "maximum")):
+            at = int(extremes[f"{key}_row"])
+            values = {axis.name: float(column[0]) for axis, column in _row_of(plan, at)}
+            beside = [_value(axis, values[axis.name], units) for axis in shown]
+            rows.append((f"{word} of {name}", "", measured(extremes[key], units[name]), str(at), *beside))
+    heads = ("response", "", "value", "row", *(axis.name for axis in shown))
     tables = [Table("sweep", "Responses", heads, rows)] if rows else []
     if sweep.reasons:
         listed: list[Row] = [(text, "", str(count)) for text, count in list(sweep.reasons.items())[:_REASONS]]
@@ -40,6 +45,17 @@ def sweep_tables(sweep: Sweep, units: dict[str, str]) -> list[Table]:
             listed.append((f"{len(sweep.reasons) - _REASONS} further reasons", "", str(rest)))
         tables.append(Table("failed", "Rows without a result", ("reason", "", "rows"), listed))
     return tables
+
+
+def _row_of(plan: StudyPlan, row: int) -> Iterator[tuple[Axis, Floats]]:
+    """The variables of a row."""
+    columns = plan.rows(row, row + 1)
+    return ((axis, columns[axis.name]) for axis in plan.axes)
+
+
+def _value(axis: Axis, value: float, units: dict[str, str]) -> str:
+    """A value of a variable: a number, or what a choice is called."""
+    return measured(value, units[axis.name]) if axis.is_number else choice_names(axis.choices)[int(value)]
 
 
 def tolerance_tables(tolerance: Tolerance, units: dict[str, str]) -> list[Table]:

@@ -136,7 +136,7 @@ def _answer(plan: StudyPlan, swept: Sweep, units: dict[str, str]) -> Answer:
         head=lambda: (
             f"{plan.machine.name}\n{swept.n_done} of {swept.n_rows} rows in {swept.path}, {solved} solved"
         ),
-        tables=partial(sweep_tables, swept, units),
+        tables=partial(sweep_tables, swept, plan, units),
     )
 
 
