@@ -83,8 +83,8 @@ def write_study(
 
 def _alike(described: Machine, machine: Machine) -> bool:
     """Whether two machines are the same, but for a study."""
-    plain = described if described.study is None else described.with_entries({"study": None})
-    return dumps(plain) == dumps(machine)
+    without_study = described if described.study is None else described.with_entries({"study": None})
+    return dumps(without_study) == dumps(machine)
 
 
 def _source(place: Path, source: Path) -> str:
