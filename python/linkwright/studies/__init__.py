@@ -20,6 +20,7 @@
 | `folder` | The folder of a sweep |
 | `sweep` | A sweep, and its continuation |
 | `sizes` | Studies that size drive, cam or damper for the minimum cost |
+| `cams` | Studies of cams: sizes, lift and laws within limits |
 | `knives` | Studies of the knife of a topper over a field of roots |
 | `slopes` | Derivatives of responses by variables, exact where the analysis has them |
 | `tolerance` | Scatter of responses, contributions, yield, Sobol indices |

@@ -39,6 +39,7 @@ ANALYSES = {
     "linkage": "linkages.cycle:linkage",
     "forces": "kinetostatics.forces:forces",
     "cam": "cam.profile.profile:cam_profile",
+    "cam_check": "cam.profile.check:cam_check",
     "cam_force": "cam.dynamics.loaded:cam_force",
     "pumping_unit": "pumping.unit:pumping_unit",
     "rotator": "pumping.rod_rotator:rod_rotator",
@@ -54,7 +55,7 @@ ANALYSES = {
 MOTION, ENTRY = "motion", "entry"
 
 # Analyses of one part of the machine, by its name.
-OF_ONE_CAM = ("cam", "cam_force")
+OF_ONE_CAM = ("cam", "cam_check", "cam_force")
 
 # Parts of a train that a list of curves has a row for.
 _PARTS = ("discs", "shafts")

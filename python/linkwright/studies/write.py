@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -30,6 +30,8 @@ def study_text(plan: StudyPlan, machine: str) -> str:
             document.add(key, tomlkit.item(entry))
     tables = {
         "variables": {name: _variable(plan, name, entry) for name, entry in given["variables"].items()},
+        "derived": {name: _derived(entry) for name, entry in given.get("derived", {}).items()},
+        "responses": {name: _response(entry) for name, entry in given["responses"].items()},
         "constraints": {
             name: {key: _worded(limit, kind_of(plan.units[name])) for key, limit in limits.items()}
             for name, limits in given.get("constraints", {}).items()
@@ -99,12 +101,28 @@ def _source(place: Path, source: Path) -> str:
 def _variable(plan: StudyPlan, name: str, given: Mapping[str, Any]) -> dict[str, Any]:
     """A variable, one address as a text, numbers with their unit."""
     addresses = given["address"]
-    entries = {**given, "address": addresses[0] if len(addresses) == 1 else list(addresses)}
+    entries = {**given, "address": _addresses(addresses)}
     mark = kind(plan.machine, addresses[0])
     for key in ("range", "values"):
         if key in given:
             entries[key] = [_worded(value, mark) for value in given[key]]
     return entries
+
+
+def _derived(given: Mapping[str, Any]) -> Any:
+    """A derived number; the formula alone if it sets no entry."""
+    addresses = given.get("address", ())
+    return {**given, "address": _addresses(addresses)} if addresses else given["formula"]
+
+
+def _addresses(addresses: Sequence[str]) -> str | list[str]:
+    """One address as a text, several as a list."""
+    return addresses[0] if len(addresses) == 1 else list(addresses)
+
+
+def _response(given: Mapping[str, Any]) -> Any:
+    """A response; a quantity without more as its name."""
+    return given["quantity"] if given.keys() == {"quantity"} else given
 
 
 def _worded(value: Any, mark: Kind | None) -> Any:
