@@ -22,6 +22,7 @@
 | `sizes` | Studies that size drive, cam or damper for the minimum cost |
 | `cams` | Studies of cams: sizes, lift and laws within limits |
 | `knives` | Studies of the knife of a topper over a field of roots |
+| `best_knives` | The best knife of a topper as a study |
 | `slopes` | Derivatives of responses by variables, exact where the analysis has them |
 | `tolerance` | Scatter of responses, contributions, yield, Sobol indices |
 | `allocation` | The cheapest tolerances for a wanted yield |

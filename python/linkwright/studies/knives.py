@@ -49,7 +49,7 @@ _ROUNDING = 1e-12
 
 
 @dataclass(frozen=True)
-class _Knob:
+class Knob:
     """The variable of a study by which an entry of the knife takes its value x: factor · x, or x − shift."""
 
     variable: str
@@ -196,11 +196,11 @@ def _by_rest(machine: Machine, axes: dict[str, Floats]) -> list[tuple[Machine, d
 
 def _plan(
     machine: Machine, axes: Mapping[str, Floats], seed: int | None, level: float
-) -> tuple[StudyPlan, dict[str, _Knob]]:
+) -> tuple[StudyPlan, dict[str, Knob]]:
     """The study of some entries, and the variable of each of them."""
     in_range(level=(level, Quantity(RATIO, INSIDE_ONE)))
-    fitted = _with_field(machine, seed, needed="cut_height" in axes)
-    knobs = {name: _knob(fitted, name) for name in axes}
+    fitted = with_field(machine, seed, needed="cut_height" in axes)
+    knobs = {name: knob_of(fitted, name) for name in axes}
     for name, knob in knobs.items():
         if knob.address == "drive.speed" and not axes[name].all():
             raise InputError(
@@ -223,23 +223,23 @@ def _plan(
     return new_study(fitted, tables), knobs
 
 
-def _knob(machine: Machine, name: str) -> _Knob:
+def knob_of(machine: Machine, name: str) -> Knob:
     """The variable of an entry of the knife."""
     topper = require_topper(machine)
     if name == "knife_speed" and isinstance(topper.motion, MemberKnife):
         assert machine.drive is not None
         assert machine.drive.speed is not None
         (edge,) = edges_of(machine, topper)
-        return _Knob("crank_speed", "drive.speed", machine.drive.speed / edge.knife.mean_speed)
+        return Knob("crank_speed", "drive.speed", machine.drive.speed / edge.knife.mean_speed)
     if name == "cut_height":
         assert topper.field is not None
         # The heights have any scatter: all of them are moved alike.
         mean = float(draw_roots(topper).cut_height.mean())
-        return _Knob("shift", "topper.field.cut_height_shift", shift=mean - topper.field.cut_height_shift)
-    return _Knob(name, f"topper.{name}")
+        return Knob("shift", "topper.field.cut_height_shift", shift=mean - topper.field.cut_height_shift)
+    return Knob(name, f"topper.{name}")
 
 
-def _with_field(machine: Machine, seed: int | None, *, needed: bool) -> Machine:
+def with_field(machine: Machine, seed: int | None, *, needed: bool) -> Machine:
     """The machine with a field that has the seed, if one is given or it is needed."""
     topper = require_topper(machine)
     if seed is None and not needed:

@@ -219,6 +219,7 @@ def best(
     set: Sets = None,
     allow_outside: Outside = False,
     seed: Seed = None,
+    study: ToStudy = None,
     json: Json = False,
     out: Folder = None,
     force: Force = False,
@@ -233,6 +234,11 @@ def best(
 
     folder = output_folder(out, force=force)
     machine = read(file, set or [], allow_outside=allow_outside)
+    if study is not None:
+        from linkwright.studies.best_knives import best_knife_study
+
+        plan = best_knife_study(machine, objective=objective.value, seed=seed)
+        hand_over_study(plan, study, file, None if set else machine, force=force, quiet=json)
     with bar("knives") as watch:
         knife = best_knife(machine, objective=objective.value, seed=seed, watch=watch)
     hand_over(_answer(machine, knife), json=json, folder=folder)
