@@ -113,7 +113,7 @@ _HOME = {
     "topper": "topping.topper",
     "topper_field": "topping.field",
     "length_verdict": "topping.verdict",
-    "sweep_field": "topping.sweep",
+    "sweep_field": "studies.knives",
     "best_knife": "topping.best.best_knife",
     "free_vibration": "torsion.modes.free",
     "holzer_table": "torsion.modes.holzer",
@@ -263,6 +263,7 @@ if TYPE_CHECKING:
     from linkwright.studies.engine import evaluate as evaluate
     from linkwright.studies.fit import fit as fit
     from linkwright.studies.front import front as front
+    from linkwright.studies.knives import sweep_field as sweep_field
     from linkwright.studies.optimise import optimise as optimise
     from linkwright.studies.read import new_study as new_study
     from linkwright.studies.read import read_study as read_study
@@ -280,7 +281,6 @@ if TYPE_CHECKING:
     from linkwright.synthesis.stroke import slider_crank as slider_crank
     from linkwright.topping.best.best_knife import best_knife as best_knife
     from linkwright.topping.field import topper_field as topper_field
-    from linkwright.topping.sweep import sweep_field as sweep_field
     from linkwright.topping.topper import topper as topper
     from linkwright.topping.verdict import length_verdict as length_verdict
     from linkwright.torsion.damper.damper_design import design_damper as design_damper

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.cam.model.motion_law import PlainLaw
 from linkwright.cam.profile.faults import cam_faults
 from linkwright.cam.profile.profile import cam_profile
-from linkwright.cam.search import search_cams, variant
+from linkwright.cam.search import Cams, search_cams
 from linkwright.kernel.errors import InputError, ShapeError
 from linkwright.machine.machine import Machine
 
@@ -35,6 +38,29 @@ FACE = (
 
 def machine(lines: str) -> Machine:
     return lw.loads(HEAD + lines)
+
+
+def variant(machine: lw.Machine, name: str, searched: Cams, i: int) -> lw.Machine:
+    """The machine with one of the cams, by its entries."""
+    cam = machine.mechanism.cams[name]
+    entries: dict[str, Any] = {
+        key: float(column[i]) for key, column in searched.entries.items() if key != "lift_factor"
+    }
+    if "base_radius" in entries:
+        entries["breadth"] = None
+    factor = float(searched.entries["lift_factor"][i]) if "lift_factor" in searched.entries else 1.0
+    sections = []
+    for section in cam.sections:
+        scaled: dict[str, Any] = {
+            key: factor * value for key in ("lift", "swing") if (value := getattr(section, key))
+        }
+        if searched.laws and scaled:
+            law: dict[str, Any] = {"kind": searched.laws[int(searched.law[i])]}
+            scaled["law"] = PlainLaw.model_construct(**law)
+        sections.append(section.with_entries(scaled))
+    own = cam.with_entries({**entries, "sections": tuple(sections)})
+    cams = {**machine.mechanism.cams, name: own}
+    return machine.with_entries({"mechanism": machine.mechanism.with_entries({"cams": cams})})
 
 
 @pytest.mark.parametrize(
@@ -107,6 +133,3 @@ def test_what_makes_no_sense_is_told() -> None:
         search_cams(m, entries={"base_radius": [0.02]}, laws=["cycloid"])
     with pytest.raises(ShapeError, match="same length"):
         search_cams(m, entries={"base_radius": [0.02, 0.03], "arm_length": [0.07, 0.08, 0.09]})
-    found = search_cams(m, entries={"distance": [0.1, 0.11]})
-    with pytest.raises(InputError, match="arm_pivot"):
-        variant(m, "F", found, 0)

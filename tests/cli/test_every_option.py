@@ -20,7 +20,17 @@ __all__ = ["ask", "known"]
 NONSENSE = ("nan", "inf", "-1e308", "1e308", "[/x]")
 
 # Options whose value is a place for a file, or what `--set` and `--units` take: their tests are elsewhere.
-ELSEWHERE = {"--set", "--units", "--out", "--log", "--task", "--record", "--measured", "--catalogue"}
+ELSEWHERE = {
+    "--set",
+    "--units",
+    "--out",
+    "--log",
+    "--task",
+    "--record",
+    "--measured",
+    "--catalogue",
+    "--study",
+}
 
 # Beside the first calls of the answers: the other ways of commands that have two.
 OTHERS = {

@@ -64,7 +64,7 @@ def test_while_a_command_imports(module: str) -> None:
 
 def test_while_it_computes() -> None:
     program = _start("topper", "field", "machines/topper.toml", "--over", "edge_length=0.1:0.3:50000")
-    _wait_for(program, "linkwright.topping.sweep")
+    _wait_for(program, "linkwright.studies.knives")
     time.sleep(0.5)
     program.send_signal(signal.SIGINT)
     start = time.monotonic()

@@ -131,7 +131,7 @@ def right_calls() -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
         "pumping_unit": {"machine": rotator, "n": 16},
         "rod_rotator": {"machine": rotator, "n": 16},
         "length_verdict": {"claim": PAPER, "edge_angle": 0.2, "diameter": 0.1, "offset": 0.02},
-        "sweep_field": {"machine": topper, "over": {"edge_length": [0.2, 0.3]}, "level": 0.9, "fine": 4},
+        "sweep_field": {"machine": topper, "over": {"edge_length": [0.2, 0.3]}, "level": 0.9},
         "holzer_table": {"machine": engine, "frequency": 10.0},
         "forced_vibration": {"machine": engine, "speeds": [100.0, 150.0]},
         "torsion_study": {"machine": engine, "holzer": [10.0]},

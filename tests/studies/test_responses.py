@@ -28,6 +28,7 @@ CASES = {
     "linkage": (*DRIVE, "period_turns"),
     "forces": (*DRIVE, "shaking_force_max"),
     "cam": ("roller_cam", "bodies.cart.mass", "cart.pressure_angle_max"),
+    "cam_check": ("roller_cam", "bodies.cart.mass", "cart.n_faults"),
     "cam_force": ("roller_cam", "bodies.cart.mass", "cart.force_size"),
     "pumping_unit": (*ROTATOR, "stroke"),
     "rotator": (*ROTATOR, "transfer_max"),

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 from linkwright.cam.model.cam import Cam
 from linkwright.cam.model.follower import Sizes
 from linkwright.cam.model.motion_law import PlainLaw
-from linkwright.cam.model.motion_section import ENDS, MotionSection
+from linkwright.cam.model.motion_section import MotionSection
 from linkwright.cam.profile.contact import contacts
 from linkwright.cam.profile.profile import the_cam
 from linkwright.kernel.arrays import Bools, Floats, Indices
@@ -144,7 +144,8 @@ def search_cams(
     name, cam = the_cam(machine, name)
     if per_turn < 16:
         raise InputError(f"per_turn = {per_turn}: expected 16 cam angles or more")
-    columns, n = _columns(entries, _useful(cam))
+    useful_entries(cam, *entries)
+    columns, n = _columns(entries)
     numbers, repeats = _numbers(law, len(laws) or 1, n)
     columns = {
         key: np.tile(column, repeats) if len(column) > 1 else column for key, column in columns.items()
@@ -163,53 +164,26 @@ def search_cams(
     return _cams(cam, columns, tuple(laws), numbers, results)
 
 
-def variant(machine: Machine, name: str, searched: Cams, i: int) -> Machine:
-    """The machine with one of the cams."""
-    if "distance" in searched.entries:
-        raise InputError(
-            f"the distance of the pivots is no entry of cam {name}: move the point of its arm_pivot instead"
-        )
-    cam = machine.mechanism.cams[name]
-    if searched.laws:
-        law = searched.laws[int(searched.law[i])]
-        cam = cam.with_entries({"sections": tuple(_with(section, law) for section in cam.sections)})
-    entries: dict[str, Any] = {
-        key: float(column[i]) for key, column in searched.entries.items() if key != "lift_factor"
-    }
-    if "base_radius" in entries:
-        entries["breadth"] = None
-    factor = searched.entries.get("lift_factor")
-    if factor is not None:
-        entries["sections"] = tuple(_times(section, float(factor[i])) for section in cam.sections)
-    cams = {**machine.mechanism.cams, name: cam.with_entries(entries)}
-    return machine.with_entries({"mechanism": machine.mechanism.with_entries({"cams": cams})})
-
-
-def _times(section: MotionSection, factor: float) -> MotionSection:
-    """A section with all of its motion times a factor."""
-    keys = [f"{kind}{name}" for kind in ("", "swing_") for name in ENDS]
-    values = {key: getattr(section, key) for key in ("lift", "swing", *keys)}
-    return section.with_entries({key: factor * x for key, x in values.items() if x is not None})
-
-
-def _useful(cam: Cam) -> tuple[str, ...]:
-    """Entries that a cam of this kind depends on."""
+def useful_entries(cam: Cam, *asked: str) -> tuple[str, ...]:
+    """Entries that a cam of this kind depends on; an `InputError` for one that is asked for and is none."""
     own: tuple[str, ...]
     if cam.is_oscillating:
         own = ("distance", "arm_length") if cam.is_roller else ("distance", "offset")
     else:
         own = ("offset",) if cam.is_roller else ("face_tilt",)
     roller = ("roller_radius",) if cam.contact == "roller" else ()
-    return ("base_radius", *roller, *own, "lift_factor")
+    useful = ("base_radius", *roller, *own, "lift_factor")
+    for entry in asked:
+        if entry not in useful:
+            remedy = suggestion(entry, useful)
+            raise InputError(f'entries: found "{entry}", expected what such a cam depends on; {remedy}')
+    return useful
 
 
-def _columns(entries: Mapping[str, ArrayLike], useful: Sequence[str]) -> tuple[dict[str, Floats], int]:
+def _columns(entries: Mapping[str, ArrayLike]) -> tuple[dict[str, Floats], int]:
     """Columns by name, and how many variants."""
     columns = {}
     for key, values in entries.items():
-        if key not in useful:
-            remedy = suggestion(key, useful)
-            raise InputError(f'entries: found "{key}", expected what such a cam depends on; {remedy}')
         columns[key] = np.atleast_1d(array(f"entries: {key}", values))
         if columns[key].ndim != 1 or not np.isfinite(columns[key]).all():
             raise InputError(f'entries: found no list of finite numbers for "{key}"')
@@ -247,13 +221,18 @@ def _variants(cam: Cam, laws: Sequence[str]) -> list[Cam]:
     ]
 
 
-def _with(section: MotionSection, law: str) -> MotionSection:
-    """A section with another law; dwells and constant velocity stay."""
+def require_law(law: str) -> None:
+    """Raise `InputError` unless a law has this name."""
     from linkwright.cam.laws.catalogue import LAWS
 
     if law not in LAWS:
         remedy = suggestion(law, LAWS) or "there is " + ", ".join(LAWS)
         raise InputError(f'laws: found "{law}", expected the name of a law; {remedy}')
+
+
+def _with(section: MotionSection, law: str) -> MotionSection:
+    """A section with another law; dwells and constant velocity stay."""
+    require_law(law)
     if section.is_dwell or section.is_steady:
         return section
     entry: dict[str, Any] = {"kind": law}

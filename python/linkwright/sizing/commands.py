@@ -13,6 +13,7 @@ from linkwright.kernel.command.common import File, Json, Outside, Sets, belong_t
 from linkwright.kernel.command.console import bar
 from linkwright.kernel.command.out import Force, out_option
 from linkwright.kernel.command.parameter import Option
+from linkwright.studies.commands.study_file import ToStudy, hand_over_study
 
 if TYPE_CHECKING:
     from linkwright.drive.model.catalogue import CatalogueMotor
@@ -139,6 +140,7 @@ def size(
     stress: Stress = None,
     torque: TorqueLimit = None,
     part: Part = None,
+    study: ToStudy = None,
     json: Json = False,
     out: OutFile = None,
     force: Force = False,
@@ -161,8 +163,11 @@ def size(
     if (plan := _study(machine, limits, prices if minimum_cost else None, unevenness, part)) is not None:
         from linkwright.studies.commands.optimise import hand_over_optimum
 
+        if study is not None:
+            hand_over_study(plan, study, file, None if set else machine, force=force, quiet=json)
         hand_over_optimum(plan, {"method": "gradient", "starts": _STARTS}, json=json, out=out, force=force)
         return
+    belong_to("a study: --minimum-cost, --pressure-angle or --shaft", "study")
     if keep_motor:
         belong_to("a choice of motor, without --keep-motor", *_OF_A_MOTOR)
         alone = choose_flywheel(machine, unevenness)

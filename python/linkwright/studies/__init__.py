@@ -4,6 +4,7 @@
 | --- | --- |
 | `model` | The study file |
 | `read` | A study and its machine from files |
+| `write` | Write a study as a file, beside a machine file |
 | `plan` | A study checked against its machine, ready to run |
 | `problems` | Values of variables as quantities of their entries |
 | `size_limits` | Limits of a size by its tolerance, and by the clearance of a joint |
@@ -19,6 +20,9 @@
 | `folder` | The folder of a sweep |
 | `sweep` | A sweep, and its continuation |
 | `sizes` | Studies that size drive, cam or damper for the minimum cost |
+| `cams` | Studies of cams: sizes, lift and laws within limits |
+| `knives` | Studies of the knife of a topper over a field of roots |
+| `best_knives` | The best knife of a topper as a study |
 | `slopes` | Derivatives of responses by variables, exact where the analysis has them |
 | `tolerance` | Scatter of responses, contributions, yield, Sobol indices |
 | `allocation` | The cheapest tolerances for a wanted yield |

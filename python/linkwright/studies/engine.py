@@ -254,7 +254,7 @@ def numbers(machine: Machine, wanted: list[StudyResponse]) -> list[float]:
             answers.append(entry_number(machine, *asked.of))
             continue
         if asked.key not in results:
-            results[asked.key] = analysis(asked.analysis)(machine, *asked.arguments)
+            results[asked.key] = analysis(asked.analysis)(machine, *asked.arguments, **asked.options)
         answers.append(asked.number(results[asked.key]))
     return answers
 
@@ -282,9 +282,13 @@ def _add_formulas(rows: Rows, formulas: tuple[Formula, ...], status: int) -> Non
 
 
 def _require_finite(rows: Rows, plan: StudyPlan) -> None:
-    """Let rows fail whose response is no number: NaN is never an answer."""
+    """Let rows fail whose response is neither a number nor what stands for one: NaN is never an answer."""
     for asked in plan.asked:
-        rows.fail(~np.isfinite(rows.columns[asked.name]), FAILED, NO_NUMBER.format(asked.name))
+        column = rows.columns[asked.name]
+        is_number = np.isfinite(column)
+        if asked.otherwise is not None:
+            is_number |= column == asked.otherwise
+        rows.fail(~is_number, FAILED, NO_NUMBER.format(asked.name))
 
 
 def _sentence(error: Exception) -> str:

@@ -159,8 +159,8 @@ def opened(path: Path) -> SweepFolder:
     manifest = _manifest_of(place)
     if manifest is None:
         raise InputError(
-            f"{place}: found no description of a sweep; `linkwright sweep` with the same study writes it anew "
-            "and keeps the rows that are there"
+            f"{place}: found no description of a sweep; `linkwright sweep` with the same study writes it "
+            "anew and keeps the rows that are there"
         )
     folder = SweepFolder(path, manifest)
     if manifest.get("layout") != LAYOUT:

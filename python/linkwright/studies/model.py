@@ -6,6 +6,7 @@ entries that they stand for.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import Annotated, Any, Literal
 
@@ -114,6 +115,14 @@ class Response(CheckedDescription):
         None, description='Number of the machine, "drive.motor.power_rated", also one of a catalogue.'
     )
     formula: str | None = Field(None, description="Formula of variables and other responses, in SI.")
+    level: float | None = Field(
+        None, gt=0, lt=1, description="Confidence level of the end of an interval. Default: 0.95."
+    )
+    otherwise: float | None = Field(
+        None,
+        description="Number in place of one that a machine does not have, such as `inf` for a length that no "
+        "edge reaches. Without it such a row fails.",
+    )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         ways = ("quantity", "curve", "entry", "formula")
@@ -129,6 +138,16 @@ class Response(CheckedDescription):
             yield fault("at", found=self.at, expected='nothing but beside curve = "motion.POINT.x"')
         elif self.curve is None and picks:
             yield fault(picks[0], found=getattr(self, picks[0]), expected="nothing without curve")
+        yield from self._faults_of_results()
+
+    def _faults_of_results(self) -> Iterator[InitErrorDetails]:
+        """What is said of a result beside a response that is none."""
+        if self.otherwise is not None and math.isnan(self.otherwise):
+            yield fault("otherwise", found=self.otherwise, expected="a number, or inf")
+        has_result = self.quantity is not None or self.curve is not None
+        for key in ("level", "otherwise"):
+            if getattr(self, key) is not None and not has_result:
+                yield fault(key, found=getattr(self, key), expected="nothing without quantity or curve")
 
 
 def _as_response(value: object) -> object:

@@ -317,7 +317,7 @@ def _limits(study: StudyFile, units: Mapping[str, str], name: str, constraint: A
     if name not in study.responses:
         remedy = suggestion(name, study.responses)
         raise MachineError([Problem(f"constraints.{name}", show(name), "a response", remedy)])
-    kind = _kind_of(units.get(name, ""))
+    kind = kind_of(units.get(name, ""))
     low, high = (
         default if value is None else _quantity(f"constraints.{name}.{key}", value, kind)
         for key, value, default in (("min", constraint.min, -np.inf), ("max", constraint.max, np.inf))
@@ -328,7 +328,7 @@ def _limits(study: StudyFile, units: Mapping[str, str], name: str, constraint: A
     return low, high
 
 
-def _kind_of(unit: str) -> Kind | None:
+def kind_of(unit: str) -> Kind | None:
     """The quantity that a unit as it is printed belongs to; None for none of those of a machine file."""
     ascii_unit = unit.replace("²", "^2").replace("³", "^3").replace("·", " ")
     return next((kind for kind in KINDS if kind.unit == ascii_unit), None)

@@ -11,6 +11,7 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from importlib import import_module
+from inspect import signature
 from typing import Any, get_type_hints
 
 import numpy as np
@@ -38,6 +39,7 @@ ANALYSES = {
     "linkage": "linkages.cycle:linkage",
     "forces": "kinetostatics.forces:forces",
     "cam": "cam.profile.profile:cam_profile",
+    "cam_check": "cam.profile.check:cam_check",
     "cam_force": "cam.dynamics.loaded:cam_force",
     "pumping_unit": "pumping.unit:pumping_unit",
     "rotator": "pumping.rod_rotator:rod_rotator",
@@ -53,7 +55,7 @@ ANALYSES = {
 MOTION, ENTRY = "motion", "entry"
 
 # Analyses of one part of the machine, by its name.
-OF_ONE_CAM = ("cam", "cam_force")
+OF_ONE_CAM = ("cam", "cam_check", "cam_force")
 
 # Parts of a train that a list of curves has a row for.
 _PARTS = ("discs", "shafts")
@@ -86,6 +88,8 @@ class StudyResponse:
     index: int | None = None  # place in a list
     at: float | None = None  # crank angle at which a motion is taken [rad]
     axes: tuple[str, ...] = ()  # of a list of curves: `("shafts", "speeds")`
+    level: float | None = None  # confidence level of an interval; without it, that of the analysis
+    otherwise: float | None = None  # what stands for a number that the machine does not have
 
     @property
     def arguments(self) -> tuple[str, ...]:
@@ -93,14 +97,19 @@ class StudyResponse:
         return self.of if self.analysis in OF_ONE_CAM else ()
 
     @property
-    def key(self) -> tuple[str, tuple[str, ...]]:
-        """Analysis and name: what is computed once for all responses that share it."""
-        return self.analysis, self.arguments
+    def options(self) -> dict[str, float]:
+        """What the analysis takes besides, by name."""
+        return {} if self.level is None else {"level": self.level}
+
+    @property
+    def key(self) -> tuple[str, tuple[str, ...], float | None]:
+        """Analysis, name and level: what is computed once for all responses that share it."""
+        return self.analysis, self.arguments, self.level
 
     @property
     def is_batch(self) -> bool:
         """Whether the core computes it for many machines at once."""
-        is_scalar = self.extreme is None and self.index is None
+        is_scalar = self.extreme is None and self.index is None and self.otherwise is None
         return self.analysis in (MOTION, ENTRY) or (
             self.analysis == "steady_state" and is_scalar and self.quantity in _OF_BATCH
         )
@@ -113,6 +122,8 @@ class StudyResponse:
         if value is not None and (self.extreme is not None or self.index is not None):
             value = self._picked(result, np.asarray(value))
         if value is None or not math.isfinite(float(value)):
+            if self.otherwise is not None:
+                return self.otherwise
             raise FindingError(f"{self.word} has no value for this machine")
         return float(value)
 
@@ -185,13 +196,20 @@ def asked(machine: Machine, name: str, response: Response) -> StudyResponse:
     _require_part(
         machine, first, of, axes, lambda remedy: _wrong(name, key, text, "a name that there is", remedy)
     )
+    if response.level is not None and "level" not in signature(analysis(first)).parameters:
+        raise _wrong(name, "level", f"{response.level:g}", f"nothing: {first} has no intervals")
     picked = (response.extreme, response.index)
     own = (".".join(of),) if of else ()
     if response.index is not None and len(axes) - len(own) > 1:
         place = next((parts for parts in axes if parts in _PARTS and not of), None)
         one = f", or {first}.NAME.{quantity} with NAME of {place}" if place else ""
         raise _wrong(name, "index", f"{text}, a list of curves", f"extreme{one}")
-    return StudyResponse(name, first, own, quantity, mark.word, mark.unit, *picked, axes=axes)
+    return StudyResponse(
+        *(name, first, own, quantity, mark.word, mark.unit, *picked),
+        axes=axes,
+        level=response.level,
+        otherwise=response.otherwise,
+    )
 
 
 def _require_part(
@@ -246,6 +264,9 @@ def _of_motion(machine: Machine, name: str, key: str, text: str, response: Respo
         raise _wrong(name, key, f"{text}, which is a curve", "one number", remedy)
     if response.index is not None:
         raise _wrong(name, "index", str(response.index), "extreme or at, of a motion")
+    for key in ("level", "otherwise"):
+        if getattr(response, key) is not None:
+            raise _wrong(name, key, f"{getattr(response, key):g}", "nothing beside a motion")
     word = f"{coordinate} of {point}"
     return StudyResponse(name, MOTION, (point,), coordinate, word, "m", response.extreme, at=response.at)
 

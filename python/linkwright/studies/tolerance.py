@@ -212,6 +212,12 @@ def _check(plan: StudyPlan, rows: int, indices: int) -> None:
             raise InputError(
                 f"variables.{axis.name}: found {what}, expected a tolerance, a distribution or a range"
             )
+    for asked in plan.asked:
+        if asked.otherwise is not None and not np.isfinite(asked.otherwise):
+            raise InputError(
+                f"responses.{asked.name}.otherwise: found {asked.otherwise:g}, expected a finite number: a "
+                "scatter has its mean"
+            )
 
 
 class _Scatters:

@@ -13,6 +13,7 @@ from linkwright.kernel.command.out import Force, out_option, output_folder
 from linkwright.kernel.command.parameter import Option
 from linkwright.kernel.errors import InputError, require_within
 from linkwright.kernel.limits import FIELD_VARIANTS
+from linkwright.studies.commands.study_file import ToStudy, hand_over_study
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -53,6 +54,7 @@ def field(
     over: Over = None,
     seed: Seed = None,
     level: Level = 0.95,
+    study: ToStudy = None,
     json: Json = False,
     out: Folder = None,
     force: Force = False,
@@ -63,14 +65,21 @@ def field(
     """
     from linkwright.kernel.command.console import bar
     from linkwright.machine.read import read
+    from linkwright.studies.knives import sweep_field
     from linkwright.topping.cautions import field_cautions, field_findings
     from linkwright.topping.edge import edges_of, require_topper
     from linkwright.topping.field import topper_field
-    from linkwright.topping.sweep import sweep_field
 
     folder = output_folder(out, force=force)
     machine, axes = read(file, set or [], allow_outside=allow_outside), _axes(over or [])
     described = require_topper(machine)
+    if study is not None:
+        from linkwright.studies.knives import field_study
+
+        if not axes:
+            raise InputError("--study: found it without --over, expected an entry that varies beside it")
+        plan = field_study(machine, axes, seed=seed, level=level)
+        hand_over_study(plan, study, file, None if set else machine, force=force, quiet=json)
     with bar("heads") as watch:
         result = topper_field(machine, seed=seed, level=level, watch=watch)
     swept = None
@@ -148,7 +157,7 @@ def _written(
         import numpy as np
 
         from linkwright.kernel.command.console import bar
-        from linkwright.topping.sweep import sweep_field
+        from linkwright.studies.knives import sweep_field
 
         lengths = np.linspace(0, result.length[-1], _LENGTHS)[1:]
         with bar("lengths") as watch:
@@ -210,6 +219,7 @@ def best(
     set: Sets = None,
     allow_outside: Outside = False,
     seed: Seed = None,
+    study: ToStudy = None,
     json: Json = False,
     out: Folder = None,
     force: Force = False,
@@ -224,6 +234,11 @@ def best(
 
     folder = output_folder(out, force=force)
     machine = read(file, set or [], allow_outside=allow_outside)
+    if study is not None:
+        from linkwright.studies.best_knives import best_knife_study
+
+        plan = best_knife_study(machine, objective=objective.value, seed=seed)
+        hand_over_study(plan, study, file, None if set else machine, force=force, quiet=json)
     with bar("knives") as watch:
         knife = best_knife(machine, objective=objective.value, seed=seed, watch=watch)
     hand_over(_answer(machine, knife), json=json, folder=folder)

@@ -156,7 +156,7 @@ def _random(field: RandomField, topper: Topper, rng: np.random.Generator, fixed:
         distance, start = along - along[first][row], start[first][row]
     return Roots(
         root_diameter=diameter.values(shares[0]),
-        cut_height=height.values(shares[1]),
+        cut_height=height.values(shares[1]) + field.cut_height_shift,
         offset=offset.values(shares[2]),
         distance=distance,
         start=start if fixed is None else np.full(n, fixed / (2 * np.pi)),
@@ -182,7 +182,7 @@ def _measured(field: MeasuredField, rng: np.random.Generator, fixed: float | Non
     start = ((first[:, None] + np.arange(m)) / m).ravel()
     return Roots(
         root_diameter=np.array(field.root_diameter)[number],
-        cut_height=np.array(field.cut_height)[number],
+        cut_height=np.array(field.cut_height)[number] + field.cut_height_shift,
         offset=np.array(field.offset)[number],
         distance=along[number],
         start=start if fixed is None else np.full(n, fixed / (2 * np.pi)),

@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any
 
 from linkwright.kernel.command.answer import Answer, hand_over
-from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
+from linkwright.kernel.command.common import File, Json, Outside, Sets, belong_to, option_value
+from linkwright.kernel.command.out import Force
 from linkwright.kernel.command.parameter import Option
 from linkwright.kernel.errors import InputError, require_within
 from linkwright.kernel.limits import CAM_VARIANTS, SHOWN
+from linkwright.studies.commands.study_file import ToStudy, hand_over_study
 
 if TYPE_CHECKING:
-    from linkwright.cam.profile.profile import CamProfile
     from linkwright.cam.search import Cams
-    from linkwright.kernel.arrays import Bools, Floats
+    from linkwright.kernel.arrays import Bools
     from linkwright.kernel.page.table import Table
-    from linkwright.machine.machine import Machine
+    from linkwright.studies.cams import Levels
+    from linkwright.studies.plan import StudyPlan
 
 Vary = Annotated[
     list[str] | None,
@@ -56,8 +58,8 @@ Count = Annotated[
     int, Option("--count", metavar="N", help="Number of cams to show, the smallest first.", min=1)
 ]
 
-# Share by which a cam may pass a limit by rounding.
-_ROUNDING = 1e-12
+# Cams that are computed exactly at once.
+_PORTION = 16
 
 
 def search(
@@ -70,7 +72,9 @@ def search(
     pressure_angle: Steep = None,
     curvature_radius: Tight = None,
     count: Count = 10,
+    study: ToStudy = None,
     json: Json = False,
+    force: Force = False,
 ) -> None:
     """Find the smallest cams within their limits.
 
@@ -82,6 +86,7 @@ def search(
     from linkwright.cam.search import search_cams
     from linkwright.kernel.description.schema_walk import quantity_of
     from linkwright.machine.read import read
+    from linkwright.studies.cams import cam_search_study, search_entries
 
     require_within(SHOWN, count, "--count", "show fewer")
     machine = read(file, set or [], allow_outside=allow_outside)
@@ -91,10 +96,24 @@ def search(
         steep = option_value("--pressure-angle", pressure_angle, quantity_of(Cam, "pressure_angle_limit"))
     if curvature_radius is not None:
         tight = option_value("--curvature-radius", curvature_radius, quantity_of(Cam, "curvature_limit"))
-    columns = _columns(vary or [])
-    cams = search_cams(machine, name, entries=columns, laws=law or [])
+    plan = cam_search_study(
+        machine,
+        name,
+        over=_levels(vary or []),
+        laws=law or [],
+        pressure_angle=steep,
+        curvature_radius=tight,
+    )
+    if study is None:
+        belong_to("--study", "force")
+    else:
+        hand_over_study(plan, study, file, None if set else machine, force=force, quiet=json)
+    columns = plan.rows(0, plan.n_rows)
+    cams = search_cams(
+        machine, name, entries=search_entries(plan, columns), laws=law or [], law=columns.get("law")
+    )
     keeps = cams.keeps(steep, tight)
-    best = _smallest(machine, name, cams, keeps, count, lambda cam: _keeps(cam, steep, tight))
+    best = _smallest(plan, cams, keeps, count)
     answer = Answer(
         machine=machine.name,
         units=machine.units,
@@ -106,28 +125,26 @@ def search(
     hand_over(answer, json=json)
 
 
-def _columns(wanted: list[str]) -> dict[str, Floats]:
-    """All combinations of what varies, as columns."""
+def _levels(wanted: list[str]) -> dict[str, Levels]:
+    """What varies, by name."""
     import numpy as np
 
-    axes = dict(_axis(name) for name in wanted)
-    if not axes:
+    levels = dict(_axis(name) for name in wanted)
+    if not levels:
         raise InputError(
             "--vary: found nothing that varies, expected such as --vary base_radius=0.02:0.06:200"
         )
-    total = int(np.prod([len(axis) for axis in axes.values()], dtype=float))
+    total = float(np.prod([axis.steps for axis in levels.values()], dtype=float))
     require_within(CAM_VARIANTS, total, "--vary", "vary less, or more coarsely")
-    grid = np.meshgrid(*axes.values(), indexing="ij")
-    return {name: values.ravel() for name, values in zip(axes, grid, strict=True)}
+    return levels
 
 
-def _axis(text: str) -> tuple[str, Floats]:
+def _axis(text: str) -> tuple[str, Levels]:
     """Name and values of one ``NAME=LOW:HIGH:N``."""
-    import numpy as np
-
     from linkwright.cam.search import ENTRIES
     from linkwright.kernel.description.base import suggestion
     from linkwright.kernel.units import ANGLE, LENGTH, RATIO
+    from linkwright.studies.cams import Levels
 
     name, _, values = text.partition("=")
     kinds = {"face_tilt": ANGLE, "lift_factor": RATIO}
@@ -142,63 +159,55 @@ def _axis(text: str) -> tuple[str, Floats]:
     # A count of thousands of digits is no number for Python.
     count = int(parts[2][:16])
     require_within(CAM_VARIANTS, count, text, "take fewer values")
-    return name, np.linspace(low, high, count)
+    return name, Levels(low, high, count)
 
 
-def _smallest(
-    machine: Machine, name: str, cams: Cams, keeps: Bools, count: int, is_kept: Callable[[CamProfile], bool]
-) -> list[tuple[int, CamProfile]]:
+def _smallest(plan: StudyPlan, cams: Cams, keeps: Bools, count: int) -> list[dict[str, Any]]:
     """The smallest cams that keep the limits exactly: between the angles of a search they may not."""
-    best: list[tuple[int, CamProfile]] = []
-    for i in cams.smallest(keeps, SHOWN.most):
-        profile = _exact(machine, name, cams, int(i))
-        best += [(int(i), profile)] if is_kept(profile) else []
-        if len(best) == count:
+    import numpy as np
+
+    from linkwright.studies.cams import kept
+    from linkwright.studies.engine import evaluate
+
+    order = cams.smallest(keeps, SHOWN.most)
+    best: list[dict[str, Any]] = []
+    for start in range(0, len(order), _PORTION):
+        part = order[start : start + _PORTION]
+        drawn = [plan.rows(i, i + 1) for i in part.tolist()]
+        rows = evaluate(plan, {name: np.concatenate([row[name] for row in drawn]) for name in drawn[0]})
+        for place in np.flatnonzero(kept(plan, rows)).tolist():
+            exact = {name: float(column[place]) for name, column in rows.columns.items()}
+            best.append(_row(cams, int(part[place]), exact))
+        if len(best) >= count:
             break
-    return best
+    return best[:count]
 
 
-def _keeps(profile: CamProfile, steep: float, tight: float) -> bool:
-    """Whether a cam can be made and keeps its limits, to rounding."""
-    from linkwright.cam.profile.faults import cam_faults
-
-    convex = profile.curvature_radius_convex_min
-    gentle = profile.pressure_angle_max <= steep * (1 + _ROUNDING)
-    return gentle and (convex is None or convex >= tight * (1 - _ROUNDING)) and not cam_faults(profile)
-
-
-def _exact(machine: Machine, name: str, cams: Cams, i: int) -> CamProfile:
-    """One of the cams, looked at exactly."""
-    from linkwright.cam.profile.profile import cam_profile
-    from linkwright.cam.search import variant
-
-    return cam_profile(variant(machine, name, cams, i), name)
-
-
-def _row(cams: Cams, i: int, profile: CamProfile) -> dict[str, Any]:
+def _row(cams: Cams, i: int, exact: dict[str, float]) -> dict[str, Any]:
     """What is said of one cam."""
     law = cams.laws[int(cams.law[i])] if cams.laws else None
     entries = {key: float(column[i]) for key, column in cams.entries.items()}
+    convex = exact["convex_radius"]
     return {
         "law": law,
         **entries,
-        "pressure_angle_max": profile.pressure_angle_max,
-        "curvature_radius_convex_min": profile.curvature_radius_convex_min,
-        "acceleration_max": profile.acceleration_max,
+        "pressure_angle_max": exact["pressure_angle"],
+        "curvature_radius_convex_min": convex if math.isfinite(convex) else None,
+        "acceleration_max": exact.get("acceleration"),
     }
 
 
-def _results(cams: Cams, keeps: Bools, best: list[Any]) -> dict[str, Any]:
+def _results(cams: Cams, keeps: Bools, best: list[dict[str, Any]]) -> dict[str, Any]:
     """How many there are of what kind, and the smallest."""
     return {
         "n_cams": len(keeps),
         "n_sound": int(cams.is_sound.sum()),
         "n_kept": int(keeps.sum()),
-        "smallest": [_row(cams, i, profile) for i, profile in best],
+        "smallest": best,
     }
 
 
-def _findings(keeps: Bools, best: list[Any]) -> list[str]:
+def _findings(keeps: Bools, best: list[dict[str, Any]]) -> list[str]:
     """That there is no cam to show."""
     if best:
         return []
@@ -214,25 +223,25 @@ def _head(cams: Cams, keeps: Bools) -> str:
     return f"{len(keeps)} cams evaluated, {n_sound} sound, {n_kept} keep the limits"
 
 
-def _tables(cams: Cams, best: list[tuple[int, CamProfile]]) -> list[Table]:
+def _tables(cams: Cams, best: list[dict[str, Any]]) -> list[Table]:
     """The smallest cams."""
     from linkwright.kernel.page.numbers import quantity
     from linkwright.kernel.page.table import Table
 
     units = {"face_tilt": ("rad", "deg"), "lift_factor": ("", "")}
     rows = []
-    for nth, (i, profile) in enumerate(best, start=1):
+    for nth, cam in enumerate(best, start=1):
         entries = []
-        for key, column in cams.entries.items():
+        for key in cams.entries:
             unit, usual = units.get(key, ("m", "mm"))
-            entries.append(quantity(float(column[i]), unit, 5, usual=usual))
-        convex = profile.curvature_radius_convex_min
+            entries.append(quantity(cam[key], unit, 5, usual=usual))
+        convex = cam["curvature_radius_convex_min"]
         rows.append(
             (
-                cams.laws[int(cams.law[i])] if cams.laws else f"{nth}",
+                cam["law"] or f"{nth}",
                 "",
                 *entries,
-                quantity(profile.pressure_angle_max, "rad", 4, usual="deg"),
+                quantity(cam["pressure_angle_max"], "rad", 4, usual="deg"),
                 "–" if convex is None else quantity(convex, "m", 5, usual="mm"),
             )
         )

@@ -2,6 +2,7 @@
 
 | module | |
 | --- | --- |
+| `check` | How many faults a cam has |
 | `contact` | Which followers touch which cam, with their curves; the distance of two on opposite sides |
 | `faults` | Is it undercut, pointed, crossed, too hollow for its cutter, too steep? |
 | `least_sizes` | Minimum base circle and maximum roller within the limits of a cam |

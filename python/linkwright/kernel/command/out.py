@@ -17,16 +17,16 @@ if TYPE_CHECKING:
     from linkwright.kernel.files.output import OutputFolder
 
 
-def _place(text: str) -> Path:
-    """A path that says something: an empty one would be the folder in which the command runs."""
-    if not text.strip():
-        raise click.BadParameter("found nothing, expected a path", param_hint="--out")
-    return Path(text)
-
-
-def out_option(words: str, metavar: str = "DIR") -> Any:
+def out_option(words: str, metavar: str = "DIR", name: str = "--out") -> Any:
     """The option for a folder (``"DIR"``) or ``"FILE"`` to write; `words`: what is written, for the help."""
-    return Option("--out", metavar=metavar, help=words, parser=_place)
+
+    def place(text: str) -> Path:
+        """A path that says something: an empty one would be the folder in which the command runs."""
+        if not text.strip():
+            raise click.BadParameter("found nothing, expected a path", param_hint=name)
+        return Path(text)
+
+    return Option(name, metavar=metavar, help=words, parser=place)
 
 
 Out = Annotated[Path | None, out_option("Write there.", "FILE")]

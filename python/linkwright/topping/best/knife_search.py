@@ -10,7 +10,7 @@ import numpy as np
 from linkwright.kernel.arrays import Floats
 from linkwright.topping.best.knife_trial import Trial, Trials
 from linkwright.topping.coverage import Watch
-from linkwright.topping.model.topper import MemberKnife
+from linkwright.topping.model.topper import MemberKnife, Topper
 
 # Grid of angles and knife speeds: for the map, for each of several forward speeds, and about the best.
 MAP, _COARSE, _CLOSE = (25, 21), (13, 11), 7
@@ -30,6 +30,15 @@ _ALL = {"shortest": _ONCE + _ROUNDS * _CLOSE**2, "fastest": _ONCE + (_SPEEDS + _
 _SLOWEST = 0.01
 
 
+def knife_bounds(topper: Topper) -> tuple[Floats, Floats]:
+    """Minimum and maximum angle and knife speed of the best knife, (2,) each [rad, m/s]."""
+    limits = topper.limits
+    # A mechanism turns: its knife does not rest.
+    slowest = _SLOWEST * limits.knife_speed_max if isinstance(topper.motion, MemberKnife) else 0.0
+    low = np.array([limits.angle_min, max(limits.knife_speed_min, slowest)])
+    return low, np.array([limits.angle_max, limits.knife_speed_max])
+
+
 class KnifeGrid:
     """Knives within bounds, of which the shortest or the fastest is sought.
 
@@ -42,10 +51,7 @@ class KnifeGrid:
         self._watch, self._all = watch, _ALL[objective]
         limits = trials.topper.limits
         self._slicing = limits.slicing_min
-        # A mechanism turns: its knife does not rest.
-        slowest = _SLOWEST * limits.knife_speed_max if isinstance(trials.topper.motion, MemberKnife) else 0.0
-        self.low = np.array([limits.angle_min, max(limits.knife_speed_min, slowest)])
-        self.high = np.array([limits.angle_max, limits.knife_speed_max])
+        self.low, self.high = knife_bounds(trials.topper)
         self.speeds = (limits.forward_speed_min, limits.forward_speed_max)
 
     def grid(

@@ -20,7 +20,7 @@ from pydantic_core import InitErrorDetails
 from linkwright.kernel.description.base import CheckedDescription, Whole, fault
 from linkwright.kernel.description.curve import unread_file
 from linkwright.kernel.limits import ROOTS
-from linkwright.kernel.units import DENSITY, LENGTH, Lengths, Quantity, positive
+from linkwright.kernel.units import DENSITY, LENGTH, Length, Lengths, Quantity, positive
 from linkwright.topping.model.scatter import AnyScatter, ConstantScatter, Scatter, UniformScatter
 
 
@@ -30,6 +30,9 @@ class RootField(CheckedDescription):
     seed: Annotated[Whole, Field(ge=0)] = Field(1, description="Seed of the random generator.")
     root_density: Annotated[float, positive(DENSITY)] | None = Field(
         None, description="Of the roots, for the mass that is lost."
+    )
+    cut_height_shift: Length = Field(
+        0.0, description="Added to the height of each slice, as by setting the knife lower."
     )
 
 

@@ -1,0 +1,27 @@
+"""How many faults a cam has, as a number: what `linkwright.cam.profile.faults` says in sentences."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from linkwright.cam.profile.faults import cam_faults
+from linkwright.cam.profile.profile import cam_profile
+from linkwright.kernel.quantities import Label
+from linkwright.kernel.result import Result
+from linkwright.machine.machine import Machine
+
+
+@dataclass(frozen=True)
+class CamCheck(Result):
+    """Whether a cam can be made, in numbers."""
+
+    n_faults: Annotated[int, Label("faults of the cam", "", "", "None of a cam that can be made.")]
+
+
+def cam_check(machine: Machine, name: str | None = None) -> CamCheck:
+    """Count what makes a cam impossible.
+
+    `name`: which cam; left out if there is one. Raises what `cam_profile` raises.
+    """
+    return CamCheck(len(cam_faults(cam_profile(machine, name))))
