@@ -1,8 +1,7 @@
 """At which angle between two cranks is the motion most even, whatever the length of the rods?
 
-A grid over the phase and the rod ratio λ = r/l: coefficient of speed fluctuation δ, dynamic factor H and the
-combined non-uniformity index k_p = δ² + H. The minima are kinks, where two extremes are equal; a finer grid
-finds them.
+Speed fluctuation δ, dynamic factor H and combined non-uniformity index k_p = δ² + H over the phase and the rod
+ratio λ = r/l. Their minima are kinks, where two extremes are equal; a finer grid finds them.
 """
 
 from functools import cache
@@ -20,8 +19,8 @@ TITLES = {"delta": "speed fluctuation δ [–]", "H": "dynamic factor H [–]", 
 @cache
 def maps():
     """The grid, (phases, rods), and by each measure the best phase [°] and the minimum for each rod."""
-    found = lw.evaluate(PLAN, PLAN.rows(0, PLAN.n_rows)).columns
-    found = {name: values.reshape(25, 9) for name, values in found.items()}
+    grid = lw.evaluate(PLAN, PLAN.rows(0, 25 * 9)).columns
+    found = {name: values.reshape(25, 9) for name, values in grid.items()}
     best, rods, steps = {}, range(9), np.radians(np.linspace(-2.5, 2.5, 101))[:, None]
     for name in TITLES:
         near = found["phase"][found[name].argmin(axis=0), rods] + steps
@@ -57,6 +56,5 @@ def figure(machine: lw.Machine):
 
 
 if __name__ == "__main__":
-    example = lw.read(HERE / "machine.toml")
-    print(*(f"{name:18} {value:.6g}" for name, value in study(example).items()), sep="\n")
-    figure(example).savefig(HERE / "figure.png", dpi=120)
+    print(*(f"{name:18} {value:.6g}" for name, value in study(PLAN.machine).items()), sep="\n")
+    figure(PLAN.machine).savefig(HERE / "figure.png", dpi=120)
