@@ -1,6 +1,6 @@
 """At which angle between two cranks is the motion most even, whatever the length of the rods?
 
-Speed fluctuation δ, dynamic factor H and combined non-uniformity index k_p = δ² + H over the phase and the rod
+Speed fluctuation δ, dynamic factor H and combined non-uniformity index k_p = δ² + H over phase and rod
 ratio λ = r/l. Their minima are kinks, where two extremes are equal; a finer grid finds them.
 """
 
