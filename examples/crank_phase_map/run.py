@@ -1,8 +1,10 @@
-"""At which angle between two cranks is the speed fluctuation at its minimum, whatever the length of the rods?
+"""At which angle between two cranks is the motion most even, whatever the length of the rods?
 
-A grid of machines: δ over the phase and over the rod ratio λ = r/l, and the best phase for each λ.
+Speed fluctuation δ, dynamic factor H and combined non-uniformity index k_p = δ² + H over phase and rod
+ratio λ = r/l. Their minima are kinks, where two extremes are equal; a finer grid finds them.
 """
 
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -10,50 +12,49 @@ import numpy as np
 import linkwright as lw
 
 HERE = Path(__file__).parent
+PLAN = lw.read_study(HERE / "study.toml")
+TITLES = {"delta": "speed fluctuation δ [–]", "H": "dynamic factor H [–]", "k_p": "index $k_p$ = δ² + H [–]"}
 
 
-def rows(machine: lw.Machine):
-    """Phase [°], rod ratio and δ of all machines of the grid, (rods, phases)."""
-    plan = lw.read_study(HERE / "study.toml")
-    assert plan.machine == machine
-    found = lw.evaluate(plan, plan.rows(0, plan.n_rows)).columns
-    phase, ratio, delta = (found[name].reshape(25, 9).T for name in ("phase", "rod_ratio", "delta"))
-    return np.degrees(phase), ratio, delta
-
-
-def best(phase, delta):
-    """Phase of the minimum of δ in each row [°], by a parabola through the three lowest values."""
-    at = delta.argmin(axis=1)
-    left, low, right = (np.take_along_axis(delta, (at + k)[:, None], 1)[:, 0] for k in (-1, 0, 1))
-    step = phase[0, 1] - phase[0, 0]
-    return phase[0, at] + 0.5 * step * (left - right) / (left - 2 * low + right)
+@cache
+def maps():
+    """The grid, (phases, rods), and by each measure the best phase [°] and the minimum for each rod."""
+    grid = lw.evaluate(PLAN, PLAN.rows(0, 25 * 9)).columns
+    found = {name: values.reshape(25, 9) for name, values in grid.items()}
+    best, rods, steps = {}, range(9), np.radians(np.linspace(-2.5, 2.5, 101))[:, None]
+    for name in TITLES:
+        near = found["phase"][found[name].argmin(axis=0), rods] + steps
+        rows = {"phase": near.ravel(), "rod": np.tile(found["rod"][0], 101)}
+        fine = lw.evaluate(PLAN, rows).columns[name].reshape(near.shape)
+        best[name] = np.degrees(near[fine.argmin(axis=0), rods]), fine.min(axis=0)
+    return found, best
 
 
 def study(machine: lw.Machine) -> dict[str, float]:
-    """The best phase with short and with long rods, and δ there."""
-    phase, _, delta = rows(machine)
-    short, *_, long = best(phase, delta)
-    return {"best_short_deg": short, "best_long_deg": long, "delta_long": delta[-1].min()}
+    """The best phase by each measure and the minimum there, with short and with long rods."""
+    answers = {}
+    for name, (phase, low) in maps()[1].items():
+        answers |= {f"{name}_short": low[0], f"{name}_short_deg": phase[0]}
+        answers |= {f"{name}_long": low[-1], f"{name}_long_deg": phase[-1]}
+    return answers
 
 
 def figure(machine: lw.Machine):
-    """δ as a map, with the best phase."""
+    """The three measures as maps, with the best phase by each and the usual right angle."""
     from matplotlib.figure import Figure
 
-    phase, ratio, delta = rows(machine)
-    drawing = Figure(figsize=(7, 4.4), layout="constrained")
-    axes = drawing.subplots()
-    lines = axes.contourf(phase, ratio, delta, levels=16)
-    drawing.colorbar(lines, label="coefficient of speed fluctuation δ [–]")
-    axes.plot(best(phase, delta), ratio[:, 0], ".-", color="#d55e00", label="minimum of δ")
-    axes.set(xlabel="angle between the cranks [°]", ylabel="rod ratio λ = r/l [–]")
-    axes.legend()
+    (found, best), drawing = maps(), Figure(figsize=(11.5, 4), layout="constrained")
+    for axes, name in zip(drawing.subplots(1, 3, sharey=True), TITLES, strict=True):
+        phase, ratio = np.degrees(found["phase"]), found["rod_ratio"]
+        drawing.colorbar(axes.contourf(phase, ratio, found[name], levels=16))
+        axes.plot(best[name][0], ratio[0], ".-", color="#d55e00", label="minimum")
+        axes.axvline(90, color="white", linestyle="--", label="90°")
+        axes.set(xlabel="angle between the cranks [°]", ylabel="rod ratio λ = r/l [–]", title=TITLES[name])
+        axes.label_outer()
+    axes.legend(facecolor="0.6")
     return drawing
 
 
 if __name__ == "__main__":
-    example = lw.read(HERE / "machine.toml")
-    for name, value in study(example).items():
-        print(f"{name:28} {value:.6g}")
-    figure(example).savefig(HERE / "figure.png", dpi=120)
-    print(f"{HERE / 'figure.png'}")
+    print(*(f"{name:18} {value:.6g}" for name, value in study(PLAN.machine).items()), sep="\n")
+    figure(PLAN.machine).savefig(HERE / "figure.png", dpi=120)
