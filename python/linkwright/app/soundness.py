@@ -7,6 +7,7 @@
 | pumping unit | the crank rotates fully | `PolishedRod` |
 | rotator | the lever does as its regime asks | `rod_rotator` |
 | cams | undercut, crossed, locked, hollow, no room for a second follower | `cam_profile`, `cam_faults` |
+| cams at a given speed | followers that leave them | `loaded_cam` |
 | turning-moment diagram | driver and load balance over a cycle | `turning_moment` |
 | knife of a topper | advances, over its field too; long enough for all | `knife_look`, `require_advance` |
 | train, torsionally flexible driveline | has natural frequencies | `free_vibration` |
@@ -99,16 +100,29 @@ def _mechanism(machine: Machine, findings: Findings) -> Iterator[str]:
         findings.of(rod_rotator, machine)
         yield "rod rotator: lengths, and the motion of its regime"
     if machine.mechanism.cams:
+        from linkwright.cam.dynamics.loaded import loaded_cam
         from linkwright.cam.study import sound_cams
 
-        sound_cams(machine, findings)
+        _, sound = sound_cams(machine, findings)
         yield "cams: undercut, crossings, pressure angle of 90°, hollows, second followers"
+        if sound and _keeps_its_speed(machine) and (machine.bodies or machine.loads):
+            for cam in sound:
+                findings.of(loaded_cam, machine, cam)
+            yield "cams at constant speed: followers that leave them"
     compiled = findings.of(require_turn, machine)
     yield "mechanism: closure over the whole revolution" + (", loads there" if machine.loads else "")
     if machine.drive is not None and machine.drive.motor is not None:
         if compiled is not None:
             findings.of(_require_drive, machine, compiled)
         yield "drive: characteristic of the motor, start"
+
+
+def _keeps_its_speed(machine: Machine) -> bool:
+    """Whether the speed is known without solving: that of its motor, or the design speed without one."""
+    drive = machine.drive
+    if drive is None:
+        return False
+    return drive.speed is not None if drive.motor is None else isinstance(drive.motor, ConstantSpeedMotor)
 
 
 def _require_drive(machine: Machine, compiled: CompiledMachine) -> None:

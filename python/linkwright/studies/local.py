@@ -267,8 +267,8 @@ class Price:
 
 def prices(
     plan: StudyPlan, goal: str, sign: float, share: Floats, near: float, log: SearchLog
-) -> list[Price]:
-    """Multipliers of the active limits of a place; none where they do not explain it.
+) -> tuple[list[Price], str]:
+    """Multipliers of the active limits of a place, or why there are none.
 
     `share`: (variables,); `near`: distance from a limit over its size, up to which it is active.
     """
@@ -276,20 +276,22 @@ def prices(
 
     free = _free(plan)
     if not free:
-        return []
+        return [], "no variable has derivatives"
     values, rates, slopes = _slopes(plan, share, log)
     listed = list(_active(plan, slopes.values, values, rates, slopes.slopes, near))
-    if not listed or goal in slopes.ties:
-        return []
+    if goal in slopes.ties:
+        return [], f"{goal} has a kink there: {slopes.ties[goal]}"
+    if not listed:
+        return [], ""
     down = -(sign * slopes.slopes[goal] * rates)[free]
     ways = np.array([limit.outward[free] for limit in listed]).T
     found_lambda, rest = nnls(ways, down)
     if rest > _EXPLAINED * np.linalg.norm(down):
-        return []
+        return [], "the machine is not yet at the very minimum; more evaluations get closer"
     return [
         Price(limit.what, limit.of, limit.limit, limit.is_upper, float(x / limit.unit))
         for limit, x in zip(listed, found_lambda, strict=True)
-    ]
+    ], ""
 
 
 class _ActiveLimit(NamedTuple):

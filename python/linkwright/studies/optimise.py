@@ -76,7 +76,7 @@ class Optimum(Result):
         dict[str, float],
         About("Active limit → by how much the goal would be better if it were wider by one unit [SI]."),
     ]
-    worth: Annotated[tuple[str, ...], About("The same in words.")]
+    worth: Annotated[tuple[str, ...], About("The same in words, or why it is not known.")]
     tried: Annotated[
         tuple[dict[str, Any], ...],
         About(
@@ -350,7 +350,9 @@ class _Search:
             if axis.choices
         }
         active = (*_active(plan, responses), *_ends(plan, self.best[1]))
-        worth = self._prices() if active else []
+        worth, unknown = self._prices() if active else ([], "")
+        words = [_in_words(plan, self.goal, self.sign, price) for price in worth]
+        words += [f"what wider limits would be worth is not known: {unknown}"] if unknown else []
         return Optimum(
             machine=machine_of(plan, rows),
             goal=self.goal,
@@ -358,7 +360,7 @@ class _Search:
             responses=responses,
             active=active,
             multipliers={price.what: price.multiplier for price in worth},
-            worth=tuple(_in_words(plan, self.goal, self.sign, price) for price in worth),
+            worth=tuple(words),
             tried=tuple(self.tried) if kind else (),
             n_evaluations=self.count,
             n_failed=sum(self.reasons.values()),
@@ -368,8 +370,8 @@ class _Search:
             goal_range=(self.low, self.high),
         )
 
-    def _prices(self) -> list[Price]:
-        """What active limits cost."""
+    def _prices(self) -> tuple[list[Price], str]:
+        """What active limits cost, or why that is not known."""
         assert self.best is not None
         plan, kept = numbers_alone(self.plan, self.best[1])
         try:
@@ -377,7 +379,7 @@ class _Search:
         except FindingError as error:
             # A machine beside the best has no answer, so that there are no derivatives to explain it by.
             self.reasons[str(error)] += 1
-            return []
+            return [], "a machine beside the best has no answer"
 
     def _against(self, best: tuple[tuple[int, float], Floats] | None) -> str | None:
         """Why no machine of a combination of choices serves; None if one does."""
