@@ -13,6 +13,7 @@ from linkwright.kernel.errors import FindingError
 from linkwright.studies.commands.sweep import StudyArgument, one_by_one_warnings
 
 if TYPE_CHECKING:
+    from linkwright.studies.front import Front
     from linkwright.studies.optimise import Optimum
     from linkwright.studies.plan import StudyPlan
 
@@ -136,6 +137,7 @@ def _hand_over_front(
         warnings=[
             *dict.fromkeys(text for machine in best.machines for text in _flat_warnings(machine)),
             *(f"no machine has {limit}: {reason}" for limit, reason in best.failed.items()),
+            *_short_warnings(best, points),
             *(f"Machine {n}: {one.fast_starts}" for n, one in enumerate(best.machines, 1) if one.fast_starts),
             *one_by_one_warnings(best.one_by_one),
         ],
@@ -144,6 +146,15 @@ def _hand_over_front(
         machine_file=lambda: dumps(middle.machine),
     )
     hand_over(answer, json=json, out=Path(out) if out else None, force=force)
+
+
+def _short_warnings(best: Front, points: int) -> list[str]:
+    """That the front has fewer machines than were asked for."""
+    without = points - len(best.failed) - len(best.machines)
+    if without <= 0:
+        return []
+    found = f"{without} of the {points} machines sought {'is' if without == 1 else 'are'} left out"
+    return [f"{found}: others are as good in {best.goals[0]} and in {best.goals[1]}"]
 
 
 def _flat_warnings(optimum: Optimum) -> list[str]:
