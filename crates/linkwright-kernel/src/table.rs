@@ -37,55 +37,88 @@ impl Table {
     /// Value at `x`, the end values being held outside; derivatives by `x` and by the values.
     #[inline(always)]
     pub fn held_at<R: Real, N: Lift<R>>(&self, x: N, q: &[R]) -> N {
-        let value = x.map(
-            #[inline(always)]
-            |x| self.held(x),
-        );
-        self.with_values(value, q, |i| x.map(|x| self.share(i, x, None)))
+        self.value_at(x, q, None)
     }
 
     /// The same of the table repeated every `period`.
     #[inline(always)]
     pub fn periodic_at<R: Real, N: Lift<R>>(&self, x: N, period: f64, q: &[R]) -> N {
+        self.value_at(x, q, Some(period))
+    }
+
+    #[inline(always)]
+    fn value_at<R: Real, N: Lift<R>>(&self, x: N, q: &[R], period: Option<f64>) -> N {
         let value = x.map(
             #[inline(always)]
-            |x| self.periodic(x, period),
+            |x| self.value(self.line(x, period)),
         );
-        self.with_values(value, q, |i| x.map(|x| self.share(i, x, Some(period))))
+        if N::IS_PLAIN || self.first.is_none() { value } else { self.with_values(value, x, q, period) }
     }
 
     /// A value with what its own values' derivatives add to it, by the share that each has in it.
-    #[inline(always)]
-    fn with_values<R: Real, N: Lift<R>>(&self, value: N, q: &[R], share: impl Fn(usize) -> N) -> N {
-        if N::IS_PLAIN {
-            return value;
-        }
+    fn with_values<R: Real, N: Lift<R>>(&self, value: N, x: N, q: &[R], period: Option<f64>) -> N {
+        let end = |of: fn(&Line) -> usize| x.map(|x| (of(&self.line(x, period)) as f64, 0.0));
+        let [from, to] = [end(|line| line.from), end(|line| line.to)];
+        let together = |ends: N| -(-ends).max_lane() == ends.max_lane();
         let moved = |sum: N, (i, slot): (usize, usize)| {
+            let share = x.map(|x| Self::share(i, &self.line(x, period)));
             // Zero but for its derivatives.
-            (N::lift(q[slot]) - self.y[i]).mul_add(share(i), sum)
+            (N::lift(q[slot]) - self.y[i]).mul_add(share, sum)
         };
-        self.parameters().enumerate().fold(value, moved)
+        let all = self.parameters().enumerate();
+        if !(together(from) && together(to)) {
+            return all.fold(value, moved);
+        }
+        let ends = [from, to].map(|ends| ends.max_lane() as usize);
+        let count = if ends[0] == ends[1] { 1 } else { 2 };
+        let slots = self.parameters();
+        ends[..count].iter().map(|&i| (i, slots.start + i)).fold(value, moved)
     }
 
-    /// Share of the value of a knot in that at `x`.
-    fn share(&self, i: usize, x: f64, period: Option<f64>) -> (f64, f64) {
-        let (first, last) = (self.x[0], self.x.len() - 1);
-        let line = |from: f64, to: f64, x: f64| ((x - from) / (to - from), (to - from).recip());
-        let x = period.map_or(x, |period| first + (x - first).rem_euclid(period));
-        match period {
-            Some(period) if x >= self.x[last] && first + period > self.x[last] => match i {
-                0 if last == 0 => (1.0, 0.0),
-                0 => line(self.x[last], first + period, x),
-                _ if i == last => line(first + period, self.x[last], x),
-                _ => (0.0, 0.0),
-            },
-            Some(_) if x >= self.x[last] => (f64::from(i == 0), 0.0),
-            _ if x <= first => (f64::from(i == 0), 0.0),
-            _ if x >= self.x[last] => (f64::from(i == last), 0.0),
-            _ if i > 0 && self.x[i - 1] <= x && x < self.x[i] => line(self.x[i - 1], self.x[i], x),
-            _ if i < last && self.x[i] <= x && x < self.x[i + 1] => line(self.x[i + 1], self.x[i], x),
+    /// Share of the value of a knot in that on a line, and its slope.
+    fn share(i: usize, line: &Line) -> (f64, f64) {
+        if line.from == line.to {
+            return (f64::from(i == line.from), 0.0);
+        }
+        let ahead = (line.x - line.start) / line.width;
+        match i {
+            _ if i == line.from => (1.0 - ahead, -line.width.recip()),
+            _ if i == line.to => (ahead, line.width.recip()),
             _ => (0.0, 0.0),
         }
+    }
+
+    /// The line that `x` lies on; a single knot where its value is held.
+    fn line(&self, x: f64, period: Option<f64>) -> Line {
+        let (first, last) = (self.x[0], self.x.len() - 1);
+        let x = period.map_or(x, |period| first + (x - first).rem_euclid(period));
+        let held = |i| Line { x, from: i, to: i, start: x, width: 0.0 };
+        let between =
+            |from: usize, to, end: f64| Line { x, from, to, start: self.x[from], width: end - self.x[from] };
+        if x <= first || x.is_nan() {
+            return held(0);
+        }
+        if x >= self.x[last] {
+            return match period {
+                Some(period) if first + period > self.x[last] => between(last, 0, first + period),
+                Some(_) => held(0),
+                None => held(last),
+            };
+        }
+        let i = self.x.partition_point(|&knot| knot <= x) - 1;
+        between(i, i + 1, self.x[i + 1])
+    }
+
+    /// Value and slope on a line.
+    fn value(&self, line: Line) -> (f64, f64) {
+        if line.x.is_nan() {
+            return (f64::NAN, f64::NAN);
+        }
+        if line.from == line.to {
+            return (self.y[line.from], 0.0);
+        }
+        let slope = (self.y[line.to] - self.y[line.from]) / line.width;
+        (self.y[line.from] + slope * (line.x - line.start), slope)
     }
 
     /// The knots.
@@ -101,40 +134,24 @@ impl Table {
 
     /// Value and slope at `x`; the end values are held outside.
     pub fn held(&self, x: f64) -> (f64, f64) {
-        let n = self.x.len();
-        if x.is_nan() {
-            return (f64::NAN, f64::NAN);
-        }
-        if x <= self.x[0] {
-            return (self.y[0], 0.0);
-        }
-        if x >= self.x[n - 1] {
-            return (self.y[n - 1], 0.0);
-        }
-        let i = self.x.partition_point(|&knot| knot <= x) - 1;
-        between(x, (self.x[i], self.y[i]), (self.x[i + 1], self.y[i + 1]))
+        self.value(self.line(x, None))
     }
 
     /// Value and slope at `x`, the table being repeated every `period`.
     pub fn periodic(&self, x: f64, period: f64) -> (f64, f64) {
-        let n = self.x.len();
-        let (first, last) = (self.x[0], self.x[n - 1]);
-        let x = first + (x - first).rem_euclid(period);
-        if x >= last {
-            let closing = (first + period, self.y[0]);
-            return if closing.0 > last {
-                between(x, (last, self.y[n - 1]), closing)
-            } else {
-                (self.y[0], 0.0)
-            };
-        }
-        self.held(x)
+        self.value(self.line(x, Some(period)))
     }
 }
 
-fn between(x: f64, a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
-    let slope = (b.1 - a.1) / (b.0 - a.0);
-    (a.1 + slope * (x - a.0), slope)
+/// A piece of a table, between two knots or held at one.
+struct Line {
+    /// Where it is read, within the period.
+    x: f64,
+    from: usize,
+    to: usize,
+    /// Place of the first knot, and of the second from there.
+    start: f64,
+    width: f64,
 }
 
 #[cfg(test)]
@@ -148,8 +165,11 @@ mod tests {
     fn a_value_is_the_sum_of_its_shares() {
         let (x, y) = ([0.5, 1.0, 3.0], [1.0, 3.0, -1.0]);
         let table = Table::new(&x, &y).expect("increasing knots").with_parameters(2);
-        let sum = |at: f64, period| (0..3).map(|i| table.share(i, at, period).0 * y[i]).sum::<f64>();
-        let slopes = |at: f64, period| (0..3).map(|i| table.share(i, at, period).1 * y[i]).sum::<f64>();
+        let of = |at: f64, period, part: fn((f64, f64)) -> f64| {
+            (0..3).map(|i| part(Table::share(i, &table.line(at, period))) * y[i]).sum::<f64>()
+        };
+        let sum = |at, period| of(at, period, |share| share.0);
+        let slopes = |at, period| of(at, period, |share| share.1);
         for at in [-1.0, 0.5, 0.7, 1.0, 2.9, 3.0, 4.0, 5.9, 6.2, 9.0] {
             let ((held, slope), (turned, slope_turned)) = (table.held(at), table.periodic(at, 4.0));
             assert!((sum(at, None) - held).abs() < 1e-15 && (slopes(at, None) - slope).abs() < 1e-15, "{at}");
