@@ -7,7 +7,7 @@ import pytest
 
 import linkwright as lw
 from linkwright.kernel.errors import InputError
-from linkwright.kernel.numerics.differences import slope
+from linkwright.kernel.numerics.differences import slopes
 from linkwright.machine.address import exchanged
 
 VEE, V8 = "machines/v_diesel.toml", "machines/v8_diesel.toml"
@@ -152,21 +152,24 @@ def test_counts_and_ends_of_a_range_are_refused():
     machine = lw.read(V8)
     for name, reason in (
         ("train.engine.strokes", "count"),
-        ("train.engine.gas.releases.0.share", "no derivative"),
+        ("train.engine.gas.releases.0.share", "end of its range, 1"),
     ):
         with pytest.raises(InputError, match=reason):
             lw.gradient(machine, ["forced_vibration"], [name])
 
 
+def _slopes(function, x):
+    """Derivatives of one or more functions, each an array of its own."""
+    return slopes(function, x, function(x))
+
+
 def test_differences_of_smooth_functions_corners_and_kinks():
-    """A cubic and a sine to rounding; a bend that jumps; a kink, and the end of a range, have none."""
-    smooth = slope(lambda x: np.array([x**3, np.sin(x)]), 0.7)
-    assert smooth == pytest.approx([3 * 0.49, np.cos(0.7)], rel=1e-10)
-    bent = slope(lambda x: np.array([x + 0.5 * max(x - 2.0, 0.0) ** 2]), 2.0)
-    assert bent == pytest.approx([1.0], rel=1e-9)
-    assert (
-        slope(lambda x: np.array([abs(x - 2.0)]), 2.0) is None
-        or slope(lambda x: np.array([abs(x - 2.0) + x]), 2.0) is None
-    )
-    assert slope(lambda x: np.array([x]), 0.0, (False, True)) is None
-    assert slope(lambda _: np.array([3.0]), 0.0, (False, True)) == pytest.approx([0.0], abs=0.0)
+    """A cubic and a sine to rounding; a bend that jumps; kinks and NaN have none, also beside large ones."""
+    smooth = _slopes(lambda x: (np.array([x**3, np.sin(x)]),), 0.7)
+    assert smooth[0] == pytest.approx([3 * 0.49, np.cos(0.7)], rel=1e-9)
+    bent = _slopes(lambda x: (np.array([x + 0.5 * max(x - 2.0, 0.0) ** 2]),), 2.0)
+    assert bent[0] == pytest.approx([1.0], rel=1e-8)
+    for kink in (lambda x: abs(x - 2.0), lambda x: abs(x - 2.0) + x, lambda x: abs(x - 2.00001) + x):
+        assert _slopes(lambda x, kink=kink: (np.array([1e8 * x]), np.array([kink(x)])), 2.0) is None
+    assert _slopes(lambda x: (np.array([x, np.nan * x]),), 1.0) is None
+    assert _slopes(lambda _: (np.array([3.0]),), 0.5)[0] == pytest.approx([0.0], abs=0.0)

@@ -164,10 +164,10 @@ def size(
         from linkwright.studies.commands.optimise import hand_over_optimum
 
         if study is not None:
-            hand_over_study(plan, study, file, None if set else machine, force=force, quiet=json)
+            hand_over_study(plan, study, file, None if set else machine, force=force, quiet=json, out=out)
         hand_over_optimum(plan, {"method": "gradient", "starts": _STARTS}, json=json, out=out, force=force)
         return
-    belong_to("a study: --minimum-cost, --pressure-angle or --shaft", "study")
+    belong_to("--minimum-cost, --pressure-angle or --shaft", "study")
     if keep_motor:
         belong_to("a choice of motor, without --keep-motor", *_OF_A_MOTOR)
         alone = choose_flywheel(machine, unevenness)

@@ -116,11 +116,10 @@ class SweepFolder:
 
     def _require_own_rows(self) -> None:
         """Refuse a folder without a readable description whose rows are not those of this study."""
-        others = [path for path in self.path.glob("part-*.parquet") if path not in set(self.parts())]
-        if others and not any(self.is_done(number) for number in range(self.n_parts)):
+        if any(self.path.glob("part-*.parquet")) and next(self.parts(), None) is None:
             raise InputError(
-                f"{self.path / MANIFEST}: found no description of a sweep, and rows of another study beside "
-                "it; nothing was changed; name another folder"
+                f"{self.path / MANIFEST}: found no description of a sweep, and rows of another study or "
+                "another version of Linkwright beside it; nothing was changed; name another folder"
             )
 
     def write(self, number: int, rows: Rows) -> None:
@@ -149,7 +148,7 @@ def new_folder(path: Path, ready: StudyPlan) -> SweepFolder:
         "chunk": ready.sweep.chunk or (_ROWS if is_batch else _ROWS_SINGLE),
         "units": ready.units,
     }
-    return SweepFolder(path, {**known, "hash": sha256(_text(known).encode()).hexdigest()})
+    return SweepFolder(path, {**known, "hash": _hash(known)})
 
 
 def opened(path: Path) -> SweepFolder:
@@ -176,10 +175,13 @@ def _manifest_of(place: Path) -> dict[str, Any] | None:
     try:
         require_no_pipe(place)
         manifest = json.loads(place.read_text(encoding="utf-8"))
-        return {**manifest, "rows": int(manifest["rows"]), "hash": manifest["hash"]}
+        if manifest.get("layout") not in (None, LAYOUT):
+            return dict(manifest)
+        known = {key: entry for key, entry in manifest.items() if key != "hash"}
+        return dict(manifest) if manifest["hash"] == _hash(known) else None
     except FileNotFoundError:
         raise InputError(f"{place.parent}: found no {MANIFEST}, expected the folder of a sweep") from None
-    except (ValueError, KeyError, TypeError, RecursionError, TextError):
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError, TextError):
         return None
     except OSError as error:
         raise InputError(f"{place}: cannot be read ({error.strerror or error})") from None
@@ -208,6 +210,11 @@ def _require_same(folder: SweepFolder, wanted: SweepFolder) -> None:
 def _is_ours(path: Path) -> bool:
     """What a run that was killed at its very beginning leaves behind."""
     return path.name.startswith(".linkwright-part-")
+
+
+def _hash(manifest: dict[str, Any]) -> str:
+    """A sign for a description without its own."""
+    return sha256(_text(manifest).encode()).hexdigest()
 
 
 def _text(manifest: dict[str, Any]) -> str:

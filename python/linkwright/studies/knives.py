@@ -242,6 +242,8 @@ def knob_of(machine: Machine, name: str) -> Knob:
 def with_field(machine: Machine, seed: int | None, *, needed: bool) -> Machine:
     """The machine with a field that has the seed, if one is given or it is needed."""
     topper = require_topper(machine)
+    if seed is not None and seed < 0:
+        raise InputError(f"seed: found {seed}, expected at least 0")
     if seed is None and not needed:
         return machine
     if topper.field is None:

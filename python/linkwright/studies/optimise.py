@@ -351,7 +351,7 @@ class _Search:
         }
         active = (*_active(plan, responses), *_ends(plan, self.best[1]))
         worth, unknown = self._prices() if active else ([], "")
-        words = [_in_words(plan, self.goal, self.sign, price) for price in worth]
+        words = [_in_words(plan, self.goal, self.sign, price) for price in worth if price.multiplier > 0]
         words += [f"what wider limits would be worth is not known: {unknown}"] if unknown else []
         return Optimum(
             machine=machine_of(plan, rows),

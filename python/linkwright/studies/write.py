@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from linkwright.kernel.errors import InputError
 from linkwright.kernel.files.output import require_place, write_file
 from linkwright.kernel.units import Kind, is_number, to_text
 from linkwright.machine.address import kind
@@ -69,18 +70,26 @@ def write_study(
     Raises
     ------
     InputError
-        One of the files exists and is not to be replaced, is a link or a folder, or cannot be written.
+        One of the files exists and is not to be replaced, is the machine file, a link or a folder, or cannot
+        be written.
     """
+    require_place(place, replace=force)
     named = _source(place, source) if described is not None and _alike(described, plan.machine) else ""
-    beside = place.with_name(place.stem + _BESIDE)
-    contents = {} if named else {beside: dumps(plan.machine)}
-    contents[place] = study_text(plan, named or beside.name)
+    contents = {} if named else {beside(place): dumps(plan.machine)}
+    contents[place] = study_text(plan, named or beside(place).name)
     # Neither is written unless both can be; the study comes last, since it names the other.
     for path in contents:
+        if path.resolve() == source.resolve():
+            raise InputError(f"{path}: found the machine file of the study itself; name another file")
         require_place(path, replace=force)
     for path, text in contents.items():
         write_file(path, text, replace=force)
     return list(reversed(contents))
+
+
+def beside(place: Path) -> Path:
+    """The machine file that is written beside a study."""
+    return place.with_name(place.stem + _BESIDE)
 
 
 def _alike(described: Machine, machine: Machine) -> bool:
@@ -95,7 +104,8 @@ def _source(place: Path, source: Path) -> str:
         return str(source)
     if os.path.splitdrive(source.resolve())[0] != os.path.splitdrive(place.resolve())[0]:
         return source.resolve().as_posix()
-    return Path(os.path.relpath(source, place.parent)).as_posix()
+    # Where the folder of the study is a link, the way back begins at its true place.
+    return Path(os.path.relpath(source.resolve(), place.parent.resolve())).as_posix()
 
 
 def _variable(plan: StudyPlan, name: str, given: Mapping[str, Any]) -> dict[str, Any]:

@@ -129,7 +129,10 @@ def _levels(wanted: list[str]) -> dict[str, Levels]:
     """What varies, by name."""
     import numpy as np
 
-    levels = dict(_axis(name) for name in wanted)
+    listed = [_axis(name) for name in wanted]
+    levels = dict(listed)
+    if len(levels) < len(listed):
+        raise InputError("--vary: found the same name twice, expected each once")
     if not levels:
         raise InputError(
             "--vary: found nothing that varies, expected such as --vary base_radius=0.02:0.06:200"

@@ -18,13 +18,26 @@ ToStudy = Annotated[
 
 
 def hand_over_study(
-    plan: StudyPlan, place: Path, source: Path, described: Machine | None, *, force: bool, quiet: bool
+    plan: StudyPlan,
+    place: Path,
+    source: Path,
+    described: Machine | None,
+    *,
+    force: bool,
+    quiet: bool,
+    out: Path | None = None,
 ) -> None:
     """Write the study file of a plan and say where it is, on standard error if `quiet`.
 
-    `source`: the machine file; `described`: its machine, None if other entries were given beside it. Raises
-    `InputError` if a file cannot be written.
+    `source`: the machine file; `described`: its machine, None if other entries were given beside it; `out`:
+    what the command writes besides. Raises `InputError` if a file cannot be written, or is `out`.
     """
-    from linkwright.studies.write import write_study
+    from linkwright.kernel.errors import InputError
+    from linkwright.kernel.files.output import require_place
+    from linkwright.studies.write import beside, write_study
 
+    if out is not None:
+        if out.resolve() in (place.resolve(), beside(place).resolve()):
+            raise InputError(f"--out {out}: found a file that --study writes; name another one")
+        require_place(out, replace=force)
     say_written(write_study(plan, place, source, described, force=force), quiet=quiet)

@@ -17,7 +17,7 @@ import numpy as np
 
 from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.errors import InputError, LinkwrightError
-from linkwright.kernel.numerics.differences import slope, step_at
+from linkwright.kernel.numerics.differences import Numbers, slopes, step_at
 from linkwright.machine.address import entry_of, outside, replace
 from linkwright.machine.machine import Machine
 from linkwright.machine.tangents import columns
@@ -26,6 +26,8 @@ from linkwright.torsion.core.train import ReferredTrain
 from linkwright.torsion.excitation.excited_train import excited_train, mean_shaft_torques
 from linkwright.torsion.gradient.train import TrainTangents
 from linkwright.torsion.model.train import Train
+
+_Arrays = tuple[Numbers, ...]
 
 
 @dataclass(frozen=True)
@@ -101,64 +103,58 @@ def _by_differences(
     machine: Machine, referred: ReferredTrain, speeds: Floats, d: TrainTangents, refused: dict[str, str]
 ) -> list[TorqueTangents]:
     """The same by extrapolated differences."""
-    at = excited_train(machine, speeds)
-    orders, masses, shafts, n = (
-        len(at.torques.orders),
-        len(referred.inertia),
-        len(referred.shafts),
-        len(speeds),
-    )
-    shapes = ((orders, masses, n), (orders, masses, n), (shafts, n), (masses, n), (shafts, n))
-    ends = np.cumsum([np.prod(shape) for shape in shapes])
-    table = np.zeros((ends[-1], len(d.variables)))
+    here = _acting(machine, speeds)
+    tables = [np.zeros((*array.shape, len(d.variables)), array.dtype) for array in here]
     for place, name in enumerate(d.variables):
         try:
-            column = _column(machine, name, speeds)
+            for table, column in zip(tables, _columns(machine, name, speeds, here), strict=True):
+                table[..., place] = column
         except LinkwrightError as error:
             refused[name] = " ".join(str(error).split())
-            continue
-        if column is None:
-            refused[name] = (
-                "the torques that act on the train have no derivative by it here, such as at a kink"
-            )
-        else:
-            table[:, place] = column
-    parts = np.split(table, ends[:-1])
-    real, imag, mean, damping, stiffness = (
-        part.reshape(*shape, -1) for part, shape in zip(parts, shapes, strict=True)
-    )
+    waves, mean, damping, curved = tables
     # But for couplings with a curve, stiffnesses are those of the train, whose derivatives are exact.
-    assert machine.train is not None
-    curved = {name for name, coupling in machine.train.couplings.items() if coupling.twist is not None}
-    is_exact = [name not in curved for name in referred.shafts]
-    stiffness[is_exact] = d.stiffness[is_exact][:, None, :]
+    stiffness = np.repeat(d.stiffness[:, None], len(speeds), axis=1)
+    stiffness[[referred.shafts.index(name) for name in _curved(machine)]] = curved
     return [
-        TorqueTangents((real + 1j * imag)[:, :, k], mean[:, k], damping[:, k], stiffness[:, k])
-        for k in range(n)
+        TorqueTangents(waves[:, :, k], mean[:, k], damping[:, k], stiffness[:, k]) for k in range(len(speeds))
     ]
 
 
-def _column(machine: Machine, name: str, speeds: Floats) -> Floats | None:
-    """Derivatives of all numbers of an excited train by one entry; None where it has none."""
+def _columns(machine: Machine, name: str, speeds: Floats, here: _Arrays) -> _Arrays:
+    """Derivatives of what acts on a train by one entry; an `InputError` where it has none."""
     x = entry_of(machine, name)
     if isinstance(x, int):
         raise InputError("a count has no derivative")
+
+    def acting(value: float) -> _Arrays:
+        return _acting(replace(machine, {name: value}), speeds)
+
     h = step_at(x)
-    is_outside = outside(machine, name, np.array([x - h, x + h]))[0]
-    return slope(
-        lambda value: _numbers(replace(machine, {name: value}), speeds),
-        x,
-        (not is_outside[0], not is_outside[1]),
-    )
+    less, more = (~outside(machine, name, np.array([x - h, x + h]))[0]).tolist()
+    if not (less and more):
+        # At the end of its range an entry may still be one that nothing here depends on.
+        moved = acting(x + h if more else x - h)
+        if all(np.array_equal(a, b) for a, b in zip(here, moved, strict=True)):
+            return tuple(np.zeros_like(array) for array in here)
+        raise InputError(f"it is at the end of its range, {x:.6g}")
+    derivatives = slopes(acting, x, here)
+    if derivatives is None:
+        raise InputError("the torques that act on the train have a kink there")
+    return derivatives
 
 
-def _numbers(machine: Machine, speeds: Floats) -> Floats:
-    """All numbers of an excited train that may depend on an entry, one behind the other."""
+def _acting(machine: Machine, speeds: Floats) -> _Arrays:
+    """Torques on masses, means in shafts, damping of loads, and stiffness of couplings with a curve."""
     at = excited_train(machine, speeds)
-    waves = at.referred_harmonics
     damping = at.operating.disc_damping - at.referred.disc_damping[:, None]
-    arrays = (waves.real, waves.imag, at.mean_torques, damping, at.operating.stiffness)
-    return np.concatenate([array.ravel() for array in arrays])
+    curved = [at.referred.shafts.index(name) for name in _curved(machine)]
+    return at.referred_harmonics, at.mean_torques, damping, at.operating.stiffness[curved]
+
+
+def _curved(machine: Machine) -> list[str]:
+    """Couplings whose stiffness is that of a curve."""
+    couplings = {} if machine.train is None else machine.train.couplings
+    return [name for name, coupling in couplings.items() if coupling.twist is not None]
 
 
 def _torques(

@@ -298,7 +298,12 @@ def _maxima(values: Floats, dip: float) -> list[int]:
             kept.append(place)
         elif values[place] > values[kept[-1]]:
             kept[-1] = place
-    return [place for place in kept if 0 < place < last]
+    ends = [0, *kept, last]
+    falls = [
+        max(values[before : place + 1].min(), values[place : after + 1].min()) < (1 - dip) * values[place]
+        for before, place, after in zip(ends, kept, ends[2:], strict=False)
+    ]
+    return [place for place, is_one in zip(kept, falls, strict=True) if is_one and 0 < place < last]
 
 
 def _at(curves: Curves, rows: NDArray[np.int64], points: Floats) -> Floats:
